@@ -1,0 +1,56 @@
+"""Build the optional compiled core; everything else is declared in pyproject.toml.
+
+`OPENACR_REQUIRE_EXT=1` turns a failed build into an error, `OPENACR_CHECKED=1` builds
+with bounds checks (for tests, slow), `OPENACR_PURE=1` skips the extension.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+
+ROOT = Path(__file__).parent
+sys.path.insert(0, str(ROOT / "src"))
+
+
+def extensions() -> list[Extension]:
+    """The one compiled module, or nothing where it is not wanted or Cython is absent."""
+    if os.environ.get("OPENACR_PURE") == "1":
+        return []
+    try:
+        from Cython.Build import cythonize
+    except ImportError:
+        if os.environ.get("OPENACR_REQUIRE_EXT") == "1":
+            raise
+        print("openacr: Cython is not installed, building without the compiled core")
+        return []
+    from openacr.unity import write_unity
+
+    checked = os.environ.get("OPENACR_CHECKED") == "1"
+    source = write_unity(ROOT / "build" / "unity" / "_compiled.pyx", checked=checked)
+    windows = sys.platform == "win32"
+    # Fused multiply-add would round once where plain Python rounds twice, and the views
+    # alias one buffer: both flags keep the compiled core bit-identical to its source.
+    flags = [] if windows else ["-O3", "-ffp-contract=off", "-fno-strict-aliasing", "-w"]
+    module = Extension(
+        "openacr._compiled", [str(source.relative_to(ROOT))], extra_compile_args=flags
+    )
+    modules = cythonize(
+        [module],
+        compiler_directives={
+            "language_level": 3,
+            "boundscheck": checked,
+            "wraparound": False,
+            "initializedcheck": False,
+            "cdivision": True,
+            "infer_types": True,
+        },
+        quiet=True,
+    )
+    for built in modules:  # cythonize() drops the flag
+        built.optional = os.environ.get("OPENACR_REQUIRE_EXT") != "1"
+    return list(modules)
+
+
+setup(ext_modules=extensions())

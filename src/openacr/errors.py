@@ -1,0 +1,51 @@
+"""Everything that can go wrong, as types whose fields say what, where and what to do."""
+
+from openacr.messages import Message
+
+
+class OpenacrError(Exception):
+    """Base of all errors a user can cause; `str()` is one complete sentence."""
+
+
+class CardError(OpenacrError):
+    """An error the card reports: `str()` is exactly the text the card prints."""
+
+    def __init__(self, message: Message, detail: object = "") -> None:
+        self.message = message
+        self.text = message.text.format(detail)
+        super().__init__(self.text)
+
+
+class SourceError(OpenacrError):
+    """Something wrong in a file: where it stands, what it is and how to mend it."""
+
+    def __init__(
+        self,
+        text: str,
+        *,
+        path: str = "",
+        line: int = 0,
+        column: int = 0,
+        hint: str = "",
+    ) -> None:
+        self.text, self.path, self.line, self.column, self.hint = text, path, line, column, hint
+        super().__init__(text)
+
+    def __str__(self) -> str:
+        parts = [self.path] if self.path else []
+        parts += [str(number) for number in (self.line, self.column) if number]
+        place = ":".join(parts)
+        sentence = f"{place}: {self.text}" if place else self.text
+        return f"{sentence} ({self.hint})" if self.hint else sentence
+
+
+class MapError(OpenacrError):
+    """A parameter or flag that does not exist, is read-only or of another kind."""
+
+
+class UserError(OpenacrError):
+    """A wrong option, a missing file, a port in use: bad input at the command line."""
+
+
+class StoreError(OpenacrError):
+    """A snapshot or stored image that cannot be used here."""

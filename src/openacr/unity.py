@@ -1,0 +1,235 @@
+"""Join the `*_cy.py` modules into one source that Cython compiles to `openacr._compiled`.
+
+The modules are plain typed Python and also run as such. The joined form differs only in
+what C needs:
+
+- annotations become C types (float: double, int: 64-bit, F64/I32/F32: pointers into the
+  state buffer; with `checked`, bounds-checked memoryviews);
+- module constants (`NAME = number`, and those of the generated numbers module) become
+  literals, so that the inner loop never looks a name up;
+- every function becomes a C function that cannot raise; those listed in a module's
+  `__all__` also get a Python entrance `py_<name>`.
+
+Refused, because interpreted and compiled results could differ: `//`, `%`, `**` and
+imports other than those of the core itself.
+"""
+
+import ast
+import hashlib
+import re
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent
+ORDER = (
+    "kernel/words_cy.py",
+)
+CONSTANT_MODULES = ("openacr.map.numbers",)
+
+SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
+VIEWS = {"F64": "double", "I32": "int", "F32": "float"}
+Number = int | float
+
+
+class UnityError(Exception):
+    """A compiled source uses something that cannot be compiled faithfully."""
+
+
+def source_files() -> list[Path]:
+    """The compiled sources in the order in which they are joined."""
+    return [PACKAGE / name for name in ORDER]
+
+
+def source_hash() -> str:
+    """Fingerprint of everything that decides the content of the extension."""
+    digest = hashlib.blake2b(digest_size=16)
+    for path in [*source_files(), PACKAGE / "map" / "numbers.py", Path(__file__)]:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def write_unity(target: Path, *, checked: bool) -> Path:
+    """Write the joined source to `target`, leaving an unchanged file alone."""
+    text = unity_source(checked=checked)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if not target.exists() or target.read_text() != text:
+        target.write_text(text)
+    return target
+
+
+def unity_source(*, checked: bool = False) -> str:
+    """The joined source text."""
+    constants = _module_constants(PACKAGE / "map" / "numbers.py", {})
+    math_names: set[str] = set()
+    functions: dict[str, ast.FunctionDef] = {}
+    exported: list[str] = []
+    for path in source_files():
+        _collect(path, constants, math_names, functions, exported)
+    inliner = _Inline(constants)
+    blocks = [
+        "import cython",
+        f"from cython.cimports.libc.math import {', '.join(sorted(math_names))}"
+        if math_names
+        else "",
+        f"SOURCE_HASH = {source_hash()!r}",
+        f"CHECKED = {checked!r}",
+    ]
+    for function in functions.values():
+        blocks.append(ast.unparse(_compiled_function(inliner.visit(function), checked=checked)))
+    blocks.extend(_entrance(functions[name], checked=checked) for name in exported)
+    return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
+
+
+def _module_constants(path: Path, known: dict[str, Number]) -> dict[str, Number]:
+    found = dict(known)
+    for node in ast.parse(path.read_text()).body:
+        _take_constant(node, found)
+    return found
+
+
+def _take_constant(node: ast.stmt, constants: dict[str, Number]) -> bool:
+    """Record `NAME = expression of numbers and known constants`; False if it is not one."""
+    if isinstance(node, ast.AnnAssign) and node.value is not None:
+        target, value = node.target, node.value
+    elif isinstance(node, ast.Assign) and len(node.targets) == 1:
+        target, value = node.targets[0], node.value
+    else:
+        return False
+    if not isinstance(target, ast.Name) or not target.id.isupper():
+        return False
+    try:
+        text = compile(ast.Expression(value), "<constant>", "eval")
+        number = eval(text, {"__builtins__": {}}, dict(constants))
+    except (NameError, TypeError):
+        return False
+    if isinstance(number, bool) or not isinstance(number, int | float):
+        return False
+    if constants.get(target.id, number) != number:
+        raise UnityError(f"constant {target.id} has two values")
+    constants[target.id] = number
+    return True
+
+
+def _collect(
+    path: Path,
+    constants: dict[str, Number],
+    math_names: set[str],
+    functions: dict[str, ast.FunctionDef],
+    exported: list[str],
+) -> None:
+    for node in ast.parse(path.read_text(), str(path)).body:
+        if isinstance(node, ast.ImportFrom):
+            _check_import(node, path, math_names)
+        elif isinstance(node, ast.FunctionDef):
+            if node.name in functions:
+                raise UnityError(f"{path.name}: function {node.name} is defined twice")
+            _check_operators(node, path)
+            functions[node.name] = node
+        elif _is_all(node):
+            exported.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
+        elif not _take_constant(node, constants) and not _is_docstring(node):
+            raise UnityError(f"{path.name}:{node.lineno}: only functions and constants are compiled")
+
+
+def _check_import(node: ast.ImportFrom, path: Path, math_names: set[str]) -> None:
+    module = node.module or ""
+    if module == "openacr.cmath":
+        math_names.update(alias.name for alias in node.names)
+    elif module not in (*CONSTANT_MODULES, "openacr.views") and not module.endswith("_cy"):
+        raise UnityError(f"{path.name}:{node.lineno}: import of {module} cannot be compiled")
+
+
+def _check_operators(function: ast.FunctionDef, path: Path) -> None:
+    for node in ast.walk(function):
+        if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(
+            node.op, ast.FloorDiv | ast.Mod | ast.Pow
+        ):
+            raise UnityError(f"{path.name}:{node.lineno}: //, % and ** differ between builds")
+
+
+def _is_all(node: ast.stmt) -> bool:
+    return (
+        isinstance(node, ast.Assign)
+        and isinstance(node.targets[0], ast.Name)
+        and node.targets[0].id == "__all__"
+    )
+
+
+def _is_docstring(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+class _Inline(ast.NodeTransformer):
+    """Constants become literals, int() and float() become C casts."""
+
+    def __init__(self, constants: dict[str, Number]) -> None:
+        self.constants = constants
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        if isinstance(node.ctx, ast.Load) and node.id in self.constants:
+            return _literal(self.constants[node.id])
+        return node
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        return _literal(node.value) if type(node.value) is int else node
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in ("int", "float"):
+            kind = ast.parse(SCALARS[node.func.id], mode="eval").body
+            cast = ast.parse("cython.cast", mode="eval").body
+            return ast.Call(cast, [kind, *node.args], [])
+        return node
+
+
+def _literal(number: Number) -> ast.expr:
+    """A literal of C type; wide integers get the suffix that keeps them out of Python."""
+    if isinstance(number, int) and not -(2**31) < number < 2**31:
+        name = ast.Name(f"_wide_{abs(number)}", ast.Load())
+        return name if number >= 0 else ast.UnaryOp(ast.USub(), name)
+    return ast.Constant(number)
+
+
+def _c_type(annotation: ast.expr | None, *, checked: bool, where: str) -> ast.expr:
+    name = annotation.id if isinstance(annotation, ast.Name) else None
+    if name in SCALARS:
+        text = SCALARS[name]
+    elif name in VIEWS:
+        text = f"cython.{VIEWS[name]}[::1]" if checked else f"cython.p_{VIEWS[name]}"
+    elif isinstance(annotation, ast.Constant) and annotation.value is None:
+        text = "cython.void"
+    else:
+        raise UnityError(f"{where}: every argument and result needs a simple type")
+    return ast.parse(text, mode="eval").body
+
+
+def _compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
+    where = function.name
+    for argument in function.args.args:
+        argument.annotation = _c_type(argument.annotation, checked=checked, where=where)
+    function.returns = _c_type(function.returns, checked=checked, where=where)
+    for node in ast.walk(function):
+        if isinstance(node, ast.AnnAssign):
+            node.annotation = _c_type(node.annotation, checked=checked, where=where)
+    function.body = [node for node in function.body if not _is_docstring(node)] or [ast.Pass()]
+    decorators = ["cython.cfunc", "cython.nogil", "cython.exceptval(check=False)"]
+    function.decorator_list = [ast.parse(text, mode="eval").body for text in decorators]
+    return function
+
+
+def _entrance(function: ast.FunctionDef, *, checked: bool) -> str:
+    """The Python-callable wrapper of a compiled function."""
+    parameters, arguments = [], []
+    for argument in function.args.args:
+        kind = ast.unparse(argument.annotation) if argument.annotation else ""
+        view = next((c for c in VIEWS.values() if kind in (f"cython.p_{c}", f"cython.{c}[::1]")), "")
+        if view:
+            kind = f"cython.{view}[::1]"
+            arguments.append(
+                argument.arg if checked else f"cython.address({argument.arg}[0])"
+            )
+        else:
+            arguments.append(argument.arg)
+        parameters.append(f"{argument.arg}: {kind}")
+    call = f"{function.name}({', '.join(arguments)})"
+    returns = "" if function.returns and "void" in ast.unparse(function.returns) else "return "
+    return f"def py_{function.name}({', '.join(parameters)}):\n    {returns}{call}"
