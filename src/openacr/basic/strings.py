@@ -1,0 +1,200 @@
+"""String functions and rules: one decorated function per row, pure in its arguments.
+
+A string of the card is a Python string of characters 0..255, one per byte. Functions
+that look at a device (INKEY$, GETCH, KBHIT) belong to the executor, which knows the
+devices of the program.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import TypeVar
+
+from openacr.basic.number_format import Kind, number_text
+from openacr.errors import CardError
+from openacr.messages import MATH_ERROR, TYPE_MISMATCH
+
+LONGEST_STRING = 255
+
+_NUMBER = re.compile(
+    r"[ \t]*(?P<sign>[+-]?)[ \t]*"
+    r"(?:&[Hh](?P<hex>[0-9A-Fa-f]{1,8})|(?P<decimal>(?:\d+\.?\d*|\.\d+)(?:[Ee][+-]?\d+)?))"
+)
+
+
+class Type(Enum):
+    """What an argument or a result is."""
+
+    TEXT = "string"
+    NUMBER = "number"
+    EITHER = "string or number"
+
+
+@dataclass(frozen=True, slots=True)
+class StringFunction:
+    """One function of the language: its name, what it takes and gives, and how."""
+
+    name: str
+    arguments: tuple[Type, ...]
+    result: Type
+    fewest: int
+    apply: Callable[..., str | float]
+    optional_first: bool = False
+
+    @property
+    def doc(self) -> str:
+        """What the reference says about it."""
+        return self.apply.__doc__ or ""
+
+    def call(self, *arguments: str | float) -> str | float:
+        """Check the arguments and evaluate; a long result is cut to 255 characters."""
+        expected = self.arguments
+        if self.optional_first:
+            expected = expected[len(expected) - len(arguments) :]
+        for kind, argument in zip(expected, arguments, strict=False):
+            if kind is not Type.EITHER and isinstance(argument, str) != (kind is Type.TEXT):
+                raise CardError(TYPE_MISMATCH)
+        result = self.apply(*arguments)
+        return result[:LONGEST_STRING] if isinstance(result, str) else result
+
+
+FUNCTIONS: dict[str, StringFunction] = {}
+
+_Function = TypeVar("_Function", bound=Callable[..., str | float])
+
+
+def _function(
+    name: str,
+    *arguments: Type,
+    gives: Type,
+    fewest: int | None = None,
+    optional_first: bool = False,
+) -> Callable[[_Function], _Function]:
+    """Enter the decorated function under `name`."""
+
+    def enter(apply: _Function) -> _Function:
+        least = len(arguments) if fewest is None else fewest
+        if name in FUNCTIONS:
+            raise ValueError(f"{name} is defined twice")
+        FUNCTIONS[name] = StringFunction(name, arguments, gives, least, apply, optional_first)
+        return apply
+
+    return enter
+
+
+@_function("ASC", Type.TEXT, gives=Type.NUMBER)
+def asc(text: str) -> float:
+    """Code of the first character; 0 for an empty string."""
+    return float(ord(text[0])) if text else 0.0
+
+
+@_function("CHR$", Type.NUMBER, gives=Type.TEXT)
+def chr_(code: float) -> str:
+    """One character; the code is taken modulo 256."""
+    return chr(whole(code) % 256)
+
+
+@_function("LEFT$", Type.TEXT, Type.NUMBER, gives=Type.TEXT)
+def left(text: str, count: float) -> str:
+    """First `count` characters."""
+    return text[: max(whole(count), 0)]
+
+
+@_function("RIGHT$", Type.TEXT, Type.NUMBER, gives=Type.TEXT)
+def right(text: str, count: float) -> str:
+    """Last `count` characters."""
+    return text[max(len(text) - max(whole(count), 0), 0) :]
+
+
+@_function("MID$", Type.TEXT, Type.NUMBER, Type.NUMBER, gives=Type.TEXT, fewest=2)
+def mid(text: str, start: float, count: float = LONGEST_STRING) -> str:
+    """`count` characters from position `start` (1 is the first); without count to the end."""
+    first = max(whole(start), 1) - 1
+    return text[first : first + max(whole(count), 0)]
+
+
+@_function("LEN", Type.TEXT, gives=Type.NUMBER)
+def len_(text: str) -> float:
+    """Number of characters."""
+    return float(len(text))
+
+
+@_function(
+    "INSTR", Type.NUMBER, Type.TEXT, Type.TEXT, gives=Type.NUMBER, fewest=2, optional_first=True
+)
+def instr(*arguments: str | float) -> float:
+    """Position of the second string in the first, 0 if absent; an empty one is at start."""
+    start = max(whole(float(arguments[0])), 1) if len(arguments) == 3 else 1
+    text, find = str(arguments[-2]), str(arguments[-1])
+    return float(text.find(find, start - 1) + 1) if find else float(start)
+
+
+@_function("STR$", Type.NUMBER, gives=Type.TEXT)
+def str_(value: float, kind: Kind = Kind.DOUBLE) -> str:
+    """The text PRINT shows for the value."""
+    return number_text(value, kind)
+
+
+@_function("VAL", Type.TEXT, gives=Type.NUMBER)
+def val(text: str) -> float:
+    """Leading number of the text: blanks, sign, decimals, exponent or &H; none gives 0."""
+    match = _NUMBER.match(text)
+    if match is None:
+        return 0.0
+    if match["hex"]:
+        size = float(wrap_signed(int(match["hex"], 16)))
+    else:
+        size = float(match["decimal"])
+    if not math.isfinite(size):
+        raise CardError(MATH_ERROR)
+    return 0.0 - size if match["sign"] == "-" else size
+
+
+@_function("UCASE$", Type.TEXT, gives=Type.TEXT)
+def ucase(text: str) -> str:
+    """The letters A to Z in upper case."""
+    return text.encode("latin-1").upper().decode("latin-1")
+
+
+@_function("LCASE$", Type.TEXT, gives=Type.TEXT)
+def lcase(text: str) -> str:
+    """The letters A to Z in lower case."""
+    return text.encode("latin-1").lower().decode("latin-1")
+
+
+@_function("SPACE$", Type.NUMBER, gives=Type.TEXT)
+def space(count: float) -> str:
+    """`count` blanks."""
+    return " " * min(whole(count), LONGEST_STRING)
+
+
+@_function("STRING$", Type.NUMBER, Type.EITHER, gives=Type.TEXT)
+def string(count: float, character: str | float) -> str:
+    """`count` times a character, given by its code or as the first of a string."""
+    one = character[:1] if isinstance(character, str) else chr_(character)
+    return one * min(whole(count), LONGEST_STRING)
+
+
+@_function("HEX$", Type.NUMBER, gives=Type.TEXT)
+def hex_(value: float) -> str:
+    """Hexadecimal digits of the 32-bit value."""
+    return f"{whole(value) & 0xFFFFFFFF:X}"
+
+
+def whole(value: float) -> int:
+    """`value` without its fraction; refused outside the 32-bit range."""
+    if not -2147483649 < value < 4294967296:
+        raise CardError(MATH_ERROR)
+    return int(value)
+
+
+def wrap_signed(value: int) -> int:
+    """The low 32 bits of `value` as a signed number."""
+    return ((value + 0x80000000) & 0xFFFFFFFF) - 0x80000000
+
+
+def join(first: str, second: str) -> str:
+    """`first + second`, cut to the longest string an expression can hold."""
+    return (first + second)[:LONGEST_STRING]

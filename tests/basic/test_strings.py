@@ -1,0 +1,121 @@
+"""String functions."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openacr.basic.number_format import Kind
+from openacr.basic.strings import FUNCTIONS, Type, join, str_
+from openacr.errors import CardError
+
+
+def call(name: str, *arguments: str | float) -> str | float:
+    return FUNCTIONS[name].call(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "result"),
+    [
+        ("ASC", ("A",), 65),
+        ("ASC", ("",), 0),
+        ("CHR$", (27,), "\x1b"),
+        ("CHR$", (256 + 65,), "A"),
+        ("CHR$", (-1,), "\xff"),
+        ("LEFT$", ("abc", 2), "ab"),
+        ("LEFT$", ("abc", 9), "abc"),
+        ("LEFT$", ("abc", 0), ""),
+        ("LEFT$", ("abc", -1), ""),
+        ("RIGHT$", ("abc", 2), "bc"),
+        ("RIGHT$", ("abc", 9), "abc"),
+        ("RIGHT$", ("abc", 0), ""),
+        ("RIGHT$", ("abc", -3), ""),
+        ("MID$", ("abcdef", 2, 3), "bcd"),
+        ("MID$", ("abcdef", 4), "def"),
+        ("MID$", ("abcdef", 0, 2), "ab"),
+        ("MID$", ("abc", 9, 1), ""),
+        ("MID$", ("abc", 1, -1), ""),
+        ("LEN", ("abc",), 3),
+        ("LEN", ("",), 0),
+        ("INSTR", ("banana", "an"), 2),
+        ("INSTR", (3, "banana", "an"), 4),
+        ("INSTR", ("banana", "x"), 0),
+        ("INSTR", (5, "banana", ""), 5),
+        ("INSTR", ("banana", ""), 1),
+        ("INSTR", (9, "banana", "a"), 0),
+        ("STR$", (437.25,), "437.25"),
+        ("STR$", (-0.00001,), "-1E-05"),
+        ("VAL", ("12",), 12),
+        ("VAL", ("  -3.5x",), -3.5),
+        ("VAL", ("+.5",), 0.5),
+        ("VAL", ("1e3",), 1000),
+        ("VAL", ("1e",), 1),
+        ("VAL", ("5.",), 5),
+        ("VAL", ("&HFF",), 255),
+        ("VAL", ("&hFFFFFFFF",), -1),
+        ("VAL", ("-&H10",), -16),
+        ("VAL", ("abc",), 0),
+        ("VAL", ("",), 0),
+        ("VAL", ("- 7",), -7),
+        ("UCASE$", ("aZ1\xe4",), "AZ1\xe4"),
+        ("LCASE$", ("aZ1\xc4",), "az1\xc4"),
+        ("SPACE$", (3,), "   "),
+        ("SPACE$", (300,), " " * 255),
+        ("SPACE$", (-1,), ""),
+        ("STRING$", (3, 42), "***"),
+        ("STRING$", (2, "xyz"), "xx"),
+        ("STRING$", (2, ""), ""),
+        ("HEX$", (255,), "FF"),
+        ("HEX$", (-1,), "FFFFFFFF"),
+        ("HEX$", (4294967295,), "FFFFFFFF"),
+        ("HEX$", (0,), "0"),
+    ],
+)
+def test_functions_give_the_documented_results(
+    name: str, arguments: tuple[str | float, ...], result: str | float
+) -> None:
+    assert call(name, *arguments) == result
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "message"),
+    [
+        ("LEN", (5.0,), "Type mismatch"),
+        ("CHR$", ("a",), "Type mismatch"),
+        ("INSTR", (1.0, "a"), "Type mismatch"),
+        ("HEX$", (4294967296.0,), "Math error"),
+        ("HEX$", (-2147483649.0,), "Math error"),
+        ("VAL", ("1e999",), "Math error"),
+    ],
+)
+def test_arguments_of_the_wrong_kind_or_size_are_refused(
+    name: str, arguments: tuple[str | float, ...], message: str
+) -> None:
+    with pytest.raises(CardError, match=message):
+        call(name, *arguments)
+
+
+def test_str_shows_an_fp32_value_with_its_seven_digits() -> None:
+    assert str_(0.10000000149011612, Kind.SINGLE) == "0.1"
+    assert str_(0.10000000149011612) == "0.1000000015"
+
+
+def test_expression_strings_hold_255_characters() -> None:
+    assert join("a" * 200, "b" * 100) == "a" * 200 + "b" * 55
+
+
+def test_every_row_is_documented_and_typed_like_its_name() -> None:
+    for name, row in FUNCTIONS.items():
+        assert row.doc
+        assert (row.result is Type.TEXT) == name.endswith("$")
+        assert 1 <= row.fewest <= len(row.arguments)
+
+
+@given(st.text(st.characters(max_codepoint=255), max_size=30), st.integers(-5, 40))
+def test_left_and_the_rest_make_the_whole(text: str, count: int) -> None:
+    rest = call("MID$", text, max(count, 0) + 1)
+    assert str(call("LEFT$", text, count)) + str(rest) == text
+
+
+@given(st.floats(-1e14, 1e14))
+def test_val_reads_what_str_writes(value: float) -> None:
+    assert call("VAL", call("STR$", value)) == pytest.approx(value, rel=1e-9)
