@@ -1,0 +1,90 @@
+# openacr: every target does all set-up it needs (python3 >= 3.11 and make are enough).
+#
+#   make demo    run the gantry example for 60 simulated seconds and draw it
+#   make test    lint, type check, import contract and all tests
+#   make lint    the checks alone
+#   make bench   how many simulated seconds per second this machine reaches
+#   make soak    the long-running tests
+#   make clean   remove everything that can be made again (also .venv)
+#
+# A C compiler makes the card many times faster; without one the same sources run as
+# plain Python with identical results.
+
+SHELL := /bin/sh
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help setup demo test lint bench soak clean
+
+VENV := .venv
+PY := $(VENV)/bin/python
+PIP := $(PY) -m pip --disable-pip-version-check --quiet --retries 2
+# `make PYTHON=/path/to/python3.12 test` chooses another interpreter for the environment.
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+
+# The stamps say what is up to date: the environment, its packages, the compiled core.
+MADE := $(VENV)/.made
+INSTALLED := $(VENV)/.installed
+BUILT := $(VENV)/.built
+CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/cmath.py src/openacr/views.py \
+	$(wildcard src/openacr/map/numbers.py) $(shell find src -name '*_cy.py')
+# Tests of the core run a second time as plain Python where the core is compiled.
+PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant)
+WORKERS ?= 2
+
+help:
+	@sed -n '3,8s/^# *//p' Makefile
+
+setup: $(BUILT)
+
+$(MADE):
+	@test -n "$(PYTHON)" || { echo "error: Python 3.11 or newer is needed (python3)"; exit 2; }
+	@test -x $(PY) || { echo "creating $(VENV) with $(PYTHON)"; $(PYTHON) -m venv $(VENV); } || { \
+		rm -rf $(VENV); echo "error: $(PYTHON) cannot make a virtual environment;" \
+		"install its venv module (Debian and Ubuntu: apt install python3-venv)"; exit 2; }
+	@touch $@
+
+$(INSTALLED): pyproject.toml $(MADE)
+	@echo "installing packages into $(VENV)"
+	@$(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
+		echo "pip and setuptools were not upgraded; carrying on with what is there"
+	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,plot]"
+	@touch $@
+
+$(BUILT): $(CORE_SOURCES) $(INSTALLED)
+	@echo "building the compiled core"
+	@mkdir -p build
+	@$(PY) setup.py --quiet build_ext --inplace >build/core.log 2>&1 || true
+	@$(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
+		2>/dev/null || echo "note: no compiled core (no C compiler? see build/core.log);" \
+		"running the slower pure-Python kernel"
+	@touch $@
+
+demo: $(BUILT)
+	@mkdir -p out
+	$(PY) -m openacr.cli.main run examples/gantry --for 60 --plot out/gantry.png
+	@echo "the picture is in out/gantry.png"
+
+lint: $(BUILT)
+	$(VENV)/bin/ruff check
+	$(VENV)/bin/ruff format --check
+	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports
+
+test: lint
+	$(PY) -m pytest -n $(WORKERS) -m "not soak"
+	@if $(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
+		&& test -n "$(PURE_TESTS)"; then \
+		echo "the core once more as plain Python"; \
+		OPENACR_PURE=1 $(PY) -m pytest -n $(WORKERS) -m "not soak" $(PURE_TESTS); fi
+
+bench: $(BUILT)
+	$(PY) -m bench
+
+soak: $(BUILT)
+	$(PY) -m pytest -n 0 -m soak --timeout 0
+
+clean:
+	rm -rf $(VENV) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \
+		.import_linter_cache src/openacr.egg-info src/openacr/_compiled.*
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
