@@ -1,0 +1,192 @@
+"""Find out what a user handed over: a project folder or one controller file.
+
+Everything is looked at before anything starts: a missing, unreadable, empty or binary file
+is reported with its place, and no controller exists until the whole project is readable.
+"""
+
+import codecs
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+
+from openacr.errors import SourceError, UserError
+
+PROGRAM_COUNT = 16
+PLC_COUNT = 8
+
+_NUMBERED = re.compile(r"(prog|plc)(\d+)\.8k", re.IGNORECASE)
+# Text files hold these control characters: tab, line feed, form feed, carriage return, the
+# end-of-file mark of old editors, and escape (which terminals send and captures contain).
+_TEXT_CONTROLS = frozenset(b"\t\n\x0c\r\x1a\x1b")
+_BINARY = re.compile(b"[" + re.escape(bytes(set(range(32)) - _TEXT_CONTROLS)) + b"\x7f]")
+# Single bytes are read as the typographic characters of the Windows code page; the five
+# holes of that code page become the control characters of the same number.
+_SINGLE_BYTES = {
+    byte: bytes([byte]).decode("cp1252", errors="ignore") or chr(byte) for byte in range(128, 256)
+}
+
+
+class Place(Enum):
+    """What a controller file is for."""
+
+    SETUP = "setup"
+    PROGRAM = "prog"
+    PLC = "plc"
+
+
+def _one_single_byte(error: UnicodeError) -> tuple[str, int]:
+    """Read the byte at which UTF-8 failed by itself; the bytes behind it get another chance."""
+    if not isinstance(error, UnicodeDecodeError):
+        raise error
+    return _SINGLE_BYTES[error.object[error.start]], error.start + 1
+
+
+codecs.register_error("openacr-single-byte", _one_single_byte)
+
+
+def decode(data: bytes) -> str:
+    """Turn controller text into characters: UTF-8 where it is valid, else byte by byte."""
+    return data.decode("utf-8", errors="openacr-single-byte").removeprefix("\ufeff")
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFile:
+    """One controller file: where it is, what it is for and the bytes it holds."""
+
+    path: Path
+    data: bytes
+    place: Place = Place.SETUP
+    number: int = 0
+
+    @property
+    def text(self) -> str:
+        """The file as characters, typographic ones still in place."""
+        return decode(self.data)
+
+
+@dataclass(frozen=True, slots=True)
+class Project:
+    """The files of one machine, all read and known to be text."""
+
+    root: Path
+    setup: SourceFile | None = None
+    programs: tuple[SourceFile, ...] = ()
+    plcs: tuple[SourceFile, ...] = ()
+    machine: Path | None = None
+    scenario: Path | None = None
+    ignored: tuple[Path, ...] = field(default=())
+
+    @property
+    def sources(self) -> tuple[SourceFile, ...]:
+        """The controller files in the order in which they are loaded."""
+        return ((self.setup,) if self.setup else ()) + self.plcs + self.programs
+
+
+def find_project(path: Path | str) -> Project:
+    """Read the project folder or the single controller file at `path`."""
+    place = Path(path)
+    if place.is_dir():
+        return _folder(place)
+    if not place.exists():
+        raise UserError(f"{place}: no such file or folder")
+    if place.suffix.lower() == ".toml":
+        raise UserError(f"{place}: give the project folder {place.parent}, not a file inside it")
+    return Project(place, read_source(place))
+
+
+def read_source(path: Path, place: Place = Place.SETUP, number: int = 0) -> SourceFile:
+    """Read one controller file; a file that is empty or not text is refused."""
+    data = read_bytes(path)
+    _check_text(path, data)
+    if not data.strip(b" \t\r\n\x1a"):
+        raise SourceError("the file is empty", path=str(path))
+    return SourceFile(path, data, place, number)
+
+
+def read_bytes(path: Path) -> bytes:
+    """Read the bytes of a file the user named, or say in a sentence why not."""
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise UserError(f"{path}: cannot be read: {reason}") from None
+
+
+def _check_text(path: Path, data: bytes) -> None:
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        hint = "save it as UTF-8 or plain text"
+        raise SourceError("the file is UTF-16", path=str(path), line=1, column=1, hint=hint)
+    found = _BINARY.search(data)
+    if found is None:
+        return
+    at = found.start()
+    line_start = data.rfind(b"\n", 0, at) + 1
+    raise SourceError(
+        f"not a text file: byte 0x{data[at]:02X} at offset {at}",
+        path=str(path),
+        line=data.count(b"\n", 0, at) + 1,
+        column=at - line_start + 1,
+        hint="controller files are plain text",
+    )
+
+
+def _folder(root: Path) -> Project:
+    try:
+        entries = sorted(entry for entry in root.iterdir() if entry.is_file())
+    except OSError as error:
+        raise UserError(f"{root}: cannot be read: {(error.strerror or '').lower()}") from None
+    by_name = _by_name(entries)
+    numbered = list(_numbered(entries))
+    setup = by_name.get("setup.8k")
+    if setup is None and not numbered and "machine.toml" not in by_name:
+        raise UserError(
+            f"{root}: not an openacr project: it holds none of machine.toml, setup.8k, "
+            f"prog0.8k .. prog{PROGRAM_COUNT - 1}.8k, plc0.8k .. plc{PLC_COUNT - 1}.8k"
+        )
+    used = {setup, *(path for path, _, _ in numbered)}
+    return Project(
+        root=root,
+        setup=read_source(setup) if setup else None,
+        programs=_read(numbered, Place.PROGRAM),
+        plcs=_read(numbered, Place.PLC),
+        machine=by_name.get("machine.toml"),
+        scenario=by_name.get("scenario.toml"),
+        ignored=tuple(e for e in entries if e.suffix.lower() == ".8k" and e not in used),
+    )
+
+
+def _by_name(entries: Iterable[Path]) -> dict[str, Path]:
+    """Index the entries by lower-case name: controller files come from systems without case."""
+    found: dict[str, Path] = {}
+    for entry in entries:
+        other = found.setdefault(entry.name.lower(), entry)
+        if other is not entry:
+            raise UserError(f"{entry}: {other.name} in the same folder is the same file; keep one")
+    return found
+
+
+def _numbered(entries: Iterable[Path]) -> Iterator[tuple[Path, Place, int]]:
+    """Program and PLC files with their numbers; a number the card does not have is refused."""
+    seen: dict[tuple[Place, int], Path] = {}
+    for entry in entries:
+        match = _NUMBERED.fullmatch(entry.name)
+        if match is None:
+            continue
+        place, number = Place(match[1].lower()), int(match[2])
+        count = PROGRAM_COUNT if place is Place.PROGRAM else PLC_COUNT
+        if number >= count:
+            raise UserError(
+                f"{entry}: there is no {place.value.upper()}{number}; "
+                f"the files are {place.value}0.8k .. {place.value}{count - 1}.8k"
+            )
+        other = seen.setdefault((place, number), entry)
+        if other is not entry:
+            raise UserError(f"{entry}: {other.name} already is {place.value.upper()}{number}")
+        yield entry, place, number
+
+
+def _read(numbered: Iterable[tuple[Path, Place, int]], place: Place) -> tuple[SourceFile, ...]:
+    chosen = sorted((n, path) for path, kind, n in numbered if kind is place)
+    return tuple(read_source(path, place, number) for number, path in chosen)
