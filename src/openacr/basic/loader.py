@@ -1,0 +1,189 @@
+"""What a reader of `.8K` program files does before the text reaches the card.
+
+Published listings wrap lines at the page width, keep prompts in front of commands and
+leave PROGRAM or ENDP out. A terminal shows none of this tolerance; it belongs to files.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+LONGEST_LINE = 255
+
+_PROMPT = re.compile(r"\s*(?:SYS|P\d\d|PLC\d)>\s*", re.IGNORECASE)
+_QUOTES = '"\u201c\u201d\u201e'
+_APOSTROPHES = "'\u2018\u2019"
+_REM = re.compile(r"(?<![A-Za-z])REM(?![A-Za-z])", re.IGNORECASE)
+_OPEN_INPUT = re.compile(r'\s*INPUT\s*;?\s*(?:#\s*\d\s*[,;]?)?\s*(?:"[^"]*")?\s*[;,]?\s*', re.I)
+_PROGRAM = re.compile(r"[\s:]*PROGRAM(?![A-Za-z])", re.IGNORECASE)
+_ENDP = re.compile(r"[\s:]*ENDP(?![A-Za-z])", re.IGNORECASE)
+_LEVEL = re.compile(r"[\s:]*(?:SYS(?![A-Za-z])|(?:PROG|PLC)\s*\d)", re.IGNORECASE)
+_SLAVE_NAME = re.compile(r'ATTACH\s*SLAVE\s*\d+\s*AXIS\s*\d+\s*"([A-Za-z]{1,4})"', re.IGNORECASE)
+_LABEL = re.compile(r"\s*_\s*[A-Za-z0-9]")
+_FLOW = re.compile(
+    r"\s*(?:IF|ELSEIF|ELSE|ENDIF|FOR|NEXT|WHILE|WEND|BREAK|GOTO|GOSUB|RETURN|END)(?![A-Za-z])",
+    re.IGNORECASE,
+)
+_ONE_LINE_IF = re.compile(r"\s*IF(?![A-Za-z]).*?(?<![A-Za-z])THEN(?![A-Za-z])", re.IGNORECASE)
+_LEVEL_BOUND = re.compile(
+    r"\s*(?:(?:DRIVE|RES|JOG|MOV|CIRCC?W|SINE|TARC|INT|TRJ)(?![A-Za-z])"
+    r"|DIM\s*(?:[LSD][VA]|\$[VA]|MBUF))",
+    re.IGNORECASE,
+)
+_MOVE = re.compile(r"\s*([A-Za-z]{1,4})\s*[-+/(\d.\u2013\u2014\u2212]")
+_DEFAULT_AXIS_NAMES = frozenset("XYZABCUVW")
+
+
+@dataclass(frozen=True, slots=True)
+class FileLine:
+    """One line to send, and the line of the file where it begins."""
+
+    number: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Scan:
+    """One line without its remark, its strings blanked, and what it leaves open."""
+
+    code: str
+    is_string_open: bool
+
+    @property
+    def open_parentheses(self) -> int:
+        return self.code.count("(") - self.code.count(")")
+
+    @property
+    def blocks(self) -> list[str]:
+        return self.code.split(":")
+
+
+def file_lines(text: str) -> list[FileLine]:
+    """The lines to send to the card for a file, tolerances of published text applied."""
+    joined = list(_joined(_numbered(text)))
+    if any(_PROGRAM.match(_scan(line.text).code) for line in joined):
+        return list(_closed(joined))
+    if any(_is_program_text(line.text) for line in joined):
+        return list(_opened(joined))
+    return joined
+
+
+def _numbered(text: str) -> Iterator[FileLine]:
+    """Non-empty lines without prompts."""
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    for number, line in enumerate(lines, start=1):
+        rest = _PROMPT.sub("", line, count=1) if _PROMPT.match(line) else line
+        if rest.strip():
+            yield FileLine(number, rest.rstrip())
+
+
+def _joined(lines: Iterable[FileLine]) -> Iterator[FileLine]:
+    """Lines that a page width has broken, put together again."""
+    held: FileLine | None = None
+    for line in lines:
+        if held is None:
+            held = line
+        elif _continues(held.text, line.text):
+            held = FileLine(held.number, f"{held.text} {line.text.lstrip()}")
+        else:
+            yield held
+            held = line
+    if held is not None:
+        yield held
+
+
+def _continues(text: str, following: str) -> bool:
+    """Whether `following` is the rest of `text`."""
+    if len(text) + 1 + len(following) > LONGEST_LINE:
+        return False
+    scan = _scan(text)
+    if scan.is_string_open:
+        return sum(following.count(quote) for quote in _QUOTES) % 2 == 1
+    if scan.open_parentheses > 0:
+        return True
+    return _OPEN_INPUT.fullmatch(scan.blocks[-1]) is not None
+
+
+def _scan(text: str) -> _Scan:
+    """Split code from remark and comment; the content of strings becomes blanks."""
+    code: list[str] = []
+    in_string = False
+    for place, character in enumerate(text):
+        if character in _QUOTES:
+            in_string = not in_string
+            code.append('"')
+        elif in_string:
+            code.append(" ")
+        elif character in _APOSTROPHES or _REM.match(text, place):
+            break
+        else:
+            code.append(character)
+    return _Scan("".join(code), in_string)
+
+
+def _is_program_text(text: str) -> bool:
+    """Whether a line can stand in a program only: label, ENDP, flow but the one-line IF."""
+    code = _scan(text).code
+    if _LABEL.match(code) or _ENDP.match(code):
+        return True
+    return any(_FLOW.match(block) for block in _flow_blocks(code))
+
+
+def _flow_blocks(code: str) -> list[str]:
+    """The blocks of a line, those behind THEN excluded: they belong to the one-line IF."""
+    match = _ONE_LINE_IF.search(code)
+    return (code[: match.start()] if match else code).split(":")
+
+
+def _opened(lines: list[FileLine]) -> Iterator[FileLine]:
+    """Program text without PROGRAM, opened at the first statement that needs a program."""
+    names = _DEFAULT_AXIS_NAMES | {
+        name.upper() for line in lines for name in _SLAVE_NAME.findall(line.text)
+    }
+    is_open = False
+    last = 0
+    for line in lines:
+        code = _scan(line.text).code
+        if is_open and _LEVEL.match(code):
+            yield FileLine(line.number, "ENDP")
+            is_open = False
+        elif not is_open and _needs_program(code, names):
+            yield FileLine(line.number, "PROGRAM")
+            is_open = True
+        yield line
+        if is_open and _ENDP.match(code):
+            is_open = False
+        last = line.number
+    if is_open:
+        yield FileLine(last, "ENDP")
+
+
+def _needs_program(code: str, names: frozenset[str]) -> bool:
+    if _LABEL.match(code) or _ONE_LINE_IF.match(code):
+        return True
+    for block in code.split(":"):
+        move = _MOVE.match(block)
+        if move and move[1].upper() in names:
+            return True
+        if _FLOW.match(block) or _LEVEL_BOUND.match(block):
+            return True
+    return False
+
+
+def _closed(lines: list[FileLine]) -> Iterator[FileLine]:
+    """ENDP supplied where a program ends without one."""
+    is_open = False
+    last = 0
+    for line in lines:
+        code = _scan(line.text).code
+        if is_open and _LEVEL.match(code):
+            yield FileLine(line.number, "ENDP")
+            is_open = False
+        yield line
+        if _PROGRAM.match(code):
+            is_open = True
+        elif _ENDP.match(code):
+            is_open = False
+        last = line.number
+    if is_open:
+        yield FileLine(last, "ENDP")
