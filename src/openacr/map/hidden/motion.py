@@ -1,0 +1,180 @@
+"""Hidden rows of motion: profiles, move queues, masters and axes.
+
+Positions are float64 pulses; the public LONG parameters show them rounded. Distances,
+speeds and accelerations of a profile are in the unit of whoever owns it: programming
+units for masters, pulses for the jog profiler of an axis.
+"""
+
+from openacr.map.hidden.block import HiddenBlock
+
+SEGMENTS = 16
+SLAVES = 16
+MOVES_PER_MASTER = 16
+
+# One motion profile: pieces of constant jerk, evaluated in order (kernel/profile_cy.py).
+# Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes.
+PROFILE = HiddenBlock(
+    prefix="PR",
+    count=32,
+    doubles=(
+        ("seg_time_s", SEGMENTS),
+        ("seg_jerk", SEGMENTS),
+        ("seg_accel", SEGMENTS),
+        ("seg_velocity", SEGMENTS),
+        ("seg_distance", SEGMENTS),
+        "time_s",  # since the start of the present segment
+        "distance",
+        "velocity",
+        "accel",
+        "jerk",
+        "end_distance",
+        "end_velocity",
+        "target_velocity",  # cruising speed of the present plan
+        "plan_distance",  # end of the plan while segments are appended
+        "plan_velocity",
+        "plan_accel",
+    ),
+    ints=(
+        ("seg_kind", SEGMENTS),
+        "seg_count",
+        "seg_index",
+        "kind",
+    ),
+)
+
+# Moves waiting for or executed by a master: a ring of records per master.
+MOVE = HiddenBlock(
+    prefix="MQ",
+    count=16 * MOVES_PER_MASTER,
+    doubles=(
+        "vel_ups",
+        "acc_ups2",
+        "dec_ups2",
+        "stp_ups2",
+        "jrk_ups3",
+        "fvel_ups",
+        "ivel_ups",
+        "length_u",
+        "maxvel_ups",  # bound by MAXVEL of the axes, 0 none
+        ("target_cnt", SLAVES),
+        ("delta_cnt", SLAVES),
+        ("weight", SLAVES),
+    ),
+    ints=(
+        "slaves",  # mask of the slaves that take part
+        "relative",  # of those, the ones whose displacement is given, not the target
+        "rapid",
+        "seek_axis",  # MSEEK: axis + 1
+        "seek_mode",
+    ),
+)
+
+MASTER = HiddenBlock(
+    prefix="MS",
+    count=16,
+    doubles=(
+        "acc_ups2",
+        "dec_ups2",
+        "stp_ups2",
+        "jrk_ups3",
+        "fvel_ups",
+        "ivel_ups",
+        ("vecdef", SLAVES),
+        ("target_cnt", SLAVES),  # end of the last queued move, per slave
+    ),
+    ints=(
+        "program",  # program that owns the master, -1 none
+        ("slave_axis", SLAVES),  # axis of each slave, -1 none
+        "head",  # ring index of the present move
+        "queued",  # moves in the ring, the present one included
+        "depth",  # moves that may wait behind the present one
+        "moving",  # the move at the head has begun
+        "hold",  # 0 none, 1 feedholding, 2 in feedhold
+        "drop_at_rest",  # HALT: drop all moves once the path has stopped
+        "seek_phase",  # of MSEEK, see kernel/master_cy.py
+    ),
+)
+
+AXIS = HiddenBlock(
+    prefix="AX",
+    count=16,
+    doubles=(
+        "position_cnt",  # coordinated position
+        "gear_cnt",
+        "jog_cnt",
+        "cam_cnt",
+        "ballscrew_cnt",
+        "backlash_cnt",
+        "psp_cnt",
+        "ssp_cnt",
+        "ssp_old_cnt",
+        "psp_velocity_cps",
+        "ssp_velocity_cps",
+        "target_cnt",  # target of the coordinated profiler
+        "jog_target_cnt",
+        "jog_origin_cnt",  # jog offset where the present jog plan started
+        "hldec_ups2",
+        "sldec_ups2",
+        "slm_plus_u",
+        "slm_minus_u",
+        "homvf_ups",
+        "home_edge_cnt",
+        "capture_cnt",
+        "integral_v",
+        "derivative_v",
+        "error_old_cnt",
+        "idle_s",  # time since the last commanded motion
+        ("filter_state", 4),
+        "lopass_hz",
+        "notch_hz",
+        "notch_width_hz",
+        "rotary_u",
+        "peak_velocity_cps",
+        "peak_error_cnt",
+        "travel_cnt",
+        ("velocity_window_cnt", 64),
+    ),
+    ints=(
+        "on",
+        "master",  # -1 none
+        "slave",
+        "position_source",  # see kernel/feedback_cy.py
+        "position_index",
+        "position_offset",  # of an ADC, set by RES
+        "signal_source",
+        "signal_index",
+        "velocity_source",
+        "velocity_index",
+        "hlbit",
+        "jog_mode",
+        "jog_sign",
+        "jog_replan",
+        "jog_ended",
+        "kamr_old",
+        "soft_old",
+        "home_state",
+        "home_search",
+        "home_moving",
+        "home_input_old",
+        "limit_old",
+        "capture_mode",  # -1 not armed
+        "enable_ticks",  # until the drive reports enabled, 0 idle
+        "reset_ticks",
+        "window_index",
+        "derivative_ticks",
+        "shown_current",
+        "shown_target",
+        "shown_actual",
+        "shown_gear",
+        "shown_jog",
+        "shown_cam",
+        "shown_ballscrew",
+    ),
+)
+
+ENCODER = HiddenBlock(
+    prefix="EN",
+    count=24,
+    doubles=("raw_old_cnt", "partial_cnt"),
+    ints=("mult", "source", "shown"),
+)

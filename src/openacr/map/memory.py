@@ -1,0 +1,154 @@
+"""The state of the card: one buffer seen as float64, int32 and float32.
+
+Programs, packets, snapshots and the servo loop all work on this memory. `F`, `I` and `S`
+are the raw views for those who know the places (`openacr.map.numbers`); `read`, `write`,
+`bit` and `set_bit` behave as P and BIT do in a program.
+"""
+
+from functools import cache
+from hashlib import blake2b
+from math import isnan, trunc
+
+from openacr.errors import CardError, StoreError
+from openacr.map.image import KINDS, POWER_UP
+from openacr.map.numbers import (
+    FLAG_LAST,
+    KIND_FP32,
+    KIND_FP64,
+    KIND_LONG,
+    KIND_NONE,
+    MEMORY_BYTES,
+    PUBLIC_COUNT,
+    SYSI_BASE,
+    SYSI_P_COUNT,
+    USER_BASE,
+)
+from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
+from openacr.views import F32, F64, I32
+
+KINDS_PER_WORD = 16
+FLAG_WORDS = 4096
+
+
+class Memory:
+    """All state of one card, as it is right after power-up."""
+
+    __slots__ = ("F", "I", "S", "_buffer")
+
+    F: F64
+    I: I32  # noqa: E741 - the name of this view everywhere
+    S: F32
+
+    def __init__(self) -> None:
+        self._buffer = memoryview(bytearray(_power_up_image()))
+        self.F = self._buffer.cast("d")
+        self.I = self._buffer.cast("i")
+        self.S = self._buffer.cast("f")
+
+    def read(self, number: int) -> int | float:
+        """Value of parameter `number`; CardError if there is no such parameter."""
+        kind = self._checked_kind(number)
+        if kind == KIND_LONG:
+            return self.I[number]
+        return self.S[number] if kind == KIND_FP32 else self.F[USER_BASE + number]
+
+    def write(self, number: int, value: float) -> None:
+        """Store `value` as the parameter's kind demands; CardError if there is none."""
+        kind = self._checked_kind(number)
+        if kind == KIND_LONG:
+            self.I[number] = long_of(value)
+        elif kind == KIND_FP32:
+            self.S[number] = value
+        else:
+            self.F[USER_BASE + number] = value
+
+    def _checked_kind(self, number: int) -> int:
+        kind = self.kind(number)
+        if kind == KIND_NONE:
+            raise CardError(INVALID_PARAMETER)
+        if kind == KIND_FP64 and number >= self.I[SYSI_BASE + SYSI_P_COUNT]:
+            raise CardError(UNDEFINED_VARIABLE)
+        return kind
+
+    def kind(self, number: int) -> int:
+        """KIND_LONG, KIND_FP32, KIND_FP64, or KIND_NONE where no parameter is defined."""
+        if not 0 <= number < PUBLIC_COUNT:
+            return KIND_NONE
+        word, position = divmod(number, KINDS_PER_WORD)
+        return self.I[word] >> 2 * position & 3
+
+    def bit(self, number: int) -> bool:
+        """State of flag `number`; CardError beyond the last flag."""
+        word, mask = _flag_place(number)
+        return bool(self.I[word] & mask)
+
+    def set_bit(self, number: int, on: bool) -> None:
+        """Set or clear flag `number`; CardError beyond the last flag."""
+        word, mask = _flag_place(number)
+        self.I[word] = self.I[word] | mask if on else self.I[word] & ~mask
+
+    def snapshot(self) -> bytes:
+        """The whole state; `restore` brings it back."""
+        return self._buffer.tobytes()
+
+    def restore(self, snapshot: bytes) -> None:
+        """Return to a snapshot of a card with the same memory layout."""
+        if len(snapshot) != len(self._buffer):
+            raise StoreError(
+                f"the snapshot has {len(snapshot)} bytes, this version needs {len(self._buffer)}"
+            )
+        self._buffer[:] = snapshot
+
+    def power_up(self) -> None:
+        """Forget everything: the state after switching the card on."""
+        self._buffer[:] = _power_up_image()
+
+    def digest(self) -> str:
+        """Fingerprint of the state: equal digests, equal cards."""
+        return blake2b(self._buffer, digest_size=16).hexdigest()
+
+
+def long_of(value: float) -> int:
+    """`value` without its fraction, wrapped to 32 bits.
+
+    Beyond +-2**62, where the compiled core would overflow, and for NaN the result is 0.
+    """
+    if isnan(value) or not -(2**62) < value < 2**62:
+        return 0
+    return (trunc(value) + 2**31) % 2**32 - 2**31
+
+
+def _flag_place(number: int) -> tuple[int, int]:
+    """Index of the word of a flag and its mask as a signed 32-bit number."""
+    if not 0 <= number <= FLAG_LAST:
+        raise CardError(INVALID_BIT)
+    word, bit = divmod(number, 32)
+    return FLAG_WORDS + word, 1 << bit if bit < 31 else -(1 << 31)
+
+
+@cache
+def _power_up_image() -> bytes:
+    buffer = memoryview(bytearray(MEMORY_BYTES))
+    kinds = kind_table()
+    longs = buffer.cast("i")
+    for word in range(PUBLIC_COUNT // KINDS_PER_WORD):
+        part = kinds[word * KINDS_PER_WORD : (word + 1) * KINDS_PER_WORD]
+        longs[word] = long_of(sum(kind << 2 * place for place, kind in enumerate(part)))
+    floats = buffer.cast("f")
+    for first, stride, values in POWER_UP:
+        for index, value in enumerate(values):
+            number = first + stride * index
+            if kinds[number] == KIND_LONG:
+                longs[number] = long_of(value)
+            else:
+                floats[number] = value
+    return buffer.tobytes()
+
+
+def kind_table() -> bytes:
+    """Kind of every parameter number."""
+    table = bytearray(PUBLIC_COUNT)
+    for first, length, kind, stride, count in KINDS:
+        for start in range(first, first + stride * count, stride):
+            table[start : start + length] = bytes([kind]) * length
+    return bytes(table)

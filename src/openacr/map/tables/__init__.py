@@ -1,0 +1,50 @@
+"""Every parameter and flag of the card, one module per family of objects."""
+
+from openacr.map.tables import (
+    axis,
+    axis_flags,
+    cmt,
+    dac_adc,
+    drivetalk,
+    encoder,
+    fieldbus,
+    fstat,
+    io_flags,
+    master,
+    master_flags,
+    misc,
+    plc,
+    program,
+    stream,
+    user,
+)
+
+BLOCKS = (
+    *user.BLOCKS,
+    *encoder.BLOCKS,
+    *dac_adc.BLOCKS,
+    *plc.BLOCKS,
+    *misc.BLOCKS,
+    *stream.BLOCKS,
+    *program.BLOCKS,
+    *fstat.BLOCKS,
+    *master.BLOCKS,
+    *axis.BLOCKS,
+    *cmt.BLOCKS,
+    *drivetalk.BLOCKS,
+    *fieldbus.BLOCKS,
+)
+FLAG_BLOCKS = (
+    *io_flags.FLAG_BLOCKS,
+    *master_flags.FLAG_BLOCKS,
+    *axis_flags.FLAG_BLOCKS,
+    *program.FLAG_BLOCKS,
+    *plc.FLAG_BLOCKS,
+    *stream.FLAG_BLOCKS,
+    *encoder.FLAG_BLOCKS,
+    *cmt.FLAG_BLOCKS,
+    *dac_adc.FLAG_BLOCKS,
+    *fstat.FLAG_BLOCKS,
+    *drivetalk.FLAG_BLOCKS,
+    *fieldbus.FLAG_BLOCKS,
+)

@@ -1,0 +1,121 @@
+"""Drive Talk: status and configuration of Aries drives over a serial port."""
+
+from openacr.map.block import LONG, RW, UNDOCUMENTED, Block, FlagBlock, ManualRef, Span
+
+DRIVE_TALK = Block(
+    "Drive Talk Parameters",
+    object="DTALK",
+    prefix="DTK",
+    spans=(Span(28672, 16),),
+    stride=256,
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+)
+DRIVE_TALK.row(
+    0, "Communication Device", LONG, RW, "Device number of the OPEN DTALK port for this axis."
+)
+DRIVE_TALK.row(1, "Drive Type", LONG, RW, "Drive type; 0 = Aries.")
+DRIVE_TALK.row(21, "TPE", LONG, doc="Drive TPE value, refreshed by a Get Drive Data request.")
+
+ERROR_LOG = FlagBlock(
+    "Drive Talk Error-Log Flags",
+    object="DTALK",
+    prefix="DTEF",
+    spans=(Span(4376, 16),),
+    word_name="Drive Talk Error-Log Flags Axis {n}",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+
+
+STATUS_1 = FlagBlock(
+    "Drive Talk Drive-Status 1 Flags",
+    object="DTALK",
+    prefix="DTS1",
+    spans=(Span(4392, 16),),
+    word_name="Drive Talk Drive-Status 1 Flags Axis {n}",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+
+
+STATUS_2 = FlagBlock(
+    "Drive Talk Drive-Status 2 Flags",
+    object="DTALK",
+    prefix="DTS2",
+    spans=(Span(4408, 16),),
+    word_name="Drive Talk Drive-Status 2 Flags Axis {n}",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+
+
+CONTROL = FlagBlock(
+    "Drive Talk Drive-Control Flags",
+    object="DTALK",
+    prefix="DTCF",
+    spans=(Span(4424, 16),),
+    word_name="Drive Talk Drive-Control Flags Axis {n}",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+CONTROL.row(0, "Auto Address Request", RW, doc="Assigns drive addresses (axis + 1); self clearing.")
+CONTROL.row(
+    1, "Get Configuration Request", RW, doc="Uploads the drive configuration; self clearing."
+)
+CONTROL.row(
+    2, "Send Configuration Request", RW, doc="Downloads the drive configuration; self clearing."
+)
+CONTROL.row(
+    3, "Send ERRORL Request", RW, doc="Sends the error-log selection to the drive; self clearing."
+)
+CONTROL.row(4, "Get Drive Data Request", RW, doc="Fetches the selected drive data; self clearing.")
+for _bit in range(8, 26):
+    if _bit != 9:
+        CONTROL.row(
+            _bit, f"Drive Data Select {_bit}", RW, doc="Selects one item, which is not named."
+        )
+CONTROL.row(9, "TPE Select", RW, doc="Includes TPE in Get Drive Data.")
+CONTROL.row(28, "Drive Status 1 Select", RW, doc="Includes the status 1 flags in Get Drive Data.")
+CONTROL.row(29, "Drive Status 2 Select", RW, doc="Includes the status 2 flags in Get Drive Data.")
+
+
+def _stream(name: str, word: int, word_name: str) -> FlagBlock:
+    block = FlagBlock(
+        "Drive Talk Stream Flags",
+        object=name,
+        prefix="DTSF",
+        spans=(Span(word, 1),),
+        word_name=word_name,
+        ident=f"DTALK_{name}",
+        ref=ManualRef.PROGRAMMERS_GUIDE,
+        first_index=None,
+        rest=UNDOCUMENTED,
+    )
+    block.row(18, "Stream Drive Lost", RW, doc="Cleared before Drive Talk is started.")
+    block.row(19, "Stream Drive Timeout", RW, doc="Cleared before Drive Talk is started.")
+    block.row(20, "Stream Address Error", RW, doc="Cleared before Drive Talk is started.")
+    return block
+
+
+COM2_STREAM = _stream("COM2", 4443, "Drive Talk COM2 Stream Flags")
+COM2_STREAM.row(
+    0,
+    "Auto Address All",
+    RW,
+    doc="Addresses the drives of all axes on this stream; self clearing.",
+    printed=UNDOCUMENTED,
+)
+
+BLOCKS = (DRIVE_TALK,)
+FLAG_BLOCKS = (
+    ERROR_LOG,
+    STATUS_1,
+    STATUS_2,
+    CONTROL,
+    _stream("LPT1", 4441, "Drive Talk LPT1 Stream Flags"),
+    _stream("COM1", 4442, "Drive Talk COM1 Stream Flags"),
+    COM2_STREAM,
+    _stream("STREAM3", 4445, "Drive Talk DPCB/Stream 3 Stream Flags"),
+    _stream("STREAM4", 4446, "Drive Talk Stream 4 Stream Flags"),
+    _stream("STREAM5", 4447, "Drive Talk Stream 5 Stream Flags"),
+)

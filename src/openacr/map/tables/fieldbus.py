@@ -1,0 +1,170 @@
+"""CANopen extended I/O and Ethernet Powerlink of the ACR9000 family."""
+
+from openacr.map.block import (
+    FP32,
+    LONG,
+    RW,
+    UNDOCUMENTED,
+    Access,
+    Block,
+    FlagBlock,
+    ManualRef,
+    R,
+    Span,
+)
+
+NETWORK = Block(
+    "CANopen Network Parameters",
+    object="CAN",
+    prefix="CAN",
+    spans=(Span(32768, 1),),
+    stride=0,
+    indexed=False,
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+)
+NETWORK.row(0, "Master Node ID", LONG, RW, "Controller node ID, 1-127; default 5.")
+NETWORK.row(1, "Bit Rate", LONG, RW, "Bus rate in kbit/s; default 125.")
+NETWORK.row(
+    2, "Number Of Slave Nodes", LONG, RW, "Slave nodes 0-4, controller not counted; default 1."
+)
+NETWORK.row(
+    3,
+    "Alternate Digital I/O Mapping",
+    LONG,
+    RW,
+    "Remaps digital I/O to P4104-P4111: <=0 none, 1 node 0, 2 nodes 0-1, >=3 all; read at network start.",
+)
+NETWORK.row(4, "Cyclic Period", LONG, RW, "Update period in ms; default 50.")
+NETWORK.row(5, "Health Period", LONG, R, "Always ten times the cyclic period, ms.")
+NETWORK.reserved(LONG, (6,))
+NETWORK.row(
+    7, "Number Of Digital Input Bytes", LONG, R, "Total digital input bytes on the network."
+)
+NETWORK.row(
+    8, "Number Of Digital Output Bytes", LONG, R, "Total digital output bytes on the network."
+)
+NETWORK.row(9, "Number Of Analog Inputs", LONG, R, "Total analog inputs on the network.")
+NETWORK.row(10, "Number Of Analog Outputs", LONG, R, "Total analog outputs on the network.")
+NETWORK.row(11, "Bus State", LONG, R, "0 pre-init, 1 ready to start, 2 started, 3-10 error states.")
+NETWORK.reserved(LONG, (14, 15))
+
+NODE = Block(
+    "CANopen Node Parameters",
+    object="CANNODE",
+    prefix="CANN",
+    spans=(Span(33024, 4),),
+    stride=16,
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+)
+NODE.row(0, "Node ID", LONG, RW, "Physical node ID 1-127; default 1 for node 0, 0 for the others.")
+NODE.row(
+    1, "Number Of Digital Inputs (Bytes)", LONG, R, "Filled in by the controller at network start."
+)
+NODE.row(
+    2, "Number Of Digital Outputs (Bytes)", LONG, R, "Filled in by the controller at network start."
+)
+NODE.row(3, "Number Of Analog Inputs", LONG, R, "Filled in by the controller at network start.")
+NODE.row(4, "Number Of Analog Outputs", LONG, R, "Filled in by the controller at network start.")
+NODE.row(5, "Health Type", LONG, R, "0 absent, 1 heartbeat, 2 life guarding.")
+NODE.row(6, "Node State", LONG, R, "0 dead, 1 live.")
+
+
+def _node_section(channel: int) -> str:
+    return f"CANopen Node {channel // 32} Analog I/O Parameters"
+
+
+DAC = Block(
+    "CANopen Analog I/O Parameters",
+    object="CANDAC",
+    section_of=_node_section,
+    prefix="CAND",
+    spans=(Span(33280, 128),),
+    stride=16,
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+)
+DAC.row(0, "DAC Output Value", FP32, RW, "Output in user units.")
+DAC.reserved(FP32, (1,))
+DAC.row(2, "DAC Gain", FP32, RW, "Full-scale counts per user unit; default 3276.8.")
+DAC.row(3, "DAC Offset", FP32, RW, "Offset in user units; default 0.")
+DAC.reserved(FP32, range(4, 8))
+
+ADC = Block(
+    "CANopen Analog I/O Parameters",
+    object="CANADC",
+    section_of=_node_section,
+    prefix="CANA",
+    spans=(Span(33280, 128),),
+    stride=16,
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+)
+ADC.row(8, "ADC Input Value", FP32, R, "Input in user units.")
+ADC.reserved(FP32, (9,))
+ADC.row(10, "ADC Gain", FP32, RW, "Full-scale user units; default 10.")
+ADC.row(11, "ADC Offset", FP32, RW, "Offset in user units; default 0.")
+ADC.reserved(FP32, range(12, 16))
+
+CAN_FLAGS = FlagBlock(
+    "CANopen Control/Status Flags",
+    object="CAN",
+    prefix="CANF",
+    spans=(Span(4448, 1),),
+    word_name="Extended I/O Control/Status",
+    first_index=None,
+    ident="CAN",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+CAN_FLAGS.row(
+    1, "Start Network", RW, doc="Starts the CANopen network; clears when the attempt ends."
+)
+CAN_FLAGS.row(2, "Reset Network", RW, doc="Resets all extended I/O nodes.")
+CAN_FLAGS.row(4, "CANopen Controller Installed", R, doc="Set if the CANopen hardware is present.")
+CAN_FLAGS.row(5, "Network Operational", R, doc="Set while the network is operational.")
+CAN_FLAGS.row(6, "Network Start Failed", R, doc="Set when a start request failed.")
+CAN_FLAGS.row(7, "Node Failure", R, doc="Set when a node is lost or silent while operational.")
+CAN_FLAGS.row(8, "SW Rx Overflow", R, doc="Software receive buffer overflowed.")
+CAN_FLAGS.row(9, "HW Rx Overflow", R, doc="Hardware receive buffer overflowed.")
+CAN_FLAGS.reserved(3)
+
+EPL_FLAGS = FlagBlock(
+    "EPL Flags",
+    object="EPL",
+    prefix="EPLF",
+    spans=(Span(4616, 1),),
+    word_name="EPL Flags",
+    first_index=None,
+    ident="EPL",
+    ref=ManualRef.PROGRAMMERS_GUIDE,
+    rest=UNDOCUMENTED,
+)
+EPL_FLAGS.row(0, "EPL Start Pending", doc="Polled until the network has started, in one example.")
+EPL_FLAGS.row(8, "EPL Card Present", doc="Set when the controller has recognised the EPL card.")
+EPL_FLAGS.row(9, "EPL Network Operational", doc="Set while the EPL network runs.")
+EPL_FLAGS.row(10, "EPL Network Start Failed", doc="Set when starting the EPL network failed.")
+EPL_FLAGS.row(16, "EPL Start In Progress", doc="Waited on to clear after EPLC ON.")
+EPL_FLAGS.row(17, "EPL Reset In Progress", doc="Waited on to clear after EPLC OFF.")
+
+
+def _digital(object: str, first: int, direction: str, short: str, access: Access) -> FlagBlock:
+    block = FlagBlock(
+        "CANopen Digital I/O Flags",
+        object=object,
+        prefix=object,
+        spans=tuple(Span(first + 32 * node, 16) for node in range(4)),
+        word_name=f"Node {{n}} Digital {direction} {{first}}-{{last}}",
+        ref=ManualRef.PROGRAMMERS_GUIDE,
+        words_per_object=16,
+        word_access=access,
+    )
+    for bit in range(32):
+        block.row(bit, f"Node {{n}} {short} {{io}}", access)
+    return block
+
+
+BLOCKS = (NETWORK, NODE, DAC, ADC)
+FLAG_BLOCKS = (
+    CAN_FLAGS,
+    EPL_FLAGS,
+    _digital("CANDI", 4456, "Inputs", "DI", R),
+    _digital("CANDO", 4472, "Outputs", "DO", RW),
+)
