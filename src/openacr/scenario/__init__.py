@@ -1,0 +1,24 @@
+"""A scenario: what happens around the card while it runs, and what is expected of it.
+
+A scenario file holds timed or conditional operator actions (`[[at]]`) and expectations
+(`[[expect]]`). It is checked completely before anything runs, played by the tick of the
+card without any clock, and ends in one verdict per expectation.
+"""
+
+from openacr.scenario.judge import Verdict
+from openacr.scenario.load import load_scenario, parse_scenario
+from openacr.scenario.play import Play, World
+from openacr.scenario.schema import Action, Condition, Expectation, Scenario, State
+
+__all__ = [
+    "Action",
+    "Condition",
+    "Expectation",
+    "Play",
+    "Scenario",
+    "State",
+    "Verdict",
+    "World",
+    "load_scenario",
+    "parse_scenario",
+]

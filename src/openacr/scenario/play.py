@@ -1,0 +1,213 @@
+"""Play a scenario against a running card, by its tick and nothing else.
+
+`Play.step` is called with the card at rest between two ticks. It performs what is due,
+actions before expectations, each in the order of the file. `Play.next_tick` says how far
+the card may run before the next look: to the next known moment, or one tick while a
+condition is watched.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from openacr.scenario.judge import Verdict, condition_text, judge, never
+from openacr.scenario.rules import END, START
+from openacr.scenario.schema import Action, Condition, Expectation, Scenario, State
+
+
+class World(Protocol):
+    """What a scenario sees of the card and its surroundings, and how it acts on them."""
+
+    @property
+    def tick(self) -> int:
+        """Servo periods since the start."""
+
+    def read(self, parameter: int) -> float:
+        """Read one parameter."""
+
+    def bit(self, number: int) -> bool:
+        """Read one flag."""
+
+    def position_u(self, axis: int) -> float:
+        """Read the actual position of an axis in units."""
+
+    def commanded_u(self, axis: int) -> float:
+        """Read the commanded position of an axis in units."""
+
+    def program_state(self, program: int) -> State:
+        """Say what a program is doing."""
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch one input."""
+
+    def type_text(self, text: str, stream: str | None) -> None:
+        """Type text on a stream."""
+
+    def drag(self, axis: int, by_u: float, over_s: float) -> None:
+        """Move the load of an axis by hand."""
+
+
+@dataclass(slots=True)
+class _Pending:
+    """One entry that has not happened yet, and how far it has come."""
+
+    item: Action | Expectation
+    due_tk: int | None = None
+    is_watched: bool = False
+    was_false: bool = False
+    heard_from: int = 0
+
+
+class Play:
+    """A scenario on its way through a run."""
+
+    def __init__(self, scenario: Scenario, period_s: float) -> None:
+        self._period_s = period_s
+        items: list[Action | Expectation] = [*scenario.at, *_timed(scenario)]
+        self._pending = [_Pending(item) for item in items]
+        self._at_end = [item for item in scenario.expect if _belongs_to_end(item)]
+        self._releases: list[tuple[int, int]] = []
+        self._printed = ""
+        self.checkpoints: dict[str, int] = {START: 0}
+        self.verdicts: list[Verdict] = []
+        for pending in self._pending:
+            self._prepare(pending)
+
+    @property
+    def failures(self) -> list[Verdict]:
+        """The expectations that were not met."""
+        return [verdict for verdict in self.verdicts if not verdict.ok]
+
+    @property
+    def idle_actions(self) -> list[str]:
+        """Actions whose moment has not come."""
+        waiting = (p.item for p in self._pending if isinstance(p.item, Action))
+        return [_moment_text(action) for action in waiting]
+
+    def heard(self, text: str) -> None:
+        """Take note of what the card printed."""
+        self._printed += text
+
+    def next_tick(self, now_tk: int) -> int | None:
+        """Say at which tick to look again; None when nothing more is to happen."""
+        if any(p.is_watched for p in self._pending):
+            return now_tk + 1
+        known = [p.due_tk for p in self._pending if p.due_tk is not None]
+        known += [tick for tick, _ in self._releases]
+        return max(now_tk + 1, min(known)) if known else None
+
+    def step(self, world: World) -> None:
+        """Do everything that is due now; one checkpoint may make others due at once."""
+        for release in [r for r in self._releases if r[0] <= world.tick]:
+            self._releases.remove(release)
+            world.set_input(release[1], False)
+        while any(self._look(pending, world) for pending in self._pending):
+            pass  # looked at from the start again, so that the order of the file holds
+
+    def finish(self, world: World) -> None:
+        """End the run: judge what belongs to the end and what never came."""
+        self.checkpoints[END] = world.tick
+        for pending in self._pending:
+            if isinstance(pending.item, Expectation):
+                self.verdicts.append(never(pending.item, _moment_text(pending.item)))
+        self._pending = [p for p in self._pending if isinstance(p.item, Action)]
+        for item in self._at_end:
+            self._judge(item, world)
+
+    def _ticks(self, seconds: float) -> int:
+        return round(seconds / self._period_s)
+
+    def _prepare(self, pending: _Pending) -> None:
+        """Set a timed entry to its tick; start to watch one that waits for nothing else."""
+        item = pending.item
+        if item.time_s is not None:
+            pending.due_tk = self._ticks(item.time_s)
+        elif item.after is None or item.after in self.checkpoints:
+            self._arm(pending, self.checkpoints.get(item.after or START, 0))
+
+    def _arm(self, pending: _Pending, tick: int) -> None:
+        pending.heard_from = len(self._printed)
+        if pending.item.when is None:
+            pending.due_tk = tick + self._ticks(pending.item.delay_s)
+        else:
+            pending.is_watched = True
+
+    def _look(self, pending: _Pending, world: World) -> bool:
+        """Perform one entry if its moment is now; True when it was."""
+        if pending.is_watched and self._has_come(pending, world):
+            pending.is_watched = False
+            pending.due_tk = world.tick + self._ticks(pending.item.delay_s)
+        if pending.due_tk is None or pending.due_tk > world.tick:
+            return False
+        self._pending.remove(pending)
+        if isinstance(pending.item, Action):
+            self._act(pending.item, world)
+        else:
+            self._judge(pending.item, world)
+        return True
+
+    def _has_come(self, pending: _Pending, world: World) -> bool:
+        condition = pending.item.when
+        if condition is None:
+            return True
+        holds = self._holds(condition, world, self._printed[pending.heard_from :])
+        if condition.becomes is None:
+            return holds
+        came = holds and pending.was_false
+        pending.was_false = pending.was_false or not holds
+        return came
+
+    def _holds(self, condition: Condition, world: World, printed: str) -> bool:
+        if condition.bit is not None:
+            wanted = condition.is_ if condition.becomes is None else condition.becomes
+            return world.bit(condition.bit) is (wanted is not False)
+        if condition.printed is not None:
+            return condition.printed in printed
+        if condition.program is not None:
+            return world.program_state(condition.program) is condition.state
+        if condition.axis is not None:
+            value = world.position_u(condition.axis)
+        else:
+            value = world.read(condition.parameter or 0)
+        above = condition.above is None or value > condition.above
+        return above and (condition.below is None or value < condition.below)
+
+    def _act(self, action: Action, world: World) -> None:
+        for bit in (*action.set, *action.press):
+            world.set_input(bit, True)
+        for bit in action.clear:
+            world.set_input(bit, False)
+        release = world.tick + max(1, self._ticks(action.press_s))
+        self._releases += [(release, bit) for bit in action.press]
+        if action.send is not None or action.key is not None:
+            text = action.key.character if action.key else (action.send or "")
+            world.type_text(text, action.stream)
+        if action.drag is not None:
+            world.drag(action.drag.axis, action.drag.by, action.drag.over_s)
+        if action.checkpoint is not None:
+            self._reach(action.checkpoint, world.tick)
+
+    def _reach(self, checkpoint: str, tick: int) -> None:
+        self.checkpoints[checkpoint] = tick
+        for pending in self._pending:
+            if pending.item.after == checkpoint:
+                self._arm(pending, tick)
+
+    def _judge(self, item: Expectation, world: World) -> None:
+        self.verdicts.append(judge(item, world, self._printed, self.checkpoints, self._period_s))
+
+
+def _belongs_to_end(item: Expectation) -> bool:
+    return item.time_s is None and item.when is None and item.after is None
+
+
+def _timed(scenario: Scenario) -> Iterator[Expectation]:
+    return (item for item in scenario.expect if not _belongs_to_end(item))
+
+
+def _moment_text(item: Action | Expectation) -> str:
+    if item.time_s is not None:
+        return f"at {item.time_s:g} s"
+    parts = [f"after {item.after}"] if item.after else []
+    parts += [f"when {condition_text(item.when)}"] if item.when else []
+    return ", ".join(parts)
