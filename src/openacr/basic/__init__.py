@@ -1,0 +1,1 @@
+"""AcroBASIC: the language of the card, from the text of a line to its effect."""

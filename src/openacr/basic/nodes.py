@@ -1,0 +1,230 @@
+"""The tree of one line: expressions, statements, blocks.
+
+Nodes say what was written, nothing about how it is executed; every node is immutable,
+compares by content and can be pickled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, IntEnum
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from openacr.basic.registry import Command, Function
+
+
+class LocalKind(IntEnum):
+    """The numeric storage kinds of a program's own variables and arrays."""
+
+    LONG = 0
+    SINGLE = 1
+    DOUBLE = 2
+
+
+class Op(Enum):
+    """Operators; the value is what is written."""
+
+    POWER = "**"
+    TIMES = "*"
+    DIVIDE = "/"
+    MOD = "MOD"
+    PLUS = "+"
+    MINUS = "-"
+    LEFT = "<<"
+    RIGHT = ">>"
+    EQUAL = "="
+    UNEQUAL = "<>"
+    LESS = "<"
+    GREATER = ">"
+    LESS_EQUAL = "<="
+    GREATER_EQUAL = ">="
+    NOT = "NOT"
+    AND = "AND"
+    NAND = "NAND"
+    OR = "OR"
+    NOR = "NOR"
+    XOR = "XOR"
+    XNOR = "XNOR"
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A literal: an int is a LONG constant, a float anything else."""
+
+    value: int | float
+
+
+@dataclass(frozen=True, slots=True)
+class String:
+    """A string literal."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """`Pn` or `P(expr)`: a system parameter or a global variable."""
+
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """`BITn` or `BIT(expr)`."""
+
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """`LVn`, `SVn`, `DVn`."""
+
+    kind: LocalKind
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """`LAn(i)`, `SAn(i)`, `DAn(i)`."""
+
+    kind: LocalKind
+    array: Expr
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class StringLocal:
+    """`$Vn`."""
+
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class StringElement:
+    """`$An(i)`."""
+
+    array: Expr
+    index: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Alias:
+    """A word given by #DEFINE, with what it stood for when the line was read."""
+
+    name: str
+    target: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """`-x`, `+x`, `NOT x`."""
+
+    op: Op
+    operand: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """`left op right`."""
+
+    op: Op
+    left: Expr
+    right: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Apply:
+    """A function with its arguments."""
+
+    function: Function
+    arguments: tuple[Expr, ...]
+
+
+Expr: TypeAlias = (
+    Number
+    | String
+    | Parameter
+    | Flag
+    | Local
+    | Element
+    | StringLocal
+    | StringElement
+    | Alias
+    | Unary
+    | Binary
+    | Apply
+)
+Target: TypeAlias = Parameter | Flag | Local | Element | StringLocal | StringElement
+
+
+def is_text(node: Expr) -> bool:
+    """Whether the value of an expression is a string."""
+    match node:
+        case String() | StringLocal() | StringElement():
+            return True
+        case Alias(_, target):
+            return is_text(target)
+        case Apply(function):
+            return function.gives_text
+        case Binary(Op.PLUS, left, right):
+            return is_text(left) or is_text(right)
+    return False
+
+
+def resolved(node: Expr) -> Expr:
+    """What an alias stands for; any other node itself."""
+    return node.target if isinstance(node, Alias) else node
+
+
+@dataclass(frozen=True, slots=True)
+class AxisRef:
+    """An axis as it was written: a name of the program, or `AXISn` with its number."""
+
+    name: str
+    number: Expr | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Prefix:
+    """`AXISn` or `MASTERm` in front of a command."""
+
+    word: str
+    number: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """One command with what was written behind it, as its grammar read it."""
+
+    command: Command
+    arguments: tuple[object, ...] = ()
+    indices: tuple[Expr, ...] = ()
+    prefix: Prefix | None = None
+    column: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """All targets of one block: they form one coordinated move, issued at the block end."""
+
+    parts: tuple[Statement, ...]
+    column: int = 1
+
+
+Block: TypeAlias = tuple["Statement | Move", ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line: its number if it has one, its label, and the blocks between colons."""
+
+    number: int | None = None
+    label: str | None = None
+    blocks: tuple[Block, ...] = ()
+    remark: str | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing but a comment, a number or colons was written."""
+        return self.label is None and self.remark is None and not any(self.blocks)

@@ -1,0 +1,1 @@
+"""What BASIC and the other text languages share: source positions and tokens."""

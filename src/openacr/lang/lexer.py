@@ -1,0 +1,193 @@
+"""Cut a line of AcroBASIC into tokens.
+
+Words are letters only, so `ACC10`, `SET32` and `AXIS12` fall into a word and a number
+without blanks. Everything a word may mean is left to the parser.
+"""
+
+import re
+from collections.abc import Iterator
+from enum import IntEnum
+from typing import NamedTuple
+
+from openacr.errors import CardError
+from openacr.lang.source import Span
+from openacr.messages import LINE_TOO_LONG, SYNTAX_ERROR, Message
+
+LINE_LIMIT = 255
+LONG_LIMIT = 2147483647
+
+
+class Kind(IntEnum):
+    """What a token is."""
+
+    WORD = 1
+    NUMBER = 2
+    STRING = 3
+    OPERATOR = 4
+    LABEL = 5  # `_name`, and the name behind GOTO or GOSUB
+    REMARK = 6
+    END = 7
+
+
+class Token(NamedTuple):
+    """One token.
+
+    `text` is what stood there (words in upper case compare with `word`), `value` the
+    number, the content of the string, the name of the label or the text of the remark;
+    for a word it is the upper-case form.
+    """
+
+    kind: Kind
+    text: str
+    value: str | int | float
+    line: int
+    column: int
+
+    @property
+    def span(self) -> Span:
+        """Where the token stands."""
+        return Span(self.line, self.column, len(self.text))
+
+
+class LexError(CardError):
+    """A character or number that cannot be read."""
+
+    def __init__(self, message: Message, span: Span) -> None:
+        super().__init__(message)
+        self.span = span
+
+
+# An exponent belongs to a number only if E stands directly behind the digits and a
+# digit (or a signed one) directly behind the E: `5 DEC` and `X1ENC` hold none.
+_TOKEN = re.compile(
+    r"""[ \t]*(?:
+    (?P<word>\$?[A-Za-z]+\$?)
+  | (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
+  | (?P<operator>\*\*|<<|>>|<>|<=|>=|[-+*/=<>(),;:\#?!])
+  | (?P<label>_[ \t]*[A-Za-z0-9]+)
+  | (?P<based>&[Hh][0-9A-Fa-f]{1,8}(?![0-9A-Fa-f])|&[Bb][01]{1,32}(?![01]))
+  | (?P<string>"(?:[^"]|"")*"?)
+  | (?P<comment>'.*)
+  | (?P<end>$)
+    )""",
+    re.VERBOSE,
+)
+_JUMP_TARGET = re.compile(r"[ \t]*_?[ \t]*([A-Za-z][A-Za-z0-9]*)")
+_JUMPS = frozenset(("GOTO", "GOSUB"))
+_WORD, _NUMBER, _OPERATOR, _LABEL, _BASED, _STRING, _COMMENT = range(1, 8)
+
+
+def tokens(line: str | bytes, number: int = 1) -> list[Token]:
+    """All tokens of one line, the last one of kind END; LexError if one cannot be read."""
+    text = plain(line)
+    if len(text) > LINE_LIMIT:
+        raise LexError(LINE_TOO_LONG, Span(number, LINE_LIMIT + 1))
+    found: list[Token] = []
+    add, scan, make = found.append, _TOKEN.match, Token._make
+    at = 0
+    match = scan(text, at)
+    while match is not None:
+        group = match.lastindex
+        start = match.start(group)  # type: ignore[arg-type]
+        at = match.end()
+        part = text[start:at]
+        if group == _WORD:
+            word = part.upper()
+            if word == "REM":
+                add(Token(Kind.REMARK, part, text[at:].rstrip(), number, start + 1))
+                at = len(text)
+            else:
+                add(make((Kind.WORD, part, word, number, start + 1)))
+                if word in _JUMPS and (target := _JUMP_TARGET.match(text, at)):
+                    where = target.start(1) + 1
+                    add(Token(Kind.LABEL, target[1], target[1], number, where))
+                    at = target.end()
+        elif group == _NUMBER:
+            add(make((Kind.NUMBER, part, decimal(part), number, start + 1)))
+        elif group == _OPERATOR:
+            add(make((Kind.OPERATOR, part, part, number, start + 1)))
+        elif group == _STRING:
+            add(Token(Kind.STRING, part, _content(part), number, start + 1))
+        elif group == _LABEL:
+            add(Token(Kind.LABEL, part, part[1:].strip(), number, start + 1))
+        elif group == _BASED:
+            add(Token(Kind.NUMBER, part, _based(part), number, start + 1))
+        else:  # a comment, or the end
+            add(Token(Kind.END, "", "", number, start + 1))
+            return found
+        match = scan(text, at)
+    raise LexError(SYNTAX_ERROR, Span(number, at + 1))
+
+
+def decimal(text: str) -> int | float:
+    """The value of a decimal number: an integer if it is written as a LONG, else a float."""
+    if text.isdigit():
+        whole = int(text)
+        return whole if whole <= LONG_LIMIT else float(whole)
+    return float(text)
+
+
+def _based(text: str) -> int:
+    """The signed 32-bit value of `&H...` or `&B...`."""
+    value = int(text[2:], 16 if text[1] in "Hh" else 2)
+    return value - 2**32 if value >= 2**31 else value
+
+
+def _content(text: str) -> str:
+    closed = len(text) > 1 and text.count('"') % 2 == 0
+    return text[1 : -1 if closed else None].replace('""', '"')
+
+
+# Typographic characters, as UTF-8 sequences (tried first) and as single bytes.
+_QUOTE = "\x84\x93\x94"
+_APOSTROPHE = "\x91\x92"
+_DASH = "\x96\x97"
+_UTF8 = {
+    "\xe2\x80\x9c": '"', "\xe2\x80\x9d": '"', "\xe2\x80\x9e": '"',
+    "\xe2\x80\x98": "'", "\xe2\x80\x99": "'",
+    "\xe2\x80\x93": "-", "\xe2\x80\x94": "-", "\xe2\x88\x92": "-",
+    "\xc2\xa0": " ",
+}  # fmt: skip
+_SINGLE = (
+    dict.fromkeys(_QUOTE, '"')
+    | dict.fromkeys(_APOSTROPHE, "'")
+    | dict.fromkeys(_DASH, "-")
+    | {"\xa0": " "}
+)
+_ASCII_FORM = _UTF8 | _SINGLE
+_CHARACTER = re.compile(
+    r"[\xc2-\xdf][\x80-\xbf]|[\xe0-\xef][\x80-\xbf]{2}|[\xf0-\xf4][\x80-\xbf]{3}|.",
+    re.DOTALL,
+)
+_REM_AHEAD = re.compile(r"(?<![A-Za-z$])REM(?![A-Za-z$])", re.IGNORECASE)
+
+
+def plain(line: str | bytes) -> str:
+    """The line as the lexer reads it, one character per byte, typography made ASCII.
+
+    Strings and remarks keep their apostrophes and dashes as sent; typographic double
+    quotes open and close strings like the plain one.
+    """
+    text = line.decode("latin-1") if isinstance(line, bytes) else line
+    if text.isascii():
+        return text
+    if not isinstance(line, bytes):
+        text = text.encode("utf-8").decode("latin-1")
+    return "".join(_plain_parts(text))
+
+
+def _plain_parts(text: str) -> Iterator[str]:
+    in_string = False
+    at = 0
+    while at < len(text):
+        if not in_string and _REM_AHEAD.match(text, at):
+            yield text[at:]
+            return
+        character = _CHARACTER.match(text, at)[0]  # type: ignore[index]
+        form = _ASCII_FORM.get(character, character)
+        if form == '"':
+            in_string = not in_string
+        elif in_string:
+            form = character
+        yield form
+        at += len(character)
