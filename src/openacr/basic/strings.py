@@ -8,11 +8,10 @@ devices of the program.
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
-from enum import Enum
 from typing import TypeVar
 
 from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import function
 from openacr.errors import CardError
 from openacr.messages import MATH_ERROR, TYPE_MISMATCH
 
@@ -24,120 +23,76 @@ _NUMBER = re.compile(
 )
 
 
-class Type(Enum):
-    """What an argument or a result is."""
-
-    TEXT = "string"
-    NUMBER = "number"
-    EITHER = "string or number"
-
-
-@dataclass(frozen=True, slots=True)
-class StringFunction:
-    """One function of the language: its name, what it takes and gives, and how."""
-
-    name: str
-    arguments: tuple[Type, ...]
-    result: Type
-    fewest: int
-    apply: Callable[..., str | float]
-    optional_first: bool = False
-
-    @property
-    def doc(self) -> str:
-        """What the reference says about it."""
-        return self.apply.__doc__ or ""
-
-    def call(self, *arguments: str | float) -> str | float:
-        """Check the arguments and evaluate; a long result is cut to 255 characters."""
-        expected = self.arguments
-        if self.optional_first:
-            expected = expected[len(expected) - len(arguments) :]
-        for kind, argument in zip(expected, arguments, strict=False):
-            if kind is not Type.EITHER and isinstance(argument, str) != (kind is Type.TEXT):
-                raise CardError(TYPE_MISMATCH)
-        result = self.apply(*arguments)
-        return result[:LONGEST_STRING] if isinstance(result, str) else result
-
-
-FUNCTIONS: dict[str, StringFunction] = {}
-
 _Function = TypeVar("_Function", bound=Callable[..., str | float])
 
 
 def _function(
-    name: str,
-    *arguments: Type,
-    gives: Type,
-    fewest: int | None = None,
-    optional_first: bool = False,
+    name: str, takes: str, *, fewest: int | None = None
 ) -> Callable[[_Function], _Function]:
-    """Enter the decorated function under `name`."""
+    """Enter the decorated function under `name`; its first line is what HELP tools show."""
 
     def enter(apply: _Function) -> _Function:
-        least = len(arguments) if fewest is None else fewest
-        if name in FUNCTIONS:
-            raise ValueError(f"{name} is defined twice")
-        FUNCTIONS[name] = StringFunction(name, arguments, gives, least, apply, optional_first)
+        summary = (apply.__doc__ or "").split("\n")[0]
+        function(name, takes, fewest=fewest, apply=apply, summary=summary)
         return apply
 
     return enter
 
 
-@_function("ASC", Type.TEXT, gives=Type.NUMBER)
+@_function("ASC", "s")
 def asc(text: str) -> float:
     """Code of the first character; 0 for an empty string."""
     return float(ord(text[0])) if text else 0.0
 
 
-@_function("CHR$", Type.NUMBER, gives=Type.TEXT)
+@_function("CHR$", "n")
 def chr_(code: float) -> str:
     """One character; the code is taken modulo 256."""
     return chr(whole(code) % 256)
 
 
-@_function("LEFT$", Type.TEXT, Type.NUMBER, gives=Type.TEXT)
+@_function("LEFT$", "sn")
 def left(text: str, count: float) -> str:
     """First `count` characters."""
     return text[: max(whole(count), 0)]
 
 
-@_function("RIGHT$", Type.TEXT, Type.NUMBER, gives=Type.TEXT)
+@_function("RIGHT$", "sn")
 def right(text: str, count: float) -> str:
     """Last `count` characters."""
     return text[max(len(text) - max(whole(count), 0), 0) :]
 
 
-@_function("MID$", Type.TEXT, Type.NUMBER, Type.NUMBER, gives=Type.TEXT, fewest=2)
+@_function("MID$", "snn", fewest=2)
 def mid(text: str, start: float, count: float = LONGEST_STRING) -> str:
     """`count` characters from position `start` (1 is the first); without count to the end."""
     first = max(whole(start), 1) - 1
     return text[first : first + max(whole(count), 0)]
 
 
-@_function("LEN", Type.TEXT, gives=Type.NUMBER)
+@_function("LEN", "s")
 def len_(text: str) -> float:
     """Number of characters."""
     return float(len(text))
 
 
-@_function(
-    "INSTR", Type.NUMBER, Type.TEXT, Type.TEXT, gives=Type.NUMBER, fewest=2, optional_first=True
-)
+@_function("INSTR", "ees", fewest=2)
 def instr(*arguments: str | float) -> float:
     """Position of the second string in the first, 0 if absent; an empty one is at start."""
-    start = max(whole(float(arguments[0])), 1) if len(arguments) == 3 else 1
-    text, find = str(arguments[-2]), str(arguments[-1])
+    first, text, find = arguments if len(arguments) == 3 else (1, *arguments)
+    if not isinstance(text, str) or not isinstance(find, str) or isinstance(first, str):
+        raise CardError(TYPE_MISMATCH)
+    start = max(whole(first), 1)
     return float(text.find(find, start - 1) + 1) if find else float(start)
 
 
-@_function("STR$", Type.NUMBER, gives=Type.TEXT)
+@_function("STR$", "n")
 def str_(value: float, kind: Kind = Kind.DOUBLE) -> str:
     """The text PRINT shows for the value."""
     return number_text(value, kind)
 
 
-@_function("VAL", Type.TEXT, gives=Type.NUMBER)
+@_function("VAL", "s")
 def val(text: str) -> float:
     """Leading number of the text: blanks, sign, decimals, exponent or &H; none gives 0."""
     match = _NUMBER.match(text)
@@ -152,32 +107,32 @@ def val(text: str) -> float:
     return 0.0 - size if match["sign"] == "-" else size
 
 
-@_function("UCASE$", Type.TEXT, gives=Type.TEXT)
+@_function("UCASE$", "s")
 def ucase(text: str) -> str:
     """The letters A to Z in upper case."""
     return text.encode("latin-1").upper().decode("latin-1")
 
 
-@_function("LCASE$", Type.TEXT, gives=Type.TEXT)
+@_function("LCASE$", "s")
 def lcase(text: str) -> str:
     """The letters A to Z in lower case."""
     return text.encode("latin-1").lower().decode("latin-1")
 
 
-@_function("SPACE$", Type.NUMBER, gives=Type.TEXT)
+@_function("SPACE$", "n")
 def space(count: float) -> str:
     """`count` blanks."""
     return " " * min(whole(count), LONGEST_STRING)
 
 
-@_function("STRING$", Type.NUMBER, Type.EITHER, gives=Type.TEXT)
+@_function("STRING$", "ne")
 def string(count: float, character: str | float) -> str:
     """`count` times a character, given by its code or as the first of a string."""
     one = character[:1] if isinstance(character, str) else chr_(character)
     return one * min(whole(count), LONGEST_STRING)
 
 
-@_function("HEX$", Type.NUMBER, gives=Type.TEXT)
+@_function("HEX$", "n")
 def hex_(value: float) -> str:
     """Hexadecimal digits of the 32-bit value."""
     return f"{whole(value) & 0xFFFFFFFF:X}"

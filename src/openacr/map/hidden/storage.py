@@ -34,8 +34,7 @@ SYSTEM_STORAGE = HiddenBlock(
     prefix="SM",
     count=1,
     ints=(
-        "p_count",  # P0 .. P(count - 1) exist
-        "def_count",
+        "def_count",  # aliases there is space for
         ("stream_bytes", STREAMS),
     ),
 )

@@ -1,0 +1,316 @@
+"""DIM, CLEAR and MEM as storage sees them."""
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openacr.basic.heap import ARRAYS, SCALARS, Heap
+from openacr.basic.storage import Storage
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+FACTORY_FREE = 1048576 - 8 * 65536
+
+
+@pytest.fixture
+def storage() -> Storage:
+    return Storage(Memory())
+
+
+def row(storage: Storage, program: int, offset: int) -> int:
+    return storage.heap.row(program, offset)
+
+
+def test_a_new_card_shares_half_its_memory_among_eight_programs(storage: Storage) -> None:
+    assert [storage.size(owner) for owner in range(24)] == [65536] * 8 + [0] * 16
+    assert storage.free_system() == FACTORY_FREE
+    assert storage.global_count == 0
+    assert storage.stream_size("COM1") == 256
+    assert list(storage.system_lines()) == []
+
+
+def test_the_first_dim_of_a_program_replaces_its_share(storage: Storage) -> None:
+    storage.dimension_program(0, 8192)
+    assert storage.size(0) == 8192
+    assert storage.free_system() == FACTORY_FREE + 65536 - 8192
+    with pytest.raises(CardError, match="Re-dimensioned block"):
+        storage.dimension_program(0, 8192)
+
+
+def test_a_share_with_a_stored_program_is_not_replaced(storage: Storage) -> None:
+    storage.set_code_bytes(0, 100)
+    with pytest.raises(CardError, match="Program in memory"):
+        storage.dimension_program(0, 8192)
+
+
+def test_dim_refuses_more_than_there_is(storage: Storage) -> None:
+    with pytest.raises(CardError, match="Out of memory"):
+        storage.dimension_program(15, FACTORY_FREE + 1)
+    storage.dimension_program(15, FACTORY_FREE)
+    with pytest.raises(CardError, match="Out of memory"):
+        storage.dimension_globals(1)
+
+
+@pytest.mark.parametrize("count", [0, -1, 4097])
+def test_the_number_of_globals_is_limited(storage: Storage, count: int) -> None:
+    with pytest.raises(CardError, match="Invalid argument"):
+        storage.dimension_globals(count)
+
+
+@pytest.mark.req("ACR-MEM-08")
+def test_4096_globals_hold_64_bit_floats(storage: Storage) -> None:
+    storage.dimension_globals(4096)
+    storage.memory.write(4095, 0.1)
+    assert storage.memory.read(4095) == 0.1
+    assert storage.memory.read(0) == 0
+    assert storage.free_system() == FACTORY_FREE - 8 * 4096
+
+
+def test_aliases_cost_48_bytes_each_and_16_together(storage: Storage) -> None:
+    storage.dimension_defines(20)
+    assert storage.free_system() == FACTORY_FREE - 20 * 48 - 16
+
+
+def test_stream_buffers_can_be_enlarged_and_returned(storage: Storage) -> None:
+    storage.dimension_stream("COM1", 1000)
+    assert storage.stream_size("COM1") == 1000
+    assert storage.memory.bit(1869)
+    assert storage.free_system() == FACTORY_FREE - 1000
+    with pytest.raises(CardError, match="Re-dimensioned block"):
+        storage.dimension_stream("COM1", 1000)
+    storage.clear_stream("COM1")
+    assert storage.stream_size("COM1") == 256
+    assert not storage.memory.bit(1869)
+
+
+def test_a_channel_the_card_lacks_is_an_invalid_device() -> None:
+    storage = Storage(Memory(), streams=("COM1",))
+    with pytest.raises(CardError, match="Invalid device"):
+        storage.dimension_stream("DPCB", 1000)
+    with pytest.raises(CardError, match="Invalid device"):
+        storage.clear_stream("FIFO")
+
+
+def test_dim_at_sys_lists_what_was_dimensioned(storage: Storage) -> None:
+    storage.dimension_plc(3, 2000)
+    storage.dimension_program(15, 16384)
+    storage.dimension_defines(20)
+    storage.dimension_globals(100)
+    storage.dimension_stream("COM1", 1000)
+    assert list(storage.system_lines()) == [
+        "DIM PROG15(16384)", "DIM PLC3(2000)", "DIM P(100)", "DIM DEF(20)", "DIM COM1(1000)",
+    ]  # fmt: skip
+
+
+def test_system_clear_returns_to_the_factory_allocation(storage: Storage) -> None:
+    storage.dimension_program(0, 8192)
+    storage.dimension_plc(0, 2000)
+    storage.dimension_globals(100)
+    storage.dimension_defines(20)
+    storage.locals.variables(1, "LV", 10)
+    storage.clear_system()
+    assert storage.free_system() == FACTORY_FREE
+    assert list(storage.system_lines()) == []
+    assert storage.free_program(1) == 65536
+    storage.dimension_program(0, 8192)
+    assert storage.size(0) == 8192
+
+
+def test_system_clear_needs_erased_programs(storage: Storage) -> None:
+    storage.set_code_bytes(1, 8)
+    with pytest.raises(CardError, match="Program in memory"):
+        storage.clear_system()
+
+
+@pytest.mark.parametrize(
+    ("name", "count", "cost"), [("LV", 10, 40), ("SV", 10, 40), ("DV", 10, 80)]
+)
+def test_variables_cost_their_size(storage: Storage, name: str, count: int, cost: int) -> None:
+    storage.locals.variables(0, name, count)
+    assert storage.free_program(0) == 65536 - cost
+
+
+def test_strings_and_arrays_cost_what_the_table_says(storage: Storage) -> None:
+    free = [storage.free_program(0)]
+
+    def spent() -> int:
+        free.append(storage.free_program(0))
+        return free[-2] - free[-1]
+
+    storage.locals.string_variables(0, 10, 80)
+    assert spent() == 10 * (4 + 80)
+    storage.locals.references(0, "LA", 3)
+    assert spent() == 4 * 3 + 4
+    storage.locals.array(0, "LA", 0, 100)
+    assert spent() == 4 * 100 + 4
+    storage.locals.references(0, "SA", 1)
+    storage.locals.array(0, "SA", 0, 7)
+    assert spent() == 8 + 4 * 7 + 4
+    storage.locals.references(0, "DA", 1)
+    storage.locals.array(0, "DA", 0, 7)
+    assert spent() == 8 + 8 * 7 + 4
+    storage.locals.references(0, "$A", 2)
+    storage.locals.string_array(0, 1, 5, 20)
+    assert spent() == 12 + 5 * 20
+    storage.locals.move_buffer(0, 10)
+    assert spent() == 1360
+
+
+def test_dim_at_a_program_lists_its_locals(storage: Storage) -> None:
+    storage.locals.string_variables(2, 10, 80)
+    storage.locals.variables(2, "DV", 5)
+    storage.locals.variables(2, "LV", 3)
+    storage.locals.references(2, "LA", 2)
+    storage.locals.array(2, "LA", 1, 500)
+    storage.locals.references(2, "$A", 1)
+    storage.locals.string_array(2, 0, 4, 16)
+    storage.locals.move_buffer(2, 7)
+    assert list(storage.locals.lines(2)) == [
+        "DIM LV(3)", "DIM DV(5)", "DIM $V(10,80)", "DIM LA(2)", "DIM LA1(500)",
+        "DIM $A(1)", "DIM $A0(4,16)", "DIM MBUF(7)",
+    ]  # fmt: skip
+    assert list(storage.locals.lines(3)) == []
+
+
+def test_a_refused_dim_leaves_the_old_state_usable(storage: Storage) -> None:
+    storage.locals.variables(0, "LV", 4)
+    storage.memory.I[row(storage, 0, at.STI_LV_BASE)] = 77
+    with pytest.raises(CardError, match="Re-dimensioned block"):
+        storage.locals.variables(0, "LV", 4)
+    with pytest.raises(CardError, match="Re-dimensioned block"):
+        storage.locals.variables(0, "LV", 5, repeat=True)
+    storage.locals.variables(0, "LV", 4, repeat=True)
+    assert storage.memory.I[row(storage, 0, at.STI_LV_BASE)] == 77
+    assert storage.free_program(0) == 65536 - 16
+
+
+def test_a_running_program_may_repeat_all_its_dims(storage: Storage) -> None:
+    for _ in range(2):
+        storage.locals.string_variables(0, 2, 10, repeat=True)
+        storage.locals.references(0, "DA", 1, repeat=True)
+        storage.locals.array(0, "DA", 0, 9, repeat=True)
+        storage.locals.references(0, "$A", 1, repeat=True)
+        storage.locals.string_array(0, 0, 2, 3, repeat=True)
+        storage.locals.move_buffer(0, 5, repeat=True)
+    with pytest.raises(CardError, match="Re-dimensioned block"):
+        storage.locals.string_variables(0, 2, 11, repeat=True)
+
+
+def test_arrays_need_references_first(storage: Storage) -> None:
+    with pytest.raises(CardError, match="Undefined variable"):
+        storage.locals.array(0, "LA", 0, 10)
+    with pytest.raises(CardError, match="Undefined variable"):
+        storage.locals.string_array(0, 0, 10, 10)
+    storage.locals.references(0, "LA", 1)
+    with pytest.raises(CardError, match="Subscript out of range"):
+        storage.locals.array(0, "LA", 1, 10)
+
+
+def test_locals_are_refused_beyond_the_memory_of_the_program(storage: Storage) -> None:
+    with pytest.raises(CardError, match="Out of memory"):
+        storage.locals.variables(8, "LV", 1)
+    with pytest.raises(CardError, match="Out of memory"):
+        storage.locals.variables(0, "DV", 8193)
+    storage.locals.variables(0, "DV", 8192)
+    assert storage.free_program(0) == 0
+
+
+def test_text_is_refused_beyond_the_memory_of_the_program(storage: Storage) -> None:
+    storage.set_code_bytes(0, 65536)
+    with pytest.raises(CardError, match="Out of memory"):
+        storage.set_code_bytes(0, 65540)
+    storage.set_code_bytes(0, 4)
+    assert storage.free_program(0) == 65532
+
+
+def test_open_flow_levels_take_four_bytes_each() -> None:
+    storage = Storage(Memory(), flow_levels=lambda program: 3)
+    assert storage.free_program(0) == 65536 - 12
+
+
+def test_program_clear_frees_locals_of_that_program_only(storage: Storage) -> None:
+    for program in (0, 1):
+        storage.locals.variables(program, "LV", 10)
+        storage.locals.string_variables(program, 1, 10)
+    storage.locals.clear(0)
+    assert storage.free_program(0) == 65536
+    assert storage.free_program(1) == 65536 - 40 - 14
+    storage.locals.variables(0, "LV", 20)
+    storage.locals.string_variables(0, 3, 5)
+
+
+def test_strings_are_cut_to_their_dimensioned_length(storage: Storage) -> None:
+    storage.locals.string_variables(0, 2, 4)
+    block = storage.locals.strings[0].variable(1)
+    assert block.read(1) == ""
+    block.write(1, "abcdef")
+    assert block.read(1) == "abcd"
+    with pytest.raises(CardError, match="Undefined variable"):
+        storage.locals.strings[0].variable(2)
+    with pytest.raises(CardError, match="Undefined variable"):
+        storage.locals.strings[0].array(0)
+
+
+def test_elements_of_string_arrays_have_their_bounds(storage: Storage) -> None:
+    storage.locals.references(0, "$A", 1)
+    storage.locals.string_array(0, 0, 2, 4)
+    array = storage.locals.strings[0].array(0)
+    array.write(1, "hello")
+    assert array.read(1) == "hell"
+    with pytest.raises(CardError, match="Subscript out of range"):
+        array.read(2)
+
+
+def test_memory_and_string_state_together_restore_everything(storage: Storage) -> None:
+    storage.locals.string_variables(0, 2, 4)
+    storage.locals.references(0, "$A", 2)
+    storage.locals.string_array(0, 1, 2, 4)
+    storage.locals.strings[0].variable(0).write(0, "one")
+    storage.dimension_globals(10)
+    saved, strings = storage.memory.snapshot(), storage.locals.strings_state()
+    storage.locals.clear(0)
+    other = Storage(Memory())
+    other.memory.restore(saved)
+    other.locals.restore_strings(strings)
+    assert other.locals.strings[0].variable(0).read(0) == "one"
+    assert list(other.locals.lines(0)) == ["DIM $V(2,4)", "DIM $A(2)", "DIM $A1(2,4)"]
+    assert other.global_count == 10
+
+
+def test_elements_lie_behind_their_header_at_the_documented_place(storage: Storage) -> None:
+    memory = storage.memory
+    storage.locals.variables(0, "LV", 1)
+    storage.locals.references(0, "DA", 2)
+    storage.locals.array(0, "DA", 1, 3)
+    header = memory.I[row(storage, 0, at.STI_DA_BASE) + 1]
+    assert memory.I[header] == 3
+    assert header % 2 == 1
+    memory.F[(header + 1) // 2 + 2] = 1.5
+    assert memory.I[row(storage, 0, at.STI_DA_BASE)] == 0
+
+
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 7), st.sampled_from(range(7)), st.integers(1, 50)), max_size=25
+    )
+)
+def test_blocks_in_the_heap_never_overlap(steps: list[tuple[int, int, int]]) -> None:
+    heap = Heap(Memory())
+    for program, what, count in steps:
+        if what == 6:
+            heap.free(program)
+        elif what < 3 and not heap.row(program, SCALARS[what].count_row):
+            heap.place_scalars(program, SCALARS[what], count)
+        elif what >= 3:
+            kind = ARRAYS[what - 3]
+            if not heap.row(program, kind.count_row):
+                heap.place_references(program, kind, 1)
+            if not heap.array_count(program, kind, 0):
+                heap.place_array(program, kind, 0, count)
+    blocks = sorted(heap._blocks())
+    for first, second in pairwise(blocks):
+        assert first.start + first.words <= second.start
+    assert all(block.start * 4 >= at.HEAP_BYTE_BASE for block in blocks)
