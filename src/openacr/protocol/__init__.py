@@ -1,0 +1,1 @@
+"""How hosts talk to the card: text lines and binary packets, sans I/O and without a clock."""

@@ -1,0 +1,93 @@
+"""MODE 0 to 3: how the data bytes of a binary transfer travel (UG2 ch. 6).
+
+Prefixing keeps control characters (and with them XON and XOFF) out of the data,
+stripping keeps the high bit out for 7-bit lines. The header byte that starts a transfer
+is never converted; everything behind it is.
+"""
+
+from dataclasses import dataclass
+from enum import IntFlag
+
+PREFIX = ord("#")
+HIGH = ord("&")
+TOGGLE = 0x40  # turns a control character into a printable one and back
+
+
+class BinaryMode(IntFlag):
+    """The value of the MODE command; stripping alone (MODE 2) converts nothing."""
+
+    PLAIN = 0
+    PREFIX_CONTROLS = 1
+    STRIP_HIGH_BIT = 2
+
+    @property
+    def prefixes(self) -> bool:
+        """Control characters travel behind a `#`."""
+        return bool(self & BinaryMode.PREFIX_CONTROLS)
+
+    @property
+    def strips(self) -> bool:
+        """Bytes above 0x7F travel behind an `&`."""
+        return self.prefixes and bool(self & BinaryMode.STRIP_HIGH_BIT)
+
+
+def _encode_byte(byte: int, strips: bool) -> bytes:
+    """One data byte as it travels with prefixing on."""
+    if strips and byte > 0x7F:
+        return bytes((HIGH,)) + _encode_byte(byte & 0x7F, strips)
+    if byte < 0x20 or byte == 0x7F:
+        return bytes((PREFIX, byte ^ TOGGLE))
+    if byte == PREFIX or (strips and byte == HIGH):
+        return bytes((PREFIX, byte))
+    return bytes((byte,))
+
+
+_TABLES = {strips: [_encode_byte(byte, strips) for byte in range(256)] for strips in (False, True)}
+
+
+def encode(data: bytes, mode: BinaryMode) -> bytes:
+    """The data bytes of a transfer (without its header byte) as they travel in `mode`."""
+    if not mode.prefixes:
+        return data
+    table = _TABLES[mode.strips]
+    return b"".join([table[byte] for byte in data])
+
+
+def encode_packet(packet: bytes, mode: BinaryMode) -> bytes:
+    """A whole packet as it travels in `mode`: its header byte stays as it is."""
+    return packet[:1] + encode(packet[1:], mode)
+
+
+@dataclass(slots=True)
+class Decoder:
+    """Gives back the data bytes of one transfer, received byte by byte."""
+
+    mode: BinaryMode
+    _prefixed: bool = False
+    _high: bool = False
+
+    def feed(self, byte: int) -> int | None:
+        """The data byte that `byte` completes, or None when more must follow."""
+        if not self.mode.prefixes:
+            return byte
+        if self._prefixed:
+            return self._deliver(byte ^ TOGGLE if 0x3F <= byte <= 0x5F else byte)
+        if byte == PREFIX:
+            self._prefixed = True
+            return None
+        if byte == HIGH and self.mode.strips and not self._high:
+            self._high = True
+            return None
+        return self._deliver(byte)
+
+    def _deliver(self, byte: int) -> int:
+        value = byte | 0x80 if self._high else byte
+        self._prefixed = self._high = False
+        return value
+
+
+def decode(data: bytes, mode: BinaryMode) -> bytes:
+    """The data bytes (without header byte) that travelled as `data`."""
+    decoder = Decoder(mode)
+    decoded = (decoder.feed(byte) for byte in data)
+    return bytes(byte for byte in decoded if byte is not None)

@@ -1,0 +1,58 @@
+"""Cuts binary packets out of a byte stream: lengths, MODE conversion, time-out, padding.
+
+A packet may arrive in any number of pieces; when the gap between two bytes exceeds the
+time-out of the channel, what was received so far is thrown away and the next byte counts
+as the first one of something new. Time is an argument: this module knows no clock.
+"""
+
+from dataclasses import dataclass, field
+
+from openacr.protocol.escape import BinaryMode, Decoder
+from openacr.protocol.packets import Packet, PacketError, decode, total_length
+
+DPCB_PADDED = frozenset((0x1C, 0x1D))
+
+
+@dataclass(slots=True)
+class PacketReader:
+    """Collects one packet at a time; `dpcb` makes SET and CLR four bytes long."""
+
+    dpcb: bool = False
+    _data: bytearray = field(default_factory=bytearray)
+    _decoder: Decoder = field(default_factory=lambda: Decoder(BinaryMode.PLAIN))
+    _tick: int = 0
+
+    @property
+    def reading(self) -> bool:
+        """A packet has started and is not complete."""
+        return bool(self._data)
+
+    def start(self, header: int, mode: BinaryMode, tick: int) -> None:
+        """Begin with a header byte; the data behind it travel in `mode`."""
+        self._data = bytearray((header,))
+        self._decoder = Decoder(mode)
+        self._tick = tick
+
+    def expire(self, tick: int, timeout_tk: int) -> None:
+        """Throw away what is there when the gap before a byte at `tick` is too long."""
+        if self.reading and tick - self._tick > timeout_tk:
+            self._data.clear()
+
+    def feed(self, byte: int, tick: int) -> Packet | None:
+        """The packet completed by this byte, if any; PacketError for a broken one."""
+        self._tick = tick
+        value = self._decoder.feed(byte)
+        if value is None:
+            return None
+        self._data.append(value)
+        so_far = bytes(self._data)
+        try:
+            length = total_length(so_far)
+        except PacketError:
+            self._data.clear()
+            raise
+        padded = self.dpcb and so_far[0] in DPCB_PADDED
+        if len(so_far) < length + padded:
+            return None
+        self._data.clear()
+        return decode(so_far[:length])

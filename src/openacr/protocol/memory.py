@@ -1,0 +1,164 @@
+"""Packets that address the card's memory in 32-bit words (UG2 ch. 6).
+
+An FP64 value occupies two words, so conversion code 1 advances two addresses per value;
+the other codes advance one. The data always travel as four bytes per value.
+"""
+
+import struct
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import ClassVar, Self
+
+from openacr.protocol.packet import (
+    RESERVED_U32,
+    U8,
+    U32,
+    WORD_BYTES,
+    Packet,
+    PacketError,
+    Part,
+    pack_word,
+    register,
+)
+
+HEAD_BYTES = 8
+
+
+class Conversion(IntEnum):
+    """Conversion code of peek and poke: what is stored in the card's memory."""
+
+    LONG = 0
+    FP64 = 1
+    FP32 = 2
+
+    @property
+    def words(self) -> int:
+        """Memory words one value occupies."""
+        return 2 if self is Conversion.FP64 else 1
+
+
+class VariableKind(IntEnum):
+    """Parameter code of the address packet: which local variables of a program."""
+
+    DV = 0
+    DA = 1
+    SV = 2
+    SA = 3
+    LV = 4
+    LA = 5
+    STRING_VARIABLES = 6
+    STRING_ARRAYS = 7
+
+
+def _conversion(code: int) -> Conversion:
+    try:
+        return Conversion(code)
+    except ValueError:
+        raise PacketError(f"conversion code {code} is none of 0, 1, 2") from None
+
+
+@register
+@dataclass(frozen=True, slots=True)
+class Peek(Packet):
+    """Read `count` values from an address on."""
+
+    HEADER: ClassVar[bytes] = b"\x00\x90"
+    code: U8
+    count: U8
+    address: U32
+
+    @property
+    def conversion(self) -> Conversion:
+        """What the words in memory are; PacketError for an unknown code."""
+        return _conversion(self.code)
+
+    def reply_words(self) -> int:
+        """One word per value."""
+        return self.count
+
+
+@register
+@dataclass(frozen=True, slots=True)
+class Poke(Packet):
+    """Write values from an address on; the card sends nothing back."""
+
+    HEADER: ClassVar[bytes] = b"\x00\x91"
+    code: U8
+    count: U8
+    address: U32
+    values: tuple[int | float, ...] = ()
+
+    @classmethod
+    def of(cls, conversion: Conversion, address: int, values: tuple[int | float, ...]) -> Self:
+        """The packet that writes these values (LONG: integers, else floats)."""
+        return cls(conversion, len(values), address, values)
+
+    @classmethod
+    def total_length(cls, prefix: bytes) -> int:
+        """Head plus one word per value, once the count is there."""
+        return HEAD_BYTES + (WORD_BYTES * prefix[3] if len(prefix) > 3 else 0)
+
+    @classmethod
+    def decode(cls, data: bytes) -> Self:
+        """The packet in these bytes; data are integers for code 0 and IEEE otherwise."""
+        if len(data) < HEAD_BYTES or len(data) != cls.total_length(data):
+            raise PacketError(f"Poke: {len(data)} bytes do not fit the count")
+        code, count, address = struct.unpack_from("<BBI", data, 2)
+        kind = "i" if code == Conversion.LONG else "f"
+        return cls(code, count, address, struct.unpack_from(f"<{count}{kind}", data, HEAD_BYTES))
+
+    def encode(self) -> bytes:
+        """Head and data."""
+        if len(self.values) != self.count or self.count > 255:
+            raise PacketError(f"Poke: {len(self.values)} values, count {self.count}, at most 255")
+        whole = self.code == Conversion.LONG
+        data = [pack_word(int(v) if whole else float(v)) for v in self.values]
+        return (
+            self.HEADER + struct.pack("<BBI", self.code, self.count, self.address) + b"".join(data)
+        )
+
+    @property
+    def conversion(self) -> Conversion:
+        """What the words in memory become; PacketError for an unknown code."""
+        return _conversion(self.code)
+
+    def explain(self) -> list[Part]:
+        """Head and one line per value."""
+        data = self.encode()
+        parts = [
+            Part(data[:2], "header", "Poke"),
+            Part(data[2:3], "code", self.code),
+            Part(data[3:4], "count", self.count),
+            Part(data[4:8], "address", self.address),
+        ]
+        return parts + [
+            Part(data[at : at + WORD_BYTES], f"value {n}", value)
+            for n, value in enumerate(self.values)
+            for at in (HEAD_BYTES + WORD_BYTES * n,)
+        ]
+
+
+@register
+@dataclass(frozen=True, slots=True)
+class VariableAddress(Packet):
+    """Ask where the local variables of one kind lie; 0 means the program has none."""
+
+    HEADER: ClassVar[bytes] = b"\x00\x92"
+    program: U8
+    kind: U8
+
+    def reply_words(self) -> int:
+        """The address."""
+        return 1
+
+
+@register
+@dataclass(frozen=True, slots=True)
+class MaskMemory(Packet):
+    """Clear the bits of `nand_mask`, then set those of `or_mask`, in a word of memory."""
+
+    # The layout prints BYTE for the three fields (erratum); the example has four bytes each.
+    HEADER: ClassVar[bytes] = b"\x00\x94"
+    address: RESERVED_U32
+    nand_mask: U32
+    or_mask: U32

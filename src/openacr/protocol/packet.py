@@ -1,0 +1,146 @@
+"""What all binary packets share: fields, header table, replies and hex explanation.
+
+A packet is a frozen dataclass whose annotations are its wire layout. Decoding, encoding,
+the length of an incomplete packet and the explanation of a hex dump are derived from them.
+Every reply of the card is the request repeated, followed by four-byte words (UG2 ch. 6).
+"""
+
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Annotated, ClassVar, Self, TypeVar, get_type_hints
+
+from openacr.errors import OpenacrError
+
+HEADER_IDS = frozenset((0x00, 0x04, 0x07, 0x1C, 0x1D, 0x1F))
+WORD_BYTES = 4
+
+
+class PacketError(OpenacrError):
+    """A packet that cannot be built, or bytes that are not the packet they should be."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wire:
+    """How one field travels: a `struct` format, low byte first."""
+
+    format: str
+
+    @property
+    def size(self) -> int:
+        """Bytes on the wire."""
+        return struct.calcsize("<" + self.format)
+
+
+U8 = Annotated[int, Wire("B")]
+U16 = Annotated[int, Wire("H")]
+I32 = Annotated[int, Wire("i")]
+U32 = Annotated[int, Wire("I")]
+F32 = Annotated[float, Wire("f")]
+RESERVED_U32 = Annotated[int, Wire("2xI")]  # behind two reserved bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One line of an explained hex dump: these bytes are this field with this value."""
+
+    data: bytes
+    name: str
+    value: object
+
+    def __str__(self) -> str:
+        return f"{self.data.hex(' ').upper():<24}{self.name} = {self.value}"
+
+
+class Packet:
+    """Base of all packets a host can send."""
+
+    __slots__ = ()
+    HEADER: ClassVar[bytes]
+    REFERENCE: ClassVar[str] = "UG2 ch. 6"
+
+    @classmethod
+    def total_length(cls, prefix: bytes) -> int:
+        """Bytes of the whole packet as far as `prefix` tells; more may turn out later."""
+        return len(cls.HEADER) + sum(wire.size for _, wire in wires(cls))
+
+    @classmethod
+    def decode(cls, data: bytes) -> Self:
+        """The packet in exactly these bytes."""
+        if len(data) != cls.total_length(data):
+            raise PacketError(f"{cls.__name__}: {len(data)} bytes, {cls.total_length(data)} wanted")
+        return cls(*struct.unpack(_format(cls), data[len(cls.HEADER) :]))
+
+    def encode(self) -> bytes:
+        """The bytes a host sends, before any MODE conversion."""
+        values = [getattr(self, name) for name, _ in wires(type(self))]
+        try:
+            return self.HEADER + struct.pack(_format(type(self)), *values)
+        except (struct.error, OverflowError) as wrong:
+            raise PacketError(f"{self}: {wrong}") from None
+
+    def reply_words(self) -> int:
+        """Four-byte words behind the repeated request; 0 when the card sends nothing."""
+        return 0
+
+    def reply(self, values: Sequence[int | float]) -> bytes:
+        """The card's answer: the request again, then integers as LONG, floats as IEEE."""
+        return self.encode() + b"".join(map(pack_word, values))
+
+    def explain(self) -> list[Part]:
+        """The packet taken apart, for hex dumps and documentation."""
+        data = self.encode()
+        at = len(self.HEADER)
+        parts = [Part(data[:at], "header", type(self).__name__)]
+        for name, wire in wires(type(self)):
+            value = getattr(self, name)
+            parts.append(Part(data[at : at + wire.size], name.replace("_", " "), value))
+            at += wire.size
+        return parts
+
+
+_WIRES: dict[type[Packet], tuple[tuple[str, Wire], ...]] = {}
+
+
+def wires(packet: type[Packet]) -> tuple[tuple[str, Wire], ...]:
+    """Name and wire form of every field of a packet class, in wire order."""
+    if packet not in _WIRES:
+        hints = get_type_hints(packet, include_extras=True)
+        _WIRES[packet] = tuple(
+            (field.name, mark)
+            for field in fields(packet)  # type: ignore[arg-type]
+            for mark in getattr(hints[field.name], "__metadata__", ())
+            if isinstance(mark, Wire)
+        )
+    return _WIRES[packet]
+
+
+def _format(packet: type[Packet]) -> str:
+    return "<" + "".join(wire.format for _, wire in wires(packet))
+
+
+def pack_word(value: int | float) -> bytes:
+    """One reply word: an integer wraps to 32 bits, a float saturates to IEEE infinity."""
+    if isinstance(value, int):
+        return struct.pack("<I", value & 0xFFFFFFFF)
+    try:
+        return struct.pack("<f", value)
+    except OverflowError:
+        return struct.pack("<f", float("inf") if value > 0 else float("-inf"))
+
+
+PACKETS: dict[bytes, type[Packet]] = {}
+P = TypeVar("P", bound=type[Packet])
+
+
+def register(packet: P) -> P:
+    """Enter a packet class into the header table; two of the same header are a mistake."""
+    if packet.HEADER in PACKETS:
+        raise ValueError(f"two packets start with {packet.HEADER.hex(' ')}")
+    PACKETS[packet.HEADER] = packet
+    return packet
+
+
+def packet_class(prefix: bytes) -> type[Packet] | None:
+    """The class of packets starting so; None while (or because) no header fits."""
+    return PACKETS.get(prefix[:2]) or PACKETS.get(prefix[:1])

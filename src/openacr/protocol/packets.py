@@ -1,0 +1,41 @@
+"""All binary packets together: find, decode and explain any of them.
+
+Importing this module loads the header table.
+"""
+
+from openacr.protocol import bits, data, memory, move, override, parameter
+from openacr.protocol.packet import HEADER_IDS, PACKETS, Packet, PacketError, Part, packet_class
+
+FAMILIES = (data, parameter, memory, bits, override, move)
+__all__ = [
+    "FAMILIES",
+    "HEADER_IDS",
+    "PACKETS",
+    "Packet",
+    "PacketError",
+    "Part",
+    "decode",
+    "explain",
+    "total_length",
+]
+
+
+def total_length(prefix: bytes) -> int:
+    """Bytes of the packet that starts so, as far as `prefix` (at least its header) tells."""
+    found = packet_class(prefix)
+    if found is None:
+        raise PacketError(f"no packet starts with {prefix[:2].hex(' ')}")
+    return found.total_length(prefix)
+
+
+def decode(packet: bytes) -> Packet:
+    """The packet in exactly these bytes (after any MODE conversion)."""
+    found = packet_class(packet)
+    if found is None:
+        raise PacketError(f"no packet starts with {packet[:2].hex(' ')}")
+    return found.decode(packet)
+
+
+def explain(packet: bytes) -> str:
+    """A hex dump of one packet with the meaning of every field."""
+    return "\n".join(map(str, decode(packet).explain()))

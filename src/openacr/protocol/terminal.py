@@ -1,0 +1,371 @@
+"""The line discipline of one stream: from bytes to lines, packets and control keys.
+
+Feed bytes with `receive_data(data, tick)`, then pull events with `next_event()` until it
+answers NEED_DATA. Act on each event before pulling the next: echo is produced as bytes
+are scanned, so the answer to a line then stands before the echo of the following one, and
+a changed ECHO or MODE counts from the next byte on.
+
+While a line is being executed the owner sets `busy`. Scanning goes on (control keys and
+packets never wait, typed characters are echoed), but complete lines queue up inside and
+come out one by one after `busy` is cleared.
+
+What the bytes mean (for TERMINAL and SERIAL streams):
+
+    CR, LF, CR LF         end of line; the LF right behind a CR does nothing, however late
+    BS, DEL               erase the last character
+    Ctrl-X, Ctrl-Y, Ctrl-Z  act at once, leave the typed characters in place
+    ESC                   ends listening; otherwise discards the typed characters
+    XON, XOFF             serial only: resume, hold output
+    00 04 07 1C 1D 1F     start of a binary packet; a typed line goes on behind it
+    other controls        ignored, except TAB
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum, IntEnum
+from typing import Final, TypeAlias
+
+from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.framing import PacketReader
+from openacr.protocol.move import Move, unpadded
+from openacr.protocol.output import Output
+from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
+from openacr.protocol.stream import EchoMode, StreamKind
+
+LINE_LIMIT = 255
+BACKLOG_LIMIT_BYTES = 1 << 16
+BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
+CRLF = b"\r\n"
+ERASE = b"\b \b"
+
+
+class ControlKey(IntEnum):
+    """Keys that act on the whole card the moment they arrive."""
+
+    CTRL_X = 0x18  # stop programs, kill all motion
+    CTRL_Y = 0x19  # clear the kill flags
+    CTRL_Z = 0x1A  # as Ctrl-X, then drives off
+
+
+class Attention(Enum):
+    """Who gets what is typed."""
+
+    COMMANDS = "commands"  # the command interpreter, line by line
+    LISTENING = "listening"  # a program (LRUN, LISTEN); ESC ends it
+    PASS_THROUGH = "pass-through"  # another device (DTALK, TALK TO); not echoed, ESC ends it
+    OPEN = "open"  # a program holds the stream OPEN: every byte is data
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A complete line for the command interpreter, without its end."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class LineTooLong:
+    """A line of more than 255 characters ended; it was discarded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """One byte for the program or device that has the attention."""
+
+    byte: int
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """Ctrl-X, Ctrl-Y or Ctrl-Z."""
+
+    code: ControlKey
+
+
+@dataclass(frozen=True, slots=True)
+class Escape:
+    """ESC while listening or passing through: end that, send CR LF and one prompt."""
+
+
+@dataclass(frozen=True, slots=True)
+class Received:
+    """A complete binary packet."""
+
+    packet: Packet
+
+
+class NeedData(Enum):
+    """The answer when all received bytes are used up."""
+
+    NEED_DATA = "need data"
+
+
+NEED_DATA: Final = NeedData.NEED_DATA
+Event: TypeAlias = Line | LineTooLong | Typed | Control | Escape | Received
+
+
+@dataclass(slots=True)
+class _Segment:
+    """Bytes that arrived together, and how far they are scanned."""
+
+    data: bytes
+    tick: int
+    at: int = 0
+
+    @property
+    def rest(self) -> bytes:
+        return self.data[self.at :]
+
+
+@dataclass(slots=True)
+class _Typing:
+    """The line being typed; of an overlong one only the length is kept."""
+
+    kept: bytearray = field(default_factory=bytearray)
+    excess: int = 0
+
+    def add(self, byte: int) -> None:
+        if len(self.kept) < LINE_LIMIT and not self.excess:
+            self.kept.append(byte)
+        else:
+            self.excess += 1
+
+    def erase(self) -> bool:
+        """Take the last character back; False when there is none."""
+        if self.excess:
+            self.excess -= 1
+        elif self.kept:
+            self.kept.pop()
+        else:
+            return False
+        return True
+
+    def finish(self) -> Line | LineTooLong:
+        event = LineTooLong() if self.excess else Line(text_of(self.kept))
+        self.clear()
+        return event
+
+    def clear(self) -> None:
+        self.kept.clear()
+        self.excess = 0
+
+
+def text_of(line: bytes | bytearray) -> str:
+    """Typed bytes as text: UTF-8 where they are, the Windows code page otherwise."""
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError:
+        return line.decode("cp1252", errors="replace")
+
+
+class Terminal:
+    """One stream of the card, sans I/O; time is the tick given with the bytes."""
+
+    def __init__(self, kind: StreamKind, *, timeout_tk: int) -> None:
+        self.kind = kind
+        self.echo = EchoMode.CHARACTERS
+        self.mode: BinaryMode = kind.startup_mode
+        self.attention = Attention.COMMANDS
+        self.busy = False
+        self.echo_line_end = True  # `INPUT;` turns this off for the line it reads
+        self.timeout_tk = timeout_tk
+        self.output = Output()
+        self._segments: deque[_Segment] = deque()
+        self._lines: deque[Line | LineTooLong] = deque()
+        self._backlog = 0
+        self._typing = _Typing()
+        self._after_cr = False
+        self._reader = PacketReader(dpcb=kind is StreamKind.DPCB)
+        self._keys = self._key_table()
+
+    def _key_table(self) -> dict[int, Callable[[], Event | None]]:
+        """Bytes with an effect of their own while text is typed."""
+        keys: dict[int, Callable[[], Event | None]] = {
+            CR: self._carriage_return,
+            LF: self._line_feed,
+            BS: self._erase,
+            DEL: self._erase,
+            ESC: self._escape,
+        }
+        if self.kind is StreamKind.SERIAL:
+            keys |= {XON: self._resume, XOFF: self._hold}
+        return keys
+
+    # --- input ------------------------------------------------------------------------
+
+    def receive_data(self, data: bytes, tick: int) -> None:
+        """Take bytes that arrived together at `tick`."""
+        if data:
+            self._segments.append(_Segment(data, tick))
+            self._backlog += len(data)
+
+    def next_event(self) -> Event | NeedData:
+        """The next event, or NEED_DATA when everything received has been dealt with."""
+        if self._lines and not self.busy and self.attention is Attention.COMMANDS:
+            return self._dequeue()
+        while self._segments:
+            event = self._scan()
+            if isinstance(event, Line | LineTooLong) and (self.busy or self._lines):
+                self._enqueue(event)
+            elif event is not None:
+                return event
+        return NEED_DATA
+
+    def _enqueue(self, line: Line | LineTooLong) -> None:
+        self._lines.append(line)
+        self._backlog += _size(line)
+
+    def _dequeue(self) -> Line | LineTooLong:
+        line = self._lines.popleft()
+        self._backlog -= _size(line)
+        return line
+
+    @property
+    def accepts_input(self) -> bool:
+        """False while so much waits that the sender should be held back."""
+        return self._backlog < BACKLOG_LIMIT_BYTES
+
+    @property
+    def waiting_lines(self) -> int:
+        """Complete lines that wait for the one being executed."""
+        return len(self._lines)
+
+    @property
+    def waiting_characters(self) -> int:
+        """Characters received and not yet executed."""
+        return self._backlog + len(self._typing.kept)
+
+    def _scan(self) -> Event | None:
+        """Use up the next byte."""
+        segment = self._segments[0]
+        byte = segment.data[segment.at]
+        segment.at += 1
+        self._backlog -= 1
+        event = self._byte(byte, segment)
+        if segment.at >= len(segment.data):
+            self._segments.popleft()
+        return event
+
+    def _byte(self, byte: int, segment: _Segment) -> Event | None:
+        self._reader.expire(segment.tick, self.timeout_tk)
+        if self._reader.reading:
+            return self._packet_byte(byte, segment)
+        if self.attention is Attention.OPEN:
+            return Control(ControlKey(byte)) if _is_control(byte) else Typed(byte)
+        if byte in HEADER_IDS:
+            return self._packet_start(byte, segment)
+        if self.kind is StreamKind.PACKETS:
+            return None
+        if _is_control(byte):
+            return Control(ControlKey(byte))
+        return self._character(byte)
+
+    # --- packets ----------------------------------------------------------------------
+
+    def _packet_start(self, byte: int, segment: _Segment) -> Event | None:
+        if byte == Move.HEADER[0] and segment.at == 1 and not self.mode.prefixes:
+            documented = unpadded(segment.data)
+            if documented is not None:
+                self._skip(segment, len(segment.rest))
+                return Received(decode(documented))
+        self._reader.start(byte, self.mode, segment.tick)
+        return None
+
+    def _packet_byte(self, byte: int, segment: _Segment) -> Event | None:
+        if self.mode.prefixes and self.kind is StreamKind.SERIAL and byte in (XON, XOFF):
+            return self._keys[byte]()
+        try:
+            packet = self._reader.feed(byte, segment.tick)
+        except PacketError:
+            return None  # nobody could answer it
+        if packet is None:
+            return None
+        if packet.HEADER in (b"\x1c", b"\x1d") and segment.rest == b"\0":
+            self._skip(segment, 1)  # padding of one host, see `bits`
+        return Received(packet)
+
+    def _skip(self, segment: _Segment, count: int) -> None:
+        segment.at += count
+        self._backlog -= count
+
+    # --- text -------------------------------------------------------------------------
+
+    def _character(self, byte: int) -> Event | None:
+        if self.attention is Attention.PASS_THROUGH:
+            return Escape() if byte == ESC else Typed(byte)
+        key = self._keys.get(byte)
+        if byte != LF:
+            self._after_cr = False
+        if key is not None:
+            return key()
+        if byte < 0x20 and byte != TAB:
+            return None
+        self._typing.add(byte)
+        self._echo(bytes((byte,)))
+        return self._typed(byte)
+
+    def _typed(self, byte: int) -> Typed | None:
+        return Typed(byte) if self.attention is Attention.LISTENING else None
+
+    def _carriage_return(self) -> Event | None:
+        self._after_cr = True
+        return self._line_end()
+
+    def _line_feed(self) -> Event | None:
+        if self._after_cr:
+            self._after_cr = False
+            return None
+        return self._line_end()
+
+    def _line_end(self) -> Event:
+        listening = self.attention is Attention.LISTENING
+        if self.echo_line_end or not listening:
+            self._echo(CRLF)
+        line = self._typing.finish()
+        return Typed(CR) if listening else line
+
+    def _erase(self) -> Event | None:
+        if self._typing.erase():
+            self._echo(ERASE)
+        return self._typed(BS)
+
+    def _escape(self) -> Event | None:
+        self._typing.clear()
+        return Escape() if self.attention is Attention.LISTENING else None
+
+    def _resume(self) -> None:
+        self.output.stopped = False
+
+    def _hold(self) -> None:
+        self.output.stopped = True
+
+    # --- output -----------------------------------------------------------------------
+
+    def _echo(self, data: bytes) -> None:
+        if self.echo & EchoMode.CHARACTERS:
+            self.output.text(data)
+
+    def send_text(self, text: str) -> None:
+        """Queue text; everything queued before the next write leaves together."""
+        self.output.text(text.encode("utf-8"))
+
+    def send_bytes(self, data: bytes) -> None:
+        """Queue bytes as they are (a program's PRINT to an open stream, pass-through)."""
+        self.output.text(data)
+
+    def send_packet(self, packet: bytes) -> None:
+        """Queue a reply packet, in a write of its own and converted by MODE."""
+        self.output.packet(encode_packet(packet, self.mode))
+
+    def data_to_send(self) -> bytes:
+        """The bytes of the next write, or none."""
+        return self.output.take()
+
+
+def _is_control(byte: int) -> bool:
+    return ControlKey.CTRL_X <= byte <= ControlKey.CTRL_Z
+
+
+def _size(line: Line | LineTooLong) -> int:
+    return len(line.text) + 1 if isinstance(line, Line) else 1

@@ -1,0 +1,216 @@
+"""Every packet of the manual byte for byte, with its errata."""
+
+import struct
+
+import pytest
+
+from openacr.protocol import packets
+from openacr.protocol.bits import ClearBit, SetBit
+from openacr.protocol.data import DataRequest, locate
+from openacr.protocol.memory import (
+    Conversion,
+    MaskMemory,
+    Peek,
+    Poke,
+    VariableAddress,
+    VariableKind,
+)
+from openacr.protocol.override import FeedrateOverride, RapidOverride
+from openacr.protocol.packet import PACKETS, Packet, PacketError
+from openacr.protocol.parameter import (
+    GetIeee,
+    GetLong,
+    MaskParameter,
+    ParameterAddress,
+    SetIeee,
+    SetLong,
+)
+
+EXAMPLES: list[tuple[str, Packet]] = [
+    ("00 30 02 2C", DataRequest(0x30, 2, 0x2C)),
+    ("00 88 00 30", GetLong(12288)),
+    ("00 89 00 30 10 11 12 00", SetLong(12288, 0x00121110)),
+    ("00 89 01 10 FE FF FF FF", SetLong(4097, -2)),
+    ("00 8A 00 20", GetIeee(8192)),
+    ("00 8B 00 20 00 00 00 3F", SetIeee(8192, 0.5)),
+    ("00 90 00 03 00 50 40 00", Peek(0, 3, 0x405000)),
+    (
+        "00 91 00 03 00 50 40 00 10 11 12 13 20 21 22 23 30 31 32 33",
+        Poke(0, 3, 0x405000, (0x13121110, 0x23222120, 0x33323130)),
+    ),
+    ("00 92 05 02", VariableAddress(5, VariableKind.SV)),
+    ("00 93 00 30", ParameterAddress(12288)),
+    (
+        "00 94 00 00 43 60 40 00 FF FF FF FF 01 00 00 00",
+        MaskMemory(0x406043, 0xFFFFFFFF, 1),
+    ),
+    ("00 95 01 10 FF FF FF FF 01 00 00 00", MaskParameter(4097, 0xFFFFFFFF, 1)),
+    ("1C 08 02", SetBit(520)),
+    ("1D 20 00", ClearBit(32)),
+    ("07 08 00 00 00 00 00 3F", FeedrateOverride.of([3], 0.5)),
+    ("1F 08 00 00 00 00 00 3F", RapidOverride.of([3], 0.5)),
+    ("07 00 00 81 00 00 80 3F", FeedrateOverride.of([8, 15], 1.0)),
+]
+
+
+@pytest.mark.req(
+    "BIN-036", "BIN-069", "BIN-072", "BIN-073", "BIN-075", "BIN-076", "BIN-078", "BIN-085",
+    "BIN-091", "BIN-098", "BIN-101", "BIN-105", "BIN-158", "BIN-163", "BIN-165", "BIN-170",
+)  # fmt: skip
+@pytest.mark.parametrize(("wire", "packet"), EXAMPLES, ids=[text for text, _ in EXAMPLES])
+def test_the_worked_examples_decode_and_encode(wire: str, packet: Packet) -> None:
+    data = bytes.fromhex(wire)
+    assert packets.decode(data) == packet
+    assert packet.encode() == data
+
+
+@pytest.mark.parametrize(("wire", "packet"), EXAMPLES, ids=[text for text, _ in EXAMPLES])
+def test_the_length_is_known_before_the_packet_is_complete(wire: str, packet: Packet) -> None:
+    data = bytes.fromhex(wire)
+    for have in range(1, len(data)):
+        assert have < packets.total_length(data[:have]) <= len(data)
+    assert packets.total_length(data) == len(data)
+
+
+@pytest.mark.parametrize(("wire", "packet"), EXAMPLES, ids=[text for text, _ in EXAMPLES])
+def test_an_explanation_covers_every_byte_once(wire: str, packet: Packet) -> None:
+    assert b"".join(part.data for part in packet.explain()).replace(b"\0", b"") == bytes.fromhex(
+        wire
+    ).replace(b"\0", b"")
+
+
+def test_an_explanation_names_the_fields() -> None:
+    text = packets.explain(bytes.fromhex("00 8B 00 20 00 00 00 3F"))
+    assert text.splitlines() == [
+        "00 8B                   header = SetIeee",
+        "00 20                   parameter = 8192",
+        "00 00 00 3F             value = 0.5",
+    ]
+
+
+@pytest.mark.req("BIN-168")
+def test_two_masters_share_one_override() -> None:
+    packet = packets.decode(bytes.fromhex("07 05 00 00 6D E7 FB 3D"))
+    assert isinstance(packet, FeedrateOverride)
+    assert packet.masters() == [0, 2]
+    assert packet.value == pytest.approx(0.123)
+
+
+@pytest.mark.req("BIN-040", "BIN-042", "BIN-044", "BIN-046")
+def test_a_data_reply_repeats_the_request_before_its_fields() -> None:
+    reply = DataRequest(0x30, 2, 0x2C).reply([0x23222120, 0x33323130, 0x53525150])
+    assert reply.hex(" ").upper() == "00 30 02 2C 20 21 22 23 30 31 32 33 50 51 52 53"
+
+
+@pytest.mark.req("BIN-043")
+def test_an_empty_mask_is_answered_by_the_header_alone() -> None:
+    request = DataRequest(0x30, 2, 0)
+    assert request.reply([]) == request.encode()
+    assert list(request.parameters()) == []
+
+
+@pytest.mark.req("BIN-083")
+def test_a_peek_reply_repeats_eight_bytes() -> None:
+    reply = Peek(0, 3, 0x405000).reply([0x13121110, 0x23222120, 0x33323130])
+    assert reply == bytes.fromhex("0090000300504000101112132021222330313233")
+
+
+@pytest.mark.req("BIN-045")
+def test_floats_travel_as_ieee_singles_low_byte_first() -> None:
+    assert DataRequest(0x30, 0x10, 1).reply([0.5])[4:] == bytes.fromhex("0000003F")
+    assert DataRequest(0x30, 0x10, 1).reply([1e300])[4:] == struct.pack("<f", float("inf"))
+
+
+def fields(group: int, index: int, mask: int = 0xFF) -> list[int]:
+    return list(DataRequest(group, index, mask).parameters())
+
+
+@pytest.mark.req("BIN-037", "BIN-038")
+def test_mask_bit_0_is_the_first_field() -> None:
+    assert fields(0x30, 2, 0x2C) == [12288 + 256 * axis + 2 for axis in (2, 3, 5)]
+    assert fields(0x30, 2, 0x81) == [12290, 12290 + 7 * 256]
+
+
+@pytest.mark.req(
+    "BIN-049", "BIN-054", "BIN-055", "BIN-056", "BIN-057", "BIN-058", "BIN-060", "BIN-062",
+    "BIN-063", "BIN-064", "BIN-065", "BIN-066", "BIN-067",
+)  # fmt: skip
+@pytest.mark.parametrize(
+    ("group", "index", "first", "last"),
+    [
+        (0x10, 0x00, 4096, 4103),
+        (0x10, 0x22, 4368, 4375),
+        (0x18, 0x01, 6145, 6145 + 112),
+        (0x18, 0x81, 6273, 6273 + 112),
+        (0x60, 0x00, 24576, 24576 + 112),
+        (0x19, 0x08, 6408, 6408 + 112),
+        (0x19, 0x80, 6528, 6528 + 112),
+        (0x1A, 0x05, 6661, 6661 + 112),
+        (0x1B, 0x19, 7112, 7119),
+        (0x1C, 0x80, 7296, 7296 + 112),
+        (0x1D, 0x03, 7427, 7427 + 112),
+        (0x20, 0x10, 8208, 8208 + 1792),
+        (0x28, 0x00, 10240, 10240 + 1792),
+        (0x30, 0x02, 12290, 12290 + 1792),
+        (0x38, 0x00, 14336, 14336 + 1792),
+        (0x40, 0x21, 16417, 16417 + 1792),
+        (0x50, 0x00, 20480, 20487),
+        (0x21, 0x00, 10240, 10240 + 1792),  # misprinted codes are understood
+        (0x31, 0x00, 14336, 14336 + 1792),
+    ],
+)
+def test_every_group_follows_the_numbering(group: int, index: int, first: int, last: int) -> None:
+    assert (fields(group, index)[0], fields(group, index)[-1]) == (first, last)
+
+
+@pytest.mark.parametrize(
+    "parameter", [4097, 6146, 6290, 6659, 6980, 7312, 9999, 12290, 16128, 24580]
+)
+def test_locate_is_the_inverse_of_the_group_numbering(parameter: int) -> None:
+    request = locate(parameter)
+    assert request is not None
+    assert list(request.parameters()) == [parameter]
+
+
+def test_parameters_outside_all_groups_have_no_data_packet() -> None:
+    assert locate(0) is None
+    assert locate(28672) is None
+
+
+def test_an_unknown_group_is_refused() -> None:
+    with pytest.raises(PacketError, match="0x77"):
+        DataRequest(0x77, 0, 1).parameters()
+
+
+@pytest.mark.req("BIN-007", "BIN-048")
+def test_headers_are_those_of_the_manual() -> None:
+    assert {header[0] for header in PACKETS} == packets.HEADER_IDS
+    two = {header[1] for header in PACKETS if len(header) == 2}
+    assert two == {*range(0x88, 0x8C), *range(0x90, 0x96)}
+
+
+@pytest.mark.req("BIN-084")
+def test_a_poke_holds_at_most_255_values() -> None:
+    packet = Poke.of(Conversion.LONG, 1, tuple(range(255)))
+    assert packets.decode(packet.encode()) == packet
+    with pytest.raises(PacketError, match="at most 255"):
+        Poke.of(Conversion.LONG, 1, tuple(range(256))).encode()
+
+
+@pytest.mark.parametrize(
+    "packet", [SetLong(70000, 0), SetLong(1, 1 << 31), SetBit(-1), SetIeee(1, 1e60)]
+)
+def test_values_that_do_not_fit_are_refused(packet: Packet) -> None:
+    with pytest.raises(PacketError):
+        packet.encode()
+
+
+def test_masters_beyond_15_are_refused() -> None:
+    with pytest.raises(PacketError, match="master 16"):
+        FeedrateOverride.of([16], 1.0)
+
+
+@pytest.mark.parametrize("data", [b"", b"\x05", bytes(5), b"\x00\x88\x00"])
+def test_bytes_that_are_no_packet_are_refused(data: bytes) -> None:
+    with pytest.raises(PacketError):
+        packets.decode(data)

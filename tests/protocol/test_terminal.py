@@ -1,0 +1,338 @@
+"""The line discipline: the same events and bytes for any chunking."""
+
+from collections.abc import Iterator
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openacr.protocol.bits import ClearBit, SetBit
+from openacr.protocol.data import DataRequest
+from openacr.protocol.escape import BinaryMode
+from openacr.protocol.move import Move
+from openacr.protocol.parameter import GetLong, SetLong
+from openacr.protocol.stream import EchoMode, StreamKind
+from openacr.protocol.terminal import (
+    NEED_DATA,
+    Attention,
+    Control,
+    ControlKey,
+    Escape,
+    Event,
+    Line,
+    LineTooLong,
+    Received,
+    Terminal,
+    Typed,
+)
+
+TIMEOUT_TK = 100
+GET = bytes.fromhex("00 30 02 2C")
+CHUNKS = (1, 2, 3, 7, 10_000)
+
+
+def terminal(kind: StreamKind = StreamKind.TERMINAL, **settings: object) -> Terminal:
+    made = Terminal(kind, timeout_tk=TIMEOUT_TK)
+    for name, value in settings.items():
+        setattr(made, name, value)
+    return made
+
+
+def events(stream: Terminal) -> Iterator[Event]:
+    while (event := stream.next_event()) is not NEED_DATA:
+        assert not isinstance(event, type(NEED_DATA))
+        yield event
+
+
+def answers(stream: Terminal, data: bytes, chunk: int = 10_000) -> tuple[list[Event], bytes]:
+    """Feed in chunks; every line is answered by its length, every packet by `#`."""
+    seen: list[Event] = []
+    for at in range(0, len(data), chunk):
+        stream.receive_data(data[at : at + chunk], 0)
+        for event in events(stream):
+            seen.append(event)
+            if isinstance(event, Line):
+                stream.send_text(f"{len(event.text)}\r\nSYS>")
+            if isinstance(event, Received):
+                stream.send_packet(b"\x00#")
+    return seen, sent(stream)
+
+
+def sent(stream: Terminal) -> bytes:
+    return b"".join(iter(stream.data_to_send, b""))
+
+
+SCRIPTS: dict[str, tuple[bytes, list[Event]]] = {
+    "lines": (b"?P12288\rPROG0\r", [Line("?P12288"), Line("PROG0")]),
+    "every line end": (b"A\rB\nC\r\nD\n\nE\r\r\n", [*map(Line, ["A", "B", "C", "D", "", "E", ""])]),
+    "backspace": (b"\x08PX\x08\x7f\x7fQ\r", [Line("Q")]),
+    "control keys": (
+        b"AB\x18C\x19\x1a\r",
+        [*map(Control, ControlKey), Line("ABC")],
+    ),
+    "escape": (b"rubbish\x1bX1\r", [Line("X1")]),
+    "packet in a line": (
+        b"?P1" + GET + b"2288\r",
+        [Received(DataRequest(0x30, 2, 0x2C)), Line("?P12288")],
+    ),
+    "packet before the LF": (
+        b"A\r" + GET + b"\n\x1c\x08\x02B\r",
+        [Line("A"), Received(DataRequest(0x30, 2, 0x2C)), Received(SetBit(520)), Line("B")],
+    ),
+    "set long": (
+        bytes.fromhex("0089003010111200") + b"x\r",
+        [Received(SetLong(12288, 0x121110)), Line("x")],
+    ),
+    "typographic": ("PRINT “é”\r".encode(), [Line("PRINT “é”")]),
+    "other controls": (b"\x01A\x03\tB\r", [Line("A\tB")]),
+    "long": (b"Z" * 256 + b"\rA\r", [LineTooLong(), Line("A")]),
+    "long but erased": (b"Z" * 257 + b"\x08\x08\r", [Line("Z" * 255)]),
+}
+
+
+@pytest.mark.parametrize("chunk", CHUNKS)
+@pytest.mark.parametrize("script", SCRIPTS)
+def test_events_do_not_depend_on_the_chunking(script: str, chunk: int) -> None:
+    data, expected = SCRIPTS[script]
+    whole_events, whole_bytes = answers(terminal(), data)
+    assert whole_events == expected
+    assert answers(terminal(), data, chunk) == (whole_events, whole_bytes)
+
+
+@given(
+    data=st.lists(
+        st.sampled_from(
+            [b"A", b"\r", b"\n", b"\x08", b"\x18", b"\x1b", b"#", GET, b"\x1d\x20\x01A"]
+        )
+        | st.binary(min_size=1, max_size=3).filter(lambda b: not set(b) & {0x1C, 0x1D, 0x04, 0})
+    ).map(b"".join),
+    chunk=st.integers(1, 9),
+    mode=st.sampled_from(list(map(BinaryMode, range(4)))),
+    attention=st.sampled_from(Attention),
+)
+def test_any_bytes_in_any_chunks_give_the_same(
+    data: bytes, chunk: int, mode: BinaryMode, attention: Attention
+) -> None:
+    one = terminal(mode=mode, attention=attention)
+    other = terminal(mode=mode, attention=attention)
+    assert answers(one, data) == answers(other, data, chunk)
+
+
+def test_characters_are_echoed_as_typed_and_cr_as_cr_lf() -> None:
+    stream = terminal()
+    assert answers(stream, b'Prog0 ">"')[1] == b'Prog0 ">"'
+    assert answers(stream, b"\r")[1] == b"\r\n9\r\nSYS>"
+
+
+def test_the_answer_to_a_line_stands_before_the_echo_of_the_next() -> None:
+    assert answers(terminal(), b"A\rBC\r")[1] == b"A\r\n1\r\nSYS>BC\r\n2\r\nSYS>"
+
+
+def test_a_late_line_feed_behind_cr_does_nothing() -> None:
+    stream = terminal()
+    assert answers(stream, b"A\r")[0] == [Line("A")]
+    assert answers(stream, b"\n") == ([], b"")
+    assert answers(stream, b"\n")[0] == [Line("")]
+
+
+def test_erasing_moves_the_cursor_back_and_stops_at_the_start() -> None:
+    assert answers(terminal(), b"A\x08\x7f")[1] == b"A\b \b"
+
+
+def test_without_echo_nothing_typed_comes_back() -> None:
+    stream = terminal(echo=EchoMode.NO_PROMPT)
+    assert answers(stream, b"AB\x08\r")[1] == b"1\r\nSYS>"
+
+
+def test_a_changed_echo_mode_counts_for_the_rest_of_the_same_segment() -> None:
+    stream = terminal()
+    stream.receive_data(b"ECHO 4\rA\r", 0)
+    assert stream.next_event() == Line("ECHO 4")
+    stream.echo = EchoMode.NO_PROMPT
+    assert stream.next_event() == Line("A")
+    assert sent(stream) == b"ECHO 4\r\n"
+
+
+def test_control_keys_and_packets_are_not_echoed() -> None:
+    assert answers(terminal(), b"\x18\x19\x1a\x1b")[1] == b""
+    assert answers(terminal(), b"A" + GET + b"B")[1] == b"A\x00#B"
+
+
+@pytest.mark.req("BIN-047")
+def test_a_packet_reply_is_a_write_of_its_own() -> None:
+    stream = terminal()
+    stream.receive_data(b"?P1" + GET + GET + b"2\r", 0)
+    for event in events(stream):
+        if isinstance(event, Received):
+            stream.send_packet(event.packet.encode())
+        else:
+            stream.send_text("0\r\nP00>")
+    assert list(iter(stream.data_to_send, b"")) == [b"?P1", GET, GET, b"2\r\n0\r\nP00>"]
+
+
+def test_while_a_line_is_busy_only_lines_wait() -> None:
+    stream = terminal(busy=True)
+    stream.receive_data(b"A\rB\r\x18C" + GET + b"D\r", 0)
+    assert list(events(stream)) == [
+        Control(ControlKey.CTRL_X),
+        Received(DataRequest(0x30, 2, 0x2C)),
+    ]
+    assert stream.waiting_lines == 3
+    stream.busy = False
+    assert list(events(stream)) == [Line("A"), Line("B"), Line("CD")]
+    assert stream.waiting_characters == 0
+
+
+def test_a_flood_is_held_back_until_lines_are_executed() -> None:
+    stream = terminal(busy=True, echo=EchoMode(0))
+    stream.receive_data(b"X1\r" * 30_000, 0)
+    assert list(events(stream)) == []
+    assert not stream.accepts_input
+    stream.busy = False
+    assert sum(1 for _ in events(stream)) == 30_000
+    assert stream.accepts_input
+    assert stream.waiting_characters == 0
+
+
+def test_listening_hands_over_characters_until_escape() -> None:
+    stream = terminal(attention=Attention.LISTENING)
+    stream.receive_data(b"1\x082\r\x1b", 0)
+    assert list(events(stream)) == [*map(Typed, b"1\x082\r"), Escape()]
+    assert sent(stream) == b"1\b \b2\r\n"
+
+
+def test_input_with_a_semicolon_keeps_the_cursor_on_its_line() -> None:
+    stream = terminal(attention=Attention.LISTENING, echo_line_end=False)
+    stream.receive_data(b"12\r", 0)
+    assert list(events(stream)) == [*map(Typed, b"12\r")]
+    assert sent(stream) == b"12"
+
+
+def test_passing_through_echoes_nothing_and_keeps_every_character() -> None:
+    stream = terminal(attention=Attention.PASS_THROUGH)
+    stream.receive_data(b"T\x08\r\n\x18\x1b", 0)
+    assert list(events(stream)) == [
+        *map(Typed, b"T\x08\r\n"),
+        Control(ControlKey.CTRL_X),
+        Escape(),
+    ]
+    assert sent(stream) == b""
+
+
+def test_an_open_stream_gives_its_program_every_byte_but_the_control_keys() -> None:
+    stream = terminal(attention=Attention.OPEN)
+    stream.receive_data(b"\x00\x1b\x08\x04A\r\n\x19", 0)
+    assert list(events(stream)) == [
+        *map(Typed, b"\x00\x1b\x08\x04A\r\n"),
+        Control(ControlKey.CTRL_Y),
+    ]
+    assert sent(stream) == b""
+
+
+@pytest.mark.req("BIN-003", "BIN-004")
+def test_a_gap_beyond_the_timeout_discards_the_started_packet() -> None:
+    stream = terminal()
+    stream.receive_data(b"AB" + GET[:2], 0)
+    assert list(events(stream)) == []
+    stream.receive_data(GET[2:3], TIMEOUT_TK)
+    assert list(events(stream)) == []
+    stream.receive_data(b",C\r", 2 * TIMEOUT_TK + 1)
+    assert list(events(stream)) == [Line("AB,C")]
+
+
+def test_the_timeout_follows_the_setting_of_the_channel() -> None:
+    stream = terminal()
+    stream.timeout_tk = 2 * TIMEOUT_TK
+    stream.receive_data(GET[:2], 0)
+    stream.receive_data(GET[2:], 2 * TIMEOUT_TK)
+    assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]
+
+
+@pytest.mark.req("BIN-160")
+def test_a_lone_zero_behind_set_and_clr_is_padding() -> None:
+    stream = terminal()
+    stream.receive_data(b"\x1c\x08\x02\x00", 0)
+    stream.receive_data(b"\x1d\x20\x00" + GET, 0)
+    stream.receive_data(b"\x1d\x20\x00\x00A", 0)
+    assert list(events(stream)) == [
+        Received(SetBit(520)),
+        Received(ClearBit(32)),
+        Received(DataRequest(0x30, 2, 0x2C)),
+        Received(ClearBit(32)),
+    ]
+
+
+@pytest.mark.req("BIN-160")
+def test_on_the_dpcb_set_and_clr_always_have_four_bytes() -> None:
+    stream = terminal(StreamKind.DPCB)
+    stream.receive_data(b"\x1c\x08\x02\x00\x1d\x20\x00\x00A\r", 0)
+    assert list(events(stream)) == [
+        Received(SetBit(520)),
+        Received(ClearBit(32)),
+        Line("A"),
+    ]
+
+
+@pytest.mark.req("BIN-112")
+def test_both_forms_of_a_short_move_are_understood() -> None:
+    documented = Move.of({0: 2.5})
+    wire = documented.encode()
+    stream = terminal()
+    stream.receive_data(wire, 0)
+    stream.receive_data(wire[:5] + bytes(3) + wire[5:], 0)
+    stream.receive_data(b"A\r", 0)
+    assert list(events(stream)) == [Received(documented), Received(documented), Line("A")]
+
+
+@pytest.mark.req("BIN-001", "BIN-026")
+def test_packets_are_converted_by_mode_in_both_directions() -> None:
+    stream = terminal(mode=BinaryMode(1))
+    stream.receive_data(b"\x00\x30#B,", 0)
+    assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]
+    stream.send_packet(GET + b"\x11#")
+    assert sent(stream) == b"\x000#B,#Q##"
+
+
+@pytest.mark.req("BIN-012", "BIN-013")
+def test_serial_streams_start_in_mode_1_and_all_others_in_mode_0() -> None:
+    assert {kind: terminal(kind).mode for kind in StreamKind} == {
+        StreamKind.TERMINAL: 0,
+        StreamKind.PACKETS: 0,
+        StreamKind.SERIAL: 1,
+        StreamKind.DPCB: 0,
+    }
+
+
+def test_xoff_holds_the_output_of_a_serial_stream_only() -> None:
+    serial, network = terminal(StreamKind.SERIAL), terminal()
+    for stream in (serial, network):
+        stream.receive_data(b"A\x13B", 0)
+        list(events(stream))
+    assert sent(serial) == b""
+    assert sent(network) == b"AB"
+    serial.receive_data(b"\x11", 0)
+    list(events(serial))
+    assert sent(serial) == b"AB"
+
+
+def test_xon_inside_a_prefixed_packet_is_flow_control() -> None:
+    stream = terminal(StreamKind.SERIAL)
+    stream.receive_data(b"\x00\x88\x13\x11#@0", 0)
+    assert list(events(stream)) == [Received(GetLong(12288))]
+
+
+def test_the_binary_port_ignores_everything_but_packets() -> None:
+    stream = terminal(StreamKind.PACKETS)
+    stream.receive_data(b"?P0\r\x18" + GET + b"\x1bX", 0)
+    assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]
+    assert sent(stream) == b""
+
+
+def test_output_nobody_takes_is_dropped_whole() -> None:
+    stream = terminal()
+    stream.send_bytes(b"x" * (1 << 20))
+    stream.send_text("SYS>")
+    assert stream.data_to_send() == b"x" * (1 << 20)
+    assert stream.output.dropped_bytes == 4
+    stream.send_text("SYS>")
+    assert stream.data_to_send() == b"SYS>"
