@@ -6,11 +6,13 @@ their Python relatives; `rint` rounds halves to even, as the C library does).
 """
 
 import math
-from math import acos, asin, atan, atan2, cos, exp, fabs, fmod, log, sin, sqrt, tan
+from math import acos, acosh, asin, asinh, atan, atan2, atanh, cos, exp, fabs, fmod, log, log10
+from math import sin, sqrt, tan, tanh
 
 __all__ = [
-    "acos", "asin", "atan", "atan2", "ceil", "cos", "exp", "fabs", "floor", "fmod",
-    "log", "rint", "sin", "sqrt", "tan", "trunc",
+    "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "ceil", "cos", "cosh", "exp",
+    "fabs", "floor", "fmod", "log", "log10", "pow", "rint", "sin", "sinh", "sqrt", "tan", "tanh",
+    "trunc",
 ]  # fmt: skip
 
 
@@ -32,3 +34,29 @@ def trunc(x: float) -> float:
 def rint(x: float) -> float:
     """Nearest integer, halves to even, as a float; infinities and NaN pass through."""
     return float(round(x)) if math.isfinite(x) else x
+
+
+def sinh(x: float) -> float:
+    """Hyperbolic sine; infinite where it overflows."""
+    try:
+        return math.sinh(x)
+    except OverflowError:
+        return math.copysign(math.inf, x)
+
+
+def cosh(x: float) -> float:
+    """Hyperbolic cosine; infinite where it overflows."""
+    try:
+        return math.cosh(x)
+    except OverflowError:
+        return math.inf
+
+
+def pow(x: float, y: float) -> float:
+    """x to the power y; infinite where it overflows, NaN where it is not real."""
+    try:
+        return math.pow(x, y)
+    except OverflowError:
+        return math.inf if x > 0 or math.fmod(y, 2) == 0 else -math.inf
+    except ValueError:
+        return math.nan
