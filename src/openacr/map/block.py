@@ -62,6 +62,7 @@ class ManualRef(Enum):
 
 LONG, FP32, FP64 = Kind.LONG, Kind.FP32, Kind.FP64
 R, W, RW = Access.READ, Access.WRITE, Access.READ_WRITE
+NS = Access.UNKNOWN  # not stated
 FAST, SLOW = Speed.FAST, Speed.SLOW
 
 
@@ -172,6 +173,7 @@ class Block:
         spans: tuple[Span, ...],
         stride: int = 0,
         packet: PacketRule | None = None,
+        packet_erratum: str = "",
         ref: ManualRef = ManualRef.USER_GUIDE,
         section_of: Callable[[int], str] | None = None,
         named: int | None = None,
@@ -179,6 +181,7 @@ class Block:
     ) -> None:
         self.title, self.object, self.prefix = title, object, prefix
         self.spans, self.stride, self.packet, self.ref = spans, stride, packet, ref
+        self.packet_erratum = packet_erratum
         self.section_of, self.indexed = section_of, indexed
         self.named = self.count if named is None else named
         self.rows: dict[int, Row] = {}
@@ -199,9 +202,9 @@ class Block:
         name: str,
         kind: Kind,
         access: Access = Access.UNKNOWN,
+        unit: str = "",
         doc: str = "",
         *,
-        unit: str = "",
         default: float | tuple[float, ...] = 0,
         ident: str = "",
         erratum: str = "",
@@ -230,8 +233,9 @@ class Block:
 class FlagBlock:
     """A family of flag words: one word of 32 flags for each object.
 
-    Bits without a row are called `rest`. Where one word serves several kinds of object,
-    `parts` gives the first bit of each.
+    Bits without a row are called `rest`; names may contain `{n}`, the number of the
+    object, and `{io}`, the number of the flag among all flags of its object. Where one
+    word serves several kinds of object, `parts` gives the first bit of each.
     """
 
     def __init__(
@@ -242,7 +246,7 @@ class FlagBlock:
         prefix: str,
         spans: tuple[Span, ...],
         word_name: str,
-        group: str = "",
+        group: str | tuple[str, ...] = "",
         ident: str = "",
         packet: PacketRule | None = None,
         ref: ManualRef = ManualRef.FLAG_TABLES,
@@ -254,16 +258,18 @@ class FlagBlock:
         word_access: Access = Access.UNKNOWN,
         word_doc: str = "",
         word_erratum: str = "",
+        word_erratum_from: int = 0,
     ) -> None:
         self.title, self.object, self.prefix = title, object, prefix
         self.spans, self.word_name, self.ident = spans, word_name, ident
-        self.group = f"Flag Parameters: {group or title}"
+        self.groups = group if isinstance(group, tuple) else (group or title,) * len(spans)
         self.packet, self.ref = packet, ref
         self.first_index, self.words_per_object = first_index, words_per_object
         self.named = self.count if named is None else named
         self.parts = parts or ((0, object),)
         self.rest, self.word_access = rest, word_access
         self.word_doc, self.word_erratum = word_doc, word_erratum
+        self.word_erratum_from = word_erratum_from
         self.rows: dict[int, FlagRow] = {}
 
     @property
@@ -291,22 +297,59 @@ class FlagBlock:
             bit, name, printed or name, access, speed, doc, ident, erratum, erratum_at
         )
 
+    def inferred(self, bit: int, name: str, access: Access, doc: str) -> None:
+        """Declare a flag that exists but has no name in the manual's table."""
+        self.row(bit, name, access, doc=doc, printed=self.rest)
+
     def reserved(self, *bits: int) -> None:
         """Declare flags that are printed as Reserved."""
         for bit in bits:
             self.row(bit, RESERVED, Access.RESERVED)
 
-    def words(self) -> Iterator[int]:
-        """Parameter number of each word."""
-        for span in self.spans:
-            yield from range(span.first, span.first + span.count)
+    def places(self) -> Iterator[tuple[int, int, str]]:
+        """Position in the family, parameter number and heading of each word."""
+        position = 0
+        for span, group in zip(self.spans, self.groups, strict=True):
+            for number in range(span.first, span.first + span.count):
+                yield position, number, f"Flag Parameters: {group}"
+                position += 1
+
+    def index_of(self, position: int) -> int | None:
+        """Number of the object the word at `position` of the family belongs to."""
+        if self.first_index is None:
+            return None
+        return self.first_index + position // self.words_per_object
+
+    def io_of(self, position: int) -> int:
+        """Number of the word's first flag among all flags of its object."""
+        return BITS_PER_WORD * (position % self.words_per_object)
+
+    def word_title(self, position: int) -> str:
+        """Name of the word as a parameter."""
+        first = self.io_of(position)
+        last = first + BITS_PER_WORD - 1
+        return self.word_name.format(n=self.index_of(position), first=first, last=last)
 
     def flag(self, bit: int) -> FlagRow:
         """The declared flag, or the row that stands for all undeclared ones."""
-        access = Access.RESERVED if self.rest == RESERVED else Access.UNKNOWN
+        access = Access.UNKNOWN if self.rest == UNDOCUMENTED else Access.RESERVED
         rest = FlagRow(bit, self.rest, self.rest, access, Speed.UNKNOWN, "", "", "", None)
         return self.rows.get(bit, rest)
 
     def object_of(self, bit: int) -> str:
         """Kind of object a flag belongs to."""
         return next(name for first, name in reversed(self.parts) if bit >= first)
+
+
+def reserved_words(title: str, span: Span) -> FlagBlock:
+    """Flag words that are printed as Reserved altogether."""
+    return FlagBlock(
+        title,
+        object="",
+        prefix="",
+        spans=(span,),
+        word_name=RESERVED,
+        packet=consecutive(0x10),
+        first_index=None,
+        word_access=Access.RESERVED,
+    )

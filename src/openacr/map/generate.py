@@ -5,7 +5,7 @@ Run `python -m openacr.map.generate` after a change of the tables or the hidden 
 
 import sys
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import Path
 
 from openacr.map.block import Block, FlagBlock, Row
@@ -134,7 +134,7 @@ def image_text() -> str:
         ),
         ")",
         "",
-        "# number of the first object, stride, values per object",
+        "# first number, stride to the next object, objects, value",
         "POWER_UP = (",
         *(f"    {value}," for block in BLOCKS for value in _power_up(block)),
         ")",
@@ -162,13 +162,18 @@ def _runs(rows: list[Row]) -> Iterator[list[Row]]:
         yield rows[start:end]
 
 
-def _power_up(block: Block) -> Iterator[tuple[int, int, tuple[float, ...]]]:
-    position = 0
+def _power_up(block: Block) -> Iterator[tuple[int, int, int, float]]:
+    """Runs of neighbouring objects with the same power-up value other than zero."""
+    position, stride = 0, block.stride or 1
     for span in block.spans:
         for row in block.rows.values():
-            values = tuple(row.default_of(position + n) for n in range(span.count))
-            if any(values):
-                yield span.first + row.offset, block.stride, values
+            values = [row.default_of(position + n) for n in range(span.count)]
+            start = 0
+            for value, run in groupby(values):
+                length = len(list(run))
+                if value:
+                    yield span.first + row.offset + stride * start, stride, length, value
+                start += length
         position += span.count
 
 

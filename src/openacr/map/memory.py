@@ -11,6 +11,7 @@ from math import isnan, trunc
 
 from openacr.errors import CardError, StoreError
 from openacr.map.image import KINDS, POWER_UP
+from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
     FLAG_LAST,
     KIND_FP32,
@@ -63,19 +64,12 @@ class Memory:
             self.F[USER_BASE + number] = value
 
     def _checked_kind(self, number: int) -> int:
-        kind = self.kind(number)
+        kind = kind_of(self.I, number)
         if kind == KIND_NONE:
             raise CardError(INVALID_PARAMETER)
         if kind == KIND_FP64 and number >= self.I[SYSI_BASE + SYSI_P_COUNT]:
             raise CardError(UNDEFINED_VARIABLE)
         return kind
-
-    def kind(self, number: int) -> int:
-        """KIND_LONG, KIND_FP32, KIND_FP64, or KIND_NONE where no parameter is defined."""
-        if not 0 <= number < PUBLIC_COUNT:
-            return KIND_NONE
-        word, position = divmod(number, KINDS_PER_WORD)
-        return self.I[word] >> 2 * position & 3
 
     def bit(self, number: int) -> bool:
         """State of flag `number`; CardError beyond the last flag."""
@@ -135,9 +129,8 @@ def _power_up_image() -> bytes:
         part = kinds[word * KINDS_PER_WORD : (word + 1) * KINDS_PER_WORD]
         longs[word] = long_of(sum(kind << 2 * place for place, kind in enumerate(part)))
     floats = buffer.cast("f")
-    for first, stride, values in POWER_UP:
-        for index, value in enumerate(values):
-            number = first + stride * index
+    for first, stride, count, value in POWER_UP:
+        for number in range(first, first + stride * count, stride):
             if kinds[number] == KIND_LONG:
                 longs[number] = long_of(value)
             else:

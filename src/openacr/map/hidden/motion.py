@@ -146,19 +146,23 @@ AXIS = HiddenBlock(
         "velocity_source",
         "velocity_index",
         "hlbit",
-        "jog_mode",
-        "jog_sign",
+        "jog_mode",  # see kernel/jog_cy.py
+        "jog_sign",  # direction in which the jog profile counts
+        "jog_want",  # direction of a continuous jog
         "jog_replan",
-        "jog_ended",
+        "jog_turning",  # slowing down first, to turn round
         "kamr_old",
         "soft_old",
-        "home_state",
-        "home_search",
-        "home_moving",
+        "home_state",  # see kernel/homing_cy.py
+        "home_search",  # direction of the search
+        "home_moving",  # direction of the present motion
+        "home_reversed",  # a limit has turned the search round
         "home_input_old",
-        "limit_old",
+        "home_limit_hit",
         "capture_mode",  # -1 not armed
+        "capture_copy",  # parameter that receives a copy, 0 none
         "enable_ticks",  # until the drive reports enabled, 0 idle
+        "drive_old",
         "reset_ticks",
         "window_index",
         "derivative_ticks",
@@ -175,6 +179,18 @@ AXIS = HiddenBlock(
 ENCODER = HiddenBlock(
     prefix="EN",
     count=24,
-    doubles=("raw_old_cnt", "partial_cnt"),
-    ints=("mult", "source", "shown"),
+    doubles=(
+        "raw_old_cnt",
+        "partial_cnt",  # fraction of a count that MULT below 4 has left
+        "step_cnt",  # counted in the last tick
+    ),
+    ints=("mult", "source"),
+)
+
+# The kernel as a whole.
+KERNEL = HiddenBlock(
+    prefix="KR",
+    count=1,
+    doubles=("millisecond_phase",),
+    ints=("inputs_old", "slow_ticks", "axes", "masters"),
 )

@@ -2,6 +2,7 @@
 
 from openacr.map.block import (
     FAST,
+    NS,
     RW,
     SLOW,
     UNDOCUMENTED,
@@ -29,7 +30,8 @@ AXIS_1.row(
     "Not Torque Limit",
     R,
     SLOW,
-    "Set when the output is not torque limited (text prints the opposite; see notes).",
+    "Set when the output is not limited (TLM).",
+    erratum="The printed text says the opposite of the name.",
 )
 AXIS_1.row(
     5, "Not In Torque Band", R, SLOW, "Set when the output is outside its torque band (ITB)."
@@ -149,7 +151,7 @@ AXIS_2.row(
     11,
     "Dir Limit Tripped",
     ident="DIR_LIMIT_TRIPPED_AGAIN",
-    erratum="Printed with the name of flag 3 among the gear trigger flags; its meaning is not known.",
+    erratum="Printed with the name of flag 3; its meaning is not known.",
 )
 AXIS_2.row(12, "Gear Off Armed", R, doc="Set by gear-off trigger mode, cleared by the processor.")
 AXIS_2.row(13, "Gear Off Position")
@@ -160,7 +162,7 @@ AXIS_2.row(
     22,
     "Don't use capture Register",
     RW,
-    doc="Set by the user when a stepper has no encoder: commanded position replaces the capture register.",
+    doc="Set for a stepper without encoder: captures the commanded position.",
 )
 AXIS_2.row(
     23,
@@ -207,6 +209,7 @@ AXIS_3 = FlagBlock(
     prefix="AF3",
     spans=(Span(4296, 16),),
     word_name="Tertiary Slave {n} Flags",
+    word_erratum="The flag tables print packet index 0x14 or 0x19; it is 0x19 or 0x1A.",
     packet=consecutive(0x10),
 )
 AXIS_3.row(4, "Filter Moved", R, doc="Follows FLT ON and FLT OFF.")
@@ -221,6 +224,7 @@ SLAVE_4 = FlagBlock(
     prefix="SF4",
     spans=(Span(4312, 16),),
     word_name="Quaternary Slave {n} Flags",
+    word_erratum="The parameter list prints Tertiary Slave Flags once more.",
     rest=UNDOCUMENTED,
     packet=consecutive(0x10),
 )
@@ -232,67 +236,49 @@ AXIS_4 = FlagBlock(
     prefix="AF4",
     spans=(Span(4360, 16),),
     word_name="Quaternary Axis {n} Flags",
+    word_erratum="The User's Guide gives these words to PLC/stepper 8 to 15 or none.",
     rest=UNDOCUMENTED,
     ref=ManualRef.PROGRAMMERS_GUIDE,
     packet=consecutive(0x10),
 )
-AXIS_4.row(
-    0, "Drive Fault Input", doc="Present state of the drive fault input.", printed=UNDOCUMENTED
+AXIS_4.inferred(0, "Drive Fault Input", NS, "Present state of the drive fault input.")
+AXIS_4.inferred(
+    5, "Drive Fault Level Invert", RW, "Set to invert the active level of the drive fault input."
 )
-AXIS_4.row(
-    5,
-    "Drive Fault Level Invert",
-    RW,
-    doc="Set to invert the active level of the drive fault input.",
-    printed=UNDOCUMENTED,
-)
-AXIS_4.row(
+AXIS_4.inferred(
     16,
     "Step Direction Output",
     RW,
-    doc="Set: step and direction outputs; clear: clockwise and counter-clockwise.",
-    printed=UNDOCUMENTED,
+    "Set: step and direction outputs; clear: clockwise and counter-clockwise.",
 )
 AXIS_4.row(
     17,
     "Drive Enabled",
     doc="Set while the drive of the axis is enabled; writing it enables or disables.",
 )
-AXIS_4.row(18, "Drive Reset Request", doc="Resets the drive; self clearing.", printed=UNDOCUMENTED)
+AXIS_4.inferred(18, "Drive Reset Request", NS, "Resets the drive; self clearing.")
 AXIS_4.row(
     19,
     "Kill All Motion Request",
     RW,
-    doc="Stops and bars all motion of the axis and of its master group; user clears it (Ctrl-Y, DRIVE ON).",
+    doc="Stops and bars motion of the axis and its master; cleared by Ctrl-Y or DRIVE ON.",
 )
-AXIS_4.row(
-    20,
-    "Drive I/O Enable",
-    RW,
-    doc="Set: the enable output and fault input of the drive are used.",
-    printed=UNDOCUMENTED,
+AXIS_4.inferred(
+    20, "Drive I/O Enable", RW, "Set: the enable output and fault input of the drive are used."
 )
-AXIS_4.row(
+AXIS_4.inferred(
     21,
     "EXC Response Enable",
     RW,
-    doc="Set: an excess position error kills motion and disables the drive.",
-    printed=UNDOCUMENTED,
+    "Set: an excess position error kills motion and disables the drive.",
 )
-AXIS_4.row(
+AXIS_4.inferred(
     22,
     "Disable Drive On EXC Only",
     RW,
-    doc="Set: an excess position error disables the drive without killing motion.",
-    printed=UNDOCUMENTED,
+    "Set: an excess position error disables the drive without killing motion.",
 )
-AXIS_4.row(
-    23,
-    "Disable Drive On Kill",
-    RW,
-    doc="Set: a kill of the axis also disables its drive.",
-    printed=UNDOCUMENTED,
-)
+AXIS_4.inferred(23, "Disable Drive On Kill", RW, "Set: a kill of the axis also disables its drive.")
 AXIS_4.row(29, "Drive Fault", doc="Latched drive fault input.")
 AXIS_4.row(
     31,
@@ -311,22 +297,10 @@ AXIS_5 = FlagBlock(
     ref=ManualRef.PROGRAMMERS_GUIDE,
     word_doc="Limit and homing control and status.",
 )
-AXIS_5.row(
-    0,
-    "Positive Limit Input",
-    doc="Present state of the positive limit input.",
-    printed=UNDOCUMENTED,
-)
-AXIS_5.row(
-    1,
-    "Negative Limit Input",
-    doc="Present state of the negative limit input.",
-    printed=UNDOCUMENTED,
-)
-AXIS_5.row(2, "Home Input", doc="Present state of the home input.", printed=UNDOCUMENTED)
-AXIS_5.row(
-    3, "Homing In Progress", doc="Set from JOG HOME until the search ends.", printed=UNDOCUMENTED
-)
+AXIS_5.inferred(0, "Positive Limit Input", NS, "Present state of the positive limit input.")
+AXIS_5.inferred(1, "Negative Limit Input", NS, "Present state of the negative limit input.")
+AXIS_5.inferred(2, "Home Input", NS, "Present state of the home input.")
+AXIS_5.inferred(3, "Homing In Progress", NS, "Set from JOG HOME until the search ends.")
 AXIS_5.row(
     4,
     "Positive Hardware Limit Encountered",
@@ -341,24 +315,19 @@ AXIS_5.row(
 )
 AXIS_5.row(6, "Home Successful", doc="Set when homing ended at the home position.")
 AXIS_5.row(7, "Home Failed", doc="Set when homing failed.")
-AXIS_5.row(
+AXIS_5.inferred(
     8,
     "Positive Limit Input Previous",
-    doc="State of the positive limit input one servo period ago.",
-    printed=UNDOCUMENTED,
+    NS,
+    "State of the positive limit input one servo period ago.",
 )
-AXIS_5.row(
+AXIS_5.inferred(
     9,
     "Negative Limit Input Previous",
-    doc="State of the negative limit input one servo period ago.",
-    printed=UNDOCUMENTED,
+    NS,
+    "State of the negative limit input one servo period ago.",
 )
-AXIS_5.row(
-    10,
-    "Home Input Previous",
-    doc="State of the home input one servo period ago.",
-    printed=UNDOCUMENTED,
-)
+AXIS_5.inferred(10, "Home Input Previous", NS, "State of the home input one servo period ago.")
 AXIS_5.row(
     12,
     "Positive Software Limit Encountered",
@@ -377,12 +346,7 @@ AXIS_5.row(
 AXIS_5.row(
     17, "Negative Limit Level Invert", RW, doc="Set to invert the active level of this limit input."
 )
-AXIS_5.row(
-    18,
-    "Home Level Invert",
-    doc="Set to invert the active level of the home input.",
-    printed=UNDOCUMENTED,
-)
+AXIS_5.inferred(18, "Home Level Invert", NS, "Set to invert the active level of the home input.")
 AXIS_5.row(
     20,
     "Positive Hardware Limit Enable",

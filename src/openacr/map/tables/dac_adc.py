@@ -1,6 +1,6 @@
 """Analog outputs (DAC) and inputs (ADC) of the card."""
 
-from openacr.map.block import FP32, Block, FlagBlock, Span, consecutive, sixteen_apart
+from openacr.map.block import FP32, NS, Block, Span, reserved_words, sixteen_apart
 
 DAC = Block(
     "Object Parameters: DAC",
@@ -10,10 +10,10 @@ DAC = Block(
     stride=16,
     packet=sixteen_apart,
 )
-DAC.row(0x00, "DAC Output", FP32)
+DAC.row(0x00, "DAC Output", FP32, NS, "V", "Voltage put out.")
 DAC.reserved(FP32, (0x01,))
-DAC.row(0x02, "DAC Gain", FP32)
-DAC.row(0x03, "DAC Offset", FP32)
+DAC.row(0x02, "DAC Gain", FP32, NS, "count/V", "Counts of the converter per volt.", default=3276.8)
+DAC.row(0x03, "DAC Offset", FP32, NS, "V", "Added to every output.")
 DAC.reserved(FP32, range(0x04, 0x08))
 
 ADC = Block(
@@ -24,30 +24,14 @@ ADC = Block(
     stride=16,
     packet=sixteen_apart,
 )
-ADC.row(0x08, "ADC Input", FP32)
+ADC.row(0x08, "ADC Input", FP32, NS, "V", "Voltage measured.")
 ADC.reserved(FP32, (0x09,))
-ADC.row(0x0A, "ADC Gain", FP32)
-ADC.row(0x0B, "ADC Offset", FP32)
+ADC.row(0x0A, "ADC Gain", FP32, NS, "V", "Voltage at full scale of the converter.", default=10)
+ADC.row(0x0B, "ADC Offset", FP32, NS, "V", "Added to every input.")
 ADC.reserved(FP32, range(0x0C, 0x10))
 
-_DAC_FLAGS = FlagBlock(
-    "DAC Flags",
-    object="",
-    prefix="",
-    spans=(Span(4224, 16),),
-    word_name="Reserved",
-    packet=consecutive(0x10),
-    first_index=None,
-)
-_ADC_FLAGS = FlagBlock(
-    "ADC Flags",
-    object="",
-    prefix="",
-    spans=(Span(4240, 16),),
-    word_name="Reserved",
-    packet=consecutive(0x10),
-    first_index=None,
-)
-
 BLOCKS = (DAC, ADC)
-FLAG_BLOCKS = (_DAC_FLAGS, _ADC_FLAGS)
+FLAG_BLOCKS = (
+    reserved_words("DAC Flags", Span(4224, 16)),
+    reserved_words("ADC Flags", Span(4240, 16)),
+)

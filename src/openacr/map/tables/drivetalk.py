@@ -1,6 +1,6 @@
 """Drive Talk: status and configuration of Aries drives over a serial port."""
 
-from openacr.map.block import LONG, RW, UNDOCUMENTED, Block, FlagBlock, ManualRef, Span
+from openacr.map.block import LONG, NS, RW, UNDOCUMENTED, Block, FlagBlock, ManualRef, Span
 
 DRIVE_TALK = Block(
     "Drive Talk Parameters",
@@ -10,11 +10,9 @@ DRIVE_TALK = Block(
     stride=256,
     ref=ManualRef.PROGRAMMERS_GUIDE,
 )
-DRIVE_TALK.row(
-    0, "Communication Device", LONG, RW, "Device number of the OPEN DTALK port for this axis."
-)
-DRIVE_TALK.row(1, "Drive Type", LONG, RW, "Drive type; 0 = Aries.")
-DRIVE_TALK.row(21, "TPE", LONG, doc="Drive TPE value, refreshed by a Get Drive Data request.")
+DRIVE_TALK.row(0, "Communication Device", LONG, RW, "", "Device number the port was opened with.")
+DRIVE_TALK.row(1, "Drive Type", LONG, RW, "", "Type of the drive, 0: Aries.")
+DRIVE_TALK.row(21, "TPE", LONG, NS, "", "Torque or position error word of the drive.")
 
 ERROR_LOG = FlagBlock(
     "Drive Talk Error-Log Flags",
@@ -98,12 +96,8 @@ def _stream(name: str, word: int, word_name: str) -> FlagBlock:
 
 
 COM2_STREAM = _stream("COM2", 4443, "Drive Talk COM2 Stream Flags")
-COM2_STREAM.row(
-    0,
-    "Auto Address All",
-    RW,
-    doc="Addresses the drives of all axes on this stream; self clearing.",
-    printed=UNDOCUMENTED,
+COM2_STREAM.inferred(
+    0, "Auto Address All", RW, "Addresses the drives of all axes on this stream; self clearing."
 )
 
 BLOCKS = (DRIVE_TALK,)

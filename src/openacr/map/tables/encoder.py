@@ -3,12 +3,14 @@
 from openacr.map.block import (
     FP32,
     LONG,
+    NS,
     UNDOCUMENTED,
     Block,
     FlagBlock,
     R,
     Span,
     consecutive,
+    reserved_words,
     sixteen_apart,
 )
 
@@ -21,10 +23,10 @@ ENCODER = Block(
     packet=sixteen_apart,
     named=20,
 )
-ENCODER.row(0x00, "Encoder Position", LONG, doc="Present encoder position.")
-ENCODER.row(0x01, "Encoder Velocity", LONG)
+ENCODER.row(0x00, "Encoder Position", LONG, NS, "pulse", "Present position of the encoder.")
+ENCODER.row(0x01, "Encoder Velocity", LONG, NS, "pulse/tick", "Pulses in the last servo period.")
 ENCODER.reserved(LONG, (0x02, 0x03))
-ENCODER.row(0x04, "ABS Revolution", LONG)
+ENCODER.row(0x04, "ABS Revolution", LONG, NS, "rev", "Turn counter of an absolute encoder.")
 ENCODER.reserved(LONG, range(0x05, 0x08))
 
 STEPPER = Block(
@@ -36,14 +38,22 @@ STEPPER = Block(
     packet=sixteen_apart,
     named=20,
 )
-STEPPER.row(0x08, "Stepper Signal", FP32)
+STEPPER.row(0x08, "Stepper Signal", FP32, NS, "V", "Servo output driving the stepper.")
 STEPPER.reserved(FP32, (0x09,))
-STEPPER.row(0x0A, "Stepper Gain", FP32)
+STEPPER.row(
+    0x0A,
+    "Stepper Gain",
+    FP32,
+    NS,
+    "",
+    "Factor on the stepper signal.",
+    erratum="Appendix A prints Reserved; chapter 6 names it.",
+)
 STEPPER.reserved(FP32, (0x0B,))
-STEPPER.row(0x0C, "Stepper Count", LONG)
+STEPPER.row(0x0C, "Stepper Count", LONG, NS, "pulse", "Steps sent so far.")
 STEPPER.reserved(LONG, range(0x0D, 0x10))
 
-ENCODER_FLAGS = FlagBlock(
+FLAGS = FlagBlock(
     "Encoder Flags",
     object="ENC",
     prefix="EF",
@@ -51,32 +61,25 @@ ENCODER_FLAGS = FlagBlock(
     word_name="Encoder {n} Flags",
     packet=consecutive(0x10),
     named=20,
+    word_erratum="For encoders 16 to 23 the flag table prints packet index 0x0B; it is 0x0C.",
+    word_erratum_from=16,
     rest=UNDOCUMENTED,
 )
-ENCODER_FLAGS.row(
+FLAGS.row(
     0,
     "Encoder Signal Fault",
     R,
     doc="Encoder fault seen by the FPGA; cleared by ENCx RES; ACR1200/8010 only.",
 )
-ENCODER_FLAGS.row(
+FLAGS.row(
     1,
     "Encoder Signal Lost",
     R,
     doc="Encoder fault seen by the check circuit; cleared by ENCx RES; ACR1200/8010 only.",
 )
-ENCODER_FLAGS.row(4, "ABS DATA Fault")
-ENCODER_FLAGS.row(5, "ABS DATA Ready")
-ENCODER_FLAGS.reserved(2, 3, 6, 7)
-_RESERVED = FlagBlock(
-    "Encoder Flags",
-    object="",
-    prefix="",
-    spans=(Span(4200, 8),),
-    word_name="Reserved",
-    packet=consecutive(0x10),
-    first_index=None,
-)
+FLAGS.row(4, "ABS DATA Fault")
+FLAGS.row(5, "ABS DATA Ready")
+FLAGS.reserved(2, 3, 6, 7)
 
 BLOCKS = (ENCODER, STEPPER)
-FLAG_BLOCKS = (ENCODER_FLAGS, _RESERVED)
+FLAG_BLOCKS = (FLAGS, reserved_words("Encoder Flags", Span(4200, 8)))

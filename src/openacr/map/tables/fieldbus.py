@@ -22,30 +22,26 @@ NETWORK = Block(
     indexed=False,
     ref=ManualRef.PROGRAMMERS_GUIDE,
 )
-NETWORK.row(0, "Master Node ID", LONG, RW, "Controller node ID, 1-127; default 5.")
-NETWORK.row(1, "Bit Rate", LONG, RW, "Bus rate in kbit/s; default 125.")
 NETWORK.row(
-    2, "Number Of Slave Nodes", LONG, RW, "Slave nodes 0-4, controller not counted; default 1."
+    0, "Master Node ID", LONG, RW, "", "Node number of the controller, 1 to 127.", default=5
+)
+NETWORK.row(1, "Bit Rate", LONG, RW, "kbit/s", "Speed of the bus.", default=125)
+NETWORK.row(
+    2, "Number Of Slave Nodes", LONG, RW, "", "Nodes besides the controller, 0 to 4.", default=1
 )
 NETWORK.row(
-    3,
-    "Alternate Digital I/O Mapping",
-    LONG,
-    RW,
-    "Remaps digital I/O to P4104-P4111: <=0 none, 1 node 0, 2 nodes 0-1, >=3 all; read at network start.",
+    3, "Alternate Digital I/O Mapping", LONG, RW, "", "Nodes in P4104 to P4111: 1, 2, 3: all."
 )
-NETWORK.row(4, "Cyclic Period", LONG, RW, "Update period in ms; default 50.")
-NETWORK.row(5, "Health Period", LONG, R, "Always ten times the cyclic period, ms.")
+NETWORK.row(4, "Cyclic Period", LONG, RW, "ms", "Time from update to update.", default=50)
+NETWORK.row(5, "Health Period", LONG, R, "ms", "Ten times the cyclic period.", default=500)
 NETWORK.reserved(LONG, (6,))
+NETWORK.row(7, "Number Of Digital Input Bytes", LONG, R, "byte", "Found on the whole network.")
+NETWORK.row(8, "Number Of Digital Output Bytes", LONG, R, "byte", "Found on the whole network.")
+NETWORK.row(9, "Number Of Analog Inputs", LONG, R, "", "Found on the whole network.")
+NETWORK.row(10, "Number Of Analog Outputs", LONG, R, "", "Found on the whole network.")
 NETWORK.row(
-    7, "Number Of Digital Input Bytes", LONG, R, "Total digital input bytes on the network."
+    11, "Bus State", LONG, R, "", "0 not set up, 1 ready to start, 2 started, 3 to 10 faults."
 )
-NETWORK.row(
-    8, "Number Of Digital Output Bytes", LONG, R, "Total digital output bytes on the network."
-)
-NETWORK.row(9, "Number Of Analog Inputs", LONG, R, "Total analog inputs on the network.")
-NETWORK.row(10, "Number Of Analog Outputs", LONG, R, "Total analog outputs on the network.")
-NETWORK.row(11, "Bus State", LONG, R, "0 pre-init, 1 ready to start, 2 started, 3-10 error states.")
 NETWORK.reserved(LONG, (14, 15))
 
 NODE = Block(
@@ -56,51 +52,50 @@ NODE = Block(
     stride=16,
     ref=ManualRef.PROGRAMMERS_GUIDE,
 )
-NODE.row(0, "Node ID", LONG, RW, "Physical node ID 1-127; default 1 for node 0, 0 for the others.")
 NODE.row(
-    1, "Number Of Digital Inputs (Bytes)", LONG, R, "Filled in by the controller at network start."
+    0, "Node ID", LONG, RW, "", "Number of the node on the bus, 1 to 127.", default=(1, 0, 0, 0)
 )
-NODE.row(
-    2, "Number Of Digital Outputs (Bytes)", LONG, R, "Filled in by the controller at network start."
-)
-NODE.row(3, "Number Of Analog Inputs", LONG, R, "Filled in by the controller at network start.")
-NODE.row(4, "Number Of Analog Outputs", LONG, R, "Filled in by the controller at network start.")
-NODE.row(5, "Health Type", LONG, R, "0 absent, 1 heartbeat, 2 life guarding.")
-NODE.row(6, "Node State", LONG, R, "0 dead, 1 live.")
+NODE.row(1, "Number Of Digital Inputs (Bytes)", LONG, R, "byte", "Found when the network starts.")
+NODE.row(2, "Number Of Digital Outputs (Bytes)", LONG, R, "byte", "Found when the network starts.")
+NODE.row(3, "Number Of Analog Inputs", LONG, R, "", "Found when the network starts.")
+NODE.row(4, "Number Of Analog Outputs", LONG, R, "", "Found when the network starts.")
+NODE.row(5, "Health Type", LONG, R, "", "0 absent, 1 heartbeat, 2 life guarding.")
+NODE.row(6, "Node State", LONG, R, "", "0 dead, 1 live.")
 
 
-def _node_section(channel: int) -> str:
+def _analog_section(channel: int) -> str:
     return f"CANopen Node {channel // 32} Analog I/O Parameters"
 
 
+# Channel n of the family is channel n % 32 of node n // 32.
 DAC = Block(
-    "CANopen Analog I/O Parameters",
+    "CANopen Analog Outputs",
     object="CANDAC",
-    section_of=_node_section,
-    prefix="CAND",
+    prefix="CANDAC",
     spans=(Span(33280, 128),),
     stride=16,
     ref=ManualRef.PROGRAMMERS_GUIDE,
+    section_of=_analog_section,
 )
-DAC.row(0, "DAC Output Value", FP32, RW, "Output in user units.")
+DAC.row(0, "DAC Output Value", FP32, RW, "V", "Value put out.")
 DAC.reserved(FP32, (1,))
-DAC.row(2, "DAC Gain", FP32, RW, "Full-scale counts per user unit; default 3276.8.")
-DAC.row(3, "DAC Offset", FP32, RW, "Offset in user units; default 0.")
+DAC.row(2, "DAC Gain", FP32, RW, "count/V", "Counts of the converter per volt.", default=3276.8)
+DAC.row(3, "DAC Offset", FP32, RW, "V", "Added to every output.")
 DAC.reserved(FP32, range(4, 8))
 
 ADC = Block(
-    "CANopen Analog I/O Parameters",
+    "CANopen Analog Inputs",
     object="CANADC",
-    section_of=_node_section,
-    prefix="CANA",
+    prefix="CANADC",
     spans=(Span(33280, 128),),
     stride=16,
     ref=ManualRef.PROGRAMMERS_GUIDE,
+    section_of=_analog_section,
 )
-ADC.row(8, "ADC Input Value", FP32, R, "Input in user units.")
+ADC.row(8, "ADC Input Value", FP32, R, "V", "Value measured.")
 ADC.reserved(FP32, (9,))
-ADC.row(10, "ADC Gain", FP32, RW, "Full-scale user units; default 10.")
-ADC.row(11, "ADC Offset", FP32, RW, "Offset in user units; default 0.")
+ADC.row(10, "ADC Gain", FP32, RW, "V", "Value at full scale of the converter.", default=10)
+ADC.row(11, "ADC Offset", FP32, RW, "V", "Added to every input.")
 ADC.reserved(FP32, range(12, 16))
 
 CAN_FLAGS = FlagBlock(

@@ -1,18 +1,17 @@
 """Fast status: parameters the card copies to the host at a fixed period."""
 
-from openacr.map.block import LONG, RW, Block, FlagBlock, Span, consecutive, sixteen_apart
+from openacr.map.block import LONG, NS, RW, Block, FlagBlock, Span, consecutive, sixteen_apart
 
 FSTAT = Block(
     "Miscellaneous Parameters: FSTAT Information",
     object="FSTAT",
     prefix="",
-    spans=(Span(6912, 1),),
-    stride=0,
+    spans=(Span(7056, 1),),
     packet=consecutive(0x1B),
     indexed=False,
 )
-FSTAT.row(0x90, "FSTAT Period", LONG)
-FSTAT.row(0x91, "FSTAT Count", LONG)
+FSTAT.row(0, "FSTAT Period", LONG, NS, "ms", "Time from copy to copy.", default=50)
+FSTAT.row(1, "FSTAT Count", LONG, NS, "", "Copies made so far.")
 
 FSTAT_SETUP = Block(
     "FSTAT Setup Parameters",
@@ -21,12 +20,13 @@ FSTAT_SETUP = Block(
     spans=(Span(7424, 10),),
     stride=16,
     packet=sixteen_apart,
+    packet_erratum="Appendix A lacks this table; the numbers follow from packet group 0x1D.",
 )
-FSTAT_SETUP.row(0x03, "FSTAT Code", LONG)
-FSTAT_SETUP.row(0x04, "FSTAT Index", LONG)
-FSTAT_SETUP.row(0x05, "FSTAT Type", LONG)
+FSTAT_SETUP.row(3, "FSTAT Code", LONG, NS, "", "Packet group code to copy.")
+FSTAT_SETUP.row(4, "FSTAT Index", LONG, NS, "", "Packet group index to copy.")
+FSTAT_SETUP.row(5, "FSTAT Type", LONG, NS, "", "How to copy: 0 LONG, 1 FP32.")
 
-FSTAT_FLAGS = FlagBlock(
+FLAGS = FlagBlock(
     "FSTAT Flags",
     object="FSTAT",
     prefix="FSF",
@@ -38,12 +38,10 @@ FSTAT_FLAGS = FlagBlock(
     ident="FSTAT",
     rest="Spare",
 )
-FSTAT_FLAGS.row(
-    0, "FSTAT ON", RW, doc="Set while FSTAT runs; clearing stops it; not to be set directly."
-)
-FSTAT_FLAGS.row(
+FLAGS.row(0, "FSTAT ON", RW, doc="Set while FSTAT runs; clearing stops it; not to be set directly.")
+FLAGS.row(
     1, "FSTAT ON REQUEST", RW, doc="Loads the FSTAT parameters and starts FSTAT; self clearing."
 )
 
 BLOCKS = (FSTAT, FSTAT_SETUP)
-FLAG_BLOCKS = (FSTAT_FLAGS,)
+FLAG_BLOCKS = (FLAGS,)

@@ -1,6 +1,6 @@
 """Inputs, outputs, user flags and the general control words."""
 
-from openacr.map.block import RW, UNDOCUMENTED, FlagBlock, R, Span, consecutive
+from openacr.map.block import RW, UNDOCUMENTED, FlagBlock, R, Span, consecutive, reserved_words
 
 INPUTS = FlagBlock(
     "Optoisolated Inputs",
@@ -14,7 +14,13 @@ INPUTS = FlagBlock(
     first_index=None,
 )
 for _bit in range(32):
-    INPUTS.row(_bit, f"INP {_bit:02d}", R, doc=f"Input on connector pin P4-{_bit + 1}.")
+    INPUTS.row(
+        _bit,
+        f"INP {_bit:02d}",
+        R,
+        doc=f"Input on connector pin P4-{_bit + 1}.",
+        erratum="Printed as pin P4-20, which is INP 19." if _bit == 29 else "",
+    )
 
 OUTPUTS = FlagBlock(
     "Optoisolated Outputs",
@@ -29,7 +35,13 @@ OUTPUTS = FlagBlock(
     word_access=RW,
 )
 for _bit in range(32):
-    OUTPUTS.row(_bit, f"OUT {_bit + 32}", RW, doc=f"Output on connector pin P3-{_bit + 1}.")
+    OUTPUTS.row(
+        _bit,
+        f"OUT {_bit + 32}",
+        RW,
+        doc=f"Output on connector pin P3-{_bit + 1}.",
+        erratum="Printed as pin P3-20, which is OUT 51." if _bit == 29 else "",
+    )
 
 EXPANSION_INPUTS = FlagBlock(
     "Expansion I/O Flags",
@@ -59,6 +71,7 @@ USER_FLAGS = FlagBlock(
     prefix="UF",
     spans=(Span(4100, 4), Span(4156, 4)),
     word_name="User Group {n}",
+    group=("General Flags", "Other Flags"),
     packet=consecutive(0x10),
     word_doc="Free for programs. Configuration wizards use BIT1952 to BIT2047.",
 )
@@ -200,7 +213,7 @@ MISC_CONTROL_2_TO_4 = FlagBlock(
     packet=consecutive(0x10),
     first_index=2,
     rest=UNDOCUMENTED,
-    word_erratum="The parameter list prints Reserved; the flag overview has Misc Control Groups 2 to 4.",
+    word_erratum="Printed as Reserved in the parameter list, but not in the overview.",
 )
 
 FIREWIRE = FlagBlock(
@@ -214,19 +227,10 @@ FIREWIRE = FlagBlock(
     packet=consecutive(0x10),
     first_index=None,
     rest=UNDOCUMENTED,
-    word_erratum="The parameter list prints Reserved; the flag overview has Firewire Flags.",
+    word_erratum="Printed as Reserved in the parameter list, but not in the overview.",
 )
 
-SPARE = FlagBlock(
-    "Misc Control Flags",
-    object="",
-    prefix="",
-    spans=(Span(4279, 1),),
-    word_name="Reserved",
-    group="Misc Control Flags",
-    packet=consecutive(0x10),
-    first_index=None,
-)
+SPARE = reserved_words("Misc Control Flags", Span(4279, 1))
 
 FLAG_BLOCKS = (
     INPUTS,

@@ -1,6 +1,6 @@
 """Master flag words: four families of 32 flags for every master."""
 
-from openacr.map.block import FAST, RW, SLOW, FlagBlock, R, Span, consecutive
+from openacr.map.block import FAST, RW, SLOW, Access, FlagBlock, R, Span, consecutive
 
 MASTER_1 = FlagBlock(
     "Master Flags",
@@ -57,7 +57,14 @@ MASTER_1.row(
     "While set, 1.0 replaces FOV in feed moves and ROV in rapid moves.",
 )
 MASTER_1.row(16, "Not In Position", R, SLOW, "Set if any attached axis is outside its IPB band.")
-MASTER_1.row(17, "Not Excess Error", R, SLOW, "Set if every attached axis is inside its EXC band.")
+MASTER_1.row(
+    17,
+    "Not Excess Error",
+    R,
+    SLOW,
+    "Set if every attached axis is inside its EXC band.",
+    erratum="The table for masters 0 to 7 merges this row with the next; the names behind slip.",
+)
 MASTER_1.row(
     18, "Within A Limit", R, SLOW, "Set if every attached axis command is inside limit A (ALM)."
 )
@@ -104,7 +111,7 @@ MASTER_2.row(
     0,
     "Block Skip Check",
     RW,
-    doc="With Block Skip Input set, the next move is skipped; cleared after the move starts or is skipped.",
+    doc="With Block Skip Input set, the next move is skipped; clears at the next move.",
 )
 MASTER_2.row(1, "Block Skip Input", RW, doc="Must be set for Block Skip Check to take effect.")
 MASTER_2.row(2, "Rapid Pending", RW, doc="Value Rapid Active takes at the next move.")
@@ -113,13 +120,13 @@ MASTER_2.row(
     4,
     "Enable Clear Request",
     RW,
-    doc="Set selects kill/stop behaviour of firmware 1.17.04 and below; clear (default) that of 1.17.05 up.",
+    doc="Set: Kill and Stop All Moves clear themselves, as up to firmware 1.17.04.",
 )
 MASTER_2.row(
     5,
     "Enable Rapid Move Modes",
     RW,
-    doc="Set selects binary header code 0 of firmware 1.17.05 up; clear (default) that of 1.17.04 and below.",
+    doc="Set: move packets have rapid modes in header code 0, as from firmware 1.17.05.",
 )
 MASTER_2.row(
     6,
@@ -131,6 +138,13 @@ MASTER_2.row(
     7, "Master in TMOV", RW, doc="Enables time based moves; set by TMOV ON, cleared by TMOV OFF."
 )
 MASTER_2.row(9, "Master TOV")
+MASTER_2.row(
+    10,
+    "Reserved",
+    Access.RESERVED,
+    erratum="Printed as BIT2188; the stride gives BIT2186.",
+    erratum_at=4,
+)
 MASTER_2.row(16, "Sync Mode", R, doc="Set by SYNC ON, cleared by SYNC OFF.")
 MASTER_2.row(
     17,
@@ -202,6 +216,7 @@ MASTER_4 = FlagBlock(
     prefix="MF4",
     spans=(Span(4280, 16),),
     word_name="Quaternary Master {n} Flags",
+    word_erratum="The parameter list prints Tertiary Master Flags once more.",
     packet=consecutive(0x10),
 )
 MASTER_4.row(

@@ -1,111 +1,107 @@
 """Sampling, clock, board and firmware information, logging."""
 
-from openacr.map.block import LONG, RW, Block, R, Span, consecutive
+from openacr.map.block import LONG, NS, RW, Block, R, Span, consecutive
 
 SAMPLE = Block(
     "Miscellaneous Parameters: Position",
     object="SAMPLE",
     prefix="",
     spans=(Span(6912, 1),),
-    stride=0,
     packet=consecutive(0x1B),
     indexed=False,
 )
-SAMPLE.row(0x00, "Sample Array Index", LONG)
-SAMPLE.row(0x01, "Sample Trigger Index", LONG)
-SAMPLE.row(0x02, "Sample Timer Clock", LONG)
-SAMPLE.row(0x03, "Sample Timer Period", LONG)
+SAMPLE.row(0, "Sample Array Index", LONG, NS, "", "Where the next sample is stored.")
+SAMPLE.row(1, "Sample Trigger Index", LONG, NS, "", "Where the first sample after the trigger is.")
+SAMPLE.row(2, "Sample Timer Clock", LONG, NS, "ms", "Time since the last sample.")
+SAMPLE.row(3, "Sample Timer Period", LONG, NS, "ms", "Time from sample to sample.")
 
 CLOCK = Block(
     "Miscellaneous Parameters: Position",
     object="SYSTEM",
     prefix="",
-    spans=(Span(6912, 1),),
-    stride=0,
+    spans=(Span(6916, 1),),
     packet=consecutive(0x1B),
     indexed=False,
 )
 CLOCK.row(
-    0x04,
-    "Global System Clock",
-    LONG,
-    RW,
-    "Free-running millisecond clock; returns to 0 at 2^31; may be preset by the user (000).",
+    0, "Global System Clock", LONG, RW, "ms", "Runs freely, from 2^31 - 1 on to 0; may be written."
 )
 
 ADC_SETUP = Block(
     "Miscellaneous Parameters: Position",
     object="ADC",
     prefix="",
-    spans=(Span(6912, 1),),
-    stride=0,
+    spans=(Span(6917, 1),),
     packet=consecutive(0x1B),
     indexed=False,
 )
-ADC_SETUP.row(0x05, "ADC State Control", LONG)
-ADC_SETUP.row(0x06, "ADC Positive Channels", LONG)
-ADC_SETUP.row(0x07, "ADC Negative Channels", LONG)
+ADC_SETUP.row(0, "ADC State Control", LONG, NS, "", "State of the converter's sequence.")
+ADC_SETUP.row(1, "ADC Positive Channels", LONG, NS, "", "Channels used as positive inputs.")
+ADC_SETUP.row(2, "ADC Negative Channels", LONG, NS, "", "Channels used as negative inputs.")
 
 BOARD = Block(
     "Miscellaneous Parameters: Board Information",
     object="BOARD",
     prefix="",
-    spans=(Span(6912, 1),),
-    stride=0,
+    spans=(Span(7040, 1),),
     packet=consecutive(0x1B),
     indexed=False,
 )
 BOARD.row(
-    0x80,
+    0,
     "Card / Serial Number",
     LONG,
     R,
-    "Card type in the upper four digits, serial (always 0000) in the lower four, e.g. 80100000.",
+    "",
+    "Card type * 10000 + serial number, which is 0.",
+    default=80200000,
 )
-BOARD.row(0x81, "Card Number", LONG, R, "Card number from the address DIP switch.")
-BOARD.row(0x82, "Firmware Version", LONG, R, "Firmware version as digits, 1.18.01 reads 11801.")
-BOARD.row(0x83, "Update Number", LONG, R, "Firmware update number, 0 if none.")
+BOARD.row(1, "Card Number", LONG, R, "", "Number set with the address switch.")
 BOARD.row(
-    0x84,
+    2, "Firmware Version", LONG, R, "", "Digits of the version: 1.18.06 is 11806.", default=11806
+)
+BOARD.row(3, "Update Number", LONG, R, "", "Update of this firmware version, 0: none.", default=15)
+BOARD.row(
+    4,
     "Diagnostics",
     LONG,
     R,
-    "32-bit image of the DIAG report; layout differs per card, 0 = pass, 1 = fail.",
+    "",
+    "Image of the DIAG report, a set bit is a failure.",
+    erratum="Its description prints packet index 0x80; the table and the number give 0x10.",
 )
-BOARD.row(0x85, "FPGA ID", LONG, R, "ID of the encoder FPGAs fitted.")
-BOARD.row(0x86, "IO Configuration", LONG, R, "ACR1500 I/O configuration; 0 on other boards.")
+BOARD.row(5, "FPGA ID", LONG, R, "", "Identity of the encoder circuits.")
+BOARD.row(6, "IO Configuration", LONG, R, "", "I/O options of the ACR1500, 0 on others.")
 
 FIRMWARE = Block(
     "Miscellaneous Parameters: Firmware Information",
     object="FIRMWARE",
     prefix="",
-    spans=(Span(6912, 1),),
-    stride=0,
+    spans=(Span(7104, 1),),
     packet=consecutive(0x1B),
     indexed=False,
 )
-FIRMWARE.row(0xC0, "Bootflash Version", LONG)
-FIRMWARE.row(0xC1, "Bootflash Checksum", LONG)
-FIRMWARE.reserved(LONG, (0xC2, 0xC3))
-FIRMWARE.row(0xC4, "Sysflash1 Version", LONG)
-FIRMWARE.row(0xC5, "Sysflash1 Checksum", LONG)
-FIRMWARE.reserved(LONG, (0xC6, 0xC7))
-FIRMWARE.row(0xC8, "Sysflash2 Version", LONG)
-FIRMWARE.row(0xC9, "Sysflash2 Checksum", LONG)
-FIRMWARE.reserved(LONG, range(0xCA, 0xCD))
-FIRMWARE.row(0xCD, "Userflash Checksum", LONG)
-FIRMWARE.reserved(LONG, (0xCE, 0xCF))
+FIRMWARE.row(0, "Bootflash Version", LONG)
+FIRMWARE.row(1, "Bootflash Checksum", LONG, NS, "", "Found by FIRMWARE CHECKSUM.")
+FIRMWARE.reserved(LONG, (2, 3))
+FIRMWARE.row(4, "Sysflash1 Version", LONG)
+FIRMWARE.row(5, "Sysflash1 Checksum", LONG, NS, "", "Found by FIRMWARE CHECKSUM.")
+FIRMWARE.reserved(LONG, (6, 7))
+FIRMWARE.row(8, "Sysflash2 Version", LONG)
+FIRMWARE.row(9, "Sysflash2 Checksum", LONG, NS, "", "Found by FIRMWARE CHECKSUM.")
+FIRMWARE.reserved(LONG, range(10, 13))
+FIRMWARE.row(13, "Userflash Checksum", LONG, NS, "", "Found by FIRMWARE CHECKSUM.")
+FIRMWARE.reserved(LONG, (14, 15))
 
 LOG = Block(
     "Logging Parameters",
     object="LOG",
     prefix="",
     spans=(Span(20480, 1),),
-    stride=0,
     packet=consecutive(0x50),
     indexed=False,
 )
-LOG.row(0x00, "MAX Servo Period", LONG)
-LOG.reserved(LONG, range(0x01, 0x08))
+LOG.row(0, "MAX Servo Period", LONG, NS, "", "Longest servo period met.")
+LOG.reserved(LONG, range(1, 8))
 
 BLOCKS = (SAMPLE, CLOCK, ADC_SETUP, BOARD, FIRMWARE, LOG)

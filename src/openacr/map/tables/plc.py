@@ -3,6 +3,7 @@
 from openacr.map.block import (
     FAST,
     LONG,
+    NS,
     RW,
     SLOW,
     Block,
@@ -21,8 +22,8 @@ PLC = Block(
     stride=16,
     packet=sixteen_apart,
 )
-PLC.row(0x00, "Tick Preload", LONG)
-PLC.row(0x01, "Tick Count", LONG)
+PLC.row(0x00, "Tick Preload", LONG, NS, "tick", "Servo periods from scan to scan.", default=1)
+PLC.row(0x01, "Tick Count", LONG, NS, "tick", "Servo periods left until the next scan.")
 PLC.reserved(LONG, (0x02, 0x03))
 
 TIMER = Block(
@@ -33,8 +34,8 @@ TIMER = Block(
     stride=16,
     packet=sixteen_apart,
 )
-TIMER.row(0x04, "Timer Preload", LONG)
-TIMER.row(0x05, "Timer Count", LONG)
+TIMER.row(0x04, "Timer Preload", LONG, NS, "ms", "Time from input to output.")
+TIMER.row(0x05, "Timer Count", LONG, NS, "ms", "Time left until the output is set.")
 
 COUNTER = Block(
     "PLC Parameters",
@@ -44,10 +45,10 @@ COUNTER = Block(
     stride=16,
     packet=sixteen_apart,
 )
-COUNTER.row(0x06, "Counter Preload", LONG)
-COUNTER.row(0x07, "Counter Count", LONG)
+COUNTER.row(0x06, "Counter Preload", LONG, NS, "", "Clock edges until the output is set.")
+COUNTER.row(0x07, "Counter Count", LONG, NS, "", "Clock edges left.")
 
-PLC_FLAGS = FlagBlock(
+FLAGS = FlagBlock(
     "PLC Flags",
     object="PLC",
     prefix="PLF",
@@ -56,42 +57,36 @@ PLC_FLAGS = FlagBlock(
     packet=consecutive(0x10),
     parts=((0, "PLC"), (8, "STEPPER"), (16, "TIM"), (20, "CNT"), (24, "KR")),
 )
-PLC_FLAGS.row(0, "PLC Running", R, FAST, "Set while the PLC program runs.")
-PLC_FLAGS.row(1, "First Scan", R, FAST, "Set during the first scan only.")
-PLC_FLAGS.row(2, "Run Request", RW, SLOW, "Runs the PLC; self clearing.")
-PLC_FLAGS.row(3, "Halt Request", RW, SLOW, "Halts the PLC; self clearing.")
-PLC_FLAGS.row(
-    8, "Stepper Direction", RW, FAST, "Inverts the direction output of the stepper module."
-)
-PLC_FLAGS.row(
-    9, "Stepper Low Power", RW, FAST, "Activates the low-power output of the stepper module."
-)
-PLC_FLAGS.row(
+FLAGS.row(0, "PLC Running", R, FAST, "Set while the PLC program runs.")
+FLAGS.row(1, "First Scan", R, FAST, "Set during the first scan only.")
+FLAGS.row(2, "Run Request", RW, SLOW, "Runs the PLC; self clearing.")
+FLAGS.row(3, "Halt Request", RW, SLOW, "Halts the PLC; self clearing.")
+FLAGS.row(8, "Stepper Direction", RW, FAST, "Inverts the direction output of the stepper module.")
+FLAGS.row(9, "Stepper Low Power", RW, FAST, "Activates the low-power output of the stepper module.")
+FLAGS.row(
     16,
     "Timer Output",
     R,
     FAST,
     "Set when the timer count reaches zero, until the input is cleared.",
 )
-PLC_FLAGS.row(
+FLAGS.row(
     17,
     "Timer Input",
     RW,
     FAST,
     "Set to count down; clearing reloads the preset and clears the output.",
 )
-PLC_FLAGS.row(
+FLAGS.row(
     20, "Counter Output", R, FAST, "Set when the count reaches zero, until counter reset is set."
 )
-PLC_FLAGS.row(21, "Counter Clock", RW, FAST, "Rising edge decrements the counter.")
-PLC_FLAGS.row(
+FLAGS.row(21, "Counter Clock", RW, FAST, "Rising edge decrements the counter.")
+FLAGS.row(
     22, "Counter Reset", RW, FAST, "While set, clears the counter output and blocks its clock."
 )
-PLC_FLAGS.row(28, "Latch Output", R, FAST, "Latched by Latch Set, cleared by Latch Reset.")
-PLC_FLAGS.row(29, "Latch Set", RW, FAST, "Sets the latch output.")
-PLC_FLAGS.row(
-    30, "Latch Reset", RW, FAST, "Clears the latch output and blocks Latch Set while set."
-)
+FLAGS.row(28, "Latch Output", R, FAST, "Latched by Latch Set, cleared by Latch Reset.")
+FLAGS.row(29, "Latch Set", RW, FAST, "Sets the latch output.")
+FLAGS.row(30, "Latch Reset", RW, FAST, "Clears the latch output and blocks Latch Set while set.")
 
 BLOCKS = (PLC, TIMER, COUNTER)
-FLAG_BLOCKS = (PLC_FLAGS,)
+FLAG_BLOCKS = (FLAGS,)

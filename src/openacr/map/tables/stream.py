@@ -1,6 +1,6 @@
 """Communication channels (streams) of the card: buffers, prompt, echo and port settings."""
 
-from openacr.map.block import LONG, RW, Block, FlagBlock, Span, consecutive
+from openacr.map.block import LONG, NS, RW, Block, FlagBlock, Span, consecutive
 
 STARTUP = (
     "Power-up port settings: baud/300 in bits 0-7, data bits 8-9, stop 10, parity 11-12, enable 15."
@@ -16,20 +16,21 @@ def _stream(name: str, first: int, *, is_serial: bool = False) -> Block:
         packet=consecutive(0x1B),
         indexed=False,
     )
-    block.row(0, f"{name} Character Buffer Count", LONG, doc="Characters waiting to be read.")
-    block.row(1, f"{name} Line Buffer Count", LONG, doc="Complete lines waiting to be read.")
-    block.row(2, f"{name} Free Character Space", LONG, doc="Room left in the input buffer.")
-    block.row(3, f"{name} Command Counter", LONG, doc="Command lines executed so far.")
+    block.row(0, f"{name} Character Buffer Count", LONG, NS, "", "Characters waiting to be read.")
+    block.row(1, f"{name} Line Buffer Count", LONG, NS, "", "Complete lines waiting to be read.")
+    block.row(2, f"{name} Free Character Space", LONG, NS, "byte", "Room left in the input buffer.")
+    block.row(3, f"{name} Command Counter", LONG, NS, "", "Command lines executed so far.")
     block.row(
         4,
         f"{name} Communication Timeout",
         LONG,
-        doc="Longest gap between the bytes of a binary packet.",
-        unit="ms",
+        NS,
+        "ms",
+        "Longest gap between the bytes of a binary packet.",
         default=50,
     )
     if is_serial:
-        block.row(5, f"{name} Startup Mode", LONG, RW, STARTUP)
+        block.row(5, f"{name} Startup Mode", LONG, RW, "", STARTUP)
     return block
 
 
@@ -102,7 +103,7 @@ BLOCKS = (
     _stream("DPCB", 7088),
 )
 DPCB_FLAGS = _stream_flags("DPCB", 4277, "DPCB", "Misc Control Flags")
-DPCB_FLAGS.word_erratum = "The flag table prints packet mask 0x06; the sixth word has mask 0x20."
+DPCB_FLAGS.word_erratum = "The flag table prints packet mask 0x06; it is 0x20, the sixth word."
 FLAG_BLOCKS = (
     _stream_flags("FIFO", 4152, "FIFO Flags", "Other Flags"),
     _printer_flags(),

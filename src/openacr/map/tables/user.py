@@ -11,7 +11,7 @@ VARIABLES = Block(
     indexed=False,
 )
 VARIABLES.row(
-    0, "User Variable", FP64, RW, "Shared by all programs; as many exist as DIM P reserved."
+    0, "User Variable", FP64, RW, "", "Shared by all programs; as many exist as DIM P reserved."
 )
 
 INTEGERS = Block(
@@ -22,7 +22,7 @@ INTEGERS = Block(
     stride=1,
     ref=ManualRef.KNOWLEDGE_BASE,
 )
-INTEGERS.row(0, "User Integer", LONG, RW, "Shared by all programs; always there.")
+INTEGERS.row(0, "User Integer", LONG, RW, "", "Shared by all programs; always there.")
 
 FLOATS = Block(
     "User Float Parameters",
@@ -32,6 +32,6 @@ FLOATS = Block(
     stride=1,
     ref=ManualRef.KNOWLEDGE_BASE,
 )
-FLOATS.row(0, "User Float", FP32, RW, "Shared by all programs; always there.")
+FLOATS.row(0, "User Float", FP32, RW, "", "Shared by all programs; always there.")
 
 BLOCKS = (VARIABLES, INTEGERS, FLOATS)

@@ -1,0 +1,101 @@
+"""Hidden rows of the world outside the card: motors, switches, wiring.
+
+The position of a motor is a float64 number of encoder counts (four per line), 0 being the
+count at which the encoder started; counts grow in the direction in which the encoder counts
+up. All other quantities of a motor are in counts and seconds too, so that the step needs no
+conversion: accelerations stand for torques, divided by the inertia.
+"""
+
+from openacr.map.hidden.block import HiddenBlock
+
+INPUTS = 32
+
+# Instance n is the motor whose encoder is wired to encoder input n.
+MOTOR = HiddenBlock(
+    prefix="PL",
+    count=16,
+    doubles=(
+        "position_cnt",
+        "velocity_cps",
+        "previous_cnt",  # position at the end of the tick before
+        "raw_count",  # what the quadrature counter shows: whole counts, starting at 0
+        "volts",  # at the terminals of the drive
+        # parameters of the drive
+        "dac_step",  # 1 for a 16-bit converter, 16 for a 12-bit one
+        "offset_v",
+        "accel_per_volt",
+        "peak_accel",
+        "supply_accel",  # of full supply voltage at standstill, 0: supply without limits
+        "back_emf_per_s",
+        "speed_per_volt_cps",
+        "lag_s",
+        # parameters of the mechanics
+        "viscous_per_s",
+        "coulomb_accel",
+        "static_accel",
+        "low_stop_cnt",
+        "high_stop_cnt",
+        "marker_pitch_cnt",
+        "marker_phase_cnt",
+        # no switch, region border or marker lies between these two
+        "quiet_low_cnt",
+        "quiet_high_cnt",
+        # edges of the marker within the last tick, for position capture
+        "marker_rise_fraction",
+        "marker_rise_cnt",
+        "marker_fall_fraction",
+        "marker_fall_cnt",
+        # factors of one step, valid for one length of the tick
+        "cached_dt_s",
+        "decay",
+        "glide_s",
+        "push_s2",
+        "lag_decay",
+    ),
+    ints=(
+        "kind",  # 0 none, 1 torque drive, 2 velocity drive, 3 ideal
+        "dac",
+        "drive_enabled",  # written by the card
+        "drive_ready",
+        "drive_fault",
+        "fault_word",
+        "fault_mask",
+        "fault_closed",
+        "marker",  # 1 while the marker is present
+        "marker_edges",  # of the last tick: 1 rising, 2 falling, 3 both
+    ),
+)
+
+# What drives an input: a box in space, one entry per side of the box, or an output.
+WIRE = HiddenBlock(
+    prefix="PLW",
+    count=64,
+    doubles=("low_cnt", "high_cnt", "delay_s", "waited_s"),
+    ints=(
+        "axis",
+        "more",  # the next entry is a further condition of the same wire
+        "slot",  # which input word
+        "mask",
+        "bit",
+        "closed",  # contact: 0 normally open, 1 normally closed
+        "active",
+        "output_word",
+        "output_mask",
+    ),
+)
+
+# The words in which inputs are wired.
+INPUT_WORD = HiddenBlock(prefix="PLN", count=8, doubles=(), ints=("word", "wired", "level"))
+
+GENERAL = HiddenBlock(
+    prefix="PLG",
+    count=1,
+    doubles=(("rise_fraction", INPUTS), ("fall_fraction", INPUTS)),
+    ints=(
+        "rises",  # onboard inputs with a rising edge within the last tick
+        "falls",
+        "follows",  # the first entries of the wire table are driven by outputs
+        "wires",
+        "words",
+    ),
+)

@@ -1,0 +1,260 @@
+"""Find out what a parameter or flag is: by number, by name, by object and name.
+
+The tables load at the first question, so that importing the map stays cheap.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from typing import TypeVar
+
+from openacr.errors import MapError
+from openacr.map.block import (
+    BITS_PER_WORD,
+    FLAG_WORD_BASE,
+    RESERVED,
+    UNDOCUMENTED,
+    Access,
+    Block,
+    FlagBlock,
+    Kind,
+    Packet,
+    Row,
+    Speed,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """Everything known about one parameter; `index` tells which of several objects."""
+
+    number: int
+    name: str
+    kind: Kind
+    access: Access
+    object: str
+    index: int | None
+    section: str
+    packet: Packet | None
+    description: str
+    unit: str
+    default: float
+    ref: str
+    erratum: str
+
+
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """Everything known about one flag; `printed` is the manual's own name for it."""
+
+    number: int
+    name: str
+    printed: str
+    access: Access
+    speed: Speed
+    parameter: int
+    bit: int
+    object: str
+    index: int | None
+    section: str
+    description: str
+    ref: str
+    erratum: str
+
+    @property
+    def mask(self) -> int:
+        """The flag's bit in its parameter, as a signed 32-bit number."""
+        return 1 << self.bit if self.bit < BITS_PER_WORD - 1 else -(1 << self.bit)
+
+
+_T = TypeVar("_T", Parameter, Flag)
+
+
+@cache
+def parameters() -> dict[int, Parameter]:
+    """All parameters by number."""
+    from openacr.map.tables import BLOCKS, FLAG_BLOCKS
+
+    found: dict[int, Parameter] = {}
+    for block in BLOCKS:
+        _collect(found, _block_parameters(block))
+    for flag_block in FLAG_BLOCKS:
+        _collect(found, _word_parameters(flag_block))
+    return dict(sorted(found.items()))
+
+
+@cache
+def flags() -> dict[int, Flag]:
+    """All flags by number."""
+    from openacr.map.tables import FLAG_BLOCKS
+
+    found: dict[int, Flag] = {}
+    for block in FLAG_BLOCKS:
+        _collect(found, _block_flags(block))
+    return dict(sorted(found.items()))
+
+
+def parameter(number: int) -> Parameter:
+    """The parameter with this number; MapError if there is none."""
+    try:
+        return parameters()[number]
+    except KeyError:
+        raise MapError(f"there is no parameter P{number}") from None
+
+
+def flag(number: int) -> Flag:
+    """The flag with this number; MapError if there is none."""
+    try:
+        return flags()[number]
+    except KeyError:
+        raise MapError(f"there is no flag BIT{number}") from None
+
+
+def flags_of(number: int) -> list[Flag]:
+    """The 32 flags of a flag word; nothing for any other parameter."""
+    first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
+    found = flags()
+    return [found[n] for n in range(first, first + BITS_PER_WORD) if n in found]
+
+
+def find_parameter(text: str) -> list[Parameter]:
+    """Parameters meant by `12291`, `P12291`, `following error` or `axis2.following_error`."""
+    number = re.fullmatch(r"P?\s*(\d+)", text.strip(), re.IGNORECASE)
+    if number:
+        return [parameter(int(number[1]))]
+    return _by_name(text, parameters(), "parameter")
+
+
+def find_flag(text: str) -> list[Flag]:
+    """Flags meant by `516`, `BIT516`, `in motion` or `master 2 in motion`."""
+    number = re.fullmatch(r"(?:BIT)?\s*(\d+)", text.strip(), re.IGNORECASE)
+    if number:
+        return [flag(int(number[1]))]
+    return _by_name(text, flags(), "flag")
+
+
+def _collect(found: dict[int, _T], new: Iterator[_T]) -> None:
+    for record in new:
+        if record.number in found:
+            raise ValueError(
+                f"{record.number} is both {found[record.number].name} and {record.name}"
+            )
+        found[record.number] = record
+
+
+def _block_parameters(block: Block) -> Iterator[Parameter]:
+    for index, base in enumerate(block.bases()):
+        for row in block.rows.values():
+            yield _parameter(block, row, index, base + row.offset)
+
+
+def _parameter(block: Block, row: Row, index: int, number: int) -> Parameter:
+    unnamed = index >= block.named
+    erratum = row.erratum if row.erratum_at in (None, index) else ""
+    return Parameter(
+        number=number,
+        name=RESERVED if unnamed else row.name,
+        kind=row.kind,
+        access=Access.RESERVED if unnamed else row.access,
+        object=block.object,
+        index=index if block.indexed else None,
+        section=block.section_of(index) if block.section_of else row.section,
+        packet=block.packet(number) if block.packet else None,
+        description="" if unnamed else row.doc,
+        unit=row.unit,
+        default=row.default_of(index),
+        ref=block.ref.value,
+        erratum=erratum or (block.packet_erratum if index >= 8 else ""),
+    )
+
+
+def _word_parameters(block: FlagBlock) -> Iterator[Parameter]:
+    for position, number, section in block.places():
+        first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
+        holds = f"Holds BIT{first} to BIT{first + BITS_PER_WORD - 1}."
+        yield Parameter(
+            number=number,
+            name=block.word_title(position),
+            kind=Kind.LONG,
+            access=block.word_access,
+            object=block.object,
+            index=block.index_of(position),
+            section=section,
+            packet=block.packet(number) if block.packet else None,
+            description=f"{holds} {block.word_doc}".rstrip(),
+            unit="",
+            default=0,
+            ref=block.ref.value,
+            erratum=block.word_erratum if position >= block.word_erratum_from else "",
+        )
+
+
+def _block_flags(block: FlagBlock) -> Iterator[Flag]:
+    for position, word, _ in block.places():
+        for bit in range(BITS_PER_WORD):
+            yield _flag(block, position, word, bit)
+
+
+def _flag(block: FlagBlock, position: int, word: int, bit: int) -> Flag:
+    row = block.flag(bit)
+    unnamed = position >= block.named and row.name != UNDOCUMENTED
+    index = block.index_of(position)
+    io = block.io_of(position) + bit
+    return Flag(
+        number=(word - FLAG_WORD_BASE) * BITS_PER_WORD + bit,
+        name=RESERVED if unnamed else row.name.format(n=index, io=io),
+        printed=RESERVED if unnamed else row.printed.format(n=index, io=io),
+        access=Access.RESERVED if unnamed else row.access,
+        speed=Speed.UNKNOWN if unnamed else row.speed,
+        parameter=word,
+        bit=bit,
+        object=block.object_of(bit),
+        index=index,
+        section=block.title,
+        description="" if unnamed else row.doc,
+        ref=block.ref.value,
+        erratum=row.erratum if row.erratum_at in (None, index) else "",
+    )
+
+
+def _by_name(text: str, records: dict[int, _T], what: str) -> list[_T]:
+    """Records whose name is `text`, else those that contain all its words."""
+    wanted = _words(text)
+    if not wanted:
+        raise MapError(f"no {what} is named {text!r}")
+    named = [record for record in records.values() if _has_meaning(record)]
+    exact = [record for record in named if _is_called(record, wanted)]
+    found = exact or [record for record in named if _mentions(record, wanted)]
+    if found:
+        return found
+    raise MapError(f"no {what} is named {text!r}" + _hint(wanted, named))
+
+
+def _has_meaning(record: Parameter | Flag) -> bool:
+    return record.access is not Access.RESERVED and record.name != UNDOCUMENTED
+
+
+def _is_called(record: Parameter | Flag, wanted: list[str]) -> bool:
+    name = _words(record.name)
+    return wanted in (name, _place(record) + name)
+
+
+def _mentions(record: Parameter | Flag, wanted: list[str]) -> bool:
+    return set(wanted) <= {*_place(record), *_words(record.name)}
+
+
+def _hint(wanted: list[str], records: Iterable[Parameter | Flag]) -> str:
+    names = {record.name.lower(): record.name for record in records}
+    close = get_close_matches(" ".join(wanted), names, n=3, cutoff=0.5)
+    return f"; perhaps {', '.join(names[match] for match in close)}?" if close else ""
+
+
+def _words(text: str) -> list[str]:
+    """Lower-case words and numbers: `axis2.following_error` has four."""
+    return re.findall(r"[a-z]+|\d+", text.lower())
+
+
+def _place(record: Parameter | Flag) -> list[str]:
+    return _words(record.object) + ([] if record.index is None else [str(record.index)])
