@@ -1,0 +1,1 @@
+"""The command line of openacr: thin shells around the layers below."""

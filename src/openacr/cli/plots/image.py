@@ -1,0 +1,181 @@
+"""Draw the curves of a run as a PNG or SVG picture.
+
+One column per axis, so that position, velocity and following error of one axis stand
+below each other on one time axis; the path in the plane of one master beside them, with
+equal scales; outputs that changed as strips below.
+"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import MaxNLocator
+
+from openacr.cli.plots.curves import Array, AxisCurves, Curves, edges, envelope
+
+# Okabe and Ito's palette: told apart with every common colour vision deficiency, and in grey.
+ACTUAL = "#0072B2"
+COMMANDED = "#F3BE56"  # its orange, lightened: the broad line below
+VELOCITY = "#009E73"
+ERROR = "#D55E00"
+STRIP = "#56B4E9"
+QUIET = "#666666"
+
+COLUMNS = 4  # axes beside each other; more axes go into further blocks below
+COLUMN_INCHES, PATH_INCHES, BLOCK_INCHES, STRIP_INCHES = 4.8, 6.2, 7.6, 0.26
+HEIGHTS = (2.4, 1.6, 1.6)  # position, velocity, following error
+
+_STYLE: Any = {
+    "font.size": 9,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#888888",
+    "axes.formatter.useoffset": False,
+    "axes.labelcolor": "#333333",
+    "axes.titlesize": 10,
+    "svg.fonttype": "none",
+}
+
+
+def write_image(curves: Curves, path: Path) -> None:
+    """Draw the curves into a PNG or SVG file."""
+    with mpl.rc_context(_STYLE):
+        figure = build_figure(curves)
+        figure.savefig(path, dpi=120)
+
+
+def build_figure(curves: Curves) -> Figure:
+    """Lay the panels out and fill them."""
+    axes = curves.moved
+    if not axes:
+        return _nothing_moved(curves)
+    columns = min(len(axes), COLUMNS)
+    widths = [COLUMN_INCHES] * columns + ([PATH_INCHES] if curves.plane else [])
+    heights = [height * BLOCK_INCHES / sum(HEIGHTS) for height in HEIGHTS]
+    heights *= math.ceil(len(axes) / columns)
+    if curves.changed_bits:
+        heights.append(STRIP_INCHES * len(curves.changed_bits) + 0.9)
+    figure = Figure(
+        figsize=(sum(widths), sum(heights) + 0.5),
+        layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.05),
+    )
+    grid = GridSpec(len(heights), len(widths), figure, width_ratios=widths, height_ratios=heights)
+    _fill(figure, grid, curves, columns)
+    _headline(figure, curves)
+    return figure
+
+
+def _headline(figure: Figure, curves: Curves) -> None:
+    seconds = float(curves.time_s[-1] - curves.time_s[0]) if curves.time_s.size else 0.0
+    text = f"{curves.title or 'openacr run'}   {seconds:.4g} s simulated"
+    figure.suptitle(text, fontsize=12, x=0.01, ha="left")
+
+
+def _nothing_moved(curves: Curves) -> Figure:
+    figure = Figure(figsize=(7, 2), layout="constrained")
+    _headline(figure, curves)
+    figure.text(0.5, 0.4, "no axis moved", ha="center", color=QUIET, fontsize=14)
+    return figure
+
+
+def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
+    first: Axes | None = None
+    for index, axis in enumerate(curves.moved):
+        top, column = index // columns * len(HEIGHTS), index % columns
+        panels = []
+        for row in range(len(HEIGHTS)):
+            panels.append(figure.add_subplot(grid[top + row, column], sharex=first))
+            first = first or panels[0]
+        _axis_column(panels, axis, curves.time_s)
+    if curves.plane:
+        # The path shares the height of the first block and is as tall as it is wide.
+        _path_panel(figure.add_subplot(grid[: len(HEIGHTS), columns]), *curves.plane)
+    if curves.changed_bits:
+        strips = figure.add_subplot(grid[-1, :columns], sharex=first)
+        _strip_panel(strips, curves)
+    if first is not None:
+        first.set_xlim(float(curves.time_s[0]), float(curves.time_s[-1]))
+
+
+def _axis_column(panels: list[Axes], axis: AxisCurves, time_s: Array) -> None:
+    position, velocity, error = panels
+    # The commanded line is broad and light, so that the actual one is seen on top of it.
+    _line(position, time_s, axis.commanded_u, COMMANDED, "commanded", 3.6)
+    _line(position, time_s, axis.actual_u, ACTUAL, "actual", 1.0)
+    _line(velocity, time_s, axis.velocity_ups, VELOCITY, "", 1.0)
+    _line(error, time_s, axis.following_error_u, ERROR, "", 0.9)
+    position.set_title(axis.title, loc="left", fontweight="bold", pad=8)
+    position.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, borderaxespad=0.2
+    )
+    position.set_ylabel(f"position [{axis.unit}]")
+    velocity.set_ylabel(f"velocity [{axis.unit}/s]")
+    error.set_ylabel(f"following error [{axis.unit}]")
+    _peak(velocity, axis.velocity_ups, f"{axis.unit}/s")
+    _peak(error, axis.following_error_u, axis.unit)
+    for panel in panels:
+        panel.yaxis.set_major_locator(MaxNLocator(6))
+    for panel in panels[:-1]:
+        panel.tick_params(labelbottom=False)
+    error.set_xlabel("time [s]")
+    for panel in panels[1:]:
+        panel.axhline(0.0, color="#aaaaaa", linewidth=0.8, zorder=1)
+
+
+def _line(panel: Axes, x: Array, y: Array, color: str, label: str, width: float) -> None:
+    kept = envelope(y)
+    panel.plot(x[kept], y[kept], color=color, label=label or None, linewidth=width)
+
+
+def _peak(panel: Axes, values: Array, unit: str) -> None:
+    """Write the largest magnitude above the panel, outside of the data."""
+    peak = float(values[np.abs(values).argmax()])
+    panel.set_title(f"peak {peak:.4g} {unit}", loc="right", fontsize=8, color=QUIET, pad=3)
+
+
+def _path_panel(panel: Axes, first: AxisCurves, second: AxisCurves) -> None:
+    for x, y, color, label, width in (
+        (first.commanded_u, second.commanded_u, COMMANDED, "commanded", 3.6),
+        (first.actual_u, second.actual_u, ACTUAL, "actual", 1.0),
+    ):
+        kept = envelope(x, y)
+        panel.plot(x[kept], y[kept], color=color, linewidth=width, label=label)
+    start = (first.actual_u[0], second.actual_u[0])
+    end = (first.actual_u[-1], second.actual_u[-1])
+    panel.plot(*start, "o", color="black", markersize=9, fillstyle="none", label="start")
+    panel.plot(*end, "s", color="black", markersize=5, label="end")
+    panel.set_aspect("equal", adjustable="datalim")
+    panel.set_title(f"path, master {first.master}", loc="left", fontweight="bold", pad=8)
+    panel.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=4,
+        frameon=False,
+        borderaxespad=0.2,
+        columnspacing=1.2,
+        handlelength=1.4,
+    )
+    panel.set_xlabel(f"{first.title} [{first.unit}]")
+    panel.set_ylabel(f"{second.title} [{second.unit}]")
+
+
+def _strip_panel(panel: Axes, curves: Curves) -> None:
+    bits = curves.changed_bits
+    for row, bit in enumerate(bits):
+        spans = [(on, off - on) for on, off in edges(bit, curves.time_s)]
+        panel.broken_barh(spans, (row - 0.35, 0.7), facecolors=STRIP, edgecolor=STRIP)
+    panel.set_yticks(range(len(bits)), [bit.title for bit in bits])
+    panel.set_ylim(len(bits) - 0.4, -0.6)
+    panel.set_title("outputs", loc="left", fontweight="bold", pad=6)
+    panel.set_xlabel("time [s]")
+    panel.tick_params(axis="y", length=0)

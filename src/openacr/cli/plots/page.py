@@ -1,0 +1,74 @@
+"""Write the curves of a run as one self-contained HTML page: zoom, cross-hair, readings."""
+
+import html
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from openacr.cli.plots.curves import Array, AxisCurves, Curves, edges, envelope
+
+# A page can be zoomed into, so it keeps more than a picture does.
+PAGE_BUCKETS = 5000
+
+
+def write_page(curves: Curves, path: Path) -> None:
+    """Write the page; it refers to nothing outside itself."""
+    path.write_text(build_page(curves), encoding="utf-8")
+
+
+def build_page(curves: Curves) -> str:
+    """Put the data of the curves into the page."""
+    template = files("openacr.cli.plots").joinpath("page.html").read_text(encoding="utf-8")
+    # A name of an axis must not be able to close the script it stands in.
+    data = msgspec.json.encode(page_data(curves)).decode().replace("</", "<\\/")
+    title = html.escape(curves.title or "openacr run")
+    return template.replace("@TITLE@", title).replace("@DATA@", data)
+
+
+def page_data(curves: Curves) -> dict[str, Any]:
+    """Collect what the script of the page draws."""
+    time_s = curves.time_s
+    span = [float(time_s[0]), float(time_s[-1])] if time_s.size else [0.0, 1.0]
+    plane = curves.plane
+    return {
+        "title": curves.title or "openacr run",
+        "span": span,
+        "axes": [_axis(axis, time_s) for axis in curves.moved],
+        "path": _path(*plane, time_s) if plane else None,
+        "bits": [{"title": b.title, "on": edges(b, time_s)} for b in curves.changed_bits],
+    }
+
+
+def _axis(axis: AxisCurves, time_s: Array) -> dict[str, Any]:
+    columns = {
+        "commanded": axis.commanded_u,
+        "actual": axis.actual_u,
+        "velocity": axis.velocity_ups,
+        "error": axis.following_error_u,
+    }
+    kept = envelope(*columns.values(), buckets=PAGE_BUCKETS)
+    data: dict[str, Any] = {name: _short(values[kept]) for name, values in columns.items()}
+    return {"title": axis.title, "unit": axis.unit, "t": _short(time_s[kept]), **data}
+
+
+def _path(first: AxisCurves, second: AxisCurves, time_s: Array) -> dict[str, Any]:
+    columns = (first.commanded_u, second.commanded_u, first.actual_u, second.actual_u)
+    kept = envelope(*columns, buckets=PAGE_BUCKETS)
+    names = ("cx", "cy", "ax", "ay")
+    data = {name: _short(values[kept]) for name, values in zip(names, columns, strict=True)}
+    return {
+        "title": f"path, master {first.master}",
+        "labels": [f"{axis.title} [{axis.unit}]" for axis in (first, second)],
+        "t": _short(time_s[kept]),
+        **data,
+    }
+
+
+def _short(values: Array) -> list[float]:
+    """Round to eight digits: finer than any screen, and half the size of the page."""
+    largest = float(np.abs(values).max(initial=0.0))
+    digits = 8 - int(np.ceil(np.log10(largest))) if largest > 0.0 else 8
+    return [float(value) for value in np.round(values, digits)]

@@ -1,0 +1,147 @@
+"""A picture shows every axis that moved, with units, and loses no peak."""
+
+import json
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from openacr.cli.plots import AxisCurves, BitCurve, Curves, draw, require
+from openacr.cli.plots.curves import Array, edges, envelope
+from openacr.cli.plots.page import build_page, page_data
+from openacr.errors import UserError
+
+TIME_S: Array = np.arange(4000, dtype=np.float64) * 0.0005
+
+
+def axis(number: int, *, name: str = "", master: int | None = 0, moves: bool = True) -> AxisCurves:
+    position = 10.0 * np.sin(TIME_S * (number + 1)) if moves else np.zeros_like(TIME_S)
+    error = np.zeros_like(TIME_S)
+    error[1234] = 0.5 if moves else 0.0
+    velocity = np.gradient(position, 0.0005)
+    return AxisCurves(
+        number, position, position - error, velocity, error, name=name, unit="mm", master=master
+    )
+
+
+def run(*axes: AxisCurves, bits: tuple[BitCurve, ...] = ()) -> Curves:
+    return Curves(TIME_S, axes, bits, "gantry")
+
+
+def texts_of_svg(path: Path) -> str:
+    return " ".join(
+        element.text or "" for element in ET.parse(path).iter("{http://www.w3.org/2000/svg}text")
+    )
+
+
+@pytest.mark.parametrize("size", [1, 10, 999, 20_000, 20_011])
+def test_decimation_keeps_ends_and_every_extreme(size: int) -> None:
+    values = np.random.default_rng(size).normal(size=size)
+    kept = envelope(values, buckets=100)
+    assert kept[0] == 0
+    assert kept[-1] == size - 1
+    assert np.all(np.diff(kept) > 0)
+    assert values[kept].min() == values.min()
+    assert values[kept].max() == values.max()
+    assert kept.size <= max(500, 4 * size // 100 + 500)
+
+
+def test_a_peak_of_one_sample_stays_in_its_place() -> None:
+    values = np.zeros(100_000)
+    values[54_321] = 1.0
+    kept = envelope(values)
+    assert 54_321 in kept
+    assert kept.size < 10_000
+
+
+def test_only_axes_that_moved_and_flags_that_changed_are_shown() -> None:
+    off = np.zeros(TIME_S.size, dtype=np.bool_)
+    blink = (TIME_S % 0.5) < 0.25
+    curves = run(axis(0), axis(1, moves=False), bits=(BitCurve(32, off), BitCurve(33, blink)))
+    assert [shown.number for shown in curves.moved] == [0]
+    assert [bit.number for bit in curves.changed_bits] == [33]
+
+
+def test_the_plane_is_the_first_two_moving_axes_of_one_master() -> None:
+    plane = run(axis(0, master=1), axis(1, moves=False), axis(2, master=0), axis(4, master=1)).plane
+    assert plane is not None
+    assert [shown.number for shown in plane] == [0, 4]
+    assert run(axis(0, master=None), axis(1, master=None)).plane is None
+
+
+def test_edges_are_the_times_a_flag_was_on() -> None:
+    on = np.array([True, False, True, True, False, True])
+    assert edges(BitCurve(1, on), np.arange(6.0)) == [(0.0, 1.0), (2.0, 4.0), (5.0, 5.0)]
+
+
+def test_a_png_shows_all_panels(tmp_path: Path) -> None:
+    path = tmp_path / "run.png"
+    draw(run(axis(0), axis(1)), path)
+    data = path.read_bytes()
+    width, height = (int.from_bytes(data[at : at + 4]) for at in (16, 20))
+    assert data.startswith(b"\x89PNG")
+    assert width > height > 800
+
+
+def test_an_svg_is_labelled_with_names_and_units(tmp_path: Path) -> None:
+    path = tmp_path / "run.svg"
+    blink = (TIME_S % 0.5) < 0.25
+    draw(run(axis(0, name="X"), axis(1, name="Y"), bits=(BitCurve(32, blink, "clamp"),)), path)
+    shown = texts_of_svg(path)
+    for text in (
+        "X (axis 0)",
+        "Y (axis 1)",
+        "position [mm]",
+        "velocity [mm/s]",
+        "following error [mm]",
+        "time [s]",
+        "commanded",
+        "actual",
+        "path, master 0",
+        "X (axis 0) [mm]",
+        "peak 0.5 mm",
+        "clamp (BIT32)",
+        "2 s simulated",
+    ):
+        assert text in shown
+
+
+def test_a_run_without_motion_says_so(tmp_path: Path) -> None:
+    draw(run(axis(0, moves=False)), tmp_path / "still.svg")
+    assert "no axis moved" in texts_of_svg(tmp_path / "still.svg")
+    draw(Curves(np.empty(0), ()), tmp_path / "empty.png")
+    assert (tmp_path / "empty.png").stat().st_size > 1000
+
+
+def test_a_page_stands_alone_and_holds_the_data(tmp_path: Path) -> None:
+    path = tmp_path / "run.html"
+    draw(run(axis(0, name="X </script>"), axis(1)), path)
+    page = path.read_text(encoding="utf-8")
+    outside = set(re.findall(r"https?://[^\s\"']+", page)) - {"http://www.w3.org/2000/svg"}
+    assert outside == set()
+    assert not re.search(r"<(link|img|script[^>]*\ssrc)", page)
+    found = re.search(r'<script id="data"[^>]*>(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    data = json.loads(found[1])
+    assert data["axes"][0]["title"] == "X </script> (axis 0)"
+    assert max(data["axes"][0]["error"]) == 0.5
+    assert data["path"]["labels"] == ["X </script> (axis 0) [mm]", "axis 1 [mm]"]
+
+
+def test_a_page_of_nothing_can_be_built() -> None:
+    assert page_data(Curves(np.empty(0), ()))["axes"] == []
+    assert "no axis moved" in build_page(Curves(np.empty(0), ()))
+
+
+def test_an_unknown_kind_of_picture_is_refused() -> None:
+    with pytest.raises(UserError, match=r"run\.gif: pictures end in \.png, \.svg or \.html"):
+        require(Path("run.gif"))
+
+
+def test_a_missing_drawing_library_is_named_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("openacr.cli.plots.formats.find_spec", lambda name: None)
+    with pytest.raises(UserError, match=r"need matplotlib: pip install 'openacr\[plot\]'"):
+        require(Path("run.png"))
+    require(Path("run.html"))
