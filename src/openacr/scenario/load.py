@@ -8,14 +8,15 @@ from pathlib import Path
 import msgspec
 
 from openacr.errors import SourceError
+from openacr.plant.locate import nearest, places
 from openacr.project import read_bytes
-from openacr.scenario.places import Step, locate, steps
-from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
+from openacr.scenario.rules import STRUCT_OF_KEY, Step, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
 
 _PATH = re.compile(r"^(.*?)(?: - at `(\$.*)`)?$", re.DOTALL)
 _UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 _MISSING = re.compile(r"Object missing required field `(.*)`")
+_STEP = re.compile(r"\.([A-Za-z0-9_-]+)|\[(\d+)\]")
 _TOML_PLACE = re.compile(r"\s*\(at line (\d+), column (\d+)\)|\s*\(at end of document\)")
 
 
@@ -44,8 +45,13 @@ def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
 
 
 def _at(text: str, path: str, where: Sequence[Step], what: str, hint: str = "") -> SourceError:
-    line, column = locate(text, where)
+    line, column = nearest(places(text), tuple(where))
     return SourceError(what, path=path, line=line, column=column, hint=hint)
+
+
+def _steps(path: str) -> list[Step]:
+    """Split a path like `$.at[2].when` into its steps."""
+    return [int(index) if index else name for name, index in _STEP.findall(path)]
 
 
 def _syntax(error: tomllib.TOMLDecodeError, text: str, path: str) -> SourceError:
@@ -60,7 +66,7 @@ def _syntax(error: tomllib.TOMLDecodeError, text: str, path: str) -> SourceError
 def _wrong(message: str, text: str, path: str) -> SourceError:
     """Turn the converter's sentence about a path into one about a line."""
     match = _PATH.match(message)
-    what, where = (match[1], steps(match[2] or "")) if match else (message, [])
+    what, where = (match[1], _steps(match[2] or "")) if match else (message, [])
     if unknown := _UNKNOWN.fullmatch(what):
         allowed = ", ".join(allowed_keys(where))
         return _at(

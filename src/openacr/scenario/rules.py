@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from msgspec import UNSET, Struct
 from msgspec.structs import fields
 
-from openacr.scenario.places import Step
 from openacr.scenario.schema import Action, Condition, Drag, Expectation, Scenario
+
+Step = str | int
 
 # The 32 opto-isolated inputs and the 32 miscellaneous ones are the card's input pins.
 INPUT_BITS = frozenset([*range(32), *range(64, 96)])
