@@ -1,0 +1,66 @@
+"""Aliases: the names #DEFINE gives to parameters, flags, constants and variables."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from openacr.basic.nodes import Expr
+from openacr.basic.registry import keywords
+from openacr.errors import CardError
+from openacr.messages import ILLEGAL_NAME, OUT_OF_DEFINE_SPACE
+
+LONGEST_ALIAS = 24
+
+
+class Aliases:
+    """All aliases of the card, valid in every program and on every channel.
+
+    `capacity()` is the number DIM DEF has reserved. Names are case-sensitive, but none may
+    spell like a keyword. `nodes` is what a line is parsed with.
+    """
+
+    def __init__(self, capacity: Callable[[], int]) -> None:
+        self._capacity = capacity
+        self._nodes: dict[str, Expr] = {}
+        self._texts: dict[str, str] = {}
+
+    @property
+    def nodes(self) -> Mapping[str, Expr]:
+        """The meaning of every alias."""
+        return self._nodes
+
+    def define(self, name: str, target: Expr, text: str) -> None:
+        """#DEFINE: give `target`, written as `text`, a name; a known name gets a new target."""
+        check_name(name)
+        if name not in self._nodes and len(self._nodes) >= self._capacity():
+            raise CardError(OUT_OF_DEFINE_SPACE)
+        self._nodes[name] = target
+        self._texts[name] = text
+
+    def clear(self) -> None:
+        """DEF CLEAR: forget all."""
+        self._nodes.clear()
+        self._texts.clear()
+
+    def line(self, name: str) -> str | None:
+        """The definition of one alias as it is typed."""
+        return f"#DEFINE {name} {self._texts[name]}" if name in self._texts else None
+
+    def lines(self) -> Iterator[str]:
+        """DEF: all definitions as they are typed, oldest first."""
+        for name, text in self._texts.items():
+            yield f"#DEFINE {name} {text}"
+
+    def state(self) -> dict[str, tuple[Expr, str]]:
+        """All aliases, for a snapshot."""
+        return {name: (node, self._texts[name]) for name, node in self._nodes.items()}
+
+    def restore(self, state: Mapping[str, tuple[Expr, str]]) -> None:
+        """Take over what `state` returned."""
+        self._nodes = {name: node for name, (node, _) in state.items()}
+        self._texts = {name: text for name, (_, text) in state.items()}
+
+
+def check_name(name: str) -> None:
+    """Refuse a name that is too long, not of letters only, or a word of the language."""
+    is_letters = name.isascii() and name.isalpha()
+    if not is_letters or len(name) > LONGEST_ALIAS or name.upper() in keywords():
+        raise CardError(ILLEGAL_NAME)

@@ -1,0 +1,165 @@
+"""Write stored lines as LIST shows them: from their tokens, in one spelling for all.
+
+Reading a listed line gives the same tokens again. Words of the language are upper case
+with one blank behind, axes and variables stand before their value without one, numbers
+keep their value, remarks and strings stay as they were typed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from openacr.basic import registry
+from openacr.basic.grammar import Form, Mark, Object, Word
+from openacr.basic.parser import PREFIXES
+from openacr.lang.lexer import Kind, Token
+
+if TYPE_CHECKING:
+    from openacr.basic.program_store import StoredLine
+
+LONGEST_AXIS_NAME = 4
+
+_SPACED = frozenset(("=", "<>", "<", ">", "<=", ">=", "<<", ">>"))
+_TIGHT = frozenset(("+", "-", "*", "/", "**", ",", ";", "#", "(", "?"))
+_OPENING = frozenset(("IF", "FOR", "WHILE"))
+_CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
+_OUTDENTED = frozenset(("ELSE", "ELSEIF", "NEXT", "WEND"))
+_SPACED_VARIABLE = "BIT"
+
+
+class Lister:
+    """Writes lines; knows which words are keywords, objects and aliases."""
+
+    def __init__(self, aliases: Collection[str] = ()) -> None:
+        self.aliases = aliases
+        self.known, self.objects = _vocabulary()
+
+    def program(self, lines: Iterable[StoredLine], *, numbers: bool = False) -> Iterator[str]:
+        """The whole text; line numbers are hidden in free-form programs unless wanted."""
+        depth = 0
+        is_free_form = False
+        for place, line in enumerate(lines):
+            words = [str(token.value) for token in line.tokens if token.kind is Kind.WORD]
+            first = words[0] if words else ""
+            if place == 0:
+                is_free_form = first == "PROGRAM"
+            numbered = f"{line.number} " if numbers or not is_free_form else ""
+            frame = first in ("PROGRAM", "ENDP")
+            outer = depth - (first in _OUTDENTED) + is_free_form
+            indent = 0 if frame else max(outer, 0)
+            yield f"{numbered}{' ' * indent}{self.line(line.tokens)}"
+            depth = max(depth + _depth_change(line.tokens), 0)
+
+    def line(self, tokens: Iterable[Token]) -> str:
+        """One line without its number."""
+        text = ""
+        before: Token | None = None
+        older: Token | None = None
+        for token in tokens:
+            if token.kind is Kind.END:
+                break
+            part = self._spelling(token, before)
+            if before is not None and self._is_apart(older, before, token):
+                text += " "
+            text += part
+            older, before = before, token
+        return text
+
+    def _spelling(self, token: Token, before: Token | None) -> str:
+        if token.kind is Kind.WORD:
+            return self._word(token)
+        if token.kind is Kind.NUMBER:
+            return literal(token.value)
+        if token.kind is Kind.STRING:
+            return '"{}"'.format(str(token.value).replace('"', '""'))
+        if token.kind is Kind.LABEL:
+            is_target = before is not None and before.value in ("GOTO", "GOSUB")
+            return f"{'' if is_target else '_'}{token.value}"
+        if token.kind is Kind.REMARK:
+            return f"REM{token.value}"
+        return str(token.value)
+
+    def _word(self, token: Token) -> str:
+        if token.text in self.aliases:
+            return token.text
+        is_name = token.value in self.known or len(token.text) <= LONGEST_AXIS_NAME
+        return str(token.value) if is_name else token.text
+
+    def _is_apart(self, older: Token | None, before: Token, token: Token) -> bool:
+        """Whether a blank stands between two tokens."""
+        if ":" in (before.value, token.value) or token.kind is Kind.REMARK:
+            return True
+        if _is_operator(token, _SPACED) or _is_operator(before, _SPACED):
+            return True
+        if before.kind is Kind.OPERATOR and before.value != ")":
+            return False
+        if _is_operator(token, {",", ";", ")"}):
+            return False
+        if before.kind is Kind.WORD:
+            return self._is_keyword(before) or token.kind in (Kind.WORD, Kind.STRING)
+        return not _is_operator(token, _TIGHT) or self._begins_value(before, token)
+
+    def _is_keyword(self, token: Token) -> bool:
+        """Whether a blank follows this word whatever comes."""
+        word = str(token.value)
+        if token.text in self.aliases or word in registry.functions or word in self.objects:
+            return False
+        if word in registry.VARIABLES:
+            return word == _SPACED_VARIABLE
+        return word in self.known
+
+    @staticmethod
+    def _begins_value(before: Token, token: Token) -> bool:
+        """Whether `(` or `#` behind a number, string or `)` begins something new."""
+        return _is_operator(token, {"(", "#", "?"}) and before.kind is not Kind.WORD
+
+
+def literal(value: str | int | float) -> str:
+    """A number that reads back as exactly this value."""
+    if isinstance(value, float):
+        return repr(value).removesuffix(".0").upper()
+    return str(value)
+
+
+def _is_operator(token: Token, texts: Collection[str]) -> bool:
+    return token.kind is Kind.OPERATOR and token.value in texts
+
+
+def _depth_change(tokens: Iterable[Token]) -> int:
+    """Blocks a line opens, less those it closes; a one-line IF opens none."""
+    words = [str(token.value) for token in tokens if token.kind is Kind.WORD]
+    if "THEN" in words:
+        words = words[: words.index("IF")] if "IF" in words else []
+    opened = sum(word in _OPENING for word in words)
+    if "ELSE" in words:
+        opened -= words.count("IF")  # ELSE IF is ELSEIF
+    return opened - sum(word in _CLOSING for word in words)
+
+
+def _vocabulary() -> tuple[frozenset[str], frozenset[str]]:
+    """All words of the language, and those that name an object by a number."""
+    known = set(registry.keywords())
+    objects = set(PREFIXES)
+    for row in registry.commands():
+        for path in (row.words, *row.synonyms):
+            known.update(path)
+            pairs = pairwise(path)
+            objects.update(word for word, index in pairs if index == registry.INDEX)
+        for form in row.grammar:
+            _form_words(form, known, objects)
+    return frozenset(known), frozenset(objects)
+
+
+def _form_words(form: Form, known: set[str], objects: set[str]) -> None:
+    if isinstance(form, Object):
+        objects.update(form.words)
+        known.update(form.words | form.singles)
+    elif isinstance(form, Word):
+        known.update(form.words)
+    elif isinstance(form, Mark):
+        known.add(form.name)
+    inner = getattr(form, "each", None)
+    for each in (*getattr(form, "forms", ()), *((inner,) if inner else ())):
+        _form_words(each, known, objects)

@@ -1,0 +1,128 @@
+"""Stored programs and PLCs: numbered lines of tokens, with the rules of entering them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from openacr.basic.nodes import Line
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.storage import Storage
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind, Token
+from openacr.map import numbers as at
+from openacr.messages import INVALID_PASSWORD, PROGRAM_IS_PROTECTED
+
+OWNERS = 24  # programs 0-15, PLCs 16-23
+HIDDEN_STEP = 10
+
+# `PROGRAM0_start` is a published misprint for two lines: the number means nothing, the
+# label belongs to the next line.
+_PROGRAM = re.compile(r"[\s:]*PROGRAM(?![A-Za-z])\s*\d*\s*(.*)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class StoredLine:
+    """One line of a program: its number, its tokens (without the number) and its meaning.
+
+    `tree` is what the reader of the line made of it: a `Line`, or PLC instructions.
+    """
+
+    number: int
+    tokens: tuple[Token, ...]
+    tree: Any
+    cost_bytes: int
+
+    @property
+    def first_word(self) -> str:
+        """The word the line begins with, in upper case."""
+        for token in self.tokens:
+            if token.value != ":":
+                return str(token.value) if token.kind is Kind.WORD else ""
+        return ""
+
+
+@dataclass(slots=True)
+class ProgramStore:
+    """The text of all programs and PLCs."""
+
+    storage: Storage
+    texts: list[dict[int, StoredLine]] = field(default_factory=lambda: [{} for _ in range(OWNERS)])
+    password: str | None = None
+
+    def lines(self, owner: int) -> list[StoredLine]:
+        """The lines of a program in the order of their numbers."""
+        text = self.texts[owner]
+        return [text[number] for number in sorted(text)]
+
+    def is_empty(self, owner: int) -> bool:
+        """Whether nothing is stored."""
+        return not self.texts[owner]
+
+    def put(self, owner: int, line: StoredLine) -> None:
+        """Store a line, replacing the one of its number; `Out of memory` stores nothing."""
+        old = self.texts[owner].get(line.number)
+        self._account(owner, line.cost_bytes - (old.cost_bytes if old else 0))
+        self.texts[owner][line.number] = line
+        self._mark_modified(owner)
+
+    def delete(self, owner: int, number: int) -> None:
+        """Remove the line of this number, if there is one."""
+        old = self.texts[owner].pop(number, None)
+        if old is not None:
+            self._account(owner, -old.cost_bytes)
+        self._mark_modified(owner)
+
+    def erase(self, owner: int) -> None:
+        """NEW: remove all lines."""
+        self.texts[owner].clear()
+        self.storage.set_code_bytes(owner, 0)
+        self._mark_modified(owner)
+
+    def next_number(self, owner: int) -> int:
+        """The hidden number of the next line of free-form text."""
+        last = max(self.texts[owner], default=0)
+        return last - last % HIDDEN_STEP + HIDDEN_STEP
+
+    def starts_by_itself(self, owner: int) -> bool:
+        """Whether the first statement, PROGRAM not counted, is PBOOT."""
+        lines = self.lines(owner)
+        if lines and lines[0].first_word == "PROGRAM":
+            lines = lines[1:]
+        return bool(lines) and lines[0].first_word == "PBOOT"
+
+    def trees(self, owner: int) -> Iterator[tuple[int, Line]]:
+        """Numbers and meanings of all lines, for the compiler."""
+        for line in self.lines(owner):
+            yield line.number, line.tree
+
+    def protect(self, password: str) -> None:
+        """PASSWORD ON: LIST is refused from now on."""
+        self.password = password
+
+    def unprotect(self, password: str) -> None:
+        """PASSWORD OFF: needs the same text."""
+        if self.password is not None and password != self.password:
+            raise CardError(INVALID_PASSWORD)
+        self.password = None
+
+    def check_readable(self) -> None:
+        """Refuse to show program text while a password protects it."""
+        if self.password is not None:
+            raise CardError(PROGRAM_IS_PROTECTED)
+
+    def _account(self, owner: int, growth: int) -> None:
+        row = self.storage.heap.row(owner, at.STI_CODE_BYTES)
+        self.storage.set_code_bytes(owner, row + growth)
+
+    def _mark_modified(self, owner: int) -> None:
+        if owner < PROGRAMS:
+            self.storage.memory.I[at.PF_WORD + owner] |= at.PF_PROGRAM_MODIFIED
+
+
+def opens_capture(text: str) -> str | None:
+    """What stands behind PROGRAM on the line that opens free-form entry; None for others."""
+    match = _PROGRAM.fullmatch(text.strip())
+    return match[1] if match else None
