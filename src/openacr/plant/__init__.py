@@ -1,0 +1,1 @@
+"""What is outside the card: motors, encoders, switches and wiring, as `machine.toml` says."""

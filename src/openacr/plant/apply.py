@@ -1,0 +1,315 @@
+"""Write a world into the memory of a card, in the units the step works with.
+
+A motor is described in encoder counts (four per line) and seconds. Count 0 begins at the
+initial position, because an incremental encoder starts to count where it happens to stand:
+
+    position_cnt = direction * (position_u - initial_u) * counts_per_rev / units_per_rev + 0.5
+
+(the half puts the motor into the middle of a count). Torques become accelerations: one
+radian is counts_per_rev / 2 pi counts, so T newton metres on an inertia J give
+T / J * counts_per_rev / 2 pi counts/s^2. Borders of switches and regions are moved to the
+middle of the count they lie in, so that the count at an edge has no rounding in it.
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plant.schema import (
+    Axis,
+    Contact,
+    Direction,
+    IdealDrive,
+    Motor,
+    Space,
+    TorqueDrive,
+    VelocityDrive,
+    Wire,
+    World,
+    switches,
+)
+from openacr.plant.step_cy import (
+    IDEAL_DRIVE,
+    TORQUE_DRIVE,
+    VELOCITY_DRIVE,
+    plant_refresh,
+)
+from openacr.plant.wiring_cy import NO_BORDER_CNT
+
+FULL_DAC_BITS = 16
+FLAG_WORDS = 4096
+WORD_BITS = 32
+
+
+def apply_world(world: World, memory: Memory) -> None:
+    """Give the card of `memory` the world outside it, at rest at its initial positions."""
+    _clear(memory)
+    memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
+    for axis in world.axis:
+        _write_motor(memory, axis, world)
+    slots = _write_input_words(memory, world)
+    _write_wires(memory, world, slots)
+    plant_refresh(memory.F, memory.I, at.PL_COUNT)
+
+
+def count_of(axis: Axis, position_u: float) -> float:
+    """Return the encoder count, with its fraction, at a position in user units."""
+    sign = 1 if axis.encoder_direction is Direction.UP else -1
+    return sign * (position_u - axis.initial) * axis.counts_per_unit + 0.5
+
+
+def position_of(axis: Axis, count: float) -> float:
+    """Return the position in user units at an encoder count."""
+    sign = 1 if axis.encoder_direction is Direction.UP else -1
+    return axis.initial + sign * (count - 0.5) / axis.counts_per_unit
+
+
+def _clear(memory: Memory) -> None:
+    for base, length in (
+        (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
+        (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
+        (at.PLGF_BASE, at.PLGF_STRIDE),
+    ):
+        for index in range(base, base + length):
+            memory.F[index] = 0.0
+    for base, length in (
+        (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
+        (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
+        (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
+        (at.PLGI_BASE, at.PLGI_STRIDE),
+    ):
+        for index in range(base, base + length):
+            memory.I[index] = 0
+
+
+# -- motors --------------------------------------------------------------------------------
+
+
+def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
+    doubles = {
+        at.PLF_DAC_STEP: 2.0 ** (FULL_DAC_BITS - world.card.dac_bits),
+        at.PLF_OFFSET_V: axis.drive.offset_v,
+        at.PLF_POSITION_CNT: count_of(axis, axis.initial),
+        **_drive_rows(axis),
+        **_load_rows(axis),
+        **_stop_rows(axis),
+        **_marker_rows(axis),
+    }
+    base = at.PLF_BASE + axis.number * at.PLF_STRIDE
+    for row, value in doubles.items():
+        memory.F[base + row] = value
+    base = at.PLI_BASE + axis.number * at.PLI_STRIDE
+    for row, number in _int_rows(axis).items():
+        memory.I[base + row] = number
+
+
+def _int_rows(axis: Axis) -> dict[int, int]:
+    drive = axis.drive
+    rows = {at.PLI_DAC: axis.number if axis.dac is None else axis.dac}
+    kinds = {TorqueDrive: TORQUE_DRIVE, VelocityDrive: VELOCITY_DRIVE, IdealDrive: IDEAL_DRIVE}
+    rows[at.PLI_KIND] = kinds[type(drive)]
+    if drive.fault_input is not None:
+        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = _place(drive.fault_input)
+        rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)
+    return rows
+
+
+def _drive_rows(axis: Axis) -> dict[int, float]:
+    """Say what a volt does: an acceleration, or a speed with a lag and a peak acceleration."""
+    drive = axis.drive
+    sign = 1 if axis.encoder_direction is Direction.UP else -1
+    if isinstance(drive, IdealDrive):
+        speed = sign * drive.revs_per_s_per_volt * axis.counts
+        return {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
+    motor = _motor(axis)
+    per_amp = motor.torque_nm_per_a * _accel_per_nm(axis)
+    rows = {at.PLF_PEAK_ACCEL: drive.peak_amps * per_amp}
+    if isinstance(drive, VelocityDrive):
+        speed = sign * drive.revs_per_s_per_volt * axis.counts
+        return rows | {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
+    rows[at.PLF_ACCEL_PER_VOLT] = sign * drive.amps_per_volt * per_amp
+    if drive.supply_v is not None and motor.resistance_ohm is not None:
+        # In SI units the back-EMF constant (V per rad/s) is the torque constant (Nm per A).
+        rows[at.PLF_SUPPLY_ACCEL] = drive.supply_v / motor.resistance_ohm * per_amp
+        rows[at.PLF_BACK_EMF_PER_S] = motor.torque_nm_per_a**2 / (
+            motor.resistance_ohm * _inertia_kgm2(axis)
+        )
+    return rows
+
+
+def _load_rows(axis: Axis) -> dict[int, float]:
+    """Friction per inertia; an ideal drive knows no load."""
+    if isinstance(axis.drive, IdealDrive):
+        return {}
+    load = axis.load
+    static_nm = load.coulomb_nm if load.static_nm is None else load.static_nm
+    return {
+        at.PLF_VISCOUS_PER_S: load.viscous_nms / _inertia_kgm2(axis),
+        at.PLF_COULOMB_ACCEL: load.coulomb_nm * _accel_per_nm(axis),
+        at.PLF_STATIC_ACCEL: static_nm * _accel_per_nm(axis),
+    }
+
+
+def _motor(axis: Axis) -> Motor:
+    if axis.motor is None:
+        raise ValueError(f"axis {axis.label} has no motor")
+    return axis.motor
+
+
+def _inertia_kgm2(axis: Axis) -> float:
+    return _motor(axis).inertia_kgm2 + axis.load.inertia_kgm2
+
+
+def _accel_per_nm(axis: Axis) -> float:
+    return axis.counts / (2 * math.pi * _inertia_kgm2(axis))
+
+
+def _stop_rows(axis: Axis) -> dict[int, float]:
+    if axis.travel is None:
+        return {at.PLF_LOW_STOP_CNT: -NO_BORDER_CNT, at.PLF_HIGH_STOP_CNT: NO_BORDER_CNT}
+    low, high = sorted(count_of(axis, end) for end in axis.travel)
+    return {at.PLF_LOW_STOP_CNT: low, at.PLF_HIGH_STOP_CNT: high}
+
+
+def _marker_rows(axis: Axis) -> dict[int, float]:
+    """Place the marker: it is present in one count of each revolution."""
+    if axis.marker is None:
+        return {}
+    phase = math.floor(count_of(axis, axis.marker)) % axis.counts
+    return {at.PLF_MARKER_PITCH_CNT: float(axis.counts), at.PLF_MARKER_PHASE_CNT: float(phase)}
+
+
+# -- inputs --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Side:
+    """One side of the box in which a wire is active."""
+
+    axis: int
+    low_cnt: float
+    high_cnt: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Box:
+    """An input and the box in space that makes it active."""
+
+    input: int
+    contact: Contact
+    sides: tuple[_Side, ...]
+
+
+def _boxes(world: World) -> Iterator[_Box]:
+    for axis in world.axis:
+        for switch in switches(axis):
+            side = _side(axis, switch.low_u, switch.high_u)
+            yield _Box(switch.input, switch.contact, (side,))
+    by_label = {axis.label.upper(): axis for axis in world.axis}
+    for wire in world.wire:
+        if wire.region is not None:
+            yield _Box(wire.input, wire.contact, tuple(_region_sides(wire, by_label)))
+
+
+def _region_sides(wire: Wire, by_label: dict[str, Axis]) -> Iterator[_Side]:
+    for name, (low, high) in (wire.region or {}).items():
+        axis = by_label[name.upper()]
+        scale = {Space.USER: 1.0, Space.REVS: axis.units_per_rev}.get(
+            wire.units, 1 / axis.counts_per_unit
+        )
+        yield _side(axis, low * scale, high * scale)
+
+
+def _side(axis: Axis, low_u: float, high_u: float) -> _Side:
+    """Convert a range of positions; an encoder that counts down exchanges its ends."""
+    low, high = sorted(_border(axis, end) for end in (low_u, high_u))
+    return _Side(axis.number, low, high)
+
+
+def _border(axis: Axis, position_u: float) -> float:
+    count = count_of(axis, position_u)
+    if abs(count) >= NO_BORDER_CNT:
+        return math.copysign(NO_BORDER_CNT, count)
+    return math.floor(count) + 0.5
+
+
+def _write_input_words(memory: Memory, world: World) -> dict[int, int]:
+    """List the words that hold wired inputs; the onboard inputs always come first."""
+    on, off = world.inputs.on, world.inputs.off
+    wired = [*(box.input for box in _boxes(world)), *(wire.input for wire in world.wire), *on, *off]
+    words = sorted({_place(number)[0] for number in wired} | {at.W_INPUTS})
+    slots = {word: slot for slot, word in enumerate(words)}
+    for word, slot in slots.items():
+        memory.I[_word_row(slot) + at.PLNI_WORD] = word
+    for number in wired:
+        word, mask = _place(number)
+        memory.I[_word_row(slots[word]) + at.PLNI_WIRED] |= mask
+    for number in on:
+        word, mask = _place(number)
+        memory.I[_word_row(slots[word]) + at.PLNI_LEVEL] |= mask
+    memory.I[at.PLGI_BASE + at.PLGI_WORDS] = len(slots)
+    return slots
+
+
+def _word_row(slot: int) -> int:
+    return at.PLNI_BASE + slot * at.PLNI_STRIDE
+
+
+def _write_wires(memory: Memory, world: World, slots: dict[int, int]) -> None:
+    """Write outputs that drive inputs first, then boxes, one entry for each side."""
+    follows = [wire for wire in world.wire if wire.output is not None]
+    for entry, wire in enumerate(follows):
+        _write_target(memory, entry, wire.input, wire.contact, slots)
+        _write_output(memory, entry, wire)
+    entry = len(follows)
+    for box in _boxes(world):
+        entry = _write_box(memory, entry, box, slots)
+    memory.I[at.PLGI_BASE + at.PLGI_FOLLOWS] = len(follows)
+    memory.I[at.PLGI_BASE + at.PLGI_WIRES] = entry
+
+
+def _write_target(
+    memory: Memory, entry: int, number: int, contact: Contact, slots: dict[int, int]
+) -> None:
+    word, mask = _place(number)
+    base = at.PLWI_BASE + entry * at.PLWI_STRIDE
+    memory.I[base + at.PLWI_SLOT] = slots[word]
+    memory.I[base + at.PLWI_MASK] = mask
+    memory.I[base + at.PLWI_BIT] = number % WORD_BITS
+    if contact is Contact.CLOSED:
+        memory.I[base + at.PLWI_CLOSED] = 1
+        memory.I[_word_row(slots[word]) + at.PLNI_LEVEL] |= mask
+
+
+def _write_output(memory: Memory, entry: int, wire: Wire) -> None:
+    base = at.PLWI_BASE + entry * at.PLWI_STRIDE
+    word, mask = _place(wire.output or 0)
+    memory.I[base + at.PLWI_OUTPUT_WORD], memory.I[base + at.PLWI_OUTPUT_MASK] = word, mask
+    memory.F[at.PLWF_BASE + entry * at.PLWF_STRIDE + at.PLWF_DELAY_S] = wire.delay_s
+
+
+def _write_box(memory: Memory, entry: int, box: _Box, slots: dict[int, int]) -> int:
+    """Write one box and return the next free entry."""
+    _write_target(memory, entry, box.input, box.contact, slots)
+    for side, more in zip(box.sides, _all_but_last(box.sides), strict=True):
+        base = at.PLWI_BASE + entry * at.PLWI_STRIDE
+        memory.I[base + at.PLWI_AXIS] = side.axis
+        memory.I[base + at.PLWI_MORE] = int(more)
+        base = at.PLWF_BASE + entry * at.PLWF_STRIDE
+        memory.F[base + at.PLWF_LOW_CNT] = side.low_cnt
+        memory.F[base + at.PLWF_HIGH_CNT] = side.high_cnt
+        entry += 1
+    return entry
+
+
+def _all_but_last(sides: Iterable[_Side]) -> list[bool]:
+    count = len(list(sides))
+    return [position < count - 1 for position in range(count)]
+
+
+def _place(flag: int) -> tuple[int, int]:
+    """Parameter number of the word that holds a flag, and the flag's signed mask."""
+    word, bit = divmod(flag, WORD_BITS)
+    return FLAG_WORDS + word, 1 << bit if bit < WORD_BITS - 1 else -(1 << bit)

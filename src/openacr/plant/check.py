@@ -1,0 +1,229 @@
+"""Contradictions that each single value of a `machine.toml` cannot show."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from openacr.plant.locate import Path
+from openacr.plant.schema import (
+    Axis,
+    IdealDrive,
+    Switch,
+    TorqueDrive,
+    World,
+    switches,
+)
+
+BOX_SIDES = 64
+# The onboard inputs and those of the four expansion boards; all other flags belong to the card.
+INPUT_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
+OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
+
+
+@dataclass(frozen=True, slots=True)
+class Complaint:
+    """Something wrong: where in the file, in words, and how to mend it."""
+
+    path: Path
+    text: str
+    hint: str = ""
+
+
+def contradictions(world: World) -> Iterator[Complaint]:
+    """Yield what does not fit together, in the order of the file."""
+    for check in CHECKS:
+        yield from check(world)
+
+
+def _numbers_and_names(world: World) -> Iterator[Complaint]:
+    taken: dict[object, int] = {}
+    for index, axis in enumerate(world.axis):
+        for key, value in (("number", axis.number), ("name", axis.name.upper())):
+            other = taken.setdefault(value, index) if value != "" else index
+            if other != index:
+                yield Complaint(
+                    ("axis", index, key),
+                    f"two axes have the {key} {getattr(axis, key)}",
+                    f"the other is axis[{other}]",
+                )
+
+
+def _encoders(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        if (axis.encoder_lines is None) == (axis.counts_per_rev is None):
+            both = "both" if axis.encoder_lines else "neither"
+            yield Complaint(
+                ("axis", index),
+                f"axis {axis.label} has {both} of encoder_lines and counts_per_rev",
+                "give one of them; an encoder has four counts per line",
+            )
+
+
+def _motors(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        for key, text, hint in _motor_faults(axis):
+            yield Complaint(("axis", index, *key), f"axis {axis.label}: {text}", hint)
+
+
+def _motor_faults(axis: Axis) -> Iterator[tuple[tuple[str, ...], str, str]]:
+    drive, motor, load = axis.drive, axis.motor, axis.load
+    if isinstance(drive, IdealDrive):
+        if motor is not None:
+            yield ("motor",), "an ideal drive has no use for a motor", 'or set mode = "torque"'
+    elif motor is None:
+        yield (), "the motor is missing", "add [axis.motor]; only an ideal drive needs none"
+    elif isinstance(drive, TorqueDrive) and drive.supply_v and motor.resistance_ohm is None:
+        yield (
+            ("drive", "supply_v"),
+            "supply_v limits nothing without resistance_ohm of the motor",
+            "add resistance_ohm to [axis.motor]",
+        )
+    if load.static_nm is not None and load.static_nm < load.coulomb_nm:
+        yield (
+            ("load", "static_nm"),
+            f"static_nm {load.static_nm:g} is below coulomb_nm {load.coulomb_nm:g}",
+            "static friction is never less than the friction of motion",
+        )
+
+
+def _travel(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        if axis.travel is None:
+            continue
+        low, high = axis.travel
+        if low >= high:
+            text = f"axis {axis.label}: travel goes from {low:g} to {high:g}"
+            yield Complaint(("axis", index, "travel"), text, "give the lower end first")
+        elif not low <= axis.initial <= high:
+            yield Complaint(
+                ("axis", index, "initial"),
+                f"axis {axis.label}: initial {axis.initial:g} is outside the travel "
+                f"{low:g} to {high:g}",
+            )
+
+
+def _switch_positions(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        for switch in switches(axis):
+            for text, hint in _switch_faults(axis, switch):
+                yield Complaint(("axis", index, switch.key), f"axis {axis.label}: {text}", hint)
+        positive, negative = axis.positive_limit, axis.negative_limit
+        if positive and negative and negative.at >= positive.at:
+            yield Complaint(
+                ("axis", index, "negative_limit", "at"),
+                f"axis {axis.label}: negative_limit at {negative.at:g} is not below "
+                f"positive_limit at {positive.at:g}",
+            )
+
+
+def _switch_faults(axis: Axis, switch: Switch) -> Iterator[tuple[str, str]]:
+    if switch.low_u >= switch.high_u:
+        yield (
+            f"{switch.key} is active between {switch.low_u:g} and {switch.high_u:g}",
+            "give the lower end first",
+        )
+    elif axis.travel is not None:
+        low, high = axis.travel
+        if switch.low_u > high or switch.high_u < low:
+            at = switch.low_u if switch.low_u > high else switch.high_u
+            yield (
+                f"{switch.key} at {at:g} is outside the travel {low:g} to {high:g}",
+                "the axis would never reach it",
+            )
+
+
+def _wires(world: World) -> Iterator[Complaint]:
+    labels = {axis.label.upper(): axis for axis in world.axis}
+    for index, wire in enumerate(world.wire):
+        path: Path = ("wire", index)
+        if (wire.region is None) == (wire.output is None):
+            both = (
+                "both a region and an output" if wire.region else "neither a region nor an output"
+            )
+            yield Complaint(path, f"the wire to input {wire.input} has {both}", "give one of them")
+        elif wire.region is not None:
+            yield from _region_faults(wire.region, labels, (*path, "region"))
+            if wire.delay_s:
+                yield Complaint((*path, "delay_s"), "delay_s has a meaning only with output")
+        elif wire.output is not None and not _within(wire.output, OUTPUT_RANGES):
+            text = f"output {wire.output} is not an output"
+            yield Complaint((*path, "output"), text, _ranges("outputs", OUTPUT_RANGES))
+
+
+def _region_faults(
+    region: dict[str, tuple[float, float]], labels: dict[str, Axis], path: Path
+) -> Iterator[Complaint]:
+    if not region:
+        yield Complaint(path, "the region names no axis")
+    for name, (low, high) in region.items():
+        if name.upper() not in labels:
+            known = sorted(labels)
+            close = get_close_matches(name.upper(), known, 1)
+            hint = f"did you mean {close[0]}?" if close else "axes: " + ", ".join(known)
+            yield Complaint((*path, name), f"the region names the unknown axis {name!r}", hint)
+        if low >= high:
+            text = f"the range of {name} goes from {low:g} to {high:g}"
+            yield Complaint((*path, name), text, "give the lower end first")
+
+
+def _inputs(world: World) -> Iterator[Complaint]:
+    """Every input has at most one source."""
+    taken: dict[int, str] = {}
+    for path, number, what in _sources(world):
+        if not _within(number, INPUT_RANGES):
+            text = f"{what} is wired to {number}, which is not an input"
+            yield Complaint(path, text, _ranges("inputs", INPUT_RANGES))
+        elif number in taken:
+            yield Complaint(path, f"two wires on input {number}: {taken[number]} and {what}")
+        taken[number] = what
+
+
+def _sources(world: World) -> Iterator[tuple[Path, int, str]]:
+    for index, axis in enumerate(world.axis):
+        for switch in switches(axis):
+            what = f"{switch.key} of axis {axis.label}"
+            yield ("axis", index, switch.key, "input"), switch.input, what
+    for index, wire in enumerate(world.wire):
+        yield ("wire", index, "input"), wire.input, wire.name or f"wire[{index}]"
+    for level in ("on", "off"):
+        for index, number in enumerate(getattr(world.inputs, level)):
+            yield ("inputs", level, index), number, f"the constant level {level}"
+
+
+def _fault_inputs(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        number = axis.drive.fault_input
+        if number is not None and not _within(number, INPUT_RANGES):
+            yield Complaint(
+                ("axis", index, "drive", "fault_input"),
+                f"axis {axis.label}: fault_input {number} is not an input",
+                _ranges("inputs", INPUT_RANGES),
+            )
+
+
+def _size(world: World) -> Iterator[Complaint]:
+    sides = sum(len(list(switches(axis))) for axis in world.axis)
+    sides += sum(len(wire.region or "o") for wire in world.wire)
+    if sides > BOX_SIDES:
+        yield Complaint((), f"{sides} switches, ranges and wires are more than {BOX_SIDES}")
+
+
+def _within(number: int, ranges: tuple[tuple[int, int], ...]) -> bool:
+    return any(first <= number <= last for first, last in ranges)
+
+
+def _ranges(what: str, ranges: tuple[tuple[int, int], ...]) -> str:
+    return f"{what} are " + ", ".join(f"{first} to {last}" for first, last in ranges)
+
+
+CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
+    _numbers_and_names,
+    _encoders,
+    _motors,
+    _travel,
+    _switch_positions,
+    _wires,
+    _inputs,
+    _fault_inputs,
+    _size,
+)

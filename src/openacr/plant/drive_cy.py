@@ -1,0 +1,290 @@
+"""Drives and friction: what a motor does during one tick of constant voltage.
+
+The voltage is constant during a tick, so the equation of motion
+
+    v' = a - r v - c sign(v)        a drive, r viscous, c Coulomb friction per inertia
+
+is linear as long as v keeps its sign, and is solved exactly instead of integrated. With
+z = r t and n = a -+ c:
+
+    v(t) = v0 exp(-z) + n t phi1(z)
+    x(t) = x0 + v0 t phi1(z) + n t^2 phi2(z)
+    phi1(z) = (1 - exp(-z)) / z,    phi2(z) = (1 - phi1(z)) / z
+
+This is stable for every friction and every length of the tick, so there are no sub-steps.
+Where v would change its sign, the moment of standstill is
+
+    t = ln(1 + y) / r,   y = -r v0 / n
+
+and from there the axis either sticks (the drive is weaker than static friction: the speed
+is exactly 0 and the position does not creep) or leaves in the other direction.
+"""
+
+from openacr.cmath import exp, fabs, log, rint
+from openacr.map.numbers import (
+    DAC_BASE,
+    DAC_DAC_OUTPUT,
+    DAC_STRIDE,
+    PLF_ACCEL_PER_VOLT,
+    PLF_BACK_EMF_PER_S,
+    PLF_CACHED_DT_S,
+    PLF_COULOMB_ACCEL,
+    PLF_DAC_STEP,
+    PLF_DECAY,
+    PLF_GLIDE_S,
+    PLF_LAG_DECAY,
+    PLF_LAG_S,
+    PLF_OFFSET_V,
+    PLF_PEAK_ACCEL,
+    PLF_POSITION_CNT,
+    PLF_PUSH_S2,
+    PLF_SPEED_PER_VOLT_CPS,
+    PLF_STATIC_ACCEL,
+    PLF_SUPPLY_ACCEL,
+    PLF_VELOCITY_CPS,
+    PLF_VISCOUS_PER_S,
+    PLF_VOLTS,
+    PLI_DAC,
+    PLI_DRIVE_ENABLED,
+    PLI_DRIVE_FAULT,
+    PLI_DRIVE_READY,
+    PLI_FAULT_CLOSED,
+    PLI_FAULT_MASK,
+    PLI_FAULT_WORD,
+)
+from openacr.views import F32, F64, I32
+
+FULL_SCALE_DAC = 32767.0
+DAC_COUNTS_PER_VOLT = 3276.8
+VOLTS_PER_DAC_COUNT = 10.0 / 32768.0
+STANDSTILL_CPS = 1e-9
+
+
+def drive_ready(I: I32, i: int) -> int:
+    """1 while the drive is enabled and has no fault."""
+    if I[i + PLI_FAULT_MASK] != 0:
+        level: int = 0
+        if (I[I[i + PLI_FAULT_WORD]] & I[i + PLI_FAULT_MASK]) != 0:
+            level = 1
+        I[i + PLI_DRIVE_FAULT] = level ^ I[i + PLI_FAULT_CLOSED]
+    ready: int = 0
+    if I[i + PLI_DRIVE_ENABLED] != 0 and I[i + PLI_DRIVE_FAULT] == 0:
+        ready = 1
+    I[i + PLI_DRIVE_READY] = ready
+    return ready
+
+
+def drive_volts(F: F64, I: I32, S: F32, f: int, i: int) -> None:
+    """Put the output of the card on the drive: as many volts as the converter has steps for.
+
+    DAC OUTPUT is what the card wants at its terminals, DAC GAIN and OFFSET included. The
+    offset of the drive's own input comes on top. A value that is no number gives 0 V.
+    """
+    output: float = S[DAC_BASE + I[i + PLI_DAC] * DAC_STRIDE + DAC_DAC_OUTPUT]
+    wanted: float = output * DAC_COUNTS_PER_VOLT
+    step: float = F[f + PLF_DAC_STEP]
+    counts: float = 0.0
+    if wanted > FULL_SCALE_DAC:
+        counts = FULL_SCALE_DAC
+    elif wanted < -FULL_SCALE_DAC:
+        counts = -FULL_SCALE_DAC
+    elif wanted == wanted:
+        counts = wanted
+    if step != 1.0:
+        counts = _coarse_dac(counts, step)
+    F[f + PLF_VOLTS] = rint(counts) * VOLTS_PER_DAC_COUNT + F[f + PLF_OFFSET_V]
+
+
+def _coarse_dac(counts: float, step: float) -> float:
+    """Round a 16-bit value as a converter with fewer bits does."""
+    rounded: float = rint(counts / step) * step
+    if rounded > FULL_SCALE_DAC:
+        return rounded - step
+    return rounded
+
+
+def torque_drive(F: F64, f: int, ready: int, dt: float) -> None:
+    """Volts make current, current makes torque; without a ready drive the motor coasts.
+
+    Near its highest speed a motor gets only the current that the supply can press against
+    its back-EMF: the torque of full voltage less a part that grows with speed. That part
+    acts exactly like viscous friction, so the same solution serves with a larger rate.
+    """
+    push: float = 0.0
+    if ready != 0:
+        push = clamp_accel(F[f + PLF_VOLTS] * F[f + PLF_ACCEL_PER_VOLT], F[f + PLF_PEAK_ACCEL])
+        supply: float = F[f + PLF_SUPPLY_ACCEL]
+        if supply > 0.0:
+            back_emf: float = F[f + PLF_BACK_EMF_PER_S] * F[f + PLF_VELOCITY_CPS]
+            if push > supply - back_emf and push > 0.0:
+                _friction_glide(
+                    F, f, supply, F[f + PLF_VISCOUS_PER_S] + F[f + PLF_BACK_EMF_PER_S], dt
+                )
+                return
+            if push < -supply - back_emf and push < 0.0:
+                _friction_glide(
+                    F, f, -supply, F[f + PLF_VISCOUS_PER_S] + F[f + PLF_BACK_EMF_PER_S], dt
+                )
+                return
+    if F[f + PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+        return
+    _friction_move(
+        F,
+        f,
+        push,
+        F[f + PLF_VISCOUS_PER_S],
+        dt,
+        F[f + PLF_DECAY],
+        F[f + PLF_GLIDE_S],
+        F[f + PLF_PUSH_S2],
+    )
+
+
+def clamp_accel(value: float, limit: float) -> float:
+    """Keep a value between -limit and +limit."""
+    if value > limit:
+        return limit
+    if value < -limit:
+        return -limit
+    return value
+
+
+def _friction_glide(F: F64, f: int, push: float, rate: float, dt: float) -> None:
+    """Move for `dt` under constant drive with a viscous rate other than the axis' own."""
+    if F[f + PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+        return
+    z: float = rate * dt
+    p2: float = _phi2(z)
+    p1: float = 1.0 - z * p2
+    _friction_move(F, f, push, rate, dt, 1.0 - z * p1, dt * p1, dt * dt * p2)
+
+
+def _friction_move(
+    F: F64,
+    f: int,
+    push: float,
+    rate: float,
+    dt: float,
+    decay: float,
+    glide_s: float,
+    push_s2: float,
+) -> None:
+    """Solve one tick; `decay`, `glide_s`, `push_s2` are exp(-z), t phi1 and t^2 phi2."""
+    v0: float = F[f + PLF_VELOCITY_CPS]
+    friction: float = F[f + PLF_COULOMB_ACCEL]
+    net: float = push - friction
+    if v0 < 0.0 or (v0 == 0.0 and push < 0.0):
+        net = push + friction
+    v1: float = v0 * decay + net * glide_s
+    if (v0 > 0.0 and v1 <= 0.0) or (v0 < 0.0 and v1 >= 0.0):
+        _through_standstill(F, f, push, net, rate, dt)
+        return
+    if fabs(v1) < STANDSTILL_CPS and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+        v1 = 0.0
+    F[f + PLF_POSITION_CNT] += v0 * glide_s + net * push_s2
+    F[f + PLF_VELOCITY_CPS] = v1
+
+
+def _through_standstill(F: F64, f: int, push: float, net: float, rate: float, dt: float) -> None:
+    """Come to rest within the tick, then stick or leave in the other direction."""
+    v0: float = F[f + PLF_VELOCITY_CPS]
+    t: float = dt
+    if net != 0.0:
+        ratio: float = -v0 / net
+        t = ratio * _log1p_ratio(rate * ratio)
+        if not (t < dt):
+            t = dt
+    z: float = rate * t
+    p2: float = _phi2(z)
+    F[f + PLF_POSITION_CNT] += v0 * t * (1.0 - z * p2) + net * t * t * p2
+    F[f + PLF_VELOCITY_CPS] = 0.0
+    if fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+        return
+    friction: float = F[f + PLF_COULOMB_ACCEL]
+    net = push - friction
+    if push < 0.0:
+        net = push + friction
+    t = dt - t
+    z = rate * t
+    p2 = _phi2(z)
+    F[f + PLF_POSITION_CNT] += net * t * t * p2
+    F[f + PLF_VELOCITY_CPS] = net * t * (1.0 - z * p2)
+
+
+def _phi2(z: float) -> float:
+    """(1 - phi1(z)) / z with phi1(z) = (1 - exp(-z)) / z; a series where that cancels."""
+    if z < 0.05:
+        return 0.5 - z * (
+            1.0 / 6.0
+            - z
+            * (
+                1.0 / 24.0
+                - z * (1.0 / 120.0 - z * (1.0 / 720.0 - z * (1.0 / 5040.0 - z / 40320.0)))
+            )
+        )
+    return (1.0 - (1.0 - exp(-z)) / z) / z
+
+
+def _log1p_ratio(y: float) -> float:
+    """ln(1 + y) / y for y >= 0; for small y by ln(1 + y) = 2 artanh(y / (2 + y))."""
+    if y < 0.05:
+        u2: float = y / (2.0 + y)
+        u2 = u2 * u2
+        return (
+            2.0
+            / (2.0 + y)
+            * (1.0 + u2 * (1.0 / 3.0 + u2 * (1.0 / 5.0 + u2 * (1.0 / 7.0 + u2 / 9.0))))
+        )
+    return log(1.0 + y) / y
+
+
+def velocity_drive(F: F64, f: int, volts: float, limit: float, dt: float) -> None:
+    """Bring the speed to volts * speed per volt with a first-order lag, as the drive's loop does.
+
+    v' = (target - v) / lag, but never more than the peak torque allows: far from the target
+    the speed is a ramp, and the lag takes over where it asks for less than that.
+    """
+    target: float = volts * F[f + PLF_SPEED_PER_VOLT_CPS]
+    v0: float = F[f + PLF_VELOCITY_CPS]
+    lag: float = F[f + PLF_LAG_S]
+    gap: float = target - v0
+    ramp_s: float = (fabs(gap) - limit * lag) / limit
+    if ramp_s <= 0.0:
+        _lag_approach(F, f, target, dt, F[f + PLF_LAG_DECAY])
+        return
+    rate: float = limit
+    if gap < 0.0:
+        rate = -limit
+    if ramp_s > dt:
+        ramp_s = dt
+    F[f + PLF_POSITION_CNT] += v0 * ramp_s + 0.5 * rate * ramp_s * ramp_s
+    F[f + PLF_VELOCITY_CPS] = v0 + rate * ramp_s
+    if ramp_s < dt:
+        _lag_approach(F, f, target, dt - ramp_s, _lag_decay(dt - ramp_s, lag))
+
+
+def _lag_approach(F: F64, f: int, target: float, t: float, decay: float) -> None:
+    gap: float = target - F[f + PLF_VELOCITY_CPS]
+    F[f + PLF_POSITION_CNT] += target * t - gap * F[f + PLF_LAG_S] * (1.0 - decay)
+    gap = gap * decay
+    if fabs(gap) < STANDSTILL_CPS:
+        gap = 0.0
+    F[f + PLF_VELOCITY_CPS] = target - gap
+
+
+def _lag_decay(t: float, lag: float) -> float:
+    if lag <= 0.0:
+        return 0.0
+    return exp(-t / lag)
+
+
+def cache_motion_factors(F: F64, f: int, dt: float) -> None:
+    """Factors of one step; they change only with the length of the tick."""
+    z: float = F[f + PLF_VISCOUS_PER_S] * dt
+    p2: float = _phi2(z)
+    p1: float = 1.0 - z * p2
+    F[f + PLF_DECAY] = 1.0 - z * p1
+    F[f + PLF_GLIDE_S] = dt * p1
+    F[f + PLF_PUSH_S2] = dt * dt * p2
+    F[f + PLF_LAG_DECAY] = _lag_decay(dt, F[f + PLF_LAG_S])
+    F[f + PLF_CACHED_DT_S] = dt

@@ -1,0 +1,210 @@
+"""Read a `machine.toml`; what is wrong is said with its line, its value and what is allowed."""
+
+import math
+import re
+import tomllib
+from collections.abc import Iterator
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec import inspect
+
+from openacr.errors import SourceError, UserError
+from openacr.plant import locate
+from openacr.plant.check import Complaint, contradictions
+from openacr.plant.schema import World
+
+_SYNTAX = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
+_AT_END = re.compile(r"(.*) \(at end of document\)")
+_WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
+_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
+_MISSING = re.compile(r"Object missing required field `(.*)`")
+_STEP = re.compile(r"\.([^.\[\]]+)|\[(\d+)\]")
+
+
+def load_world(path: Path | str) -> World:
+    """Read the world described by the file at `path`."""
+    place = Path(path)
+    try:
+        data = place.read_bytes()
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise UserError(f"{place}: cannot be read: {reason}") from None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise SourceError("the file is not UTF-8 text", path=str(place), line=line) from None
+    return parse_world(text, str(place))
+
+
+def parse_world(text: str, path: str = "machine.toml") -> World:
+    """Read the world described by `text`; SourceError, and no world, if anything is wrong."""
+    raw = _parse(text, path)
+    complaint = next(_not_finite(raw, ()), None)
+    if complaint is None:
+        try:
+            world = msgspec.convert(raw, World)
+        except msgspec.ValidationError as error:
+            complaint = _explain(str(error), raw)
+        else:
+            complaint = next(contradictions(world), None)
+            if complaint is None:
+                return world
+    line, column = locate.nearest(locate.places(text), complaint.path)
+    raise SourceError(complaint.text, path=path, line=line, column=column, hint=complaint.hint)
+
+
+def _parse(text: str, path: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        if found := _SYNTAX.fullmatch(str(error)):
+            sentence, line, column = found[1], int(found[2]), int(found[3])
+        else:
+            ended = _AT_END.fullmatch(str(error))
+            sentence, line, column = ended[1] if ended else str(error), text.count("\n") + 1, 0
+        sentence = sentence[:1].lower() + sentence[1:]
+        raise SourceError(sentence, path=path, line=line, column=column) from None
+
+
+def _not_finite(value: object, path: locate.Path) -> Iterator[Complaint]:
+    """Infinities and NaN pass every comparison of ranges, so they are refused by name."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _not_finite(inner, (*path, key))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from _not_finite(inner, (*path, index))
+    elif isinstance(value, float) and not math.isfinite(value):
+        yield Complaint(path, f"{_name(path)} is {value}; it must be a finite number")
+
+
+def _explain(message: str, raw: dict[str, Any]) -> Complaint:
+    """Turn a message of the decoder into one that names key, value and what is allowed."""
+    found = _WHERE.fullmatch(message)
+    reason, where = (found[1], found[2] or "") if found else (message, "")
+    path = tuple(_steps(where))
+    if unknown := _UNKNOWN.fullmatch(reason):
+        return _unknown_key(path, unknown[1], raw)
+    if missing := _MISSING.fullmatch(reason):
+        return Complaint(path, f"{_table(path)} lacks the key {missing[1]!r}", _keys(path, raw))
+    value = _value(path, raw)
+    shown = "a table" if isinstance(value, dict) else f"{_toml(value)}"
+    return Complaint(path, f"{_name(path)} is {shown}; it must be {_allowed(path, raw)}")
+
+
+def _steps(where: str) -> Iterator[str | int]:
+    """Parts of a decoder path; `[...]` (some value of a mapping) ends what is known."""
+    for key, index in _STEP.findall(where.split("[...]")[0]):
+        yield key or int(index)
+
+
+def _unknown_key(path: locate.Path, key: str, raw: dict[str, Any]) -> Complaint:
+    known = _known_keys(path, raw)
+    close = get_close_matches(key, known, 1)
+    hint = f"did you mean {close[0]!r}?" if close else _keys(path, raw)
+    return Complaint((*path, key), f"unknown key {key!r} in {_table(path)}", hint)
+
+
+def _keys(path: locate.Path, raw: dict[str, Any]) -> str:
+    return "known keys: " + ", ".join(_known_keys(path, raw))
+
+
+def _known_keys(path: locate.Path, raw: dict[str, Any]) -> list[str]:
+    kind = _type_at(path, raw)
+    if isinstance(kind, inspect.UnionType):
+        return ["mode"]
+    if not isinstance(kind, inspect.StructType):
+        return []
+    tag = [kind.tag_field] if kind.tag_field else []
+    return [*tag, *(field.encode_name for field in kind.fields)]
+
+
+def _table(path: locate.Path) -> str:
+    """Show a table as it is headed in the file: [axis.motor]."""
+    keys = [part for part in path if isinstance(part, str)]
+    return f"[{'.'.join(keys)}]" if keys else "the file"
+
+
+def _name(path: locate.Path) -> str:
+    """Name of a key with its table, list positions as in `travel[0]`."""
+    name = ""
+    for part in path:
+        name += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return name.removeprefix(".")
+
+
+def _value(path: locate.Path, raw: Any) -> Any:
+    for part in path:
+        raw = raw[part]
+    return raw
+
+
+def _toml(value: object) -> str:
+    """Show a value as it is written in the file."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return f"[{', '.join(_toml(inner) for inner in value)}]"
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def _type_at(path: locate.Path, raw: Any) -> inspect.Type:
+    """Walk the schema along `path`; the file itself decides between the kinds of drive."""
+    kind: inspect.Type = _plain(inspect.type_info(World), raw)
+    for part in path:
+        raw = raw[part]
+        kind = _plain(_inner(kind, part), raw)
+    return kind
+
+
+def _inner(kind: inspect.Type, part: str | int) -> inspect.Type:
+    if isinstance(kind, inspect.StructType):
+        return next((f.type for f in kind.fields if f.encode_name == part), inspect.StrType())
+    if isinstance(kind, inspect.VarTupleType):
+        return kind.item_type
+    if isinstance(kind, inspect.TupleType) and isinstance(part, int):
+        return kind.item_types[part]
+    return kind
+
+
+def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
+    """Leave the `None` of optional keys away and choose the kind of drive by its mode."""
+    if not isinstance(kind, inspect.UnionType):
+        return kind
+    kinds = [one for one in kind.types if not isinstance(one, inspect.NoneType)]
+    if len(kinds) == 1:
+        return kinds[0]
+    mode = raw.get("mode") if isinstance(raw, dict) else None
+    return next((k for k in kinds if isinstance(k, inspect.StructType) and k.tag == mode), kind)
+
+
+def _allowed(path: locate.Path, raw: dict[str, Any]) -> str:
+    """Say in words what may stand at `path`."""
+    if path[-1:] == ("mode",):
+        return 'one of "torque", "velocity", "ideal"'
+    return _words(_type_at(path, raw))
+
+
+def _words(kind: inspect.Type) -> str:
+    if isinstance(kind, inspect.IntType):
+        return f"a whole number from {kind.ge} to {kind.le}"
+    if isinstance(kind, inspect.FloatType):
+        low = f"above {kind.gt:g}" if kind.gt is not None else f"from {kind.ge:g}"
+        return f"a number {low} to {kind.le:g}"
+    if isinstance(kind, inspect.EnumType):
+        return "one of " + ", ".join(f'"{member.value}"' for member in kind.cls)
+    if isinstance(kind, inspect.StrType):
+        return "a text in quotes"
+    if isinstance(kind, inspect.TupleType):
+        return f"a list of {len(kind.item_types)} values, each {_words(kind.item_types[0])}"
+    if isinstance(kind, inspect.VarTupleType):
+        if isinstance(kind.item_type, inspect.StructType):
+            return "a list of tables"
+        return f"a list of values, each {_words(kind.item_type)}"
+    if isinstance(kind, inspect.DictType):
+        return f"a table of axes, each {_words(kind.value_type)}"
+    return "a table"

@@ -1,0 +1,262 @@
+"""What a `machine.toml` may say: the card, the motors on it and the wiring around it.
+
+Positions are in user units of their axis (`units_per_rev` of them per motor revolution,
+counted from the machine's own zero), everything about motors and drives is in SI units.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+AXES = 16
+COUNTS_PER_LINE = 4
+DEFAULT_UNITS = "units"
+
+AxisNumber = Annotated[int, Meta(ge=0, le=AXES - 1)]
+FlagNumber = Annotated[int, Meta(ge=0, le=17663)]
+Lines = Annotated[int, Meta(ge=1, le=25_000_000)]
+Counts = Annotated[int, Meta(ge=4, le=100_000_000)]
+Position = Annotated[float, Meta(ge=-1e9, le=1e9)]
+Scale = Annotated[float, Meta(gt=0, le=1e9)]
+Inertia = Annotated[float, Meta(gt=0, le=1e6)]
+LoadInertia = Annotated[float, Meta(ge=0, le=1e6)]
+Friction = Annotated[float, Meta(ge=0, le=1e6)]
+Factor = Annotated[float, Meta(gt=0, le=1e6)]
+Offset = Annotated[float, Meta(ge=-10, le=10)]
+Lag = Annotated[float, Meta(ge=0, le=10)]
+Delay = Annotated[float, Meta(ge=0, le=3600)]
+Period = Annotated[float, Meta(ge=0.0001, le=0.005)]
+DacBits = Annotated[int, Meta(ge=8, le=16)]
+
+
+class Model(StrEnum):
+    """Cards that can be modelled."""
+
+    ACR1200 = "ACR1200"
+    ACR1500 = "ACR1500"
+    ACR2000 = "ACR2000"
+    ACR8000 = "ACR8000"
+    ACR8010 = "ACR8010"
+    ACR8020 = "ACR8020"
+    ACR9000 = "ACR9000"
+    ACR9030 = "ACR9030"
+    ACR9040 = "ACR9040"
+
+
+class Contact(StrEnum):
+    """A normally open contact is on while active, a normally closed one while not."""
+
+    OPEN = "open"
+    CLOSED = "closed"
+
+
+class Direction(StrEnum):
+    """Which way the encoder counts when a positive voltage turns the motor."""
+
+    UP = "up"
+    DOWN = "down"
+
+
+class Space(StrEnum):
+    """Unit of the ranges of a region."""
+
+    USER = "user"
+    REVS = "revs"
+    COUNTS = "counts"
+
+
+class _Table(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A table of the file: unknown keys are errors."""
+
+
+class Card(_Table, frozen=True):
+    """The card itself."""
+
+    model: Model = Model.ACR9000
+    period_s: Period = 0.0005
+    dac_bits: DacBits = 16
+
+
+class Motor(_Table, frozen=True):
+    """The motor: rotor inertia, torque per ampere, winding resistance."""
+
+    inertia_kgm2: Inertia
+    torque_nm_per_a: Factor
+    resistance_ohm: Factor | None = None
+
+
+class Load(_Table, frozen=True):
+    """What the motor moves, as seen at its shaft."""
+
+    inertia_kgm2: LoadInertia = 0.0
+    viscous_nms: Friction = 0.0
+    coulomb_nm: Friction = 0.0
+    static_nm: Friction | None = None
+
+
+class _Drive(_Table, frozen=True):
+    offset_v: Offset = 0.0
+    fault_input: FlagNumber | None = None
+    fault_contact: Contact = Contact.OPEN
+
+
+class TorqueDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="torque"):
+    """The voltage commands a current."""
+
+    amps_per_volt: Factor
+    peak_amps: Factor
+    supply_v: Factor | None = None
+
+
+class VelocityDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="velocity"):
+    """The voltage commands a speed; the drive closes the velocity loop."""
+
+    revs_per_s_per_volt: Factor
+    peak_amps: Factor
+    lag_s: Lag = 0.001
+
+
+class IdealDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ideal"):
+    """The voltage commands a speed that is reached with a lag, whatever the load."""
+
+    revs_per_s_per_volt: Factor
+    lag_s: Lag = 0.001
+
+
+Drive = TorqueDrive | VelocityDrive | IdealDrive
+
+
+class LimitSwitch(_Table, frozen=True):
+    """An end-of-travel switch: active at and beyond a position."""
+
+    at: Position
+    input: FlagNumber | None = None
+    contact: Contact = Contact.OPEN
+
+
+class HomeSwitch(_Table, frozen=True):
+    """A home switch: active between two positions."""
+
+    between: tuple[Position, Position]
+    input: FlagNumber | None = None
+    contact: Contact = Contact.OPEN
+
+
+class Axis(_Table, frozen=True):
+    """Motor `number`: its encoder is on encoder input `number`, its drive on a DAC."""
+
+    number: AxisNumber
+    drive: Drive
+    name: str = ""
+    units: str = DEFAULT_UNITS
+    encoder_lines: Lines | None = None
+    counts_per_rev: Counts | None = None
+    encoder_direction: Direction = Direction.UP
+    units_per_rev: Scale = 1.0
+    initial: Position = 0.0
+    marker: Position | None = None
+    travel: tuple[Position, Position] | None = None
+    dac: AxisNumber | None = None
+    motor: Motor | None = None
+    load: Load = Load()
+    positive_limit: LimitSwitch | None = None
+    negative_limit: LimitSwitch | None = None
+    home: HomeSwitch | None = None
+
+    @property
+    def counts(self) -> int:
+        """Encoder counts per revolution, four per line."""
+        return self.counts_per_rev or COUNTS_PER_LINE * (self.encoder_lines or 0)
+
+    @property
+    def counts_per_unit(self) -> float:
+        """Encoder counts per user unit."""
+        return self.counts / self.units_per_rev
+
+    @property
+    def label(self) -> str:
+        """The name of the axis, or its number where it has none."""
+        return self.name or str(self.number)
+
+
+class Wire(_Table, frozen=True):
+    """Something else that drives an input: a region of space or an output of the card."""
+
+    input: FlagNumber
+    name: str = ""
+    contact: Contact = Contact.OPEN
+    region: dict[str, tuple[Position, Position]] | None = None
+    units: Space = Space.USER
+    output: FlagNumber | None = None
+    delay_s: Delay = 0.0
+
+
+class Inputs(_Table, frozen=True):
+    """Inputs that always have one level."""
+
+    on: tuple[FlagNumber, ...] = ()
+    off: tuple[FlagNumber, ...] = ()
+
+
+class World(_Table, frozen=True):
+    """Everything outside the card, and which card it is."""
+
+    card: Card = Card()
+    axis: tuple[Axis, ...] = ()
+    wire: tuple[Wire, ...] = ()
+    inputs: Inputs = Inputs()
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    """A switch of an axis: on which key it stands, its input and where it is active."""
+
+    key: str
+    input: int
+    contact: Contact
+    low_u: float
+    high_u: float
+
+
+EVERYWHERE_U = float("inf")
+
+
+def switches(axis: Axis) -> Iterator[Switch]:
+    """Yield the switches of an axis; the inputs default to 3n, 3n + 1 and 3n + 2."""
+    first = 3 * axis.number
+    if limit := axis.positive_limit:
+        yield Switch(
+            "positive_limit", _or(limit.input, first), limit.contact, limit.at, EVERYWHERE_U
+        )
+    if limit := axis.negative_limit:
+        yield Switch(
+            "negative_limit", _or(limit.input, first + 1), limit.contact, -EVERYWHERE_U, limit.at
+        )
+    if home := axis.home:
+        yield Switch("home", _or(home.input, first + 2), home.contact, *home.between)
+
+
+def _or(chosen: int | None, default: int) -> int:
+    return default if chosen is None else chosen
+
+
+# The motors of a card without a machine file. An ideal drive with this gain is critically
+# damped by the card's default PGAIN of 0.002441 alone (0.002441 V/count * 25 rev/s/V * 4000
+# counts/rev = 244 /s, lag 1 ms) and reaches 250 rev/s; there is nothing to run into.
+_WELL_BEHAVED = IdealDrive(revs_per_s_per_volt=25.0, lag_s=0.001)
+DEFAULT_LINES = 1000
+DEFAULT_AXES = 8
+
+
+def default_world(model: Model = Model.ACR9000) -> World:
+    """Build the world of a controller file without a machine: eight well-behaved axes."""
+    return World(
+        card=Card(model=model),
+        axis=tuple(
+            Axis(number=number, drive=_WELL_BEHAVED, encoder_lines=DEFAULT_LINES, marker=0.0)
+            for number in range(DEFAULT_AXES)
+        ),
+    )

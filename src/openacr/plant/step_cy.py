@@ -1,0 +1,136 @@
+"""One servo period of the world outside the card.
+
+For every modelled axis: digital-to-analog converter, drive, friction, hard stops, encoder,
+marker; then the inputs that switches, regions of space and outputs drive.
+
+**Sign.** A positive output voltage accelerates the motor in the direction in which its
+encoder counts up. The servo's output is PGAIN * (setpoint - position), so an encoder that
+is turned upwards by hand makes a negative voltage that drives it back: with positive MULT
+and DAC GAIN the loop is stable; one of them negative, or an encoder that counts the other
+way, makes the axis run away, as on the machine.
+"""
+
+from openacr.cmath import fabs, floor
+from openacr.map.numbers import (
+    PLF_BASE,
+    PLF_CACHED_DT_S,
+    PLF_HIGH_STOP_CNT,
+    PLF_LOW_STOP_CNT,
+    PLF_PEAK_ACCEL,
+    PLF_POSITION_CNT,
+    PLF_PREVIOUS_CNT,
+    PLF_QUIET_HIGH_CNT,
+    PLF_QUIET_LOW_CNT,
+    PLF_RAW_COUNT,
+    PLF_STRIDE,
+    PLF_VELOCITY_CPS,
+    PLF_VOLTS,
+    PLGI_BASE,
+    PLGI_FALLS,
+    PLGI_FOLLOWS,
+    PLGI_RISES,
+    PLI_BASE,
+    PLI_KIND,
+    PLI_MARKER_EDGES,
+    PLI_STRIDE,
+)
+from openacr.plant.drive_cy import (
+    cache_motion_factors,
+    clamp_accel,
+    drive_ready,
+    drive_volts,
+    torque_drive,
+    velocity_drive,
+)
+from openacr.plant.wiring_cy import (
+    follow_outputs,
+    marker_edges,
+    motor_borders,
+    read_boxes,
+    write_wired_inputs,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["plant_refresh", "plant_step"]
+
+NO_MOTOR = 0
+TORQUE_DRIVE = 1
+VELOCITY_DRIVE = 2
+IDEAL_DRIVE = 3
+
+NO_ACCEL_LIMIT = 1e30
+SPEED_BOUND_CPS = 1e10  # keeps a runaway axis within what a double can count for days
+
+
+def plant_step(F: F64, I: I32, S: F32, axis_count: int, dt: float) -> None:
+    """Advance all motors by `dt` seconds and set the inputs they act on."""
+    n: int = 0
+    crossed: int = 0
+    I[PLGI_BASE + PLGI_RISES] = 0
+    I[PLGI_BASE + PLGI_FALLS] = 0
+    for n in range(axis_count):
+        if I[PLI_BASE + n * PLI_STRIDE + PLI_KIND] != NO_MOTOR:
+            crossed |= _motor_tick(F, I, S, n, dt)
+    if crossed != 0:
+        read_boxes(F, I)
+    if I[PLGI_BASE + PLGI_FOLLOWS] != 0:
+        follow_outputs(F, I, dt)
+    write_wired_inputs(I)
+
+
+def plant_refresh(F: F64, I: I32, axis_count: int) -> None:
+    """Set inputs and markers from the present positions, without motion and without edges."""
+    n: int = 0
+    for n in range(axis_count):
+        F[PLF_BASE + n * PLF_STRIDE + PLF_PREVIOUS_CNT] = F[
+            PLF_BASE + n * PLF_STRIDE + PLF_POSITION_CNT
+        ]
+        motor_borders(F, I, n)
+    read_boxes(F, I)
+    I[PLGI_BASE + PLGI_RISES] = 0
+    I[PLGI_BASE + PLGI_FALLS] = 0
+    write_wired_inputs(I)
+
+
+def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
+    """Advance motor n; 1 if it passed the border of a switch, region or marker."""
+    f: int = PLF_BASE + n * PLF_STRIDE
+    i: int = PLI_BASE + n * PLI_STRIDE
+    ready: int = drive_ready(I, i)
+    position: float = F[f + PLF_POSITION_CNT]
+    if F[f + PLF_CACHED_DT_S] != dt:
+        cache_motion_factors(F, f, dt)
+    F[f + PLF_PREVIOUS_CNT] = position
+    drive_volts(F, I, S, f, i)
+    if I[i + PLI_KIND] == TORQUE_DRIVE:
+        torque_drive(F, f, ready, dt)
+    elif I[i + PLI_KIND] == IDEAL_DRIVE:
+        velocity_drive(F, f, ready * F[f + PLF_VOLTS], NO_ACCEL_LIMIT, dt)
+    elif ready != 0:
+        velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)
+    else:
+        torque_drive(F, f, 0, dt)
+    _hard_stops(F, f)
+    position = F[f + PLF_POSITION_CNT]
+    F[f + PLF_RAW_COUNT] = floor(position)
+    I[i + PLI_MARKER_EDGES] = 0
+    if F[f + PLF_QUIET_LOW_CNT] <= position and position < F[f + PLF_QUIET_HIGH_CNT]:
+        return 0
+    marker_edges(F, I, f, i)
+    motor_borders(F, I, n)
+    return 1
+
+
+def _hard_stops(F: F64, f: int) -> None:
+    """Hard stops take all the speed of an axis that runs into them."""
+    v: float = F[f + PLF_VELOCITY_CPS]
+    if F[f + PLF_POSITION_CNT] > F[f + PLF_HIGH_STOP_CNT]:
+        F[f + PLF_POSITION_CNT] = F[f + PLF_HIGH_STOP_CNT]
+        if v > 0.0:
+            F[f + PLF_VELOCITY_CPS] = 0.0
+    elif F[f + PLF_POSITION_CNT] < F[f + PLF_LOW_STOP_CNT]:
+        F[f + PLF_POSITION_CNT] = F[f + PLF_LOW_STOP_CNT]
+        if v < 0.0:
+            F[f + PLF_VELOCITY_CPS] = 0.0
+    elif fabs(v) > SPEED_BOUND_CPS:
+        F[f + PLF_VELOCITY_CPS] = clamp_accel(v, SPEED_BOUND_CPS)
