@@ -1,0 +1,1 @@
+"""Sockets, serial ports and the wall clock: thin shells around the card."""

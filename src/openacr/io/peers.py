@@ -1,0 +1,139 @@
+"""The far ends of the card's streams: TCP connections (serial ports: `serial_port`).
+
+A peer that does not read is never waited for. At most SEND_LIMIT_BYTES are kept for it;
+writes beyond that are dropped whole (never a part of one), with one warning per
+connection. A peer that floods is held back by not reading from it, and every read is
+small, so that the others get their turn.
+"""
+
+import asyncio
+import logging
+import socket
+from collections.abc import Callable
+from typing import Protocol
+
+from openacr.protocol.stream import StreamKind
+
+log = logging.getLogger(__name__)
+
+SEND_LIMIT_BYTES = 1 << 18
+READ_BYTES = 1024
+KEEPALIVE_IDLE_S, KEEPALIVE_INTERVAL_S, KEEPALIVE_PROBES = 30, 10, 3
+
+
+class Peer(Protocol):
+    """One far end with the stream of the card it talks to."""
+
+    kind: StreamKind
+    stream: int
+
+    def send(self, data: bytes) -> None:
+        """One write, whole or not at all."""
+
+    def hold(self, held: bool) -> None:
+        """Stop or resume reading."""
+
+    def close(self) -> None:
+        """End the connection."""
+
+
+class Switchboard(Protocol):
+    """What a peer reports to."""
+
+    def joined(self, peer: Peer) -> bool:
+        """Give the peer a stream; False when there is none left."""
+
+    def received(self, peer: Peer, data: bytes) -> None:
+        """Bytes arrived."""
+
+    def left(self, peer: Peer) -> None:
+        """The connection ended."""
+
+
+class TcpPeer(asyncio.BufferedProtocol):
+    """One TCP connection."""
+
+    def __init__(self, kind: StreamKind, board: Switchboard) -> None:
+        self.kind = kind
+        self.stream = -1
+        self._board = board
+        self._buffer = bytearray(READ_BYTES)
+        self._transport: asyncio.Transport | None = None
+        self._held = self._joined = False
+        self._dropped = 0
+        self._name = ""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Set the socket up and ask for a stream; nothing is sent (no greeting)."""
+        if not isinstance(transport, asyncio.Transport):
+            return
+        self._transport = transport
+        self._name = str(transport.get_extra_info("peername"))
+        _set_options(transport.get_extra_info("socket"))
+        self._joined = self._board.joined(self)
+        if self._joined:
+            log.info("%s connected (%s)", self._name, self.kind.value)
+        else:
+            log.warning("%s refused: all streams are taken", self._name)
+            transport.abort()
+
+    def get_buffer(self, sizehint: int) -> bytearray:
+        """Read in small pieces, for the sake of the other connections."""
+        return self._buffer
+
+    def buffer_updated(self, nbytes: int) -> None:
+        """Hand over what arrived together."""
+        if self._joined:
+            self._board.received(self, bytes(self._buffer[:nbytes]))
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Free the stream."""
+        self._transport = None
+        if self._joined:
+            self._joined = False
+            log.info("%s disconnected", self._name)
+            self._board.left(self)
+
+    def send(self, data: bytes) -> None:
+        """One write, dropped whole when the peer has too much unread."""
+        transport = self._transport
+        if transport is None or transport.is_closing():
+            return
+        if transport.get_write_buffer_size() + len(data) <= SEND_LIMIT_BYTES:
+            transport.write(data)
+            return
+        if not self._dropped:
+            log.warning("%s does not read what it is sent; dropping output", self._name)
+        self._dropped += len(data)
+
+    def hold(self, held: bool) -> None:
+        """Stop or resume reading."""
+        if self._transport is None or held == self._held:
+            return
+        self._held = held
+        change: Callable[[], None] = (
+            self._transport.pause_reading if held else self._transport.resume_reading
+        )
+        change()
+
+    def close(self) -> None:
+        """End the connection; what is buffered for a peer that reads still goes out."""
+        if self._transport is None:
+            return
+        if self._transport.get_write_buffer_size():
+            self._transport.abort()
+        else:
+            self._transport.close()
+
+
+def _set_options(sock: socket.socket) -> None:
+    """No delay for small replies; notice peers that are gone without saying so."""
+    sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+    for name, value in (
+        ("TCP_KEEPIDLE", KEEPALIVE_IDLE_S),
+        ("TCP_KEEPINTVL", KEEPALIVE_INTERVAL_S),
+        ("TCP_KEEPCNT", KEEPALIVE_PROBES),
+    ):
+        if hasattr(socket, name):  # not every system has all three
+            sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)

@@ -1,0 +1,111 @@
+"""A serial port as a stream of the card, with the same rules as a connection.
+
+pyserial blocks, so one thread reads and one writes; both only hand bytes to and from the
+loop. XON/XOFF is the card's own business (`protocol.terminal`), not the driver's.
+"""
+
+import asyncio
+import logging
+import queue
+import threading
+
+import serial
+
+from openacr.errors import UserError
+from openacr.io.peers import SEND_LIMIT_BYTES, Switchboard
+from openacr.protocol.stream import StreamKind
+
+log = logging.getLogger(__name__)
+
+READ_WAIT_S = 0.1
+HELD_WAIT_S = 0.01
+
+
+def open_port(path: str, baud: int) -> serial.Serial:
+    """Open a serial port for 8 data bits without parity; UserError when it fails."""
+    try:
+        return serial.serial_for_url(path, baudrate=baud, timeout=READ_WAIT_S)
+    except (serial.SerialException, OSError, ValueError) as failure:
+        raise UserError(f"cannot open serial port {path}: {failure}") from None
+
+
+class SerialPeer:
+    """The far end of a serial line."""
+
+    kind = StreamKind.SERIAL
+
+    def __init__(
+        self, path: str, baud: int, board: Switchboard, loop: asyncio.AbstractEventLoop
+    ) -> None:
+        self.stream = -1
+        self._path = path
+        self._board = board
+        self._loop = loop
+        self._port = open_port(path, baud)
+        self._outgoing: queue.Queue[bytes] = queue.Queue()
+        self._queued = self._sent = 0  # bytes; one counter per thread, so no lock
+        self._unheld = threading.Event()
+        self._unheld.set()
+        self._open = True
+
+    def start(self) -> None:
+        """Take a stream of the card and begin to listen."""
+        if not self._board.joined(self):
+            self._port.close()
+            raise UserError(f"no stream of the card is free for {self._path}")
+        for work in (self._read, self._write):
+            threading.Thread(target=work, name=f"{self._path} {work.__name__}", daemon=True).start()
+
+    def send(self, data: bytes) -> None:
+        """One write, dropped whole when the line is too far behind."""
+        if self._queued - self._sent + len(data) > SEND_LIMIT_BYTES:
+            return
+        self._queued += len(data)
+        self._outgoing.put(data)
+
+    def hold(self, held: bool) -> None:
+        """Stop or resume reading."""
+        if held:
+            self._unheld.clear()
+        else:
+            self._unheld.set()
+
+    def close(self) -> None:
+        """Free the stream; both threads end within READ_WAIT_S."""
+        if not self._open:
+            return
+        self._open = False
+        self._outgoing.put(b"")
+        self._board.left(self)
+
+    def _read(self) -> None:
+        try:
+            while self._open:
+                if not self._unheld.wait(HELD_WAIT_S):
+                    continue
+                first = self._port.read(1)
+                if first and self._open:
+                    data = first + self._port.read(self._port.in_waiting)
+                    self._loop.call_soon_threadsafe(self._arrived, data)
+        except (serial.SerialException, OSError, TypeError, RuntimeError) as failure:
+            self._failed(failure)
+        finally:
+            self._port.close()
+
+    def _arrived(self, data: bytes) -> None:
+        if self._open:
+            self._board.received(self, data)
+
+    def _write(self) -> None:
+        try:
+            while data := self._outgoing.get():
+                self._port.write(data)
+                self._sent += len(data)
+        except (serial.SerialException, OSError, TypeError) as failure:
+            self._failed(failure)
+
+    def _failed(self, failure: Exception) -> None:
+        """The line broke: tell the loop, unless it is closing anyway."""
+        if self._open and not self._loop.is_closed():
+            log.warning("serial port %s failed: %s", self._path, failure)
+            self._loop.call_soon_threadsafe(self.close)

@@ -1,0 +1,161 @@
+"""Serves one card to many hosts in real time, in one asyncio loop.
+
+Card time follows the wall clock in steps of at most a millisecond. A query does not wait
+for the next step: when bytes arrive, the card is advanced to now, given the bytes, and
+advanced on, at most AHEAD_S before the clock, until the answer is there.
+"""
+
+import asyncio
+import errno
+import ipaddress
+import socket
+import time
+from dataclasses import dataclass
+
+from openacr.errors import UserError
+from openacr.io.host import CardHost
+from openacr.io.pacing import Pacer, PacingReport
+from openacr.io.peers import Peer, TcpPeer
+from openacr.io.serial_port import SerialPeer
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
+
+ASCII_PORT, BINARY_PORT = 5002, 5006
+LOOPBACK = "127.0.0.1"
+STEP_S = 0.001
+CONNECTIONS = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Address:
+    """Where a port listens."""
+
+    host: str
+    port: int
+
+    def __str__(self) -> str:
+        return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"
+
+    @property
+    def is_loopback(self) -> bool:
+        """Only programs on this machine reach it."""
+        return ipaddress.ip_address(self.host.partition("%")[0]).is_loopback
+
+
+class CardServer:
+    """One card, its listening ports and its peers."""
+
+    def __init__(self, card: CardHost, *, speed: float = 1.0) -> None:
+        self._card = card
+        self._pacer = Pacer(card.period_s, speed)
+        self._peers: list[Peer] = []
+        self._listeners: list[asyncio.Server] = []
+        self._now = time.monotonic
+
+    # --- set-up and end ---------------------------------------------------------------
+
+    async def listen(self, kind: StreamKind, host: str, port: int) -> Address:
+        """Open one TCP port (0: any free one); UserError when that is impossible."""
+        sock = _listening_socket(host, port)
+        loop = asyncio.get_running_loop()
+        listener = await loop.create_server(lambda: TcpPeer(kind, self), sock=sock)
+        self._listeners.append(listener)
+        name = sock.getsockname()
+        return Address(name[0], name[1])
+
+    def open_serial(self, path: str, baud: int) -> None:
+        """Serve a serial port as well; UserError when it cannot be opened."""
+        SerialPeer(path, baud, self, asyncio.get_running_loop()).start()
+
+    async def run(self, stop: asyncio.Event) -> None:
+        """Keep card time with the wall clock until `stop` is set; then close everything."""
+        self._pacer.start(self._now())
+        try:
+            while not stop.is_set():
+                self._catch_up()
+                self._serve_all()
+                await asyncio.sleep(self._pacer.pause_s(self._now(), STEP_S))
+        finally:
+            await self._close()
+
+    async def _close(self) -> None:
+        for listener in self._listeners:
+            listener.close()
+        for peer in list(self._peers):
+            peer.close()
+        await asyncio.sleep(0)  # lets the transports report their end
+
+    def report(self) -> PacingReport:
+        """How well real time was kept so far."""
+        return self._pacer.report()
+
+    # --- time -------------------------------------------------------------------------
+
+    def _catch_up(self) -> None:
+        """Advance the card to now."""
+        self._advance(self._pacer.due_tk(self._now()))
+
+    def _advance(self, ticks: int) -> None:
+        if ticks:
+            self._card.advance(ticks)
+            self._pacer.advanced(ticks)
+
+    def _serve_all(self) -> None:
+        for peer in list(self._peers):
+            self._flush(peer)
+            peer.hold(not self._card.accepts_input(peer.stream))
+
+    def _flush(self, peer: Peer) -> None:
+        while data := self._card.take_output(peer.stream):
+            peer.send(data)
+
+    # --- peers ------------------------------------------------------------------------
+
+    def joined(self, peer: Peer) -> bool:
+        """Give a new peer a stream of the card."""
+        if len(self._peers) >= CONNECTIONS:
+            return False
+        try:
+            peer.stream = self._card.open_stream(peer.kind)
+        except NoFreeStreamError:
+            return False
+        self._peers.append(peer)
+        return True
+
+    def received(self, peer: Peer, data: bytes) -> None:
+        """Feed what a peer sent and, if possible, answer it at once."""
+        self._catch_up()
+        self._card.receive(peer.stream, data)
+        self._flush(peer)
+        while self._card.replying(peer.stream) and self._pacer.may_run_ahead(self._now()):
+            self._advance(1)
+            self._flush(peer)
+        peer.hold(not self._card.accepts_input(peer.stream))
+
+    def left(self, peer: Peer) -> None:
+        """Free the stream of a peer that is gone."""
+        self._peers.remove(peer)
+        self._card.close_stream(peer.stream)
+
+
+def _listening_socket(host: str, port: int) -> socket.socket:
+    """A socket bound to the first address of `host`."""
+    if not 0 <= port <= 0xFFFF:
+        raise UserError(f"port {port} is not in 0..65535")
+    try:
+        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+        family, *_, address = found[0]
+        return socket.create_server((str(address[0]), port), family=family, backlog=CONNECTIONS)
+    except OSError as failure:
+        raise UserError(_listen_failure(host, port, failure)) from None
+
+
+def _listen_failure(host: str, port: int, failure: OSError) -> str:
+    """What went wrong and what to do about it."""
+    if failure.errno == errno.EADDRINUSE:
+        return (
+            f"port {port} on {host} is in use (is another card running?); choose another"
+            " one with --ascii-port or --binary-port, 0 picks a free one"
+        )
+    if failure.errno == errno.EACCES:
+        return f"port {port} needs special rights; choose one above 1023"
+    return f"cannot listen on {host}:{port}: {failure}"

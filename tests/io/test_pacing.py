@@ -1,0 +1,99 @@
+"""Card time follows the wall clock by absolute deadlines and never spirals."""
+
+import pytest
+
+from openacr.errors import UserError
+from openacr.io.pacing import MAX_LAG_S, Pacer
+
+PERIOD_S = 0.0005
+
+
+def started(speed: float = 1.0) -> Pacer:
+    pacer = Pacer(PERIOD_S, speed)
+    pacer.start(100.0)
+    return pacer
+
+
+def advance_all(pacer: Pacer, now_s: float) -> int:
+    total = 0
+    while due := pacer.due_tk(now_s):
+        pacer.advanced(due)
+        total += due
+    return total
+
+
+@pytest.mark.parametrize(("speed", "ticks"), [(1.0, 2000), (0.5, 1000), (4.0, 8000)])
+def test_one_second_holds_the_right_number_of_ticks(speed: float, ticks: int) -> None:
+    pacer = started(speed)
+    done = sum(advance_all(pacer, 100.0 + at / 777) for at in range(1, 778))
+    assert abs(done - ticks) <= 1
+
+
+def test_late_wake_ups_do_not_add_up() -> None:
+    pacer = started()
+    now_s, done = 100.0, 0
+    while now_s < 130.0:
+        now_s += 0.00137
+        done += advance_all(pacer, now_s)
+    assert abs(done - (now_s - 100.0) / PERIOD_S) <= 1
+
+
+def test_a_delay_is_caught_up_in_bounded_pieces() -> None:
+    pacer = started()
+    assert pacer.due_tk(100.1) == 20
+    assert advance_all(pacer, 100.1) in (199, 200)
+    assert pacer.report().lost_s == 0.0
+
+
+def test_a_long_standstill_is_given_up_and_counted() -> None:
+    pacer = started()
+    assert advance_all(pacer, 160.0) == 1
+    assert pacer.report().lost_s == pytest.approx(60.0, abs=0.01)
+    assert advance_all(pacer, 160.1) in (199, 200)
+
+
+def test_a_card_that_is_too_slow_loses_time_but_not_its_pace() -> None:
+    pacer, now_s = started(), 100.0
+    for _ in range(1000):
+        due = pacer.due_tk(now_s)
+        pacer.advanced(due)
+        now_s += 2 * due * PERIOD_S + 0.0001  # each tick takes two periods
+        assert pacer.lag_s(now_s) < MAX_LAG_S + 0.05
+    assert pacer.report().lost_s > 1.0
+
+
+def test_ticks_taken_ahead_are_not_due_again() -> None:
+    pacer = started()
+    ahead = 0
+    while pacer.may_run_ahead(100.0):
+        pacer.advanced(1)
+        ahead += 1
+    assert ahead == 4
+    assert pacer.due_tk(100.0 + 4 * PERIOD_S) == 0
+    assert pacer.due_tk(100.0 + 5.1 * PERIOD_S) == 1
+
+
+def test_the_pause_ends_when_the_next_tick_is_due() -> None:
+    pacer = started()
+    assert pacer.pause_s(100.0, 0.001) == pytest.approx(PERIOD_S)
+    assert pacer.pause_s(100.01, 0.001) == 0.0
+    pacer.advanced(100)
+    assert pacer.pause_s(100.0, 0.001) == 0.001
+
+
+def test_the_report_holds_percentiles_of_the_error() -> None:
+    pacer = started()
+    for at in range(100):
+        advance_all(pacer, 100.0 + 0.001 * (at + 1))
+    pacer.due_tk(100.2)
+    report = pacer.report()
+    assert report.observations > 100
+    assert report.median_s <= 0.0011
+    assert report.worst_s == pytest.approx(0.1, abs=0.001)
+    assert "pacing error" in str(report)
+
+
+@pytest.mark.parametrize("speed", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_speed_must_be_above_zero(speed: float) -> None:
+    with pytest.raises(UserError, match="speed"):
+        Pacer(PERIOD_S, speed)

@@ -1,0 +1,79 @@
+"""A serial line over a pseudo terminal."""
+
+import asyncio
+import os
+import select
+import sys
+import time
+
+import pytest
+from tests.io.fake_card import FakeCard
+
+from openacr.errors import UserError
+from openacr.io.server import CardServer
+
+if sys.platform == "win32":
+    pytest.skip("pseudo terminals are a POSIX thing", allow_module_level=True)
+
+import pty
+import tty
+
+
+def read_until(fd: int, end: bytes, timeout_s: float = 5.0) -> bytes:
+    seen, deadline = b"", time.monotonic() + timeout_s
+    while end not in seen and time.monotonic() < deadline:
+        if select.select([fd], [], [], 0.1)[0]:
+            seen += os.read(fd, 1000)
+    return seen
+
+
+def test_a_serial_line_is_a_stream_like_any_other() -> None:
+    async def body() -> None:
+        ours, theirs = pty.openpty()
+        tty.setraw(theirs)
+        server, stop = CardServer(card), asyncio.Event()
+        server.open_serial(os.ttyname(theirs), 38400)
+        running = asyncio.create_task(server.run(stop))
+        os.write(ours, b"LEN 12\r")
+        answer = await asyncio.to_thread(read_until, ours, b"SYS>")
+        assert answer == b"LEN 12\r\n6\r\nSYS>"
+        os.write(ours, b"\x00\x30#B#A")  # serial lines start in MODE 1
+        assert (await asyncio.to_thread(read_until, ours, b"\x00"))[:5] == b"\x000#B#"
+        stop.set()
+        await asyncio.wait_for(running, 5)
+        assert card.streams == {}
+        os.close(ours)
+        os.close(theirs)
+
+    card = FakeCard()
+    asyncio.run(body())
+
+
+def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
+    async def body() -> None:
+        ours, theirs = pty.openpty()
+        tty.setraw(theirs)
+        server, stop = CardServer(card), asyncio.Event()
+        server.open_serial(os.ttyname(theirs), 38400)
+        running = asyncio.create_task(server.run(stop))
+        os.close(theirs)
+        os.close(ours)
+        async with asyncio.timeout(5):
+            while card.streams:
+                await asyncio.sleep(0.01)
+        tick = card.tick
+        await asyncio.sleep(0.05)
+        assert card.tick > tick
+        stop.set()
+        await asyncio.wait_for(running, 5)
+
+    card = FakeCard()
+    asyncio.run(body())
+
+
+def test_a_port_that_is_not_there_is_a_user_error() -> None:
+    async def body() -> None:
+        with pytest.raises(UserError, match="no-such-port"):
+            CardServer(FakeCard()).open_serial("/dev/no-such-port", 9600)
+
+    asyncio.run(body())

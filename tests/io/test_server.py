@@ -1,0 +1,279 @@
+"""Many hosts on real sockets, one card."""
+
+import asyncio
+import socket
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager
+
+import pytest
+from tests.io.fake_card import FakeCard
+
+from openacr.errors import UserError
+from openacr.io.server import LOOPBACK, Address, CardServer
+from openacr.protocol.stream import StreamKind
+
+GET = bytes.fromhex("00 30 02 01")
+WAIT_S = 5.0
+
+
+class Host:
+    """One connection of a test."""
+
+    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self.reader, self.writer = reader, writer
+
+    async def until(self, end: bytes) -> bytes:
+        return await asyncio.wait_for(self.reader.readuntil(end), WAIT_S)
+
+    async def ask(self, data: bytes, end: bytes = b"SYS>") -> bytes:
+        self.writer.write(data)
+        return await self.until(end)
+
+    async def close(self) -> None:
+        self.writer.close()
+        await self.writer.wait_closed()
+
+
+class Bench:
+    """A running server with its card."""
+
+    def __init__(self, card: FakeCard, server: CardServer, ascii_at: Address, binary_at: Address):
+        self.card, self.server = card, server
+        self.ascii_at, self.binary_at = ascii_at, binary_at
+        self.hosts: list[Host] = []
+
+    async def connect(self, binary: bool = False) -> Host:
+        at = self.binary_at if binary else self.ascii_at
+        host = Host(*await asyncio.open_connection(at.host, at.port))
+        self.hosts.append(host)
+        return host
+
+
+@asynccontextmanager
+async def serving(streams: int = 16, speed: float = 1.0) -> AsyncIterator[Bench]:
+    card = FakeCard(streams)
+    server = CardServer(card, speed=speed)
+    ascii_at = await server.listen(StreamKind.TERMINAL, LOOPBACK, 0)
+    binary_at = await server.listen(StreamKind.PACKETS, LOOPBACK, 0)
+    stop = asyncio.Event()
+    running = asyncio.create_task(server.run(stop))
+    bench = Bench(card, server, ascii_at, binary_at)
+    try:
+        yield bench
+    finally:
+        stop.set()
+        await asyncio.wait_for(running, WAIT_S)
+        for host in bench.hosts:
+            host.writer.close()
+
+
+def serve(test: Callable[[Bench], Awaitable[None]], **options: int) -> None:
+    async def body() -> None:
+        async with serving(**options) as bench:
+            await test(bench)
+
+    asyncio.run(body())
+
+
+def test_a_line_is_echoed_and_answered_without_a_greeting() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        assert await host.ask(b"LEN 12\r") == b"LEN 12\r\n6\r\nSYS>"
+
+    serve(body)
+
+
+def test_value_and_prompt_arrive_in_one_piece() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        await host.ask(b"LEN", b"LEN")
+        await host.ask(b"\r", b"\r\n")
+        assert await asyncio.wait_for(host.reader.read(100), WAIT_S) == b"3\r\nSYS>"
+
+    serve(body)
+
+
+def test_text_and_packets_alternate_on_one_connection() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        await host.ask(b"LEN ", b"LEN ")
+        host.writer.write(GET)
+        assert (await asyncio.wait_for(host.reader.readexactly(8), WAIT_S))[:4] == GET
+        assert await host.ask(b"12\r") == b"12\r\n6\r\nSYS>"
+
+    serve(body)
+
+
+def test_the_binary_port_answers_packets_only() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect(binary=True)
+        host.writer.write(b"LEN 12\r\x18" + GET)
+        assert (await asyncio.wait_for(host.reader.readexactly(8), WAIT_S))[:4] == GET
+        assert bench.card.controls == []
+
+    serve(body)
+
+
+def test_connections_do_not_see_each_other() -> None:
+    async def body(bench: Bench) -> None:
+        one, other = await bench.connect(), await bench.connect()
+        await one.ask(b"LEN half", b"LEN half")
+        assert await other.ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
+        assert await one.ask(b"\r") == b"\r\n8\r\nSYS>"
+
+    serve(body)
+
+
+def test_a_blocked_line_delays_nobody_else_and_is_answered_in_time() -> None:
+    async def body(bench: Bench) -> None:
+        one, other = await bench.connect(), await bench.connect()
+        one.writer.write(b"SLEEP 200\rLEN\r")
+        started = bench.card.tick
+        assert await other.ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
+        assert bench.card.tick < started + 150
+        await one.until(b"ok\r\nSYS>")
+        assert await one.until(b"SYS>") == b"3\r\nSYS>"
+
+    serve(body)
+
+
+def test_an_answer_that_needs_a_few_ticks_is_fetched_at_once() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        for _ in range(20):
+            assert await host.ask(b"SLEEP 2\r") == b"SLEEP 2\r\nok\r\nSYS>"
+
+    serve(body)
+
+
+def test_a_closed_connection_frees_its_stream_and_the_card_goes_on() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        await host.ask(b"LEN\r")
+        host.writer.write(b"SLEEP 100000\r")
+        await host.close()
+        async with asyncio.timeout(WAIT_S):
+            while bench.card.streams:
+                await asyncio.sleep(0.005)
+        before = bench.card.tick
+        assert await (await bench.connect()).ask(b"LEN\r")
+        assert bench.card.tick >= before
+
+    serve(body)
+
+
+def test_a_reset_connection_frees_its_stream() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        await host.ask(b"LEN\r")
+        host.writer.transport.abort()
+        async with asyncio.timeout(WAIT_S):
+            while bench.card.streams:
+                await asyncio.sleep(0.005)
+
+    serve(body)
+
+
+def test_sixteen_connections_are_served_and_the_next_is_closed() -> None:
+    async def body(bench: Bench) -> None:
+        hosts = [await bench.connect() for _ in range(16)]
+        answers = await asyncio.gather(*(host.ask(b"LEN\r") for host in hosts))
+        assert set(answers) == {b"LEN\r\n3\r\nSYS>"}
+        extra = await bench.connect()
+        with pytest.raises((asyncio.IncompleteReadError, ConnectionError)):
+            await extra.ask(b"LEN\r")
+        assert await hosts[0].ask(b"LEN\r")
+
+    serve(body)
+
+
+def test_a_card_without_free_streams_refuses_the_connection() -> None:
+    async def body(bench: Bench) -> None:
+        first, second = await bench.connect(), await bench.connect()
+        with pytest.raises((asyncio.IncompleteReadError, ConnectionError)):
+            await second.ask(b"LEN\r")
+        assert await first.ask(b"LEN\r")
+
+    serve(body, streams=1)
+
+
+def test_a_peer_that_does_not_read_disturbs_nobody_and_memory_stays_bounded() -> None:
+    async def body(bench: Bench) -> None:
+        slow, other = await bench.connect(), await bench.connect()
+        slow.reader._transport.pause_reading()  # type: ignore[attr-defined]
+        for _ in range(40):
+            slow.writer.write(b"SPAM 5000\r")
+            answer = await other.ask(b"LEN\r")
+            assert answer == b"LEN\r\n3\r\nSYS>"
+        await asyncio.sleep(0.05)
+        waiting = [p.output for p in (s.terminal for s in bench.card.streams.values())]
+        assert all(output.take() == b"" for output in waiting)
+
+    serve(body)
+
+
+def test_a_flood_of_lines_is_held_back_and_fully_answered() -> None:
+    async def body(bench: Bench) -> None:
+        flood, other = await bench.connect(), await bench.connect()
+        flood.writer.write(b"SLEEP 100\r" + b"A\r" * 50_000)
+        for _ in range(20):
+            assert await other.ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
+        answered = 0
+        async with asyncio.timeout(30):
+            while answered < 50_001:
+                answered += (await flood.reader.read(65536)).count(b">")
+        assert answered == 50_001
+
+    serve(body)
+
+
+def test_card_time_follows_the_clock_at_the_chosen_speed() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        loop = asyncio.get_running_loop()
+        first = int((await host.ask(b"TICK\r")).split()[1])
+        began = loop.time()
+        await asyncio.sleep(0.3)
+        last = int((await host.ask(b"TICK\r")).split()[1])
+        elapsed_s = loop.time() - began
+        assert (last - first) * bench.card.period_s / 4 == pytest.approx(elapsed_s, abs=0.1)
+        assert bench.server.report().observations > 50
+
+    serve(body, speed=4)
+
+
+def test_stopping_closes_every_connection() -> None:
+    async def body() -> None:
+        async with serving() as bench:
+            host = await bench.connect()
+            await host.ask(b"LEN\r")
+        assert await asyncio.wait_for(host.reader.read(10), WAIT_S) == b""
+        assert bench.card.streams == {}
+
+    asyncio.run(body())
+
+
+def test_a_port_in_use_is_a_user_error_with_a_hint() -> None:
+    async def body() -> None:
+        with socket.create_server((LOOPBACK, 0)) as taken:
+            port = taken.getsockname()[1]
+            with pytest.raises(UserError, match=rf"port {port} .* in use.*--ascii-port"):
+                await CardServer(FakeCard()).listen(StreamKind.TERMINAL, LOOPBACK, port)
+
+    asyncio.run(body())
+
+
+@pytest.mark.parametrize(("host", "port"), [("no.such.host.invalid", 0), (LOOPBACK, 70000)])
+def test_an_impossible_address_is_a_user_error(host: str, port: int) -> None:
+    async def body() -> None:
+        with pytest.raises(UserError):
+            await CardServer(FakeCard()).listen(StreamKind.TERMINAL, host, port)
+
+    asyncio.run(body())
+
+
+def test_addresses_know_whether_others_can_reach_them() -> None:
+    assert Address("127.0.0.1", 5002).is_loopback
+    assert str(Address("127.0.0.1", 5002)) == "127.0.0.1:5002"
+    assert not Address("0.0.0.0", 5002).is_loopback
+    assert str(Address("::1", 5002)) == "[::1]:5002"
