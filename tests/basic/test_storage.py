@@ -226,8 +226,8 @@ def test_text_is_refused_beyond_the_memory_of_the_program(storage: Storage) -> N
     assert storage.free_program(0) == 65532
 
 
-def test_open_flow_levels_take_four_bytes_each() -> None:
-    storage = Storage(Memory(), flow_levels=lambda program: 3)
+def test_open_flow_levels_take_four_bytes_each(storage: Storage) -> None:
+    storage.memory.I[at.THI_BASE + at.THI_DEPTH] = 3
     assert storage.free_program(0) == 65536 - 12
 
 

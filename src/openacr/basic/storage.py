@@ -3,7 +3,7 @@
 Sizes and counts are hidden rows of the map; only strings live in Python, in plain lists.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from openacr.basic.heap import Heap
 from openacr.basic.memory_cost import (
@@ -45,12 +45,10 @@ class Storage:
         memory: Memory,
         *,
         streams: tuple[str, ...] = STREAMS,
-        flow_levels: Callable[[int], int] = lambda program: 0,
     ) -> None:
         self.memory = memory
         self.heap = Heap(memory)
         self.streams = streams
-        self.flow_levels = flow_levels
         self.locals = Locals(self.heap, self._take)
         self.restore_factory()
 
@@ -148,9 +146,9 @@ class Storage:
     def free_program(self, owner: int) -> int:
         """Bytes of a program or PLC not taken by its text, locals and open flow levels."""
         used = self.heap.row(owner, at.STI_CODE_BYTES)
-        used += FLOW_LEVEL.bytes(self.flow_levels(owner))
         if owner < PROGRAMS:
-            used += self.locals.bytes(owner)
+            levels = self.memory.I[at.THI_BASE + owner * at.THI_STRIDE + at.THI_DEPTH]
+            used += FLOW_LEVEL.bytes(levels) + self.locals.bytes(owner)
         return self.size(owner) - used
 
     def set_code_bytes(self, owner: int, size: int) -> None:

@@ -1,0 +1,103 @@
+"""Entering programs: numbered lines, and PROGRAM ... ENDP."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from openacr.basic.parser import Parser
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.program_store import StoredLine, opens_capture
+from openacr.basic.registry import Level
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind, Token, tokens
+from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
+
+if TYPE_CHECKING:
+    from openacr.basic.session import Session
+    from openacr.basic.system import System
+
+_LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))
+_REMARK = re.compile(r":|REM(?![A-Za-z])", re.IGNORECASE)
+
+
+class Entry:
+    """Decides whether a line typed on a channel is stored."""
+
+    def __init__(self, system: System, session: Session) -> None:
+        self.system = system
+        self.session = session
+        self.store = system.programs
+
+    def take(self, text: str) -> bool:
+        """Store the line if it is one to be stored; False if it is to be executed."""
+        owner = self.session.capture
+        if owner is not None:
+            return self._captured(owner, text)
+        found = tokens(text)
+        if found[0].kind is Kind.NUMBER:
+            self._numbered(self._level_owner(), found)
+            return True
+        behind = opens_capture(text)
+        if behind is not None:
+            self._open(self._level_owner(), behind)
+            return True
+        return False
+
+    def _level_owner(self) -> int:
+        owner = self.session.owner
+        if owner is None:
+            raise CardError(UNKNOWN_COMMAND)
+        return owner
+
+    def _numbered(self, owner: int, found: list[Token]) -> None:
+        """A number in front: store the rest under it, or delete the line."""
+        line = Parser(found[:1] + found[-1:], self.session.scope).line()
+        if line.number is None:
+            raise CardError(SYNTAX_ERROR)
+        if found[1].kind is Kind.END:
+            self.store.delete(owner, line.number)
+        else:
+            self._store(owner, line.number, found[1:])
+
+    def _open(self, owner: int, behind: str) -> None:
+        """PROGRAM: erase the old text and store everything from here on."""
+        if self.system.control.is_running(owner):
+            raise CardError(PROGRAM_IS_RUNNING)
+        has_label = behind.startswith("_")
+        if behind and not has_label and not behind.startswith("'") and not _REMARK.match(behind):
+            raise CardError(SYNTAX_ERROR)
+        self.store.erase(owner)
+        self.session.capture = owner
+        self._append(owner, tokens("PROGRAM" if has_label else f"PROGRAM {behind}"))
+        if has_label:
+            self._append(owner, tokens(behind))
+
+    def _captured(self, owner: int, text: str) -> bool:
+        """A line between PROGRAM and ENDP."""
+        found = tokens(text)
+        first = next((token for token in found if token.value != ":"), found[-1])
+        if first.kind is Kind.WORD and first.value in _LEVEL_WORDS:
+            self.session.capture = None
+            self._append(owner, tokens("ENDP"))
+            return False
+        if found[0].kind is Kind.NUMBER:
+            self._numbered(owner, found)
+        elif found[0].kind is not Kind.END:
+            self._append(owner, found)
+        if first.kind is Kind.WORD and first.value == "ENDP":
+            self.session.capture = None
+        return True
+
+    def _append(self, owner: int, found: list[Token]) -> None:
+        self._store(owner, self.store.next_number(owner), found)
+
+    def _store(self, owner: int, number: int, found: list[Token]) -> None:
+        tree, cost_bytes = self.system.read_stored(owner, found)
+        if tree is not None:
+            self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
+
+
+def level_of(owner: int) -> Level:
+    """Whether an owner of text is a program or a PLC."""
+    return Level.PROG if owner < PROGRAMS else Level.PLC

@@ -1,0 +1,44 @@
+"""Who follows which program: PRINT output, trace and run-time errors go there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from openacr.basic.session import Session
+
+LINE_END = "\r\n"
+PROGRAMS = 16
+
+
+class Listeners:
+    """Delivers what programs say; nobody listening, it is lost."""
+
+    def __init__(self, sessions: Mapping[str, Session]) -> None:
+        self._sessions = sessions
+
+    def of(self, program: int) -> Iterator[Session]:
+        """The channels that listen to a program, in their fixed order."""
+        for session in self._sessions.values():
+            if session.listening_to == program:
+                yield session
+
+    def print(self, program: int, text: str) -> None:
+        """Send text as it is."""
+        for session in self.of(program):
+            session.write(text)
+
+    def error(self, program: int, line: int, message: str) -> None:
+        """Report the run-time error that has ended a program."""
+        self.print(program, f"Error in PROG{program} line {line}: {message}{LINE_END}")
+
+    def trace(self, program: int, line: int) -> None:
+        """TRON: the number of the line that is about to be executed."""
+        self.print(program, f"[{line}]")
+
+    def ended(self, program: int) -> None:
+        """A program has ended: channels that typed LRUN get their prompt back."""
+        for session in self.of(program):
+            if session.until_end:
+                session.program_ended()

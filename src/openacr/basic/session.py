@@ -1,0 +1,247 @@
+"""One command channel: its level and modes, and what becomes of each line typed there.
+
+Lines, keys and answers are data; bytes, echo and line editing belong to the protocol. The
+rule hosts depend on: one line, the output of that line, then exactly one prompt.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TYPE_CHECKING, Any, Protocol
+
+from openacr.basic.entry import Entry
+from openacr.basic.nodes import Line
+from openacr.basic.parser import Parser, Scope
+from openacr.basic.registry import Level
+from openacr.errors import CardError
+from openacr.lang.lexer import tokens
+from openacr.messages import LINE_TOO_LONG
+
+if TYPE_CHECKING:
+    from openacr.basic.system import System
+
+LINE_END = "\r\n"
+FIRST_CHANNEL_THREAD = 16
+PROGRAMS = 16
+
+
+class Attention(Enum):
+    """Who gets what is typed."""
+
+    COMMANDS = "commands"
+    LISTENING = "listening"
+    PASS_THROUGH = "pass-through"
+    OPEN = "open"
+
+
+class Runner(Protocol):
+    """Who executes immediate lines: each channel has a thread of its own."""
+
+    def start(self, session: Session, line: Line) -> None:
+        """Begin a line; `session.finished` is called when it is done."""
+
+    def cancel(self, session: Session) -> None:
+        """Forget a line that is still being executed."""
+
+    def is_waiting(self, thread: int) -> bool:
+        """Whether the thread waits (DWL, INH, a full move buffer)."""
+
+
+@dataclass(slots=True)
+class Session:
+    """One channel of the card; it exists from power-up, connected or not."""
+
+    name: str
+    index: int
+    system: System = field(repr=False)
+    is_connected: bool = False
+    level: Level = Level.SYS
+    number: int = 0  # of the program or PLC of the level
+    echo: int = 1
+    mode: int = 0
+    busy: bool = False
+    capture: int | None = None  # owner whose text is being entered with PROGRAM
+    listening_to: int | None = None
+    until_end: bool = False  # LRUN: listen until the program ends
+    opened_by: tuple[int, int] | None = None  # program and device number
+    partner: str | None = None  # channel joined by TALK TO
+    _output: bytearray = field(default_factory=bytearray)
+
+    @property
+    def thread(self) -> int:
+        """The thread that executes lines typed here."""
+        return FIRST_CHANNEL_THREAD + self.index
+
+    @property
+    def program(self) -> int | None:
+        """The program whose axes and locals a line means."""
+        return self.number if self.level is Level.PROG else None
+
+    @property
+    def owner(self) -> int | None:
+        """The program (0-15) or PLC (16-23) of the level; None at SYS."""
+        if self.level is Level.PLC:
+            return PROGRAMS + self.number
+        return self.program
+
+    @property
+    def attention(self) -> Attention:
+        """Who gets what is typed."""
+        if self.opened_by is not None:
+            return Attention.OPEN
+        if self.partner is not None:
+            return Attention.PASS_THROUGH
+        return Attention.COMMANDS if self.listening_to is None else Attention.LISTENING
+
+    @property
+    def prompt(self) -> str:
+        """The prompt of the level."""
+        if self.level is Level.SYS:
+            return "SYS>"
+        return f"P{self.number:02d}>" if self.level is Level.PROG else f"PLC{self.number}>"
+
+    @property
+    def scope(self) -> Scope:
+        """What an immediate line may refer to."""
+        return self.system.scope(self.level, self.program, stored=False)
+
+    # connection
+
+    def connect(self) -> None:
+        """A host takes the channel: as after power-up, unless a program holds it open."""
+        self.is_connected = True
+        self.level, self.number, self.echo, self.mode = Level.SYS, 0, 1, 0
+        self._output.clear()
+
+    def disconnect(self) -> None:
+        """The host is gone: nothing it started stops, only its unfinished line does."""
+        self.is_connected = False
+        if self.busy:
+            self.system.runner.cancel(self)
+            self.busy = False
+        self.stop_listening()
+        self.partner, self.capture = None, None
+        self._output.clear()
+
+    # input
+
+    def feed_line(self, text: str) -> None:
+        """Deal with one line; it is answered here, or by `finished` when it takes longer."""
+        self.busy = True
+        try:
+            is_done = self._take(text)
+        except CardError as error:
+            self.finished(error)
+        else:
+            if is_done:
+                self.finished()
+
+    def line_too_long(self) -> None:
+        """Answer a line that was discarded for its length."""
+        self.finished(CardError(LINE_TOO_LONG))
+
+    def typed(self, byte: int) -> None:
+        """One byte for the program or channel that has the attention."""
+        if self.partner is not None:
+            self.system.sessions[self.partner].write(chr(byte))
+        elif self.opened_by is not None:
+            self.system.devices.receive(self.opened_by, byte)
+        elif self.listening_to is not None:
+            self.system.devices.receive((self.listening_to, 0), byte)
+
+    def escape(self) -> None:
+        """ESC: end listening or talking; one prompt follows without a line."""
+        if self.attention in (Attention.LISTENING, Attention.PASS_THROUGH):
+            self.stop_listening()
+            self._leave_partner()
+            self.write(LINE_END)
+            self._send_prompt()
+
+    def _take(self, text: str) -> bool:
+        """Store or start a line; True when nothing of it is left to be done."""
+        entry = Entry(self.system, self)
+        if entry.take(text):
+            return True
+        line = Parser(tokens(text), self.scope).line()
+        if line.is_empty:
+            return True
+        self.system.runner.start(self, line)
+        return False
+
+    # output
+
+    def write(self, text: str) -> None:
+        """Queue text for the host; nobody connected, nothing kept."""
+        if self.is_connected:
+            self._output += text.encode("latin-1", errors="replace")
+
+    def finished(self, error: CardError | None = None) -> None:
+        """The present line is dealt with: its error text, then the prompt."""
+        self.busy = False
+        if error is not None and not self.echo & 2:
+            self.write(error.text + LINE_END)
+        if self.attention is Attention.COMMANDS:
+            self._send_prompt()
+
+    def take_output(self) -> bytes:
+        """What there is to send; the answer of a line that is still computing is held back."""
+        if self.busy and not self.system.runner.is_waiting(self.thread):
+            return b""
+        data = bytes(self._output)
+        self._output.clear()
+        return data
+
+    @property
+    def has_output(self) -> bool:
+        """Whether anything waits to be sent."""
+        return bool(self._output)
+
+    def _send_prompt(self) -> None:
+        if not self.echo & 4:
+            self.write(self.prompt)
+
+    # levels and modes
+
+    def go(self, level: Level, number: int = 0) -> None:
+        """SYS, PROG n, PLC n."""
+        self.level, self.number = level, number
+
+    def listen(self, program: int, *, until_end: bool = False) -> None:
+        """LISTEN, LRUN: the output of a program goes here until ESC."""
+        self.listening_to, self.until_end = program, until_end
+
+    def stop_listening(self) -> None:
+        """Stop following a program."""
+        self.listening_to, self.until_end = None, False
+
+    def program_ended(self) -> None:
+        """The program followed with LRUN has ended: back to the prompt, once."""
+        self.stop_listening()
+        if not self.busy:
+            self._send_prompt()
+
+    def talk_to(self, other: Session) -> None:
+        """TALK TO: what is typed here leaves there, and the other way round."""
+        self.partner, other.partner = other.name, self.name
+
+    def _leave_partner(self) -> None:
+        if self.partner is not None:
+            self.system.sessions[self.partner].partner = None
+            self.partner = None
+
+    # snapshot
+
+    def state(self) -> dict[str, Any]:
+        """Everything but the connection, as plain data."""
+        return {
+            "level": self.level.name, "number": self.number, "echo": self.echo,
+            "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
+            "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
+            "partner": self.partner,
+        }  # fmt: skip
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take over what `state` returned."""
+        for name, value in state.items():
+            setattr(self, name, Level[value] if name == "level" else value)

@@ -1,0 +1,104 @@
+"""Everything AcroBASIC knows beside the memory map, and who is asked for what."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+from openacr.basic.aliases import Aliases
+from openacr.basic.devices import Devices
+from openacr.basic.listeners import Listeners
+from openacr.basic.memory_cost import PLC_INSTRUCTION, line_bytes
+from openacr.basic.parser import Parser, Scope
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.program_store import OWNERS, ProgramStore
+from openacr.basic.registry import Level
+from openacr.basic.session import Runner, Session
+from openacr.basic.storage import STREAMS, Storage
+from openacr.errors import CardError
+from openacr.lang.lexer import Token
+from openacr.messages import NOT_SUPPORTED
+
+if TYPE_CHECKING:
+    from openacr.motion.card import Card
+
+PlcReader = Callable[[list[Token]], tuple[Any, int]]
+
+
+class Control(Protocol):
+    """Who runs programs (0-15) and PLCs (16-23)."""
+
+    def is_running(self, owner: int) -> bool:
+        """Whether it executes, waits or is held."""
+
+    def run(self, owner: int, line: int | None = None) -> None:
+        """RUN: begin at the first line or at `line`."""
+
+    def halt(self, owner: int) -> None:
+        """HALT, motion of its master included."""
+
+    def pause(self, owner: int) -> None:
+        """PAUSE."""
+
+    def resume(self, owner: int) -> None:
+        """RESUME."""
+
+    def block(self, owner: int) -> None:
+        """BLK."""
+
+    def auto(self, owner: int) -> None:
+        """AUT."""
+
+    def step(self, owner: int) -> None:
+        """STEP."""
+
+    def trace(self, owner: int, on: bool) -> None:
+        """TRON and TROFF."""
+
+
+def _no_plc(found: list[Token]) -> tuple[Any, int]:
+    raise CardError(NOT_SUPPORTED)
+
+
+class System:
+    """The language side of one card.
+
+    `control` and `runner` execute; they are set by the composition root, as is `read_plc`,
+    which turns the tokens of a PLC line into instructions and their count.
+    """
+
+    control: Control
+    runner: Runner
+
+    def __init__(self, card: Card, *, streams: tuple[str, ...] = STREAMS) -> None:
+        self.card = card
+        self.storage = Storage(card.memory, streams=streams)
+        self.aliases = Aliases(lambda: self.storage.define_count)
+        self.programs = ProgramStore(self.storage)
+        self.sessions = {
+            name: Session(name, index, self)
+            for index, name in enumerate(STREAMS)
+            if name in streams
+        }
+        self.listeners = Listeners(self.sessions)
+        self.devices = Devices(card.memory, self.sessions, self.listeners)
+        self.read_plc: PlcReader = _no_plc
+
+    def scope(self, level: Level, program: int | None, *, stored: bool) -> Scope:
+        """What a line of a program, or one typed at its prompt, may refer to."""
+        named = () if program is None else self.card.attachments.axes(program)
+        axes = frozenset(name for name, _ in named)
+        return Scope(level, stored, axes, self.aliases.nodes)
+
+    def read_stored(self, owner: int, found: list[Token]) -> tuple[Any, int]:
+        """Meaning and cost of a line to be stored; no meaning if there is nothing to store."""
+        if owner >= PROGRAMS:
+            tree, count = self.read_plc(found)
+            return tree, count * PLC_INSTRUCTION.each
+        scope = self.scope(Level.PROG, owner, stored=True)
+        line = Parser(found, scope).line()
+        return (None, 0) if line.is_empty else (line, line_bytes(found))
+
+    def owners(self) -> range:
+        """All programs and PLCs."""
+        return range(OWNERS)
