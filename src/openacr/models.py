@@ -1,0 +1,53 @@
+"""Controller models: how many of everything a card has.
+
+Masters, slaves and programs are those the manuals state; counts they do not state are
+those of the largest card of the family (20 encoders, 16 analog outputs and inputs).
+"""
+
+from dataclasses import dataclass
+
+SYSTEM_MEMORY_BYTES = 1 << 20
+FIRMWARE = "1.18.06"
+UPDATE = 15
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Model:
+    """One controller model; `has_drive_control`: drive, limit and homing flags."""
+
+    name: str
+    card_type: int
+    axes: int = 16
+    masters: int = 16
+    slaves: int = 16
+    programs: int = 16
+    plcs: int = 8
+    encoders: int = 20
+    dacs: int = 16
+    adcs: int = 16
+    streams: tuple[str, ...]
+    has_drive_control: bool = True
+    system_memory_bytes: int = SYSTEM_MEMORY_BYTES
+
+    @property
+    def version(self) -> str:
+        """What VER prints."""
+        return f"{self.name} Version {FIRMWARE} Update {UPDATE}"
+
+    @property
+    def serial_number(self) -> int:
+        """P7040: the card type followed by four zeros."""
+        return self.card_type * 10000
+
+
+_CARD_STREAMS = ("FIFO", "COM1", "COM2")
+_BOX_STREAMS = ("COM1", "COM2", "STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
+
+ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS)
+ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"))
+ACR9000 = Model(name="ACR9000", card_type=9000, axes=8, masters=8, slaves=8, streams=_BOX_STREAMS)
+ACR9030 = Model(name="ACR9030", card_type=9030, streams=_BOX_STREAMS)
+ACR9040 = Model(name="ACR9040", card_type=9040, streams=_BOX_STREAMS)
+
+MODELS = {model.name: model for model in (ACR1505, ACR8020, ACR9000, ACR9030, ACR9040)}
+DEFAULT_MODEL = ACR9000
