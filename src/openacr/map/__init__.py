@@ -8,6 +8,7 @@ from openacr.map.lookup import (
     flag,
     flags,
     flags_of,
+    packet_groups,
     parameter,
     parameters,
 )
@@ -20,6 +21,7 @@ __all__ = [
     "flag",
     "flags",
     "flags_of",
+    "packet_groups",
     "parameter",
     "parameters",
 ]

@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum, StrEnum
 
+from openacr.units import WORDS, words_of
+
 FLAG_WORD_BASE = 4096
 FLAG_LAST = 17663
 BITS_PER_WORD = 32
@@ -213,6 +215,8 @@ class Block:
         """Declare one parameter; an erratum may concern only object `erratum_at`."""
         if offset in self.rows:
             raise ValueError(f"{self.title}: offset {offset:#x} is declared twice")
+        if unknown := set(words_of(unit)) - set(WORDS):
+            raise ValueError(f"{self.title}: {name} has no unit {', '.join(unknown)}")
         self.rows[offset] = Row(
             offset, name, kind, access, self._section, doc, unit, default, ident, erratum,
             erratum_at,

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby, pairwise
 from pathlib import Path
 
-from openacr.map.block import Block, FlagBlock, Row
+from openacr.map.block import FLAG_LAST, FLAG_WORD_BASE, Block, FlagBlock, Row
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.layout import (
     HIDDEN_BASE,
@@ -74,7 +74,8 @@ def _layout_constants() -> Iterator[Constant]:
     yield "USER_BASE", USER_BASE
     yield "USER_COUNT", USER_COUNT
     yield "HIDDEN_BASE", HIDDEN_BASE
-    yield "FLAG_LAST", 17663
+    yield "FLAG_WORD_BASE", FLAG_WORD_BASE
+    yield "FLAG_LAST", FLAG_LAST
     yield "KIND_BASE", 0
     for kind, code in KIND_CODES.items():
         yield f"KIND_{kind or 'NONE'}", code

@@ -9,7 +9,7 @@ from openacr.views import I32
 __all__ = ["kind_of"]
 
 
-def kind_of(I: I32, number: int) -> int:  # noqa: E741
+def kind_of(I: I32, number: int) -> int:
     """KIND_LONG, KIND_FP32, KIND_FP64, or KIND_NONE where no parameter is defined."""
     if number < 0 or number >= PUBLIC_COUNT:
         return KIND_NONE

@@ -6,7 +6,6 @@ The tables load at the first question, so that importing the map stays cheap.
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 from typing import TypeVar
 
@@ -117,6 +116,18 @@ def flags_of(number: int) -> list[Flag]:
     first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
     found = flags()
     return [found[n] for n in range(first, first + BITS_PER_WORD) if n in found]
+
+
+@cache
+def packet_groups() -> dict[tuple[int, int], tuple[int | None, ...]]:
+    """Numbers behind the eight mask bits of every packet group code and index."""
+    groups: dict[tuple[int, int], list[int | None]] = {}
+    for found in parameters().values():
+        if found.packet:
+            key = (found.packet.code, found.packet.group_index)
+            fields = groups.setdefault(key, [None] * 8)
+            fields[found.packet.mask.bit_length() - 1] = found.number
+    return {key: tuple(fields) for key, fields in groups.items()}
 
 
 def find_parameter(text: str) -> list[Parameter]:
@@ -246,6 +257,8 @@ def _mentions(record: Parameter | Flag, wanted: list[str]) -> bool:
 
 
 def _hint(wanted: list[str], records: Iterable[Parameter | Flag]) -> str:
+    from difflib import get_close_matches
+
     names = {record.name.lower(): record.name for record in records}
     close = get_close_matches(" ".join(wanted), names, n=3, cutoff=0.5)
     return f"; perhaps {', '.join(names[match] for match in close)}?" if close else ""

@@ -14,6 +14,7 @@ from openacr.map.image import KINDS, POWER_UP
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
     FLAG_LAST,
+    FLAG_WORD_BASE,
     KIND_FP32,
     KIND_FP64,
     KIND_LONG,
@@ -28,7 +29,6 @@ from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
 from openacr.views import F32, F64, I32
 
 KINDS_PER_WORD = 16
-FLAG_WORDS = 4096
 
 
 class Memory:
@@ -37,7 +37,7 @@ class Memory:
     __slots__ = ("F", "I", "S", "_buffer")
 
     F: F64
-    I: I32  # noqa: E741 - the name of this view everywhere
+    I: I32
     S: F32
 
     def __init__(self) -> None:
@@ -117,7 +117,7 @@ def _flag_place(number: int) -> tuple[int, int]:
     if not 0 <= number <= FLAG_LAST:
         raise CardError(INVALID_BIT)
     word, bit = divmod(number, 32)
-    return FLAG_WORDS + word, 1 << bit if bit < 31 else -(1 << 31)
+    return FLAG_WORD_BASE + word, 1 << bit if bit < 31 else -(1 << 31)
 
 
 @cache

@@ -1,0 +1,24 @@
+"""Controller models differ in what they have."""
+
+from openacr.models import ACR8020, ACR9000, DEFAULT_MODEL, MODELS
+from openacr.units import explain, words_of
+
+
+def test_the_default_card_is_an_eight_axis_acr9000() -> None:
+    assert DEFAULT_MODEL is ACR9000
+    assert (ACR9000.axes, ACR9000.masters, ACR9000.slaves) == (8, 8, 8)
+
+
+def test_the_other_models_have_sixteen_masters_and_slaves() -> None:
+    others = [model for model in MODELS.values() if model is not ACR9000]
+    assert {(model.masters, model.slaves) for model in others} == {(16, 16)}
+
+
+def test_version_and_serial_number() -> None:
+    assert ACR8020.version == "ACR8020 Version 1.18.06 Update 15"
+    assert ACR8020.serial_number == 80200000
+
+
+def test_units_are_explained() -> None:
+    assert words_of("V s²/pulse") == ["V", "s", "pulse"]
+    assert explain("V s²/pulse") == "volt, second, encoder pulse"
