@@ -1,0 +1,201 @@
+"""`openacr param` and `openacr flag`: what a number or name on the card means."""
+
+import json as json_format
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+
+from openacr.errors import MapError
+from openacr.map import Flag, Parameter, find_flag, find_parameter, flags_of
+from openacr.map.block import RESERVED, UNDOCUMENTED, Access, Kind, Packet
+from openacr.units import explain
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+GET_PACKET = 0x00
+ACCESS = {
+    Access.READ: "read",
+    Access.WRITE: "write",
+    Access.READ_WRITE: "read, write",
+    Access.RESERVED: "reserved",
+    Access.UNKNOWN: "not stated in the manual",
+}
+KIND = {
+    Kind.LONG: "LONG (32-bit integer)",
+    Kind.FP32: "FP32 (32-bit float)",
+    Kind.FP64: "FP64 (64-bit float)",
+}
+
+What = Annotated[str, typer.Argument(help="Number or name, e.g. 12291, 'axis 2 following error'.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print a JSON array of everything found.")]
+
+
+def show_parameter(text: What, json: AsJson = False) -> None:
+    """Explain a parameter: meaning, type, access, packet address."""
+    try:
+        found = find_parameter(text)
+    except MapError as error:
+        _refuse(error)
+    if json:
+        _print_json([_parameter_fields(parameter) for parameter in found])
+    elif len(found) > 1:
+        _print(_choice(found, [parameter.kind.value for parameter in found], "Type", "P"))
+    else:
+        _print_parameter(found[0])
+
+
+def show_flag(text: What, json: AsJson = False) -> None:
+    """Explain a flag: meaning, access, update speed, parameter that holds it."""
+    try:
+        found = find_flag(text)
+    except MapError as error:
+        _refuse(error)
+    if json:
+        _print_json([_flag_fields(flag) for flag in found])
+    elif len(found) > 1:
+        _print(_choice(found, [f"P{flag.parameter}.{flag.bit}" for flag in found], "Word", "BIT"))
+    else:
+        _print_flag(found[0])
+
+
+def _refuse(error: MapError) -> NoReturn:
+    typer.echo(f"openacr: {error}", err=True)
+    raise typer.Exit(2)
+
+
+def _print_parameter(parameter: Parameter) -> None:
+    unit = f"{parameter.unit} ({explain(parameter.unit)})" if parameter.unit else ""
+    _print_facts(
+        f"P{parameter.number}  {parameter.name}",
+        parameter.description,
+        {
+            "Object": _object(parameter),
+            "Section": parameter.section,
+            "Type": KIND[parameter.kind],
+            "Access": ACCESS[parameter.access],
+            "Unit": unit,
+            "At power-up": f"{parameter.default:g}" if parameter.default else "",
+            "Packet": _packet(parameter.packet),
+            "Reference": parameter.ref,
+            "Erratum": parameter.erratum,
+        },
+    )
+    named = [flag for flag in flags_of(parameter.number) if _has_meaning(flag)]
+    if named:
+        _print(_choice(named, [flag.description for flag in named], "Meaning", "BIT"))
+
+
+def _print_flag(flag: Flag) -> None:
+    _print_facts(
+        f"BIT{flag.number}  {flag.name}",
+        flag.description,
+        {
+            "Object": _object(flag),
+            "Section": flag.section,
+            "In the manual": "" if flag.printed == flag.name else "numbered, not named",
+            "Held by": f"bit {flag.bit} of P{flag.parameter} (mask 0x{1 << flag.bit:08X})",
+            "Access": ACCESS[flag.access],
+            "Updated": {"fast": "every servo period", "slow": "in the slow scan"}.get(
+                flag.speed, "not stated in the manual"
+            ),
+            "Reference": flag.ref,
+            "Erratum": flag.erratum,
+        },
+    )
+
+
+def _print_facts(title: str, description: str, facts: dict[str, str]) -> None:
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table.grid(padding=(0, 2))
+    table.add_column(style="dim", no_wrap=True)
+    table.add_column()
+    for name, value in facts.items():
+        if value:
+            table.add_row(f"  {name}", Text(value))
+    _print(Text(title, style="bold"))
+    if description:
+        _print(Text(description))
+    _print(table)
+
+
+def _choice(
+    found: Sequence[Parameter | Flag], last: list[str], heading: str, letter: str
+) -> "Table":
+    from rich.box import SIMPLE
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table("Number", "Name", "Object", heading, box=SIMPLE)
+    for record, detail in zip(found, last, strict=True):
+        table.add_row(f"{letter}{record.number}", Text(record.name), _object(record), Text(detail))
+    return table
+
+
+def _print(content: object) -> None:
+    from rich.console import Console
+
+    Console(highlight=False).print(content)
+
+
+def _print_json(records: list[dict[str, Any]]) -> None:
+    typer.echo(json_format.dumps(records, indent=2, ensure_ascii=False))
+
+
+def _parameter_fields(parameter: Parameter) -> dict[str, Any]:
+    packet = parameter.packet
+    return {
+        "number": parameter.number,
+        "name": parameter.name,
+        "type": parameter.kind.value,
+        "access": parameter.access.value,
+        "object": parameter.object,
+        "index": parameter.index,
+        "section": parameter.section,
+        "packet": packet
+        and {"code": packet.code, "group_index": packet.group_index, "mask": packet.mask},
+        "description": parameter.description,
+        "unit": parameter.unit,
+        "default": parameter.default,
+        "reference": parameter.ref,
+        "erratum": parameter.erratum,
+        "flags": [flag.number for flag in flags_of(parameter.number)],
+    }
+
+
+def _flag_fields(flag: Flag) -> dict[str, Any]:
+    return {
+        "number": flag.number,
+        "name": flag.name,
+        "printed": flag.printed,
+        "access": flag.access.value,
+        "speed": flag.speed.value,
+        "parameter": flag.parameter,
+        "bit": flag.bit,
+        "mask": flag.mask,
+        "object": flag.object,
+        "index": flag.index,
+        "section": flag.section,
+        "description": flag.description,
+        "reference": flag.ref,
+        "erratum": flag.erratum,
+    }
+
+
+def _object(record: Parameter | Flag) -> str:
+    return record.object if record.index is None else f"{record.object} {record.index}"
+
+
+def _packet(packet: Packet | None) -> str:
+    if packet is None:
+        return "none documented"
+    code, index, mask = packet.code, packet.group_index, packet.mask
+    request = bytes((GET_PACKET, code, index, mask)).hex(" ").upper()
+    return f"{request} (group 0x{code:02X}, index 0x{index:02X}, mask 0x{mask:02X})"
+
+
+def _has_meaning(flag: Flag) -> bool:
+    return flag.access is not Access.RESERVED and flag.name not in (RESERVED, UNDOCUMENTED)
