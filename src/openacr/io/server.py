@@ -75,9 +75,10 @@ class CardServer:
                 self._serve_all()
                 await asyncio.sleep(self._pacer.pause_s(self._now(), STEP_S))
         finally:
-            await self._close()
+            await self.close()
 
-    async def _close(self) -> None:
+    async def close(self) -> None:
+        """Stop listening and end every connection."""
         for listener in self._listeners:
             listener.close()
         for peer in list(self._peers):

@@ -1,0 +1,91 @@
+"""`openacr serve`: a card on the network, in real time."""
+
+import asyncio
+import gc
+import logging
+import signal
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from openacr.io.host import CardHost
+    from openacr.io.server import Address
+
+log = logging.getLogger(__name__)
+
+
+def serve(
+    project: Annotated[
+        Path | None, typer.Argument(help="Project folder or .8k file; default: eight axes.")
+    ] = None,
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    ascii_port: Annotated[int, typer.Option(help="Terminal and packets; 0: any free.")] = 5002,
+    binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = 5006,
+    serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
+    baud: Annotated[int, typer.Option(help="Speed of the serial port.")] = 38400,
+    speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
+    data: Annotated[
+        Path | None, typer.Option(help="Folder that keeps what ESAVE and FLASH store.")
+    ] = None,
+) -> None:
+    """Run a card in real time and let hosts talk to it over TCP and serial lines."""
+    from openacr.controller import Controller
+
+    card = Controller.from_project(project, data=data) if project else Controller(data=data)
+    asyncio.run(serve_card(card, host, ascii_port, binary_port, serial, baud, speed))
+
+
+async def serve_card(
+    card: "CardHost",
+    host: str,
+    ascii_port: int,
+    binary_port: int,
+    serial: str | None,
+    baud: int,
+    speed: float,
+) -> None:
+    """Serve until SIGTERM or Ctrl-C; prints one line when everything listens."""
+    from openacr.io.server import CardServer
+    from openacr.protocol.stream import StreamKind
+
+    stop = asyncio.Event()
+    _stop_on_signals(stop)
+    server = CardServer(card, speed=speed)
+    try:
+        terminal = await server.listen(StreamKind.TERMINAL, host, ascii_port)
+        packets = await server.listen(StreamKind.PACKETS, host, binary_port)
+        if serial is not None:
+            server.open_serial(serial, baud)
+    except BaseException:
+        await server.close()
+        raise
+    _announce(terminal, packets)
+    gc.collect()
+    gc.freeze()  # what is loaded now stays: later collections are short
+    await server.run(stop)
+    log.info("%s", server.report())
+
+
+def _announce(terminal: "Address", packets: "Address") -> None:
+    if not terminal.is_loopback:
+        typer.secho(
+            f"WARNING: {terminal} can be reached from other machines. The card's protocols"
+            " have no passwords and no encryption: anyone who connects can move axes and"
+            " change programs. Use this in a trusted network only.",
+            fg=typer.colors.RED,
+            bold=True,
+            err=True,
+        )
+    print(f"listening ascii={terminal} binary={packets}", flush=True)
+
+
+def _stop_on_signals(stop: asyncio.Event) -> None:
+    """End cleanly on SIGTERM and Ctrl-C."""
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        try:
+            loop.add_signal_handler(number, stop.set)
+        except NotImplementedError:  # this system delivers signals to Python handlers only
+            signal.signal(number, lambda *_: loop.call_soon_threadsafe(stop.set))

@@ -1,0 +1,73 @@
+"""A terminal session without a person: lines in, everything the card sends out.
+
+Each line is sent after the prompt of the one before it. Where no prompt can be expected
+(prompts turned off by ECHO, a control key next) the card gets QUIET_S of silence instead.
+"""
+
+import re
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from openacr.errors import UserError
+from openacr.io.link import Link
+
+QUIET_S = 0.3
+NO_PROMPT = 4  # bit of the ECHO mode
+ESC = b"\x1b"
+_PROMPT = re.compile(rb"(?:^|\n)(?:SYS|P\d\d|PLC\d+)>$")
+_ECHO = re.compile(rb"(?:^|:)\s*ECHO\s*(\d+)", re.IGNORECASE)
+_KEYS = re.compile(rb"[\x18\x19\x1a\x1b]+")
+
+
+class NoReplyError(UserError):
+    """The card did not finish a line in time."""
+
+
+@dataclass(slots=True)
+class Script:
+    """Sends lines over a link and passes on what comes back."""
+
+    link: Link
+    show: Callable[[bytes], None]
+    wait_s: float
+    _prompts: bool = True
+
+    def run(self, lines: Iterable[bytes]) -> None:
+        """Send every line and wait for its reply; NoReplyError, LinkClosedError."""
+        waiting: bytes | None = None
+        for line in lines:
+            keys = _KEYS.fullmatch(line) is not None
+            if waiting is not None:
+                self._finish(waiting, interrupted=keys)
+            self.link.write(line if keys else line + b"\r")
+            waiting = line
+        if waiting is not None:
+            self._finish(waiting, interrupted=False)
+
+    def _finish(self, line: bytes, *, interrupted: bool) -> None:
+        """Take the reply to `line`."""
+        echo = _ECHO.search(line)
+        if echo is not None:
+            self._prompts = not int(echo[1]) & NO_PROMPT
+        silent_key = _KEYS.fullmatch(line) is not None and ESC not in line
+        if interrupted or silent_key or not self._prompts:
+            self._until_quiet()
+        else:
+            self._until_prompt(line)
+
+    def _until_quiet(self) -> None:
+        while data := self.link.read(QUIET_S):
+            self.show(data)
+
+    def _until_prompt(self, line: bytes) -> None:
+        seen = b""
+        deadline_s = time.monotonic() + self.wait_s
+        while not _PROMPT.search(seen):
+            left_s = deadline_s - time.monotonic()
+            if left_s <= 0:
+                text = line.decode("utf-8", "replace")
+                raise NoReplyError(f"no prompt within {self.wait_s:g} s after: {text}")
+            data = self.link.read(left_s)
+            self.show(data)
+            seen = (seen + data)[-64:]

@@ -1,0 +1,56 @@
+"""`openacr serve` as a process: one line when ready, a clean end on a signal."""
+
+import re
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = """
+import asyncio
+from openacr.cli.serve import serve_card
+from tests.io.fake_card import FakeCard
+asyncio.run(serve_card(FakeCard(), {host!r}, 0, 0, None, 38400, 1.0))
+"""
+
+
+def start(host: str = "127.0.0.1") -> "subprocess.Popen[str]":
+    return subprocess.Popen(
+        [sys.executable, "-c", PROGRAM.format(host=host)],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_it_announces_its_ports_and_ends_cleanly_on_a_signal(number: signal.Signals) -> None:
+    with start() as process:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        found = re.fullmatch(r"listening ascii=127.0.0.1:(\d+) binary=127.0.0.1:(\d+)\n", line)
+        assert found is not None, line
+        for port in found.groups():
+            with socket.create_connection(("127.0.0.1", int(port)), 5) as connection:
+                connection.sendall(bytes.fromhex("00 30 02 01"))
+                assert connection.recv(8)[:4] == bytes.fromhex("00 30 02 01")
+        process.send_signal(number)
+        out, err = process.communicate(timeout=10)
+        assert (process.returncode, out, err) == (0, "", "")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_it_warns_when_other_machines_can_reach_it() -> None:
+    with start("0.0.0.0") as process:
+        assert process.stdout is not None
+        assert "ascii=0.0.0.0:" in process.stdout.readline()
+        process.terminate()
+        _, err = process.communicate(timeout=10)
+        assert "WARNING" in err
+        assert "trusted network" in err

@@ -1,0 +1,83 @@
+"""`openacr term`: piped lines and a person at a keyboard."""
+
+import os
+import select
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from tests.io.fake_card import FakeCard
+from tests.io.threaded import served
+
+COMMAND = [sys.executable, "-c", "import typer; from openacr.cli.term import term; typer.run(term)"]
+
+
+def test_piped_lines_are_answered_and_the_end_of_input_ends_it() -> None:
+    with served(FakeCard()) as at:
+        done = subprocess.run(
+            [*COMMAND, str(at)], input=b"LEN 12\nSLEEP 50\n", capture_output=True, timeout=20
+        )
+    assert done.stdout == b"LEN 12\n6\nSYS>SLEEP 50\nok\nSYS>"
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+def read_until(fd: int, end: bytes) -> bytes:
+    seen, deadline = b"", time.monotonic() + 10
+    while end not in seen and time.monotonic() < deadline:
+        if select.select([fd], [], [], 0.1)[0]:
+            seen += os.read(fd, 1000)
+    assert end in seen
+    return seen
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
+def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> None:
+    import pty
+
+    card = FakeCard()
+    ours, theirs = pty.openpty()
+    with (
+        served(card) as at,
+        subprocess.Popen(
+            [*COMMAND, str(at)],
+            stdin=theirs,
+            stdout=theirs,
+            stderr=subprocess.PIPE,
+            env={**os.environ, "XDG_STATE_HOME": str(tmp_path)},
+        ) as process,
+    ):
+        assert process.stderr is not None
+        assert b"Ctrl-C leaves" in process.stderr.readline()
+        time.sleep(0.1)  # the terminal becomes raw right after that line
+        os.write(ours, b"LEN 12\r")
+        assert read_until(ours, b"SYS>") == b"LEN 12\r\n6\r\nSYS>"
+        os.write(ours, b"\x18\x1a\x1b[A\r")
+        assert read_until(ours, b"SYS>") == b"LEN 12\r\n6\r\nSYS>"
+        assert card.controls == ["CTRL_X", "CTRL_Z"]
+        os.write(ours, b"\x03")
+        assert process.wait(10) == 0
+    assert (tmp_path / "openacr" / "term_history").read_bytes() == b"LEN 12\n"
+    os.close(ours)
+    os.close(theirs)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
+def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
+    with served(FakeCard()) as at:
+        process = subprocess.Popen(
+            [*COMMAND, str(at)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+        assert process.stdin is not None
+        assert process.stdout is not None
+        process.stdin.write(b"LEN\nSLEEP 1000000\n")
+        process.stdin.flush()
+        assert process.stdout.readline() == b"LEN\n"
+        time.sleep(0.2)
+    _, err = process.communicate(timeout=10)
+    assert process.returncode == 1
+    assert b"connection ended" in err

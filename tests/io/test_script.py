@@ -1,0 +1,67 @@
+"""A session without a person over a real connection."""
+
+import socket
+
+import pytest
+from tests.io.fake_card import FakeCard
+from tests.io.threaded import served
+
+from openacr.errors import UserError
+from openacr.io.link import LinkClosedError, TcpLink, open_link
+from openacr.io.script import NoReplyError, Script
+
+
+def replies(lines: list[bytes], wait_s: float = 5.0) -> bytes:
+    shown = bytearray()
+    with served(FakeCard()) as at:
+        link = open_link(str(at), 9600)
+        try:
+            Script(link, shown.extend, wait_s).run(lines)
+        finally:
+            link.close()
+    return bytes(shown)
+
+
+def test_each_line_waits_for_the_prompt_of_the_one_before() -> None:
+    assert replies([b"LEN 12", b"SLEEP 100", b"LEN"]) == (
+        b"LEN 12\r\n6\r\nSYS>SLEEP 100\r\nok\r\nSYS>LEN\r\n3\r\nSYS>"
+    )
+
+
+def test_escape_ends_listening_and_its_prompt_is_awaited() -> None:
+    assert replies([b"LISTEN", b"\x1b", b"LEN"]) == b"LISTEN\r\n\r\nSYS>LEN\r\n3\r\nSYS>"
+
+
+def test_control_keys_expect_no_answer() -> None:
+    assert replies([b"\x18\x19", b"LEN"]) == b"LEN\r\n3\r\nSYS>"
+
+
+def test_with_prompts_off_silence_ends_a_reply() -> None:
+    assert replies([b"ECHO 4", b"LEN"]).endswith(b"3\r\nSYS>")
+
+
+def test_a_line_without_a_reply_is_an_error_after_the_wait() -> None:
+    with pytest.raises(NoReplyError, match="SLEEP 100000"):
+        replies([b"SLEEP 100000"], wait_s=0.2)
+
+
+def test_a_closed_connection_is_told_apart_from_silence() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        link = TcpLink("127.0.0.1", listener.getsockname()[1])
+        listener.accept()[0].close()
+        with pytest.raises(LinkClosedError, match="closed"):
+            link.read(5.0)
+        link.close()
+
+
+@pytest.mark.parametrize("target", ["host:port", "", "a:b:c", "/dev/no-such-port"])
+def test_an_impossible_target_is_a_user_error(target: str) -> None:
+    with pytest.raises(UserError):
+        open_link(target, 9600)
+
+
+def test_a_refused_connection_is_a_user_error() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    with pytest.raises(UserError, match="cannot connect"):
+        open_link(f"127.0.0.1:{port}", 9600)
