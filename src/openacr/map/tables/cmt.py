@@ -80,23 +80,13 @@ FLAGS = FlagBlock(
     packet=consecutive(0x10),
     rest=UNDOCUMENTED,
 )
-FLAGS.row(0, "CMT Commutator ON", R, doc="Set while the commutator is on.")
-FLAGS.row(1, "CMT Sinusoidal ON", R, doc="Set in sinusoidal mode.")
-FLAGS.row(2, "CMT Motor Overspeed", R, doc="Overspeed detected; commutator turns off.")
+FLAGS.row(0, "CMT Commutator ON", R, "Set while the commutator is on.")
+FLAGS.row(1, "CMT Sinusoidal ON", R, "Set in sinusoidal mode.")
+FLAGS.row(2, "CMT Motor Overspeed", R, "Overspeed detected; commutator turns off.")
+FLAGS.row(3, "CMT Encoder Fault", R, "Encoder fault; turns the commutator off if checked.")
+FLAGS.row(4, "CMT EncCheck Disable", RW, "Set: an encoder fault does not turn it off.")
 FLAGS.row(
-    3,
-    "CMT Encoder Fault",
-    R,
-    doc="Encoder fault; commutator turns off unless the encoder check is disabled.",
-)
-FLAGS.row(
-    4,
-    "CMT EncCheck Disable",
-    RW,
-    doc="Clear (default): encoder fault turns the commutator off; set: it does not.",
-)
-FLAGS.row(
-    5, "CMT Following Error", R, doc="Following error above MaxFollowingErr; commutator turns off."
+    5, "CMT Following Error", R, "Following error above MaxFollowingErr; commutator turns off."
 )
 FLAGS.reserved(6, 7)
 

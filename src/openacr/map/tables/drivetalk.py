@@ -56,25 +56,21 @@ CONTROL = FlagBlock(
     ref=ManualRef.PROGRAMMERS_GUIDE,
     rest=UNDOCUMENTED,
 )
-CONTROL.row(0, "Auto Address Request", RW, doc="Assigns drive addresses (axis + 1); self clearing.")
+CONTROL.row(0, "Auto Address Request", RW, "Assigns drive addresses (axis + 1); self clearing.")
+CONTROL.row(1, "Get Configuration Request", RW, "Uploads the drive configuration; self clearing.")
 CONTROL.row(
-    1, "Get Configuration Request", RW, doc="Uploads the drive configuration; self clearing."
+    2, "Send Configuration Request", RW, "Downloads the drive configuration; self clearing."
 )
 CONTROL.row(
-    2, "Send Configuration Request", RW, doc="Downloads the drive configuration; self clearing."
+    3, "Send ERRORL Request", RW, "Sends the error-log selection to the drive; self clearing."
 )
-CONTROL.row(
-    3, "Send ERRORL Request", RW, doc="Sends the error-log selection to the drive; self clearing."
-)
-CONTROL.row(4, "Get Drive Data Request", RW, doc="Fetches the selected drive data; self clearing.")
+CONTROL.row(4, "Get Drive Data Request", RW, "Fetches the selected drive data; self clearing.")
 for _bit in range(8, 26):
     if _bit != 9:
-        CONTROL.row(
-            _bit, f"Drive Data Select {_bit}", RW, doc="Selects one item, which is not named."
-        )
-CONTROL.row(9, "TPE Select", RW, doc="Includes TPE in Get Drive Data.")
-CONTROL.row(28, "Drive Status 1 Select", RW, doc="Includes the status 1 flags in Get Drive Data.")
-CONTROL.row(29, "Drive Status 2 Select", RW, doc="Includes the status 2 flags in Get Drive Data.")
+        CONTROL.row(_bit, f"Drive Data Select {_bit}", RW, "Selects one item, which is not named.")
+CONTROL.row(9, "TPE Select", RW, "Includes TPE in Get Drive Data.")
+CONTROL.row(28, "Drive Status 1 Select", RW, "Includes the status 1 flags in Get Drive Data.")
+CONTROL.row(29, "Drive Status 2 Select", RW, "Includes the status 2 flags in Get Drive Data.")
 
 
 def _stream(name: str, word: int, word_name: str) -> FlagBlock:
@@ -89,9 +85,9 @@ def _stream(name: str, word: int, word_name: str) -> FlagBlock:
         first_index=None,
         rest=UNDOCUMENTED,
     )
-    block.row(18, "Stream Drive Lost", RW, doc="Cleared before Drive Talk is started.")
-    block.row(19, "Stream Drive Timeout", RW, doc="Cleared before Drive Talk is started.")
-    block.row(20, "Stream Address Error", RW, doc="Cleared before Drive Talk is started.")
+    block.row(18, "Stream Drive Lost", RW, "Cleared before Drive Talk is started.")
+    block.row(19, "Stream Drive Timeout", RW, "Cleared before Drive Talk is started.")
+    block.row(20, "Stream Address Error", RW, "Cleared before Drive Talk is started.")
     return block
 
 

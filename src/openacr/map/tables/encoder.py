@@ -65,18 +65,8 @@ FLAGS = FlagBlock(
     word_erratum_from=16,
     rest=UNDOCUMENTED,
 )
-FLAGS.row(
-    0,
-    "Encoder Signal Fault",
-    R,
-    doc="Encoder fault seen by the FPGA; cleared by ENCx RES; ACR1200/8010 only.",
-)
-FLAGS.row(
-    1,
-    "Encoder Signal Lost",
-    R,
-    doc="Encoder fault seen by the check circuit; cleared by ENCx RES; ACR1200/8010 only.",
-)
+FLAGS.row(0, "Encoder Signal Fault", R, "Signals out of order (ACR1200, 8010); ENC RES clears it.")
+FLAGS.row(1, "Encoder Signal Lost", R, "Signals missing (ACR1200, 8010); ENC RES clears it.")
 FLAGS.row(4, "ABS DATA Fault")
 FLAGS.row(5, "ABS DATA Ready")
 FLAGS.reserved(2, 3, 6, 7)

@@ -3,6 +3,7 @@
 from openacr.map.block import (
     FP32,
     LONG,
+    NS,
     RW,
     UNDOCUMENTED,
     Access,
@@ -109,16 +110,14 @@ CAN_FLAGS = FlagBlock(
     ref=ManualRef.PROGRAMMERS_GUIDE,
     rest=UNDOCUMENTED,
 )
-CAN_FLAGS.row(
-    1, "Start Network", RW, doc="Starts the CANopen network; clears when the attempt ends."
-)
-CAN_FLAGS.row(2, "Reset Network", RW, doc="Resets all extended I/O nodes.")
-CAN_FLAGS.row(4, "CANopen Controller Installed", R, doc="Set if the CANopen hardware is present.")
-CAN_FLAGS.row(5, "Network Operational", R, doc="Set while the network is operational.")
-CAN_FLAGS.row(6, "Network Start Failed", R, doc="Set when a start request failed.")
-CAN_FLAGS.row(7, "Node Failure", R, doc="Set when a node is lost or silent while operational.")
-CAN_FLAGS.row(8, "SW Rx Overflow", R, doc="Software receive buffer overflowed.")
-CAN_FLAGS.row(9, "HW Rx Overflow", R, doc="Hardware receive buffer overflowed.")
+CAN_FLAGS.row(1, "Start Network", RW, "Starts the CANopen network; clears when the attempt ends.")
+CAN_FLAGS.row(2, "Reset Network", RW, "Resets all extended I/O nodes.")
+CAN_FLAGS.row(4, "CANopen Controller Installed", R, "Set if the CANopen hardware is present.")
+CAN_FLAGS.row(5, "Network Operational", R, "Set while the network is operational.")
+CAN_FLAGS.row(6, "Network Start Failed", R, "Set when a start request failed.")
+CAN_FLAGS.row(7, "Node Failure", R, "Set when a node is lost or silent while operational.")
+CAN_FLAGS.row(8, "SW Rx Overflow", R, "Software receive buffer overflowed.")
+CAN_FLAGS.row(9, "HW Rx Overflow", R, "Hardware receive buffer overflowed.")
 CAN_FLAGS.reserved(3)
 
 EPL_FLAGS = FlagBlock(
@@ -132,12 +131,12 @@ EPL_FLAGS = FlagBlock(
     ref=ManualRef.PROGRAMMERS_GUIDE,
     rest=UNDOCUMENTED,
 )
-EPL_FLAGS.row(0, "EPL Start Pending", doc="Polled until the network has started, in one example.")
-EPL_FLAGS.row(8, "EPL Card Present", doc="Set when the controller has recognised the EPL card.")
-EPL_FLAGS.row(9, "EPL Network Operational", doc="Set while the EPL network runs.")
-EPL_FLAGS.row(10, "EPL Network Start Failed", doc="Set when starting the EPL network failed.")
-EPL_FLAGS.row(16, "EPL Start In Progress", doc="Waited on to clear after EPLC ON.")
-EPL_FLAGS.row(17, "EPL Reset In Progress", doc="Waited on to clear after EPLC OFF.")
+EPL_FLAGS.row(0, "EPL Start Pending", NS, "Polled until the network has started, in one example.")
+EPL_FLAGS.row(8, "EPL Card Present", NS, "Set when the controller has recognised the EPL card.")
+EPL_FLAGS.row(9, "EPL Network Operational", NS, "Set while the EPL network runs.")
+EPL_FLAGS.row(10, "EPL Network Start Failed", NS, "Set when starting the EPL network failed.")
+EPL_FLAGS.row(16, "EPL Start In Progress", NS, "Waited on to clear after EPLC ON.")
+EPL_FLAGS.row(17, "EPL Reset In Progress", NS, "Waited on to clear after EPLC OFF.")
 
 
 def _digital(object: str, first: int, direction: str, short: str, access: Access) -> FlagBlock:

@@ -38,10 +38,8 @@ FLAGS = FlagBlock(
     ident="FSTAT",
     rest="Spare",
 )
-FLAGS.row(0, "FSTAT ON", RW, doc="Set while FSTAT runs; clearing stops it; not to be set directly.")
-FLAGS.row(
-    1, "FSTAT ON REQUEST", RW, doc="Loads the FSTAT parameters and starts FSTAT; self clearing."
-)
+FLAGS.row(0, "FSTAT ON", RW, "Set while FSTAT runs; clearing stops it; not to be set directly.")
+FLAGS.row(1, "FSTAT ON REQUEST", RW, "Loads the FSTAT parameters and starts FSTAT; self clearing.")
 
 BLOCKS = (FSTAT, FSTAT_SETUP)
 FLAG_BLOCKS = (FLAGS,)

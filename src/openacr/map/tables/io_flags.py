@@ -1,6 +1,6 @@
 """Inputs, outputs, user flags and the general control words."""
 
-from openacr.map.block import RW, UNDOCUMENTED, FlagBlock, R, Span, consecutive, reserved_words
+from openacr.map.block import NS, RW, UNDOCUMENTED, FlagBlock, R, Span, consecutive, reserved_words
 
 INPUTS = FlagBlock(
     "Optoisolated Inputs",
@@ -18,7 +18,7 @@ for _bit in range(32):
         _bit,
         f"INP {_bit:02d}",
         R,
-        doc=f"Input on connector pin P4-{_bit + 1}.",
+        f"Input on connector pin P4-{_bit + 1}.",
         erratum="Printed as pin P4-20, which is INP 19." if _bit == 29 else "",
     )
 
@@ -39,7 +39,7 @@ for _bit in range(32):
         _bit,
         f"OUT {_bit + 32}",
         RW,
-        doc=f"Output on connector pin P3-{_bit + 1}.",
+        f"Output on connector pin P3-{_bit + 1}.",
         erratum="Printed as pin P3-20, which is OUT 51." if _bit == 29 else "",
     )
 
@@ -62,8 +62,8 @@ EXPANSION_OUTPUTS = FlagBlock(
     word_doc="Can be mapped to CANopen outputs through P32771.",
 )
 for _bit in range(32):
-    EXPANSION_INPUTS.row(_bit, f"INP {_bit:02d}", doc=f"Input {_bit} of an expansion board.")
-    EXPANSION_OUTPUTS.row(_bit, f"OUT {_bit + 32}", doc=f"Output {_bit} of an expansion board.")
+    EXPANSION_INPUTS.row(_bit, f"INP {_bit:02d}", NS, f"Input {_bit} of an expansion board.")
+    EXPANSION_OUTPUTS.row(_bit, f"OUT {_bit + 32}", NS, f"Output {_bit} of an expansion board.")
 
 USER_FLAGS = FlagBlock(
     "User Flags",
@@ -77,11 +77,7 @@ USER_FLAGS = FlagBlock(
 )
 for _bit in range(32):
     USER_FLAGS.row(
-        _bit,
-        "User Defined",
-        RW,
-        doc="Free for programs; cleared at power-up.",
-        ident=f"USER_{_bit}",
+        _bit, "User Defined", RW, "Free for programs; cleared at power-up.", ident=f"USER_{_bit}"
     )
 
 MISC_INPUTS = FlagBlock(
@@ -96,18 +92,18 @@ MISC_INPUTS = FlagBlock(
     ident="MISC_INPUTS",
 )
 for _bit in range(8):
-    MISC_INPUTS.row(_bit, f"DIP Switch Input {_bit} (SW1-{8 - _bit})", doc="Address switch.")
+    MISC_INPUTS.row(_bit, f"DIP Switch Input {_bit} (SW1-{8 - _bit})", NS, "Address switch.")
 MISC_INPUTS.row(
-    16, "20 ms Clock Pulse", doc="Square wave, half of the period on.", ident="CLOCK_20_MS"
+    16, "20 ms Clock Pulse", NS, "Square wave, half of the period on.", ident="CLOCK_20_MS"
 )
 MISC_INPUTS.row(
-    17, "100 ms Clock Pulse", doc="Square wave, half of the period on.", ident="CLOCK_100_MS"
+    17, "100 ms Clock Pulse", NS, "Square wave, half of the period on.", ident="CLOCK_100_MS"
 )
 MISC_INPUTS.row(
-    18, "1 Sec Clock Pulse", doc="Square wave, half of the period on.", ident="CLOCK_1_S"
+    18, "1 Sec Clock Pulse", NS, "Square wave, half of the period on.", ident="CLOCK_1_S"
 )
 MISC_INPUTS.row(
-    19, "1 Minute Clock Pulse", doc="Square wave, half of the period on.", ident="CLOCK_1_MIN"
+    19, "1 Minute Clock Pulse", NS, "Square wave, half of the period on.", ident="CLOCK_1_MIN"
 )
 
 MISC_OUTPUTS = FlagBlock(
@@ -122,21 +118,21 @@ MISC_OUTPUTS = FlagBlock(
     ident="MISC_OUTPUTS",
 )
 for _bit in range(8):
-    MISC_OUTPUTS.row(_bit, f"LED Bank Output {_bit} (D{34 + _bit})", doc="Light on the board.")
-MISC_OUTPUTS.row(8, "Sample Trigger Armed", doc="Sampling waits for its trigger.")
-MISC_OUTPUTS.row(9, "Sample In Progress", doc="Samples are being taken.")
+    MISC_OUTPUTS.row(_bit, f"LED Bank Output {_bit} (D{34 + _bit})", NS, "Light on the board.")
+MISC_OUTPUTS.row(8, "Sample Trigger Armed", NS, "Sampling waits for its trigger.")
+MISC_OUTPUTS.row(9, "Sample In Progress", NS, "Samples are being taken.")
 MISC_OUTPUTS.row(
-    10, "Sample Mode Select", doc="Clear: one sample per trigger; set: a run after one trigger."
+    10, "Sample Mode Select", NS, "Clear: one sample per trigger; set: a run after one trigger."
 )
-MISC_OUTPUTS.row(11, "Sample Trigger Latched", doc="The trigger has been seen.")
-MISC_OUTPUTS.row(16, "Trigger AT Bus Interrupt", doc="Interrupts the host; self clearing.")
+MISC_OUTPUTS.row(11, "Sample Trigger Latched", NS, "The trigger has been seen.")
+MISC_OUTPUTS.row(16, "Trigger AT Bus Interrupt", NS, "Interrupts the host; self clearing.")
 MISC_OUTPUTS.row(
-    17, "Trigger Software Capture", doc="Captures the positions of all axes; self clearing."
+    17, "Trigger Software Capture", NS, "Captures the positions of all axes; self clearing."
 )
 for _board in range(4):
-    MISC_OUTPUTS.row(20 + _board, f"Expansion I/O Enable {_board}", doc="Set: the board is used.")
+    MISC_OUTPUTS.row(20 + _board, f"Expansion I/O Enable {_board}", NS, "Set: the board is used.")
 for _pls in range(8):
-    MISC_OUTPUTS.row(24 + _pls, f"PLS{_pls} On", doc="Set: the limit switch is evaluated.")
+    MISC_OUTPUTS.row(24 + _pls, f"PLS{_pls} On", NS, "Set: the limit switch is evaluated.")
 
 MISC_CONTROL_1 = FlagBlock(
     "Misc Control Group 1 Flags",
@@ -150,58 +146,23 @@ MISC_CONTROL_1 = FlagBlock(
     ident="MISC_CONTROL_1",
 )
 MISC_CONTROL_1.row(
-    0,
-    "Enable Fast Flags Update Mode",
-    RW,
-    doc="Enables servo-period update of the selected fast limit flags.",
+    0, "Enable Fast Flags Update Mode", RW, "Limit flags chosen as fast change each tick."
 )
 MISC_CONTROL_1.row(1, "STD Baud Rate")
 MISC_CONTROL_1.row(2, "FBT")
 MISC_CONTROL_1.row(
-    13,
-    "Motion Enable Input Latched",
-    doc="Motion Enable Input opening has been latched; cleared through BIT5647.",
+    13, "Motion Enable Input Latched", NS, "The input has opened; BIT5647 clears it."
 )
 MISC_CONTROL_1.row(
-    14, "Motion Enable Input Open", doc="Motion Enable Input is open (24 V missing)."
+    14, "Motion Enable Input Open", NS, "Motion Enable Input is open (24 V missing)."
 )
-MISC_CONTROL_1.row(
-    15,
-    "Motion Enable Latch Reset Request",
-    RW,
-    doc="Request to clear the Motion Enable latch; self clearing.",
-)
-MISC_CONTROL_1.row(19, "Force Line Numbers With List", RW, doc="LIST shows line numbers while set.")
-MISC_CONTROL_1.row(
-    24,
-    "Bootflash Invalid/empty",
-    R,
-    doc="Boot flash invalid or empty; valid after FIRMWARE CHECKSUM.",
-)
-MISC_CONTROL_1.row(
-    25,
-    "Sysflash1 Invalid/empty",
-    R,
-    doc="System flash 1 invalid or empty; valid after FIRMWARE CHECKSUM.",
-)
-MISC_CONTROL_1.row(
-    26,
-    "Sysflash2 Invalid/empty",
-    R,
-    doc="System flash 2 invalid or empty; valid after FIRMWARE CHECKSUM.",
-)
-MISC_CONTROL_1.row(
-    27,
-    "Userflash Invalid/empty",
-    R,
-    doc="User flash invalid or empty; valid after FIRMWARE CHECKSUM.",
-)
-MISC_CONTROL_1.row(
-    28,
-    "Firmware Backed Up",
-    R,
-    doc="System flash 1 and 2 are identical; valid after FIRMWARE CHECKSUM.",
-)
+MISC_CONTROL_1.row(15, "Motion Enable Latch Reset Request", RW, "Clears the latch; self clearing.")
+MISC_CONTROL_1.row(19, "Force Line Numbers With List", RW, "LIST shows line numbers while set.")
+MISC_CONTROL_1.row(24, "Bootflash Invalid/empty", R, "Found by FIRMWARE CHECKSUM.")
+MISC_CONTROL_1.row(25, "Sysflash1 Invalid/empty", R, "Found by FIRMWARE CHECKSUM.")
+MISC_CONTROL_1.row(26, "Sysflash2 Invalid/empty", R, "Found by FIRMWARE CHECKSUM.")
+MISC_CONTROL_1.row(27, "Userflash Invalid/empty", R, "Found by FIRMWARE CHECKSUM.")
+MISC_CONTROL_1.row(28, "Firmware Backed Up", R, "System flash 1 and 2 agree; by FIRMWARE CHECKSUM.")
 
 MISC_CONTROL_2_TO_4 = FlagBlock(
     "Misc Control Groups 2-4 Flags",

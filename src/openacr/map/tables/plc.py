@@ -57,36 +57,24 @@ FLAGS = FlagBlock(
     packet=consecutive(0x10),
     parts=((0, "PLC"), (8, "STEPPER"), (16, "TIM"), (20, "CNT"), (24, "KR")),
 )
-FLAGS.row(0, "PLC Running", R, FAST, "Set while the PLC program runs.")
-FLAGS.row(1, "First Scan", R, FAST, "Set during the first scan only.")
-FLAGS.row(2, "Run Request", RW, SLOW, "Runs the PLC; self clearing.")
-FLAGS.row(3, "Halt Request", RW, SLOW, "Halts the PLC; self clearing.")
-FLAGS.row(8, "Stepper Direction", RW, FAST, "Inverts the direction output of the stepper module.")
-FLAGS.row(9, "Stepper Low Power", RW, FAST, "Activates the low-power output of the stepper module.")
+FLAGS.row(0, "PLC Running", R, "Set while the PLC program runs.", FAST)
+FLAGS.row(1, "First Scan", R, "Set during the first scan only.", FAST)
+FLAGS.row(2, "Run Request", RW, "Runs the PLC; self clearing.", SLOW)
+FLAGS.row(3, "Halt Request", RW, "Halts the PLC; self clearing.", SLOW)
+FLAGS.row(8, "Stepper Direction", RW, "Inverts the direction output of the stepper module.", FAST)
+FLAGS.row(9, "Stepper Low Power", RW, "Activates the low-power output of the stepper module.", FAST)
+FLAGS.row(16, "Timer Output", R, "The count is zero; clears with the input.", FAST)
+FLAGS.row(17, "Timer Input", RW, "Set: counts down; clear: reloads.", FAST)
 FLAGS.row(
-    16,
-    "Timer Output",
-    R,
-    FAST,
-    "Set when the timer count reaches zero, until the input is cleared.",
+    20, "Counter Output", R, "Set when the count reaches zero, until counter reset is set.", FAST
 )
+FLAGS.row(21, "Counter Clock", RW, "Rising edge decrements the counter.", FAST)
 FLAGS.row(
-    17,
-    "Timer Input",
-    RW,
-    FAST,
-    "Set to count down; clearing reloads the preset and clears the output.",
+    22, "Counter Reset", RW, "While set, clears the counter output and blocks its clock.", FAST
 )
-FLAGS.row(
-    20, "Counter Output", R, FAST, "Set when the count reaches zero, until counter reset is set."
-)
-FLAGS.row(21, "Counter Clock", RW, FAST, "Rising edge decrements the counter.")
-FLAGS.row(
-    22, "Counter Reset", RW, FAST, "While set, clears the counter output and blocks its clock."
-)
-FLAGS.row(28, "Latch Output", R, FAST, "Latched by Latch Set, cleared by Latch Reset.")
-FLAGS.row(29, "Latch Set", RW, FAST, "Sets the latch output.")
-FLAGS.row(30, "Latch Reset", RW, FAST, "Clears the latch output and blocks Latch Set while set.")
+FLAGS.row(28, "Latch Output", R, "Latched by Latch Set, cleared by Latch Reset.", FAST)
+FLAGS.row(29, "Latch Set", RW, "Sets the latch output.", FAST)
+FLAGS.row(30, "Latch Reset", RW, "Clears the latch output and blocks Latch Set while set.", FAST)
 
 BLOCKS = (PLC, TIMER, COUNTER)
 FLAG_BLOCKS = (FLAGS,)

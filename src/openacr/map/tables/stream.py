@@ -48,9 +48,9 @@ def _stream_flags(
         packet=consecutive(0x10),
         first_index=None,
     )
-    block.row(0, "Enable Character Echo", doc="Typed characters are sent back.")
-    block.row(1, "Disable Error Reporting", doc="Refused commands print nothing.")
-    block.row(2, "Disable Command Prompt", doc="No prompt is printed.")
+    block.row(0, "Enable Character Echo", NS, "Typed characters are sent back.")
+    block.row(1, "Disable Error Reporting", NS, "Refused commands print nothing.")
+    block.row(2, "Disable Command Prompt", NS, "No prompt is printed.")
     for bit, state, doc in (
         (8, "Stream Active", "The channel exists and runs."),
         (9, "Stream Waiting", "Input waits to be read."),
@@ -63,12 +63,12 @@ def _stream_flags(
         (20, "Control Prefixing", "Control codes in binary packets are escaped (MODE bit 0)."),
         (21, "High Bit Stripping", "Binary packets are sent as seven-bit bytes (MODE bit 1)."),
     ):
-        block.row(bit, f"{name} {state}", doc=doc, ident=state)
+        block.row(bit, f"{name} {state}", NS, doc, ident=state)
     if is_serial:
-        block.row(24, "Serial Input MUX0", RW, doc="With MUX1: protocol on ACR1200/2000/8010.")
-        block.row(25, "Serial Input MUX1", RW, doc="With MUX0: protocol on ACR1200/2000/8010.")
-        block.row(26, "Receive Flag", RW, doc="With Transmit: RS-422/485 on ACR1200/2000/8010.")
-        block.row(27, "Transmit Flag", RW, doc="With Receive: RS-422/485 on ACR1200/2000/8010.")
+        block.row(24, "Serial Input MUX0", RW, "With MUX1: protocol on ACR1200/2000/8010.")
+        block.row(25, "Serial Input MUX1", RW, "With MUX0: protocol on ACR1200/2000/8010.")
+        block.row(26, "Receive Flag", RW, "With Transmit: RS-422/485 on ACR1200/2000/8010.")
+        block.row(27, "Transmit Flag", RW, "With Receive: RS-422/485 on ACR1200/2000/8010.")
     return block
 
 
@@ -85,12 +85,12 @@ def _printer_flags() -> FlagBlock:
         first_index=None,
     )
     for bit in range(8):
-        block.row(bit, f"PD{bit}", doc=f"Connector pin P5-{23 + bit}.")
+        block.row(bit, f"PD{bit}", NS, f"Connector pin P5-{23 + bit}.")
     block.row(10, "PRINT")
     pins = {11: 19, 12: 34, 13: 33, 14: 31, 15: 32, 16: 17, 17: 18, 18: 20, 19: 21}
     names = ("ERR", "SLCT", "PE", "ACK", "BUSY", "STB", "AFD", "INIT", "SLIN")
     for (bit, pin), name in zip(pins.items(), names, strict=True):
-        block.row(bit, name, doc=f"Connector pin P5-{pin}.")
+        block.row(bit, name, NS, f"Connector pin P5-{pin}.")
     block.row(20, "INT2 EN")
     block.row(21, "DIR")
     return block
