@@ -29,7 +29,8 @@ def places(text: str) -> dict[Path, Place]:
     for number, line in _logical_lines(_MULTILINE.sub(_blank, text)):
         if header := _HEADER.match(line):
             table = _open_table(_parts(header[2]), header[1] == "[[", arrays)
-            found.setdefault(table, (number, header.start(2) + 1))
+            for depth in range(1, len(table) + 1):
+                found.setdefault(table[:depth], (number, header.start(2) + 1))
         elif assignment := _ASSIGNMENT.match(line):
             path = table + _parts(assignment[1])
             found.setdefault(path, (number, assignment.start(1) + 1))

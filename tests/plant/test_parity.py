@@ -1,0 +1,119 @@
+"""Interpreted and compiled steps give the same bits; nothing a user configures makes a NaN."""
+
+import math
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from openacr import compiled
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plant.apply import apply_world
+from openacr.plant.schema import (
+    Axis,
+    HomeSwitch,
+    IdealDrive,
+    LimitSwitch,
+    Load,
+    Motor,
+    TorqueDrive,
+    VelocityDrive,
+    Wire,
+    World,
+)
+from openacr.plant.step_cy import plant_step
+
+positive = st.floats(1e-6, 1e6)
+friction = st.one_of(st.just(0.0), st.floats(1e-9, 1e6))
+volts = st.one_of(
+    st.sampled_from([0.0, 10.0, -10.0, math.nan, math.inf]), st.floats(-11, 11, width=32)
+)
+drives = st.one_of(
+    st.builds(
+        TorqueDrive,
+        amps_per_volt=positive,
+        peak_amps=positive,
+        supply_v=st.one_of(st.none(), positive),
+        offset_v=st.floats(-1, 1),
+    ),
+    st.builds(
+        VelocityDrive, revs_per_s_per_volt=positive, peak_amps=positive, lag_s=st.floats(0, 10)
+    ),
+    st.builds(IdealDrive, revs_per_s_per_volt=positive, lag_s=st.floats(0, 10)),
+)
+
+
+@st.composite
+def worlds(draw: st.DrawFn) -> World:
+    drive = draw(drives)
+    coulomb = draw(friction)
+    motor = Motor(
+        inertia_kgm2=draw(positive), torque_nm_per_a=draw(positive), resistance_ohm=draw(positive)
+    )
+    axis = Axis(
+        number=draw(st.integers(0, 7)),
+        name="X",
+        drive=drive,
+        motor=None if isinstance(drive, IdealDrive) else motor,
+        load=Load(viscous_nms=draw(friction), coulomb_nm=coulomb, static_nm=coulomb * 1.25),
+        counts_per_rev=draw(st.integers(4, 100_000)),
+        travel=draw(st.sampled_from([None, (-3.0, 5.0)])),
+        marker=0.5,
+        positive_limit=LimitSwitch(at=4.0, input=0),
+        negative_limit=LimitSwitch(at=-2.0, input=31),
+        home=HomeSwitch(between=(0.1, 0.2), input=2),
+    )
+    wires = (
+        Wire(input=10, region={"X": (1.0, 2.0)}),
+        Wire(input=260, output=32, delay_s=0.002),
+    )
+    return World(axis=(axis,), wire=wires)
+
+
+def play(step: Callable[..., None], world: World, journal: list[float]) -> Memory:
+    memory = Memory()
+    apply_world(world, memory)
+    n = world.axis[0].number
+    for tick, value in enumerate(journal):
+        memory.I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = int(tick % 9 < 7)
+        memory.set_bit(32, tick % 7 < 5)
+        memory.S[at.DAC_BASE + n * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = value
+        step(memory.F, memory.I, memory.S, 8, 0.0005)
+    return memory
+
+
+@pytest.mark.skipif(not compiled.is_compiled, reason="needs the compiled core")
+@settings(max_examples=60, deadline=None)
+@given(worlds(), st.lists(volts, min_size=1, max_size=40))
+def test_interpreted_and_compiled_steps_give_the_same_bits(
+    world: World, journal: list[float]
+) -> None:
+    plain = play(plant_step, world, journal)
+    fast = play(compiled.counterpart(plant_step), world, journal)
+    assert plain.snapshot() == fast.snapshot()
+
+
+@settings(max_examples=80, deadline=None)
+@given(worlds(), st.lists(volts, min_size=1, max_size=40))
+def test_no_configuration_and_no_output_makes_a_value_that_is_no_number(
+    world: World, journal: list[float]
+) -> None:
+    memory = play(compiled.pick(plant_step), world, journal)
+    base = at.PLF_BASE + world.axis[0].number * at.PLF_STRIDE
+    assert all(math.isfinite(value) for value in memory.F[base : base + at.PLF_STRIDE])
+
+
+@settings(max_examples=80, deadline=None)
+@given(worlds(), st.floats(-1e6, 1e6), st.integers(1, 40))
+def test_a_motor_without_torque_never_gains_speed(world: World, speed: float, ticks: int) -> None:
+    memory = Memory()
+    apply_world(world, memory)
+    at_speed = at.PLF_BASE + world.axis[0].number * at.PLF_STRIDE + at.PLF_VELOCITY_CPS
+    memory.F[at_speed] = speed
+    for _ in range(ticks):
+        old = memory.F[at_speed]
+        compiled.pick(plant_step)(memory.F, memory.I, memory.S, 8, 0.0005)
+        assert abs(memory.F[at_speed]) <= abs(old)
+        assert memory.F[at_speed] * old >= 0
