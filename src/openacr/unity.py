@@ -15,6 +15,7 @@ imports other than those of the core itself.
 """
 
 import ast
+import functools
 import hashlib
 import re
 from pathlib import Path
@@ -22,6 +23,26 @@ from pathlib import Path
 PACKAGE = Path(__file__).parent
 ORDER = (
     "kernel/words_cy.py",
+    "kernel/profile_cy.py",
+    "kernel/axis_cy.py",
+    "kernel/feedback_cy.py",
+    "kernel/capture_cy.py",
+    "kernel/jogplan_cy.py",
+    "kernel/homing_cy.py",
+    "kernel/jog_cy.py",
+    "kernel/master_cy.py",
+    "kernel/limits_cy.py",
+    "kernel/drive_cy.py",
+    "kernel/servo_cy.py",
+    "kernel/clock_cy.py",
+    "kernel/slow_cy.py",
+    "kernel/tick_cy.py",
+    "basic/arith_cy.py",
+    "basic/vm_cy.py",
+    "basic/scheduler_cy.py",
+    "plant/drive_cy.py",
+    "plant/wiring_cy.py",
+    "plant/step_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)
 
@@ -58,13 +79,11 @@ def write_unity(target: Path, *, checked: bool) -> Path:
 
 def unity_source(*, checked: bool = False) -> str:
     """The joined source text."""
-    constants = _module_constants(PACKAGE / "map" / "numbers.py", {})
     math_names: set[str] = set()
     functions: dict[str, ast.FunctionDef] = {}
     exported: list[str] = []
     for path in source_files():
-        _collect(path, constants, math_names, functions, exported)
-    inliner = _Inline(constants)
+        _collect(path, math_names, functions, exported)
     blocks = [
         "import cython",
         f"from cython.cimports.libc.math import {', '.join(sorted(math_names))}"
@@ -74,14 +93,21 @@ def unity_source(*, checked: bool = False) -> str:
         f"CHECKED = {checked!r}",
     ]
     for function in functions.values():
-        blocks.append(ast.unparse(_compiled_function(inliner.visit(function), checked=checked)))
+        blocks.append(ast.unparse(_compiled_function(function, checked=checked)))
     blocks.extend(_entrance(functions[name], checked=checked) for name in exported)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
 
 
-def _module_constants(path: Path, known: dict[str, Number]) -> dict[str, Number]:
-    found = dict(known)
+@functools.cache
+def _module_constants(path: Path) -> dict[str, Number]:
+    """The module-level numbers of a source file, those it imports from others included."""
+    numbers = PACKAGE / "map" / "numbers.py"
+    found = {} if path == numbers else dict(_module_constants(numbers))
     for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.endswith("_cy"):
+            source = PACKAGE.parent.joinpath(*node.module.split(".")).with_suffix(".py")
+            other = _module_constants(source)
+            found.update({a.name: other[a.name] for a in node.names if a.name in other})
         _take_constant(node, found)
     return found
 
@@ -89,7 +115,8 @@ def _module_constants(path: Path, known: dict[str, Number]) -> dict[str, Number]
 def _take_constant(node: ast.stmt, constants: dict[str, Number]) -> bool:
     """Record `NAME = expression of numbers and known constants`; False if it is not one."""
     if isinstance(node, ast.AnnAssign) and node.value is not None:
-        target, value = node.target, node.value
+        target: ast.expr = node.target
+        value = node.value
     elif isinstance(node, ast.Assign) and len(node.targets) == 1:
         target, value = node.targets[0], node.value
     else:
@@ -103,19 +130,18 @@ def _take_constant(node: ast.stmt, constants: dict[str, Number]) -> bool:
         return False
     if isinstance(number, bool) or not isinstance(number, int | float):
         return False
-    if constants.get(target.id, number) != number:
-        raise UnityError(f"constant {target.id} has two values")
     constants[target.id] = number
     return True
 
 
 def _collect(
     path: Path,
-    constants: dict[str, Number],
     math_names: set[str],
     functions: dict[str, ast.FunctionDef],
     exported: list[str],
 ) -> None:
+    constants = dict(_module_constants(path))
+    inliner = _Inline(constants)
     for node in ast.parse(path.read_text(), str(path)).body:
         if isinstance(node, ast.ImportFrom):
             _check_import(node, path, math_names)
@@ -123,11 +149,13 @@ def _collect(
             if node.name in functions:
                 raise UnityError(f"{path.name}: function {node.name} is defined twice")
             _check_operators(node, path)
-            functions[node.name] = node
+            functions[node.name] = inliner.visit(node)
         elif _is_all(node):
             exported.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
         elif not _take_constant(node, constants) and not _is_docstring(node):
-            raise UnityError(f"{path.name}:{node.lineno}: only functions and constants are compiled")
+            raise UnityError(
+                f"{path.name}:{node.lineno}: only functions and constants are compiled"
+            )
 
 
 def _check_import(node: ast.ImportFrom, path: Path, math_names: set[str]) -> None:
@@ -216,17 +244,22 @@ def _compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.Funct
     return function
 
 
+def _view_types(element: str) -> tuple[str, str]:
+    """The two forms in which a view of `element` is passed."""
+    return (f"cython.p_{element}", f"cython.{element}[::1]")
+
+
 def _entrance(function: ast.FunctionDef, *, checked: bool) -> str:
     """The Python-callable wrapper of a compiled function."""
     parameters, arguments = [], []
     for argument in function.args.args:
         kind = ast.unparse(argument.annotation) if argument.annotation else ""
-        view = next((c for c in VIEWS.values() if kind in (f"cython.p_{c}", f"cython.{c}[::1]")), "")
+        view = next(
+            (c for c in VIEWS.values() if kind in (f"cython.p_{c}", f"cython.{c}[::1]")), ""
+        )
         if view:
             kind = f"cython.{view}[::1]"
-            arguments.append(
-                argument.arg if checked else f"cython.address({argument.arg}[0])"
-            )
+            arguments.append(argument.arg if checked else f"cython.address({argument.arg}[0])")
         else:
             arguments.append(argument.arg)
         parameters.append(f"{argument.arg}: {kind}")

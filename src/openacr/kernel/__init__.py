@@ -1,0 +1,1 @@
+"""The servo tick: everything the card does in one servo period."""

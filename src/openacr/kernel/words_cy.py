@@ -1,7 +1,6 @@
 """32-bit words as the card keeps them: wrapping, rounding and single bits."""
 
 from openacr.cmath import rint
-from openacr.views import I32
 
 __all__ = ["round32", "wrap32"]
 

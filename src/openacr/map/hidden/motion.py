@@ -110,6 +110,7 @@ AXIS = HiddenBlock(
         "ssp_old_cnt",
         "psp_velocity_cps",
         "ssp_velocity_cps",
+        "ssp_accel_cps2",
         "target_cnt",  # target of the coordinated profiler
         "jog_target_cnt",
         "jog_origin_cnt",  # jog offset where the present jog plan started
@@ -121,7 +122,9 @@ AXIS = HiddenBlock(
         "home_edge_cnt",
         "capture_cnt",
         "integral_v",
-        "derivative_v",
+        "derivative_v",  # filtered slope of the error, before DGAIN
+        "derivative_sum",
+        ("derivative_history", 32),
         "error_old_cnt",
         "idle_s",  # time since the last commanded motion
         ("filter_state", 4),
@@ -132,6 +135,7 @@ AXIS = HiddenBlock(
         "peak_velocity_cps",
         "peak_error_cnt",
         "travel_cnt",
+        "velocity_sum_cnt",
         ("velocity_window_cnt", 64),
     ),
     ints=(
@@ -165,7 +169,11 @@ AXIS = HiddenBlock(
         "drive_old",
         "reset_ticks",
         "window_index",
+        "window_count",
         "derivative_ticks",
+        "derivative_index",
+        "derivative_smooth",  # slopes averaged, 0 or 1 none
+        "clipped",  # the torque limit acted in the last tick
         "shown_current",
         "shown_target",
         "shown_actual",

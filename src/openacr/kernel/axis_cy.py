@@ -1,0 +1,211 @@
+"""Per axis: the words of an axis, resets of its registers, and the setpoint sums.
+
+    primary setpoint   = coordinated + gear + jog + cam
+    secondary setpoint = primary + ballscrew + backlash
+
+All parts are float64 pulses inside; the LONG parameters show them rounded. A shown value
+that differs from what was last shown has been written by somebody and replaces the part.
+"""
+
+from openacr.cmath import fabs
+from openacr.kernel.words_cy import round32, wrap32
+from openacr.map.numbers import (
+    AF1_WORD,
+    AF1_WORD_HIGH,
+    AX_ACCELERATION,
+    AX_ACTUAL_POSITION,
+    AX_BACKLASH_OFFSET,
+    AX_BALLSCREW_OFFSET,
+    AX_BASE,
+    AX_CAM_OFFSET,
+    AX_CURRENT_POSITION,
+    AX_GEAR_OFFSET,
+    AX_JOG_OFFSET,
+    AX_PPU,
+    AX_PRIMARY_SETPOINT,
+    AX_SECONDARY_SETPOINT,
+    AX_STRIDE,
+    AX_TARGET_POSITION,
+    AX_VELOCITY,
+    AXF_BACKLASH_CNT,
+    AXF_BALLSCREW_CNT,
+    AXF_BASE,
+    AXF_CAM_CNT,
+    AXF_ERROR_OLD_CNT,
+    AXF_GEAR_CNT,
+    AXF_JOG_CNT,
+    AXF_JOG_TARGET_CNT,
+    AXF_PEAK_VELOCITY_CPS,
+    AXF_POSITION_CNT,
+    AXF_PSP_CNT,
+    AXF_PSP_VELOCITY_CPS,
+    AXF_SSP_ACCEL_CPS2,
+    AXF_SSP_CNT,
+    AXF_SSP_OLD_CNT,
+    AXF_SSP_VELOCITY_CPS,
+    AXF_STRIDE,
+    AXF_TARGET_CNT,
+    AXF_TRAVEL_CNT,
+    AXI_BASE,
+    AXI_MASTER,
+    AXI_SHOWN_ACTUAL,
+    AXI_SHOWN_BALLSCREW,
+    AXI_SHOWN_CAM,
+    AXI_SHOWN_CURRENT,
+    AXI_SHOWN_GEAR,
+    AXI_SHOWN_JOG,
+    AXI_SHOWN_TARGET,
+    AXI_SLAVE,
+    AXI_STRIDE,
+    MSF_BASE,
+    MSF_STRIDE,
+    MSF_TARGET_CNT,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["axis_preload", "axis_renew", "axis_show", "axis_take_written"]
+
+
+def axis_word(n: int) -> int:
+    """Parameter number of the flag word of axis n."""
+    return AF1_WORD + n if n < 8 else AF1_WORD_HIGH + n
+
+
+def axis_scale(S: F32, n: int) -> float:
+    """Pulses per unit of axis n with its sign; a 0 written past the command counts as 1."""
+    ppu: float = S[AX_BASE + n * AX_STRIDE + AX_PPU]
+    return ppu if ppu != 0.0 else 1.0
+
+
+def axis_sum(F: F64, n: int) -> None:
+    """Form primary and secondary setpoint from their parts."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    psp: float = (
+        F[a + AXF_POSITION_CNT] + F[a + AXF_GEAR_CNT] + F[a + AXF_JOG_CNT] + F[a + AXF_CAM_CNT]
+    )
+    F[a + AXF_PSP_CNT] = psp
+    F[a + AXF_SSP_CNT] = psp + F[a + AXF_BALLSCREW_CNT] + F[a + AXF_BACKLASH_CNT]
+
+
+def axis_setpoints(F: F64, S: F32, n: int, period_s: float) -> None:
+    """Setpoint sums of this tick and their first and second differences."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    p: int = AX_BASE + n * AX_STRIDE
+    psp_old: float = F[a + AXF_PSP_CNT]
+    F[a + AXF_SSP_OLD_CNT] = F[a + AXF_SSP_CNT]
+    axis_sum(F, n)
+    moved: float = F[a + AXF_PSP_CNT] - psp_old
+    velocity: float = moved / period_s
+    S[p + AX_VELOCITY] = velocity
+    S[p + AX_ACCELERATION] = (velocity - F[a + AXF_PSP_VELOCITY_CPS]) / period_s
+    F[a + AXF_PSP_VELOCITY_CPS] = velocity
+    velocity = (F[a + AXF_SSP_CNT] - F[a + AXF_SSP_OLD_CNT]) / period_s
+    F[a + AXF_SSP_ACCEL_CPS2] = (velocity - F[a + AXF_SSP_VELOCITY_CPS]) / period_s
+    F[a + AXF_SSP_VELOCITY_CPS] = velocity
+    F[a + AXF_TRAVEL_CNT] += fabs(moved)
+    F[a + AXF_PEAK_VELOCITY_CPS] = max(
+        F[a + AXF_PEAK_VELOCITY_CPS], fabs(F[a + AXF_PSP_VELOCITY_CPS])
+    )
+
+
+def axis_settled(F: F64, I: I32, n: int) -> None:
+    """After a jump of the registers: no velocity, no old setpoint, target = current."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    axis_sum(F, n)
+    F[a + AXF_SSP_OLD_CNT] = F[a + AXF_SSP_CNT]
+    F[a + AXF_PSP_VELOCITY_CPS] = 0.0
+    F[a + AXF_SSP_VELOCITY_CPS] = 0.0
+    F[a + AXF_SSP_ACCEL_CPS2] = 0.0
+    F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+    F[a + AXF_JOG_TARGET_CNT] = F[a + AXF_JOG_CNT]
+    i: int = AXI_BASE + n * AXI_STRIDE
+    m: int = I[i + AXI_MASTER]
+    if m >= 0:
+        F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + I[i + AXI_SLAVE]] = F[a + AXF_POSITION_CNT]
+
+
+def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
+    """RES: the axis stands at `position_cnt` and all offsets are 0 (the encoder is set apart)."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    F[a + AXF_POSITION_CNT] = position_cnt
+    F[a + AXF_GEAR_CNT] = 0.0
+    F[a + AXF_JOG_CNT] = 0.0
+    F[a + AXF_CAM_CNT] = 0.0
+    F[a + AXF_ERROR_OLD_CNT] = 0.0
+    axis_settled(F, I, n)
+
+
+def axis_renew(F: F64, I: I32, n: int) -> None:
+    """REN: take the actual position as setpoint, so that the following error is 0."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    actual: float = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
+    psp: float = actual - F[a + AXF_BALLSCREW_CNT] - F[a + AXF_BACKLASH_CNT]
+    F[a + AXF_POSITION_CNT] = psp - F[a + AXF_GEAR_CNT] - F[a + AXF_JOG_CNT] - F[a + AXF_CAM_CNT]
+    F[a + AXF_ERROR_OLD_CNT] = 0.0
+    axis_settled(F, I, n)
+
+
+def axis_show(F: F64, I: I32, n: int) -> None:
+    """Show the positions of axis n in its LONG parameters."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    i: int = AXI_BASE + n * AXI_STRIDE
+    p: int = AX_BASE + n * AX_STRIDE
+    shown: int = round32(F[a + AXF_POSITION_CNT])
+    I[p + AX_CURRENT_POSITION] = shown
+    I[i + AXI_SHOWN_CURRENT] = shown
+    shown = round32(F[a + AXF_TARGET_CNT])
+    I[p + AX_TARGET_POSITION] = shown
+    I[i + AXI_SHOWN_TARGET] = shown
+    shown = round32(F[a + AXF_GEAR_CNT])
+    I[p + AX_GEAR_OFFSET] = shown
+    I[i + AXI_SHOWN_GEAR] = shown
+    shown = round32(F[a + AXF_JOG_CNT])
+    I[p + AX_JOG_OFFSET] = shown
+    I[i + AXI_SHOWN_JOG] = shown
+    shown = round32(F[a + AXF_CAM_CNT])
+    I[p + AX_CAM_OFFSET] = shown
+    I[i + AXI_SHOWN_CAM] = shown
+    shown = round32(F[a + AXF_BALLSCREW_CNT])
+    I[p + AX_BALLSCREW_OFFSET] = shown
+    I[i + AXI_SHOWN_BALLSCREW] = shown
+    I[p + AX_BACKLASH_OFFSET] = round32(F[a + AXF_BACKLASH_CNT])
+    I[p + AX_PRIMARY_SETPOINT] = round32(F[a + AXF_PSP_CNT])
+    I[p + AX_SECONDARY_SETPOINT] = round32(F[a + AXF_SSP_CNT])
+
+
+def axis_take_written(F: F64, I: I32, n: int) -> bool:
+    """Take over what was written into the shown positions; True if the actual one was.
+
+    The encoder itself belongs to the feedback step, which sets it to a written actual
+    position.
+    """
+    a: int = AXF_BASE + n * AXF_STRIDE
+    i: int = AXI_BASE + n * AXI_STRIDE
+    p: int = AX_BASE + n * AX_STRIDE
+    if I[p + AX_CURRENT_POSITION] != I[i + AXI_SHOWN_CURRENT]:
+        F[a + AXF_POSITION_CNT] = I[p + AX_CURRENT_POSITION]
+        F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+        axis_target_changed(F, I, n)
+    elif I[p + AX_TARGET_POSITION] != I[i + AXI_SHOWN_TARGET]:
+        F[a + AXF_TARGET_CNT] = I[p + AX_TARGET_POSITION]
+        F[a + AXF_POSITION_CNT] = F[a + AXF_TARGET_CNT]
+        axis_target_changed(F, I, n)
+    if I[p + AX_GEAR_OFFSET] != I[i + AXI_SHOWN_GEAR]:
+        F[a + AXF_GEAR_CNT] = I[p + AX_GEAR_OFFSET]
+    if I[p + AX_JOG_OFFSET] != I[i + AXI_SHOWN_JOG]:
+        F[a + AXF_JOG_CNT] = I[p + AX_JOG_OFFSET]
+    if I[p + AX_CAM_OFFSET] != I[i + AXI_SHOWN_CAM]:
+        F[a + AXF_CAM_CNT] = I[p + AX_CAM_OFFSET]
+    if I[p + AX_BALLSCREW_OFFSET] != I[i + AXI_SHOWN_BALLSCREW]:
+        F[a + AXF_BALLSCREW_CNT] = I[p + AX_BALLSCREW_OFFSET]
+    return wrap32(I[p + AX_ACTUAL_POSITION]) != I[i + AXI_SHOWN_ACTUAL]
+
+
+def axis_target_changed(F: F64, I: I32, n: int) -> None:
+    """Tell the master of axis n where the next incremental move starts."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    m: int = I[i + AXI_MASTER]
+    if m >= 0:
+        F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + I[i + AXI_SLAVE]] = F[
+            AXF_BASE + n * AXF_STRIDE + AXF_POSITION_CNT
+        ]

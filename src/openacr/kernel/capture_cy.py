@@ -1,0 +1,212 @@
+"""Position capture (INTCAP): latch the encoder count at the edge of a signal.
+
+Modes 0-15: bit 2 selects the falling edge; the table below names the signal. The plant
+reports where within the tick an edge fell, so a captured count is exact at any speed.
+
+    0 1  4 5    first / second marker          2 3  6 7   first / second external input
+    8 9 12 13   third / fourth external        10 14      marker and first external
+    11 15       software (BIT113)
+
+The second marker is that of the other encoder of the pair (0-1, 2-3, ...). External inputs
+of axis n are inputs 24, 16, 8 and 0 plus n mod 8.
+"""
+
+from openacr.cmath import rint
+from openacr.kernel.axis_cy import axis_word
+from openacr.kernel.feedback_cy import feedback_set
+from openacr.kernel.words_cy import wrap32
+from openacr.map.numbers import (
+    AF1_CAPTURE_COMPLETE,
+    AF2_DONT_USE_CAPTURE_REGISTER,
+    AF2_WORD,
+    AF2_WORD_HIGH,
+    AX_ACTUAL_POSITION,
+    AX_BASE,
+    AX_COUNT,
+    AX_HARDWARE_CAPTURE,
+    AX_PRIMARY_SETPOINT,
+    AX_SOFTWARE_CAPTURE,
+    AX_STRIDE,
+    AXF_BASE,
+    AXF_CAPTURE_CNT,
+    AXF_STRIDE,
+    AXI_BASE,
+    AXI_CAPTURE_COPY,
+    AXI_CAPTURE_MODE,
+    AXI_POSITION_INDEX,
+    AXI_STRIDE,
+    ENF_BASE,
+    ENF_STEP_CNT,
+    ENF_STRIDE,
+    ENI_BASE,
+    ENI_MULT,
+    ENI_STRIDE,
+    KRI_BASE,
+    KRI_INPUTS_OLD,
+    PLF_BASE,
+    PLF_MARKER_FALL_CNT,
+    PLF_MARKER_RISE_CNT,
+    PLF_RAW_COUNT,
+    PLF_STRIDE,
+    PLGF_BASE,
+    PLGF_FALL_FRACTION,
+    PLGF_RISE_FRACTION,
+    PLGI_BASE,
+    PLGI_FALLS,
+    PLGI_RISES,
+    PLI_BASE,
+    PLI_MARKER_EDGES,
+    PLI_STRIDE,
+    W_INPUTS,
+    W_MISC_OUTPUTS,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["capture_arm", "capture_step"]
+
+FALLING = 4
+RISING_EDGE = 1
+FALLING_EDGE = 2
+SOFTWARE_TRIGGER = 131072  # BIT113
+FLAG_FIRST = 4096
+FLAG_LAST = 40959
+# Signals: 0 marker, 1 marker of the pair, 2-5 external inputs, 6 marker and external, 7 software
+MARKER = 0
+OTHER_MARKER = 1
+FIRST_EXTERNAL = 2
+MARKER_AND_EXTERNAL = 6
+SOFTWARE = 7
+
+
+def capture_arm(F: F64, I: I32, n: int, mode: int) -> None:
+    """Arm the capture of axis n in `mode`, or disarm it with -1."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    I[i + AXI_CAPTURE_MODE] = mode
+    if mode >= 0:
+        I[axis_word(n)] &= ~AF1_CAPTURE_COMPLETE
+        F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = 0.0
+
+
+def capture_signal(mode: int) -> int:
+    """Signal watched in `mode`, see the table above."""
+    low: int = mode & 3
+    if mode & 8:
+        if low < 2:
+            return FIRST_EXTERNAL + 2 + low
+        return MARKER_AND_EXTERNAL if low == 2 else SOFTWARE
+    return low
+
+
+def marker_edge(I: I32, encoder: int, falling: bool) -> bool:
+    """Whether the marker of an encoder had an edge in this tick."""
+    if not 0 <= encoder < 16:
+        return False
+    edges: int = I[PLI_BASE + encoder * PLI_STRIDE + PLI_MARKER_EDGES]
+    return edges & (FALLING_EDGE if falling else RISING_EDGE) != 0
+
+
+def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
+    """Store a captured position of axis n and disarm."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    p: int = AX_BASE + n * AX_STRIDE
+    word2: int = AF2_WORD + n if n < 8 else AF2_WORD_HIGH + n
+    if I[word2] & AF2_DONT_USE_CAPTURE_REGISTER:
+        position_cnt = I[p + AX_PRIMARY_SETPOINT]
+    I[p + AX_HARDWARE_CAPTURE] = position_cnt
+    F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = position_cnt
+    copy: int = I[i + AXI_CAPTURE_COPY]
+    if FLAG_FIRST <= copy <= FLAG_LAST:
+        I[copy] = position_cnt
+    I[i + AXI_CAPTURE_MODE] = -1
+    I[axis_word(n)] |= AF1_CAPTURE_COMPLETE
+
+
+def external_input(n: int, order: int) -> int:
+    """Input number of external capture input `order` (0-3) of axis n."""
+    return 24 - 8 * order + (n & 7)
+
+
+def input_edge(I: I32, number: int, falling: bool) -> bool:
+    """Whether input `number` had an edge in this tick."""
+    now: int = I[W_INPUTS]
+    old: int = I[KRI_BASE + KRI_INPUTS_OLD]
+    changed: int = (old & ~now) if falling else (now & ~old)
+    return (changed >> number) & 1 != 0
+
+
+def input_fraction(F: F64, I: I32, number: int, falling: bool) -> float:
+    """When within the tick the edge came: the plant knows for wired inputs, else the end."""
+    wired: int = I[PLGI_BASE + PLGI_FALLS] if falling else I[PLGI_BASE + PLGI_RISES]
+    if not (wired >> number) & 1:
+        return 1.0
+    if falling:
+        return F[PLGF_BASE + PLGF_FALL_FRACTION + number]
+    return F[PLGF_BASE + PLGF_RISE_FRACTION + number]
+
+
+def position_at_fraction(F: F64, I: I32, n: int, fraction: float) -> int:
+    """Actual position of axis n at a fraction of this tick, to the nearest count."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    e: int = I[i + AXI_POSITION_INDEX]
+    now: int = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
+    step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
+    return wrap32(now - int(rint((1.0 - fraction) * step)))
+
+
+def position_at_marker(F: F64, I: I32, n: int, encoder: int, falling: bool) -> int:
+    """Actual position of axis n at the marker edge of its own encoder."""
+    f: int = PLF_BASE + encoder * PLF_STRIDE
+    raw: float = F[f + PLF_MARKER_FALL_CNT] if falling else F[f + PLF_MARKER_RISE_CNT]
+    since: float = (F[f + PLF_RAW_COUNT] - raw) * I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT]
+    return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] - int(rint(since * 0.25)))
+
+
+def capture_input_position(F: F64, I: I32, n: int, number: int, falling: bool) -> float:
+    """Actual position of axis n at the edge of an input in this tick."""
+    fraction: float = 1.0
+    if 0 <= number < 32:
+        fraction = input_fraction(F, I, number, falling)
+    return position_at_fraction(F, I, n, fraction)
+
+
+def encoder_shift(F: F64, I: I32, S: F32, n: int, origin_cnt: int) -> None:
+    """Let the feedback of axis n read 0 where it read `origin_cnt`."""
+    p: int = AX_BASE + n * AX_STRIDE
+    I[p + AX_ACTUAL_POSITION] = wrap32(I[p + AX_ACTUAL_POSITION] - origin_cnt)
+    feedback_set(F, I, S, n, I[p + AX_ACTUAL_POSITION])
+
+
+def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
+    """Look for the edge axis n is armed for."""
+    signal: int = capture_signal(mode)
+    falling: bool = mode & FALLING != 0
+    own: int = I[AXI_BASE + n * AXI_STRIDE + AXI_POSITION_INDEX]
+    if signal == MARKER or signal == MARKER_AND_EXTERNAL:
+        external: int = external_input(n, 0)
+        if marker_edge(I, own, falling) and (signal == MARKER or (I[W_INPUTS] >> external) & 1):
+            capture_found(F, I, n, position_at_marker(F, I, n, own, falling))
+    elif signal == OTHER_MARKER:
+        if marker_edge(I, own ^ 1, falling):
+            capture_found(F, I, n, position_at_fraction(F, I, n, 1.0))
+    elif signal == SOFTWARE:
+        if I[W_MISC_OUTPUTS] & SOFTWARE_TRIGGER:
+            capture_found(F, I, n, position_at_fraction(F, I, n, 1.0))
+    else:
+        number: int = external_input(n, signal - FIRST_EXTERNAL)
+        if input_edge(I, number, falling):
+            fraction: float = input_fraction(F, I, number, falling)
+            capture_found(F, I, n, position_at_fraction(F, I, n, fraction))
+
+
+def capture_step(F: F64, I: I32) -> None:
+    """Captures of this tick, and the software capture of all axes on BIT113."""
+    for n in range(AX_COUNT):
+        mode: int = I[AXI_BASE + n * AXI_STRIDE + AXI_CAPTURE_MODE]
+        if mode >= 0:
+            capture_axis(F, I, n, mode)
+    if I[W_MISC_OUTPUTS] & SOFTWARE_TRIGGER:
+        for n in range(AX_COUNT):
+            p: int = AX_BASE + n * AX_STRIDE
+            I[p + AX_SOFTWARE_CAPTURE] = I[p + AX_ACTUAL_POSITION]
+        I[W_MISC_OUTPUTS] &= ~SOFTWARE_TRIGGER
+    I[KRI_BASE + KRI_INPUTS_OLD] = I[W_INPUTS]

@@ -1,0 +1,129 @@
+"""Drive enable, drive fault and the motion enable input (ACR90x0 class).
+
+Drive Enabled (quaternary flag 17) is a status: a command or a write of the flag starts
+enabling, the flag follows 10 ms later. It stays clear, silently, while something bars the
+drive. With the drive I/O off the flag follows at once and a fault input has no meaning.
+"""
+
+from openacr.map.numbers import (
+    AF4_DRIVE_ENABLED,
+    AF4_DRIVE_FAULT,
+    AF4_DRIVE_FAULT_INPUT,
+    AF4_DRIVE_FAULT_LEVEL_INVERT,
+    AF4_DRIVE_I_O_ENABLE,
+    AF4_DRIVE_RESET_REQUEST,
+    AF4_KILL_ALL_MOTION_REQUEST,
+    AF4_WORD,
+    AXI_BASE,
+    AXI_DRIVE_OLD,
+    AXI_ENABLE_TICKS,
+    AXI_POSITION_INDEX,
+    AXI_POSITION_SOURCE,
+    AXI_RESET_TICKS,
+    AXI_STRIDE,
+    EF_ENCODER_SIGNAL_FAULT,
+    EF_ENCODER_SIGNAL_LOST,
+    EF_WORD,
+    PLI_BASE,
+    PLI_DRIVE_ENABLED,
+    PLI_DRIVE_FAULT,
+    PLI_STRIDE,
+    W_MISC_CONTROL_1,
+)
+from openacr.views import I32
+
+__all__ = ["drive_step", "motion_enable_step"]
+
+MODELLED = 16
+MEI_LATCHED = 8192  # BIT5645
+MEI_OPEN = 16384  # BIT5646
+MEI_RESET = 32768  # BIT5647
+RESET_S = 0.05
+
+
+def drive_barred(I: I32, n: int) -> bool:
+    """Whether something keeps the drive of axis n from being enabled."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    if I[W_MISC_CONTROL_1] & (MEI_OPEN | MEI_LATCHED):
+        return True
+    if drive_faulted(I, n):
+        return True
+    e: int = I[i + AXI_POSITION_INDEX]
+    if I[i + AXI_POSITION_SOURCE] == 0 and 0 <= e < 24:
+        return I[EF_WORD + e] & (EF_ENCODER_SIGNAL_FAULT | EF_ENCODER_SIGNAL_LOST) != 0
+    return False
+
+
+def drive_faulted(I: I32, n: int) -> bool:
+    """Whether the fault input of axis n says so, with drive I/O in use."""
+    flags: int = I[AF4_WORD + n]
+    active: bool = flags & AF4_DRIVE_FAULT_INPUT != 0
+    inverted: bool = flags & AF4_DRIVE_FAULT_LEVEL_INVERT != 0
+    return flags & AF4_DRIVE_I_O_ENABLE != 0 and active != inverted
+
+
+def drive_wiring(I: I32, n: int) -> None:
+    """Read the fault line of the drive of axis n and drive its enable line."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    k: int = I[i + AXI_POSITION_INDEX]
+    if I[i + AXI_POSITION_SOURCE] != 0 or not 0 <= k < MODELLED:
+        return
+    row: int = PLI_BASE + k * PLI_STRIDE
+    flags: int = I[AF4_WORD + n]
+    if I[row + PLI_DRIVE_FAULT]:
+        flags |= AF4_DRIVE_FAULT_INPUT
+    else:
+        flags &= ~AF4_DRIVE_FAULT_INPUT
+    I[AF4_WORD + n] = flags
+    enabled: bool = flags & AF4_DRIVE_ENABLED != 0 or not flags & AF4_DRIVE_I_O_ENABLE
+    I[row + PLI_DRIVE_ENABLED] = 1 if enabled else 0
+
+
+def drive_step(I: I32, n: int, period_s: float) -> None:
+    """Follow the drive flags of axis n."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    word: int = AF4_WORD + n
+    drive_request(I, n)
+    if I[i + AXI_ENABLE_TICKS] > 0:
+        I[i + AXI_ENABLE_TICKS] -= 1
+        if I[i + AXI_ENABLE_TICKS] == 0 and not drive_barred(I, n):
+            I[word] |= AF4_DRIVE_ENABLED
+    if I[word] & AF4_DRIVE_RESET_REQUEST:
+        I[i + AXI_RESET_TICKS] += 1
+        if I[i + AXI_RESET_TICKS] * period_s >= RESET_S:
+            I[i + AXI_RESET_TICKS] = 0
+            I[word] &= ~(AF4_DRIVE_RESET_REQUEST | AF4_DRIVE_FAULT)
+    if drive_faulted(I, n) and not I[word] & AF4_DRIVE_FAULT:
+        I[word] |= AF4_DRIVE_FAULT | AF4_KILL_ALL_MOTION_REQUEST
+        I[word] &= ~AF4_DRIVE_ENABLED
+    I[i + AXI_DRIVE_OLD] = I[word] & AF4_DRIVE_ENABLED
+    drive_wiring(I, n)
+
+
+def drive_request(I: I32, n: int) -> None:
+    """A written Drive Enabled flag starts enabling; a cleared one ends it."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    now: int = I[AF4_WORD + n] & AF4_DRIVE_ENABLED
+    if now == I[i + AXI_DRIVE_OLD]:
+        return
+    if now:
+        I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
+        if I[i + AXI_ENABLE_TICKS] == 0:
+            I[i + AXI_ENABLE_TICKS] = 1
+    else:
+        I[i + AXI_ENABLE_TICKS] = 0
+
+
+def motion_enable_step(I: I32, axes: int) -> None:
+    """The motion enable input: open, it latches, kills every axis and drops the drives."""
+    flags: int = I[W_MISC_CONTROL_1]
+    if not flags & (MEI_OPEN | MEI_RESET):
+        return
+    if flags & MEI_OPEN:
+        flags |= MEI_LATCHED
+        for n in range(axes):
+            I[AF4_WORD + n] |= AF4_KILL_ALL_MOTION_REQUEST
+            I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
+    elif flags & MEI_RESET:
+        flags &= ~MEI_LATCHED
+    I[W_MISC_CONTROL_1] = flags & ~MEI_RESET

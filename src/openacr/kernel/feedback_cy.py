@@ -1,0 +1,174 @@
+"""Encoders and other position feedback, once per tick, before anything else.
+
+The plant delivers raw quadrature counts (4 per line). An encoder counts |MULT| of each
+four, in the direction of its sign:
+
+    position += MULT/4 * (raw - raw_old), whole counts; fractions are carried.
+
+An axis without a modelled motor has ideal feedback: with its loop closed and its drive
+enabled the actual position is the secondary setpoint of the previous tick.
+"""
+
+from openacr.cmath import floor, rint
+from openacr.kernel.axis_cy import axis_word
+from openacr.kernel.words_cy import round32, wrap32
+from openacr.map.numbers import (
+    ADC_ADC_INPUT,
+    ADC_BASE,
+    ADC_STRIDE,
+    AF1_CLAMP_OUTPUT_SIGNAL,
+    AF1_OPEN_SERVO_LOOP,
+    AF4_DRIVE_ENABLED,
+    AF4_DRIVE_I_O_ENABLE,
+    AF4_WORD,
+    AX_ACTUAL_POSITION,
+    AX_BASE,
+    AX_KVP,
+    AX_MINUS_TORQUE_LIMIT,
+    AX_PLUS_TORQUE_LIMIT,
+    AX_PROPORTIONAL_GAIN,
+    AX_STRIDE,
+    AXF_BASE,
+    AXF_SSP_CNT,
+    AXF_STRIDE,
+    AXI_BASE,
+    AXI_POSITION_INDEX,
+    AXI_POSITION_OFFSET,
+    AXI_POSITION_SOURCE,
+    AXI_SHOWN_ACTUAL,
+    AXI_STRIDE,
+    ENC_BASE,
+    ENC_ENCODER_POSITION,
+    ENC_ENCODER_VELOCITY,
+    ENC_HIGH_BASE,
+    ENC_STRIDE,
+    ENF_BASE,
+    ENF_PARTIAL_CNT,
+    ENF_RAW_OLD_CNT,
+    ENF_STEP_CNT,
+    ENF_STRIDE,
+    ENI_BASE,
+    ENI_MULT,
+    ENI_STRIDE,
+    PLF_BASE,
+    PLF_RAW_COUNT,
+    PLF_STRIDE,
+    PLI_BASE,
+    PLI_KIND,
+    PLI_STRIDE,
+    STPR_BASE,
+    STPR_STEPPER_COUNT,
+    STPR_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["encoder_set", "feedback_set"]
+
+FROM_ENCODER = 0
+FROM_ADC = 1
+FROM_STEPPER = 2
+ENCODER_COUNT = 24
+MODELLED = 16  # encoders that can have a motor in the plant
+ADC_COUNTS_PER_VOLT = 1000.0
+
+
+def encoder_row(e: int) -> int:
+    """Parameter number of the first row of encoder e."""
+    return ENC_BASE + e * ENC_STRIDE if e < 16 else ENC_HIGH_BASE + (e - 16) * ENC_STRIDE
+
+
+def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
+    """Preload the position of encoder e."""
+    I[encoder_row(e) + ENC_ENCODER_POSITION] = wrap32(position)
+    F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] = 0.0
+
+
+def encoder_step(F: F64, I: I32, e: int, period_s: float) -> None:
+    """Count what the motor of encoder e has moved since the last tick."""
+    f: int = ENF_BASE + e * ENF_STRIDE
+    raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
+    scaled: float = (raw - F[f + ENF_RAW_OLD_CNT]) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
+    F[f + ENF_RAW_OLD_CNT] = raw
+    scaled += F[f + ENF_PARTIAL_CNT]
+    whole: float = floor(scaled)
+    F[f + ENF_PARTIAL_CNT] = scaled - whole
+    F[f + ENF_STEP_CNT] = whole
+    row: int = encoder_row(e)
+    I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + int(whole))
+    I[row + ENC_ENCODER_VELOCITY] = round32(whole / period_s)
+
+
+def ideal_follows(I: I32, S: F32, n: int) -> bool:
+    """Whether an axis without a modelled motor follows its setpoint."""
+    p: int = AX_BASE + n * AX_STRIDE
+    drive: int = I[AF4_WORD + n]
+    if I[axis_word(n)] & (AF1_OPEN_SERVO_LOOP | AF1_CLAMP_OUTPUT_SIGNAL):
+        return False
+    if drive & AF4_DRIVE_I_O_ENABLE and not drive & AF4_DRIVE_ENABLED:
+        return False
+    if S[p + AX_PLUS_TORQUE_LIMIT] == 0.0 and S[p + AX_MINUS_TORQUE_LIMIT] == 0.0:
+        return False
+    return S[p + AX_PROPORTIONAL_GAIN] != 0.0 or S[p + AX_KVP] != 0.0
+
+
+def adc_counts(S: F32, k: int) -> int:
+    """ADC input k in counts of 1/1000 volt."""
+    volts: float = S[ADC_BASE + k * ADC_STRIDE + ADC_ADC_INPUT]
+    return int(rint(max(-1e6, min(1e6, volts)) * ADC_COUNTS_PER_VOLT))
+
+
+def feedback_set(F: F64, I: I32, S: F32, n: int, actual: int) -> None:
+    """Make the position feedback of axis n read `actual` where it is now."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    source: int = I[i + AXI_POSITION_SOURCE]
+    k: int = I[i + AXI_POSITION_INDEX]
+    if source == FROM_ENCODER and 0 <= k < ENCODER_COUNT:
+        encoder_set(F, I, k, actual)
+    elif source == FROM_ADC and 0 <= k < 16:
+        I[i + AXI_POSITION_OFFSET] = wrap32(actual - adc_counts(S, k))
+    elif source == FROM_STEPPER and 0 <= k < 16:
+        I[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT] = actual
+    I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] = actual
+    I[i + AXI_SHOWN_ACTUAL] = actual
+
+
+def feedback_read(F: F64, I: I32, S: F32, n: int, period_s: float) -> int:
+    """Actual position of axis n from whatever is attached as its position feedback."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    source: int = I[i + AXI_POSITION_SOURCE]
+    k: int = I[i + AXI_POSITION_INDEX]
+    if source == FROM_ENCODER and 0 <= k < ENCODER_COUNT:
+        modelled: bool = k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
+        if not modelled and ideal_follows(I, S, n):
+            ideal_step(F, I, n, k, period_s)
+        return I[encoder_row(k) + ENC_ENCODER_POSITION]
+    if source == FROM_ADC and 0 <= k < 16:
+        return wrap32(adc_counts(S, k) + I[i + AXI_POSITION_OFFSET])
+    if source == FROM_STEPPER and 0 <= k < 16:
+        return I[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT]
+    return 0
+
+
+def ideal_step(F: F64, I: I32, n: int, e: int, period_s: float) -> None:
+    """Ideal feedback: encoder e stands where axis n was told to be."""
+    row: int = encoder_row(e)
+    old: int = I[row + ENC_ENCODER_POSITION]
+    now: int = round32(F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT])
+    I[row + ENC_ENCODER_POSITION] = now
+    I[row + ENC_ENCODER_VELOCITY] = round32(wrap32(now - old) / period_s)
+    F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT] = wrap32(now - old)
+
+
+def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, period_s: float) -> None:
+    """Bring the actual position of axis n up to date.
+
+    `written` says that it was written since the last tick: the feedback is then set to
+    that value first.
+    """
+    i: int = AXI_BASE + n * AXI_STRIDE
+    p: int = AX_BASE + n * AX_STRIDE
+    if written:
+        feedback_set(F, I, S, n, I[p + AX_ACTUAL_POSITION])
+    else:
+        I[p + AX_ACTUAL_POSITION] = feedback_read(F, I, S, n, period_s)
+    I[i + AXI_SHOWN_ACTUAL] = I[p + AX_ACTUAL_POSITION]

@@ -1,0 +1,216 @@
+"""JOG HOME: find the edge of the home input and make it position 0.
+
+    SEARCH    JOG VEL in the given direction until the home input changes (without backup)
+              or its selected edge is crossed (with backup); a limit turns the search round
+              once, the second limit fails
+    REVERSE   ramp down with HLDEC or SLDEC, then search the other way
+    STOP0     ramp down; the rest position becomes 0 (no backup)
+    STOP1     ramp down, then approach the edge
+    APPROACH  JOG HOMVF until the selected edge; done at once if the direction is the final
+              one, otherwise
+    STOP2     ramp down, then approach again in the final direction
+
+The positive edge is the border on the positive side of the region where the home input is
+active. Moving in direction m, edge e is met when the input turns off for m = e, on for
+m = -e.
+"""
+
+from openacr.cmath import fabs
+from openacr.kernel.axis_cy import axis_preload, axis_scale
+from openacr.kernel.capture_cy import capture_input_position, encoder_shift
+from openacr.kernel.jogplan_cy import FAR_CNT, jog_ramp_down, jog_run, jog_setting
+from openacr.kernel.profile_cy import DECELERATING
+from openacr.map.numbers import (
+    AF4_KILL_ALL_MOTION_REQUEST,
+    AF4_WORD,
+    AF5_HOME_BACKUP_ENABLE,
+    AF5_HOME_FAILED,
+    AF5_HOME_INPUT,
+    AF5_HOME_NEGATIVE_EDGE_SELECT,
+    AF5_HOME_NEGATIVE_FINAL_DIRECTION,
+    AF5_HOME_SUCCESSFUL,
+    AF5_HOMING_IN_PROGRESS,
+    AF5_WORD,
+    AX_ACTUAL_POSITION,
+    AX_BASE,
+    AX_JOG_DECEL_SETTING,
+    AX_JOG_JERK_SETTING,
+    AX_JOG_VELOC_SETTING,
+    AX_STRIDE,
+    AXF_BASE,
+    AXF_HLDEC_UPS2,
+    AXF_HOME_EDGE_CNT,
+    AXF_HOMVF_UPS,
+    AXF_SLDEC_UPS2,
+    AXF_STRIDE,
+    AXI_BASE,
+    AXI_HLBIT,
+    AXI_HOME_INPUT_OLD,
+    AXI_HOME_LIMIT_HIT,
+    AXI_HOME_MOVING,
+    AXI_HOME_REVERSED,
+    AXI_HOME_SEARCH,
+    AXI_HOME_STATE,
+    AXI_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+HOME_OFF = 0
+HOME_START = 1
+HOME_SEARCH = 2
+HOME_REVERSE = 3
+HOME_STOP0 = 4
+HOME_STOP1 = 5
+HOME_APPROACH = 6
+HOME_STOP2 = 7
+
+HARD_LIMIT_HIT = 1
+SOFT_LIMIT_HIT = 2
+SLOW_SHARE = 0.1  # of JOG VEL, where HOMVF is 0
+
+
+def home_edge(I: I32, n: int) -> int:
+    """+1 or -1: which side of the active region is the reference edge."""
+    return -1 if I[AF5_WORD + n] & AF5_HOME_NEGATIVE_EDGE_SELECT else 1
+
+
+def home_final(I: I32, n: int) -> int:
+    """+1 or -1: direction in which the final approach has to end."""
+    return -1 if I[AF5_WORD + n] & AF5_HOME_NEGATIVE_FINAL_DIRECTION else 1
+
+
+def home_run(F: F64, I: I32, S: F32, n: int, state: int, sign: int, speed: float) -> None:
+    """Enter `state` and move in direction `sign` without a target."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    I[i + AXI_HOME_STATE] = state
+    I[i + AXI_HOME_MOVING] = sign
+    jog_run(F, I, S, n, sign, FAR_CNT, speed)
+
+
+def home_brake(F: F64, I: I32, S: F32, n: int, state: int) -> None:
+    """Enter `state` and ramp down with JOG DEC and JRK."""
+    I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] = state
+    dec: float = jog_setting(S, n, AX_JOG_DECEL_SETTING)
+    jog_ramp_down(F, I, n, dec, jog_setting(S, n, AX_JOG_JERK_SETTING), DECELERATING)
+
+
+def home_approach(F: F64, I: I32, S: F32, n: int, sign: int) -> None:
+    """Approach the edge slowly in direction `sign`."""
+    scale: float = fabs(axis_scale(S, n))
+    speed: float = F[AXF_BASE + n * AXF_STRIDE + AXF_HOMVF_UPS] * scale
+    if speed <= 0.0:
+        speed = SLOW_SHARE * jog_setting(S, n, AX_JOG_VELOC_SETTING)
+    home_run(F, I, S, n, HOME_APPROACH, sign, speed)
+
+
+def home_end(I: I32, n: int, result: int) -> None:
+    """Leave homing with the given result flag."""
+    I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] = HOME_OFF
+    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~AF5_HOMING_IN_PROGRESS) | result
+
+
+def home_abort(I: I32, n: int) -> None:
+    """Homing was ended from outside (JOG OFF, kill): it has failed."""
+    if I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] != HOME_OFF:
+        home_end(I, n, AF5_HOME_FAILED)
+
+
+def home_zero(F: F64, I: I32, S: F32, n: int, origin: float) -> None:
+    """Make the actual position `origin` the new 0; the axis is commanded to stand there."""
+    encoder_shift(F, I, S, n, int(origin))
+    axis_preload(F, I, n, 0.0)
+
+
+def home_fail(I: I32, n: int) -> None:
+    """Both limits were met: failed, and the axis is killed as by a limit."""
+    home_end(I, n, AF5_HOME_FAILED)
+    I[AF4_WORD + n] |= AF4_KILL_ALL_MOTION_REQUEST
+
+
+def home_limit(F: F64, I: I32, S: F32, n: int) -> None:
+    """A limit was met in search: turn round once, then fail."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    i: int = AXI_BASE + n * AXI_STRIDE
+    hit: int = I[i + AXI_HOME_LIMIT_HIT]
+    I[i + AXI_HOME_LIMIT_HIT] = 0
+    if I[i + AXI_HOME_STATE] == HOME_REVERSE:
+        return
+    if I[i + AXI_HOME_REVERSED] or I[i + AXI_HOME_STATE] != HOME_SEARCH:
+        home_fail(I, n)
+        return
+    I[i + AXI_HOME_REVERSED] = 1
+    I[i + AXI_HOME_STATE] = HOME_REVERSE
+    rate: float = F[a + AXF_SLDEC_UPS2] if hit == SOFT_LIMIT_HIT else F[a + AXF_HLDEC_UPS2]
+    jog_ramp_down(F, I, n, rate * fabs(axis_scale(S, n)), 0.0, DECELERATING)
+
+
+def home_start(F: F64, I: I32, S: F32, n: int) -> None:
+    """Begin the search; a home input that is already on is left towards its edge first."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    flags: int = I[AF5_WORD + n]
+    sign: int = I[i + AXI_HOME_SEARCH]
+    if flags & AF5_HOME_BACKUP_ENABLE and flags & AF5_HOME_INPUT:
+        sign = home_edge(I, n)
+    I[i + AXI_HOME_INPUT_OLD] = flags & AF5_HOME_INPUT
+    I[i + AXI_HOME_REVERSED] = 0
+    I[i + AXI_HOME_LIMIT_HIT] = 0
+    home_run(F, I, S, n, HOME_SEARCH, sign, jog_setting(S, n, AX_JOG_VELOC_SETTING))
+
+
+def home_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """Look at limits and home input of this tick and change the motion accordingly."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    state: int = I[i + AXI_HOME_STATE]
+    if state == HOME_START:
+        home_start(F, I, S, n)
+        return
+    if I[i + AXI_HOME_LIMIT_HIT]:
+        home_limit(F, I, S, n)
+    now: int = I[AF5_WORD + n] & AF5_HOME_INPUT
+    old: int = I[i + AXI_HOME_INPUT_OLD]
+    I[i + AXI_HOME_INPUT_OLD] = now
+    if now == old:
+        return
+    same: bool = I[i + AXI_HOME_MOVING] == home_edge(I, n)
+    crossed: bool = now == 0 if same else now != 0
+    backup: bool = I[AF5_WORD + n] & AF5_HOME_BACKUP_ENABLE != 0
+    state = I[i + AXI_HOME_STATE]
+    if state == HOME_SEARCH and not backup:
+        home_brake(F, I, S, n, HOME_STOP0)
+    elif state == HOME_SEARCH and crossed:
+        home_brake(F, I, S, n, HOME_STOP1)
+    elif state == HOME_APPROACH and crossed:
+        if I[i + AXI_HOME_MOVING] == home_final(I, n):
+            F[AXF_BASE + n * AXF_STRIDE + AXF_HOME_EDGE_CNT] = home_edge_position(F, I, n, now)
+            home_stop_dead(F, I, S, n)
+        else:
+            home_brake(F, I, S, n, HOME_STOP2)
+
+
+def home_edge_position(F: F64, I: I32, n: int, now: int) -> float:
+    """Actual position at which the home input changed within this tick."""
+    number: int = I[AXI_BASE + n * AXI_STRIDE + AXI_HLBIT] + 2
+    return capture_input_position(F, I, n, number, now == 0)
+
+
+def home_stop_dead(F: F64, I: I32, S: F32, n: int) -> None:
+    """End the approach in this tick; the reference edge becomes 0."""
+    home_zero(F, I, S, n, F[AXF_BASE + n * AXF_STRIDE + AXF_HOME_EDGE_CNT])
+    home_end(I, n, AF5_HOME_SUCCESSFUL)
+
+
+def home_arrived(F: F64, I: I32, S: F32, n: int) -> bool:
+    """A ramp of the sequence has come to rest; True when homing is over."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    state: int = I[i + AXI_HOME_STATE]
+    speed: float = jog_setting(S, n, AX_JOG_VELOC_SETTING)
+    if state == HOME_REVERSE:
+        home_run(F, I, S, n, HOME_SEARCH, -I[i + AXI_HOME_MOVING], speed)
+    elif state == HOME_STOP1:
+        home_approach(F, I, S, n, -I[i + AXI_HOME_MOVING])
+    elif state == HOME_STOP2:
+        home_approach(F, I, S, n, home_final(I, n))
+    elif state == HOME_STOP0:
+        home_zero(F, I, S, n, I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION])
+        home_end(I, n, AF5_HOME_SUCCESSFUL)
+    return I[i + AXI_HOME_STATE] == HOME_OFF

@@ -1,0 +1,392 @@
+"""One motion profile: pieces of constant jerk along a path.
+
+                 velocity
+                    |      cruise = target_velocity
+                    |     ________________
+                    |    /                \\
+          velocity  |___/                  \\___ end velocity (FVEL)
+                    |   ACC                STP
+                    +------------------------------- distance
+                  distance                  end_distance
+
+A plan is a list of at most 16 segments. Segment k starts at seg_distance, seg_velocity,
+seg_accel and runs for seg_time_s with constant jerk j, so that at time t within it
+
+    s = s_k + v_k t + a_k t^2/2 + j t^3/6,   v = v_k + a_k t + j t^2/2,   a = a_k + j t.
+
+The planner decides (profile_plan, profile_stop), the tick only evaluates
+(profile_advance): positions come from the closed form of the segment, never from summing
+increments, so the end is exact however many ticks a move takes.
+
+Ramps. Without jerk a ramp is one segment. With jerk J a ramp from (v0, a0) to v1 at rest
+of acceleration raises |a| to a peak p, holds it, and takes it back. With sign d = +-1 of
+the change,
+
+    p^2 = J d (v1 - v0) + a0^2/2     (no hold; cut to the limit, then the hold makes up)
+
+which contains the textbook cases t = dv/a + a/J and t = 2 sqrt(dv/J) for a0 = 0.
+
+A move too short for its cruising speed gets a lower peak, found in closed form without
+jerk and by bisection with it. If even an immediate end ramp does not fit, its rate is
+raised just enough: the target is never overshot. Distances run forwards only; the owner
+mirrors a backward motion.
+
+Instances 0-15 are the masters (programming units), 16-31 the jog profilers (pulses).
+"""
+
+from openacr.cmath import fabs, sqrt
+from openacr.map.numbers import (
+    PRF_ACCEL,
+    PRF_BASE,
+    PRF_DISTANCE,
+    PRF_END_DISTANCE,
+    PRF_END_VELOCITY,
+    PRF_JERK,
+    PRF_PLAN_ACCEL,
+    PRF_PLAN_DISTANCE,
+    PRF_PLAN_VELOCITY,
+    PRF_SEG_ACCEL,
+    PRF_SEG_DISTANCE,
+    PRF_SEG_JERK,
+    PRF_SEG_TIME_S,
+    PRF_SEG_TIME_S_SIZE,
+    PRF_SEG_VELOCITY,
+    PRF_STRIDE,
+    PRF_TARGET_VELOCITY,
+    PRF_TIME_S,
+    PRF_VELOCITY,
+    PRI_BASE,
+    PRI_KIND,
+    PRI_SEG_COUNT,
+    PRI_SEG_INDEX,
+    PRI_SEG_KIND,
+    PRI_STRIDE,
+)
+from openacr.views import F64, I32
+
+__all__ = ["profile_advance", "profile_plan", "profile_reset", "profile_stop"]
+
+CRUISING = 0
+ACCELERATING = 1
+DECELERATING = 2
+STOPPING = 3
+
+FOREVER_S = 1e30  # a plan that waits at speed 0 for a new cruising speed
+TIME_EPS_S = 1e-10  # far below a servo period, far above the rounding of a sum of them
+BISECTIONS = 64
+
+
+def profile_reset(F: F64, I: I32, n: int, velocity: float, accel: float) -> None:
+    """Start profile n at distance 0 with the given speed and acceleration and no plan."""
+    f: int = PRF_BASE + n * PRF_STRIDE
+    i: int = PRI_BASE + n * PRI_STRIDE
+    F[f + PRF_DISTANCE] = 0.0
+    F[f + PRF_VELOCITY] = velocity
+    F[f + PRF_ACCEL] = accel
+    F[f + PRF_JERK] = 0.0
+    F[f + PRF_TIME_S] = 0.0
+    F[f + PRF_END_DISTANCE] = 0.0
+    F[f + PRF_END_VELOCITY] = velocity
+    I[i + PRI_SEG_COUNT] = 0
+    I[i + PRI_SEG_INDEX] = 0
+    I[i + PRI_KIND] = CRUISING
+
+
+def plan_start(F: F64, I: I32, f: int, i: int) -> None:
+    """Empty the plan; planning continues from where the profile is now."""
+    F[f + PRF_PLAN_DISTANCE] = F[f + PRF_DISTANCE]
+    F[f + PRF_PLAN_VELOCITY] = F[f + PRF_VELOCITY]
+    F[f + PRF_PLAN_ACCEL] = F[f + PRF_ACCEL]
+    F[f + PRF_TIME_S] = 0.0
+    I[i + PRI_SEG_COUNT] = 0
+    I[i + PRI_SEG_INDEX] = 0
+
+
+def plan_append(
+    F: F64, I: I32, f: int, i: int, time: float, accel: float, jerk: float, kind: int
+) -> None:
+    """Append a segment of constant jerk that starts with `accel`."""
+    k: int = I[i + PRI_SEG_COUNT]
+    if time <= 0.0 or k >= PRF_SEG_TIME_S_SIZE:
+        return
+    distance: float = F[f + PRF_PLAN_DISTANCE]
+    velocity: float = F[f + PRF_PLAN_VELOCITY]
+    F[f + PRF_SEG_TIME_S + k] = time
+    F[f + PRF_SEG_JERK + k] = jerk
+    F[f + PRF_SEG_ACCEL + k] = accel
+    F[f + PRF_SEG_VELOCITY + k] = velocity
+    F[f + PRF_SEG_DISTANCE + k] = distance
+    I[i + PRI_SEG_KIND + k] = kind
+    I[i + PRI_SEG_COUNT] = k + 1
+    F[f + PRF_PLAN_DISTANCE] = distance + time * (
+        velocity + time * (accel / 2.0 + time * jerk / 6.0)
+    )
+    F[f + PRF_PLAN_VELOCITY] = velocity + time * (accel + time * jerk / 2.0)
+    F[f + PRF_PLAN_ACCEL] = accel + time * jerk
+
+
+def plan_ramp(
+    F: F64, I: I32, f: int, i: int, velocity: float, limit: float, jerk: float, kind: int
+) -> None:
+    """Append the ramp from the end of the plan to `velocity`; limit 0 is a velocity step."""
+    v0: float = F[f + PRF_PLAN_VELOCITY]
+    a0: float = F[f + PRF_PLAN_ACCEL]
+    if limit > 0.0 and jerk > 0.0:
+        rest: float = v0 + a0 * fabs(a0) / (2.0 * jerk)  # speed if a were taken to 0 now
+        sign: float = 1.0 if velocity >= rest else -1.0
+        square: float = jerk * sign * (velocity - v0) + a0 * a0 / 2.0
+        peak: float = sign * min(sqrt(max(square, 0.0)), limit)
+        rise: float = jerk if peak > a0 else -jerk
+        gained: float = (peak * peak - a0 * a0) / (2.0 * rise) + peak * fabs(peak) / (2.0 * jerk)
+        hold: float = 0.0
+        if peak != 0.0:
+            hold = (velocity - v0 - gained) / peak
+        plan_append(F, I, f, i, (peak - a0) / rise, a0, rise, kind)
+        plan_append(F, I, f, i, hold, peak, 0.0, kind)
+        plan_append(F, I, f, i, fabs(peak) / jerk, peak, -sign * jerk, kind)
+    elif limit > 0.0 and velocity != v0:
+        rate: float = limit if velocity > v0 else -limit
+        plan_append(F, I, f, i, (velocity - v0) / rate, rate, 0.0, kind)
+    F[f + PRF_PLAN_VELOCITY] = velocity
+    F[f + PRF_PLAN_ACCEL] = 0.0
+
+
+def plan_build(
+    F: F64,
+    I: I32,
+    f: int,
+    i: int,
+    peak: float,
+    end_velocity: float,
+    acc: float,
+    dec: float,
+    stp: float,
+    jerk: float,
+    cruise: float,
+) -> float:
+    """Plan ramp to `peak`, `cruise` seconds there, end ramp; return the distance used."""
+    plan_start(F, I, f, i)
+    if peak >= F[f + PRF_VELOCITY]:
+        plan_ramp(F, I, f, i, peak, acc, jerk, ACCELERATING)
+    else:
+        plan_ramp(F, I, f, i, peak, dec, jerk, DECELERATING)
+    plan_append(F, I, f, i, cruise, 0.0, 0.0, CRUISING)
+    if end_velocity < peak:
+        plan_ramp(F, I, f, i, end_velocity, stp, jerk, STOPPING)
+    return F[f + PRF_PLAN_DISTANCE] - F[f + PRF_DISTANCE]
+
+
+def plan_finish(F: F64, I: I32, f: int, i: int, end: float) -> None:
+    """Make the end of the plan exact: `end` is reached however the sums were rounded."""
+    F[f + PRF_END_DISTANCE] = end
+    F[f + PRF_END_VELOCITY] = F[f + PRF_PLAN_VELOCITY]
+
+
+def plan_truncate(F: F64, I: I32, f: int, i: int, end: float) -> None:
+    """Cut the plan where it passes `end`; speed and acceleration there become its end."""
+    count: int = I[i + PRI_SEG_COUNT]
+    k: int = 0
+    while k + 1 < count and F[f + PRF_SEG_DISTANCE + k + 1] < end:
+        k += 1
+    if count > 0:
+        accel: float = F[f + PRF_SEG_ACCEL + k]
+        velocity: float = F[f + PRF_SEG_VELOCITY + k]
+        jerk: float = F[f + PRF_SEG_JERK + k]
+        wanted: float = end - F[f + PRF_SEG_DISTANCE + k]
+        low: float = 0.0
+        high: float = F[f + PRF_SEG_TIME_S + k]
+        for _ in range(BISECTIONS):
+            time: float = (low + high) / 2.0
+            if time * (velocity + time * (accel / 2.0 + time * jerk / 6.0)) < wanted:
+                low = time
+            else:
+                high = time
+        F[f + PRF_SEG_TIME_S + k] = high
+        F[f + PRF_PLAN_VELOCITY] = velocity + high * (accel + high * jerk / 2.0)
+        F[f + PRF_PLAN_ACCEL] = accel + high * jerk
+        I[i + PRI_SEG_COUNT] = k + 1
+    plan_finish(F, I, f, i, end)
+
+
+def profile_plan(
+    F: F64,
+    I: I32,
+    n: int,
+    end: float,
+    cruise: float,
+    end_velocity: float,
+    acc: float,
+    dec: float,
+    stp: float,
+    jerk: float,
+) -> None:
+    """Plan from the present state to distance `end`, cruising at `cruise`.
+
+    ACC serves rises of speed, DEC falls to a lower cruising speed, STP the end ramp to
+    `end_velocity`. STP 0 means no end ramp: the profile arrives with the speed (and
+    acceleration) it has. A rate of 0 is a velocity step. `cruise` 0 slows to a stop and
+    waits there.
+    """
+    f: int = PRF_BASE + n * PRF_STRIDE
+    i: int = PRI_BASE + n * PRI_STRIDE
+    F[f + PRF_TARGET_VELOCITY] = cruise
+    distance: float = end - F[f + PRF_DISTANCE]
+    if stp <= 0.0:
+        end_velocity = cruise
+    used: float = plan_build(F, I, f, i, cruise, end_velocity, acc, dec, stp, jerk, 0.0)
+    if used <= distance:
+        wait: float = (distance - used) / cruise if cruise > 0.0 else FOREVER_S
+        plan_build(F, I, f, i, cruise, end_velocity, acc, dec, stp, jerk, wait)
+        plan_finish(F, I, f, i, end)
+    elif stp <= 0.0:
+        plan_truncate(F, I, f, i, end)
+    elif jerk > 0.0:
+        plan_short_jerk(F, I, f, i, end, cruise, end_velocity, acc, dec, stp, jerk)
+    else:
+        plan_short(F, I, f, i, end, cruise, end_velocity, acc, dec, stp)
+
+
+def plan_short(
+    F: F64,
+    I: I32,
+    f: int,
+    i: int,
+    end: float,
+    cruise: float,
+    end_velocity: float,
+    acc: float,
+    dec: float,
+    stp: float,
+) -> None:
+    """Plan a move too short for its cruising speed, without jerk limit.
+
+    Two ramps that meet at the peak p cover the distance d:
+    (p^2 - v^2)/(2r) + (p^2 - e^2)/(2 stp) = d with r = ACC on a rise (v <= p) and
+    r = -DEC on a fall, which is linear in p^2.
+    """
+    velocity: float = F[f + PRF_VELOCITY]
+    distance: float = end - F[f + PRF_DISTANCE]
+    rate: float = acc if velocity <= cruise else -dec
+    inverse: float = 1.0 / stp
+    square: float = 2.0 * distance + end_velocity * end_velocity / stp
+    if rate != 0.0:
+        inverse += 1.0 / rate
+        square += velocity * velocity / rate
+    peak: float = -1.0
+    if inverse != 0.0 and square / inverse > 0.0:
+        peak = sqrt(square / inverse)
+    rising: bool = velocity <= cruise
+    if rising and peak <= end_velocity:
+        # Not even FVEL is reached: speed up to the end, no end ramp.
+        plan_build(F, I, f, i, cruise, cruise, acc, dec, stp, 0.0, 0.0)
+        plan_truncate(F, I, f, i, end)
+    elif (rising and peak >= velocity) or (
+        not rising and end_velocity <= peak and peak <= velocity
+    ):
+        plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, 0.0, 0.0)
+        plan_finish(F, I, f, i, end)
+    else:
+        plan_forced(F, I, f, i, end, end_velocity)
+
+
+def plan_forced(F: F64, I: I32, f: int, i: int, end: float, end_velocity: float) -> None:
+    """Brake at the one constant rate that still arrives with `end_velocity`."""
+    velocity: float = F[f + PRF_VELOCITY]
+    distance: float = end - F[f + PRF_DISTANCE]
+    plan_start(F, I, f, i)
+    if distance > 0.0 and velocity > 0.0:
+        rate: float = (velocity * velocity - end_velocity * end_velocity) / (2.0 * distance)
+        plan_ramp(F, I, f, i, end_velocity, rate, 0.0, STOPPING)
+    F[f + PRF_PLAN_VELOCITY] = end_velocity
+    F[f + PRF_PLAN_ACCEL] = 0.0
+    plan_finish(F, I, f, i, end)
+
+
+def plan_short_jerk(
+    F: F64,
+    I: I32,
+    f: int,
+    i: int,
+    end: float,
+    cruise: float,
+    end_velocity: float,
+    acc: float,
+    dec: float,
+    stp: float,
+    jerk: float,
+) -> None:
+    """Plan a move too short for its cruising speed under a jerk limit.
+
+    The distance of "ramp to p, end ramp" is monotonic in the peak p between the bounds
+    tried, so bisection finds the p that covers exactly the distance. The last bracket end
+    that still fits is used and the tiny remainder becomes cruising time.
+    """
+    velocity: float = F[f + PRF_VELOCITY]
+    accel: float = F[f + PRF_ACCEL]
+    distance: float = end - F[f + PRF_DISTANCE]
+    rest: float = velocity + accel * fabs(accel) / (2.0 * jerk)
+    fits: float = max(rest, 0.0)
+    if rest > cruise:
+        fits = end_velocity if dec > stp else velocity
+    if plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
+        plan_forced(F, I, f, i, end, end_velocity)
+        return
+    fails: float = cruise
+    for _ in range(BISECTIONS):
+        peak: float = (fits + fails) / 2.0
+        if plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
+            fails = peak
+        else:
+            fits = peak
+    used: float = plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0)
+    wait: float = (distance - used) / fits if fits > 0.0 else 0.0
+    plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, wait)
+    plan_finish(F, I, f, i, end)
+
+
+def profile_stop(F: F64, I: I32, n: int, end: float, rate: float, jerk: float, kind: int) -> bool:
+    """Plan a ramp to rest at `rate`, wherever that is; False if it would pass `end`.
+
+    When False is returned the plan is cut at `end` and still moving there.
+    """
+    f: int = PRF_BASE + n * PRF_STRIDE
+    i: int = PRI_BASE + n * PRI_STRIDE
+    plan_start(F, I, f, i)
+    plan_ramp(F, I, f, i, 0.0, rate, jerk, kind)
+    if F[f + PRF_PLAN_DISTANCE] > end:
+        plan_truncate(F, I, f, i, end)
+        return False
+    plan_finish(F, I, f, i, F[f + PRF_PLAN_DISTANCE])
+    return True
+
+
+def profile_advance(F: F64, I: I32, n: int, dt: float) -> float:
+    """Advance profile n by `dt` seconds; return the time left over at its end, else -1."""
+    f: int = PRF_BASE + n * PRF_STRIDE
+    i: int = PRI_BASE + n * PRI_STRIDE
+    count: int = I[i + PRI_SEG_COUNT]
+    k: int = I[i + PRI_SEG_INDEX]
+    t: float = F[f + PRF_TIME_S] + dt
+    while k < count and t >= F[f + PRF_SEG_TIME_S + k] - TIME_EPS_S:
+        t -= F[f + PRF_SEG_TIME_S + k]
+        k += 1
+    I[i + PRI_SEG_INDEX] = k
+    F[f + PRF_TIME_S] = t
+    if k >= count:
+        F[f + PRF_DISTANCE] = F[f + PRF_END_DISTANCE]
+        F[f + PRF_VELOCITY] = F[f + PRF_END_VELOCITY]
+        F[f + PRF_ACCEL] = F[f + PRF_PLAN_ACCEL]
+        F[f + PRF_JERK] = 0.0
+        I[i + PRI_KIND] = CRUISING
+        return max(t, 0.0)
+    jerk: float = F[f + PRF_SEG_JERK + k]
+    accel: float = F[f + PRF_SEG_ACCEL + k]
+    velocity: float = F[f + PRF_SEG_VELOCITY + k]
+    F[f + PRF_JERK] = jerk
+    F[f + PRF_ACCEL] = accel + t * jerk
+    F[f + PRF_VELOCITY] = velocity + t * (accel + t * jerk / 2.0)
+    F[f + PRF_DISTANCE] = F[f + PRF_SEG_DISTANCE + k] + t * (
+        velocity + t * (accel / 2.0 + t * jerk / 6.0)
+    )
+    I[i + PRI_KIND] = I[i + PRI_SEG_KIND + k]
+    return -1.0

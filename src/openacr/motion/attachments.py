@@ -1,0 +1,92 @@
+"""Who is attached to what: programs, masters, slaves and the names of axes.
+
+The numbers the servo interrupt needs are rows of the memory (written by `attach.py`); the
+names exist only here.
+"""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True)
+class Slave:
+    """One slave of a program's master."""
+
+    number: int
+    axis: int
+    name: str
+
+
+@dataclass(slots=True)
+class Attachments:
+    """Masters and slaves by program."""
+
+    _masters: dict[int, int] = field(default_factory=dict)
+    _slaves: dict[int, dict[int, Slave]] = field(default_factory=dict)
+
+    def master(self, program: int) -> int | None:
+        """The master of a program, if it has one."""
+        return self._masters.get(program)
+
+    def program(self, master: int) -> int | None:
+        """The program a master is attached to."""
+        return next((p for p, m in self._masters.items() if m == master), None)
+
+    def slaves(self, program: int) -> tuple[Slave, ...]:
+        """Slaves of a program in slave order."""
+        slaves = self._slaves.get(program, {})
+        return tuple(slaves[number] for number in sorted(slaves))
+
+    def axes(self, program: int) -> tuple[tuple[str, int], ...]:
+        """Name and number of every axis of a program in slave order."""
+        return tuple((slave.name, slave.axis) for slave in self.slaves(program))
+
+    def axis(self, program: int, name: str) -> int | None:
+        """The axis a program calls by `name` (any case)."""
+        upper = name.upper()
+        for slave in self._slaves.get(program, {}).values():
+            if slave.name.upper() == upper:
+                return slave.axis
+        return None
+
+    def slave_of(self, program: int, axis: int) -> int | None:
+        """The slave number of an axis in a program."""
+        return next((s.number for s in self.slaves(program) if s.axis == axis), None)
+
+    def owner(self, axis: int) -> int | None:
+        """The program whose master moves an axis."""
+        return next(
+            (
+                p
+                for p, slaves in self._slaves.items()
+                if any(s.axis == axis for s in slaves.values())
+            ),
+            None,
+        )
+
+    def put_master(self, program: int, master: int) -> None:
+        """Record a master."""
+        self._masters[program] = master
+
+    def put_slave(self, program: int, slave: Slave) -> None:
+        """Record a slave."""
+        self._slaves.setdefault(program, {})[slave.number] = slave
+
+    def drop_slave(self, program: int, number: int) -> None:
+        """Forget a slave."""
+        self._slaves.get(program, {}).pop(number, None)
+
+    def drop_program(self, program: int) -> None:
+        """Forget master and slaves of a program."""
+        self._masters.pop(program, None)
+        self._slaves.pop(program, None)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._masters.clear()
+        self._slaves.clear()
+
+    def copy(self) -> "Attachments":
+        """An independent copy, for snapshots."""
+        return Attachments(
+            dict(self._masters), {program: dict(s) for program, s in self._slaves.items()}
+        )

@@ -1,0 +1,103 @@
+"""DRIVE ON, OFF and RES, and the control keys that kill and release motion."""
+
+from openacr.map.numbers import (
+    AF4_DRIVE_ENABLED,
+    AF4_DRIVE_FAULT,
+    AF4_DRIVE_I_O_ENABLE,
+    AF4_DRIVE_RESET_REQUEST,
+    AF4_EXCESS_ERROR_FAULT,
+    AF4_KILL_ALL_MOTION_REQUEST,
+    AF4_WORD,
+    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_WORD,
+    AXI_ENABLE_TICKS,
+    AXI_RESET_TICKS,
+    MF1_KILL_ALL_MOVES_REQUEST,
+)
+from openacr.motion import registers
+from openacr.motion.card import Card
+from openacr.motion.permits import axes_of, master_of, needs_rest
+from openacr.motion.rows import axis_ints, master_word
+
+ENABLE_S = 0.01  # from the command to the status flag
+LIMIT_LATCHES = (
+    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
+    | AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+    | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+)
+
+
+def is_enabled(card: Card, axis: int) -> bool:
+    """Whether the drive of an axis reports enabled."""
+    return bool(card.memory.I[AF4_WORD + axis] & AF4_DRIVE_ENABLED)
+
+
+def has_fault(card: Card, axis: int) -> bool:
+    """Whether a drive fault or an excess error is latched."""
+    return bool(card.memory.I[AF4_WORD + axis] & (AF4_DRIVE_FAULT | AF4_EXCESS_ERROR_FAULT))
+
+
+def on(card: Card, axis: int) -> None:
+    """DRIVE ON: lift everything that bars the axis from moving, then enable the drive."""
+    needs_rest(card, axis)
+    if is_enabled(card, axis):
+        return
+    _lift(card, axis)
+    registers.ren(card, axis)
+    ticks = card.ticks(ENABLE_S) if card.memory.I[AF4_WORD + axis] & AF4_DRIVE_I_O_ENABLE else 1
+    card.memory.I[axis_ints(axis) + AXI_ENABLE_TICKS] = ticks
+
+
+def _lift(card: Card, axis: int) -> None:
+    """Clear kills of the axis and its master group, and the latches of the axis."""
+    rows = card.memory.I
+    master = master_of(card, axis)
+    for other in [axis] if master is None else axes_of(card, master):
+        rows[AF4_WORD + other] &= ~AF4_KILL_ALL_MOTION_REQUEST
+    if master is not None:
+        rows[master_word(master)] &= ~MF1_KILL_ALL_MOVES_REQUEST
+    rows[AF4_WORD + axis] &= ~(AF4_DRIVE_FAULT | AF4_EXCESS_ERROR_FAULT)
+    rows[AF5_WORD + axis] &= ~LIMIT_LATCHES
+
+
+def off(card: Card, axis: int) -> None:
+    """DRIVE OFF: the enable output goes off; no kill is set."""
+    needs_rest(card, axis)
+    disable(card, axis)
+
+
+def disable(card: Card, axis: int) -> None:
+    """Switch the drive of an axis off, moving or not."""
+    card.memory.I[axis_ints(axis) + AXI_ENABLE_TICKS] = 0
+    card.memory.I[AF4_WORD + axis] &= ~AF4_DRIVE_ENABLED
+
+
+def reset(card: Card, axis: int) -> None:
+    """DRIVE RES: pulse the reset output for 50 ms; the fault latch clears."""
+    card.memory.I[axis_ints(axis) + AXI_RESET_TICKS] = 0
+    card.memory.I[AF4_WORD + axis] &= ~AF4_DRIVE_FAULT
+    card.memory.I[AF4_WORD + axis] |= AF4_DRIVE_RESET_REQUEST
+
+
+def kill_all(card: Card) -> None:
+    """Set the kill request of every axis (CTRL-X)."""
+    for axis in range(card.model.axes):
+        card.memory.I[AF4_WORD + axis] |= AF4_KILL_ALL_MOTION_REQUEST
+
+
+def clear_kills(card: Card) -> None:
+    """Clear the kill requests of all axes and masters (CTRL-Y); nothing moves by it."""
+    for axis in range(card.model.axes):
+        card.memory.I[AF4_WORD + axis] &= ~AF4_KILL_ALL_MOTION_REQUEST
+    for master in range(card.model.masters):
+        card.memory.I[master_word(master)] &= ~MF1_KILL_ALL_MOVES_REQUEST
+
+
+def disable_all(card: Card) -> None:
+    """Switch every drive off (the second half of CTRL-Z)."""
+    for axis in range(card.model.axes):
+        disable(card, axis)

@@ -1,0 +1,166 @@
+"""Jog commands of an axis. Commands do not wait; the jog profiler does the rest."""
+
+from openacr.errors import CardError
+from openacr.kernel.homing_cy import HOME_START
+from openacr.kernel.jog_cy import JOG_CONTINUOUS, JOG_HOMING, JOG_IDLE, JOG_TO_TARGET
+from openacr.map.numbers import (
+    AF1_JOG_ACTIVE,
+    AF1_JOG_FORWARD,
+    AF1_JOG_LOCKOUT,
+    AF1_JOG_REVERSE,
+    AF5_HOME_FAILED,
+    AF5_HOME_SUCCESSFUL,
+    AF5_HOMING_IN_PROGRESS,
+    AF5_WORD,
+    AXF_JOG_CNT,
+    AXF_JOG_TARGET_CNT,
+    AXF_POSITION_CNT,
+    AXF_TARGET_CNT,
+    AXI_HOME_SEARCH,
+    AXI_HOME_STATE,
+    AXI_JOG_MODE,
+    AXI_JOG_REPLAN,
+    AXI_JOG_WANT,
+    AXI_MASTER,
+    AXI_SLAVE,
+    MSF_TARGET_CNT,
+)
+from openacr.messages import NOT_VALID_WHILE_IN_MOTION
+from openacr.motion.card import Card
+from openacr.motion.permits import (
+    master_moving,
+    master_of,
+    needs_free_way,
+    needs_no_kill,
+    needs_on,
+    needs_rest,
+    scale_of,
+)
+from openacr.motion.rows import axis_ints, axis_reals, axis_word, master_reals
+
+
+def _permit(card: Card, axis: int, direction: float) -> None:
+    needs_no_kill(card, axis)
+    needs_on(card, axis)
+    needs_free_way(card, axis, direction)
+
+
+def continuous(card: Card, axis: int, direction: int) -> None:
+    """JOG FWD (+1) or JOG REV (-1): run until JOG OFF."""
+    _permit(card, axis, direction)
+    word = axis_word(axis)
+    wanted, other = AF1_JOG_FORWARD, AF1_JOG_REVERSE
+    if direction < 0:
+        wanted, other = other, wanted
+    flags = card.memory.I[word] & ~other | wanted
+    if not flags & AF1_JOG_LOCKOUT:
+        flags |= AF1_JOG_ACTIVE
+    card.memory.I[word] = flags
+
+
+def absolute(card: Card, axis: int, position_u: float) -> None:
+    """JOG ABS: jog until the jog offset is `position_u`."""
+    card.take_written(axis)
+    _to_target(card, axis, position_u * scale_of(card, axis))
+
+
+def incremental(card: Card, axis: int, distance_u: float) -> None:
+    """JOG INC: from the jog offset, or from the target of a running JOG ABS or INC."""
+    card.take_written(axis)
+    reals = axis_reals(axis)
+    running = card.memory.I[axis_ints(axis) + AXI_JOG_MODE] == JOG_TO_TARGET
+    start = card.memory.F[reals + (AXF_JOG_TARGET_CNT if running else AXF_JOG_CNT)]
+    _to_target(card, axis, start + distance_u * scale_of(card, axis))
+
+
+def _to_target(card: Card, axis: int, target_cnt: float) -> None:
+    memory = card.memory
+    distance = target_cnt - memory.F[axis_reals(axis) + AXF_JOG_CNT]
+    _permit(card, axis, distance / scale_of(card, axis))
+    ints, word = axis_ints(axis), axis_word(axis)
+    if memory.I[ints + AXI_JOG_MODE] == JOG_HOMING:
+        _leave_homing(card, axis)
+    memory.F[axis_reals(axis) + AXF_JOG_TARGET_CNT] = target_cnt
+    memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
+    if distance == 0.0 and not memory.I[word] & AF1_JOG_ACTIVE:
+        return
+    if memory.I[word] & AF1_JOG_LOCKOUT and memory.I[ints + AXI_JOG_MODE] == JOG_IDLE:
+        return
+    memory.I[ints + AXI_JOG_MODE] = JOG_TO_TARGET
+    memory.I[ints + AXI_JOG_REPLAN] = 1
+    memory.I[word] |= AF1_JOG_ACTIVE
+
+
+def off(card: Card, axis: int) -> None:
+    """JOG OFF: ramp to rest with JOG DEC."""
+    memory = card.memory
+    ints, word = axis_ints(axis), axis_word(axis)
+    memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
+    mode = memory.I[ints + AXI_JOG_MODE]
+    if mode == JOG_HOMING:
+        _leave_homing(card, axis)
+    if mode in (JOG_HOMING, JOG_TO_TARGET):
+        memory.I[ints + AXI_JOG_WANT] = 0
+        memory.I[ints + AXI_JOG_MODE] = JOG_CONTINUOUS  # without a direction: ramp to rest
+    elif mode == JOG_IDLE:
+        memory.I[word] &= ~AF1_JOG_ACTIVE
+
+
+def _leave_homing(card: Card, axis: int) -> None:
+    card.memory.I[axis_ints(axis) + AXI_HOME_STATE] = 0
+    flags = card.memory.I[AF5_WORD + axis] & ~AF5_HOMING_IN_PROGRESS
+    card.memory.I[AF5_WORD + axis] = flags | AF5_HOME_FAILED
+
+
+def home(card: Card, axis: int, direction: int) -> None:
+    """JOG HOME: start the homing sequence in `direction` (+1 or -1)."""
+    needs_rest(card, axis)
+    _permit(card, axis, direction)
+    memory = card.memory
+    ints = axis_ints(axis)
+    memory.I[AF5_WORD + axis] &= ~(AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED)
+    memory.I[AF5_WORD + axis] |= AF5_HOMING_IN_PROGRESS
+    memory.I[ints + AXI_HOME_SEARCH] = direction
+    memory.I[ints + AXI_HOME_STATE] = HOME_START
+    memory.I[ints + AXI_JOG_MODE] = JOG_HOMING
+    memory.I[axis_word(axis)] |= AF1_JOG_ACTIVE
+
+
+def renew(card: Card, axis: int, position_u: float) -> None:
+    """JOG REN: the coordinated position becomes `position_u`, the jog offset the rest."""
+    master = master_of(card, axis)
+    if master is not None and master_moving(card, master):
+        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+    reals = axis_reals(axis)
+    card.take_written(axis)
+    memory = card.memory
+    total = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + AXF_JOG_CNT]
+    position = position_u * scale_of(card, axis)
+    _share(card, axis, position, total - position)
+
+
+def reset(card: Card, axis: int, offset_u: float) -> None:
+    """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest."""
+    if card.memory.I[axis_word(axis)] & AF1_JOG_ACTIVE:
+        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+    reals = axis_reals(axis)
+    card.take_written(axis)
+    memory = card.memory
+    total = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + AXF_JOG_CNT]
+    offset = offset_u * scale_of(card, axis)
+    _share(card, axis, total - offset, offset)
+
+
+def _share(card: Card, axis: int, position_cnt: float, jog_cnt: float) -> None:
+    """Divide the sum of coordinated position and jog offset anew; no setpoint changes."""
+    reals, ints = axis_reals(axis), axis_ints(axis)
+    memory = card.memory
+    memory.F[reals + AXF_POSITION_CNT] = position_cnt
+    memory.F[reals + AXF_TARGET_CNT] = position_cnt
+    memory.F[reals + AXF_JOG_CNT] = jog_cnt
+    memory.F[reals + AXF_JOG_TARGET_CNT] = jog_cnt
+    master = memory.I[ints + AXI_MASTER]
+    if master >= 0:
+        slave = memory.I[ints + AXI_SLAVE]
+        memory.F[master_reals(master) + MSF_TARGET_CNT + slave] = position_cnt
+    card.show(axis)

@@ -1,0 +1,119 @@
+"""What bars a motion command: the checks every motion command shares."""
+
+from openacr.errors import CardError
+from openacr.map.numbers import (
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVATE,
+    AF1_GEAR_ACTIVE,
+    AF1_JOG_ACTIVE,
+    AF4_KILL_ALL_MOTION_REQUEST,
+    AF4_WORD,
+    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_WORD,
+    AX_PPU,
+    AXI_MASTER,
+    AXI_ON,
+    MF1_IN_MOTION,
+    MF1_KILL_ALL_MOVES_REQUEST,
+    MSI_QUEUED,
+    MSI_SLAVE_AXIS,
+)
+from openacr.messages import (
+    AXIS_IS_OFF,
+    HARD_LIMIT,
+    MASTER_KILL_ACTIVE,
+    NOT_VALID_WHILE_IN_MOTION,
+    SLAVE_KILL_ACTIVE,
+    SOFT_LIMIT,
+)
+from openacr.motion.card import SLAVES, Card
+from openacr.motion.rows import (
+    axis_ints,
+    axis_parameter,
+    axis_word,
+    master_ints,
+    master_word,
+)
+
+OFFSETS_MOVING = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE
+
+
+def scale_of(card: Card, axis: int) -> float:
+    """Pulses per unit of an axis."""
+    return card.memory.S[axis_parameter(axis) + AX_PPU] or 1.0
+
+
+def master_of(card: Card, axis: int) -> int | None:
+    """The master an axis is attached to."""
+    master = card.memory.I[axis_ints(axis) + AXI_MASTER]
+    return master if master >= 0 else None
+
+
+def axes_of(card: Card, master: int) -> list[int]:
+    """The axes attached to a master, in slave order."""
+    first = master_ints(master) + MSI_SLAVE_AXIS
+    return [axis for axis in card.memory.I[first : first + SLAVES] if axis >= 0]
+
+
+def master_moving(card: Card, master: int) -> bool:
+    """Whether a master has a move, running, held or waiting."""
+    rows = card.memory.I
+    return bool(rows[master_word(master)] & MF1_IN_MOTION or rows[master_ints(master) + MSI_QUEUED])
+
+
+def axis_moving(card: Card, axis: int) -> bool:
+    """Whether any profiler moves an axis."""
+    master = master_of(card, axis)
+    if master is not None and master_moving(card, master):
+        return True
+    return bool(card.memory.I[axis_word(axis)] & OFFSETS_MOVING)
+
+
+def needs_rest(card: Card, axis: int) -> None:
+    """Refuse while the axis moves."""
+    if axis_moving(card, axis):
+        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+
+
+def needs_no_kill(card: Card, axis: int) -> None:
+    """Refuse while KAMR is set on the axis or on another axis of its master."""
+    master = master_of(card, axis)
+    axes = [axis] if master is None else axes_of(card, master)
+    if any(card.memory.I[AF4_WORD + other] & AF4_KILL_ALL_MOTION_REQUEST for other in axes):
+        raise CardError(SLAVE_KILL_ACTIVE)
+
+
+def needs_moves(card: Card, master: int) -> None:
+    """Refuse coordinated moves while a kill is set on the master or one of its axes."""
+    for axis in axes_of(card, master):
+        needs_no_kill(card, axis)
+    if card.memory.I[master_word(master)] & MF1_KILL_ALL_MOVES_REQUEST:
+        raise CardError(MASTER_KILL_ACTIVE)
+
+
+def needs_on(card: Card, axis: int) -> None:
+    """Refuse motion of an axis that is off."""
+    if not card.memory.I[axis_ints(axis) + AXI_ON]:
+        raise CardError(AXIS_IS_OFF)
+
+
+def needs_free_way(card: Card, axis: int, direction: float) -> None:
+    """Refuse motion farther outward while the limit latch of that side is set."""
+    flags = card.memory.I[AF5_WORD + axis]
+    if direction > 0:
+        hard, soft = (
+            AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+            AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+        )
+    else:
+        hard, soft = (
+            AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+            AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+        )
+    if direction and flags & hard:
+        raise CardError(HARD_LIMIT)
+    if direction and flags & soft:
+        raise CardError(SOFT_LIMIT)
