@@ -57,6 +57,7 @@ from openacr.views import F32, F64, I32
 FULL_SCALE_DAC = 32767.0
 DAC_COUNTS_PER_VOLT = 3276.8
 VOLTS_PER_DAC_COUNT = 10.0 / 32768.0
+ROUNDING_SHIFT = 6755399441055744.0
 STANDSTILL_CPS = 1e-9
 
 
@@ -92,7 +93,9 @@ def drive_volts(F: F64, I: I32, S: F32, f: int, i: int) -> None:
         counts = wanted
     if step != 1.0:
         counts = _coarse_dac(counts, step)
-    F[f + PLF_VOLTS] = rint(counts) * VOLTS_PER_DAC_COUNT + F[f + PLF_OFFSET_V]
+    # Adding 1.5 * 2**52 pushes the fraction out of a double: rint() without a call.
+    counts = (counts + ROUNDING_SHIFT) - ROUNDING_SHIFT
+    F[f + PLF_VOLTS] = counts * VOLTS_PER_DAC_COUNT + F[f + PLF_OFFSET_V]
 
 
 def _coarse_dac(counts: float, step: float) -> float:
@@ -248,10 +251,11 @@ def velocity_drive(F: F64, f: int, volts: float, limit: float, dt: float) -> Non
     v0: float = F[f + PLF_VELOCITY_CPS]
     lag: float = F[f + PLF_LAG_S]
     gap: float = target - v0
-    ramp_s: float = (fabs(gap) - limit * lag) / limit
-    if ramp_s <= 0.0:
+    excess: float = fabs(gap) - limit * lag
+    if excess <= 0.0:
         _lag_approach(F, f, target, dt, F[f + PLF_LAG_DECAY])
         return
+    ramp_s: float = excess / limit
     rate: float = limit
     if gap < 0.0:
         rate = -limit

@@ -10,7 +10,7 @@ and DAC GAIN the loop is stable; one of them negative, or an encoder that counts
 way, makes the axis run away, as on the machine.
 """
 
-from openacr.cmath import fabs, floor
+from openacr.cmath import fabs
 from openacr.map.numbers import (
     PLF_BASE,
     PLF_CACHED_DT_S,
@@ -112,7 +112,11 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
         torque_drive(F, f, 0, dt)
     _hard_stops(F, f)
     position = F[f + PLF_POSITION_CNT]
-    F[f + PLF_RAW_COUNT] = floor(position)
+    # floor() without a call; no position is beyond the range of an integer
+    whole: float = float(int(position))
+    if whole > position:
+        whole -= 1.0
+    F[f + PLF_RAW_COUNT] = whole
     I[i + PLI_MARKER_EDGES] = 0
     if F[f + PLF_QUIET_LOW_CNT] <= position and position < F[f + PLF_QUIET_HIGH_CNT]:
         return 0
