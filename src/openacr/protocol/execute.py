@@ -12,7 +12,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from openacr.errors import CardError, MapError
-from openacr.kernel.words_cy import round32, wrap32
+from openacr.kernel.words_cy import wrap32
+from openacr.map.memory import long_of
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest
 from openacr.protocol.memory import Conversion, MaskMemory, Peek, Poke, VariableAddress
@@ -33,7 +34,10 @@ WORD_MASK = 0xFFFFFFFF
 
 
 class Host(Protocol):
-    """The card as packets see it. Unknown numbers and addresses raise MapError."""
+    """The card as packets see it.
+
+    Unknown numbers raise CardError or MapError, unknown addresses MapError.
+    """
 
     def read_parameter(self, number: int) -> int | float:
         """An int for LONG parameters, a float for all others."""
@@ -77,13 +81,13 @@ def _value(host: Host, number: int) -> int | float:
     """A parameter, or 0 where the map has none."""
     try:
         return host.read_parameter(number)
-    except MapError:
+    except (MapError, CardError):
         return 0
 
 
 def _long(value: int | float) -> int:
-    """A value as 32-bit integer, rounded like any store into a LONG."""
-    return value if isinstance(value, int) else round32(value)
+    """A value as 32-bit integer, as a store into a LONG parameter would make it."""
+    return value if isinstance(value, int) else long_of(value)
 
 
 def _finite(value: float) -> float:

@@ -1,0 +1,163 @@
+"""The card's memory as peek, poke and address packets see it: 32-bit words.
+
+Real addresses differ from card to card, so hosts ask for them. This card answers with:
+
+    system pointers   of all documented cards: the address of the global variables, or 0
+    0x00411000...     parameter p at 0x00410000 + p
+    0x00500000        number of global variables, then P0, P1, ... as FP64 (two words each)
+    0x00800000...     heap: numeric arrays, each a count followed by its elements
+    0x01000000...     a block per program and kind: a count followed by the variables, or
+                      by the addresses of the arrays
+
+Strings have no words here: their address is 0, as if none were dimensioned.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openacr.errors import MapError
+from openacr.map import numbers as at
+from openacr.map.kinds_cy import kind_of
+from openacr.map.memory import Memory
+from openacr.protocol.memory import VariableKind
+
+SYSTEM_POINTERS = frozenset((0x400008, 0x400009, 0x403E08, 0xC08008))
+PARAMETERS = 0x410000
+GLOBALS = 0x500000
+HEAP = 0x800000
+LOCALS = 0x1000000
+BLOCK_WORDS = 1 << 20
+KINDS = len(VariableKind)
+PROGRAMS = 16
+
+_HEAP_FIRST = at.HEAP_BYTE_BASE // 4
+_HEAP_WORDS = at.HEAP_BYTES // 4
+_FP64_WORDS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class _Rows:
+    """Where the storage rows of a program tell about one kind of variables."""
+
+    base: int
+    count: int
+    words: int  # of one variable, or of one reference to an array
+    element_words: int = 0  # of the arrays a table refers to
+
+    @property
+    def is_table(self) -> bool:
+        """The block holds references to arrays."""
+        return self.element_words > 0
+
+
+_ROWS = {
+    VariableKind.DV: _Rows(at.STI_DV_BASE, at.STI_DV_COUNT, _FP64_WORDS),
+    VariableKind.DA: _Rows(at.STI_DA_BASE, at.STI_DA_COUNT, 1, _FP64_WORDS),
+    VariableKind.SV: _Rows(at.STI_SV_BASE, at.STI_SV_COUNT, 1),
+    VariableKind.SA: _Rows(at.STI_SA_BASE, at.STI_SA_COUNT, 1, 1),
+    VariableKind.LV: _Rows(at.STI_LV_BASE, at.STI_LV_COUNT, 1),
+    VariableKind.LA: _Rows(at.STI_LA_BASE, at.STI_LA_COUNT, 1, 1),
+}
+
+
+class AddressSpace:
+    """Words and addresses of one card's memory."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+
+    def parameter_address(self, number: int) -> int:
+        """Where a parameter lies; 0 when there is none of that number."""
+        if 0 <= number < self._globals():
+            return GLOBALS + 1 + _FP64_WORDS * number
+        return PARAMETERS + number if self._is_word_parameter(number) else 0
+
+    def variable_address(self, program: int, kind: int) -> int:
+        """Where the variables of one kind of a program lie; 0 when it has none."""
+        block = program * KINDS + kind
+        return LOCALS + block * BLOCK_WORDS if self._block(block) else 0
+
+    def read_words(self, address: int, count: int) -> list[int]:
+        """That many words from an address on; MapError where there is no memory."""
+        return [self._word(address + n) for n in range(count)]
+
+    def write_words(self, address: int, words: Sequence[int]) -> None:
+        """Store words; MapError, and nothing stored, unless all can be written."""
+        places = [self._place(address + n) for n in range(len(words))]
+        for n, place in enumerate(places):
+            if place is None:
+                raise MapError(f"address 0x{address + n:X} cannot be written")
+        for place, word in zip(places, words, strict=True):
+            if place is not None:
+                self._memory.I[place] = word
+
+    def _word(self, address: int) -> int:
+        place = self._place(address)
+        if place is not None:
+            return self._memory.I[place]
+        computed = self._computed(address)
+        if computed is None:
+            raise MapError(f"there is no memory at address 0x{address:X}")
+        return computed
+
+    def _place(self, address: int) -> int | None:
+        """Index of the word in the state buffer, for words that hold a value."""
+        if self._is_word_parameter(address - PARAMETERS):
+            return address - PARAMETERS
+        if 0 < address - GLOBALS <= _FP64_WORDS * self._globals():
+            return _FP64_WORDS * at.USER_BASE + address - GLOBALS - 1
+        if 0 <= address - HEAP < _HEAP_WORDS:
+            place = _HEAP_FIRST + address - HEAP
+            return place if self._is_element(place) else None
+        block, offset = divmod(address - LOCALS, BLOCK_WORDS)
+        found = self._block(block)
+        if found is None or found[0].is_table or not 0 < offset <= found[2] * found[0].words:
+            return None
+        rows, base, _ = found
+        return base * rows.words + offset - 1
+
+    def _computed(self, address: int) -> int | None:
+        """Counts and pointers, which no program can change."""
+        if address in SYSTEM_POINTERS:
+            return GLOBALS if self._globals() else 0
+        if address == GLOBALS:
+            return self._globals()
+        if 0 <= address - HEAP < _HEAP_WORDS:
+            return self._memory.I[_HEAP_FIRST + address - HEAP]
+        block, offset = divmod(address - LOCALS, BLOCK_WORDS)
+        found = self._block(block)
+        if found is None or offset > found[2]:
+            return None
+        _, base, count = found
+        return self._array_address(base + offset - 1) if offset else count
+
+    def _array_address(self, reference: int) -> int:
+        """Address of the array whose reference is this word; 0 while it has no elements."""
+        header = self._memory.I[reference]
+        return HEAP + header - _HEAP_FIRST if header else 0
+
+    def _is_element(self, place: int) -> bool:
+        """Whether a word of the heap is an element; counts and tables hold the heap together."""
+        return any(
+            header < place <= header + self._memory.I[header] * rows.element_words
+            for rows, base, count in filter(None, map(self._block, range(PROGRAMS * KINDS)))
+            if rows.is_table
+            for header in self._memory.I[base : base + count]
+            if header
+        )
+
+    def _globals(self) -> int:
+        return self._memory.I[at.SYSI_BASE + at.SYSI_P_COUNT]
+
+    def _is_word_parameter(self, number: int) -> bool:
+        return kind_of(self._memory.I, number) in (at.KIND_LONG, at.KIND_FP32)
+
+    def _block(self, block: int) -> tuple[_Rows, int, int] | None:
+        """Rows, base index and count of a block of locals; None when there is none."""
+        program, kind = divmod(block, KINDS)
+        if not 0 <= program < PROGRAMS or kind not in _ROWS:
+            return None
+        rows = _ROWS[VariableKind(kind)]
+        start = at.STI_BASE + program * at.STI_STRIDE
+        count = self._memory.I[start + rows.count]
+        return (rows, self._memory.I[start + rows.base], count) if count else None
