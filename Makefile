@@ -62,7 +62,7 @@ $(BUILT): $(CORE_SOURCES) $(INSTALLED)
 
 demo: $(BUILT)
 	@mkdir -p out
-	$(PY) -m openacr.cli.main run examples/gantry --for 60 --plot out/gantry.png
+	$(VENV)/bin/openacr run examples/gantry --for 60 --plot out/gantry.png
 	@echo "the picture is in out/gantry.png"
 
 lint: $(BUILT)

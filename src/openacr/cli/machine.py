@@ -1,0 +1,103 @@
+"""What a run needs of a card, and that card as a scenario sees it."""
+
+from collections.abc import Callable, Sequence
+from math import nan
+from typing import TYPE_CHECKING, Protocol
+
+from openacr.cli import card_view
+from openacr.errors import CardError
+from openacr.map.memory import Memory
+from openacr.scenario import State
+
+if TYPE_CHECKING:
+    from openacr.cli.plots import Curves
+    from openacr.cli.report import AxisReport
+
+
+class Machine(Protocol):
+    """A card with its project loaded, at rest between two ticks."""
+
+    @property
+    def memory(self) -> Memory:
+        """All parameters and flags."""
+
+    @property
+    def tick(self) -> int:
+        """Servo periods since power-up."""
+
+    @property
+    def time_s(self) -> float:
+        """Simulated seconds since power-up."""
+
+    @property
+    def period_s(self) -> float:
+        """Seconds per tick."""
+
+    def digest(self) -> str:
+        """Fingerprint of the whole state."""
+
+    def advance(self, ticks: int) -> None:
+        """Let the card live for so many ticks."""
+
+    def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
+        """Let the card live until a flag has this state, at most so many ticks."""
+
+    def listen(self, hear: Callable[[str], None]) -> None:
+        """Call `hear` with everything the card prints."""
+
+    def type_text(self, text: str, stream: str | None) -> None:
+        """Type text on a stream, by default the terminal of the run."""
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch an input."""
+
+    def drag(self, axis: int, by_u: float, over_s: float) -> None:
+        """Move the load of an axis by hand."""
+
+    def axis_reports(self) -> Sequence["AxisReport"]:
+        """Position and extremes of every axis."""
+
+    def record(self, every_tk: int) -> None:
+        """Record every so many ticks from now on."""
+
+    def curves(self, title: str) -> "Curves":
+        """Give what was recorded."""
+
+
+class MachineWorld:
+    """The world of a scenario made of a machine."""
+
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+        self._begin_tk = machine.tick
+        self.set_input = machine.set_input
+        self.type_text = machine.type_text
+        self.drag = machine.drag
+
+    @property
+    def tick(self) -> int:
+        """Servo periods since the start of the run."""
+        return self._machine.tick - self._begin_tk
+
+    def read(self, parameter: int) -> float:
+        """Read one parameter; one that does not exist (yet) is not a number."""
+        try:
+            return self._machine.memory.read(parameter)
+        except CardError:
+            return nan
+
+    def bit(self, number: int) -> bool:
+        """Read one flag."""
+        return self._machine.memory.bit(number)
+
+    def position_u(self, axis: int) -> float:
+        """Read the actual position of an axis in units."""
+        return card_view.actual_u(self._machine.memory, axis)
+
+    def commanded_u(self, axis: int) -> float:
+        """Read the commanded position of an axis in units."""
+        return card_view.commanded_u(self._machine.memory, axis)
+
+    def program_state(self, program: int) -> State:
+        """Say what a program is doing."""
+        return card_view.program_state(self._machine.memory, program)

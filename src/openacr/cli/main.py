@@ -1,0 +1,131 @@
+"""The command `openacr`: one lazy entry per sub-command, one place for errors.
+
+A sub-command is imported when it is used, so that `openacr --help` and tab completion
+answer at once.
+"""
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.metadata import version
+from typing import Annotated, Any, NamedTuple
+
+import typer
+from typer.core import TyperGroup
+
+from openacr.errors import OpenacrError
+
+BAD_INPUT = 2
+INTERRUPTED = 130
+
+
+class Entry(NamedTuple):
+    """Where a sub-command is, and the first line of its help."""
+
+    module: str
+    function: str
+    summary: str
+
+
+COMMANDS = {
+    "run": Entry("run", "run", "Run a project: as fast as possible, or paced by the wall clock."),
+    "serve": Entry(
+        "serve",
+        "serve",
+        "Run a card in real time and let hosts talk to it over TCP and serial lines.",
+    ),
+    "term": Entry(
+        "term",
+        "term",
+        "Talk to a card: interactively, or line by line when standard input is piped.",
+    ),
+    "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
+    "check": Entry("check", "check_file", "Find every error in a controller file."),
+    "param": Entry(
+        "lookup",
+        "show_parameter",
+        "Explain a parameter: meaning, type, access, packet address.",
+    ),
+    "flag": Entry(
+        "lookup",
+        "show_flag",
+        "Explain a flag: meaning, access, update speed, parameter that holds it.",
+    ),
+}
+
+
+class Commands(TyperGroup):
+    """The sub-commands by name; turns errors a user can cause into one line and exit code 2."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands.update(dict.fromkeys(COMMANDS))  # for suggestions after a slip
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Name the sub-commands in the order of their table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Import a sub-command."""
+        if cmd_name not in COMMANDS:
+            return None
+        entry = COMMANDS[cmd_name]
+        single = typer.Typer(add_completion=False, rich_markup_mode=None)
+        module = import_module(f"openacr.cli.{entry.module}")
+        single.command(cmd_name)(getattr(module, entry.function))
+        return typer.main.get_command(single)
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """List the sub-commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, entry.summary) for name, entry in COMMANDS.items()])
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run a sub-command; what the user got wrong is said in one line."""
+        try:
+            return super().invoke(ctx)
+        except OpenacrError as error:
+            typer.echo(f"error: {error}", err=True)
+            raise typer.Exit(BAD_INPUT) from None
+
+
+app = typer.Typer(
+    cls=Commands,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+def _show_version(is_wanted: bool) -> None:
+    if is_wanted:
+        typer.echo(f"openacr {version('openacr')}")
+        raise typer.Exit
+
+
+@app.callback()
+def openacr(
+    is_version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
+        ),
+    ] = False,
+) -> None:
+    """A software ACR motion controller: run, serve, check and debug AcroBASIC projects."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line; Ctrl-C ends it without a trace."""
+    for stream in (sys.stdout, sys.stderr):
+        # Program output may hold characters that the terminal cannot show.
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        app(arguments, prog_name="openacr")
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+
+
+if __name__ == "__main__":
+    main()

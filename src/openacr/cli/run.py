@@ -1,0 +1,126 @@
+"""`openacr run`: run a project in simulated time, show and write what came out.
+
+Everything the user said is checked before anything runs: the project, the scenario, and
+that every result can be written.
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.cli.session import Until
+    from openacr.scenario import Scenario
+
+LONGEST_S = 600.0  # a run that is to end by itself ends here if it does not
+
+
+def run(
+    project: Annotated[Path, typer.Argument(help="Project folder or controller file (.8k).")],
+    for_s: Annotated[
+        float | None, typer.Option("--for", metavar="SECONDS", help="Simulated time at most.")
+    ] = None,
+    until: Annotated[
+        str | None,
+        typer.Option(
+            metavar="BIT|idle",
+            help="End when a flag is set (516), is clear again (-516), or nothing runs or moves.",
+        ),
+    ] = None,
+    realtime: Annotated[bool, typer.Option("--realtime", help="No faster than real.")] = False,
+    scenario: Annotated[
+        Path | None, typer.Option(help="Inputs, actions, expectations; default: the project's.")
+    ] = None,
+    trace: Annotated[
+        Path | None, typer.Option(help="Write the motion of all axes (.csv, .parquet).")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the motion of all axes (.png, .svg, .html).")
+    ] = None,
+    summary: Annotated[Path | None, typer.Option(help="Write the outcome as JSON.")] = None,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", help="Show only what the programs print.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the outcome as JSON, program output on stderr.")
+    ] = False,
+) -> None:
+    """Run a project: as fast as possible, or paced by the wall clock.
+
+    Without --for and --until the run ends when no program runs and nothing moves, or after
+    600 simulated seconds. Exit code 1: a program ended in an error or an expectation
+    failed; 2: something about the input is wrong.
+    """
+    from openacr.cli.session import Options, Session, Until
+    from openacr.project import find_project
+    from openacr.scenario import load_scenario
+
+    wanted = parse_until(until)
+    check_outputs(trace, plot, summary)
+    found = find_project(project)
+    scenario_path = scenario or found.scenario
+    story = load_scenario(scenario_path) if scenario_path else None
+    if wanted is None and for_s is None and not (story and story.duration_s):
+        wanted = Until()
+    options = Options(
+        project=project,
+        limit_s=limit_s(for_s, story),
+        until=wanted,
+        realtime=realtime,
+        trace=trace,
+        plot=plot,
+        summary=summary,
+        is_quiet=quiet,
+        is_json=as_json,
+    )
+    from openacr.cli.controlled import load  # the heaviest part: not for a slip above
+
+    session = Session(options, load(project), story)
+    raise typer.Exit(session.run())
+
+
+def parse_until(text: str | None) -> "Until | None":
+    """Read `--until`: idle, a flag number, or a flag number with `-` for clear."""
+    from openacr.cli.session import Until
+
+    if text is None:
+        return None
+    if text.strip().lower() == "idle":
+        return Until()
+    number = text.strip().upper().removeprefix("-").removeprefix("BIT").strip()
+    if not (number.isascii() and number.isdigit()):
+        hint = "give `idle`, a flag that is to be set (516) or one that is to be clear (-516)"
+        raise UserError(f"--until {text}: {hint}")
+    from openacr.map import flag
+
+    flag(int(number))
+    return Until(int(number), not text.strip().startswith("-"))
+
+
+def limit_s(for_s: float | None, scenario: "Scenario | None") -> float:
+    """Say how long a run lasts at most."""
+    if for_s is not None:
+        if not 0.0 < for_s < float("inf"):
+            raise UserError(f"--for {for_s:g}: give a number of seconds above 0")
+        return for_s
+    return (scenario.duration_s if scenario else None) or LONGEST_S
+
+
+def check_outputs(trace: Path | None, plot: Path | None, summary: Path | None) -> None:
+    """Refuse results that could not be written, before anything runs."""
+    from openacr.cli import output
+
+    paths = (trace, plot, summary)
+    output.require_different(paths)
+    if trace:
+        output.require_trace(trace)
+    if plot:
+        from openacr.cli.plots import require
+
+        require(plot)
+    for path in paths:
+        if path:
+            output.require_writable(path)

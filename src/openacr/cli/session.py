@@ -1,0 +1,196 @@
+"""One run from its first tick to its last line of output."""
+
+import sys
+import time
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+from openacr.cli import card_view, output
+from openacr.cli.machine import Machine, MachineWorld
+from openacr.cli.progress import Bar, bar_for
+from openacr.cli.report import Report, report_on, show_report, show_verdicts, summary
+from openacr.scenario import Play, Scenario
+
+STEP_S = 0.05  # between two looks at the progress bar; also the slow scan of the card
+IDLE_S = 0.1  # a card is idle when nothing ran or moved for two slow scans
+SAMPLES = 200_000  # recorded per axis at most: every tick for 100 s at the default period
+OK, FAILED = 0, 1
+
+
+class Stop(Enum):
+    """Why a run ended."""
+
+    TIME = "time"
+    BIT = "bit"
+    IDLE = "idle"
+
+
+@dataclass(frozen=True, slots=True)
+class Until:
+    """When a run ends before its time: a flag has a state, or nothing happens any more."""
+
+    bit: int | None = None
+    is_on: bool = True
+
+    def __str__(self) -> str:
+        if self.bit is None:
+            return "idle"
+        return f"BIT{self.bit} {'set' if self.is_on else 'clear'}"
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a run goes on and what it leaves behind."""
+
+    project: Path
+    limit_s: float
+    until: Until | None = None
+    realtime: bool = False
+    trace: Path | None = None
+    plot: Path | None = None
+    summary: Path | None = None
+    is_quiet: bool = False
+    is_json: bool = False
+
+
+class Session:
+    """One run from its first tick to its last line of output."""
+
+    def __init__(
+        self,
+        options: Options,
+        machine: Machine,
+        scenario: Scenario | None,
+    ) -> None:
+        self._options = options
+        self._machine = machine
+        self._until = options.until
+        self._limit_s = options.limit_s
+        self._play = Play(scenario or Scenario(), machine.period_s)
+        self._has_scenario = scenario is not None
+        self._world = MachineWorld(machine)
+        # The run counts from here, whatever the loading took.
+        self._begin_tk = machine.tick
+        self._end_tk = machine.tick + max(1, round(options.limit_s / machine.period_s))
+        self._busy_tk = machine.tick
+        self._was_other = False
+        # With --json standard output holds the summary and nothing else.
+        self._printer = sys.stderr if options.is_json else sys.stdout
+        self._is_prompt = self._printer.isatty() or options.realtime
+
+    def run(self) -> int:
+        """Let the card live, write and show what came out, and give the exit code."""
+        self._prepare()
+        return self._conclude(self._live())
+
+    def _prepare(self) -> None:
+        """Connect what listens to the card and records it."""
+        self._machine.listen(self._hear)
+        if self._options.trace or self._options.plot:
+            self._machine.record(max(1, -(-self._end_tk // SAMPLES)))
+
+    def _hear(self, text: str) -> None:
+        self._play.heard(text)
+        self._printer.write(text)
+        if self._is_prompt:
+            self._printer.flush()
+
+    def _live(self) -> float:
+        """Let the card live until the run is over; give the seconds of real time it took."""
+        started_s = time.perf_counter()
+        is_wanted = not self._options.is_quiet
+        with bar_for(sys.stderr, self._limit_s, is_wanted=is_wanted) as bar:
+            stop = self._pace(bar, started_s)
+        self._play.finish(self._world)
+        self._printer.flush()
+        if stop is Stop.TIME and self._until is not None:
+            self._note(f"{self._until} was not reached within {self._limit_s:g} s")
+        return time.perf_counter() - started_s
+
+    def _pace(self, bar: Bar, started_s: float) -> Stop:
+        machine = self._machine
+        begin_s = machine.time_s
+        while True:
+            self._play.step(self._world)
+            if stop := self._reached():
+                return stop
+            if self._advance(self._next_tick() - machine.tick):
+                return Stop.BIT
+            lived_s = machine.time_s - begin_s
+            if self._options.realtime:
+                time.sleep(max(0.0, lived_s - (time.perf_counter() - started_s)))
+            wall_s = max(1e-9, time.perf_counter() - started_s)
+            running = card_view.running_programs(machine.memory)
+            bar.show(lived_s, lived_s / wall_s, running)
+
+    def _next_tick(self) -> int:
+        """How far the card may run before the next look."""
+        now = self._machine.tick
+        step_tk = max(1, round(STEP_S / self._machine.period_s))
+        known = self._play.next_tick(self._world.tick)
+        planned_tk = self._end_tk if known is None else self._begin_tk + known
+        return min(self._end_tk, now - now % step_tk + step_tk, planned_tk)
+
+    def _advance(self, ticks: int) -> bool:
+        """Let the card live; True when the flag to wait for has come."""
+        until, machine = self._until, self._machine
+        if until is None or until.bit is None:
+            machine.advance(ticks)
+            return False
+        # A flag that is to be clear has to be set first: at power-up nearly all are clear.
+        if not until.is_on and not self._was_other:
+            self._was_other = machine.advance_until(until.bit, True, ticks)
+            return False
+        return machine.advance_until(until.bit, until.is_on, ticks)
+
+    def _reached(self) -> Stop | None:
+        machine = self._machine
+        if machine.tick >= self._end_tk:
+            return Stop.TIME
+        if self._until is None or self._until.bit is not None:
+            return None
+        if not card_view.is_idle(machine.memory) or self._play.next_tick(self._world.tick):
+            self._busy_tk = machine.tick
+        quiet_s = (machine.tick - self._busy_tk) * machine.period_s
+        return Stop.IDLE if quiet_s >= IDLE_S else None
+
+    def _conclude(self, wall_s: float) -> int:
+        """Write the files, print the table and give the exit code."""
+        report = report_on(self._machine, self._begin_tk, wall_s)
+        if self._has_scenario:
+            period_s = self._machine.period_s
+            times = {name: tick * period_s for name, tick in self._play.checkpoints.items()}
+            verdicts = tuple(self._play.verdicts)
+            report = replace(report, verdicts=verdicts, checkpoints_s=times)
+        self._write(report)
+        self._show(report)
+        return FAILED if report.has_failed else OK
+
+    def _write(self, report: Report) -> None:
+        options = self._options
+        if options.summary:
+            output.write_summary(options.summary, summary(report))
+        if options.trace or options.plot:
+            curves = self._machine.curves(options.project.resolve().stem)
+            if options.trace:
+                output.write_trace(options.trace, curves)
+            if options.plot:
+                from openacr.cli.plots import draw
+
+                output.write_whole(options.plot, lambda partial: draw(curves, partial))
+
+    def _show(self, report: Report) -> None:
+        from rich.console import Console
+
+        if self._options.is_json:
+            sys.stdout.write(output.summary_text(summary(report)))
+        elif not self._options.is_quiet:
+            show_report(report, Console())
+        show_verdicts(report, Console(stderr=True))
+        for moment in self._play.idle_actions:
+            self._note(f"an action of the scenario never came: {moment}")
+
+    def _note(self, text: str) -> None:
+        if not self._options.is_quiet:
+            print(f"note: {text}", file=sys.stderr)

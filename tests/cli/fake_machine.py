@@ -1,0 +1,76 @@
+"""A card without motion: real memory, and a world of the test's own making."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from openacr.cli.plots import AxisCurves, Curves
+from openacr.cli.report import AxisReport
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+PERIOD_S = 0.0005
+
+
+@dataclass
+class FakeMachine:
+    """Lives tick by tick; `world` is called behind every tick."""
+
+    world: Callable[["FakeMachine"], None] = lambda machine: None
+    memory: Memory = field(default_factory=Memory)
+    tick: int = 0
+    period_s: float = PERIOD_S
+    typed: list[tuple[int, str, str | None]] = field(default_factory=list)
+    recorded_every_tk: int = 0
+    reports: tuple[AxisReport, ...] = ()
+    hear: Callable[[str], None] = lambda text: None
+
+    @property
+    def time_s(self) -> float:
+        return self.tick * self.period_s
+
+    def digest(self) -> str:
+        return self.memory.digest()
+
+    def advance(self, ticks: int) -> None:
+        for _ in range(ticks):
+            self.tick += 1
+            self.world(self)
+
+    def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
+        for _ in range(ticks):
+            if self.memory.bit(bit) is is_on:
+                return True
+            self.advance(1)
+        return self.memory.bit(bit) is is_on
+
+    def listen(self, hear: Callable[[str], None]) -> None:
+        self.hear = hear
+
+    def type_text(self, text: str, stream: str | None) -> None:
+        self.typed.append((self.tick, text, stream))
+
+    def set_input(self, bit: int, on: bool) -> None:
+        self.memory.set_bit(bit, on)
+
+    def drag(self, axis: int, by_u: float, over_s: float) -> None:
+        return None
+
+    def axis_reports(self) -> tuple[AxisReport, ...]:
+        return self.reports
+
+    def record(self, every_tk: int) -> None:
+        self.recorded_every_tk = every_tk
+
+    def curves(self, title: str) -> Curves:
+        time_s = np.arange(5) * self.period_s * self.recorded_every_tk
+        values = np.array([0.0, 1.0, 2.0, 3.0, 3.0])
+        axis = AxisCurves(2, values, values, values, values / 1000)
+        return Curves(time_s, (axis,), (), title)
+
+    def store_program(self, program: int) -> None:
+        self.memory.I[at.STI_BASE + program * at.STI_STRIDE + at.STI_CODE_BYTES] = 100
+
+    def set_running(self, program: int, on: bool) -> None:
+        self.memory.I[at.PF_WORD + program] = at.PF_PROGRAM_RUNNING if on else 0
