@@ -389,6 +389,7 @@ def test_a_step_skipped_over_its_moment_is_made_up_for() -> None:
         ),
         ("[[at]]\ntime_s = = 1", "s.toml:2:10: Invalid value"),
         ("[[at]", "s.toml:1:5: Expected"),
+        ("[[at]]\ntime_s = inf\nset = [1]", "s.toml:2:1: numbers have to be finite"),
         ("at = 3", "s.toml:1:1: at: expected `array`, got `int`"),
     ],
 )

@@ -2,7 +2,8 @@
 
 import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from math import isfinite
 from pathlib import Path
 
 import msgspec
@@ -24,7 +25,7 @@ def load_scenario(path: Path) -> Scenario:
     """Read and check the scenario file at `path`."""
     data = read_bytes(path)
     try:
-        text = data.decode("utf-8")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise SourceError("scenario files are UTF-8 text", path=str(path), line=line) from None
@@ -34,7 +35,10 @@ def load_scenario(path: Path) -> Scenario:
 def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
     """Check the text of a scenario; the first thing wrong is raised with its place."""
     try:
-        scenario = msgspec.convert(tomllib.loads(text), Scenario)
+        raw = tomllib.loads(text)
+        for where in _not_finite(raw, ()):
+            raise _at(text, path, where, "numbers have to be finite")
+        scenario = msgspec.convert(raw, Scenario)
     except tomllib.TOMLDecodeError as error:
         raise _syntax(error, text, path) from None
     except msgspec.ValidationError as error:
@@ -42,6 +46,18 @@ def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
     for problem in problems(scenario):
         raise _at(text, path, problem.steps, problem.text, problem.hint)
     return scenario
+
+
+def _not_finite(value: object, where: tuple[Step, ...]) -> Iterator[tuple[Step, ...]]:
+    """Find infinities and NaN: they pass every comparison of ranges."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _not_finite(inner, (*where, key))
+    elif isinstance(value, list):
+        for index, inner in enumerate(value):
+            yield from _not_finite(inner, (*where, index))
+    elif isinstance(value, float) and not isfinite(value):
+        yield where
 
 
 def _at(text: str, path: str, where: Sequence[Step], what: str, hint: str = "") -> SourceError:

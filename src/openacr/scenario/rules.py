@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from msgspec import UNSET, Struct
 from msgspec.structs import fields
 
+from openacr.errors import MapError
+from openacr.map import flag, parameter
 from openacr.scenario.schema import Action, Condition, Drag, Expectation, Scenario
 
 Step = str | int
@@ -103,6 +105,16 @@ def _moment(
         yield from _condition((*where, "when"), item.when)
 
 
+def _exists(where: tuple[Step, ...], key: str, number: int | None) -> Iterator[Problem]:
+    """Look a parameter or flag number up: a wrong one would only be noticed in the run."""
+    if number is None:
+        return
+    try:
+        parameter(number) if key == "parameter" else flag(number)
+    except MapError as error:
+        yield Problem((*where, key), str(error))
+
+
 def _unknown(where: tuple[Step, ...], name: str, known: AbstractSet[str]) -> Problem:
     return Problem(where, f"no checkpoint {name!r}", "known: " + ", ".join(sorted(known)))
 
@@ -129,6 +141,8 @@ def _condition(where: tuple[Step, ...], condition: Condition) -> Iterator[Proble
         yield Problem(
             where, f"what of {subject}?", " or ".join(f"`{c}`" for c in sorted(companions))
         )
+    yield from _exists(where, "parameter", condition.parameter)
+    yield from _exists(where, "bit", condition.bit)
     if {"is", "becomes"} <= keys:
         yield Problem((*where, "becomes"), "`is` and `becomes` exclude each other")
 
@@ -170,6 +184,8 @@ def _expectation(
         yield Problem((*where, "is"), "a flag is true or false")
     if subject == "parameter" and isinstance(item.is_, bool):
         yield Problem((*where, "is"), "a parameter is a number")
+    yield from _exists(where, "parameter", item.parameter)
+    yield from _exists(where, "flag", item.flag)
     if item.between is not None:
         if keys & {"time_s", "when", "after"}:
             yield Problem((*where, "between"), "`between` has its own moments")
