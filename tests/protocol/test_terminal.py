@@ -84,6 +84,7 @@ SCRIPTS: dict[str, tuple[bytes, list[Event]]] = {
         [Received(SetLong(12288, 0x121110)), Line("x")],
     ),
     "typographic": ("PRINT “é”\r".encode(), [Line("PRINT “é”")]),
+    "windows": (b"PRINT \x93\xe9\x94\x96\xff\r", [Line('PRINT "é"-ÿ')]),
     "other controls": (b"\x01A\x03\tB\r", [Line("A\tB")]),
     "long": (b"Z" * 256 + b"\rA\r", [LineTooLong(), Line("A")]),
     "long but erased": (b"Z" * 257 + b"\x08\x08\r", [Line("Z" * 255)]),
@@ -137,6 +138,12 @@ def test_a_late_line_feed_behind_cr_does_nothing() -> None:
 
 def test_erasing_moves_the_cursor_back_and_stops_at_the_start() -> None:
     assert answers(terminal(), b"A\x08\x7f")[1] == b"A\b \b"
+
+
+def test_every_character_code_leaves_as_one_byte() -> None:
+    stream = terminal()
+    stream.send_text("".join(map(chr, range(256))) + "€")
+    assert stream.data_to_send() == bytes(range(256)) + b"?"
 
 
 def test_without_echo_nothing_typed_comes_back() -> None:

@@ -151,12 +151,16 @@ class _Typing:
         self.excess = 0
 
 
+# Quotes and dashes of the Windows code page, in text that is not UTF-8.
+_TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
+
+
 def text_of(line: bytes | bytearray) -> str:
-    """Typed bytes as text: UTF-8 where they are, the Windows code page otherwise."""
+    """Typed bytes as text: UTF-8 where they are, else one character per byte."""
     try:
         return line.decode("utf-8")
     except UnicodeDecodeError:
-        return line.decode("cp1252", errors="replace")
+        return line.decode("latin-1").translate(_TYPOGRAPHIC)
 
 
 class Terminal:
@@ -347,8 +351,8 @@ class Terminal:
             self.output.text(data)
 
     def send_text(self, text: str) -> None:
-        """Queue text; everything queued before the next write leaves together."""
-        self.output.text(text.encode("utf-8"))
+        """Queue text, one byte per character; what is queued together leaves together."""
+        self.output.text(text.encode("latin-1", errors="replace"))
 
     def send_bytes(self, data: bytes) -> None:
         """Queue bytes as they are (a program's PRINT to an open stream, pass-through)."""
