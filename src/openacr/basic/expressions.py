@@ -228,7 +228,9 @@ class ExpressionParser:
             return Local(_LOCALS[word], index)
         if word == "$A":
             return StringElement(index, self._subscript())
-        return {"P": Parameter, "BIT": Flag, "$V": StringLocal}[word](index)
+        if word == "$V":
+            return StringLocal(index)
+        return Parameter(index) if word == "P" else Flag(index)
 
     def _subscript(self) -> Expr:
         self.expect("(")

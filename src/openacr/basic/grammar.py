@@ -103,6 +103,7 @@ class Form(ABC):
     """One argument of a command."""
 
     names_axes = False
+    silent = False  # the handler gets nothing for it
 
     def __init__(self, name: str = "", *, optional: bool = False) -> None:
         self.name = name
@@ -242,18 +243,20 @@ class Word(Form):
 
 
 class Mark(Form):
-    """A fixed word or operator between arguments: AS, #, a comma. The handler gets None."""
+    """A fixed word or operator: AS, #, a comma. The handler gets True for an optional one."""
 
     def __init__(self, text: str, *, optional: bool = False) -> None:
         super().__init__(text, optional=optional)
+        self.silent = not optional
 
     def starts(self, p: Parser) -> bool:
         """Whether it stands here."""
         return p.is_operator(self.name) or p.is_word(self.name)
 
-    def parse(self, p: Parser) -> None:
+    def parse(self, p: Parser) -> bool:
         """Take it."""
         p.advance()
+        return True
 
 
 class Group(Form):
@@ -379,7 +382,7 @@ class AxisList(Form):
             return axis, value
         if value is None:
             return AxisValue(axis)
-        return AxisValue(axis, value if isinstance(value, tuple) else (value,))  # type: ignore[arg-type]
+        return AxisValue(axis, value if isinstance(value, tuple) else (value,))
 
 
 class AxisValues(AxisList):

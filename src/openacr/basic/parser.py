@@ -62,18 +62,25 @@ class Parser(ExpressionParser):
         """The whole line."""
         number = self._line_number()
         label = self._label()
-        blocks, remark = self.blocks()
+        blocks = self.rest_of_line()
+        remark = self.remark_here
+        if remark is not None:
+            self.advance()
+        if self.token.kind is not Kind.END:
+            raise self.error(SYNTAX_ERROR)
         return Line(number, label, blocks, remark)
 
-    def blocks(self) -> tuple[tuple[Block, ...], str | None]:
-        """Everything up to the end of the line, and the remark there."""
+    @property
+    def remark_here(self) -> str | None:
+        """The text of the remark at the cursor, if there is one."""
+        return str(self.token.value) if self.token.kind is Kind.REMARK else None
+
+    def rest_of_line(self) -> tuple[Block, ...]:
+        """All blocks up to the end of the line or the remark there."""
         found = [self._block()]
         while self.accept(":"):
             found.append(self._block())
-        remark = str(self.advance().value) if self.token.kind is Kind.REMARK else None
-        if self.token.kind is not Kind.END:
-            raise self.error(SYNTAX_ERROR)
-        return tuple(found), remark
+        return tuple(found)
 
     def _line_number(self) -> int | None:
         token = self.token
@@ -91,7 +98,8 @@ class Parser(ExpressionParser):
             at_sys = self.scope.level is Level.SYS
             raise self.error(UNKNOWN_COMMAND if at_sys else NOT_VALID_AT_THIS_LEVEL)
         label = str(self.advance().value)
-        if len(label) > LONGEST_LABEL or not (self.is_operator(":") or self.token.kind is Kind.END):
+        stands_alone = self.at_block_end and self.remark_here is None
+        if len(label) > LONGEST_LABEL or not stands_alone:
             raise self.error(SYNTAX_ERROR)
         return label
 
@@ -231,7 +239,9 @@ class Parser(ExpressionParser):
         found: list[object] = []
         for form in row.grammar:
             if form.starts(self):
-                found.append(form.parse(self))
+                read = form.parse(self)
+                if not form.silent:
+                    found.append(read)
             elif form.optional:
                 found.append(None)
             else:

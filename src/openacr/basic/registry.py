@@ -48,7 +48,7 @@ PROGRAM = Use.PROGRAM
 BOTH = Use.BOTH
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Command:
     """One command of the language."""
 
@@ -75,6 +75,14 @@ class Command:
     def summary(self) -> str:
         """What the command does, in one sentence."""
         return (self.handler.__doc__ or "").strip().split("\n")[0]
+
+    @property
+    def forms(self) -> tuple[Form, ...]:
+        """The forms whose values the handler gets."""
+        return tuple(form for form in self.grammar if not form.silent)
+
+    def __repr__(self) -> str:
+        return f"<{self.name}>"
 
     def __reduce__(self) -> tuple[Callable[[str], Command], tuple[str]]:
         """Pickle by name: a row is code, not data."""
@@ -144,8 +152,12 @@ def command(
     move: bool = False,
     emit: Callable[..., None] | None = None,
     saved: bool = False,
+    typed: bool = True,
 ) -> Callable[[_Handler], _Handler]:
-    """Enter the decorated function as the command `words` (and under the names in `also`)."""
+    """Enter the decorated function as the command `words` (and under the names in `also`).
+
+    A row with `typed=False` has a name only here: the parser knows it by its form.
+    """
 
     def enter(handler: _Handler) -> _Handler:
         row = Command(
@@ -155,7 +167,7 @@ def command(
         if row.name in _commands:
             raise ValueError(f"{row.name} is registered twice")
         _commands[row.name] = row
-        for path in (row.words, *row.synonyms):
+        for path in (row.words, *row.synonyms) if typed else ():
             _place(path, row)
         return handler
 

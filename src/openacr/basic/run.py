@@ -96,8 +96,8 @@ class Run:
     evaluator: Evaluator
     write: Callable[[str], None]
     prefix: Prefix | None = None
-    channel: Any = None  # the basic.session.Session on which it was typed
-    system: Any = None  # the basic.system.System the card's language lives in
+    channel: Any = None  # the session on which it was typed, None in a program
+    system: Any = None  # the language side of the card, basic.system.System
 
     def print(self, text: str) -> None:
         """Send a line of output."""

@@ -58,7 +58,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["scheduler_step", "slice_ticks"]
+__all__ = ["advance", "scheduler_step", "slice_ticks"]
 
 STATEMENTS_PER_SLICE = 10
 SLICE_S = 0.001

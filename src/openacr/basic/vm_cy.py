@@ -170,7 +170,7 @@ DO_GOTO_LINE = 33  # [line number]
 DO_GOSUB_LINE = 34  # [line number]
 DO_RETURN = 35
 DO_END = 36
-DO_FAIL = 37  # (error)
+DO_FAIL = 37  # (error, detail)
 DO_TRAP = 38  # (statement)
 DO_CALL = 39  # (operand)
 DO_RESULT = 40  # [value]
@@ -394,6 +394,7 @@ def vm_run(
             if is_open(I, rows, FLOW_FOR, code[pc + 1]):
                 at = I[rows + THI_DEPTH] - 1
                 F[top - 1] = F[top - 1] + F[reals + THF_FLOW_STEP + at]
+                error = 0 if finite(F[top - 1]) else ERROR_MATH_RESULT
             else:
                 error = ERROR_NEXT
             pc += 2
@@ -439,6 +440,7 @@ def vm_run(
             event = VM_END
         elif op == DO_FAIL:
             error = code[pc + 1]
+            F[reals + THF_ERROR_DETAIL] = float(code[pc + 2])
         elif op == DO_TRAP:
             I[rows + THI_TRAP] = code[pc + 1]
             pc += 2

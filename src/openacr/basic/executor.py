@@ -1,0 +1,414 @@
+"""Run programs and typed lines: everything about a thread that the VM leaves to Python.
+
+The scheduler comes back with a thread whose next step needs Python: a command with a
+handler, an operand with strings, an error, the end. `attend` deals with it; after that the
+scheduler is called again for the same tick.
+"""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from openacr.basic import commands as _commands  # noqa: F401 - registers the commands
+from openacr.basic import registry
+from openacr.basic import scheduler_cy as scheduler
+from openacr.basic import vm_cy as vm
+from openacr.basic.code import Chunk, CodeSpace
+from openacr.basic.compiler import CompileError, Emitter, compile_line, compile_program
+from openacr.basic.evaluate import Blocked, Operands
+from openacr.basic.nodes import Expr, Line, Move, Statement, is_text, resolved
+from openacr.basic.registry import Level
+from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.compiled import pick
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.messages import LABEL_NOT_FOUND, LINE_NOT_FOUND, MESSAGES, PROGRAM_IS_RUNNING
+
+if TYPE_CHECKING:
+    from openacr.basic.session import Session
+    from openacr.basic.system import System
+
+PROGRAMS = 16
+WHOLE_LINE = 255  # no line holds more statements
+
+_SHOWN = {
+    Show.NOTHING: 0,
+    Show.DWELLING: at.PF_PROGRAM_DWELLING,
+    Show.INHIBITED: at.PF_PROGRAM_INHIBITED,
+    Show.MOVE_PENDING: at.PF_MOVE_PENDING,
+}
+_HOLDS = at.PF_BLOCK_MODE | at.PF_PAUSE_MODE
+_ENDS_WITH_PROGRAM = (
+    at.PF_PROGRAM_RUNNING
+    | at.PF_PROGRAM_DWELLING
+    | at.PF_PROGRAM_INHIBITED
+    | at.PF_MOVE_PENDING
+    | at.PF_BLOCK_MODE_WAITING
+    | at.PF_PAUSE_MODE_WAITING
+    | at.PF_STEP_REQUEST_FLAG
+)
+_CLEARED_BY_RUN = (
+    _ENDS_WITH_PROGRAM
+    | _HOLDS
+    | at.PF_PROGRAM_MODIFIED
+    | at.PF_BLOCK_CONTROL
+    | at.PF_BLOCK_EDGE_DETECT
+    | at.PF_STEP_FIRST_BLOCK
+    | at.PF_PAUSE_CONTROL
+    | at.PF_PAUSE_EDGE_DETECT
+)
+
+
+class Executor:
+    """Executes the programs of a card and the lines typed on its channels."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.memory = system.card.memory
+        self.space = CodeSpace(self.memory)
+        self.operands = Operands(self)
+        self._runs: list[Run | None] = [None] * at.TH_COUNT
+        self._sources: list[Any] = [None] * at.TH_COUNT
+        self._advance = pick(scheduler.advance)
+        self._vm_run = pick(vm.vm_run)
+        self._step = pick(scheduler.scheduler_step)
+
+    # programs
+
+    def run_program(self, program: int, line: int | None = None) -> None:
+        """RUN: compile the stored text and start it at its first line or at `line`.
+
+        Structure errors are reported to the channels that listen to the program.
+        """
+        if self.is_running(program):
+            raise CardError(PROGRAM_IS_RUNNING)
+        lines = [(stored.number, stored.tree) for stored in self.system.programs.lines(program)]
+        if not lines:
+            return
+        try:
+            chunk = compile_program(lines)
+        except CompileError as error:
+            self.system.listeners.error(program, error.line, error.text)
+            self.system.listeners.ended(program)
+            return
+        if line is not None and line not in chunk.starts:
+            raise CardError(LINE_NOT_FOUND, line)
+        self._start_program(program, chunk, line)
+        self._sources[program] = lines
+
+    def _start_program(self, program: int, chunk: Chunk, line: int | None) -> None:
+        word = at.PF_WORD + program
+        self.memory.I[word] = self.memory.I[word] & ~_CLEARED_BY_RUN | at.PF_PROGRAM_RUNNING
+        start = chunk.starts[line] if line is not None else 0
+        self._start(program, chunk, self._program_run(program), start)
+
+    def _program_run(self, program: int) -> Run:
+        write = partial(self.system.listeners.print, program)
+        card = self.system.card
+        return Run(card, program, program, Level.PROG, True, self, write, system=self.system)
+
+    def halt_program(self, program: int) -> None:
+        """End a program as HALT does; its motion is not this module's business."""
+        if self.is_running(program):
+            self._end(program, None)
+
+    def is_running(self, program: int) -> bool:
+        """Whether a program executes, waits or is held."""
+        return self._row(program, at.THI_STATE) != scheduler.THREAD_IDLE
+
+    # typed lines
+
+    def start(self, session: Session, line: Line) -> None:
+        """Execute a typed line now; what has to wait is finished by the scheduler."""
+        try:
+            chunk = compile_line(line)
+        except CardError as error:
+            session.finished(error)
+            return
+        self._start(session.thread, chunk, self._session_run(session), 0)
+        self._sources[session.thread] = line
+        self.set_row(session.thread, at.THI_BUDGET, WHOLE_LINE)
+        while self._advance(*self._views(), session.thread, self.tick):
+            self.attend(session.thread)
+
+    def _session_run(self, session: Session) -> Run:
+        return Run(
+            self.system.card, session.thread, session.program, session.level,
+            False, self, session.write, channel=session, system=self.system,
+        )  # fmt: skip
+
+    def cancel(self, session: Session) -> None:
+        """Forget a line that is still being executed."""
+        self._forget(session.thread)
+
+    def is_waiting(self, thread: int) -> bool:
+        """Whether a thread waits."""
+        return self._row(thread, at.THI_STATE) == scheduler.THREAD_WAITING
+
+    # time
+
+    @property
+    def tick(self) -> int:
+        """The present tick."""
+        return self.system.card.tick
+
+    def step(self, tick: int) -> None:
+        """Let all threads do what is due in this tick (for use without the engine loop)."""
+        while called := self._step(*self._views(), tick):
+            self.attend(called - 1)
+
+    def attend(self, thread: int) -> None:
+        """Deal with what has stopped a thread, as its row `event` says."""
+        event = self._row(thread, at.THI_EVENT)
+        try:
+            if event == vm.VM_TRAP:
+                self._trap(thread)
+            elif event == vm.VM_CALL:
+                self._push_operand(thread)
+            elif event == vm.VM_FLAGS:
+                self._hold(thread)
+            elif event == vm.VM_ERROR:
+                raise self._error(thread)
+            else:
+                self._end(thread, None)
+        except Blocked as blocked:
+            self._wait(thread, blocked.wait, at_trap=event == vm.VM_TRAP)
+        except CardError as error:
+            self._end(thread, error)
+
+    def _trap(self, thread: int) -> None:
+        statement = self.space.chunks[thread].statements[self._row(thread, at.THI_TRAP)]
+        wait = self._perform(self.run_of(thread), statement)
+        if wait is not None:
+            self._wait(thread, wait, at_trap=wait.retry)
+
+    def _push_operand(self, thread: int) -> None:
+        node = self.space.chunks[thread].operands[self._row(thread, at.THI_TRAP)]
+        value = self.operands.number(thread, node)
+        depth = self._row(thread, at.THI_SP)
+        self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_STACK + depth] = value
+        self.set_row(thread, at.THI_SP, depth + 1)
+        self.set_row(thread, at.THI_PC, self._row(thread, at.THI_PC) + 2)
+
+    def _hold(self, thread: int) -> None:
+        """Stop before a line in pause or block mode; show its number in trace mode."""
+        word = at.PF_WORD + thread
+        flags = self.memory.I[word]
+        if flags & at.PF_TRACE_MODE_ENABLE:
+            line = self.space.chunks[thread].code[self._row(thread, at.THI_PC) + 1]
+            self.system.listeners.trace(thread, line)
+        if not flags & _HOLDS:
+            self.set_row(thread, at.THI_PASSED, 1)
+            return
+        if flags & at.PF_PAUSE_MODE:
+            flags |= at.PF_PAUSE_MODE_WAITING
+        if flags & at.PF_BLOCK_MODE:
+            flags |= at.PF_BLOCK_MODE_WAITING | at.PF_STEP_FIRST_BLOCK
+        self.memory.I[word] = flags
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_HELD)
+
+    def _error(self, thread: int) -> CardError:
+        """The error the VM has stopped with."""
+        message = MESSAGES[self._row(thread, at.THI_ERROR)]
+        detail = int(self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_ERROR_DETAIL])
+        if message is LABEL_NOT_FOUND:
+            return CardError(message, self.space.chunks[thread].names[detail])
+        return CardError(message, detail)
+
+    def _wait(self, thread: int, wait: Wait, *, at_trap: bool) -> None:
+        """Let a thread wait; `at_trap`: the statement is executed again afterwards."""
+        if at_trap:
+            self.set_row(thread, at.THI_PC, self._row(thread, at.THI_PC) - 2)
+        reals = at.THF_BASE + thread * at.THF_STRIDE
+        shown = _SHOWN[wait.show]
+        self.set_row(thread, at.THI_WAIT_KIND, wait.kind)
+        self.set_row(thread, at.THI_WAIT_OPERAND, wait.operand)
+        self.set_row(thread, at.THI_WAIT_SHOW, shown)
+        self.memory.F[reals + at.THF_WAIT_VALUE] = wait.value
+        self.memory.F[reals + at.THF_WAIT_DEADLINE_TK] = self._deadline(wait)
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_WAITING)
+        if thread < PROGRAMS:
+            self.memory.I[at.PF_WORD + thread] |= shown
+
+    def _deadline(self, wait: Wait) -> float:
+        if wait.kind is WaitKind.NEXT_SLICE:
+            return self.tick + 1.0
+        if wait.timeout_s <= 0:
+            return 1.0 if wait.kind is WaitKind.TIME else 0.0
+        ticks = -(-wait.timeout_s // self.memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S])
+        return self.tick + max(1.0, ticks)
+
+    # commands
+
+    def execute(self, run: Run, statement: Statement) -> Wait | None:
+        """Execute one command for a handler that contains it."""
+        return self._perform(run, statement)
+
+    def _perform(self, run: Run, statement: Statement | Move) -> Wait | None:
+        if isinstance(statement, Statement):
+            wait = self._handle(run, statement)
+            return wait if isinstance(wait, Wait) else None
+        targets = [target for part in statement.parts for target in self._handle(run, part) or ()]
+        issued: Wait | None = registry.move_issuer()(run, tuple(targets))
+        return issued
+
+    def _handle(self, run: Run, statement: Statement) -> Any:
+        """Evaluate the arguments of a command and call its handler."""
+        row = statement.command
+        outer, run.prefix = run.prefix, statement.prefix
+        try:
+            indices = [run.integer(index) for index in statement.indices]
+            given = zip(row.forms, statement.arguments, strict=True)
+            values = [form.evaluate(run, read) for form, read in given]
+            return row.handler(run, *indices, *values)
+        finally:
+            run.prefix = outer
+
+    # expressions
+
+    def value(self, thread: int, node: Expr) -> float:
+        """The number of an expression, computed by the VM with the variables of the thread."""
+        chunk = self.space.chunks[thread]
+        known = chunk.computed.get(id(node))
+        if known is None:
+            known = node, self._append(thread, lambda e: e.expression(node))
+            chunk.computed[id(node)] = known
+        return self._compute(thread, known[1])
+
+    def text(self, thread: int, node: Expr) -> str:
+        """The string of an expression."""
+        return self.operands.text(thread, node)
+
+    def assign(self, thread: int, target: Expr, value: float | str) -> None:
+        """Store into a variable, parameter, flag or array element."""
+        if isinstance(value, str) or is_text(target):
+            self.operands.assign_text(thread, resolved(target), str(value))
+            return
+
+        def store(e: Emitter) -> None:
+            e.store(target, lambda: e.push(value))
+            e.push(0)
+
+        chunk = self.space.chunks[thread]
+        code, nums = len(chunk.code), len(chunk.nums)
+        start = self._append(thread, store)
+        try:
+            self._compute(thread, start)
+        finally:
+            del chunk.code[code:], chunk.nums[nums:]
+
+    def _append(self, thread: int, build: Callable[[Emitter], None]) -> int:
+        """Compile something more into the chunk of a thread; where it begins."""
+        chunk = self.space.chunks[thread]
+        code, nums = len(chunk.code), len(chunk.nums)
+        emitter = Emitter(chunk)
+        build(emitter)
+        emitter.op(vm.DO_RESULT)
+        self.space.refresh(thread, code, nums)
+        return code
+
+    def _compute(self, thread: int, start: int) -> float:
+        with self._aside(thread):
+            self.set_row(thread, at.THI_PC, start)
+            event = vm.VM_CALL
+            while event == vm.VM_CALL:
+                event = self._vm_run(*self._views(), thread, WHOLE_LINE, self.tick)
+                if event == vm.VM_CALL:
+                    self._push_operand(thread)
+            if event == vm.VM_ERROR:
+                raise self._error(thread)
+        return self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_RESULT]
+
+    @contextmanager
+    def _aside(self, thread: int) -> Iterator[None]:
+        """Let the VM compute something in the middle of a statement."""
+        rows = at.THI_PC, at.THI_SP, at.THI_BUDGET, at.THI_TRAP
+        kept = [self._row(thread, row) for row in rows]
+        try:
+            yield
+        finally:
+            for row, value in zip(rows, kept, strict=True):
+                self.set_row(thread, row, value)
+
+    # threads
+
+    def _views(self) -> tuple[Any, Any, Any, Any, Any]:
+        memory, space = self.memory, self.space
+        return memory.F, memory.I, memory.S, space.code, space.nums
+
+    def _row(self, thread: int, row: int) -> int:
+        return self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row]
+
+    def set_row(self, thread: int, row: int, value: int) -> None:
+        """Write one int32 row of a thread."""
+        self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row] = value
+
+    def run_of(self, thread: int) -> Run:
+        """The context of what a thread executes."""
+        run = self._runs[thread]
+        if run is None:
+            raise LookupError(f"thread {thread} executes nothing")
+        return run
+
+    def _start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
+        self.space.put(thread, chunk)
+        self._runs[thread] = run
+        for row in (at.THI_SP, at.THI_DEPTH, at.THI_LINE, at.THI_PASSED, at.THI_SPARE_FLAGS):
+            self.set_row(thread, row, 0)
+        self.set_row(thread, at.THI_PC, start)
+        self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_READY)
+        self._mark(thread, active=True)
+
+    def _mark(self, thread: int, *, active: bool) -> None:
+        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
+        bit = 1 << thread % PROGRAMS
+        mask = self.memory.I[at.SCHI_BASE + row]
+        self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
+
+    def _forget(self, thread: int) -> None:
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
+        self.set_row(thread, at.THI_DEPTH, 0)
+        self._mark(thread, active=False)
+        self._runs[thread] = None
+        self._sources[thread] = None
+
+    def _end(self, thread: int, error: CardError | None) -> None:
+        """A thread is done, or stopped by an error: tell who wants to know."""
+        session = self.run_of(thread).channel
+        self._forget(thread)
+        if session is not None:
+            session.finished(error)
+            return
+        self.memory.I[at.PF_WORD + thread] &= ~_ENDS_WITH_PROGRAM
+        if error is not None:
+            line = self._row(thread, at.THI_LINE)
+            self.system.listeners.error(thread, line, error.text)
+        self.system.listeners.ended(thread)
+
+    # snapshot
+
+    def state(self) -> bytes:
+        """What the threads execute, for a snapshot; where they stand lies in the memory."""
+        return pickle.dumps((self._sources, self.space.rooms))
+
+    def restore(self, state: bytes) -> None:
+        """Take over what `state` returned, after the memory has been restored."""
+        self._sources, self.space.rooms = pickle.loads(state)
+        for thread, source in enumerate(self._sources):
+            if source is None:
+                self.space.chunks[thread], self._runs[thread] = Chunk(), None
+            elif thread < PROGRAMS:
+                self.space.chunks[thread] = compile_program(source)
+                self._runs[thread] = self._program_run(thread)
+            else:
+                self.space.chunks[thread] = compile_line(source)
+                self._runs[thread] = self._session_run(self._session(thread))
+        self.space.rebuild()
+
+    def _session(self, thread: int) -> Session:
+        return next(s for s in self.system.sessions.values() if s.thread == thread)
