@@ -37,6 +37,11 @@ class Listeners:
         """TRON: the number of the line that is about to be executed."""
         self.print(program, f"[{line}]")
 
+    def set_line_end(self, program: int, shown: bool) -> None:
+        """Whether the CR of a typed line is echoed; `INPUT;` keeps the cursor in its line."""
+        for session in self.of(program):
+            session.echo_line_end = shown
+
     def ended(self, program: int) -> None:
         """A program has ended: channels that typed LRUN get their prompt back."""
         for session in self.of(program):

@@ -69,7 +69,7 @@ class Lister:
 
     def _spelling(self, token: Token, before: Token | None) -> str:
         if token.kind is Kind.WORD:
-            return self._word(token)
+            return self._word(token, before)
         if token.kind is Kind.NUMBER:
             return literal(token.value)
         if token.kind is Kind.STRING:
@@ -81,8 +81,9 @@ class Lister:
             return f"REM{token.value}"
         return str(token.value)
 
-    def _word(self, token: Token) -> str:
-        if token.text in self.aliases:
+    def _word(self, token: Token, before: Token | None) -> str:
+        defines = before is not None and before.value == "DEFINE"
+        if defines or token.text in self.aliases:
             return token.text
         is_name = token.value in self.known or len(token.text) <= LONGEST_AXIS_NAME
         return str(token.value) if is_name else token.text
@@ -99,7 +100,9 @@ class Lister:
             return False
         if before.kind is Kind.WORD:
             return self._is_keyword(before) or token.kind in (Kind.WORD, Kind.STRING)
-        return not _is_operator(token, _TIGHT) or self._begins_value(before, token)
+        if _is_operator(token, {"("}):
+            return not self._is_index(older, before)
+        return not _is_operator(token, _TIGHT) or token.value in ("#", "?")
 
     def _is_keyword(self, token: Token) -> bool:
         """Whether a blank follows this word whatever comes."""
@@ -110,10 +113,11 @@ class Lister:
             return word == _SPACED_VARIABLE
         return word in self.known
 
-    @staticmethod
-    def _begins_value(before: Token, token: Token) -> bool:
-        """Whether `(` or `#` behind a number, string or `)` begins something new."""
-        return _is_operator(token, {"(", "#", "?"}) and before.kind is not Kind.WORD
+    def _is_index(self, older: Token | None, before: Token) -> bool:
+        """Whether the number before belongs to a variable or object: `LA0(1)`, `PROG0(8192)`."""
+        if older is None or older.kind is not Kind.WORD or before.kind is not Kind.NUMBER:
+            return False
+        return older.value in registry.VARIABLES or older.value in self.objects
 
 
 def literal(value: str | int | float) -> str:
@@ -144,7 +148,7 @@ def _vocabulary() -> tuple[frozenset[str], frozenset[str]]:
     objects = set(PREFIXES)
     for row in registry.commands():
         for path in (row.words, *row.synonyms):
-            known.update(path)
+            known.update(word.lstrip("#") for word in path)
             pairs = pairwise(path)
             objects.update(word for word, index in pairs if index == registry.INDEX)
         for form in row.grammar:

@@ -66,6 +66,7 @@ class Session:
     until_end: bool = False  # LRUN: listen until the program ends
     opened_by: tuple[int, int] | None = None  # program and device number
     partner: str | None = None  # channel joined by TALK TO
+    echo_line_end: bool = True  # False while `INPUT;` reads a line
     _output: bytearray = field(default_factory=bytearray)
 
     @property
@@ -213,7 +214,7 @@ class Session:
 
     def stop_listening(self) -> None:
         """Stop following a program."""
-        self.listening_to, self.until_end = None, False
+        self.listening_to, self.until_end, self.echo_line_end = None, False, True
 
     def program_ended(self) -> None:
         """The program followed with LRUN has ended: back to the prompt, once."""
@@ -238,7 +239,7 @@ class Session:
             "level": self.level.name, "number": self.number, "echo": self.echo,
             "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
             "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
-            "partner": self.partner,
+            "partner": self.partner, "echo_line_end": self.echo_line_end,
         }  # fmt: skip
 
     def restore(self, state: dict[str, Any]) -> None:

@@ -14,6 +14,7 @@ from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import OWNERS, ProgramStore
 from openacr.basic.registry import Level
 from openacr.basic.session import Runner, Session
+from openacr.basic.setup import Setup
 from openacr.basic.storage import STREAMS, Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import Token
@@ -63,15 +64,18 @@ def _no_plc(found: list[Token]) -> tuple[Any, int]:
 class System:
     """The language side of one card.
 
-    `control` and `runner` execute; they are set by the composition root, as is `read_plc`,
-    which turns the tokens of a PLC line into instructions and their count.
+    `control` and `runner` execute, `reboot` restarts the card; they are set by the
+    composition root, as is `read_plc`, which turns the tokens of a PLC line into
+    instructions and their count.
     """
 
     control: Control
     runner: Runner
+    reboot: Callable[[], None]
 
-    def __init__(self, card: Card, *, streams: tuple[str, ...] = STREAMS) -> None:
+    def __init__(self, card: Card) -> None:
         self.card = card
+        streams = card.model.streams
         self.storage = Storage(card.memory, streams=streams)
         self.aliases = Aliases(lambda: self.storage.define_count)
         self.programs = ProgramStore(self.storage)
@@ -82,12 +86,13 @@ class System:
         }
         self.listeners = Listeners(self.sessions)
         self.devices = Devices(card.memory, self.sessions, self.listeners)
+        self.setup = Setup()
         self.read_plc: PlcReader = _no_plc
 
     def scope(self, level: Level, program: int | None, *, stored: bool) -> Scope:
         """What a line of a program, or one typed at its prompt, may refer to."""
         named = () if program is None else self.card.attachments.axes(program)
-        axes = frozenset(name for name, _ in named)
+        axes = frozenset(name.upper() for name, _ in named)
         return Scope(level, stored, axes, self.aliases.nodes)
 
     def read_stored(self, owner: int, found: list[Token]) -> tuple[Any, int]:
@@ -98,6 +103,12 @@ class System:
         scope = self.scope(Level.PROG, owner, stored=True)
         line = Parser(found, scope).line()
         return (None, 0) if line.is_empty else (line, line_bytes(found))
+
+    def start_boot_programs(self) -> None:
+        """Start every program and PLC whose first statement is PBOOT."""
+        for owner in self.owners():
+            if self.programs.starts_by_itself(owner) and not self.control.is_running(owner):
+                self.control.run(owner)
 
     def owners(self) -> range:
         """All programs and PLCs."""

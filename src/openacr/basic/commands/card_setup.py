@@ -1,0 +1,124 @@
+"""Operating system: hardware configuration, network, diagnostics, restart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.basic.grammar import Form, Str, Word
+from openacr.basic.registry import ANY, IMMEDIATE, command
+from openacr.basic.run import Run
+from openacr.basic.setup import DEFAULT_CONFIG, Setup
+from openacr.lang.lexer import Kind
+from openacr.messages import SYNTAX_ERROR
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Operating System"
+REF = "PG Operating System"
+MODULES = 4
+DIAGNOSTICS = 7044
+DIAGNOSED = ("ISO", "EXT", "ENC", "BCF", "BCL", "VEE", "VDD")
+EXPANSION_BOARDS = 4
+EXPANSION_ENABLE = 116
+CANOPEN_STATE = 32779
+EPL_STARTING, EPL_PRESENT, EPL_OPERATIONAL, EPL_FAILED = 16640, 16648, 16649, 16650
+
+
+class Modules(Form):
+    """Four words, each with a number directly behind: `ENC8 DAC4 NONE ADC8`."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a word stands here."""
+        return p.token.kind is Kind.WORD
+
+    def parse(self, p: Parser) -> tuple[str, ...]:
+        """Read them; CLEAR stands alone."""
+        if p.accept("CLEAR"):
+            return DEFAULT_CONFIG
+        found = []
+        for _ in range(MODULES):
+            if not self.starts(p):
+                raise p.error(SYNTAX_ERROR)
+            word = str(p.advance().value)
+            has_number = p.token.kind is Kind.NUMBER
+            found.append(word + (p.advance().text if has_number else ""))
+        return tuple(found)
+
+
+@command(
+    "CONFIG",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Modules("modules", optional=True),),
+    ref=REF,
+    default="ENC8 DAC4 DAC4 ADC8",
+    saved=True,
+)
+def config(run: Run, modules: tuple[str, ...] | None) -> None:
+    """Set the hardware modules, effective after REBOOT, or show them."""
+    setup: Setup = run.system.setup
+    if modules is None:
+        run.print("CONFIG " + " ".join(setup.config))
+    else:
+        setup.configure(modules)
+
+
+@command(
+    "IP",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Word("MASK", "GATE", optional=True), Str("address", optional=True)),
+    ref=REF,
+    default="192.168.10.40",
+    saved=True,
+)
+def ip(run: Run, name: str | None, address: str | None) -> None:
+    """Set an address of the network, effective after REBOOT, or show all."""
+    setup: Setup = run.system.setup
+    if address is not None:
+        setup.set_address(name or "IP", address)
+        return
+    for shown, value in setup.addresses.items():
+        if name in (None, shown):
+            run.print(f"{shown} {value}")
+
+
+@command("DIAG", group=GROUP, levels=ANY, ref=REF)
+def diag(run: Run) -> None:
+    """Report supplies and signals, expansion boards and the CANopen state."""
+    memory = run.card.memory
+    failed = int(memory.read(DIAGNOSTICS))
+    for bit, name in enumerate(DIAGNOSED):
+        run.print(f"{name} {'FAIL' if failed >> bit & 1 else 'PASS'}")
+    for board in range(EXPANSION_BOARDS):
+        present = memory.bit(EXPANSION_ENABLE + board)
+        run.print(f"BOARD{board} {'PRESENT' if present else 'ABSENT'}")
+    run.print(f"CANOPEN STATE {int(memory.read(CANOPEN_STATE))}")
+
+
+@command(
+    "EPLC",
+    group="Drive Control",
+    levels=ANY,
+    grammar=(Word("ON", "OFF", optional=True),),
+    ref="PG Drive Control",
+)
+def eplc(run: Run, switch: str | None) -> None:
+    """Start or stop the Ethernet Powerlink network; a card without one fails to start."""
+    memory = run.card.memory
+    if switch is None:
+        states = ((EPL_OPERATIONAL, "OPERATIONAL"), (EPL_FAILED, "FAILED"))
+        run.print(next((text for bit, text in states if memory.bit(bit)), "OFF"))
+        return
+    is_missing = not memory.bit(EPL_PRESENT)
+    memory.set_bit(EPL_FAILED, switch == "ON" and is_missing)
+    memory.set_bit(EPL_STARTING, switch == "ON" and not is_missing)
+    if switch == "OFF":
+        memory.set_bit(EPL_OPERATIONAL, False)
+
+
+@command("REBOOT", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
+def reboot(run: Run) -> None:
+    """Restart the card as at power-up."""
+    run.system.reboot()

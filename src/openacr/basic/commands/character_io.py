@@ -1,0 +1,391 @@
+"""Character I/O: PRINT, INPUT, OPEN, CLOSE, TALK TO, and the keys of a device."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+from openacr.basic import strings
+from openacr.basic.devices import Key
+from openacr.basic.grammar import (
+    Command,
+    Either,
+    Form,
+    Int,
+    Lvalue,
+    Mark,
+    Object,
+    ObjectRef,
+    Repeat,
+    Str,
+)
+from openacr.basic.nodes import (
+    Element,
+    Expr,
+    Local,
+    LocalKind,
+    Parameter,
+    Statement,
+    is_text,
+    resolved,
+)
+from openacr.basic.number_format import UsingFormat, double_text, single_text
+from openacr.basic.registry import ANY, IMMEDIATE, PROG, PROGRAM, command, functions
+from openacr.basic.registry import function as register_function
+from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind
+from openacr.map import numbers as at
+from openacr.map.kinds_cy import kind_of
+from openacr.messages import INVALID_DEVICE, SYNTAX_ERROR, UNDEFINED_SYMBOL
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Character I/O"
+LINE_END = "\r\n"
+TAB = "\t"
+DEVICES = 3
+
+_PORT = re.compile(r"\s*([A-Za-z]+\d?)\s*:?\s*(.*)", re.DOTALL)
+_BAUD_RATES = frozenset((300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200))
+_SERIAL_FIELDS = re.compile(r"(\d*)\s*(?:,\s*([NOEnoe]?)\s*(?:,\s*([5-8]?)\s*(?:,\s*([12]?))?)?)?")
+
+
+# PRINT
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """USING: the format of the next number."""
+
+    text: Expr
+
+
+PrintItem = Picture | Expr | str  # a separator is its character
+
+
+@dataclass(frozen=True, slots=True)
+class Print:
+    """PRINT as written: the device, None for the terminal, and the items."""
+
+    device: int | None = None
+    items: tuple[PrintItem, ...] = ()
+
+
+class PrintList(Form):
+    """`{#d,} {USING "fmt";} {item {;|,}}...`; the handler gets the trees."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a device, an item or a separator begins here."""
+        if p.at_unknown_word:
+            raise p.error(UNDEFINED_SYMBOL)
+        return p.is_operator("#") or _at_separator(p) or self._at_item(p)
+
+    def parse(self, p: Parser) -> Print:
+        """Read the device and as many items as there are."""
+        device = None
+        if p.is_operator("#"):
+            device = read_device(p)
+        found: list[PrintItem] = []
+        while _at_separator(p) or self._at_item(p):
+            if _at_separator(p):
+                found.append(str(p.advance().value))
+            elif p.accept("USING"):
+                found.append(Picture(p.expression()))
+                p.expect(";")
+            else:
+                found.append(p.expression())
+        return Print(device, tuple(found))
+
+    @staticmethod
+    def _at_item(p: Parser) -> bool:
+        token = p.token
+        if token.kind is Kind.WORD:
+            named = token.value in functions and not p.begins_command(token)
+            called = token.value in functions and p.ahead(1).value == "("
+            return p.at_variable or p.is_word("USING", "NOT") or named or called
+        return token.kind in (Kind.NUMBER, Kind.STRING) or token.value in ("(", "-", "+")
+
+
+def _at_separator(p: Parser) -> bool:
+    return p.is_operator(";") or p.is_operator(",")
+
+
+def read_device(p: Parser) -> int:
+    """`#d` with the separator behind it."""
+    p.expect("#")
+    token = p.advance()
+    if token.kind is not Kind.NUMBER or token.value not in range(DEVICES + 1):
+        raise p.error(SYNTAX_ERROR)
+    if _at_separator(p):
+        p.advance()
+    return int(token.value)
+
+
+class Report(Command):
+    """A command behind PRINT, whose report is printed; functions come first."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a command word stands here, and no function is called."""
+        calls = p.token.value in functions and p.ahead(1).value == "("
+        return super().starts(p) and not calls
+
+
+@command(
+    "PRINT",
+    "?",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Either(Report(), PrintList("items"), optional=True),),
+    ref="PG Character I/O",
+)
+def print_(run: Run, what: Statement | Print | None) -> Wait | None:
+    """Send text and numbers to the terminal, or with `#d` to an open device."""
+    if isinstance(what, Statement):
+        return run.execute(what)
+    what = what or Print()
+    if what.device is None:
+        run.write(print_text(run, what.items))
+        return None
+    key = (run.needed_program(), what.device)
+    run.system.devices.check_open(key)
+    run.system.devices.write(key, print_text(run, what.items))
+    return None
+
+
+def print_text(run: Run, items: tuple[PrintItem, ...]) -> str:
+    """What PRINT sends: items in sequence, a TAB for a comma, CR LF unless a separator ends."""
+    parts: list[str] = []
+    picture: UsingFormat | None = None
+    for item in items:
+        if isinstance(item, str):
+            parts.append(TAB if item == "," else "")
+        elif isinstance(item, Picture):
+            picture = UsingFormat.parse(run.text(item.text))
+        elif is_text(item):
+            parts.append(run.text(item))
+        elif picture is not None:
+            parts.append(picture.text(run.value(item)))
+            picture = None
+        else:
+            parts.append(value_text(run, item))
+    if not items or not isinstance(items[-1], str):
+        parts.append(LINE_END)
+    return "".join(parts)
+
+
+def value_text(run: Run, node: Expr) -> str:
+    """The text of a number: seven digits for what is stored as FP32, else ten."""
+    value = run.value(node)
+    return single_text(value) if is_single(run, node) else double_text(value)
+
+
+def is_single(run: Run, node: Expr) -> bool:
+    """Whether the value of an expression is one FP32 parameter or variable."""
+    match resolved(node):
+        case Parameter(index):
+            return kind_of(run.card.memory.I, run.integer(index)) == at.KIND_FP32
+        case Local(LocalKind.SINGLE, _) | Element(LocalKind.SINGLE, _, _):
+            return True
+    return False
+
+
+# OPEN, CLOSE
+
+
+class Channel(Object):
+    """A channel by its word: COM1, STREAM3, FIFO, DPCB."""
+
+    def __init__(self) -> None:
+        super().__init__("COM", "STREAM", singles=("FIFO", "DPCB"))
+
+
+def channel_name(channel: ObjectRef) -> str:
+    """The name of a channel, as the sessions have it."""
+    return channel.word if channel.number < 0 else f"{channel.word}{channel.number}"
+
+
+@command(
+    "OPEN",
+    group=GROUP,
+    levels=PROG,
+    grammar=(Str("device"), Mark("AS"), Mark("#"), Int("d", 1, DEVICES)),
+    ref="PG Character I/O",
+)
+def open_(run: Run, device: str, _as: None, _mark: None, number: int) -> None:
+    """Make a channel the device `#d` of this program."""
+    run.system.devices.open((run.needed_program(), number), port_name(device))
+
+
+def port_name(text: str) -> str:
+    """The channel a device string names; its serial settings are checked."""
+    match = _PORT.fullmatch(text)
+    if match is None:
+        raise CardError(INVALID_DEVICE)
+    name, settings = match[1].upper(), match[2].strip()
+    if settings and not (name.startswith("COM") and _are_serial_settings(settings)):
+        raise CardError(INVALID_DEVICE)
+    return name
+
+
+def _are_serial_settings(text: str) -> bool:
+    match = _SERIAL_FIELDS.fullmatch(text)
+    return match is not None and (not match[1] or int(match[1]) in _BAUD_RATES)
+
+
+@command(
+    "CLOSE",
+    group=GROUP,
+    levels=PROG,
+    grammar=(Mark("#"), Int("d", 1, DEVICES)),
+    ref="PG Character I/O",
+)
+def close(run: Run, _mark: None, number: int) -> Wait | None:
+    """Give a device back once its output is sent."""
+    key = (run.needed_program(), number)
+    if run.system.devices.is_sending(key):
+        return Wait(WaitKind.NEXT_SLICE, retry=True)
+    run.system.devices.close(key)
+    return None
+
+
+# INPUT
+
+
+@dataclass(frozen=True, slots=True)
+class InputItem:
+    """INPUT as written: `;` directly behind the word, device, prompt, variables."""
+
+    keeps_line: bool
+    device: int
+    prompt: Expr | None
+    targets: tuple[Expr, ...]
+
+
+class InputList(Form):
+    """`{;} {#d{,|;}} {"prompt"{;|,}} var {, var}...`."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether anything is left in the block."""
+        return not p.at_block_end
+
+    def parse(self, p: Parser) -> InputItem:
+        """Read everything."""
+        keeps_line = p.accept(";")
+        device = read_device(p) if p.is_operator("#") else 0
+        prompt = None
+        if p.token.kind is Kind.STRING:
+            prompt = p.expression()
+            if _at_separator(p):
+                p.advance()
+        targets = Repeat(Lvalue("variable"), separator=",").parse(p)
+        return InputItem(keeps_line, device, prompt, cast(tuple[Expr, ...], targets))
+
+
+@command(
+    "INPUT",
+    group=GROUP,
+    levels=PROG,
+    use=PROGRAM,
+    grammar=(InputList("variables"),),
+    ref="PG Character I/O",
+)
+def input_(run: Run, item: InputItem) -> Wait | None:
+    """Send a prompt, wait for a line from the device and store its fields."""
+    devices = run.system.devices
+    key = (run.needed_program(), item.device)
+    devices.check_open(key)
+    row = devices.row(key, at.DQI_PROMPTED)
+    if not run.card.memory.I[row]:
+        devices.write(key, run.text(item.prompt) if item.prompt is not None else "? ")
+        run.card.memory.I[row] = 1
+        run.system.listeners.set_line_end(key[0], not item.keeps_line)
+    line = devices.read_line(key)
+    if line is not None and not _store_fields(run, item.targets, line):
+        devices.write(key, "Redo" + LINE_END)
+        line = None
+    if line is None:
+        return _until_received(run, key, at.DQI_LINES)
+    run.card.memory.I[row] = 0
+    run.system.listeners.set_line_end(key[0], True)
+    return None
+
+
+def _store_fields(run: Run, targets: tuple[Expr, ...], line: str) -> bool:
+    """Store the fields between commas; a string that comes last takes the rest."""
+    takes_rest = is_text(targets[-1])
+    fields = line.split(",", len(targets) - 1) if takes_rest else line.split(",")
+    if len(fields) < len(targets):
+        return False
+    for target, text in zip(targets, fields, strict=False):
+        run.assign(target, text if is_text(target) else strings.val(text))
+    return True
+
+
+def _until_received(run: Run, key: Key, offset: int) -> Wait:
+    row = run.system.devices.row(key, offset)
+    return Wait(WaitKind.ROW_ABOVE, row, 0, retry=True, show=Show.INHIBITED)
+
+
+# keys
+
+
+def _key(run: Run, device: float) -> Key:
+    if not 0 <= device <= DEVICES:
+        raise CardError(INVALID_DEVICE)
+    key = (run.needed_program(), int(device))
+    run.system.devices.check_open(key)
+    return key
+
+
+def inkey(run: Run, device: float = 0) -> str:
+    """One waiting character of a device, or an empty string; never waits."""
+    return str(run.system.devices.read_key(_key(run, device)))
+
+
+def getch_text(run: Run, device: float = 0) -> str | Wait:
+    """Wait for one character of a device."""
+    key = _key(run, device)
+    return run.system.devices.read_key(key) or _until_received(run, key, at.DQI_CHARACTERS)
+
+
+def getch(run: Run, device: float = 0) -> float | Wait:
+    """Wait for one character of a device and give its code."""
+    character = getch_text(run, device)
+    return character if isinstance(character, Wait) else float(ord(character))
+
+
+def kbhit(run: Run, device: float = 0) -> float:
+    """Tell whether a character waits on a device: -1 or 0."""
+    row = run.system.devices.row(_key(run, device), at.DQI_CHARACTERS)
+    return -1.0 if run.card.memory.I[row] else 0.0
+
+
+for _name, _apply in (
+    ("INKEY$", inkey),
+    ("GETCH$", getch_text),
+    ("GETCH", getch),
+    ("KBHIT", kbhit),
+):
+    register_function(
+        _name, "n", fewest=0, apply=_apply, summary=str(_apply.__doc__), wants_run=True
+    )
+
+
+@command(
+    "TALK TO",
+    group=GROUP,
+    levels=ANY,
+    use=IMMEDIATE,
+    grammar=(Either(Str("device"), Channel()),),
+    ref="PG Character I/O",
+)
+def talk_to(run: Run, device: str | ObjectRef) -> None:
+    """Join this channel with another one, both ways, until ESC."""
+    name = port_name(device) if isinstance(device, str) else channel_name(device)
+    other = run.system.sessions.get(name)
+    if other is None or other is run.channel:
+        raise CardError(INVALID_DEVICE)
+    run.channel.talk_to(other)

@@ -1,0 +1,185 @@
+"""Memory control: CLEAR, DIM, MEM."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic import targets
+from openacr.basic.grammar import Form, Object, ObjectRef
+from openacr.basic.nodes import Expr
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.registry import ANY, Level, command
+from openacr.basic.run import Run
+from openacr.basic.storage import Storage
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind
+from openacr.messages import NOT_VALID_AT_THIS_LEVEL, PROGRAM_IN_MEMORY, SYNTAX_ERROR
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Memory Control"
+
+_STREAMS = frozenset(("COM", "STREAM"))
+_SINGLE_STREAMS = frozenset(("FIFO", "DPCB"))
+_ARRAYS = frozenset(("LA", "SA", "DA", "$A"))
+_SCALARS = frozenset(("LV", "SV", "DV"))
+_SYSTEM = frozenset(("PROG", "PLC", "P", "DEF")) | _STREAMS | _SINGLE_STREAMS
+_LOCAL = _ARRAYS | _SCALARS | {"$V", "MBUF"}
+_INDEXED = frozenset(("PROG", "PLC")) | _STREAMS
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """What is to be dimensioned: the word, the number of the object, the sizes."""
+
+    word: str
+    index: Expr | None
+    sizes: tuple[Expr, ...]
+
+
+class DimensionForm(Form):
+    """`PROG n size`, `P(count)`, `LV(n)`, `LA(n)`, `LA i (m)`, `$V(n,len)`...
+
+    Parentheses are optional around one number. An array word followed by one number gives
+    the number of arrays, by two an array and its elements.
+    """
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a word that can be dimensioned stands here."""
+        return p.is_word(*_SYSTEM, *_LOCAL)
+
+    def parse(self, p: Parser) -> Dimension:
+        """Read word and numbers."""
+        word = str(p.advance().value)
+        if word in _INDEXED:
+            return Dimension(word, p.object_index(), self._sizes(p, 1))
+        if word == "$V":
+            return Dimension(word, None, self._sizes(p, 2))
+        if word not in _ARRAYS:
+            return Dimension(word, None, self._sizes(p, 1))
+        first = self._sizes(p, 1)
+        if not p.is_operator("(") and p.token.kind is not Kind.NUMBER:
+            return Dimension(word, None, first)
+        return Dimension(word, first[0], self._sizes(p, 2 if word == "$A" else 1))
+
+    @staticmethod
+    def _sizes(p: Parser, count: int) -> tuple[Expr, ...]:
+        if count == 1:
+            return (p.value(),)
+        p.expect("(")
+        sizes = [p.numeric()]
+        while p.accept(","):
+            sizes.append(p.numeric())
+        p.expect(")")
+        if len(sizes) != count:
+            raise p.error(SYNTAX_ERROR)
+        return tuple(sizes)
+
+
+@command(
+    "DIM",
+    group=GROUP,
+    levels=ANY,
+    grammar=(DimensionForm("what", optional=True),),
+    ref="PG Memory Allocations",
+)
+def dim(run: Run, what: Dimension | None) -> None:
+    """Allocate memory: of the system at SYS, for variables at a program; alone, list it."""
+    if what is None:
+        _list(run)
+    elif what.word in _SYSTEM:
+        _dim_system(run, what)
+    else:
+        _dim_local(run, what)
+
+
+def _list(run: Run) -> None:
+    storage: Storage = run.system.storage
+    lines = storage.system_lines()
+    if run.level is not Level.SYS:
+        owner = targets.needed_own(run)
+        lines = storage.locals.lines(owner) if owner < PROGRAMS else iter(())
+    for line in lines:
+        run.print(line)
+
+
+def _dim_system(run: Run, what: Dimension) -> None:
+    if run.level is not Level.SYS:
+        raise CardError(NOT_VALID_AT_THIS_LEVEL)
+    storage: Storage = run.system.storage
+    size = run.integer(what.sizes[0])
+    index = -1 if what.index is None else run.integer(what.index)
+    kinds: dict[str, Callable[[], None]] = {
+        "PROG": lambda: storage.dimension_program(index, size),
+        "PLC": lambda: storage.dimension_plc(index, size),
+        "P": lambda: storage.dimension_globals(size),
+        "DEF": lambda: storage.dimension_defines(size),
+    }
+    name = what.word if index < 0 else f"{what.word}{index}"
+    kinds.get(what.word, lambda: storage.dimension_stream(name, size))()
+
+
+def _dim_local(run: Run, what: Dimension) -> None:
+    """A stored program may repeat its own DIM with unchanged sizes."""
+    program, again = run.needed_program(), run.stored
+    local = run.system.storage.locals
+    first, *rest = (run.integer(size) for size in what.sizes)
+    if what.index is not None:
+        index = run.integer(what.index)
+        if what.word == "$A":
+            local.string_array(program, index, first, *rest, repeat=again)
+        else:
+            local.array(program, what.word, index, first, repeat=again)
+    elif what.word == "$V":
+        local.string_variables(program, first, *rest, repeat=again)
+    elif what.word == "MBUF":
+        local.move_buffer(program, first, repeat=again)
+    elif what.word in _SCALARS:
+        local.variables(program, what.word, first, repeat=again)
+    else:
+        local.references(program, what.word, first, repeat=again)
+
+
+@command(
+    "CLEAR",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Object("COM", "STREAM", singles=("FIFO", "DPCB"), optional=True),),
+    ref="PG Memory Allocations",
+)
+def clear(run: Run, stream: ObjectRef | None) -> None:
+    """Free memory: everything at SYS, the locals at a program, or the buffer of a stream."""
+    if stream is not None:
+        name = stream.word if stream.number < 0 else f"{stream.word}{stream.number}"
+        run.system.storage.clear_stream(name)
+    elif run.level is Level.SYS:
+        _clear_system(run)
+    elif run.program is not None:
+        run.system.devices.close_all(run.program)
+        run.system.storage.locals.clear(run.program)
+
+
+def _clear_system(run: Run) -> None:
+    if any(run.system.control.is_running(owner) for owner in run.system.owners()):
+        raise CardError(PROGRAM_IN_MEMORY)
+    run.system.storage.clear_system()
+    run.system.aliases.clear()
+
+
+@command(
+    "MEM",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Object("PROG", "PLC", optional=True),),
+    ref="PG Memory Allocations",
+    units="bytes",
+)
+def mem(run: Run, target: ObjectRef | None) -> None:
+    """Print the free memory of the level, or of a program or PLC."""
+    owner = targets.own(run) if target is None else targets.named(target)
+    storage: Storage = run.system.storage
+    free = storage.free_system() if owner is None else storage.free_program(owner)
+    run.print(str(free))

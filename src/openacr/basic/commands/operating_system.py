@@ -1,0 +1,296 @@
+"""Operating system: levels, attachments, configuration, aliases and reports of the card."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic import registry
+from openacr.basic.aliases import Aliases
+from openacr.basic.grammar import Form, Int, Num, Object, ObjectRef, Str, Word
+from openacr.basic.lister import Lister
+from openacr.basic.nodes import Alias, Expr, resolved
+from openacr.basic.number_format import double_text
+from openacr.basic.registry import ANY, IMMEDIATE, PROG, SYS, Level, command
+from openacr.basic.run import Run
+from openacr.errors import CardError
+from openacr.messages import (
+    INVALID_ARGUMENT,
+    NOT_VALID_AT_THIS_LEVEL,
+    NOT_VALID_WHILE_IN_MOTION,
+)
+from openacr.motion import attach as attachment
+from openacr.motion.permits import axis_moving
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Operating System"
+LEVELS = "PG Communication Levels"
+SHORTEST_PERIOD_S = 0.0001
+LONGEST_PERIOD_S = 0.005
+HELP_COLUMNS = 8
+
+_FEEDBACK = ("ENC", "ADC", "STEPPER")
+_SIGNAL = ("DAC", "STEPPER", "CMT")
+
+
+# levels of the channel
+
+
+@command("SYS", group=GROUP, levels=ANY, use=IMMEDIATE, ref=LEVELS)
+def sys_(run: Run) -> None:
+    """Go to the system level."""
+    run.channel.go(Level.SYS)
+
+
+@command("PROG", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 15),), ref=LEVELS)
+def prog(run: Run, number: int) -> None:
+    """Go to the level of program n."""
+    run.channel.go(Level.PROG, number)
+
+
+@command("PLC", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7),), ref=LEVELS)
+def plc(run: Run, number: int) -> None:
+    """Go to the level of PLC n."""
+    run.channel.go(Level.PLC, number)
+
+
+@command("ECHO", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7, optional=True),))
+def echo(run: Run, mode: int | None) -> None:
+    """Set or show what the channel sends: 1 echo, 2 no error reports, 4 no prompt."""
+    if mode is None:
+        run.print(str(run.channel.echo))
+    else:
+        run.channel.echo = mode
+
+
+@command("MODE", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 3, optional=True),))
+def mode_(run: Run, mode: int | None) -> None:
+    """Set or show how binary data is sent on the channel: 1 control prefixing, 2 no high bits."""
+    if mode is None:
+        run.print(str(run.channel.mode))
+    else:
+        run.channel.mode = mode
+
+
+@command("STREAM", group=GROUP, levels=ANY, use=IMMEDIATE)
+def stream(run: Run) -> None:
+    """Print the name of the own channel."""
+    run.print(run.channel.name)
+
+
+# attachments
+
+
+@command("ATTACH", group=GROUP, levels=SYS | PROG, ref="PG Attachments")
+def attach(run: Run) -> None:
+    """Show the attachments of the program, at SYS those of all axes."""
+    if run.program is None:
+        lines = attachment.report_system(run.card)
+    else:
+        lines = attachment.report_program(run.card, run.program)
+    for line in lines:
+        run.print(line)
+
+
+@command("ATTACH MASTER #", group=GROUP, levels=PROG, ref="PG Attachments", saved=True)
+def attach_master(run: Run, number: int) -> None:
+    """Give the program a master."""
+    attachment.master(run.card, run.needed_program(), number)
+
+
+@command(
+    "ATTACH SLAVE #",
+    group=GROUP,
+    levels=PROG,
+    grammar=(Object("AXIS"), Str("name")),
+    ref="PG Attachments",
+    saved=True,
+)
+def attach_slave(run: Run, number: int, axis: ObjectRef, name: str) -> None:
+    """Give the master of the program an axis, under a name of one to four letters."""
+    attachment.slave(run.card, run.needed_program(), number, axis.number, name)
+
+
+@command(
+    "ATTACH AXIS #",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Object(*_FEEDBACK), Object(*_SIGNAL), Object(*_FEEDBACK, optional=True)),
+    ref="PG Attachments",
+    saved=True,
+)
+def attach_axis(
+    run: Run, number: int, position: ObjectRef, signal: ObjectRef, velocity: ObjectRef | None
+) -> None:
+    """Choose position feedback, output and velocity feedback of an axis."""
+    attachment.axis(
+        run.card,
+        number,
+        (attachment.Feedback[position.word], position.number),
+        (attachment.Signal[signal.word], signal.number),
+        (attachment.Feedback[velocity.word], velocity.number) if velocity else None,
+    )
+
+
+@command("DETACH", group=GROUP, levels=ANY, ref="PG Attachments")
+def detach(run: Run) -> None:
+    """Free the master and all slaves of the program."""
+    if run.program is None:
+        raise CardError(NOT_VALID_AT_THIS_LEVEL)
+    attachment.detach(run.card, run.program)
+
+
+@command("DETACH SLAVE #", group=GROUP, levels=PROG, ref="PG Attachments")
+def detach_slave(run: Run, number: int) -> None:
+    """Free one slave of the program."""
+    attachment.detach_slave(run.card, run.needed_program(), number)
+
+
+@command("DETACH MASTER #", group=GROUP, levels=PROG, ref="PG Attachments")
+def detach_master(run: Run, number: int) -> None:
+    """Free a master and its slaves."""
+    attachment.detach_master(run.card, number)
+
+
+@command("DETACH ALL", group=GROUP, levels=ANY, ref="PG Attachments")
+def detach_all(run: Run) -> None:
+    """Free the masters and slaves of all programs."""
+    attachment.detach_all(run.card)
+
+
+# aliases
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """#DEFINE as written; without target its line is shown."""
+
+    name: str
+    target: Expr | None
+    text: str
+
+
+class DefinitionForm(Form):
+    """`name target`: target is a parameter, flag, variable, array element or constant."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether anything is left in the block."""
+        return not p.at_block_end
+
+    def parse(self, p: Parser) -> Definition:
+        """Read the name, wrong ones included, and the target."""
+        name = self._name(p)
+        start = p.position
+        if p.at_block_end:
+            return Definition(name, None, "")
+        target = p.variable() if p.at_variable else p.value()
+        text = Lister(p.aliases).line(p.tokens[start : p.position])
+        return Definition(name, _without_alias(target), text)
+
+    @staticmethod
+    def _name(p: Parser) -> str:
+        """Everything up to the next blank; the storage of aliases judges it."""
+        first = p.advance()
+        text, end = first.text, first.column + len(first.text)
+        while not p.at_block_end and p.token.column == end:
+            text += p.token.text
+            end += len(p.advance().text)
+        return text
+
+
+def _without_alias(node: Expr) -> Expr:
+    """An alias of an alias stands for what that one stands for."""
+    return resolved(node) if isinstance(node, Alias) else node
+
+
+@command(
+    "#DEFINE",
+    group=GROUP,
+    levels=ANY,
+    grammar=(DefinitionForm("name target"),),
+    ref="PG Aliases",
+)
+def define(run: Run, item: Definition) -> None:
+    """Give a parameter, flag, variable or constant a name valid in every program."""
+    aliases: Aliases = run.system.aliases
+    if item.target is not None:
+        aliases.define(item.name, item.target, item.text)
+    elif line := aliases.line(item.name):
+        run.print(line)
+
+
+@command("DEF", group=GROUP, levels=ANY, ref="PG Aliases")
+def def_(run: Run) -> None:
+    """List all aliases."""
+    for line in run.system.aliases.lines():
+        run.print(line)
+
+
+@command("DEF CLEAR", group=GROUP, levels=ANY, ref="PG Aliases")
+def def_clear(run: Run) -> None:
+    """Remove all aliases."""
+    run.system.aliases.clear()
+
+
+# the card
+
+
+@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, ref="PG Operating System")
+def help_(run: Run) -> None:
+    """List all command words."""
+    words = sorted({row.words[0] for row in registry.commands()} - {"LET"} | {"REM"})
+    width = max(map(len, words)) + 1
+    for start in range(0, len(words), HELP_COLUMNS):
+        columns = words[start : start + HELP_COLUMNS]
+        run.print("".join(word.ljust(width) for word in columns).rstrip())
+
+
+@command("VER", group=GROUP, levels=ANY, ref="PG Operating System")
+def ver(run: Run) -> None:
+    """Print model and firmware version."""
+    run.print(run.card.model.version)
+
+
+@command(
+    "PERIOD",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Num("seconds", optional=True),),
+    ref="PG Operating System",
+    units="s",
+    default="0.0005",
+    saved=True,
+)
+def period(run: Run, period_s: float | None) -> None:
+    """Set or show the servo period."""
+    if period_s is None:
+        run.print(double_text(run.card.period_s))
+        return
+    if not SHORTEST_PERIOD_S <= period_s <= LONGEST_PERIOD_S:
+        raise CardError(INVALID_ARGUMENT)
+    if any(axis_moving(run.card, axis) for axis in range(run.card.model.axes)):
+        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+    run.card.set_period(period_s)
+
+
+@command(
+    "PASSWORD",
+    group=GROUP,
+    levels=SYS,
+    use=IMMEDIATE,
+    grammar=(Word("ON", "OFF", optional=True), Str("text", optional=True)),
+    ref="PG Operating System",
+)
+def password(run: Run, switch: str | None, text: str | None) -> None:
+    """Protect program text from LIST, or show whether it is protected."""
+    store = run.system.programs
+    if switch is None:
+        run.print("OFF" if store.password is None else "ON")
+    elif text is None:
+        raise CardError(INVALID_ARGUMENT)
+    elif switch == "ON":
+        store.protect(text)
+    else:
+        store.unprotect(text)

@@ -1,0 +1,222 @@
+"""Program control: RUN, HALT, PAUSE, RESUME, LIST, LISTEN, LRUN, NEW and single steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic import targets
+from openacr.basic.grammar import Form, Int, ObjectRef, Target
+from openacr.basic.lister import Lister
+from openacr.basic.nodes import Expr
+from openacr.basic.program_store import OWNERS
+from openacr.basic.registry import (
+    ANY,
+    BY_TARGET,
+    IMMEDIATE,
+    PLC,
+    PROG,
+    command,
+)
+from openacr.basic.run import Run
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind
+from openacr.messages import PROGRAM_IS_RUNNING
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Program Control"
+FORCE_LINE_NUMBERS = 5651
+LAST_LINE = 999999
+
+
+@command(
+    "RUN",
+    group=GROUP,
+    levels=BY_TARGET,
+    grammar=(Int("line", 1, LAST_LINE, optional=True), Target()),
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def run_(run: Run, line: int | None, target: ObjectRef | None) -> None:
+    """Start a program or PLC at its first line or at `line`; the prompt returns at once."""
+    control = run.system.control
+    is_all = target is not None and target.word == "ALL"
+    for owner in targets.owners(run, target):
+        if run.system.programs.is_empty(owner):
+            continue
+        if not control.is_running(owner):
+            control.run(owner, line)
+        elif not is_all:
+            raise CardError(PROGRAM_IS_RUNNING)
+
+
+@command(
+    "HALT",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Target(),),
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def halt(run: Run, target: ObjectRef | None) -> None:
+    """End a program or PLC and the coordinated motion of its master."""
+    at_sys = target is None and targets.own(run) is None
+    for owner in range(OWNERS) if at_sys else targets.owners(run, target):
+        run.system.control.halt(owner)
+
+
+@command(
+    "PAUSE",
+    group=GROUP,
+    levels=BY_TARGET,
+    grammar=(Target(),),
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def pause(run: Run, target: ObjectRef | None) -> None:
+    """Hold the motion of a program and the program before its next statement."""
+    for owner in targets.owners(run, target):
+        run.system.control.pause(owner)
+
+
+@command(
+    "RESUME",
+    group=GROUP,
+    levels=BY_TARGET,
+    grammar=(Target(),),
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def resume(run: Run, target: ObjectRef | None) -> None:
+    """Go on where PAUSE has stopped."""
+    for owner in targets.owners(run, target):
+        run.system.control.resume(owner)
+
+
+@command("BLK", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
+def blk(run: Run, target: ObjectRef | None) -> None:
+    """Turn block mode on: the program waits before every line."""
+    for owner in targets.owners(run, target):
+        run.system.control.block(owner)
+
+
+@command("AUT", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
+def aut(run: Run, target: ObjectRef | None) -> None:
+    """Leave block mode and go on."""
+    for owner in targets.owners(run, target):
+        run.system.control.auto(owner)
+
+
+@command("STEP", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
+def step(run: Run, target: ObjectRef | None) -> None:
+    """In block mode execute one line."""
+    for owner in targets.owners(run, target):
+        run.system.control.step(owner)
+
+
+@command("TRON", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
+def tron(run: Run, target: ObjectRef | None) -> None:
+    """Send the number of each line to the listening channels before it is executed."""
+    for owner in targets.owners(run, target):
+        run.system.control.trace(owner, True)
+
+
+@command("TROFF", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
+def troff(run: Run, target: ObjectRef | None) -> None:
+    """Stop tracing."""
+    for owner in targets.owners(run, target):
+        run.system.control.trace(owner, False)
+
+
+@command(
+    "NEW",
+    group=GROUP,
+    levels=BY_TARGET,
+    use=IMMEDIATE,
+    grammar=(Target(),),
+    ref="PG Memory Allocations",
+)
+def new(run: Run, target: ObjectRef | None) -> None:
+    """Erase the stored lines of a program or PLC; variables and dimensions stay."""
+    owners = targets.owners(run, target)
+    if any(run.system.control.is_running(owner) for owner in owners):
+        raise CardError(PROGRAM_IS_RUNNING)
+    for owner in owners:
+        run.system.programs.erase(owner)
+
+
+# LIST
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Lines from `first` to `last`; None is open."""
+
+    first: Expr | None
+    last: Expr | None
+
+
+class LineRange(Form):
+    """`n`, `n-m`, `n,m`, `n-`, `-m`."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a number or a dash stands here."""
+        return p.token.kind is Kind.NUMBER or p.is_operator("-")
+
+    def parse(self, p: Parser) -> Range:
+        """Read the range."""
+        first = p.object_index() if p.token.kind is Kind.NUMBER else None
+        if not p.accept("-") and not p.accept(","):
+            return Range(first, first)
+        return Range(first, p.object_index() if p.token.kind is Kind.NUMBER else None)
+
+
+@command(
+    "LIST",
+    group=GROUP,
+    levels=PROG | PLC,
+    use=IMMEDIATE,
+    grammar=(LineRange("lines", optional=True),),
+    ref="PG Programs and Commands",
+)
+def list_(run: Run, lines: Range | None) -> None:
+    """Show the stored program or PLC, or some of its lines."""
+    store = run.system.programs
+    store.check_readable()
+    owner = targets.needed_own(run)
+    first = run.integer(lines.first) if lines and lines.first else 0
+    last = run.integer(lines.last) if lines and lines.last else LAST_LINE
+    lister = Lister(run.system.aliases.nodes)
+    stored = store.lines(owner)
+    shown = lister.program(stored, numbers=run.card.memory.bit(FORCE_LINE_NUMBERS))
+    for line, text in zip(stored, shown, strict=True):
+        if first <= line.number <= last:
+            run.print(text)
+
+
+@command(
+    "LISTEN",
+    group=GROUP,
+    levels=PROG,
+    use=IMMEDIATE,
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def listen(run: Run) -> None:
+    """Show what the program prints, and its errors, until ESC."""
+    run.channel.listen(run.needed_program())
+
+
+@command(
+    "LRUN",
+    group=GROUP,
+    levels=PROG,
+    use=IMMEDIATE,
+    grammar=(Int("line", 1, LAST_LINE, optional=True),),
+    ref="PG Starting, Pausing, and Halting Programs",
+)
+def lrun(run: Run, line: int | None) -> None:
+    """Start the program and listen to it until ESC or its end."""
+    program = run.needed_program()
+    if run.system.control.is_running(program):
+        raise CardError(PROGRAM_IS_RUNNING)
+    if not run.system.programs.is_empty(program):
+        run.channel.listen(program, until_end=True)
+        run.system.control.run(program, line)

@@ -1,0 +1,196 @@
+"""Levels, attachments, aliases and reports as they are typed."""
+
+import pytest
+from tests.basic.bench import Bench
+
+from openacr.basic import registry
+from openacr.models import ACR9000
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_attachments_are_listed_as_hosts_read_them(bench: Bench) -> None:
+    assert bench.type("PROG 0", "ATTACH") == "P00>P00>"
+    bench.type("ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE 1 AXIS 1 "Y"')
+    assert bench.type("ATTACH") == (
+        'ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|ATTACH SLAVE1 AXIS1 "Y"|P00>'
+    )
+    assert bench.type("ATTACH MASTER 0") == "Master already attached|P00>"
+    assert bench.type("DETACH SLAVE1", "ATTACH") == (
+        'P00>ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|P00>'
+    )
+    assert bench.type("DETACH", "ATTACH") == "P00>P00>"
+
+
+def test_axis_attachments_are_set_and_listed_at_sys(bench: Bench) -> None:
+    bench.type("ATTACH AXIS0 STEPPER0 STEPPER0", "ATTACH AXIS1 ENC3 DAC2 ENC4")
+    lines = bench.type("ATTACH").split("|")
+    assert lines[:3] == [
+        "ATTACH AXIS0 STEPPER0 STEPPER0 STEPPER0",
+        "ATTACH AXIS1 ENC3 DAC2 ENC4",
+        "ATTACH AXIS2 ENC2 DAC2 ENC2",
+    ]
+    assert len(lines) == 17
+
+
+def test_detach_at_sys_needs_all(bench: Bench) -> None:
+    bench.type("PROG 3", "ATTACH MASTER3", "SYS")
+    assert bench.type("DETACH") == "Not valid at this level|SYS>"
+    assert bench.type("DETACH ALL", "PROG 3", "ATTACH") == "SYS>P03>P03>"
+
+
+@pytest.mark.req("ACR-COMM-08")
+@pytest.mark.parametrize("line", ["ATTACH MASTER0", "LIST", "LRUN", "RUN", "STEP"])
+def test_program_commands_are_unknown_at_sys_and_change_nothing(bench: Bench, line: str) -> None:
+    before = bench.card.memory.digest()
+    assert bench.type(line) == "Unknown command|SYS>"
+    assert bench.card.memory.digest() == before
+    assert bench.control.calls == []
+
+
+# aliases
+
+
+@pytest.mark.req("ACR-CMD-DEFINE", "ACR-ALIAS-01")
+def test_an_alias_is_usable_on_every_channel_and_in_every_program(bench: Bench) -> None:
+    bench.type("DIM DEF(5)", "DIM P(10)", "#DEFINE Counter P5", "#DEFINE Limit 7")
+    bench.card.memory.write(5, 12.5)
+    assert bench.type("?Counter") == "12.5|SYS>"
+    assert bench.type("PROG 4", "?Counter;Limit", on=bench.connect("COM2")) == "P04>12.57|P04>"
+
+
+@pytest.mark.req("ACR-ALIAS-02")
+def test_alias_names_have_at_most_24_letters(bench: Bench) -> None:
+    bench.type("DIM DEF(5)")
+    assert bench.type(f"#DEFINE {'a' * 24} P0") == "SYS>"
+    assert bench.type(f"#DEFINE {'a' * 25} P0") == "Illegal name|SYS>"
+
+
+@pytest.mark.req("ACR-ALIAS-03")
+def test_alias_names_are_case_sensitive(bench: Bench) -> None:
+    bench.type("DIM DEF(5)", "#DEFINE Counter 1", "#DEFINE counter 2")
+    assert bench.type("?Counter;counter") == "12|SYS>"
+    assert bench.type("?COUNTER") == "Undefined symbol|SYS>"
+
+
+@pytest.mark.req("ACR-ALIAS-04")
+@pytest.mark.parametrize("name", ["Count1", "my_name", "a,b", "DIM", "BIT"])
+def test_digits_symbols_and_keywords_are_no_alias_names(bench: Bench, name: str) -> None:
+    bench.type("DIM DEF(5)")
+    assert bench.type(f"#DEFINE {name} P0") in ("Illegal name|SYS>", "Syntax error|SYS>")
+    assert bench.type("DEF") == "SYS>"
+
+
+@pytest.mark.req("ACR-CMD-DEF")
+def test_def_lists_every_alias_with_its_target(bench: Bench) -> None:
+    bench.type("DIM DEF(5)")
+    assert bench.type("DEF") == "SYS>"
+    bench.type("#DEFINE Fault BIT2560 : REM remark", "#DEFINE Speed -0.5", "#DEFINE Row LA0(3)")
+    assert bench.type("DEF") == (
+        "#DEFINE Fault BIT 2560|#DEFINE Speed -0.5|#DEFINE Row LA0(3)|SYS>"
+    )
+    assert bench.type("#DEFINE Fault") == "#DEFINE Fault BIT 2560|SYS>"
+    assert bench.type("#DEFINE Fault BIT5", "#DEFINE Fault") == "SYS>#DEFINE Fault BIT 5|SYS>"
+    assert bench.type("DEF CLEAR", "DEF") == "SYS>SYS>"
+
+
+def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
+    bench.type("DIM DEF(5)", "#DEFINE EndOfTravel BIT16132", "PROG 0", "10 set EndOfTravel")
+    assert bench.type("LIST") == "10 SET EndOfTravel|P00>"
+
+
+# reports and settings
+
+
+def test_stream_names_the_channel(bench: Bench) -> None:
+    assert bench.type("STREAM") == "COM1|SYS>"
+    network = Bench(ACR9000, "STREAM2")
+    assert network.type("STREAM") == "STREAM2|SYS>"
+
+
+def test_ver_prints_model_and_firmware(bench: Bench) -> None:
+    assert bench.type("VER") == "ACR8020 Version 1.18.06 Update 15|SYS>"
+
+
+def test_help_lists_every_command_word(bench: Bench) -> None:
+    lines = bench.type("HELP").removesuffix("SYS>").split("|")
+    words = " ".join(lines).split()
+    assert words == sorted(words)
+    assert {row.words[0] for row in registry.commands()} - set(words) == {"LET"}
+    assert all(len(line.split()) == 8 for line in lines[:-2])
+
+
+def test_period_is_shown_and_set_within_limits(bench: Bench) -> None:
+    assert bench.type("PERIOD") == "0.0005|SYS>"
+    assert bench.type("PERIOD 0.001", "PERIOD") == "SYS>0.001|SYS>"
+    assert bench.type("PERIOD 0.00005", "PERIOD 0.006") == "Invalid argument|SYS>" * 2
+    assert bench.card.period_s == 0.001
+
+
+def test_period_is_not_changed_in_motion(bench: Bench) -> None:
+    bench.card.memory.set_bit(792, True)
+    assert bench.type("PERIOD 0.001") == "Not valid while in motion|SYS>"
+
+
+@pytest.mark.req("ACR-CMD-CONFIG")
+def test_config_is_shown_set_and_returned_to_default(bench: Bench) -> None:
+    assert bench.type("CONFIG") == "CONFIG ENC8 DAC4 DAC4 ADC8|SYS>"
+    assert bench.type("CONFIG ENC 6 DACSTEP4 NONE ADC8") == "SYS>"
+    assert bench.type("CONFIG") == "CONFIG ENC6 DACSTEP4 NONE ADC8|SYS>"
+    assert bench.type("CONFIG ENC8 DAC4 DACSTEP2 ADC8") == "Invalid argument|SYS>"
+    assert bench.type("CONFIG CLEAR", "CONFIG") == "SYS>CONFIG ENC8 DAC4 DAC4 ADC8|SYS>"
+
+
+@pytest.mark.parametrize(
+    "address", ["1.2.3", "1.2.3.256", "192.168.10.0", "192.168.255.7", "a.b.c.d", "1.2.3.4.5"]
+)
+def test_bad_addresses_are_refused(bench: Bench, address: str) -> None:
+    before = bench.type("IP")
+    assert bench.type(f'IP "{address}"') == "Invalid argument|SYS>"
+    assert bench.type("IP") == before
+
+
+@pytest.mark.req("ACR-CMD-IP")
+def test_ip_shows_and_sets_the_addresses(bench: Bench) -> None:
+    assert bench.type("IP") == "IP 192.168.10.40|MASK 255.255.255.0|GATE 0.0.0.0|SYS>"
+    assert bench.type('IP "10.0.0.5"', 'IP MASK "255.0.0.0"', 'IP GATE "10.0.0.1"') == "SYS>" * 3
+    assert bench.type("IP") == "IP 10.0.0.5|MASK 255.0.0.0|GATE 10.0.0.1|SYS>"
+
+
+def test_diag_reports_supplies_boards_and_network(bench: Bench) -> None:
+    lines = bench.type("DIAG").split("|")
+    assert lines[0] == "ISO PASS"
+    assert lines[7] == "BOARD0 ABSENT"
+    assert len(lines) == 13
+    bench.card.memory.write(7044, 0b10)
+    assert bench.type("DIAG").split("|")[1] == "EXT FAIL"
+
+
+@pytest.mark.req("ACR-CMD-EPLC")
+def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
+    assert bench.type("EPLC") == "OFF|SYS>"
+    assert bench.type("EPLC ON") == "SYS>"
+    assert [bench.card.memory.bit(n) for n in (16640, 16648, 16649, 16650)] == [
+        False, False, False, True,
+    ]  # fmt: skip
+    assert bench.type("EPLC", "EPLC OFF", "EPLC") == "FAILED|SYS>SYS>OFF|SYS>"
+
+
+def test_reboot_restarts_the_card(bench: Bench) -> None:
+    restarted = []
+    bench.system.reboot = lambda: restarted.append(True)
+    bench.type("REBOOT")
+    assert restarted == [True]
+
+
+@pytest.mark.req("ACR-CMD-PASSWORD")
+def test_a_password_keeps_program_text_from_being_listed(bench: Bench) -> None:
+    bench.type("PROG 0", "10 DWL 1", "SYS")
+    assert bench.type("PASSWORD") == "OFF|SYS>"
+    assert bench.type('PASSWORD ON "secret"', "PASSWORD") == "SYS>ON|SYS>"
+    assert bench.type("PROG 0", "LIST") == "P00>Program is protected|P00>"
+    assert bench.type("SYS", 'PASSWORD OFF "other"') == "SYS>Invalid password|SYS>"
+    assert bench.type('PASSWORD OFF "secret"', "PROG 0", "LIST") == "SYS>P00>10 DWL 1|P00>"

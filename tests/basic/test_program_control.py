@@ -1,0 +1,125 @@
+"""RUN, HALT and their kin: whom they mean and what they refuse."""
+
+import pytest
+from tests.basic.bench import Bench
+
+
+@pytest.fixture
+def bench() -> Bench:
+    bench = Bench()
+    bench.type("PROG 0", "10 DWL 1", "PROG 2", "10 DWL 1", "20 VER", "SYS")
+    return bench
+
+
+@pytest.mark.req("ACR-RUN-01")
+@pytest.mark.parametrize("level", ["SYS", "PROG 5", "PLC 1"])
+def test_run_pause_and_halt_work_anywhere_with_a_target(bench: Bench, level: str) -> None:
+    bench.type(level, "RUN PROG2", "PAUSE PROG2", "RESUME PROG 2", "HALT PLC3", "HALT PROG2")
+    assert bench.control.calls == [
+        ("run", 2, None), ("pause", 2), ("resume", 2), ("halt", 19), ("halt", 2),
+    ]  # fmt: skip
+
+
+def test_without_target_the_program_of_the_prompt_is_meant(bench: Bench) -> None:
+    assert bench.type("PROG 2", "RUN", "HALT", "RUN 20") == "P02>" * 4
+    assert bench.control.calls == [("run", 2, None), ("halt", 2), ("run", 2, 20)]
+    bench.type("PLC 4", "HALT")
+    assert bench.control.calls[-1] == ("halt", 20)
+
+
+def test_halt_alone_at_sys_halts_everything(bench: Bench) -> None:
+    bench.type("HALT")
+    assert bench.control.calls == [("halt", owner) for owner in range(24)]
+
+
+def test_run_all_starts_what_is_stored_and_not_running(bench: Bench) -> None:
+    bench.type("RUN PROG2", "RUN ALL")
+    assert bench.control.calls == [("run", 2, None), ("run", 0, None)]
+
+
+@pytest.mark.req("ACR-RUN-12")
+def test_a_running_program_is_not_started_again(bench: Bench) -> None:
+    assert bench.type("PROG 0", "RUN", "RUN") == "P00>P00>Program is running|P00>"
+    assert bench.type("LRUN") == "Program is running|P00>"
+
+
+def test_an_empty_program_is_started_silently(bench: Bench) -> None:
+    assert bench.type("PROG 7", "RUN", "LRUN") == "P07>" * 3
+    assert bench.control.calls == []
+
+
+@pytest.mark.req("ACR-SYN-08")
+def test_halt_accepts_a_program_a_plc_or_all(bench: Bench) -> None:
+    assert bench.type("HALT PROG3", "HALT PLC2", "HALT ALL") == "SYS>" * 3
+    assert bench.control.calls[:3] == [("halt", 3), ("halt", 18), ("halt", 0)]
+    assert bench.type("HALT PROG16") == "Invalid argument|SYS>"
+
+
+def test_stepping_commands_reach_their_program(bench: Bench) -> None:
+    bench.type("PROG 1", "BLK", "STEP", "AUT", "TRON", "TROFF PROG3")
+    assert bench.control.calls == [
+        ("block", 1), ("step", 1), ("auto", 1), ("trace", 1, True), ("trace", 3, False),
+    ]  # fmt: skip
+
+
+def test_inside_a_program_its_own_program_is_meant(bench: Bench) -> None:
+    bench.execute(3, "PAUSE")
+    bench.execute(3, "RUN PROG2")
+    assert bench.control.calls == [("pause", 3), ("run", 2, None)]
+
+
+@pytest.mark.req("ACR-CMD-NEW")
+def test_new_erases_text_and_keeps_variables(bench: Bench) -> None:
+    bench.type("PROG 0", "DIM LV(2)", "NEW")
+    assert bench.type("LIST", "DIM") == "P00>DIM LV(2)|P00>"
+    assert bench.card.memory.bit(1024 + 5)
+    assert bench.type("NEW ALL", "PROG 2", "LIST") == "P00>P02>P02>"
+
+
+def test_new_of_a_running_program_erases_nothing(bench: Bench) -> None:
+    bench.type("RUN PROG2")
+    assert bench.type("NEW PROG2", "NEW ALL") == "Program is running|SYS>" * 2
+    assert bench.type("PROG 0", "LIST") == "P00>10 DWL 1|P00>"
+
+
+LINES = ("5 REM five", "10 VER", "20 MEM", "30 DWL 3")
+
+
+@pytest.mark.req("ACR-CMD-LIST")
+@pytest.mark.parametrize(
+    ("command", "shown"),
+    [
+        ("LIST", LINES),
+        ("LIST 10", LINES[1:2]),
+        ("LIST 10-20", LINES[1:3]),
+        ("LIST 10,20", LINES[1:3]),
+        ("LIST 15-", LINES[2:]),
+        ("LIST -15", LINES[:2]),
+        ("LIST 11-19", ()),
+    ],
+)
+def test_list_shows_the_lines_of_a_range(
+    bench: Bench, command: str, shown: tuple[str, ...]
+) -> None:
+    bench.type("PROG 9", "SYS", "DIM PROG9(1000)", "PROG 9", *LINES)
+    assert bench.type(command) == "".join(line + "|" for line in shown) + "P09>"
+
+
+def test_lists_of_an_empty_program_print_nothing(bench: Bench) -> None:
+    assert bench.type("PROG 9", "LIST") == "P09>P09>"
+
+
+@pytest.mark.req("ACR-REM-03", "ACR-REM-04")
+def test_remarks_are_stored_and_listed_and_apostrophe_comments_are_not(bench: Bench) -> None:
+    bench.type("PROG 4", "PROGRAM", "REM: Keep This", "'drop this", "VER : REM note", "ENDP")
+    assert bench.type("LIST") == "PROGRAM| REM: Keep This| VER : REM note|ENDP|P04>"
+
+
+@pytest.mark.req("ACR-PBOOT-03")
+def test_pboot_typed_starts_every_program_that_begins_with_it(bench: Bench) -> None:
+    bench.type("PROG 1", "PROGRAM", "PBOOT", "VER", "ENDP")
+    bench.type("PROG 3", "10 PBOOT", "20 VER", "PROG 4", "10 REM first", "20 PBOOT")
+    bench.type("PROG 5", "10 VER", "20 PBOOT", "PBOOT")
+    assert bench.control.calls == [("run", 1, None), ("run", 3, None)]
+    bench.execute(5, "PBOOT")
+    assert len(bench.control.calls) == 2

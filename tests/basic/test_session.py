@@ -1,0 +1,265 @@
+"""One command channel: lines in, answers and prompts out."""
+
+import pytest
+from tests.basic.bench import Bench
+
+from openacr.basic.run import Wait, WaitKind
+from openacr.basic.session import Attention
+from openacr.errors import CardError
+from openacr.messages import DIVIDE_BY_ZERO
+from openacr.models import ACR9000
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_nothing_is_sent_when_a_host_connects(bench: Bench) -> None:
+    assert bench.sent() == ""
+
+
+@pytest.mark.req("ACR-COMM-01")
+def test_every_channel_starts_at_system_level() -> None:
+    bench = Bench(ACR9000)
+    for name in bench.system.sessions:
+        assert bench.type("", on=bench.connect(name)) == "SYS>"
+
+
+@pytest.mark.req("ACR-COMM-02", "ACR-COMM-03", "ACR-COMM-04", "ACR-COMM-05")
+def test_level_commands_switch_the_prompt_from_any_level(bench: Bench) -> None:
+    typed = ("PROG 1", "PLC 3", "PLC7", "prog15", "SYS", "PLC0", "PROG 0", "PROG 4", "SYS")
+    assert [bench.type(line) for line in typed] == [
+        "P01>", "PLC3>", "PLC7>", "P15>", "SYS>", "PLC0>", "P00>", "P04>", "SYS>",
+    ]  # fmt: skip
+
+
+@pytest.mark.req("ACR-COMM-10")
+@pytest.mark.parametrize("line", ["PROG 16", "PLC 8", "PROG -1"])
+def test_a_level_number_out_of_range_is_refused(bench: Bench, line: str) -> None:
+    assert bench.type(line) in ("Invalid argument|SYS>", "Syntax error|SYS>")
+
+
+@pytest.mark.req("ACR-COMM-06")
+def test_each_channel_keeps_its_own_level(bench: Bench) -> None:
+    other = bench.connect("COM2")
+    assert bench.type("PROG 3") == "P03>"
+    assert bench.type("PROG 5", on=other) == "P05>"
+    assert bench.type("10 X10") == "Unknown command|P03>"
+    assert bench.type("10 DWL 1") == "P03>"
+    assert bench.type("LIST", on=other) == "P05>"
+    assert bench.type("LIST") == "10 DWL 1|P03>"
+
+
+@pytest.mark.parametrize(
+    "line", ["", "   ", ":", "REM any text: here", "' a comment", "NONSENSE", "P0 = ", "(", '"']
+)
+def test_every_line_is_answered_by_exactly_one_prompt(bench: Bench, line: str) -> None:
+    answer = bench.type("PROG 2", line)
+    assert answer.endswith("P02>")
+    assert answer.count(">") == 2
+
+
+def test_an_unknown_word_has_its_message_on_a_line_of_its_own(bench: Bench) -> None:
+    assert bench.type("NONSENSE 5") == "Unknown command|SYS>"
+
+
+def test_an_overlong_line_is_refused(bench: Bench) -> None:
+    bench.session.line_too_long()
+    assert bench.sent() == "Line too long|SYS>"
+
+
+def test_echo_modes_switch_off_errors_and_prompts(bench: Bench) -> None:
+    assert bench.type("ECHO") == "1|SYS>"
+    assert bench.type("ECHO 4") == ""
+    assert bench.type("NONSENSE") == "Unknown command|"
+    assert bench.type("ECHO") == "4|"
+    assert bench.type("ECHO 2") == "SYS>"
+    assert bench.type("NONSENSE") == "SYS>"
+    assert bench.type("ECHO 8") == "SYS>"
+    assert bench.session.echo == 2
+
+
+def test_the_binary_mode_of_the_channel_is_set_and_shown(bench: Bench) -> None:
+    assert bench.type("MODE 3", "MODE") == "SYS>3|SYS>"
+    assert bench.session.mode == 3
+
+
+def test_a_line_that_waits_is_answered_when_it_is_done(bench: Bench) -> None:
+    bench.session.busy = True
+    bench.session.write("1\r\n")
+    assert bench.sent() == ""
+    bench.runner.waiting[bench.session.thread] = Wait(WaitKind.TIME)
+    assert bench.sent() == "1|"
+    bench.session.finished()
+    assert bench.sent() == "SYS>"
+
+
+def test_an_error_at_the_end_of_a_long_line_is_reported(bench: Bench) -> None:
+    bench.session.busy = True
+    bench.session.finished(CardError(DIVIDE_BY_ZERO))
+    assert bench.sent() == "Divide by zero|SYS>"
+
+
+# storing
+
+
+@pytest.mark.req("ACR-IMM-03", "ACR-IMM-04")
+def test_numbered_lines_are_stored_replaced_and_deleted(bench: Bench) -> None:
+    assert bench.type("PROG 0", "20 DWL 2", "15 VER", "20 DWL 3", "5 MEM") == "P00>" * 5
+    assert bench.type("LIST") == "5 MEM|15 VER|20 DWL 3|P00>"
+    assert bench.type("15", "15", "LIST") == "P00>P00>5 MEM|20 DWL 3|P00>"
+
+
+def test_a_numbered_line_at_sys_has_no_program_to_go_to(bench: Bench) -> None:
+    assert bench.type("10 VER") == "Unknown command|SYS>"
+
+
+@pytest.mark.parametrize("line", ["0 VER", "1000000 VER", "1.5 VER"])
+def test_line_numbers_are_whole_and_have_six_digits(bench: Bench, line: str) -> None:
+    assert bench.type("PROG 0", line, "LIST") == "P00>Syntax error|P00>P00>"
+
+
+def test_a_line_that_cannot_be_read_is_not_stored(bench: Bench) -> None:
+    assert bench.type("PROG 0", "10 NONSENSE", "LIST") == "P00>Unknown command|P00>P00>"
+
+
+def test_storing_sets_program_modified(bench: Bench) -> None:
+    bench.type("PROG 3", "10 VER")
+    assert bench.card.memory.bit(1024 + 32 * 3 + 5)
+
+
+def test_program_to_endp_is_stored_with_hidden_numbers(bench: Bench) -> None:
+    lines = ("PROGRAM", "' dropped", "", "REM kept", "_Loop", "DWL 1", "GOTO Loop", "ENDP")
+    assert bench.type("PROG 0", *lines) == "P00>" * 9
+    assert bench.type("LIST") == "PROGRAM| REM kept| _Loop| DWL 1| GOTO Loop|ENDP|P00>"
+    assert [line.number for line in bench.system.programs.lines(0)] == [10, 20, 30, 40, 50, 60]
+
+
+@pytest.mark.req("ACR-IMM-06")
+def test_line_numbers_of_free_form_text_show_with_bit_5651(bench: Bench) -> None:
+    bench.type("PROG 0", "PROGRAM", "DWL 1", "ENDP")
+    assert bench.type("LIST") == "PROGRAM| DWL 1|ENDP|P00>"
+    bench.card.memory.set_bit(5651, True)
+    assert bench.type("LIST") == "10 PROGRAM|20  DWL 1|30 ENDP|P00>"
+    bench.card.memory.set_bit(5651, False)
+    assert bench.type("15 VER", "LIST") == "P00>PROGRAM| VER| DWL 1|ENDP|P00>"
+
+
+def test_program_erases_the_old_text(bench: Bench) -> None:
+    bench.type("PROG 0", "10 VER", "20 MEM", "PROGRAM", "DWL 1", "ENDP")
+    assert bench.type("LIST").count("|") == 3
+
+
+def test_a_refused_line_inside_program_is_left_out(bench: Bench) -> None:
+    answer = bench.type("PROG 0", "PROGRAM", "NONSENSE", "LIST", "REBOOT", "ENDP")
+    assert answer == "P00>P00>Unknown command|P00>" + "Not valid at this level|P00>" * 2 + "P00>"
+    assert bench.type("LIST") == "PROGRAM|ENDP|P00>"
+
+
+@pytest.mark.parametrize(
+    ("line", "prompt"), [("SYS", "SYS>"), (": PROG 5", "P05>"), ("PLC1", "PLC1>")]
+)
+def test_a_level_command_ends_the_text_as_endp_would(bench: Bench, line: str, prompt: str) -> None:
+    assert bench.type("PROG 0", "PROGRAM", "DWL 1", line) == f"P00>P00>P00>{prompt}"
+    assert bench.type("PROG 0", "LIST") == "P00>PROGRAM| DWL 1|ENDP|P00>"
+
+
+def test_the_misprint_of_program_and_label_on_one_line_is_understood(bench: Bench) -> None:
+    bench.type("PROG 0", "PROGRAM0_start", "GOTO start", "ENDP")
+    assert bench.type("LIST") == "PROGRAM| _start| GOTO start|ENDP|P00>"
+
+
+def test_program_may_carry_a_remark_and_nothing_else(bench: Bench) -> None:
+    assert bench.type("PROG 0", "PROGRAM X10") == "P00>Syntax error|P00>"
+    assert bench.session.capture is None
+    bench.type("PROGRAM : REM main", "ENDP")
+    assert bench.type("LIST") == "PROGRAM : REM main|ENDP|P00>"
+
+
+def test_the_text_of_a_running_program_is_not_replaced(bench: Bench) -> None:
+    bench.type("PROG 0", "10 VER")
+    bench.control.running.add(0)
+    assert bench.type("PROGRAM", "LIST") == "Program is running|P00>10 VER|P00>"
+
+
+def test_program_at_sys_is_unknown(bench: Bench) -> None:
+    assert bench.type("PROGRAM") == "Unknown command|SYS>"
+
+
+# listening
+
+
+def test_listening_shows_output_and_no_prompt_until_escape(bench: Bench) -> None:
+    assert bench.type("PROG 2", "LISTEN") == "P02>"
+    assert bench.session.attention is Attention.LISTENING
+    bench.system.listeners.print(2, "hello\r\n")
+    bench.system.listeners.print(1, "not for you\r\n")
+    bench.system.listeners.error(2, 30, "Divide by zero")
+    assert bench.sent() == "hello|Error in PROG2 line 30: Divide by zero|"
+    bench.session.escape()
+    assert bench.sent() == "|P02>"
+    bench.system.listeners.print(2, "lost\r\n")
+    assert bench.sent() == ""
+
+
+@pytest.mark.req("ACR-RUN-06")
+def test_escape_in_lrun_gives_one_prompt_and_leaves_the_program_running(bench: Bench) -> None:
+    bench.type("PROG 0", "10 DWL 1")
+    assert bench.type("LRUN") == ""
+    bench.session.escape()
+    assert bench.sent() == "|P00>"
+    assert bench.control.running == {0}
+    bench.session.escape()
+    assert bench.sent() == ""
+    bench.system.listeners.ended(0)
+    assert bench.sent() == ""
+
+
+def test_the_prompt_returns_once_when_a_program_followed_with_lrun_ends(bench: Bench) -> None:
+    bench.type("PROG 0", "10 DWL 1", "LRUN")
+    bench.system.listeners.print(0, "done\r\n")
+    bench.system.listeners.ended(0)
+    bench.system.listeners.ended(0)
+    assert bench.sent() == "done|P00>"
+    assert bench.session.attention is Attention.COMMANDS
+
+
+def test_several_channels_may_listen_to_one_program(bench: Bench) -> None:
+    other = bench.connect("COM2")
+    bench.type("PROG 1", "LISTEN")
+    bench.type("PROG 1", "LISTEN", on=other)
+    bench.system.listeners.print(1, "both\r\n")
+    assert bench.sent() == "both|"
+    assert bench.sent(other) == "both|"
+
+
+def test_talk_to_joins_two_channels_until_escape(bench: Bench) -> None:
+    other = bench.connect("COM2")
+    assert bench.type('TALK TO "COM2:"') == ""
+    bench.session.typed(ord("a"))
+    other.typed(ord("b"))
+    assert (bench.sent(other), bench.sent()) == ("a", "b")
+    bench.session.escape()
+    assert bench.sent() == "|SYS>"
+    assert other.attention is Attention.COMMANDS
+    assert bench.type("TALK TO COM1") == "Invalid device|SYS>"
+
+
+def test_a_lost_connection_ends_listening_and_capture_and_starts_afresh(bench: Bench) -> None:
+    bench.type("PROG 1", "PROGRAM", "DWL 1")
+    bench.session.busy = True
+    bench.session.disconnect()
+    assert bench.runner.cancelled == ["COM1"]
+    bench.session.write("lost")
+    bench.session.connect()
+    assert bench.type("") == "SYS>"
+    assert not bench.system.programs.is_empty(1)
+
+
+def test_the_state_of_a_channel_survives_a_snapshot(bench: Bench) -> None:
+    bench.type("PROG 7", "ECHO 3", "MODE 1", "PROGRAM")
+    other = Bench()
+    other.session.restore(bench.session.state())
+    assert other.session.state() == bench.session.state()
+    assert other.session.prompt == "P07>"
