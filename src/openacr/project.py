@@ -105,6 +105,12 @@ def read_source(path: Path, place: Place = Place.SETUP, number: int = 0) -> Sour
     return SourceFile(path, data, place, number)
 
 
+def place_of(path: Path) -> tuple[Place, int]:
+    """Say what a file is for by its name: progN.8k and plcN.8k, else set-up."""
+    match = _NUMBERED.fullmatch(path.name)
+    return (Place(match[1].lower()), int(match[2])) if match else (Place.SETUP, 0)
+
+
 def read_bytes(path: Path) -> bytes:
     """Read the bytes of a file the user named, or say in a sentence why not."""
     try:

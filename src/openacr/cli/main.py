@@ -59,7 +59,8 @@ class Commands(TyperGroup):
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
-        self.commands.update(dict.fromkeys(COMMANDS))  # for suggestions after a slip
+        names: dict[str, Any] = dict.fromkeys(COMMANDS)
+        self.commands.update(names)  # for suggestions after a slip
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""

@@ -1,0 +1,100 @@
+"""`openacr list` and `openacr check`: a controller file as the card would read it."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.errors import SourceError
+from openacr.project import Place, Project, find_project, place_of, read_source
+
+if TYPE_CHECKING:
+    from openacr.cli.source import Fault, Reader
+
+HAS_ERRORS = 1
+
+File = Annotated[Path, typer.Argument(help="Controller file (.8k) or project folder.")]
+
+
+def list_file(file: File) -> None:
+    """Print a controller file as the card lists it."""
+    from openacr.cli.source import listing
+
+    reader = read(file, find_project(file))
+    for line in listing(reader):
+        typer.echo(line)
+    if reader.faults:
+        _show(reader.faults, on_stderr=True)
+        raise typer.Exit(HAS_ERRORS)
+
+
+def check_file(
+    file: File,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the errors as a JSON array.")
+    ] = False,
+) -> None:
+    """Find every error in a controller file.
+
+    A project folder is checked as a whole: machine file, scenario and all controller files.
+    Exit code 1: there are errors; 2: the input cannot be read at all.
+    """
+    project = find_project(file)
+    faults = [*_table_faults(project), *read(file, project).faults]
+    if as_json:
+        records = [asdict(fault) for fault in faults]
+        typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
+    elif faults:
+        _show(faults, on_stderr=False)
+    else:
+        typer.echo(f"{file}: no errors")
+    if faults:
+        raise typer.Exit(HAS_ERRORS)
+
+
+def read(file: Path, project: Project) -> "Reader":
+    """Read all files; one of a project alone is read behind the set-up beside it."""
+    from openacr.cli.source import Reader
+
+    reader = Reader()
+    place, number = place_of(file)
+    if file.is_dir() or place is Place.SETUP:
+        for source in project.sources:
+            reader.read(source)
+        return reader
+    setup = find_project(file.parent).setup
+    if setup:
+        reader.read(setup)
+        reader.faults.clear()
+        reader.parts.clear()
+    reader.read(read_source(file, place, number))
+    return reader
+
+
+def _table_faults(project: Project) -> Iterator["Fault"]:
+    """What is wrong in the machine and scenario files of a project."""
+    from openacr.cli.source import Fault
+    from openacr.plant.load import load_world
+    from openacr.scenario import load_scenario
+
+    for path, load in ((project.machine, load_world), (project.scenario, load_scenario)):
+        try:
+            if path:
+                load(path)
+        except SourceError as error:
+            text = (path.read_text(errors="replace") if path else "").split("\n")
+            line = text[error.line - 1].rstrip() if 0 < error.line <= len(text) else ""
+            place = (error.line, error.column, 1)
+            yield Fault(error.path, *place, error.text, error.hint, line)
+
+
+def _show(faults: list["Fault"], *, on_stderr: bool) -> None:
+    for fault in faults:
+        typer.echo(str(fault), err=on_stderr)
+        for line in fault.marker.split("\n") if fault.text else ():
+            typer.echo(f"    {line}", err=on_stderr)
+    count = len(faults)
+    typer.echo(f"{count} error{'s' if count != 1 else ''}", err=True)
