@@ -17,7 +17,7 @@ SHELL := /bin/sh
 
 VENV := .venv
 PY := $(VENV)/bin/python
-PIP := $(PY) -m pip --disable-pip-version-check --quiet --retries 2
+PIP := $(PY) -m pip --disable-pip-version-check -qq --retries 2
 # `make PYTHON=/path/to/python3.12 test` chooses another interpreter for the environment.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
