@@ -63,7 +63,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["axis_preload", "axis_renew", "axis_show", "axis_take_written"]
+__all__ = ["axis_preload", "axis_renew", "axis_settled", "axis_show", "axis_take_written"]
 
 
 def axis_word(n: int) -> int:

@@ -8,6 +8,10 @@ from openacr.compiled import pick
 from openacr.kernel import axis_cy, slow_cy
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
+    AX_BASE,
+    AX_FILTER0_A0,
+    AX_FILTER1_A0,
+    AX_STRIDE,
     AXI_BASE,
     AXI_CAPTURE_MODE,
     AXI_HLBIT,
@@ -118,6 +122,8 @@ class Card:
         rows[row + AXI_VELOCITY_INDEX] = axis
         rows[row + AXI_HLBIT] = 3 * axis
         rows[row + AXI_CAPTURE_MODE] = -1
+        for bypass in (AX_FILTER0_A0, AX_FILTER1_A0):
+            self.memory.S[AX_BASE + axis * AX_STRIDE + bypass] = 1.0
 
     def _default_master(self, master: int) -> None:
         reals = MSF_BASE + master * MSF_STRIDE

@@ -39,7 +39,8 @@ from openacr.motion.permits import (
 from openacr.motion.rows import axis_ints, axis_reals, axis_word, master_reals
 
 
-def _permit(card: Card, axis: int, direction: float) -> None:
+def permit(card: Card, axis: int, direction: float) -> None:
+    """Refuse a jog in `direction` (its sign) that a kill, the axis or a limit bars."""
     needs_no_kill(card, axis)
     needs_on(card, axis)
     needs_free_way(card, axis, direction)
@@ -47,7 +48,7 @@ def _permit(card: Card, axis: int, direction: float) -> None:
 
 def continuous(card: Card, axis: int, direction: int) -> None:
     """JOG FWD (+1) or JOG REV (-1): run until JOG OFF."""
-    _permit(card, axis, direction)
+    permit(card, axis, direction)
     word = axis_word(axis)
     wanted, other = AF1_JOG_FORWARD, AF1_JOG_REVERSE
     if direction < 0:
@@ -56,6 +57,12 @@ def continuous(card: Card, axis: int, direction: int) -> None:
     if not flags & AF1_JOG_LOCKOUT:
         flags |= AF1_JOG_ACTIVE
     card.memory.I[word] = flags
+
+
+def offset(card: Card, axis: int) -> float:
+    """The jog offset in units."""
+    card.take_written(axis)
+    return card.memory.F[axis_reals(axis) + AXF_JOG_CNT] / scale_of(card, axis)
 
 
 def absolute(card: Card, axis: int, position_u: float) -> None:
@@ -76,7 +83,7 @@ def incremental(card: Card, axis: int, distance_u: float) -> None:
 def _to_target(card: Card, axis: int, target_cnt: float) -> None:
     memory = card.memory
     distance = target_cnt - memory.F[axis_reals(axis) + AXF_JOG_CNT]
-    _permit(card, axis, distance / scale_of(card, axis))
+    permit(card, axis, distance / scale_of(card, axis))
     ints, word = axis_ints(axis), axis_word(axis)
     if memory.I[ints + AXI_JOG_MODE] == JOG_HOMING:
         _leave_homing(card, axis)
@@ -112,10 +119,15 @@ def _leave_homing(card: Card, axis: int) -> None:
     card.memory.I[AF5_WORD + axis] = flags | AF5_HOME_FAILED
 
 
+def permit_home(card: Card, axis: int, direction: int) -> None:
+    """Refuse homing of an axis that moves or may not."""
+    needs_rest(card, axis)
+    permit(card, axis, direction)
+
+
 def home(card: Card, axis: int, direction: int) -> None:
     """JOG HOME: start the homing sequence in `direction` (+1 or -1)."""
-    needs_rest(card, axis)
-    _permit(card, axis, direction)
+    permit_home(card, axis, direction)
     memory = card.memory
     ints = axis_ints(axis)
     memory.I[AF5_WORD + axis] &= ~(AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED)
@@ -126,11 +138,22 @@ def home(card: Card, axis: int, direction: int) -> None:
     memory.I[axis_word(axis)] |= AF1_JOG_ACTIVE
 
 
-def renew(card: Card, axis: int, position_u: float) -> None:
-    """JOG REN: the coordinated position becomes `position_u`, the jog offset the rest."""
+def needs_no_moves(card: Card, axis: int) -> None:
+    """Refuse while the master of the axis moves."""
     master = master_of(card, axis)
     if master is not None and master_moving(card, master):
         raise CardError(NOT_VALID_WHILE_IN_MOTION)
+
+
+def needs_no_jog(card: Card, axis: int) -> None:
+    """Refuse while the axis jogs."""
+    if card.memory.I[axis_word(axis)] & AF1_JOG_ACTIVE:
+        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+
+
+def renew(card: Card, axis: int, position_u: float) -> None:
+    """JOG REN: the coordinated position becomes `position_u`, the jog offset the rest."""
+    needs_no_moves(card, axis)
     reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
@@ -141,14 +164,13 @@ def renew(card: Card, axis: int, position_u: float) -> None:
 
 def reset(card: Card, axis: int, offset_u: float) -> None:
     """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest."""
-    if card.memory.I[axis_word(axis)] & AF1_JOG_ACTIVE:
-        raise CardError(NOT_VALID_WHILE_IN_MOTION)
+    needs_no_jog(card, axis)
     reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
     total = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + AXF_JOG_CNT]
-    offset = offset_u * scale_of(card, axis)
-    _share(card, axis, total - offset, offset)
+    kept = offset_u * scale_of(card, axis)
+    _share(card, axis, total - kept, kept)
 
 
 def _share(card: Card, axis: int, position_cnt: float, jog_cnt: float) -> None:

@@ -47,6 +47,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
 )
 from openacr.messages import NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
+from openacr.motion import settings
 from openacr.motion.card import Card
 from openacr.motion.permits import (
     master_moving,
@@ -98,16 +99,20 @@ def needed_master(card: Card, program: int) -> int:
     return master
 
 
-def has_room(card: Card, master: int) -> bool:
-    """Whether the move buffer of a master takes another move."""
-    rows = master_ints(master)
-    return card.memory.I[rows + MSI_QUEUED] <= card.memory.I[rows + MSI_DEPTH]
+def capacity(card: Card, master: int) -> int:
+    """How many moves a master holds, the running one included."""
+    return card.memory.I[master_ints(master) + MSI_DEPTH] + 1
+
+
+def has_room(card: Card, master: int, count: int = 1) -> bool:
+    """Whether the move buffer of a master takes another `count` moves."""
+    queued = card.memory.I[master_ints(master) + MSI_QUEUED]
+    return queued + count <= capacity(card, master)
 
 
 def room_row(card: Card, master: int) -> tuple[int, int]:
     """Row in I and value it must stay below for the buffer to have room."""
-    rows = master_ints(master)
-    return rows + MSI_QUEUED, card.memory.I[rows + MSI_DEPTH] + 1
+    return master_ints(master) + MSI_QUEUED, capacity(card, master)
 
 
 def issue(card: Card, program: int, targets: Iterable[Target], *, rapid: bool = False) -> None:
@@ -170,6 +175,7 @@ def _planned_end(card: Card, master: int, slave: int, axis: int) -> float:
 
 def _append(card: Card, master: int, ways: list[_Way]) -> int:
     """Write the next record of the ring and set the motion flags at once."""
+    settings.refresh_max_velocity(card, master)
     memory = card.memory
     rows = master_ints(master)
     queued = memory.I[rows + MSI_QUEUED]

@@ -3,13 +3,20 @@
 from openacr.compiled import pick
 from openacr.kernel import axis_cy, capture_cy, feedback_cy
 from openacr.kernel.words_cy import round32
-from openacr.map.numbers import AXI_CAPTURE_COPY, AXI_CAPTURE_MODE
+from openacr.map.numbers import (
+    AX_ACTUAL_POSITION,
+    AXF_POSITION_CNT,
+    AXF_ROTARY_U,
+    AXI_CAPTURE_COPY,
+    AXI_CAPTURE_MODE,
+)
 from openacr.motion.card import Card
 from openacr.motion.permits import needs_rest, scale_of
-from openacr.motion.rows import axis_ints
+from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
 
 _axis_preload = pick(axis_cy.axis_preload)
 _axis_renew = pick(axis_cy.axis_renew)
+_axis_settled = pick(axis_cy.axis_settled)
 _feedback_set = pick(feedback_cy.feedback_set)
 _capture_arm = pick(capture_cy.capture_arm)
 
@@ -30,6 +37,22 @@ def ren(card: Card, axis: int) -> None:
     needs_rest(card, axis)
     card.take_written(axis)
     _axis_renew(card.memory.F, card.memory.I, axis)
+    card.show(axis)
+
+
+def norm(card: Card, axis: int) -> None:
+    """NORM: take whole turns off a rotary axis, so that 0 <= current position < ROTARY."""
+    needs_rest(card, axis)
+    memory, reals = card.memory, axis_reals(axis)
+    length_cnt = memory.F[reals + AXF_ROTARY_U] * abs(scale_of(card, axis))
+    if length_cnt <= 0.0:
+        return
+    card.take_written(axis)
+    turns = memory.F[reals + AXF_POSITION_CNT] // length_cnt
+    actual = memory.I[axis_parameter(axis) + AX_ACTUAL_POSITION]
+    _feedback_set(memory.F, memory.I, memory.S, axis, actual - round(turns * length_cnt))
+    memory.F[reals + AXF_POSITION_CNT] -= turns * length_cnt
+    _axis_settled(memory.F, memory.I, axis)
     card.show(axis)
 
 
