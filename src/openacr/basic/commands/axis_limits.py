@@ -1,0 +1,149 @@
+"""Axis limits: bands of error, position and torque, limit switches and software limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openacr.basic.grammar import Axis, AxisList, AxisValue, AxisValues, Either, Int, Word
+from openacr.basic.nodes import AxisRef
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Band, Value, axis_bands, axis_values, check_all, value_text
+from openacr.map.numbers import (
+    AX_MINUS_A_LIMIT,
+    AX_MINUS_B_LIMIT,
+    AX_MINUS_EXCESS_ERROR,
+    AX_MINUS_IN_POSITION,
+    AX_MINUS_JOG_LIMIT,
+    AX_MINUS_TORQUE_BAND,
+    AX_MINUS_TORQUE_LIMIT,
+    AX_PLUS_A_LIMIT,
+    AX_PLUS_B_LIMIT,
+    AX_PLUS_EXCESS_ERROR,
+    AX_PLUS_IN_POSITION,
+    AX_PLUS_JOG_LIMIT,
+    AX_PLUS_TORQUE_BAND,
+    AX_PLUS_TORQUE_LIMIT,
+    AXF_HLDEC_UPS2,
+    AXF_SLDEC_UPS2,
+    AXF_SLM_MINUS_U,
+    AXF_SLM_PLUS_U,
+    AXI_HLBIT,
+    FLAG_LAST,
+)
+from openacr.motion import settings
+from openacr.motion.settings import LimitEnables, not_negative, of_axis, of_axis_int, of_axis_real
+
+GROUP = "Axis Limits"
+REF = "PG Axis Limits"
+
+
+def band(words: str, plus: int, minus: int, doc: str, units: str, default: str = "0,0") -> Band:
+    """A row whose ends are parameters."""
+    return Band(words, of_axis(plus), of_axis(minus), doc, units, default)
+
+
+axis_bands(
+    (
+        band("ALM", AX_PLUS_A_LIMIT, AX_MINUS_A_LIMIT,
+             "Set stroke limit A, the band of the flag Within A Limit.", "units"),
+        band("BLM", AX_PLUS_B_LIMIT, AX_MINUS_B_LIMIT,
+             "Set stroke limit B, the band of the flag Not Within B Limit.", "units"),
+        band("EXC", AX_PLUS_EXCESS_ERROR, AX_MINUS_EXCESS_ERROR,
+             "Set the excess error band of the following error.", "units"),
+        band("IPB", AX_PLUS_IN_POSITION, AX_MINUS_IN_POSITION,
+             "Set the in-position band of the following error.", "units"),
+        band("ITB", AX_PLUS_TORQUE_BAND, AX_MINUS_TORQUE_BAND,
+             "Set the in-torque band of the output signal.", "volts"),
+        band("JLM", AX_PLUS_JOG_LIMIT, AX_MINUS_JOG_LIMIT,
+             "Set the limits of the jog offset, in force while Jog Limit Check is set.", "units"),
+        band("TLM", AX_PLUS_TORQUE_LIMIT, AX_MINUS_TORQUE_LIMIT,
+             "Limit the output signal; 0 means no torque.", "volts", "10,-10"),
+        Band("SLM", of_axis_real(AXF_SLM_PLUS_U), of_axis_real(AXF_SLM_MINUS_U),
+             "Set the positions of the software limits.", "units"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+def flag_number(value: float) -> bool:
+    """What HLBIT takes."""
+    return 0.0 <= value <= FLAG_LAST
+
+
+axis_values(
+    (
+        Value("HLBIT", of_axis_int(AXI_HLBIT, flag_number),
+              "Assign three inputs: positive limit, negative limit and home, from this flag on.",
+              default="3 times the axis"),
+        Value("HLDEC", of_axis_real(AXF_HLDEC_UPS2, not_negative),
+              "Set the deceleration of hardware limits and kills; 0 stops at once.", "units/s2"),
+        Value("SLDEC", of_axis_real(AXF_SLDEC_UPS2, not_negative),
+              "Set the deceleration of software limits; 0 stops at once.", "units/s2"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+def limit_mode(words: str, enables: LimitEnables, doc: str) -> None:
+    """Register HLIM or SLIM: the mode is the state of two flags."""
+
+    def handler(run: Run, axes: tuple[AxisValue, ...]) -> None:
+        for item in axes:
+            if item.is_query:
+                run.print(str(enables.read(run.card, item.axis.number)))
+            else:
+                enables.write(run.card, item.axis.number, int(item.value))
+
+    handler.__doc__ = doc
+    grammar = (AxisList(Int("mode", 0, 3, optional=True)),)
+    enter: Callable[..., object] = command(
+        words, group=GROUP, levels=BY_OBJECT, grammar=grammar, ref=REF, default="0", saved=True
+    )
+    enter(handler)
+
+
+limit_mode(
+    "HLIM",
+    settings.HARD_LIMITS,
+    "Enable hardware limits: 0 none, 1 positive, 2 negative, 3 both.",
+)
+limit_mode(
+    "SLIM",
+    settings.SOFT_LIMITS,
+    "Enable software limits: 0 none, 1 positive, 2 negative, 3 both.",
+)
+
+
+@command(
+    "MAXVEL",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Either(Word("OFF"), AxisValues()),),
+    ref=REF,
+    units="units/s",
+    default="0",
+    saved=True,
+)
+def maxvel(run: Run, given: str | tuple[AxisValue, ...]) -> None:
+    """Limit the speed of an axis in coordinated moves; 0 is no limit, OFF clears all."""
+    if isinstance(given, str):
+        for axis in _meant(run):
+            settings.set_max_velocity(run.card, axis.number, 0.0)
+        return
+    limit = settings.MAX_VELOCITY
+    check_all(given, limit)
+    for item in given:
+        if item.is_query:
+            run.print(value_text(limit, limit.read(run.card, item.axis.number)))
+        else:
+            settings.set_max_velocity(run.card, item.axis.number, item.value)
+
+
+def _meant(run: Run) -> tuple[Axis, ...]:
+    """The axis of the prefix `AXISn`, else all axes of the program."""
+    if run.prefix is None:
+        return run.axes()
+    return (run.axis(AxisRef("AXIS", run.prefix.number)),)

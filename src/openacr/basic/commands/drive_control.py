@@ -1,0 +1,52 @@
+"""Drive control: DRIVE ON, OFF, RES and the report."""
+
+from __future__ import annotations
+
+from openacr.basic.grammar import Axes, Axis
+from openacr.basic.registry import BY_OBJECT, SYS, command
+from openacr.basic.run import Run
+from openacr.errors import CardError
+from openacr.messages import SYNTAX_ERROR
+from openacr.motion import drive, permits
+
+GROUP = "Drive Control"
+REF = "PG Drive Control"
+
+
+@command("DRIVE ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def drive_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Enable drives; kills and latched limits that bar the axis from moving are lifted."""
+    _need_rest(run, axes)
+    for axis in axes:
+        drive.on(run.card, axis.number)
+
+
+@command("DRIVE OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def drive_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Disable drives; no kill is set."""
+    _need_rest(run, axes)
+    for axis in axes:
+        drive.off(run.card, axis.number)
+
+
+def _need_rest(run: Run, axes: tuple[Axis, ...]) -> None:
+    for axis in axes:
+        permits.needs_rest(run.card, axis.number)
+
+
+@command("DRIVE RES", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def drive_res(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Reset drives: their reset outputs pulse for 50 ms, latched drive faults clear."""
+    for axis in axes:
+        drive.reset(run.card, axis.number)
+
+
+@command("DRIVE", group=GROUP, levels=BY_OBJECT | SYS, grammar=(Axes(optional=True),), ref=REF)
+def drive_report(run: Run, axes: tuple[Axis, ...] | None) -> None:
+    """Report which drives are enabled, and which have a fault latched."""
+    if axes is None and run.level is SYS:
+        raise CardError(SYNTAX_ERROR)
+    for axis in run.axes() if axes is None else axes:
+        state = "ON" if drive.is_enabled(run.card, axis.number) else "OFF"
+        fault = " FAULT" if drive.has_fault(run.card, axis.number) else ""
+        run.print(f"DRIVE {state} {axis.name}{fault}")

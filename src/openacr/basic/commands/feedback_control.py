@@ -1,0 +1,200 @@
+"""Feedback control: scale, registers, capture and rotary form of an axis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic.commands.interpolation import room
+from openacr.basic.grammar import (
+    Axes,
+    Axis,
+    AxisGroups,
+    AxisList,
+    AxisValue,
+    AxisValues,
+    Form,
+    Int,
+    ParameterName,
+    Word,
+)
+from openacr.basic.nodes import Expr
+from openacr.basic.registry import BY_OBJECT, PROG, command
+from openacr.basic.run import Run, Wait
+from openacr.basic.value_commands import Value, axis_values, check_all, report_all, value_text
+from openacr.errors import CardError
+from openacr.map.kinds_cy import kind_of
+from openacr.map.numbers import AX_PPU, AXF_ROTARY_U, KIND_LONG
+from openacr.messages import INVALID_ARGUMENT, INVALID_PARAMETER
+from openacr.motion import moves, permits, registers, settings
+from openacr.motion.settings import not_negative, not_zero, of_axis, of_axis_real
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+GROUP = "Feedback Control"
+REF = "PG Feedback Control"
+LAST_MODE = 15
+
+axis_values(
+    (
+        Value("PPU", of_axis(AX_PPU, not_zero), "Set the pulses per unit.", "pulses/unit", "1"),
+        Value("ROTARY", of_axis_real(AXF_ROTARY_U, not_negative),
+              "Set the length of a turn: absolute moves take the shorter way; 0 is linear.",
+              "units"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command(
+    "MULT",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(AxisValues(),),
+    ref=REF,
+    default="1",
+    saved=True,
+)
+def mult(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Set edges counted and direction of the position encoder of an axis: 0, 1, 2, 4, -1, ..."""
+    setting = settings.ENCODER_MULTIPLIER
+    check_all(axes, setting)
+    encoders = [settings.position_encoder(run.card, item.axis.number) for item in axes]
+    for item, encoder in zip(axes, encoders, strict=True):
+        if item.is_query:
+            run.print(value_text(setting, setting.read(run.card, encoder)))
+        else:
+            setting.write(run.card, encoder, item.value)
+
+
+@command("RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(optional=True),), ref=REF)
+def res(run: Run, axes: tuple[AxisValue, ...] | None) -> None:
+    """Make the present position of axes this one (0), commanded and actual; offsets become 0."""
+    given = tuple(AxisValue(axis) for axis in run.axes()) if axes is None else axes
+    _need_rest(run, (item.axis for item in given))
+    for item in given:
+        registers.res(run.card, item.axis.number, 0.0 if item.is_query else item.value)
+
+
+@command("REN", group=GROUP, levels=BY_OBJECT, grammar=(Axes(optional=True),), ref=REF)
+def ren(run: Run, axes: tuple[Axis, ...] | None) -> None:
+    """Take the actual position of axes as setpoint: the following error becomes 0."""
+    given = run.axes() if axes is None else axes
+    _need_rest(run, given)
+    for axis in given:
+        registers.ren(run.card, axis.number)
+
+
+@command("NORM", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def norm(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Bring the position of rotary axes into their first turn, without motion."""
+    _need_rest(run, axes)
+    for axis in axes:
+        registers.norm(run.card, axis.number)
+
+
+def _need_rest(run: Run, axes: Iterable[Axis]) -> None:
+    for axis in axes:
+        permits.needs_rest(run.card, axis.number)
+
+
+# capture
+
+
+@dataclass(frozen=True, slots=True)
+class Capture:
+    """`mode {Pnnnn}` as written; no mode is OFF."""
+
+    mode: Expr | None = None
+    copy: tuple[Expr, bool] | None = None
+
+
+class CaptureForm(Form):
+    """`mode {Pnnnn}` or `OFF`; the handler gets mode (None: off) and the parameter."""
+
+    def __init__(self) -> None:
+        super().__init__("mode {Pnnnn}|OFF", optional=True)
+        self.mode = Int("mode", 0, LAST_MODE)
+        self.off = Word("OFF")
+        self.copy = ParameterName()
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a mode or OFF stands here."""
+        return self.off.starts(p) or self.mode.starts(p)
+
+    def parse(self, p: Parser) -> Capture:
+        """Read mode and parameter, or OFF."""
+        if self.off.starts(p):
+            self.off.parse(p)
+            return Capture()
+        mode = self.mode.parse(p)
+        return Capture(mode, self.copy.parse(p) if self.copy.starts(p) else None)
+
+    def evaluate(self, run: Run, read: Capture | None) -> tuple[int | None, int] | None:
+        """Mode and number of the parameter (0: none)."""
+        if read is None:
+            return None
+        copy = self.copy.evaluate(run, read.copy)
+        return self.mode.evaluate(run, read.mode), 0 if copy is None else copy.number
+
+
+@command(
+    "INTCAP",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(AxisList(CaptureForm(), optional=True),),
+    ref=REF,
+    default="OFF",
+)
+def intcap(run: Run, axes: tuple[tuple[Axis, tuple[int | None, int] | None], ...] | None) -> None:
+    """Arm the position capture of an axis, switch it off, or report its mode."""
+    if axes is None:
+        report_all(run, lambda axis: _capture_text(run, axis))
+        return
+    for axis, given in axes:
+        if given is None:
+            run.print(_capture_text(run, axis))
+        elif given[0] is None:
+            registers.disarm_capture(run.card, axis.number)
+        else:
+            _check_copy(run, given[1])
+            registers.arm_capture(run.card, axis.number, given[0], given[1])
+
+
+def _capture_text(run: Run, axis: Axis) -> str:
+    mode = registers.capture_mode(run.card, axis.number)
+    return "OFF" if mode is None else str(mode)
+
+
+def _check_copy(run: Run, number: int) -> None:
+    """Positions are pulses: they go to LONG parameters."""
+    if number and kind_of(run.card.memory.I, number) != KIND_LONG:
+        raise CardError(INVALID_PARAMETER)
+
+
+@command(
+    "MSEEK",
+    group=GROUP,
+    levels=PROG,
+    grammar=(AxisGroups("incmove", "mode"),),
+    ref=REF,
+    units="units",
+)
+def mseek(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
+    """Move by a distance looking for a capture, go back to it and make it position 0."""
+    program = run.needed_program()
+    master = moves.needed_master(run.card, program)
+    for item in axes:
+        if not 0 <= item.values[1] <= LAST_MODE:
+            raise CardError(INVALID_ARGUMENT)
+    if len(axes) > moves.capacity(run.card, master):
+        raise CardError(INVALID_ARGUMENT)
+    if not moves.has_room(run.card, master, len(axes)):
+        return room(run, master, len(axes))
+    for item in axes:
+        distance_u, mode = item.values
+        moves.seek(run.card, program, item.axis.number, distance_u, int(mode))
+    return None

@@ -1,0 +1,178 @@
+"""Global objects: AXISn, MASTERm, encoders, steppers and analog channels by number."""
+
+from __future__ import annotations
+
+from openacr.basic.grammar import Num
+from openacr.basic.registry import ANY, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import ObjectValue, check_number, object_values, value_text
+from openacr.map.block import Kind
+from openacr.map.numbers import (
+    ADC_ADC_GAIN,
+    ADC_ADC_INPUT,
+    ADC_ADC_OFFSET,
+    ADC_BASE,
+    ADC_STRIDE,
+    DAC_BASE,
+    DAC_DAC_GAIN,
+    DAC_DAC_OFFSET,
+    DAC_DAC_OUTPUT,
+    DAC_STRIDE,
+    ENI_BASE,
+    ENI_SOURCE,
+    ENI_STRIDE,
+    STPR_BASE,
+    STPR_STEPPER_COUNT,
+    STPR_STRIDE,
+)
+from openacr.motion import encoders, settings
+from openacr.motion.card import Card
+from openacr.motion.settings import Setting
+
+GROUP = "Global Objects"
+REF = "PG Global Objects"
+
+
+def axes(card: Card) -> int:
+    """How many axes, and stepper outputs, the card has."""
+    return card.model.axes
+
+
+def encoder_count(card: Card) -> int:
+    """How many encoders the card has."""
+    return card.model.encoders
+
+
+def dacs(card: Card) -> int:
+    """How many analog outputs the card has."""
+    return card.model.dacs
+
+
+def adcs(card: Card) -> int:
+    """How many analog inputs the card has."""
+    return card.model.adcs
+
+
+def pulse_source(value: float) -> bool:
+    """Quadrature, step and direction, or clockwise and counter-clockwise pulses."""
+    return value in (0, 1, 2)
+
+
+def of_dac(row: int) -> Setting:
+    """A parameter of each analog output."""
+    return Setting(Kind.FP32, DAC_BASE + row, DAC_STRIDE)
+
+
+def of_adc(row: int) -> Setting:
+    """A parameter of each analog input."""
+    return Setting(Kind.FP32, ADC_BASE + row, ADC_STRIDE)
+
+
+ENCODER_SOURCE = Setting(Kind.LONG, ENI_BASE + ENI_SOURCE, ENI_STRIDE, pulse_source)
+STEPPER_COUNT = Setting(Kind.LONG, STPR_BASE + STPR_STEPPER_COUNT, STPR_STRIDE)
+
+object_values(
+    (
+        ObjectValue("ENC # SRC", ENCODER_SOURCE, encoder_count,
+                    "Choose the pulses of an encoder: 0 quadrature, 1 step, 2 CW and CCW."),
+        ObjectValue("ENC # MULT", settings.ENCODER_MULTIPLIER, encoder_count,
+                    "Set edges counted and direction of an encoder.", "", "1"),
+        ObjectValue("DAC # GAIN", of_dac(DAC_DAC_GAIN), dacs,
+                    "Set the counts an analog output has per volt.", "counts/V", "3276.8"),
+        ObjectValue("DAC # OFFSET", of_dac(DAC_DAC_OFFSET), dacs,
+                    "Set what is added to an analog output.", "V"),
+        ObjectValue("ADC # GAIN", of_adc(ADC_ADC_GAIN), adcs,
+                    "Set the voltage of an analog input at full scale.", "V", "10"),
+        ObjectValue("ADC # OFFSET", of_adc(ADC_ADC_OFFSET), adcs,
+                    "Set what is added to an analog input.", "V"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command("AXIS # ON", group=GROUP, levels=ANY, ref=REF, default="ON", saved=True)
+def axis_on(run: Run, number: int) -> None:
+    """Compute an axis: feedback, motion, servo."""
+    check_number(number, axes(run.card))
+    settings.set_axis_on(run.card, number, True)
+
+
+@command("AXIS # OFF", group=GROUP, levels=ANY, ref=REF, default="ON", saved=True)
+def axis_off(run: Run, number: int) -> None:
+    """Leave an axis alone: no feedback, no motion, output 0 V."""
+    check_number(number, axes(run.card))
+    settings.set_axis_on(run.card, number, False)
+
+
+@command("AXIS #", group=GROUP, levels=ANY, ref=REF)
+def axis_report(run: Run, number: int) -> None:
+    """Report whether an axis is on."""
+    check_number(number, axes(run.card))
+    run.print("ON" if settings.is_axis_on(run.card, number) else "OFF")
+
+
+@command("MASTER #", group=GROUP, levels=ANY, ref=REF)
+def master_report(run: Run, number: int) -> None:
+    """Report which program a master is attached to."""
+    check_number(number, run.card.model.masters)
+    program = run.card.attachments.program(number)
+    run.print(f"MASTER{number}" if program is None else f"MASTER{number} PROG{program}")
+
+
+@command("ENC #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+def encoder_report(run: Run, number: int) -> None:
+    """Report the position of an encoder."""
+    check_number(number, encoder_count(run.card))
+    run.print(str(encoders.position(run.card, number)))
+
+
+@command(
+    "ENC # RES",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Num("position", optional=True),),
+    ref=REF,
+    units="pulses",
+)
+def encoder_res(run: Run, number: int, position: float | None) -> None:
+    """Set the position of an encoder (0) and clear its fault flags."""
+    check_number(number, encoder_count(run.card))
+    encoders.reset(run.card, number, position or 0.0)
+
+
+@command("STEPPER #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+def stepper_report(run: Run, number: int) -> None:
+    """Report the count of a stepper output."""
+    _report(run, STEPPER_COUNT, number, axes(run.card))
+
+
+@command(
+    "STEPPER # RES",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Num("count", optional=True),),
+    ref=REF,
+    units="pulses",
+)
+def stepper_res(run: Run, number: int, count: float | None) -> None:
+    """Set the count of a stepper output (0)."""
+    check_number(number, axes(run.card))
+    STEPPER_COUNT.write(run.card, number, count or 0.0)
+
+
+@command("DAC #", group=GROUP, levels=ANY, ref=REF, units="V")
+def dac_report(run: Run, number: int) -> None:
+    """Report the voltage of an analog output."""
+    _report(run, of_dac(DAC_DAC_OUTPUT), number, dacs(run.card))
+
+
+@command("ADC #", group=GROUP, levels=ANY, ref=REF, units="V")
+def adc_report(run: Run, number: int) -> None:
+    """Report the voltage of an analog input."""
+    _report(run, of_adc(ADC_ADC_INPUT), number, adcs(run.card))
+
+
+def _report(run: Run, setting: Setting, number: int, count: int) -> None:
+    check_number(number, count)
+    run.print(value_text(setting, setting.read(run.card, number)))

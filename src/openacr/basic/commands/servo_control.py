@@ -1,0 +1,140 @@
+"""Servo control: gains, dead zone and digital filters of an axis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openacr.basic.grammar import AxisGroups, AxisValue
+from openacr.basic.number_format import number_text
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values
+from openacr.errors import CardError
+from openacr.map.numbers import (
+    AX_DERIVATIVE_GAIN,
+    AX_DERIVATIVE_WIDTH,
+    AX_DIN,
+    AX_DIP,
+    AX_DZL,
+    AX_DZU,
+    AX_FBVEL_GAIN_SETTING,
+    AX_FEEDFORWARD_ACCEL,
+    AX_FEEDFORWARD_VELOCITY,
+    AX_FFVC,
+    AX_INTEGRAL_DELAY,
+    AX_INTEGRAL_GAIN,
+    AX_INTEGRAL_LIMIT,
+    AX_KVF,
+    AX_KVI,
+    AX_KVP,
+    AX_PROPORTIONAL_GAIN,
+    AXF_LOPASS_HZ,
+)
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import filters
+from openacr.motion.card import Card
+from openacr.motion.settings import (
+    activate_derivative_smoothing,
+    not_negative,
+    of_axis,
+    of_axis_long,
+    of_axis_real,
+)
+
+GROUP = "Servo Control"
+REF = "PG Servo Control"
+
+
+def gain(
+    words: str,
+    row: int,
+    doc: str,
+    units: str,
+    default: str = "0",
+    then: Callable[[Card, int], None] | None = None,
+) -> Value:
+    """A row whose value is an FP32 parameter."""
+    return Value(words, of_axis(row), doc, units, default, then=then)
+
+
+axis_values(
+    (
+        gain("PGAIN", AX_PROPORTIONAL_GAIN,
+             "Set the proportional gain.", "V/pulse", "0.002441406"),
+        gain("IGAIN", AX_INTEGRAL_GAIN, "Set the integral gain.", "V/s/pulse"),
+        gain("ILIMIT", AX_INTEGRAL_LIMIT,
+             "Limit the integral term; 0 keeps it at 0.", "V"),
+        gain("IDELAY", AX_INTEGRAL_DELAY,
+             "Set how long after motion the integral waits; 0 integrates always.", "s"),
+        gain("DGAIN", AX_DERIVATIVE_GAIN,
+             "Set the derivative gain, and put DGain Smooth into effect.", "V/(pulse/s)",
+             then=activate_derivative_smoothing),
+        gain("DWIDTH", AX_DERIVATIVE_WIDTH,
+             "Set the sample period of the derivative; 0 samples every tick.", "s"),
+        gain("FFVEL", AX_FEEDFORWARD_VELOCITY,
+             "Set the velocity feedforward gain.", "V/(pulse/s)"),
+        gain("FFACC", AX_FEEDFORWARD_ACCEL,
+             "Set the acceleration feedforward gain.", "V/(pulse/s2)"),
+        gain("FBVEL", AX_FBVEL_GAIN_SETTING,
+             "Set the velocity feedback gain.", "V/(pulse/s)"),
+        gain("DIN", AX_DIN,
+             "Set the integral term taken when the error leaves the dead zone downwards.", "V"),
+        gain("DIP", AX_DIP,
+             "Set the integral term taken when the error leaves the dead zone upwards.", "V"),
+        gain("KVF", AX_KVF, "Set the velocity feedforward of the PV loop.", "V/(pulse/s)"),
+        gain("KVI", AX_KVI, "Set the integral gain of the PV loop.", "1/s"),
+        gain("KVP", AX_KVP,
+             "Set the proportional gain of the PV loop; above 0 it replaces the PID loop.", "V/V"),
+        Value("FFVC", of_axis_long(AX_FFVC),
+              "Leave the velocity feedforward out below this commanded speed.", "pulses/s"),
+        Value("DZL", of_axis_long(AX_DZL),
+              "Set the error below which an axis at rest enters the dead zone.", "pulses"),
+        Value("DZU", of_axis_long(AX_DZU),
+              "Set the error above which the axis leaves the dead zone; 0 is no zone.", "pulses"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+def _redesign(card: Card, axis: int) -> None:
+    filters.set_low_pass(card, axis, filters.low_pass_hz(card, axis))
+
+
+axis_values(
+    (
+        Value("LOPASS", of_axis_real(AXF_LOPASS_HZ, not_negative),
+              "Make filter 0 a low-pass with this cut-off frequency; 0 is no filter.", "Hz",
+              then=_redesign),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command(
+    "NOTCH",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(AxisGroups("center", "width", single=True, values_optional=True),),
+    ref=REF,
+    units="Hz",
+    default="0,0",
+    saved=True,
+)
+def notch(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Make filter 1 a notch with this centre and width; 0 is no filter."""
+    for item in axes:
+        _check_notch(item.values)
+    for item in axes:
+        if item.is_query:
+            run.print(",".join(map(number_text, filters.notch_hz(run.card, item.axis.number))))
+        else:
+            center, width = (*item.values, 0.0)[:2]
+            filters.set_notch(run.card, item.axis.number, center, width)
+
+
+def _check_notch(values: tuple[float, ...]) -> None:
+    """A single value can only be the 0 that switches the filter off."""
+    if any(value < 0.0 for value in values) or (len(values) == 1 and values[0]):
+        raise CardError(INVALID_ARGUMENT)

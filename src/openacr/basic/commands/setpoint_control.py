@@ -1,0 +1,133 @@
+"""Setpoint control: jogging."""
+
+from __future__ import annotations
+
+from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Int, Num
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values
+from openacr.errors import CardError
+from openacr.map.numbers import (
+    AX_JOG_ACCEL_SETTING,
+    AX_JOG_DECEL_SETTING,
+    AX_JOG_JERK_SETTING,
+    AX_JOG_VELOC_SETTING,
+    AXF_HOMVF_UPS,
+)
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import jog
+from openacr.motion.settings import not_negative, of_axis, of_axis_real
+
+GROUP = "Setpoint Control"
+REF = "PG Setpoint Control"
+
+
+def jog_value(words: str, row: int, doc: str, units: str, default: str = "0") -> Value:
+    """A row whose value is a jog parameter."""
+    return Value(words, of_axis(row, not_negative), doc, units, default, bare=True)
+
+
+axis_values(
+    (
+        jog_value("JOG VEL", AX_JOG_VELOC_SETTING,
+                  "Set the speed of jogs, also of one under way.", "units/s"),
+        jog_value("JOG ACC", AX_JOG_ACCEL_SETTING,
+                  "Set the acceleration of jogs; 0 is no ramp.", "units/s2", "10"),
+        jog_value("JOG DEC", AX_JOG_DECEL_SETTING,
+                  "Set the deceleration of jogs; 0 is no ramp.", "units/s2", "10"),
+        jog_value("JOG JRK", AX_JOG_JERK_SETTING,
+                  "Set the jerk of the ramps of jogs; 0 makes them straight.", "units/s3"),
+        Value("JOG HOMVF", of_axis_real(AXF_HOMVF_UPS, not_negative),
+              "Set the speed of the last approach of homing; 0 is a tenth of JOG VEL.",
+              "units/s", bare=True),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command("JOG FWD", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def jog_fwd(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Jog axes in the positive direction until JOG OFF."""
+    _continuous(run, axes, 1)
+
+
+@command("JOG REV", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def jog_rev(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Jog axes in the negative direction until JOG OFF."""
+    _continuous(run, axes, -1)
+
+
+def _continuous(run: Run, axes: tuple[Axis, ...], direction: int) -> None:
+    """Start all axes or, if one may not move, none."""
+    for axis in axes:
+        jog.permit(run.card, axis.number, direction)
+    for axis in axes:
+        jog.continuous(run.card, axis.number, direction)
+
+
+@command("JOG OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def jog_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Ramp jogging axes down to rest."""
+    for axis in axes:
+        jog.off(run.card, axis.number)
+
+
+@command(
+    "JOG ABS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("offset")),), ref=REF,
+    units="units",
+)  # fmt: skip
+def jog_abs(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Jog axes until their jog offset has a value."""
+    for item in axes:
+        jog.permit(run.card, item.axis.number, item.value - jog.offset(run.card, item.axis.number))
+    for item in axes:
+        jog.absolute(run.card, item.axis.number, item.value)
+
+
+@command(
+    "JOG INC", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("distance")),), ref=REF,
+    units="units",
+)  # fmt: skip
+def jog_inc(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Jog axes by a distance from their jog offset, or from the target of a running jog."""
+    for item in axes:
+        jog.permit(run.card, item.axis.number, item.value)
+    for item in axes:
+        jog.incremental(run.card, item.axis.number, item.value)
+
+
+@command(
+    "JOG HOME",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(AxisList(Int("direction", -1, 1, optional=True)),),
+    ref=REF,
+)
+def jog_home(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Look for the home input of axes, in the direction 1 (as without) or -1."""
+    found = [(item.axis.number, 1 if item.is_query else int(item.value)) for item in axes]
+    for axis, direction in found:
+        if direction == 0:
+            raise CardError(INVALID_ARGUMENT)
+        jog.permit_home(run.card, axis, direction)
+    for axis, direction in found:
+        jog.home(run.card, axis, direction)
+
+
+@command("JOG REN", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+def jog_ren(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Make the coordinated position of axes a value (0); the jog offset takes the rest."""
+    for item in axes:
+        jog.needs_no_moves(run.card, item.axis.number)
+    for item in axes:
+        jog.renew(run.card, item.axis.number, 0.0 if item.is_query else item.value)
+
+
+@command("JOG RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+def jog_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Make the jog offset of axes a value (0); the coordinated position takes the rest."""
+    for item in axes:
+        jog.needs_no_jog(run.card, item.axis.number)
+    for item in axes:
+        jog.reset(run.card, item.axis.number, 0.0 if item.is_query else item.value)

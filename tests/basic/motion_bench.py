@@ -1,0 +1,112 @@
+"""A card with its language and its servo tick, driven by typed lines."""
+
+import math
+
+from openacr.basic.executor import Executor
+from openacr.basic.registry import Level
+from openacr.basic.session import Session
+from openacr.basic.system import System
+from openacr.compiled import pick
+from openacr.kernel.tick_cy import tick
+from openacr.map import numbers as at
+from openacr.models import ACR8020, Model
+from openacr.motion.card import Card
+
+PERIOD_S = 0.0005
+_tick = pick(tick)
+
+
+class Bench:
+    """Types lines on COM1 at PROG0, where axes 0, 1, ... are named as given."""
+
+    def __init__(self, *axes: str, model: Model = ACR8020) -> None:
+        self.card = Card(model)
+        self.memory = self.card.memory
+        self.system = System(self.card)
+        self.executor = Executor(self.system)
+        self.system.runner = self.executor
+        self.session = self._session("COM1")
+        self.session.go(Level.PROG, 0)
+        if axes:
+            self.attach(0, *enumerate(axes))
+
+    def _session(self, name: str) -> Session:
+        session = self.system.sessions[name]
+        session.connect()
+        session.echo = 4  # no prompts
+        return session
+
+    def attach(self, program: int, *axes: tuple[int, str]) -> None:
+        """Give a program the master of its number and axes by number and name."""
+        from openacr.motion import attach
+
+        attach.master(self.card, program, program)
+        for slave, (axis, name) in enumerate(axes):
+            attach.slave(self.card, program, slave, axis, name)
+
+    def at(self, level: Level, number: int = 0) -> "Bench":
+        """Change the level of the channel."""
+        self.session.go(level, number)
+        return self
+
+    def type(self, line: str) -> str:
+        """What a line prints; lines apart by `|`."""
+        self.session.feed_line(line)
+        return self.answer()
+
+    def answer(self) -> str:
+        """What has been printed since."""
+        text = self.session.take_output().decode("ascii")
+        return text.removesuffix("\r\n").replace("\r\n", "|")
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the typed line is not finished yet."""
+        return self.session.busy
+
+    def ticks(self, count: int) -> "Bench":
+        """Let servo interrupts pass."""
+        for _ in range(count):
+            _tick(self.memory.F, self.memory.I, self.memory.S)
+            self.executor.step(self.card.tick)
+        return self
+
+    def seconds(self, time_s: float) -> "Bench":
+        """Let time pass."""
+        return self.ticks(round(time_s / self.card.period_s))
+
+    def until_clear(self, *flags: int, limit_s: float = 30.0) -> int:
+        """Ticks until all of these flags are clear."""
+        for count in range(round(limit_s / self.card.period_s)):
+            if not any(self.memory.bit(flag) for flag in flags):
+                return count
+            self.ticks(1)
+        raise AssertionError(f"flags {flags} are still set")
+
+    def bit(self, number: int) -> bool:
+        """A flag."""
+        return self.memory.bit(number)
+
+    def p(self, number: int) -> float:
+        """A parameter."""
+        return self.memory.read(number)
+
+    def axis(self, axis: int, row: int) -> float:
+        """A parameter of an axis by its row."""
+        return self.memory.read(at.AX_BASE + axis * at.AX_STRIDE + row)
+
+    def psp(self, axis: int) -> float:
+        """Primary setpoint in pulses, unrounded."""
+        return self.memory.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_PSP_CNT]
+
+    def place(self, axis: int, **offsets_cnt: float) -> None:
+        """Set parts of the setpoint (position, gear, jog, cam) as if motion had left them."""
+        row = at.AXF_BASE + axis * at.AXF_STRIDE
+        for part, value in offsets_cnt.items():
+            self.memory.F[row + getattr(at, f"AXF_{part.upper()}_CNT")] = value
+        self.card.show(axis)
+
+
+def ticks(time_s: float, period_s: float = PERIOD_S) -> int:
+    """The first tick at or after a time."""
+    return math.ceil(time_s / period_s - 1e-9)
