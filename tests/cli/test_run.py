@@ -1,7 +1,13 @@
 """`openacr run`: when it ends, what it says and writes, and what it refuses beforehand."""
 
 import json
+import os
+import pty
+import re
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -243,9 +249,7 @@ def test_the_scenario_of_the_project_is_played(
     summary = json.loads(result.stdout)
     assert summary["scenario"]["checkpoints"] == {"start": 0.0, "go": 0.05, "end": 0.2}
     assert [item["ok"] for item in summary["scenario"]["expectations"]] == [True, False]
-    assert "failed: greeting: expected printed 'hello', found nothing printed" in " ".join(
-        result.stderr.split()
-    )
+    assert "failed: greeting: expected printed 'hello', found nothing printed" in result.stderr
     assert "1 of 2 expectations met" in result.stderr
     assert "note: an action of the scenario never came: when BIT9 is set" in result.stderr
 
@@ -279,3 +283,39 @@ def test_a_wrong_scenario_is_shown_with_its_line(run: Run, project: Path) -> Non
     result = run()
     assert result.exit_code == 2
     assert "scenario.toml:3:1: unknown key `sett`" in result.stderr
+
+
+def test_a_bar_shows_the_running_programs_below_what_they_print(tmp_path: Path) -> None:
+    code = """
+import time
+from pathlib import Path
+from tests.cli.fake_machine import FakeMachine
+from openacr.cli.session import Options, Session
+
+def world(card):
+    card.set_running(7, True)
+    if card.tick in (400, 1200):
+        time.sleep(0.3)
+        card.hear(f"at {card.tick}\\r\\n")
+
+Session(Options(Path("x"), 1.0), FakeMachine(world), None).run()
+"""
+    host, terminal = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdout=terminal,
+        stderr=terminal,
+        cwd=Path(__file__).parents[2],
+    )
+    os.close(terminal)
+    shown = b""
+    with suppress(OSError):  # the terminal is gone with the process
+        while data := os.read(host, 4096):
+            shown += data
+    os.close(host)
+    assert process.wait() == 0
+    text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown.decode())
+    assert "PROG7" in text
+    assert "/ 1 s" in text
+    assert re.search(r"\rat 400\r\n.*PROG7.*\rat 1200\r\n", text, re.DOTALL)
+    assert "1.0000 s simulated" in text

@@ -142,6 +142,7 @@ def show_report(report: Report, console: "Console") -> None:
         f"{report.time_s:.4f} s simulated in {report.ticks} ticks, "
         f"{_times(report.speed)} real time, digest {report.digest}",
         highlight=False,
+        soft_wrap=True,
     )
 
 
@@ -151,7 +152,9 @@ def show_verdicts(report: Report, console: "Console") -> None:
         return
     failed = [verdict for verdict in report.verdicts if not verdict.ok]
     for verdict in failed:
-        console.print(f"failed: {verdict}", style="red", highlight=False, markup=False)
+        console.print(
+            f"failed: {verdict}", style="red", highlight=False, markup=False, soft_wrap=True
+        )
     met = len(report.verdicts) - len(failed)
     console.print(f"{met} of {len(report.verdicts)} expectations met", highlight=False)
 
@@ -184,7 +187,8 @@ def _axis_table(axes: Iterable[AxisReport]) -> "Table":
 
 def _program_table(programs: Iterable[ProgramReport]) -> "Table":
     table = _table("program", "state", "line", "error")
-    table.columns[3].justify = "left"
+    table.columns[1].justify = table.columns[3].justify = "left"
+    table.columns[3].no_wrap = False
     for program in programs:
         error = f"[red]{program.error}[/red]" if program.error else ""
         table.add_row(f"PROG{program.number}", program.state.value, str(program.line), error)

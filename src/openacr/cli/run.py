@@ -54,13 +54,15 @@ def run(
     600 simulated seconds. Exit code 1: a program ended in an error or an expectation
     failed; 2: something about the input is wrong.
     """
-    from openacr.cli.session import Options, Session, Until
     from openacr.project import find_project
-    from openacr.scenario import load_scenario
 
+    found = find_project(project)
     wanted = parse_until(until)
     check_outputs(trace, plot, summary)
-    found = find_project(project)
+
+    from openacr.cli.session import Options, Session, Until  # heavy: not for a slip above
+    from openacr.scenario import load_scenario
+
     scenario_path = scenario or found.scenario
     story = load_scenario(scenario_path) if scenario_path else None
     if wanted is None and for_s is None and not (story and story.duration_s):
@@ -76,7 +78,7 @@ def run(
         is_quiet=quiet,
         is_json=as_json,
     )
-    from openacr.cli.controlled import load  # the heaviest part: not for a slip above
+    from openacr.cli.controlled import load
 
     session = Session(options, load(project), story)
     raise typer.Exit(session.run())
@@ -84,10 +86,10 @@ def run(
 
 def parse_until(text: str | None) -> "Until | None":
     """Read `--until`: idle, a flag number, or a flag number with `-` for clear."""
-    from openacr.cli.session import Until
-
     if text is None:
         return None
+    from openacr.cli.session import Until
+
     if text.strip().lower() == "idle":
         return Until()
     number = text.strip().upper().removeprefix("-").removeprefix("BIT").strip()

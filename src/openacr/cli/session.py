@@ -10,6 +10,7 @@ from openacr.cli import card_view, output
 from openacr.cli.machine import Machine, MachineWorld
 from openacr.cli.progress import Bar, bar_for
 from openacr.cli.report import Report, report_on, show_report, show_verdicts, summary
+from openacr.compiled import is_compiled
 from openacr.scenario import Play, Scenario
 
 STEP_S = 0.05  # between two looks at the progress bar; also the slow scan of the card
@@ -75,12 +76,11 @@ class Session:
         self._end_tk = machine.tick + max(1, round(options.limit_s / machine.period_s))
         self._busy_tk = machine.tick
         self._was_other = False
-        # With --json standard output holds the summary and nothing else.
-        self._printer = sys.stderr if options.is_json else sys.stdout
-        self._is_prompt = self._printer.isatty() or options.realtime
 
     def run(self) -> int:
         """Let the card live, write and show what came out, and give the exit code."""
+        if not is_compiled:
+            self._note("no compiled core is used: running the slower pure-Python kernel")
         self._prepare()
         return self._conclude(self._live())
 
@@ -92,9 +92,12 @@ class Session:
 
     def _hear(self, text: str) -> None:
         self._play.heard(text)
-        self._printer.write(text)
-        if self._is_prompt:
-            self._printer.flush()
+        # Looked up each time: the bar takes the place of these streams while it shows.
+        # With --json standard output holds the summary and nothing else.
+        stream = sys.stderr if self._options.is_json else sys.stdout
+        stream.write(text.replace("\r\n", "\n"))
+        if self._options.realtime:
+            stream.flush()
 
     def _live(self) -> float:
         """Let the card live until the run is over; give the seconds of real time it took."""
@@ -103,7 +106,7 @@ class Session:
         with bar_for(sys.stderr, self._limit_s, is_wanted=is_wanted) as bar:
             stop = self._pace(bar, started_s)
         self._play.finish(self._world)
-        self._printer.flush()
+        sys.stdout.flush()
         if stop is Stop.TIME and self._until is not None:
             self._note(f"{self._until} was not reached within {self._limit_s:g} s")
         return time.perf_counter() - started_s
