@@ -92,7 +92,7 @@ class Values:
 
     def execute(self, run: Run, statement: Statement) -> Wait | None:
         indices = (run.integer(node) for node in statement.indices)
-        forms = zip(statement.command.grammar, statement.arguments, strict=True)
+        forms = zip(statement.command.forms, statement.arguments, strict=True)
         arguments = [form.evaluate(run, read) for form, read in forms]
         run.prefix = statement.prefix
         result: Wait | None = statement.command.handler(run, *indices, *arguments)

@@ -214,7 +214,7 @@ def channel_name(channel: ObjectRef) -> str:
     grammar=(Str("device"), Mark("AS"), Mark("#"), Int("d", 1, DEVICES)),
     ref="PG Character I/O",
 )
-def open_(run: Run, device: str, _as: None, _mark: None, number: int) -> None:
+def open_(run: Run, device: str, number: int) -> None:
     """Make a channel the device `#d` of this program."""
     run.system.devices.open((run.needed_program(), number), port_name(device))
 
@@ -242,7 +242,7 @@ def _are_serial_settings(text: str) -> bool:
     grammar=(Mark("#"), Int("d", 1, DEVICES)),
     ref="PG Character I/O",
 )
-def close(run: Run, _mark: None, number: int) -> Wait | None:
+def close(run: Run, number: int) -> Wait | None:
     """Give a device back once its output is sent."""
     key = (run.needed_program(), number)
     if run.system.devices.is_sending(key):

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from openacr.basic.parser import Parser
 
 GROUP = "Operating System"
+REF = "PG Operating System"
 LEVELS = "PG Communication Levels"
 SHORTEST_PERIOD_S = 0.0001
 LONGEST_PERIOD_S = 0.005
@@ -74,7 +75,7 @@ def mode_(run: Run, mode: int | None) -> None:
         run.channel.mode = mode
 
 
-@command("STREAM", group=GROUP, levels=ANY, use=IMMEDIATE)
+@command("STREAM", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
 def stream(run: Run) -> None:
     """Print the name of the own channel."""
     run.print(run.channel.name)
@@ -237,7 +238,7 @@ def def_clear(run: Run) -> None:
 # the card
 
 
-@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, ref="PG Operating System")
+@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
 def help_(run: Run) -> None:
     """List all command words."""
     words = sorted({row.words[0] for row in registry.commands()} - {"LET"} | {"REM"})
@@ -247,7 +248,7 @@ def help_(run: Run) -> None:
         run.print("".join(word.ljust(width) for word in columns).rstrip())
 
 
-@command("VER", group=GROUP, levels=ANY, ref="PG Operating System")
+@command("VER", group=GROUP, levels=ANY, ref=REF)
 def ver(run: Run) -> None:
     """Print model and firmware version."""
     run.print(run.card.model.version)
@@ -258,7 +259,7 @@ def ver(run: Run) -> None:
     group=GROUP,
     levels=ANY,
     grammar=(Num("seconds", optional=True),),
-    ref="PG Operating System",
+    ref=REF,
     units="s",
     default="0.0005",
     saved=True,
@@ -281,7 +282,7 @@ def period(run: Run, period_s: float | None) -> None:
     levels=SYS,
     use=IMMEDIATE,
     grammar=(Word("ON", "OFF", optional=True), Str("text", optional=True)),
-    ref="PG Operating System",
+    ref=REF,
 )
 def password(run: Run, switch: str | None, text: str | None) -> None:
     """Protect program text from LIST, or show whether it is protected."""

@@ -1,0 +1,57 @@
+"""A card without servo interrupt: channels, programs and their clock."""
+
+from openacr.basic.control import ProgramControl
+from openacr.basic.executor import Executor
+from openacr.basic.session import Session
+from openacr.basic.system import System
+from openacr.map import numbers as at
+from openacr.models import ACR9000, Model
+from openacr.motion.card import Card
+
+SLOW_SCAN_TICKS = 100
+
+
+class Machine:
+    """Channels are connected on demand; `|` in answers stands for CR LF."""
+
+    def __init__(self, model: Model = ACR9000, channel: str = "COM1") -> None:
+        self.card = Card(model)
+        self.system = System(self.card)
+        self.executor = Executor(self.system)
+        self.control = ProgramControl(self.system, self.executor)
+        self.system.runner = self.executor
+        self.system.control = self.control
+        self.channel = self.connect(channel)
+
+    def connect(self, name: str) -> Session:
+        session = self.system.sessions[name]
+        session.connect()
+        return session
+
+    def type(self, *lines: str, on: Session | None = None) -> str:
+        session = on or self.channel
+        for line in lines:
+            session.feed_line(line)
+        return self.sent(session)
+
+    def key(self, text: str, on: Session | None = None) -> None:
+        for character in text:
+            (on or self.channel).typed(ord(character))
+
+    def sent(self, session: Session | None = None) -> str:
+        data = (session or self.channel).take_output()
+        return data.decode("latin-1").replace("\r\n", "|")
+
+    def advance(self, ticks: int = 100) -> None:
+        row = at.SYSI_BASE + at.SYSI_TICK_LOW
+        for _ in range(ticks):
+            self.card.memory.I[row] += 1
+            self.executor.step(self.card.tick)
+            if self.card.tick % SLOW_SCAN_TICKS == 0:
+                self.control.scan()
+
+    def load(self, program: int, *lines: str) -> None:
+        """Enter free-form text, on a channel of its own."""
+        other = self.connect("COM2")
+        answer = self.type(f"PROG {program}", "PROGRAM", *lines, "ENDP", on=other)
+        assert answer == f"P{program:02d}>" * (len(lines) + 3), answer

@@ -1,0 +1,290 @@
+"""PRINT, INPUT, OPEN, CLOSE and the keys of devices, on a running card."""
+
+import pytest
+from tests.basic.machine import Machine
+
+from openacr.basic.session import Attention
+
+
+@pytest.fixture
+def card() -> Machine:
+    machine = Machine()
+    machine.type("DIM P(100)", "PROG 0")
+    return machine
+
+
+@pytest.mark.req("ACR-SYN-13", "ACR-SYN-14")
+@pytest.mark.parametrize(
+    ("line", "output"),
+    [
+        ('PRINT "text"', "text|"),
+        ("PRINT", "|"),
+        ("?", "|"),
+        ("?1+2", "3|"),
+        ('PRINT "A=";P1;" B"', "A=437.25 B|"),
+        ('PRINT "a","b"', "a\tb|"),
+        ('PRINT "open";', "open"),
+        ('PRINT "tab",', "tab\t"),
+        ("? P1", "437.25|"),
+        ("?P12304", "0.002441406|"),
+        ("?P12304*1", "0.002441406017|"),
+        ("?BIT5;BIT6", "-10|"),
+        ("?BIT(5)", "-1|"),
+        ("?P(1)", "437.25|"),
+        ("?-P1", "-437.25|"),
+        ("?NOT 5", "-6|"),
+        ("?SQRT(16);ABS(-2)", "42|"),
+        ('?UCASE$("ab")+CHR$(67)', "ABC|"),
+        ('?"say ""hi"""', 'say "hi"|'),
+        ('PRINT USING "##";5', " 5|"),
+        ('PRINT USING "##";P2;":";USING "##";7;".";P3', " 5: 7.5|"),
+        ('PRINT USING "+##.#";"x=";1.25', "x= +1.3|"),
+        ('?"a" "b";1', "ab1|"),
+        ("?0.1+0.2", "0.3|"),
+        ("?1/3", "0.3333333333|"),
+    ],
+)
+def test_print_sends_items_as_documented(card: Machine, line: str, output: str) -> None:
+    card.card.memory.write(1, 437.25)
+    card.card.memory.write(2, 5)
+    card.card.memory.write(3, 5)
+    card.card.memory.set_bit(5, True)
+    assert card.type(line) == output + "P00>"
+
+
+def test_print_of_a_command_word_prints_its_report(card: Machine) -> None:
+    assert card.type("? MEM") == "65536|P00>"
+    assert card.type("?ECHO") == "1|P00>"
+    assert card.type("PRINT STREAM") == "COM1|P00>"
+
+
+def test_print_of_nonsense_is_refused(card: Machine) -> None:
+    assert card.type("?Nonsense") == "Undefined symbol|P00>"
+    assert card.type('PRINT USING "x";1') == "Invalid argument|P00>"
+
+
+def test_single_variables_print_with_seven_digits(card: Machine) -> None:
+    assert card.type("DIM SV(2)", "SV0 = 0.1", '?SV0;" ";SV0+0') == (
+        "P00>P00>0.1 0.1000000015|P00>"
+    )
+
+
+def test_print_of_a_program_goes_to_its_listeners(card: Machine) -> None:
+    card.load(0, 'PRINT "hello"')
+    assert card.type("RUN") == "P00>"
+    card.advance()
+    assert card.sent() == ""
+    assert card.type("LRUN") == ""
+    card.advance()
+    assert card.sent() == "hello|P00>"
+
+
+# devices
+
+
+@pytest.mark.req("ACR-APP-OPEN-01", "ACR-SYN-12")
+def test_print_to_a_device_reaches_the_channel_it_is_open_on(card: Machine) -> None:
+    network = card.connect("STREAM3")
+    card.load(0, 'OPEN "STREAM3:" AS #1', 'PRINT #1, "fruit? ";', "PRINT #1", "DWL 10")
+    card.type("RUN")
+    card.advance()
+    assert card.sent(network) == "fruit? |"
+    assert network.attention is Attention.OPEN
+
+
+@pytest.mark.req("ACR-CMD-CLOSE")
+def test_a_closed_device_refuses_print_and_its_channel_takes_commands(card: Machine) -> None:
+    other = card.connect("COM2")
+    assert card.type('OPEN "COM2:38400,N,8,1" AS #2') == "P00>"
+    assert card.type('PRINT #2,"x";', "CLOSE #2") == "P00>"
+    card.advance(5)
+    assert card.sent() == ""
+    assert card.sent(other) == "x"
+    card.advance(5)
+    assert card.sent() == "P00>"
+    assert card.type("PRINT #2") == "Device not open|P00>"
+    assert card.type("CLOSE #2") == "P00>"
+    assert card.type("", on=other) == "SYS>"
+
+
+@pytest.mark.req("ACR-CMD-OPEN")
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        ("COM2:38400,n,8,1", ""),
+        ("com2:", ""),
+        ("COM2", ""),
+        ("STREAM5:", ""),
+        ("COM2:123,N,8,1", "Invalid device|"),
+        ("COM2:9600,X", "Invalid device|"),
+        ("FIFO:", "Invalid device|"),
+        ("STREAM9:", "Invalid device|"),
+        ("STREAM3:9600", "Invalid device|"),
+        ("printer", "Invalid device|"),
+    ],
+)
+def test_devices_are_named_by_strings(card: Machine, text: str, answer: str) -> None:
+    assert card.type(f'OPEN "{text}" AS #1') == answer + "P00>"
+
+
+def test_a_device_belongs_to_one_program_at_a_time(card: Machine) -> None:
+    card.type('OPEN "COM2:" AS #1')
+    assert card.type('OPEN "COM2:" AS #1') == "P00>"
+    assert card.type('OPEN "COM2:" AS #2') == "Device in use|P00>"
+    assert card.type('OPEN "STREAM2:" AS #1') == "Device in use|P00>"
+    assert card.type("PROG 1", 'OPEN "COM2:" AS #1') == "P01>Device in use|P01>"
+
+
+def test_a_stream_without_connection_can_be_opened(card: Machine) -> None:
+    assert card.type('OPEN "STREAM4:" AS #1', 'PRINT #1,"lost"') == "P00>P00>"
+    network = card.connect("STREAM4")
+    card.type('PRINT #1,"found"')
+    assert card.sent(network) == "found|"
+
+
+@pytest.mark.req("ACR-APP-OPEN-03")
+def test_inkey_takes_one_waiting_character_and_never_waits(card: Machine) -> None:
+    network = card.connect("STREAM2")
+    card.type('OPEN "STREAM2:" AS #1')
+    assert card.type("?LEN(INKEY$(1));KBHIT(1)") == "00|P00>"
+    card.key("a\x1b", on=network)
+    assert card.type("?KBHIT(1);UCASE$(INKEY$(1));ASC(INKEY$(1));KBHIT(1)") == "-1A270|P00>"
+
+
+def test_getch_waits_for_a_key_as_an_inhibited_program(card: Machine) -> None:
+    card.load(1, "DIM $V(1,10)", "$V0 = GETCH$(0)", "P5 = GETCH", "PRINT $V0;P5")
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    assert card.card.memory.bit(1024 + 32 + 2)
+    card.key("xA")
+    card.advance()
+    assert card.sent() == "xA|".replace("A", "65") + "P01>"
+
+
+# INPUT
+
+
+def test_input_reads_fields_into_variables(card: Machine) -> None:
+    card.load(
+        1, "DIM $V(2,40)", "DIM LV(2)", 'INPUT "values";LV0,$V0,LV1', "PRINT LV0;$V0;LV1",
+        "INPUT $V1", "PRINT $V1",
+    )  # fmt: skip
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    assert card.sent() == "values"
+    assert card.card.memory.bit(1024 + 32 + 2)
+    card.key("12,abc,7.9\r")
+    card.advance()
+    assert card.sent() == "12abc7|? "
+    card.key("one, two, three\r")
+    card.advance()
+    assert card.sent() == "one, two, three|P01>"
+    assert not card.card.memory.bit(1024 + 32 + 2)
+
+
+def test_too_few_fields_are_asked_for_again(card: Machine) -> None:
+    card.load(1, "INPUT P1,P2", "PRINT P1+P2")
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    card.key("5\r")
+    card.advance()
+    card.key("5,6\r")
+    card.advance()
+    assert card.sent() == "? Redo|11|P01>"
+
+
+def test_backspace_takes_a_typed_character_back(card: Machine) -> None:
+    card.load(1, "INPUT P1", "PRINT P1")
+    card.type("PROG 1", "LRUN")
+    card.key("12\x083\r")
+    card.advance()
+    assert card.sent() == "? 13|P01>"
+
+
+def test_input_with_a_semicolon_keeps_the_cursor_in_its_line(card: Machine) -> None:
+    card.load(1, 'INPUT; "Value = ";P1', "DWL 1")
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    assert not card.channel.echo_line_end
+    card.key("5\r")
+    card.advance()
+    assert card.channel.echo_line_end
+    assert card.sent() == "Value = "
+
+
+def test_input_from_a_device_ends_at_cr_or_cr_lf(card: Machine) -> None:
+    network = card.connect("STREAM2")
+    card.load(
+        1, "DIM $V(2,20)", 'OPEN "STREAM2:" AS #1', "INPUT #1,$V0", "INPUT #1,$V1",
+        "PRINT #1, $V0;$V1", "DWL 9",
+    )  # fmt: skip
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    card.key("first\r\nsecond\r\n", on=network)
+    card.advance()
+    assert card.sent(network) == "? ? firstsecond|"
+
+
+def test_the_first_line_typed_by_any_listener_is_taken(card: Machine) -> None:
+    card.load(1, "INPUT P1", "PRINT P1")
+    other = card.connect("COM2")
+    card.type("PROG 1", "LISTEN", on=other)
+    card.type("PROG 1", "LRUN")
+    card.advance()
+    card.key("7\r", on=other)
+    card.advance()
+    assert card.sent() == "? 7|P01>"
+    assert card.sent(other).endswith("? 7|")
+
+
+# what programs and channels say
+
+
+@pytest.mark.req("ACR-RUN-02", "ACR-RUN-04", "ACR-RUN-08", "ACR-IMM-07")
+def test_a_program_runs_beside_the_prompt_and_is_heard_by_listen(card: Machine) -> None:
+    card.load(2, "_Loop", "P1 = P1 + 1", "DWL 0.01", 'IF (P1 > 5) THEN PRINT "over" : END',
+              "GOTO Loop")  # fmt: skip
+    assert card.type("PROG 2", "RUN") == "P02>P02>"
+    card.advance(50)
+    assert card.type("?BIT(1088)") == "-1|P02>"
+    card.type("LISTEN")
+    card.advance(20)
+    card.channel.escape()
+    assert card.sent() == "|P02>"
+    assert card.control.is_running(2)
+    card.type("LISTEN")
+    card.advance(200)
+    assert card.sent() == "over|"
+    assert not card.control.is_running(2)
+
+
+@pytest.mark.req("ACR-RUN-05")
+def test_lrun_shows_run_time_and_structure_errors(card: Machine) -> None:
+    card.load(1, "P1 = 5", "P1 = 1 / (P1 - 5)")
+    card.type("PROG 1")
+    assert card.type("RUN") == "P01>"
+    card.advance()
+    assert card.sent() == ""
+    assert card.type("LRUN") == ""
+    card.advance()
+    assert card.sent() == "Error in PROG1 line 30: Divide by zero|P01>"
+    card.load(1, "IF (P1)", "P1 = 2")
+    assert card.type("LRUN") == "Error in PROG1 line 20: IF without ENDIF|P01>"
+
+
+def test_trace_shows_the_numbers_of_the_lines(card: Machine) -> None:
+    assert card.type("10 P1 = 1", "20 P1 = 2", "TRON", "LRUN") == "P00>P00>P00>"
+    card.advance()
+    assert card.sent() == "[10][20]P00>"
+
+
+def test_a_line_that_dwells_is_answered_afterwards(card: Machine) -> None:
+    assert card.type('PRINT "a" : DWL 0.01 : PRINT "b"') == "a|"
+    card.advance(10)
+    assert card.sent() == ""
+    card.advance(30)
+    assert card.sent() == "b|P00>"
+
+
+def test_a_run_time_error_of_a_typed_line_is_its_answer(card: Machine) -> None:
+    assert card.type('PRINT "a" : P200 = 1 : PRINT "b"') == "a|Undefined variable|P00>"
