@@ -122,6 +122,20 @@ def test_program_text_outside_a_program_level_is_explained(tmp_path: Path) -> No
     assert "bad.8k:1:1: Unknown command (not valid at the system level; `PROG n`" in result.stdout
 
 
+def test_a_program_command_at_the_system_level_is_explained(tmp_path: Path) -> None:
+    result = check(write(tmp_path, "bad.8k", "JOG FWD X\n"))
+    assert "(not valid at the system level; `PROG n` goes to a program)" in result.stdout
+
+
+def test_axes_are_those_the_program_has_attached(tmp_path: Path) -> None:
+    text = 'PROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\nPROGRAM\nX10\nW10\nENDP\n'
+    result = check(write(tmp_path, "bad.8k", text))
+    assert [line for line in result.stdout.splitlines() if "bad.8k" in line] == [
+        f"{tmp_path}/bad.8k:6:1: Unknown command "
+        "(no command, alias or axis of this program has this name)"
+    ]
+
+
 def test_a_project_is_checked_as_a_whole(tmp_path: Path) -> None:
     write(tmp_path, "setup.8k", "DIM DEF(1)\n#DEFINE Lamp BIT32\n")
     write(tmp_path, "prog1.8k", "PROGRAM\nSET Lamp\nSET Lump\nENDP\n")

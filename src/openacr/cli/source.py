@@ -227,23 +227,23 @@ class Reader:
         length = span.length if span else len(original)
         words = line.text.split()
         word = line.text[span.column - 1 :][: span.length] if span else words[0]
-        hint = self._hint(error.message, word)
+        hint = self._hint(error.message, word, words[0])
         # Behind the end of the line stands what was joined to it.
         place = (line.number, min(column, len(original) + 1), length)
         self.faults.append(Fault(self._path, *place, error.text, hint, original))
 
-    def _hint(self, message: Message, word: str) -> str:
-        if message is UNKNOWN_COMMAND and self.level is Level.SYS:
-            if word.upper() in registry.keywords() or word.upper() == "PROGRAM":
-                return "not valid at the system level; `PROG n` goes to a program"
+    def _hint(self, message: Message, word: str, first: str) -> str:
+        is_word_of_language = {word.upper(), first.upper()} & {*registry.keywords(), "PROGRAM"}
+        if message is UNKNOWN_COMMAND and self.level is Level.SYS and is_word_of_language:
+            return "not valid at the system level; `PROG n` goes to a program"
         if message in (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE):
             names = {*self.axes.get(self.number, ()), *self.aliases}
             close = get_close_matches(word, sorted(names), n=1)
             close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
             if close and close[0] != word.upper():
                 return f"did you mean {close[0]}?"
-        if message is UNDEFINED_SYMBOL and self.level is Level.PROG:
-            return "no axis of this program and no alias has this name"
+        if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and self.level is Level.PROG:
+            return "no command, alias or axis of this program has this name"
         return ""
 
 
