@@ -127,15 +127,14 @@ class Devices:
         """Index (into I) of a row of the device, to wait for."""
         return at.DQI_BASE + (key[0] * PER_PROGRAM + key[1]) * at.DQI_STRIDE + offset
 
-    def state(self) -> dict[Key, bytes]:
+    def state(self) -> dict[Key, tuple[bytes, bool]]:
         """Everything that waits to be read, for a snapshot."""
-        return {key: bytes(queue.data) for key, queue in self._queues.items() if queue.data}
+        return {key: (bytes(queue.data), queue.after_cr) for key, queue in self._queues.items()}
 
-    def restore(self, state: Mapping[Key, bytes]) -> None:
+    def restore(self, state: Mapping[Key, tuple[bytes, bool]]) -> None:
         """Take over what `state` returned."""
-        for key, queue in self._queues.items():
-            queue.data[:] = state.get(key, b"")
-            queue.after_cr = False
+        for key, (data, after_cr) in state.items():
+            self._queues[key] = _Queue(bytearray(data), after_cr)
             self._count(key)
 
     def _session(self, key: Key) -> Session | None:

@@ -113,6 +113,15 @@ class ProgramStore:
         if self.password is not None:
             raise CardError(PROGRAM_IS_PROTECTED)
 
+    def state(self) -> tuple[list[list[StoredLine]], str | None]:
+        """All text and the password, for a snapshot; what it costs stands in the map."""
+        return [self.lines(owner) for owner in range(OWNERS)], self.password
+
+    def restore(self, state: tuple[list[list[StoredLine]], str | None]) -> None:
+        """Take over what `state` returned."""
+        texts, self.password = state
+        self.texts = [{line.number: line for line in text} for text in texts]
+
     def _account(self, owner: int, growth: int) -> None:
         row = self.storage.heap.row(owner, at.STI_CODE_BYTES)
         self.storage.set_code_bytes(owner, row + growth)

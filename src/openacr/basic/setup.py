@@ -34,6 +34,15 @@ class Setup:
             _check_host(_octets(text), _octets(changed["MASK"]))
         self.addresses = changed
 
+    def state(self) -> tuple[tuple[str, ...], dict[str, str]]:
+        """Both settings, for a snapshot."""
+        return self.config, dict(self.addresses)
+
+    def restore(self, state: tuple[tuple[str, ...], dict[str, str]]) -> None:
+        """Take over what `state` returned."""
+        config, addresses = state
+        self.config, self.addresses = config, dict(addresses)
+
 
 def _octets(text: str) -> list[int]:
     """The four numbers of a dotted address."""

@@ -110,6 +110,38 @@ class System:
             if self.programs.starts_by_itself(owner) and not self.control.is_running(owner):
                 self.control.run(owner)
 
+    def power_up(self) -> None:
+        """Forget programs, dimensions, aliases and what the channels were doing."""
+        for owner in self.owners():
+            self.programs.texts[owner].clear()
+        self.programs.password = None
+        self.storage.restore_factory()
+        self.aliases.clear()
+        self.devices.restore({})
+        for session in self.sessions.values():
+            session.power_up()
+
+    def state(self) -> dict[str, Any]:
+        """Everything that is not in the memory map, for a snapshot; it can be pickled."""
+        return {
+            "aliases": self.aliases.state(),
+            "programs": self.programs.state(),
+            "strings": self.storage.locals.strings_state(),
+            "devices": self.devices.state(),
+            "sessions": {name: each.state() for name, each in self.sessions.items()},
+            "setup": self.setup.state(),
+        }
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Take over what `state` returned; the memory map has been restored before."""
+        self.aliases.restore(state["aliases"])
+        self.programs.restore(state["programs"])
+        self.storage.locals.restore_strings(state["strings"])
+        self.devices.restore(state["devices"])
+        self.setup.restore(state["setup"])
+        for name, each in state["sessions"].items():
+            self.sessions[name].restore(each)
+
     def owners(self) -> range:
         """All programs and PLCs."""
         return range(OWNERS)

@@ -1,0 +1,208 @@
+"""Programs under RUN, HALT, PAUSE, block mode and their request flags."""
+
+import pytest
+from tests.basic.machine import Machine
+
+PROGRAM_1 = 1024 + 32
+RUNNING, MODIFIED, RUN_REQUEST, HALT_REQUEST = (PROGRAM_1 + n for n in (0, 5, 8, 9))
+BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING, STEP_FIRST = (PROGRAM_1 + n for n in (16, 18, 19, 20))
+STEP_CONTROL, PAUSE_CONTROL, PAUSE_MODE, PAUSE_WAITING = (PROGRAM_1 + n for n in (22, 24, 26, 27))
+
+
+@pytest.fixture
+def card() -> Machine:
+    machine = Machine()
+    machine.type("DIM P(100)", "PROG 1")
+    machine.load(1, "P1 = P1 + 1", "DWL 0.005", "P2 = P2 + 1", "DWL 0.005", "P3 = P3 + 1")
+    return machine
+
+
+def counts(card: Machine) -> tuple[float, ...]:
+    return tuple(card.card.memory.read(number) for number in (1, 2, 3))
+
+
+def bits(card: Machine, *numbers: int) -> list[bool]:
+    return [card.card.memory.bit(number) for number in numbers]
+
+
+def test_run_clears_modified_and_sets_running(card: Machine) -> None:
+    assert bits(card, MODIFIED, RUNNING) == [True, False]
+    card.type("RUN")
+    assert bits(card, MODIFIED, RUNNING) == [False, True]
+    card.advance(100)
+    assert bits(card, RUNNING) == [False]
+    assert counts(card) == (1, 1, 1)
+
+
+def test_halt_ends_a_program_in_the_middle_of_a_dwell(card: Machine) -> None:
+    card.type("RUN")
+    card.advance(5)
+    assert card.type("HALT") == "P01>"
+    card.advance(100)
+    assert counts(card) == (1, 0, 0)
+    assert bits(card, RUNNING, PROGRAM_1 + 1) == [False, False]
+
+
+@pytest.mark.req("ACR-ERR-17")
+def test_request_flags_run_and_halt_a_program(card: Machine) -> None:
+    card.type(f"SET {RUN_REQUEST}")
+    card.advance(105)
+    assert bits(card, RUN_REQUEST, RUNNING) == [False, True]
+    card.type(f"SET {HALT_REQUEST}")
+    card.advance(100)
+    assert bits(card, HALT_REQUEST, RUNNING) == [False, False]
+
+
+def test_pause_stops_before_the_next_line_and_resume_goes_on(card: Machine) -> None:
+    card.type("RUN")
+    card.advance(5)
+    card.type("PAUSE")
+    card.advance(200)
+    assert counts(card) == (1, 0, 0)
+    assert bits(card, RUNNING, PAUSE_CONTROL, PAUSE_MODE, PAUSE_WAITING) == [True] * 4
+    card.type("RESUME")
+    assert bits(card, PAUSE_CONTROL, PAUSE_MODE, PAUSE_WAITING) == [False] * 3
+    card.advance(100)
+    assert counts(card) == (1, 1, 1)
+
+
+def test_clearing_pause_control_resumes_like_the_command(card: Machine) -> None:
+    card.load(1, "_L", "P1 = P1 + 1", "DWL 0.001", "GOTO L")
+    card.type("RUN", f"SET {PAUSE_CONTROL}")
+    card.advance(200)
+    held = counts(card)
+    card.advance(100)
+    assert counts(card) == held
+    card.type(f"CLR {PAUSE_CONTROL}")
+    card.advance(200)
+    assert bits(card, PAUSE_MODE, RUNNING) == [False, True]
+    assert counts(card) > held
+
+
+def test_block_mode_executes_one_line_per_step(card: Machine) -> None:
+    card.load(1, "P1 = 1", "P2 = 1 : P3 = 1", "P1 = 2")
+    card.type("RUN", "BLK")
+    card.advance(20)
+    assert bits(card, BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING, STEP_FIRST) == [True] * 4
+    assert counts(card) == (0, 0, 0)
+    seen = []
+    for _ in range(4):
+        card.type("STEP")
+        card.advance(40)
+        seen.append(counts(card))
+    assert seen == [(0, 0, 0), (1, 0, 0), (1, 1, 1), (2, 1, 1)]
+
+
+def test_the_edge_of_step_control_is_a_step_too(card: Machine) -> None:
+    card.load(1, "P1 = 1", "P2 = 1")
+    card.type("RUN", "BLK")
+    card.advance(20)
+    card.type(f"SET {STEP_CONTROL}")
+    card.advance(300)
+    card.type(f"CLR {STEP_CONTROL}")
+    card.advance(100)
+    card.type(f"SET {STEP_CONTROL}")
+    card.advance(100)
+    assert counts(card) == (1, 0, 0)
+
+
+def test_aut_leaves_block_mode(card: Machine) -> None:
+    card.type("RUN", "BLK")
+    card.advance(100)
+    card.type("AUT")
+    card.advance(100)
+    assert counts(card) == (1, 1, 1)
+    assert bits(card, BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING) == [False] * 3
+
+
+def test_step_outside_block_mode_does_nothing(card: Machine) -> None:
+    card.type("STEP")
+    assert bits(card, PROGRAM_1 + 21) == [False]
+
+
+@pytest.mark.req("ACR-PBOOT-06")
+def test_all_programs_that_begin_with_pboot_run_together(card: Machine) -> None:
+    for program in (2, 3):
+        card.load(program, "PBOOT", f"P{program} = 1", "DWL 1")
+    card.type("PBOOT")
+    card.advance(20)
+    assert counts(card) == (0, 1, 1)
+    assert [card.control.is_running(program) for program in (1, 2, 3)] == [False, True, True]
+
+
+@pytest.mark.req("ACR-RUN-11")
+def test_run_and_halt_all_act_on_all_programs(card: Machine) -> None:
+    for program in (2, 3):
+        card.load(program, "_L", f"P{program} = P{program} + 1", "DWL 0.001", "GOTO L")
+    card.type("RUN ALL")
+    card.advance(20)
+    assert min(counts(card)) >= 1
+    card.type("PAUSE ALL")
+    card.advance(20)
+    held = counts(card)
+    card.advance(100)
+    assert counts(card) == held
+    card.type("RESUME ALL")
+    card.advance(100)
+    assert counts(card)[1] > held[1]
+    assert card.type("HALT ALL", "?BIT1056;BIT1088;BIT1120").endswith("000|P01>")
+
+
+@pytest.mark.req("ACR-ALIAS-05")
+def test_an_alias_of_a_local_means_the_local_of_each_program(card: Machine) -> None:
+    card.type("SYS", "DIM DEF(3)", "#DEFINE Mine LV1")
+    for program in (2, 3):
+        card.load(program, "DIM LV(2)", f"Mine = {program} * 10", f"P{program} = Mine")
+    card.type("RUN PROG2", "RUN PROG3")
+    card.advance(50)
+    assert counts(card) == (0, 20, 30)
+    assert card.type("PROG 2", "?Mine;LV1").endswith("P02>2020|P02>")
+
+
+@pytest.mark.req("ACR-ALIAS-07")
+def test_an_alias_may_stand_for_a_bit(card: Machine) -> None:
+    card.type("SYS", "DIM DEF(3)", "#DEFINE Lamp BIT32", "#DEFINE Key BIT128", "PROG 1")
+    card.load(2, "INH -Key", "SET Lamp", "IF (Key) THEN P1 = 1")
+    card.type("SET Key", "RUN PROG2")
+    card.advance(50)
+    assert bits(card, 32) == [False]
+    card.type("CLR Key")
+    card.advance(50)
+    assert bits(card, 32) == [True]
+
+
+@pytest.mark.req("ACR-REM-01", "ACR-REM-02")
+def test_remarks_do_not_affect_execution(card: Machine) -> None:
+    card.load(2, "REM P1 = 5", "P2 = 7 : REM P2 = 8 : P2 = 9", "P3 = 1 REM P3 = 2")
+    card.type("RUN PROG2")
+    card.advance(50)
+    assert counts(card) == (0, 7, 1)
+
+
+@pytest.mark.req("ACR-MEM-12", "ACR-MEM-13")
+def test_locals_belong_to_the_program_that_dimensioned_them(card: Machine) -> None:
+    card.type("PROG 2", "DIM LV(3)", "LV2 = 5")
+    assert card.type("?LV2", "?LV3") == "5|P02>Undefined variable|P02>"
+    assert card.type("PROG 3", "?LV2") == "P03>Undefined variable|P03>"
+    assert card.type("SYS", "?LV2") == "SYS>Not valid at this level|SYS>"
+
+
+@pytest.mark.req("ACR-MEM-29")
+def test_each_open_subroutine_takes_four_bytes(card: Machine) -> None:
+    card.load(2, "GOSUB One", "END", "_One", "GOSUB Two", "RETURN", "_Two", "DWL 1", "RETURN")
+    before = card.type("MEM PROG2")
+    card.type("RUN PROG2")
+    card.advance(20)
+    after = card.type("MEM PROG2")
+    assert int(before.split("|")[0]) - int(after.split("|")[0]) == 8
+
+
+def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:
+    card.type("RUN")
+    card.advance(5)
+    card.type("20 P1 = 100", "60 P3 = 50")
+    card.advance(100)
+    assert counts(card) == (1, 1, 1)
+    card.type("RUN")
+    card.advance(100)
+    assert counts(card) == (100, 2, 50)

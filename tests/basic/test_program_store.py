@@ -1,0 +1,137 @@
+"""Program text as it is kept."""
+
+import pickle
+from collections.abc import Callable
+
+import pytest
+
+from openacr.basic.program_store import ProgramStore, StoredLine, opens_capture
+from openacr.basic.storage import Storage
+from openacr.errors import CardError
+from openacr.lang.lexer import tokens
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+
+@pytest.fixture
+def store() -> ProgramStore:
+    return ProgramStore(Storage(Memory()))
+
+
+def line(number: int, text: str = "DWL 1", cost: int = 12) -> StoredLine:
+    return StoredLine(number, tuple(tokens(text)), None, cost)
+
+
+def numbers(store: ProgramStore, owner: int = 0) -> list[int]:
+    return [stored.number for stored in store.lines(owner)]
+
+
+def test_lines_are_kept_in_numeric_order(store: ProgramStore) -> None:
+    for number in (30, 10, 20, 15):
+        store.put(0, line(number))
+    assert numbers(store) == [10, 15, 20, 30]
+    store.delete(0, 15)
+    store.delete(0, 99)
+    assert numbers(store) == [10, 20, 30]
+    assert store.is_empty(1)
+
+
+def test_memory_follows_what_is_stored(store: ProgramStore) -> None:
+    free = store.storage.free_program
+    store.put(0, line(10, cost=100))
+    store.put(0, line(20, cost=50))
+    assert free(0) == 65536 - 150
+    store.put(0, line(10, cost=30))
+    assert free(0) == 65536 - 80
+    store.delete(0, 20)
+    assert free(0) == 65536 - 30
+    store.erase(0)
+    assert free(0) == 65536
+    assert store.is_empty(0)
+
+
+def test_a_line_without_room_changes_nothing(store: ProgramStore) -> None:
+    store.put(0, line(10, cost=65536))
+    with pytest.raises(CardError, match="Out of memory"):
+        store.put(0, line(20))
+    with pytest.raises(CardError, match="Out of memory"):
+        store.put(0, line(10, cost=65540))
+    assert numbers(store) == [10]
+    store.put(0, line(10, cost=4))
+
+
+def test_hidden_numbers_go_on_in_tens(store: ProgramStore) -> None:
+    assert store.next_number(0) == 10
+    store.put(0, line(10))
+    assert store.next_number(0) == 20
+    store.put(0, line(15))
+    assert store.next_number(0) == 20
+
+
+def test_every_change_sets_program_modified(store: ProgramStore) -> None:
+    words = store.storage.memory.I
+    changes: list[Callable[[], None]] = [
+        lambda: store.put(3, line(10)),
+        lambda: store.delete(3, 10),
+        lambda: store.erase(3),
+    ]
+    for change in changes:
+        words[at.PF_WORD + 3] = 0
+        change()
+        assert words[at.PF_WORD + 3] == at.PF_PROGRAM_MODIFIED
+
+
+@pytest.mark.req("ACR-PBOOT-02")
+@pytest.mark.parametrize(
+    ("texts", "starts"),
+    [
+        (("PBOOT", "DWL 1"), True),
+        (("PROGRAM", "PBOOT", "ENDP"), True),
+        ((": PBOOT",), True),
+        (("DWL 1", "PBOOT"), False),
+        (("REM first", "PBOOT"), False),
+        (("PROGRAM", "REM first", "PBOOT"), False),
+        (("PROGRAM",), False),
+        ((), False),
+    ],
+)
+def test_only_pboot_as_first_statement_starts_a_program(
+    store: ProgramStore, texts: tuple[str, ...], starts: bool
+) -> None:
+    for number, text in enumerate(texts, start=1):
+        store.put(0, line(number, text))
+    assert store.starts_by_itself(0) is starts
+
+
+@pytest.mark.parametrize(
+    ("text", "behind"),
+    [
+        ("PROGRAM", ""),
+        ("  program  ", ""),
+        (":PROGRAM", ""),
+        ("PROGRAM0_start", "_start"),
+        ("PROGRAM 3 _a", "_a"),
+        ("PROGRAM : REM main", ": REM main"),
+        ("PROGRAMS", None),
+        ("PROG 0", None),
+        ("10 PROGRAM", None),
+    ],
+)
+def test_the_word_program_opens_free_form_entry(text: str, behind: str | None) -> None:
+    assert opens_capture(text) == behind
+
+
+def test_a_password_is_taken_back_with_itself_only(store: ProgramStore) -> None:
+    store.check_readable()
+    store.protect("secret")
+    with pytest.raises(CardError, match="Program is protected"):
+        store.check_readable()
+    with pytest.raises(CardError, match="Invalid password"):
+        store.unprotect("Secret")
+    store.unprotect("secret")
+    store.check_readable()
+
+
+def test_stored_lines_survive_a_snapshot() -> None:
+    stored = line(10, 'PRINT "a" : REM b')
+    assert pickle.loads(pickle.dumps(stored)) == stored
