@@ -43,6 +43,7 @@ ORDER = (
     "plant/drive_cy.py",
     "plant/wiring_cy.py",
     "plant/step_cy.py",
+    "engine/loop_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)
 

@@ -8,7 +8,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.plant.apply import apply_world, count_of, position_of
 from openacr.plant.load import parse_world
-from openacr.plant.schema import Model, default_world
+from openacr.plant.schema import default_world
 from openacr.plant.step_cy import plant_step
 
 TEXT = """
@@ -83,7 +83,7 @@ def test_the_servo_period_comes_from_the_machine_file() -> None:
 
 @pytest.mark.parametrize("mult", [1, 4])
 def test_a_card_without_a_machine_file_has_axes_that_settle_with_default_gains(mult: int) -> None:
-    world = default_world(Model.ACR9000)
+    world = default_world()
     memory = Memory()
     apply_world(world, memory)
     assert [axis.number for axis in world.axis] == list(range(8))

@@ -390,6 +390,11 @@ class Executor:
             self.system.listeners.error(thread, line, error.text)
         self.system.listeners.ended(thread)
 
+    def reset(self) -> None:
+        """Forget what all threads execute (REBOOT)."""
+        for thread in range(at.TH_COUNT):
+            self._forget(thread)
+
     # snapshot
 
     def state(self) -> bytes:

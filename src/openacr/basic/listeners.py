@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ class Listeners:
 
     def __init__(self, sessions: Mapping[str, Session]) -> None:
         self._sessions = sessions
+        self.taps: list[Callable[[int, str], None]] = []  # hear everything, beside the channels
 
     def of(self, program: int) -> Iterator[Session]:
         """The channels that listen to a program, in their fixed order."""
@@ -26,6 +27,8 @@ class Listeners:
 
     def print(self, program: int, text: str) -> None:
         """Send text as it is."""
+        for tap in self.taps:
+            tap(program, text)
         for session in self.of(program):
             session.write(text)
 

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 LINE_END = "\r\n"
 FIRST_CHANNEL_THREAD = 16
 PROGRAMS = 16
+ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
+MODE_SHIFT = 20  # of the two flags Control Prefixing and High Bit Stripping
+FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
 
 
 class Attention(Enum):
@@ -58,8 +61,6 @@ class Session:
     is_connected: bool = False
     level: Level = Level.SYS
     number: int = 0  # of the program or PLC of the level
-    echo: int = 1
-    mode: int = 0
     busy: bool = False
     capture: int | None = None  # owner whose text is being entered with PROGRAM
     listening_to: int | None = None
@@ -67,12 +68,47 @@ class Session:
     opened_by: tuple[int, int] | None = None  # program and device number
     partner: str | None = None  # channel joined by TALK TO
     echo_line_end: bool = True  # False while `INPUT;` reads a line
+    last_error: CardError | None = None  # of the latest line, whatever ECHO says
+    _modes: list[int] = field(default_factory=lambda: [ECHO_CHARACTERS, 0])
     _output: bytearray = field(default_factory=bytearray)
 
     @property
     def thread(self) -> int:
         """The thread that executes lines typed here."""
         return FIRST_CHANNEL_THREAD + self.index
+
+    @property
+    def echo(self) -> int:
+        """ECHO mode: 1 echo characters, 2 no error reports, 4 no prompt."""
+        word = self._flag_word
+        return self._modes[0] if word is None else self._flags(word) & 7
+
+    @echo.setter
+    def echo(self, mode: int) -> None:
+        self._modes[0] = mode
+        if (word := self._flag_word) is not None:
+            self.system.card.memory.I[word] = self._flags(word) & ~7 | mode
+
+    @property
+    def mode(self) -> int:
+        """MODE of binary data: 1 control prefixing, 2 high bit stripping."""
+        word = self._flag_word
+        return self._modes[1] if word is None else self._flags(word) >> MODE_SHIFT & 3
+
+    @mode.setter
+    def mode(self, mode: int) -> None:
+        self._modes[1] = mode
+        if (word := self._flag_word) is not None:
+            cleared = self._flags(word) & ~(3 << MODE_SHIFT)
+            self.system.card.memory.I[word] = cleared | mode << MODE_SHIFT
+
+    @property
+    def _flag_word(self) -> int | None:
+        """The flag word that is the mode of this channel; network streams have none."""
+        return FLAG_WORDS.get(self.name)
+
+    def _flags(self, word: int) -> int:
+        return self.system.card.memory.I[word]
 
     @property
     def program(self) -> int | None:
@@ -112,7 +148,12 @@ class Session:
     def connect(self) -> None:
         """A host takes the channel: as after power-up, unless a program holds it open."""
         self.is_connected = True
-        self.level, self.number, self.echo, self.mode = Level.SYS, 0, 1, 0
+        self.reset()
+
+    def reset(self) -> None:
+        """The state after power-up: SYS level, echo on, control prefixing on serial lines."""
+        self.level, self.number = Level.SYS, 0
+        self.echo, self.mode = ECHO_CHARACTERS, int(self.name.startswith("COM"))
         self._output.clear()
 
     def disconnect(self) -> None:
@@ -180,7 +221,8 @@ class Session:
     def finished(self, error: CardError | None = None) -> None:
         """The present line is dealt with: its error text, then the prompt."""
         self.busy = False
-        if error is not None and not self.echo & 2:
+        self.last_error = error
+        if error is not None and not self.echo & NO_ERRORS:
             self.write(error.text + LINE_END)
         if self.attention is Attention.COMMANDS:
             self._send_prompt()
@@ -199,7 +241,7 @@ class Session:
         return bool(self._output)
 
     def _send_prompt(self) -> None:
-        if not self.echo & 4:
+        if not self.echo & NO_PROMPT:
             self.write(self.prompt)
 
     # levels and modes
@@ -230,6 +272,13 @@ class Session:
         if self.partner is not None:
             self.system.sessions[self.partner].partner = None
             self.partner = None
+
+    def power_up(self) -> None:
+        """Begin as after power-up; the connection, if there is one, stays."""
+        self.stop_listening()
+        self.level, self.number, self.echo, self.mode = Level.SYS, 0, 1, 0
+        self.busy, self.capture, self.opened_by, self.partner = False, None, None, None
+        self._output.clear()
 
     # snapshot
 

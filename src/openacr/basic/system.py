@@ -84,6 +84,8 @@ class System:
             for index, name in enumerate(STREAMS)
             if name in streams
         }
+        for session in self.sessions.values():
+            session.reset()
         self.listeners = Listeners(self.sessions)
         self.devices = Devices(card.memory, self.sessions, self.listeners)
         self.setup = Setup()

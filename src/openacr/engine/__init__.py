@@ -1,0 +1,1 @@
+"""The compiled loop: world, servo interrupt and background, tick after tick."""

@@ -54,6 +54,49 @@ def apply_world(world: World, memory: Memory) -> None:
     plant_refresh(memory.F, memory.I, at.PL_COUNT)
 
 
+_REALS = (
+    (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
+    (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
+    (at.PLGF_BASE, at.PLGF_STRIDE),
+)
+_INTS = (
+    (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
+    (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
+    (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
+    (at.PLGI_BASE, at.PLGI_STRIDE),
+    (FLAG_WORDS, 1),  # the onboard inputs
+)
+
+
+def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
+    """The state of the world outside, which survives a restart of the card."""
+    return (
+        [list(memory.F[base : base + length]) for base, length in _REALS],
+        [memory.I[base : base + length].tolist() for base, length in _INTS],
+    )
+
+
+def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) -> None:
+    """Bring the world outside back; encoders count on from where the motors stand."""
+    for (base, _), reals in zip(_REALS, state[0], strict=True):
+        for index, real in enumerate(reals, base):
+            memory.F[index] = real
+    for (base, _), ints in zip(_INTS, state[1], strict=True):
+        for index, number in enumerate(ints, base):
+            memory.I[index] = number
+    for motor in range(at.PL_COUNT):
+        raw = memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_RAW_COUNT]
+        memory.F[at.ENF_BASE + motor * at.ENF_STRIDE + at.ENF_RAW_OLD_CNT] = raw
+
+
+def push(memory: Memory, motor: int, by_cnt: float) -> bool:
+    """Move the load of a motor by raw encoder counts; False if there is no such motor."""
+    if not memory.I[at.PLI_BASE + motor * at.PLI_STRIDE + at.PLI_KIND]:
+        return False
+    memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_POSITION_CNT] += by_cnt
+    return True
+
+
 def count_of(axis: Axis, position_u: float) -> float:
     """Return the encoder count, with its fraction, at a position in user units."""
     sign = 1 if axis.encoder_direction is Direction.UP else -1
@@ -67,19 +110,10 @@ def position_of(axis: Axis, count: float) -> float:
 
 
 def _clear(memory: Memory) -> None:
-    for base, length in (
-        (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
-        (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
-        (at.PLGF_BASE, at.PLGF_STRIDE),
-    ):
+    for base, length in _REALS:
         for index in range(base, base + length):
             memory.F[index] = 0.0
-    for base, length in (
-        (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
-        (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
-        (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
-        (at.PLGI_BASE, at.PLGI_STRIDE),
-    ):
+    for base, length in _INTS[:-1]:
         for index in range(base, base + length):
             memory.I[index] = 0
 

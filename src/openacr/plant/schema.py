@@ -11,6 +11,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
+from openacr.models import DEFAULT_MODEL, MODELS, Model
+
 AXES = 16
 COUNTS_PER_LINE = 4
 DEFAULT_UNITS = "units"
@@ -32,18 +34,8 @@ Period = Annotated[float, Meta(ge=0.0001, le=0.005)]
 DacBits = Annotated[int, Meta(ge=8, le=16)]
 
 
-class Model(StrEnum):
-    """Cards that can be modelled."""
-
-    ACR1200 = "ACR1200"
-    ACR1500 = "ACR1500"
-    ACR2000 = "ACR2000"
-    ACR8000 = "ACR8000"
-    ACR8010 = "ACR8010"
-    ACR8020 = "ACR8020"
-    ACR9000 = "ACR9000"
-    ACR9030 = "ACR9030"
-    ACR9040 = "ACR9040"
+# The cards of `openacr.models` by name, so that a wrong name is reported with the right ones.
+ModelName = StrEnum("ModelName", {name: name for name in MODELS})  # type: ignore[misc]
 
 
 class Contact(StrEnum):
@@ -75,7 +67,7 @@ class _Table(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 class Card(_Table, frozen=True):
     """The card itself."""
 
-    model: Model = Model.ACR9000
+    model: ModelName = ModelName(DEFAULT_MODEL.name)
     period_s: Period = 0.0005
     dac_bits: DacBits = 16
 
@@ -251,10 +243,10 @@ DEFAULT_LINES = 1000
 DEFAULT_AXES = 8
 
 
-def default_world(model: Model = Model.ACR9000) -> World:
+def default_world(model: Model = DEFAULT_MODEL) -> World:
     """Build the world of a controller file without a machine: eight well-behaved axes."""
     return World(
-        card=Card(model=model),
+        card=Card(model=ModelName(model.name)),
         axis=tuple(
             Axis(number=number, drive=_WELL_BEHAVED, encoder_lines=DEFAULT_LINES, marker=0.0)
             for number in range(DEFAULT_AXES)

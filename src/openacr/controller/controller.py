@@ -1,0 +1,396 @@
+"""The composition root: one virtual card with the world around it.
+
+Everything that changes a card from outside enters here - bytes on a stream, an input that
+switches - and is noted in the journal with its tick. Same entries at same ticks, same
+state: `digest` is equal on every machine build of the core.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from openacr.basic.control import ProgramControl
+from openacr.basic.executor import Executor
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.system import System
+from openacr.compiled import pick
+from openacr.controller import snapshot as snapshots
+from openacr.controller.loading import PATIENCE_S, Loader, LoadError
+from openacr.controller.packets import PacketHost
+from openacr.controller.streams import CONSOLE, Streams
+from openacr.controller.trace import Reals, Trace, build_trace
+from openacr.controller.views import AxisView, Bits, Parameters
+from openacr.engine import loop_cy
+from openacr.errors import SourceError, UserError
+from openacr.map.numbers import (
+    AX_ACTUAL_POSITION,
+    AXF_PEAK_ERROR_CNT,
+    AXF_PEAK_VELOCITY_CPS,
+    AXF_TRAVEL_CNT,
+    AXI_POSITION_INDEX,
+    ENG_COUNT,
+    ENGI_BASE,
+    ENGI_IN_TICK,
+    ENGI_STRIDE,
+    ENGI_TICKS_LEFT,
+    ENGI_TRACE_EVERY,
+    ENGI_TRACE_ROW,
+    ENGI_TRACE_ROWS,
+    ENGI_TRACE_WAIT,
+    ENGI_UNTIL_MASK,
+    ENGI_UNTIL_STATE,
+    ENGI_UNTIL_WORD,
+    ENI_BASE,
+    ENI_MULT,
+    ENI_STRIDE,
+    P_CARD_SERIAL_NUMBER,
+)
+from openacr.models import MODELS, Model
+from openacr.motion import drive
+from openacr.motion.card import Card
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
+from openacr.plant import apply, load, schema
+from openacr.project import Project, find_project
+from openacr.protocol.stream import StreamKind
+from openacr.protocol.terminal import ControlKey
+from openacr.views import F64
+
+RAW_COUNTS = 4  # of an encoder per line, at MULT 4
+TRACE_CHUNK_ROWS = 65536
+
+_engine_run = pick(loop_cy.engine_run)
+_NO_TRACE = memoryview(bytearray(8)).cast("d")
+
+
+@dataclass(frozen=True, slots=True)
+class JournalEntry:
+    """One thing that entered the card: bytes on a stream, or an input that switched."""
+
+    tick: int
+    stream: int  # 0 for an input
+    data: bytes  # b"1" or b"0" for an input
+    bit: int = -1
+
+
+@dataclass(frozen=True, slots=True)
+class AxisStatistics:
+    """What an axis has done since power-up, in its units."""
+
+    position_u: float
+    actual_u: float
+    distance_u: float
+    peak_velocity_ups: float
+    peak_following_error_u: float
+
+
+class Controller:
+    """A virtual card; see design notes in docs/overview.md."""
+
+    def __init__(
+        self, model: str | Model = "ACR9000", *, world: schema.World | None = None
+    ) -> None:
+        self.model = _model(model)
+        self.world = world or schema.default_world(self.model)
+        self.card = Card(self.model)
+        self.memory = self.card.memory
+        self.system = System(self.card)
+        self.executor = Executor(self.system)
+        self.control = ProgramControl(self.system, self.executor)
+        self.system.control = self.control
+        self.system.runner = self.executor
+        self.system.reboot = self._ask_reboot
+        self.streams = Streams(self.system.sessions, PacketHost(self.card), self.press)
+        self.p = Parameters(self.memory)
+        self.bit = Bits(self.memory)
+        self.journal: list[JournalEntry] = []
+        self._console: int | None = None
+        self._trace_parts: list[Reals] = []
+        self._trace_buffer: Reals | None = None
+        self._trace_view = _NO_TRACE
+        self._wants_reboot = False
+        self._apply_world()
+
+    @classmethod
+    def from_project(cls, path: str | Path) -> Controller:
+        """A card with a project folder or controller file loaded; LoadError if it refuses lines."""
+        controller, errors = cls.load(find_project(path))
+        if errors:
+            raise LoadError(errors)
+        return controller
+
+    @classmethod
+    def load(cls, project: Project) -> tuple[Controller, list[SourceError]]:
+        """A card with a project loaded, and the lines it has refused."""
+        world = load.load_world(project.machine) if project.machine else None
+        controller = cls(str(world.card.model) if world else "ACR9000", world=world)
+        session = controller.system.sessions[CONSOLE]
+        session.connect()
+        errors = Loader(session, controller._wait_for_console_line).load(project)
+        session.disconnect()
+        controller.system.start_boot_programs()
+        return controller, errors
+
+    # time
+
+    @property
+    def tick(self) -> int:
+        """Servo interrupts since power-up."""
+        return self.card.tick
+
+    @property
+    def time_s(self) -> float:
+        """Simulated seconds since power-up."""
+        return self.tick * self.period_s
+
+    @property
+    def period_s(self) -> float:
+        """Length of a tick [s]."""
+        return self.card.period_s
+
+    def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
+        """Let the card live for so many ticks (or seconds)."""
+        self._set_engine(ENGI_TICKS_LEFT, ticks + round(seconds / self.period_s))
+        self._run()
+
+    def until(
+        self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
+    ) -> bool:
+        """Let the card live until a flag has this state; False if it has not in time."""
+        if self.memory.bit(bit) == is_:
+            return True
+        self._set_engine(ENGI_UNTIL_WORD, 4096 + (bit >> 5))
+        self._set_engine(ENGI_UNTIL_MASK, 1 << bit % 32 if bit % 32 < 31 else -(1 << 31))
+        self._set_engine(ENGI_UNTIL_STATE, int(is_))
+        limit = round(timeout_s / self.period_s) if ticks is None else ticks
+        self._set_engine(ENGI_TICKS_LEFT, limit)
+        met = self._run()
+        self._set_engine(ENGI_UNTIL_WORD, 0)
+        return met
+
+    def _run(self) -> bool:
+        """Run the engine to the end of its ticks; True if the awaited flag came first."""
+        memory, space = self.memory, self.executor.space
+        met = False
+        while True:
+            reason = _engine_run(
+                memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view
+            )
+            if reason == loop_cy.DONE:
+                break
+            if reason == loop_cy.UNTIL_MET:
+                met = True
+                break
+            if reason == loop_cy.TRACE_FULL:
+                self._next_trace_part()
+            elif reason == loop_cy.REQUESTS:
+                self.control.scan()
+            else:
+                self.executor.attend(reason - loop_cy.THREAD)
+                self.streams.settle()
+            if self._wants_reboot:
+                self._reboot()
+        return met
+
+    def _set_engine(self, row: int, value: int) -> None:
+        self.memory.I[ENGI_BASE + row] = value
+
+    # streams
+
+    def open_stream(self, kind: StreamKind) -> int:
+        """A stream for a new connection; NoFreeStreamError when all are taken."""
+        return self.streams.open(kind, self.period_s)
+
+    def close_stream(self, stream: int) -> None:
+        """The connection ended; motion and programs go on."""
+        self.streams.close(stream)
+
+    def receive(self, stream: int, data: bytes) -> None:
+        """Bytes that arrived together, at the present tick."""
+        self.journal.append(JournalEntry(self.tick, stream, data))
+        self.streams.receive(stream, data, self.tick)
+        if self._wants_reboot:
+            self._reboot()
+
+    def accepts_input(self, stream: int) -> bool:
+        """False while the sender should be held back."""
+        return self.streams.accepts_input(stream)
+
+    def replying(self, stream: int) -> bool:
+        """True while a line is on its way to an answer and not blocked."""
+        session = self.streams.session(stream)
+        if session is None or not session.busy:
+            return False
+        return not self.executor.is_waiting(session.thread)
+
+    def take_output(self, stream: int) -> bytes:
+        """The bytes of the next write, none when there is nothing to send."""
+        return self.streams.take_output(stream)
+
+    @property
+    def console(self) -> int:
+        """The stream of this process, opened at first use."""
+        if self._console is None:
+            self._console = self.streams.open(StreamKind.TERMINAL, self.period_s, CONSOLE)
+        return self._console
+
+    def send(self, text: str) -> str:
+        """Type text on the console; what the card has answered so far."""
+        self.receive(self.console, text.encode("latin-1"))
+        return self.take_output(self.console).decode("latin-1")
+
+    def press(self, key: ControlKey) -> None:
+        """Ctrl-X kills motion and ends programs, Ctrl-Y lifts kills, Ctrl-Z also drops drives."""
+        if key is ControlKey.CTRL_Y:
+            drive.clear_kills(self.card)
+            return
+        for program in range(PROGRAMS):
+            self.executor.halt_program(program)
+        drive.kill_all(self.card)
+        if key is ControlKey.CTRL_Z:
+            drive.disable_all(self.card)
+
+    def listen(self, hear: Callable[[int, str], None]) -> None:
+        """Call `hear(program, text)` with everything programs print."""
+        self.system.listeners.taps.append(hear)
+
+    # the world
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch an input that no part of the world drives."""
+        self.journal.append(JournalEntry(self.tick, 0, b"1" if on else b"0", bit))
+        self.memory.set_bit(bit, on)
+
+    def drag(self, axis: int, by_u: float) -> None:
+        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
+        encoder = self.memory.I[axis_ints(axis) + AXI_POSITION_INDEX]
+        mult = self.memory.I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] or 1
+        pulses = by_u * scale_of(self.card, axis)
+        if not apply.push(self.memory, encoder, pulses * RAW_COUNTS / mult):
+            row = axis_parameter(axis) + AX_ACTUAL_POSITION
+            self.memory.write(row, self.memory.I[row] + round(pulses))
+
+    def _apply_world(self) -> None:
+        apply.apply_world(self.world, self.memory)
+        self.card.set_period(self.world.card.period_s)
+        self.memory.I[P_CARD_SERIAL_NUMBER] = self.model.serial_number
+
+    # reading
+
+    def axis(self, number: int) -> AxisView:
+        """One axis, for reading."""
+        if not 0 <= number < self.model.axes:
+            raise UserError(
+                f"axis {number}: the {self.model.name} has axes 0-{self.model.axes - 1}"
+            )
+        return AxisView(self.card, number)
+
+    def statistics(self, axis: int) -> AxisStatistics:
+        """What an axis has done since power-up."""
+        scale = abs(scale_of(self.card, axis))
+        reals = axis_reals(axis)
+        view = AxisView(self.card, axis)
+        memory = self.memory.F
+        return AxisStatistics(
+            view.commanded_u,
+            view.actual_u,
+            memory[reals + AXF_TRAVEL_CNT] / scale,
+            memory[reals + AXF_PEAK_VELOCITY_CPS] / scale,
+            memory[reals + AXF_PEAK_ERROR_CNT] / scale,
+        )
+
+    def digest(self) -> str:
+        """Fingerprint of the state; what this process asked of the engine does not count."""
+        rows = self.memory.I
+        first, last = ENGI_BASE, ENGI_BASE + ENG_COUNT * ENGI_STRIDE
+        kept = rows[first:last].tolist()
+        for row in range(first, last):
+            if row != ENGI_BASE + ENGI_IN_TICK:
+                rows[row] = 0
+        digest = self.memory.digest()
+        for row, value in zip(range(first, last), kept, strict=True):
+            rows[row] = value
+        return digest
+
+    # recording
+
+    def record(self, every_tk: int = 1) -> None:
+        """Record all axes every so many ticks from now on."""
+        self._trace_parts = []
+        self._set_engine(ENGI_TRACE_EVERY, every_tk)
+        self._set_engine(ENGI_TRACE_WAIT, 1)
+        self._new_trace_buffer()
+
+    def trace(self) -> Trace:
+        """What has been recorded so far."""
+        columns = self._trace_columns
+        parts = [part.reshape(-1, columns) for part in self._trace_parts]
+        if self._trace_buffer is not None:
+            used = self.memory.I[ENGI_BASE + ENGI_TRACE_ROW]
+            parts.append(self._trace_buffer.reshape(-1, columns)[:used])
+        samples = np.concatenate(parts) if parts else np.empty((0, columns))
+        scales = [scale_of(self.card, axis) for axis in range(self.model.axes)]
+        return build_trace(samples, scales)
+
+    @property
+    def _trace_columns(self) -> int:
+        return loop_cy.TRACE_HEAD + loop_cy.TRACE_AXIS * self.model.axes
+
+    def _new_trace_buffer(self) -> None:
+        self._trace_buffer = np.zeros(TRACE_CHUNK_ROWS * self._trace_columns)
+        self._trace_view = cast(F64, self._trace_buffer.data)
+        self._set_engine(ENGI_TRACE_ROW, 0)
+        self._set_engine(ENGI_TRACE_ROWS, TRACE_CHUNK_ROWS)
+
+    def _next_trace_part(self) -> None:
+        if self._trace_buffer is not None:
+            self._trace_parts.append(self._trace_buffer)
+        self._new_trace_buffer()
+
+    # snapshots
+
+    def snapshot(self) -> snapshots.Snapshot:
+        """The whole state at this tick."""
+        return snapshots.take(self)
+
+    def restore(self, snapshot: snapshots.Snapshot) -> None:
+        """Return to a snapshot of this card, or of one with the same model and world."""
+        snapshots.put_back(self, snapshot)
+
+    # loading and restarting
+
+    def _wait_for_console_line(self) -> bool:
+        """Let time pass until the line on the loading session is done; False if it hangs."""
+        session = self.system.sessions[CONSOLE]
+        for _ in range(round(PATIENCE_S * 1000)):
+            if not session.busy:
+                return True
+            self.advance(seconds=0.001)
+        return False
+
+    def _ask_reboot(self) -> None:
+        self._wants_reboot = True
+
+    def _reboot(self) -> None:
+        """Restart as at power-up; the world outside stays as it is."""
+        self._wants_reboot = False
+        outside = apply.take_state(self.memory)
+        self.executor.reset()
+        self.card.power_up()
+        self.system.power_up()
+        self._apply_world()
+        apply.put_state(self.memory, outside)
+        self.streams.disconnect_all()
+
+
+def _model(model: str | Model) -> Model:
+    if isinstance(model, Model):
+        return model
+    if model not in MODELS:
+        raise UserError(f"controller model {model}: known are {', '.join(MODELS)}")
+    return MODELS[model]

@@ -1,0 +1,63 @@
+"""Send the files of a project to a card, line by line, as a host would."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from openacr.basic.loader import file_lines
+from openacr.basic.registry import Level
+from openacr.basic.session import Session
+from openacr.errors import CardError, SourceError
+from openacr.project import Place, Project, SourceFile
+
+PATIENCE_S = 60.0  # a line of a set-up file that waits longer than this hangs
+
+
+class LoadError(SourceError):
+    """Lines of project files that the card refuses; the first one is the error itself."""
+
+    def __init__(self, errors: Sequence[SourceError]) -> None:
+        first = errors[0]
+        super().__init__(
+            first.text, path=first.path, line=first.line, column=first.column, hint=first.hint
+        )
+        self.errors = tuple(errors)
+
+
+@dataclass(slots=True)
+class Loader:
+    """Feeds files to a session; `wait` lets time pass until its line is done."""
+
+    session: Session
+    wait: Callable[[], bool]
+
+    def load(self, project: Project) -> list[SourceError]:
+        """Load every file; the errors are those the card reports, with their place."""
+        errors: list[SourceError] = []
+        for source in project.sources:
+            errors.extend(self._load_file(source))
+        return errors
+
+    def _load_file(self, source: SourceFile) -> list[SourceError]:
+        if source.place is Place.SETUP:
+            self.session.go(Level.SYS)
+        else:
+            level = Level.PROG if source.place is Place.PROGRAM else Level.PLC
+            self.session.go(level, source.number)
+        errors = []
+        for line in file_lines(source.text):
+            problem = self._feed(line.text)
+            if problem:
+                errors.append(SourceError(problem, path=str(source.path), line=line.number))
+        if self.session.capture is not None:
+            self._feed("ENDP")
+        return errors
+
+    def _feed(self, text: str) -> str | None:
+        self.session.last_error = None
+        self.session.feed_line(text)
+        if self.session.busy and not self.wait():
+            return f"the line is still waiting after {PATIENCE_S:g} s"
+        error: CardError | None = self.session.last_error
+        return error.text if error is not None else None

@@ -1,0 +1,161 @@
+"""Command streams: bytes from and to a host, a terminal on one side, a session on the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from openacr.basic.session import Session
+from openacr.protocol.escape import BinaryMode
+from openacr.protocol.execute import Host, execute
+from openacr.protocol.stream import EchoMode, NoFreeStreamError, StreamKind
+from openacr.protocol.terminal import (
+    NEED_DATA,
+    Attention,
+    Control,
+    ControlKey,
+    Escape,
+    Event,
+    Line,
+    LineTooLong,
+    Received,
+    Terminal,
+    Typed,
+)
+
+TIMEOUT_S = 0.05  # between the bytes of a packet
+_NAMES = {
+    StreamKind.TERMINAL: ("STREAM2", "STREAM3", "STREAM4", "STREAM5"),
+    StreamKind.SERIAL: ("COM1", "COM2"),
+    StreamKind.DPCB: ("DPCB",),
+}
+CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
+
+
+@dataclass(slots=True)
+class Stream:
+    """One connection: its line discipline and, unless it carries packets only, its session."""
+
+    terminal: Terminal
+    session: Session | None
+
+
+class Streams:
+    """All connected streams of a card."""
+
+    def __init__(
+        self,
+        sessions: dict[str, Session],
+        host: Host,
+        press: Callable[[ControlKey], None],
+    ) -> None:
+        self._sessions = sessions
+        self._host = host
+        self._press = press
+        self._open: dict[int, Stream] = {}
+        self._next = 1
+
+    def open(self, kind: StreamKind, period_s: float, name: str | None = None) -> int:
+        """A stream for a new connection; NoFreeStreamError when all are taken."""
+        session = None
+        if kind is not StreamKind.PACKETS:
+            session = self._free(kind, name)
+            session.connect()
+            session.mode = int(kind.startup_mode)
+        terminal = Terminal(kind, timeout_tk=max(1, round(TIMEOUT_S / period_s)))
+        number, self._next = self._next, self._next + 1
+        self._open[number] = Stream(terminal, session)
+        self._settle(self._open[number])
+        return number
+
+    def _free(self, kind: StreamKind, name: str | None) -> Session:
+        for candidate in (name,) if name else _NAMES[kind]:
+            session = self._sessions.get(candidate)
+            if session is not None and not session.is_connected:
+                return session
+        raise NoFreeStreamError(f"no {name or kind.value} stream is free")
+
+    def close(self, number: int) -> None:
+        """The connection ended; motion and programs go on."""
+        stream = self._open.pop(number, None)
+        if stream is not None and stream.session is not None:
+            stream.session.disconnect()
+
+    def receive(self, number: int, data: bytes, tick: int) -> None:
+        """Bytes that arrived together at `tick`."""
+        stream = self._open[number]
+        stream.terminal.receive_data(data, tick)
+        self._pump(stream)
+
+    def settle(self) -> None:
+        """Hand over what sessions have to say, and lines that were waiting for an answer."""
+        for stream in list(self._open.values()):
+            if stream.session is not None and (
+                stream.session.has_output or stream.terminal.busy != stream.session.busy
+            ):
+                self._settle(stream)
+                self._pump(stream)
+
+    def accepts_input(self, number: int) -> bool:
+        """False while the sender should be held back."""
+        return self._open[number].terminal.accepts_input
+
+    def is_busy(self, number: int) -> bool:
+        """Whether a line of the stream is still being executed."""
+        session = self._open[number].session
+        return session is not None and session.busy
+
+    def session(self, number: int) -> Session | None:
+        """The session of a stream."""
+        return self._open[number].session
+
+    def take_output(self, number: int) -> bytes:
+        """The bytes of the next write."""
+        stream = self._open.get(number)
+        return stream.terminal.data_to_send() if stream else b""
+
+    def disconnect_all(self) -> None:
+        """Start all open streams afresh, as after power-up."""
+        for stream in self._open.values():
+            if stream.session is not None:
+                stream.session.disconnect()
+                stream.session.connect()
+                self._settle(stream)
+
+    def _pump(self, stream: Stream) -> None:
+        while (event := stream.terminal.next_event()) is not NEED_DATA:
+            self._deal(stream, event)
+            self._settle(stream)
+
+    def _deal(self, stream: Stream, event: Event) -> None:
+        session = stream.session
+        if isinstance(event, Received):
+            reply = execute(self._host, event.packet)
+            if reply:
+                stream.terminal.send_packet(reply)
+        elif isinstance(event, Control):
+            self._press(event.code)
+        elif session is None:
+            return
+        elif isinstance(event, Line):
+            session.feed_line(event.text)
+        elif isinstance(event, LineTooLong):
+            session.line_too_long()
+        elif isinstance(event, Typed):
+            session.typed(event.byte)
+        elif isinstance(event, Escape):
+            session.escape()
+
+    def _settle(self, stream: Stream) -> None:
+        """Copy the state of the session to its terminal and send what it has to say."""
+        session, terminal = stream.session, stream.terminal
+        if session is None:
+            return
+        terminal.busy = session.busy
+        terminal.attention = Attention(session.attention.value)
+        terminal.echo = EchoMode(session.echo)
+        terminal.mode = BinaryMode(session.mode)
+        terminal.echo_line_end = session.echo_line_end
+        output = session.take_output()
+        if output:
+            terminal.send_bytes(output)

@@ -1,0 +1,46 @@
+"""Samples of all axes over time, recorded by the compiled loop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from openacr.engine.loop_cy import TRACE_AXIS, TRACE_HEAD
+
+Reals = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisTrace:
+    """One axis over time, in its programming units."""
+
+    commanded_u: Reals
+    actual_u: Reals
+    velocity_ups: Reals
+
+    @property
+    def following_error_u(self) -> Reals:
+        """Commanded minus actual position."""
+        return self.commanded_u - self.actual_u
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """What was recorded: time, onboard inputs and outputs as bit masks, every axis."""
+
+    time_s: Reals
+    inputs: NDArray[np.int64]
+    outputs: NDArray[np.int64]
+    axes: tuple[AxisTrace, ...]
+
+
+def build_trace(samples: Reals, pulses_per_unit: list[float]) -> Trace:
+    """Name the columns of the raw samples, shape (n, 3 + 3 * axes)."""
+    axes = []
+    for axis, ppu in enumerate(pulses_per_unit):
+        first = TRACE_HEAD + TRACE_AXIS * axis
+        axes.append(AxisTrace(*(samples[:, first + k] / ppu for k in range(TRACE_AXIS))))
+    masks = samples[:, 1:TRACE_HEAD].astype(np.int64) & 0xFFFFFFFF
+    return Trace(samples[:, 0], masks[:, 0], masks[:, 1], tuple(axes))

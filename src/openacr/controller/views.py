@@ -1,0 +1,79 @@
+"""Ways to look into a card from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
+
+from openacr.map.memory import Memory
+from openacr.map.numbers import (
+    AX_ACTUAL_POSITION,
+    AX_FOLLOWING_ERROR,
+    AX_SECONDARY_SETPOINT,
+    AXF_PSP_VELOCITY_CPS,
+    AXF_SSP_CNT,
+)
+from openacr.motion.card import Card
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import axis_parameter, axis_reals
+
+
+class Parameters:
+    """Parameters by number."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+
+    def __getitem__(self, number: int) -> int | float:
+        return self._memory.read(number)
+
+    def __setitem__(self, number: int, value: float) -> None:
+        self._memory.write(number, value)
+
+
+class Bits:
+    """Flags by number."""
+
+    def __init__(self, memory: Memory) -> None:
+        self._memory = memory
+
+    def __getitem__(self, number: int) -> bool:
+        return self._memory.bit(number)
+
+    def __setitem__(self, number: int, on: bool) -> None:
+        self._memory.set_bit(number, on)
+
+
+class AxisView:
+    """One axis, read in programming units (`_u`) or pulses (`_cnt`)."""
+
+    def __init__(self, card: Card, number: int) -> None:
+        self._card = card
+        self.number = number
+
+    @property
+    def commanded_u(self) -> float:
+        """Secondary setpoint: where the servo loop is told to be."""
+        ssp = self._card.memory.F[axis_reals(self.number) + AXF_SSP_CNT]
+        return ssp / scale_of(self._card, self.number)
+
+    @property
+    def commanded_cnt(self) -> int:
+        """Secondary setpoint as P12295 shows it."""
+        return self._card.memory.I[axis_parameter(self.number) + AX_SECONDARY_SETPOINT]
+
+    @property
+    def actual_u(self) -> float:
+        """Actual position."""
+        return self.actual_cnt / scale_of(self._card, self.number)
+
+    @property
+    def actual_cnt(self) -> int:
+        """Actual position as P12290 shows it."""
+        return self._card.memory.I[axis_parameter(self.number) + AX_ACTUAL_POSITION]
+
+    @property
+    def velocity_ups(self) -> float:
+        """Commanded velocity, jog, gear and cam included."""
+        velocity = self._card.memory.F[axis_reals(self.number) + AXF_PSP_VELOCITY_CPS]
+        return velocity / scale_of(self._card, self.number)
+
+    @property
+    def following_error(self) -> int:
+        """Following error as P12291 shows it [pulses]."""
+        return self._card.memory.I[axis_parameter(self.number) + AX_FOLLOWING_ERROR]
