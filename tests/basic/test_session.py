@@ -81,8 +81,20 @@ def test_echo_modes_switch_off_errors_and_prompts(bench: Bench) -> None:
 
 
 def test_the_binary_mode_of_the_channel_is_set_and_shown(bench: Bench) -> None:
-    assert bench.type("MODE 3", "MODE") == "SYS>3|SYS>"
+    assert bench.type("MODE", "MODE 3", "MODE") == "1|SYS>SYS>3|SYS>"
     assert bench.session.mode == 3
+
+
+@pytest.mark.req("ACR-CMD-ECHO")
+def test_the_flags_of_a_serial_line_are_its_modes(bench: Bench) -> None:
+    memory = bench.card.memory
+    assert [memory.bit(number) for number in (1856, 1857, 1858, 1876)] == [True, False, False, True]
+    bench.type("ECHO 6", "MODE 2")
+    flags = (1856, 1857, 1858, 1876, 1877)
+    assert [memory.bit(number) for number in flags] == [False, True, True, False, True]
+    memory.set_bit(1856, True)
+    memory.set_bit(1858, False)
+    assert bench.type("ECHO") == "3|SYS>"
 
 
 def test_a_line_that_waits_is_answered_when_it_is_done(bench: Bench) -> None:

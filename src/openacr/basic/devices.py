@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from openacr.basic.session import FLAG_WORDS, Session
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -13,12 +14,10 @@ from openacr.messages import DEVICE_IN_USE, DEVICE_NOT_OPEN, INVALID_DEVICE
 
 if TYPE_CHECKING:
     from openacr.basic.listeners import Listeners
-    from openacr.basic.session import Session
 
 PROGRAMS = 16
 PER_PROGRAM = 4
 BS, LF, CR = 0x08, 0x0A, 0x0D
-_FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
 
 Key = tuple[int, int]  # program, device number
 
@@ -158,8 +157,8 @@ class Devices:
 
     def _mark(self, name: str, on: bool) -> None:
         """Show OPEN in the flags of channels that have a flag word."""
-        if name in _FLAG_WORDS:
-            word = _FLAG_WORDS[name]
+        if name in FLAG_WORDS:
+            word = FLAG_WORDS[name]
             self._memory.I[word] &= ~(at.STRM_STREAM_OPENED | at.STRM_OPEN_REQUEST)
             if on:
                 self._memory.I[word] |= at.STRM_STREAM_OPENED
