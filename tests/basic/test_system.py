@@ -37,6 +37,21 @@ def test_a_snapshot_taken_at_any_moment_goes_on_the_same_way() -> None:
     assert second.card.memory.digest() == first.card.memory.digest()
 
 
+def test_battery_backed_memory_survives_a_restart() -> None:
+    card = Machine()
+    card.type("DIM P(10)", "DIM DEF(2)", "#DEFINE Count P1", "Count = 5.5", "PROG 1", "DIM LV(3)")
+    card.type("LV2 = 7", "P38912 = 9", "ECHO 3", "SET 128", "ATTACH MASTER0", "10 DWL 1")
+    card.type('OPEN "COM2:" AS #1')
+    before = card.type("MEM PROG1")
+    card.executor.reset()
+    card.system.restart()
+    card.connect("COM1")
+    assert card.type("?Count;P38912;BIT128", "PROG 1") == "5.590|SYS>P01>"
+    assert card.type("?LV2", "ATTACH", "LIST") == "7|P01>P01>10 DWL 1|P01>"
+    assert before.startswith(card.type("MEM PROG1").removesuffix("P01>"))
+    assert card.system.sessions["COM2"].attention is Attention.COMMANDS
+
+
 FILE = """\
 SYS>HALT ALL
 SYS>NEW ALL

@@ -132,7 +132,8 @@ class Devices:
 
     def restore(self, state: Mapping[Key, tuple[bytes, bool]]) -> None:
         """Take over what `state` returned."""
-        for key, (data, after_cr) in state.items():
+        for key in self._queues:
+            data, after_cr = state.get(key, (b"", False))
             self._queues[key] = _Queue(bytearray(data), after_cr)
             self._count(key)
 

@@ -276,9 +276,8 @@ class Session:
     def power_up(self) -> None:
         """Begin as after power-up; the connection, if there is one, stays."""
         self.stop_listening()
-        self.level, self.number, self.echo, self.mode = Level.SYS, 0, 1, 0
         self.busy, self.capture, self.opened_by, self.partner = False, None, None, None
-        self._output.clear()
+        self.reset()
 
     # snapshot
 

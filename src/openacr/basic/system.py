@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
+from openacr.basic import retained
 from openacr.basic.aliases import Aliases
 from openacr.basic.devices import Devices
 from openacr.basic.listeners import Listeners
@@ -119,6 +120,17 @@ class System:
         self.programs.password = None
         self.storage.restore_factory()
         self.aliases.clear()
+        self.devices.restore({})
+        for session in self.sessions.values():
+            session.power_up()
+
+    def restart(self) -> None:
+        """Restart the card; battery-backed memory keeps texts, dimensions and variables."""
+        for program in range(PROGRAMS):
+            self.devices.close_all(program)
+        kept = retained.take(self.card.memory)
+        self.card.power_up()
+        retained.put_back(self.card.memory, kept)
         self.devices.restore({})
         for session in self.sessions.values():
             session.power_up()
