@@ -1,0 +1,355 @@
+"""Expressions: the published results, the errors, and Python as an independent judge."""
+
+import math
+import operator
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.basic.rig import Rig
+
+from openacr.basic import arith_cy
+from openacr.compiled import counterpart, is_compiled
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+
+@pytest.fixture(scope="module")
+def rig() -> Rig:
+    rig = Rig()
+    rig.type("DIM LV(10)", "DIM SV(4)", "DIM DV(4)", "DIM LA(2)", "DIM LA0(5)", "DIM SA(1)")
+    rig.type("DIM SA0(3)", "DIM DA(1)", "DIM DA0(4)", "DIM $V(4,20)")
+    return rig
+
+
+@pytest.mark.parametrize(
+    ("text", "result"),
+    [
+        pytest.param("4 + 6 / 2", "7", marks=pytest.mark.req("ACR-EVAL-01")),
+        pytest.param("2 + 6 / 3 * 5 - 9", "3", marks=pytest.mark.req("ACR-EVAL-02")),
+        pytest.param("(2 + 6 / 3) * 5 - 9", "11", marks=pytest.mark.req("ACR-EVAL-03")),
+        pytest.param("(2 + 6 / 3) * (5 - 9)", "-16", marks=pytest.mark.req("ACR-EVAL-04")),
+        pytest.param(
+            "((7 + 3) / 2) * 3", "15", marks=pytest.mark.req("ACR-EVAL-05", "ACR-EVAL-08")
+        ),
+        pytest.param("93784005 MOD 1000", "5", marks=pytest.mark.req("ACR-EVAL-16")),
+        pytest.param("1 + 2 * 3 ** 2 > 18", "-1", marks=pytest.mark.req("ACR-EVAL-06")),
+        pytest.param("7 / 2 + 1", "4.5", marks=pytest.mark.req("ACR-EVAL-09")),
+        ("2**3**2", "512"),
+        ("-2**2", "-4"),
+        ("2**-1", "0.5"),
+        ("7 MOD 3", "1"),
+        ("-7 MOD 3", "-1"),
+        ("-6 MOD 3", "0"),
+        ("7.5 MOD 2", "1.5"),
+        ("5 AND 3", "1"),
+        ("5 OR 3", "7"),
+        ("5 XOR 3", "6"),
+        ("NOT 0", "-1"),
+        ("NOT 5", "-6"),
+        ("5 NAND 3", "-2"),
+        ("5 NOR 3", "-8"),
+        ("5 XNOR 3", "-7"),
+        ("1 << 4", "16"),
+        ("-8 >> 1", "-4"),
+        ("1 << 31", "-2147483648"),
+        ("3 > 2", "-1"),
+        ("3 < 2", "0"),
+        ("2 >= 2", "-1"),
+        ("2 <> 2", "0"),
+        ("NOT 1 = 2", "-1"),
+        ("5 + NOT 1", "3"),
+        ("1 OR 0 AND 0", "1"),
+        ("&HFF", "255"),
+        ("4294967295 AND 255", "255"),
+        ("3.9 AND 7", "3"),
+        ("-3.9 AND -1", "-3"),
+        ("ROUND(2.5)", "3"),
+        ("ROUND(-2.5)", "-3"),
+        ("ROUND(0.49999999999999994)", "0"),
+        ("TRUNC(-2.7)", "-2"),
+        ("FLOOR(-2.7)", "-3"),
+        ("CEIL(-2.7)", "-2"),
+        ("INT(-2.7)", "-3"),
+        ("SGN(-3)", "-1"),
+        ("FRAC(-2.75)", "-0.75"),
+        ("ABS(-4)", "4"),
+        ("SQRT(16)", "4"),
+        ("SIN(30)", "0.5"),
+        ("ATAN(1)", "45"),
+        ("COS(60)", "0.5"),
+        ("COS(90)", "0"),
+        ("TAN(45)", "1"),
+        ("SIN(180)", "0"),
+        ("SIN(-90)", "-1"),
+        ("ASIN(1)", "90"),
+        ("ACOS(0)", "90"),
+        ("COS(-360)", "1"),
+        ("LN(EXP(2))", "2"),
+        ("LOG(1000)", "3"),
+        ("TANH(0)", "0"),
+        ("RND(1)", "0"),
+        ('MID$("ABCDEF",2,3)', "BCD"),
+        ('INSTR("ABCABC","C")', "3"),
+        ('VAL("12X")', "12"),
+        ('LEN("")', "0"),
+        ('"ab" < "b"', "-1"),
+        ('"a"+"b" = "ab"', "-1"),
+        ('LEN("abc") * 2 + 1', "7"),
+        ("1/3", "0.3333333333"),
+        ("P12304", "0.002441406"),
+        ("BIT(24)", "0"),
+        ("P(12288 + 2 * 256)", "0"),
+    ],
+)
+def test_an_expression_has_the_published_value(rig: Rig, text: str, result: str) -> None:
+    assert rig.value(text) == result
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1/0", "Divide by zero"),
+        ("1 MOD 0", "Divide by zero"),
+        ("0**-1", "Divide by zero"),
+        ("(-2)**0.5", "Math error"),
+        ("SQRT(-1)", "Math error"),
+        ("LN(0)", "Math error"),
+        ("LOG(-1)", "Math error"),
+        ("ASIN(2)", "Math error"),
+        ("EXP(1000)", "Math error"),
+        ("SINH(1000)", "Math error"),
+        ("10**400", "Math error"),
+        ("TAN(90)", "Math error"),
+        ("ACOSH(0)", "Math error"),
+        ("ATANH(1)", "Math error"),
+        ("1 << 32", "Math error"),
+        ("1 << -1", "Math error"),
+        ("4294967296 AND 1", "Math error"),
+        ("NOT 1e10", "Math error"),
+        ("-2147483649 OR 0", "Math error"),
+        ("P100", "Undefined variable"),
+        ("P(0-1)", "Invalid parameter"),
+        ("P5000", "Invalid parameter"),
+        ("P(1e12)", "Invalid parameter"),
+        ("BIT 99999", "Invalid bit"),
+        ("BIT(0-1)", "Invalid bit"),
+        ("LV10", "Undefined variable"),
+        ("LV(0-1)", "Subscript out of range"),
+        ("LA0(5)", "Subscript out of range"),
+        ("LA0(0-1)", "Subscript out of range"),
+        ("LA2(0)", "Subscript out of range"),
+        ("LA1(0)", "Undefined variable"),
+        ("DA0(4)", "Subscript out of range"),
+        ("$V4", "Undefined variable"),
+        ("SV(4)", "Undefined variable"),
+        ("P0+FOO", "Undefined symbol"),
+    ],
+)
+def test_what_cannot_be_computed_says_why(rig: Rig, text: str, message: str) -> None:
+    assert rig.value(text) == message
+
+
+def test_stores_convert_to_the_kind_of_the_variable(rig: Rig) -> None:
+    rig.type("LV0=3.99", "LV1=-3.99", "LV2=4294967295", "LV(1+2)=2147483648", "SV0=0.1", "DV0=0.1")
+    assert [rig.value(f"LV{n}") for n in range(4)] == ["3", "-3", "-1", "-2147483648"]
+    assert rig.value("SV0=DV0") == "0"
+    assert rig.value("ABS(SV0-DV0) < 1e-8") == "-1"
+    assert rig.type("SV0=1e39") == "Math error|"
+
+
+def test_array_elements_and_computed_indexes(rig: Rig) -> None:
+    rig.type("LA0(4)=7", "LV0=4", "DA0(LV0-1)=0.25", "SA0(2)=0.5", "P(LV0)=LA0(LV0)+DA0(3)+SA0(2)")
+    assert rig.value("P4") == "7.75"
+    assert rig.value("LA0(LA0(4)-3)") == "7"
+
+
+def test_bits_read_minus_one_and_any_number_sets_them(rig: Rig) -> None:
+    for command in ("SET 40", "SET BIT40", "BIT40=1", "BIT40=-1", "BIT(20*2)=0.5", "SET(40)"):
+        rig.type("CLR 40", command)
+        assert rig.value("BIT40") == "-1", command
+    rig.type("BIT40=NOT BIT40")
+    assert rig.value("BIT 40") == "0"
+    rig.type("SET 32 SET 63", "CLR32")
+    assert rig.value("P4097") == "-2147483648"
+    rig.type("CLR 63")
+
+
+@pytest.mark.req("ACR-EVAL-11")
+def test_a_condition_prints_only_when_equal(rig: Rig) -> None:
+    rig.type("P0=1234")
+    assert rig.type('IF(P0=1234) THEN PRINT "ok"') == "ok|"
+    assert rig.type('IF(P0=1235) THEN PRINT "ok"') == ""
+
+
+@pytest.mark.req("ACR-EVAL-12")
+def test_strings_are_joined_and_cut_to_the_dimensioned_length(rig: Rig) -> None:
+    rig.type('$V1="abc"', '$V2="def"', "$V0=$V1+$V2")
+    assert rig.value("$V0") == "abcdef"
+    rig.type('$V(3)="0123456789"+"0123456789"+"x"')
+    assert rig.value("LEN($V3)") == "20"
+
+
+@pytest.mark.req("ACR-EVAL-13")
+def test_random_numbers_are_drawn_until_one_appears() -> None:
+    output = Rig().run(
+        "DIM LV(2)",
+        "LV0=0",
+        "_again",
+        "LV0=LV0+1",
+        "LV1=RND(1000)",
+        "IF (LV1<0) THEN GOTO bad",
+        "IF (LV1>999) THEN GOTO bad",
+        "IF (LV1<>123) THEN GOTO again",
+        'PRINT "Done in";LV0;"tries"',
+        "END",
+        "_bad",
+        'PRINT "bad"',
+        ticks=12000,
+    )
+    assert output.startswith("Done in")
+    assert output.endswith("tries|")
+
+
+def test_random_numbers_are_uniform_and_repeatable() -> None:
+    def draws(limit: float) -> list[int]:
+        memory = Memory()
+        numbers = []
+        for _ in range(4000):
+            numbers.append(int(arith_cy.random_below(memory.I, limit)))
+        return numbers
+
+    assert draws(1000.0) == draws(1000.0)
+    assert len(set(draws(1000.0))) > 950
+    assert 470 < sum(draws(1000.0)) / 4000 < 530
+    assert max(draws(4294967295.0)) > 4.2e9
+    assert set(draws(0.0)) == {0}
+
+
+@pytest.mark.req("ACR-EVAL-07")
+def test_functions_need_parentheses(rig: Rig) -> None:
+    assert rig.type("P0=SIN 30") == "Syntax error|"
+    rig.type("P0=SIN(30)")
+    assert rig.value("P0") == "0.5"
+
+
+def test_locals_belong_to_the_program_of_the_prompt(rig: Rig) -> None:
+    rig.type("LV0=5", "PROG1", "DIM LV(1)", "LV0=6", "PROG0")
+    assert rig.value("LV0") == "5"
+    assert rig.type("SYS", "?LV0", "PROG0") == "Not valid at this level|"
+
+
+# Python as the judge
+
+
+def word(value: float) -> int:
+    """The operand rule of the logical operators."""
+    whole = math.trunc(value)
+    if not -(2**31) <= whole < 2**32:
+        raise ArithmeticError
+    return (whole + 2**31) % 2**32 - 2**31
+
+
+def logical(function: Callable[[int, int], int]) -> Callable[[float, float], float]:
+    return lambda a, b: float(function(word(a), word(b)))
+
+
+def relation(function: Callable[[float, float], bool]) -> Callable[[float, float], float]:
+    return lambda a, b: -float(function(a, b))
+
+
+JUDGE: dict[str, Callable[[float, float], float]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "MOD": math.fmod,
+    "=": relation(operator.eq),
+    "<>": relation(operator.ne),
+    "<": relation(operator.lt),
+    ">": relation(operator.gt),
+    "<=": relation(operator.le),
+    ">=": relation(operator.ge),
+    "AND": logical(operator.and_),
+    "OR": logical(operator.or_),
+    "XOR": logical(operator.xor),
+    "NAND": logical(lambda a, b: ~(a & b)),
+    "NOR": logical(lambda a, b: ~(a | b)),
+    "XNOR": logical(lambda a, b: ~(a ^ b)),
+}
+
+LITERALS = st.one_of(
+    st.integers(0, 2**33),
+    st.floats(0, 1e6).map(lambda x: round(x, 3)),
+)
+TREES = st.recursive(
+    LITERALS.map(lambda value: (f"{value!r}", float(value))),
+    lambda inner: st.one_of(
+        st.tuples(inner, st.sampled_from(sorted(JUDGE)), inner).map(lambda t: _join(*t)),
+        inner.map(lambda t: (f"(-{t[0]})", None if t[1] is None else 0.0 - t[1])),
+    ),
+    max_leaves=8,
+)
+
+
+def _join(
+    left: tuple[str, float | None], op: str, right: tuple[str, float | None]
+) -> tuple[str, float | None]:
+    text = f"({left[0]} {op} {right[0]})"
+    if left[1] is None or right[1] is None:
+        return text, None
+    try:
+        return text, JUDGE[op](left[1], right[1])
+    except (ArithmeticError, ValueError):
+        return text, None
+
+
+@given(TREES)
+@settings(max_examples=150, deadline=None)
+def test_expressions_agree_with_python(rig: Rig, tree: tuple[str, float | None]) -> None:
+    text, expected = tree
+    if len(text) > 200:
+        return
+    from openacr.basic.expressions import ExpressionParser
+    from openacr.basic.nodes import Number
+    from openacr.lang.lexer import tokens
+
+    node = ExpressionParser(tokens(text), {}).expression()
+    try:
+        value = node.value if isinstance(node, Number) else rig.executor.value(0, node)
+    except CardError:
+        assert expected is None
+        return
+    assert expected is not None
+    assert value == expected
+
+
+# The two builds
+
+REAL = st.floats(allow_nan=False, allow_infinity=False) | st.floats(-1e3, 1e3)
+
+
+@pytest.mark.skipif(not is_compiled, reason="no compiled core")
+@given(st.integers(1, 20), REAL, REAL)
+@settings(max_examples=300, deadline=None)
+def test_operators_give_the_same_bits_compiled(op: int, a: float, b: float) -> None:
+    first, second = Memory(), Memory()
+    for memory in (first, second):
+        memory.F[at.USER_BASE], memory.F[at.USER_BASE + 1] = a, b
+    plain = arith_cy.apply_operator(first.F, op, at.USER_BASE)
+    assert counterpart(arith_cy.apply_operator)(second.F, op, at.USER_BASE) == plain
+    assert first.digest() == second.digest()
+
+
+@pytest.mark.skipif(not is_compiled, reason="no compiled core")
+@given(st.integers(1, 26), REAL)
+@settings(max_examples=300, deadline=None)
+def test_functions_give_the_same_bits_compiled(function: int, x: float) -> None:
+    first, second = Memory(), Memory()
+    first.F[at.USER_BASE] = second.F[at.USER_BASE] = x
+    plain = arith_cy.apply_function(first.F, first.I, function, at.USER_BASE)
+    fast = counterpart(arith_cy.apply_function)(second.F, second.I, function, at.USER_BASE)
+    assert fast == plain
+    assert first.digest() == second.digest()

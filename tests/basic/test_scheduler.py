@@ -1,0 +1,308 @@
+"""Time: slices of 1 ms, ten statements each, and the waits of DWL, INH and IHPOS."""
+
+import pytest
+from tests.basic.rig import Rig
+
+from openacr.basic import scheduler_cy, vm_cy
+from openacr.compiled import counterpart, is_compiled
+
+RUNNING, DWELLING, INHIBITED, TIMEOUT = 1024, 1025, 1026, 1028
+COUNT_FOREVER = ("_a", "P{0}=P{0}+1", "GOTO a")
+
+
+def start(rig: Rig, program: int, *lines: str) -> None:
+    rig.store(program, *lines)
+    rig.executor.run_program(program)
+
+
+def count(rig: Rig, program: int) -> int:
+    return int(rig.memory.read(program))
+
+
+def counting(program: int) -> tuple[str, ...]:
+    return tuple(line.format(program) for line in COUNT_FOREVER)
+
+
+def test_a_slice_lasts_one_millisecond_and_at_least_one_tick() -> None:
+    assert [scheduler_cy.slice_ticks(period) for period in (0.0005, 0.0001, 0.002, 0.0)] == [
+        2,
+        10,
+        1,
+        1,
+    ]
+
+
+def test_a_program_alone_has_every_second_slice() -> None:
+    rig = Rig()
+    start(rig, 0, *counting(0))
+    rig.pass_ticks(400)
+    # 200 slices, half of them for communications; two statements per count.
+    assert count(rig, 0) == pytest.approx(500, abs=10)
+
+
+def test_running_programs_share_the_ring_equally() -> None:
+    rig = Rig()
+    for program in (0, 3, 7):
+        start(rig, program, *counting(program))
+    rig.pass_ticks(800)
+    assert [count(rig, program) for program in (0, 3, 7)] == [pytest.approx(500, abs=10)] * 3
+
+
+def test_programs_8_to_15_share_one_slice() -> None:
+    rig = Rig()
+    for program in (0, 8, 9):
+        start(rig, program, *counting(program))
+    rig.pass_ticks(1200)
+    assert count(rig, 0) == pytest.approx(1000, abs=15)
+    assert [count(rig, 8), count(rig, 9)] == [pytest.approx(500, abs=15)] * 2
+
+
+@pytest.mark.req("ACR-INH-03")
+def test_a_wait_of_a_low_priority_program_holds_the_others() -> None:
+    rig = Rig()
+    start(rig, 9, *counting(9))
+    start(rig, 8, "INH 40")
+    rig.pass_ticks(40)
+    held = count(rig, 9)
+    rig.pass_ticks(400)
+    assert count(rig, 9) == held
+    rig.memory.set_bit(40, True)
+    rig.pass_ticks(400)
+    assert count(rig, 9) > held + 100
+
+
+def test_a_wait_of_a_high_priority_program_holds_nobody() -> None:
+    rig = Rig()
+    start(rig, 0, "INH 40")
+    start(rig, 1, *counting(1))
+    rig.pass_ticks(300)
+    assert count(rig, 1) > 200
+
+
+def test_dwell_shows_and_lasts() -> None:
+    rig = Rig()
+    start(rig, 0, "DWL 0.1", "SET 40")
+    rig.pass_ticks(20)
+    assert (rig.bit(RUNNING), rig.bit(DWELLING)) == (True, True)
+    rig.pass_ticks(178)
+    assert not rig.bit(40)
+    rig.pass_ticks(12)
+    assert (rig.bit(40), rig.bit(DWELLING), rig.bit(RUNNING)) == (True, False, False)
+
+
+def test_a_dwell_of_nothing_returns_at_once() -> None:
+    rig = Rig()
+    start(rig, 0, "DWL 0", "DWL -1", "SET 40")
+    rig.pass_ticks(4)
+    assert rig.bit(40)
+
+
+@pytest.mark.req("ACR-INH-01", "ACR-INH-09")
+def test_inh_waits_for_a_set_flag_and_shows_it() -> None:
+    rig = Rig()
+    start(rig, 0, "INH 40", "SET 41")
+    rig.pass_ticks(100)
+    assert (rig.bit(INHIBITED), rig.bit(41)) == (True, False)
+    rig.memory.set_bit(40, True)
+    rig.pass_ticks(4)
+    assert (rig.bit(INHIBITED), rig.bit(41)) == (False, True)
+
+
+@pytest.mark.req("ACR-INH-02")
+@pytest.mark.parametrize("form", ["INH -516", "INH -BIT516", "P0=-516 : INH (P0)"])
+def test_inh_waits_for_a_clear_flag(form: str) -> None:
+    rig = Rig()
+    rig.memory.set_bit(516, True)
+    start(rig, 0, form, "SET 41")
+    rig.pass_ticks(100)
+    assert not rig.bit(41)
+    rig.memory.set_bit(516, False)
+    rig.pass_ticks(4)
+    assert rig.bit(41)
+
+
+def test_inh_minus_zero_waits_for_flag_0_clear() -> None:
+    rig = Rig()
+    rig.memory.set_bit(0, True)
+    start(rig, 0, "INH -0", "SET 41")
+    rig.pass_ticks(50)
+    assert not rig.bit(41)
+    rig.memory.set_bit(0, False)
+    rig.pass_ticks(4)
+    assert rig.bit(41)
+
+
+def test_inh_gives_up_after_its_timeout() -> None:
+    rig = Rig()
+    start(rig, 0, "INH 40 (0.05)", "SET 41")
+    rig.pass_ticks(98)
+    assert not rig.bit(41)
+    rig.pass_ticks(10)
+    assert (rig.bit(41), rig.bit(TIMEOUT), rig.bit(INHIBITED)) == (True, True, False)
+
+
+@pytest.mark.req("ACR-INH-04", "ACR-INH-05", "ACR-INH-07")
+@pytest.mark.parametrize(
+    ("statement", "parameter", "at_setpoint", "beyond"),
+    [
+        ("IHPOS P6160 (40000,5.5)", 6160, 40000, 40001),
+        ("IHPOS -P6160 (40000,5.5)", 6160, 40000, 39999),
+        ("IHPOS P50 (0.5,5.5)", 50, 0.5, 0.50001),
+        ("IHPOS -P8216 (2)", 8216, 2, 1.5),
+    ],
+)
+def test_ihpos_waits_for_a_parameter_strictly_beyond(
+    statement: str, parameter: int, at_setpoint: float, beyond: float
+) -> None:
+    rig = Rig()
+    rig.memory.write(parameter, at_setpoint)
+    start(rig, 0, statement, "SET 41")
+    rig.pass_ticks(60)
+    assert (rig.bit(41), rig.bit(INHIBITED)) == (False, True)
+    rig.memory.write(parameter, beyond)
+    rig.pass_ticks(4)
+    assert (rig.bit(41), rig.bit(TIMEOUT)) == (True, False)
+
+
+@pytest.mark.req("ACR-INH-08")
+def test_ihpos_gives_up_after_its_timeout_and_a_new_one_clears_the_flag() -> None:
+    rig = Rig()
+    start(rig, 0, "IHPOS P6160 (40000,0.05)", "SET 41", "DWL 0.02", "IHPOS P6160 (-1,1)", "SET 42")
+    rig.pass_ticks(110)
+    assert (rig.bit(41), rig.bit(TIMEOUT)) == (True, True)
+    rig.pass_ticks(50)
+    assert (rig.bit(42), rig.bit(TIMEOUT)) == (True, False)
+
+
+@pytest.mark.req("ACR-INH-06")
+def test_ihpos_with_timeout_0_waits_for_ever() -> None:
+    rig = Rig()
+    start(rig, 0, "IHPOS P6160 (40000,0)", "SET 41")
+    rig.pass_ticks(5000)
+    assert rig.bit(INHIBITED)
+    assert not rig.bit(41)
+
+
+def test_a_waiting_line_is_answered_when_it_is_done() -> None:
+    rig = Rig()
+    rig.session.echo = 0
+    assert rig.type("DWL 0.1 : PRINT 1") == ""
+    assert rig.session.busy
+    rig.pass_ticks(190)
+    assert rig.sent() == ""
+    rig.pass_ticks(14)
+    assert rig.sent() == "1|P00>"
+    assert not rig.bit(DWELLING)
+
+
+def test_channels_are_served_while_programs_run() -> None:
+    rig = Rig()
+    for program in range(8):
+        start(rig, program, *counting(program))
+    rig.session.go(rig.session.level, 0)
+    rig.type("INH 40 : SET 41")
+    rig.pass_ticks(10)
+    rig.memory.set_bit(40, True)
+    rig.pass_ticks(2)
+    assert rig.bit(41)
+
+
+def test_pause_holds_before_the_next_statement_and_resume_goes_on() -> None:
+    rig = Rig()
+    start(rig, 0, *counting(0))
+    rig.pass_ticks(20)
+    rig.type("PAUSE PROG0")
+    rig.pass_ticks(4)
+    held = count(rig, 0)
+    rig.pass_ticks(100)
+    assert count(rig, 0) == held
+    assert rig.bit(1051)
+    rig.type("RESUME PROG0")
+    rig.pass_ticks(20)
+    assert count(rig, 0) > held
+    assert not rig.bit(1051)
+
+
+def test_block_mode_executes_one_line_per_step() -> None:
+    rig = Rig()
+    start(rig, 0, "DWL 0.01", "P0=1 : P1=1", "P0=2", "P0=3")
+    rig.pass_ticks(6)
+    rig.type("BLK PROG0")
+    rig.pass_ticks(40)
+    assert (rig.bit(1043), rig.value("P0")) == (True, "0")
+    rig.type("STEP PROG0")
+    rig.pass_ticks(10)
+    assert (rig.value("P0"), rig.value("P1"), rig.bit(1043)) == ("1", "1", True)
+    rig.type("STEP PROG0")
+    rig.pass_ticks(10)
+    assert rig.value("P0") == "2"
+    rig.type("AUT PROG0")
+    rig.pass_ticks(10)
+    assert (rig.value("P0"), rig.is_running()) == ("3", False)
+
+
+def test_trace_shows_the_number_of_each_line() -> None:
+    rig = Rig()
+    rig.type("TRON PROG0")
+    assert rig.run("PRINT 1 : PRINT 2", "PRINT 3") == "[10][20]1|2|[30]3|[40]"
+
+
+def test_the_line_number_is_a_parameter() -> None:
+    rig = Rig()
+    start(rig, 0, "P0=1", "INH 40")
+    rig.pass_ticks(10)
+    assert rig.memory.I[7168] == 30
+
+
+def test_a_snapshot_continues_in_the_middle_of_a_program() -> None:
+    rig = Rig()
+    start(rig, 0, "FOR P0=1 TO 100", "DWL 0.002", "P1=P1+P0", "NEXT", 'PRINT "done"')
+    rig.pass_ticks(100)
+    memory, state, tick = rig.memory.snapshot(), rig.executor.state(), rig.tick
+    rig.pass_ticks(1000)
+    expected = rig.memory.digest()
+    other = Rig()
+    other.memory.restore(memory)
+    other.executor.restore(state)
+    other.tick = tick
+    other.pass_ticks(1000)
+    assert other.memory.digest() == expected
+    assert other.value("P1") == "5050"
+
+
+@pytest.mark.skipif(not is_compiled, reason="no compiled core")
+def test_both_builds_of_the_vm_give_the_same_bits() -> None:
+    lines = (
+        "DIM LV(4)",
+        "DIM SV(1)",
+        "DIM DA(1)",
+        "DIM DA0(9)",
+        "FOR LV0=0 TO 8",
+        "DA0(LV0)=SIN(LV0*7)**2/3",
+        "NEXT",
+        "WHILE (P1<40)",
+        "P1=P1+1 : P2=P2+RND(1000)",
+        "IF (P1 MOD 3 = 0)",
+        "GOSUB s",
+        "ELSEIF (P1=5)",
+        "SV0=1",
+        "ELSE",
+        "BIT 40 = NOT BIT 40",
+        "ENDIF",
+        "WEND",
+        "END",
+        "_s",
+        "P3=P3+DA0(P1/5)",
+        "RETURN",
+    )
+    digests = []
+    for choose in (lambda f: f, counterpart):
+        rig = Rig()
+        rig.executor._step = choose(scheduler_cy.scheduler_step)
+        rig.executor._advance = choose(scheduler_cy.advance)
+        rig.executor._vm_run = choose(vm_cy.vm_run)
+        start(rig, 0, *lines)
+        rig.pass_ticks(1000)
+        assert (rig.value("P1"), rig.is_running()) == ("40", False)
+        digests.append(rig.memory.digest())
+    assert digests[0] == digests[1]
