@@ -158,6 +158,8 @@ class ExpressionParser:
     def _checked(self, op: Op, operand: Expr) -> Expr:
         if is_text(operand):
             raise self.error(TYPE_MISMATCH)
+        if op is Op.MINUS and isinstance(operand, Number):
+            return Number(-operand.value if operand.value else 0)
         return Unary(op, operand)
 
     def _joined(self, op: Op, left: Expr, right: Expr) -> Expr:

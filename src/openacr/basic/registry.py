@@ -121,7 +121,7 @@ class Function:
 
     def __reduce__(self) -> tuple[Callable[[str], Function], tuple[str]]:
         """Pickle by name."""
-        return functions.__getitem__, (self.name,)
+        return find_function, (self.name,)
 
 
 @dataclass(slots=True)
@@ -220,6 +220,11 @@ def move_issuer() -> Callable[..., Any]:
 def find(name: str) -> Command:
     """The command with exactly these words, e.g. `find("JOG VEL")`."""
     return _commands[name]
+
+
+def find_function(name: str) -> Function:
+    """The function of this name."""
+    return functions[name]
 
 
 def commands() -> Iterator[Command]:

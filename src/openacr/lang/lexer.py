@@ -58,10 +58,14 @@ class LexError(CardError):
 
 
 # An exponent belongs to a number only if E stands directly behind the digits and a
-# digit (or a signed one) directly behind the E: `5 DEC` and `X1ENC` hold none.
+# digit (or a signed one) directly behind the E: `5 DEC` and `X1ENC` hold none. The name
+# behind GOTO or GOSUB is one token even where it holds digits.
 _TOKEN = re.compile(
     r"""[ \t]*(?:
-    (?P<word>\$?[A-Za-z]+\$?)
+    (?P<remark>[Rr][Ee][Mm](?![A-Za-z$]).*)
+  | (?P<jump>[Gg][Oo](?:[Tt][Oo]|[Ss][Uu][Bb]))(?![A-Za-z$])
+        (?:[ \t]*_?[ \t]*(?P<target>[A-Za-z][A-Za-z0-9]*))?
+  | (?P<word>\$?[A-Za-z]+\$?)
   | (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
   | (?P<operator>\*\*|<<|>>|<>|<=|>=|[-+*/=<>(),;:\#?!])
   | (?P<label>_[ \t]*[A-Za-z0-9]+)
@@ -69,54 +73,68 @@ _TOKEN = re.compile(
   | (?P<string>"(?:[^"]|"")*"?)
   | (?P<comment>'.*)
   | (?P<end>$)
+  | (?P<unknown>.)
     )""",
     re.VERBOSE,
 )
-_JUMP_TARGET = re.compile(r"[ \t]*_?[ \t]*([A-Za-z][A-Za-z0-9]*)")
-_JUMPS = frozenset(("GOTO", "GOSUB"))
-_WORD, _NUMBER, _OPERATOR, _LABEL, _BASED, _STRING, _COMMENT = range(1, 8)
+_REMARK, _JUMP, _TARGET, _WORD, _NUMBER, _OPERATOR, _LABEL, _BASED, _STRING, _COMMENT, _END = range(
+    1, 12
+)
+_A_WORD, _A_NUMBER, _A_OPERATOR = Kind.WORD, Kind.NUMBER, Kind.OPERATOR  # cheaper in the loop
+_words: dict[str, str] = {}  # upper-case forms: the words of a program are few
+_numbers: dict[str, int] = {str(value): value for value in range(1, 1000)}
+_KNOWN_WORDS = 4096
 
 
 def tokens(line: str | bytes, number: int = 1) -> list[Token]:
     """All tokens of one line, the last one of kind END; LexError if one cannot be read."""
-    text = plain(line)
+    text = line if isinstance(line, str) and line.isascii() else plain(line)
     if len(text) > LINE_LIMIT:
         raise LexError(LINE_TOO_LONG, Span(number, LINE_LIMIT + 1))
     found: list[Token] = []
-    add, scan, make = found.append, _TOKEN.match, Token._make
-    at = 0
-    match = scan(text, at)
-    while match is not None:
+    add, new = found.append, tuple.__new__
+    for match in _TOKEN.finditer(text):
         group = match.lastindex
-        start = match.start(group)  # type: ignore[arg-type]
-        at = match.end()
-        part = text[start:at]
+        start = match.start(group) + 1  # type: ignore[arg-type]
+        part = match[group]  # type: ignore[index]
         if group == _WORD:
-            word = part.upper()
-            if word == "REM":
-                add(Token(Kind.REMARK, part, text[at:].rstrip(), number, start + 1))
-                at = len(text)
-            else:
-                add(make((Kind.WORD, part, word, number, start + 1)))
-                if word in _JUMPS and (target := _JUMP_TARGET.match(text, at)):
-                    where = target.start(1) + 1
-                    add(Token(Kind.LABEL, target[1], target[1], number, where))
-                    at = target.end()
+            word = _words.get(part) or _upper(part)
+            add(new(Token, (_A_WORD, part, word, number, start)))
         elif group == _NUMBER:
-            add(make((Kind.NUMBER, part, decimal(part), number, start + 1)))
+            value = _numbers.get(part) or decimal(part)
+            add(new(Token, (_A_NUMBER, part, value, number, start)))
         elif group == _OPERATOR:
-            add(make((Kind.OPERATOR, part, part, number, start + 1)))
+            add(new(Token, (_A_OPERATOR, part, part, number, start)))
         elif group == _STRING:
-            add(Token(Kind.STRING, part, _content(part), number, start + 1))
+            add(Token(Kind.STRING, part, _content(part), number, start))
+        elif group == _JUMP or group == _TARGET:
+            add(
+                Token(
+                    Kind.WORD, match["jump"], match["jump"].upper(), number, match.start(_JUMP) + 1
+                )
+            )
+            if group == _TARGET:
+                add(Token(Kind.LABEL, part, part, number, start))
         elif group == _LABEL:
-            add(Token(Kind.LABEL, part, part[1:].strip(), number, start + 1))
+            add(Token(Kind.LABEL, part, part[1:].strip(), number, start))
         elif group == _BASED:
-            add(Token(Kind.NUMBER, part, _based(part), number, start + 1))
-        else:  # a comment, or the end
-            add(Token(Kind.END, "", "", number, start + 1))
-            return found
-        match = scan(text, at)
-    raise LexError(SYNTAX_ERROR, Span(number, at + 1))
+            add(Token(Kind.NUMBER, part, _based(part), number, start))
+        elif group == _REMARK:
+            add(Token(Kind.REMARK, part[:3], part[3:].rstrip(), number, start))
+        elif group == _COMMENT or group == _END:
+            add(Token(Kind.END, "", "", number, start))
+            break
+        else:
+            raise LexError(SYNTAX_ERROR, Span(number, start))
+    return found
+
+
+def _upper(word: str) -> str:
+    """The upper-case form, remembered while there is room."""
+    upper = word.upper()
+    if len(_words) < _KNOWN_WORDS:
+        _words[word] = upper
+    return upper
 
 
 def decimal(text: str) -> int | float:

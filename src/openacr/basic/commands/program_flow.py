@@ -64,9 +64,10 @@ class Then(Form):
         """Read the statements."""
         p.advance()
         if p.token.kind is Kind.NUMBER and p.scope.stored:
-            goto_line = Statement(registry.find("GOTO"), (Destination().parse(p),))
-            rest = p.rest_of_line()
-            return Conditional(((goto_line,), *rest))
+            column = p.token.column
+            goto_line = Statement(registry.find("GOTO"), (Destination().parse(p),), column=column)
+            first, *others = p.rest_of_line()
+            return Conditional(((goto_line, *first), *others))
         if p.at_block_end and p.token.kind is not Kind.REMARK:
             raise p.error(SYNTAX_ERROR)
         return Conditional(p.rest_of_line())
