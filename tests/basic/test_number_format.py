@@ -9,14 +9,18 @@ from hypothesis import strategies as st
 
 from openacr.basic.number_format import (
     Kind,
+    UsingFormat,
     bit_text,
     double_text,
     long_text,
     number_text,
     single_text,
-    using_text,
 )
 from openacr.errors import CardError
+
+
+def using_text(picture: str, value: float) -> str:
+    return UsingFormat.parse(picture).text(value)
 
 
 def single(value: float) -> float:

@@ -2,6 +2,7 @@
 
 import pytest
 from tests.basic.bench import Bench
+from tests.basic.machine import Machine
 
 from openacr.basic.run import Wait, WaitKind
 from openacr.basic.session import Attention
@@ -111,6 +112,36 @@ def test_an_error_at_the_end_of_a_long_line_is_reported(bench: Bench) -> None:
     bench.session.busy = True
     bench.session.finished(CardError(DIVIDE_BY_ZERO))
     assert bench.sent() == "Divide by zero|SYS>"
+
+
+@pytest.mark.req("ACR-COMM-09")
+@pytest.mark.parametrize("line", ["X10", "ACC 5", "JOG FWD X", "HLIM X3", "LIST", "VEL", "10 X1"])
+def test_axis_and_master_commands_are_unknown_at_sys(line: str) -> None:
+    card = Machine()
+    card.type("PROG 0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "SYS")
+    before = card.card.memory.digest()
+    assert card.type(line) == "Unknown command|SYS>"
+    assert card.card.memory.digest() == before
+
+
+@pytest.mark.req("ACR-COMM-07")
+def test_channels_work_at_the_same_time_without_mixing_their_output() -> None:
+    card = Machine()
+    others = [card.connect(name) for name in ("COM2", "STREAM1", "STREAM2")]
+    for session in (card.channel, *others):
+        name = session.name
+        session.feed_line(f'PRINT "{name}" : DWL 0.01 : PRINT "{name} done"')
+    card.advance(50)
+    for session in (card.channel, *others):
+        assert card.sent(session) == f"{session.name}|{session.name} done|SYS>"
+
+
+@pytest.mark.req("ACR-IMM-01", "ACR-IMM-02")
+def test_commands_without_number_act_at_once() -> None:
+    card = Machine()
+    card.type("PROG 0", "ATTACH MASTER0")
+    assert card.type("VEL", "VEL 1000", "VEL") == "10000|P00>P00>1000|P00>"
+    assert card.type("?BIT32", "SET 32", "?BIT32") == "0|P00>P00>-1|P00>"
 
 
 # storing

@@ -142,8 +142,3 @@ class UsingFormat:
         if self.pads_zeros:
             return sign + digits.rjust(self.width - len(sign), "0")
         return (sign + digits).rjust(self.width)
-
-
-def using_text(picture: str, value: float) -> str:
-    """`value` printed by the picture of PRINT USING."""
-    return UsingFormat.parse(picture).text(value)

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 from typing import TypeVar
 
-from openacr.basic.number_format import Kind, number_text
+from openacr.basic.number_format import double_text
 from openacr.basic.registry import function
 from openacr.errors import CardError
 from openacr.messages import MATH_ERROR, TYPE_MISMATCH
@@ -87,9 +87,9 @@ def instr(*arguments: str | float) -> float:
 
 
 @_function("STR$", "n")
-def str_(value: float, kind: Kind = Kind.DOUBLE) -> str:
+def str_(value: float) -> str:
     """The text PRINT shows for the value."""
-    return number_text(value, kind)
+    return double_text(value)
 
 
 @_function("VAL", "s")
@@ -148,8 +148,3 @@ def whole(value: float) -> int:
 def wrap_signed(value: int) -> int:
     """The low 32 bits of `value` as a signed number."""
     return ((value + 0x80000000) & 0xFFFFFFFF) - 0x80000000
-
-
-def join(first: str, second: str) -> str:
-    """`first + second`, cut to the longest string an expression can hold."""
-    return (first + second)[:LONGEST_STRING]
