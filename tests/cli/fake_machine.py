@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from openacr.cli.plots import AxisCurves, Curves
+from openacr.cli.plots.curves import Array
 from openacr.cli.report import AxisReport
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -25,6 +26,7 @@ class FakeMachine:
     recorded_every_tk: int = 0
     reports: tuple[AxisReport, ...] = ()
     hear: Callable[[str], None] = lambda text: None
+    overhear: Callable[[str], None] = lambda text: None
 
     @property
     def time_s(self) -> float:
@@ -45,8 +47,8 @@ class FakeMachine:
             self.advance(1)
         return self.memory.bit(bit) is is_on
 
-    def listen(self, hear: Callable[[str], None]) -> None:
-        self.hear = hear
+    def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
+        self.hear, self.overhear = hear, overhear
 
     def type_text(self, text: str, stream: str | None) -> None:
         self.typed.append((self.tick, text, stream))
@@ -54,7 +56,7 @@ class FakeMachine:
     def set_input(self, bit: int, on: bool) -> None:
         self.memory.set_bit(bit, on)
 
-    def drag(self, axis: int, by_u: float, over_s: float) -> None:
+    def drag(self, axis: int, by_u: float) -> None:
         return None
 
     def axis_reports(self) -> tuple[AxisReport, ...]:
@@ -64,7 +66,7 @@ class FakeMachine:
         self.recorded_every_tk = every_tk
 
     def curves(self, title: str) -> Curves:
-        time_s = np.arange(5) * self.period_s * self.recorded_every_tk
+        time_s: Array = np.arange(5, dtype=np.float64) * self.period_s * self.recorded_every_tk
         values = np.array([0.0, 1.0, 2.0, 3.0, 3.0])
         axis = AxisCurves(2, values, values, values, values / 1000)
         return Curves(time_s, (axis,), (), title)

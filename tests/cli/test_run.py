@@ -16,6 +16,7 @@ from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
 from openacr.cli.report import AxisReport
+from openacr.errors import SourceError
 from openacr.map import numbers as at
 from openacr.messages import DIVIDE_BY_ZERO
 
@@ -37,7 +38,7 @@ def machine() -> FakeMachine:
 
 @pytest.fixture
 def run(machine: FakeMachine, project: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    monkeypatch.setattr("openacr.cli.controlled.load", lambda path: machine)
+    monkeypatch.setattr("openacr.cli.controlled.load", lambda project: (machine, []))
 
     def invoke(*options: object) -> Result:
         return CliRunner().invoke(app, ["run", str(project), *(str(word) for word in options)])
@@ -162,9 +163,13 @@ def test_a_trace_names_its_columns(run: Run, tmp_path: Path) -> None:
 def test_a_long_run_is_recorded_more_sparsely(
     run: Run, machine: FakeMachine, tmp_path: Path
 ) -> None:
+    run("--for", "0.5", "--trace", tmp_path / "run.csv")
+    assert machine.recorded_every_tk == 1
     machine.period_s = 1e-6
     run("--for", "0.5", "--trace", tmp_path / "run.csv")
-    assert machine.recorded_every_tk == 3
+    assert machine.recorded_every_tk == 2
+    run("--for", "0.5", "--trace", tmp_path / "run.csv", "--trace-every", "7")
+    assert machine.recorded_every_tk == 7
 
 
 def test_a_picture_is_drawn(run: Run, tmp_path: Path) -> None:
@@ -202,6 +207,21 @@ def test_bad_input_is_refused_before_anything_runs(
     assert result.stdout == ""
     assert machine.tick == 0
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_lines_the_card_refuses_are_all_shown_and_nothing_runs(
+    run: Run, machine: FakeMachine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    refused = [SourceError("Unknown command", path="a.8k", line=line) for line in (3, 7)]
+    monkeypatch.setattr("openacr.cli.controlled.load", lambda project: (machine, refused))
+    result = run("--for", "0.1")
+    assert result.exit_code == 2
+    assert result.stderr == "error: a.8k:3: Unknown command\nerror: a.8k:7: Unknown command\n"
+    assert machine.tick == 0
+    result = run("--for", "0.1", "--keep-going")
+    assert result.exit_code == 0
+    assert "warning: a.8k:3: Unknown command" in result.stderr
+    assert machine.tick == 200
 
 
 def test_a_parquet_trace_without_its_library_says_what_to_install(

@@ -1,21 +1,161 @@
 """The machine of a run: a `Controller` with its project loaded."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
 
-if TYPE_CHECKING:
-    from openacr.controller import Controller
+import numpy as np
+
+from openacr.cli import card_view
+from openacr.cli.plots import AxisCurves, BitCurve, Curves
+from openacr.cli.report import AxisReport
+from openacr.controller import Controller
+from openacr.errors import SourceError, UserError
+from openacr.map.memory import Memory
+from openacr.project import Project
+from openacr.protocol.stream import StreamKind
+
+FIRST_OUTPUT = 32
+OUTPUTS = 32
 
 
-def load(project: Path) -> "ControlledMachine":
-    """Load a project folder or file into a new card."""
-    from openacr.controller import Controller
-
-    return ControlledMachine(Controller.from_project(project))
+def load(project: Project) -> tuple["ControlledMachine", list[SourceError]]:
+    """Load a project into a new card; also give the lines the card has refused."""
+    controller, refused = Controller.load(project)
+    return ControlledMachine(controller), refused
 
 
 class ControlledMachine:
     """A controller, seen as what a run needs."""
 
-    def __init__(self, controller: "Controller") -> None:
+    def __init__(self, controller: Controller) -> None:
         self._controller = controller
+        self._begin_s = controller.time_s
+        self._streams: dict[str, int] = {}
+        self._overhear: Callable[[str], None] = lambda text: None
+
+    @property
+    def memory(self) -> Memory:
+        """All parameters and flags."""
+        return self._controller.memory
+
+    @property
+    def tick(self) -> int:
+        """Servo periods since power-up."""
+        return self._controller.tick
+
+    @property
+    def time_s(self) -> float:
+        """Simulated seconds since power-up."""
+        return self._controller.time_s
+
+    @property
+    def period_s(self) -> float:
+        """Seconds per tick."""
+        return self._controller.period_s
+
+    def digest(self) -> str:
+        """Fingerprint of the whole state."""
+        return self._controller.digest()
+
+    def advance(self, ticks: int) -> None:
+        """Let the card live for so many ticks."""
+        self._controller.advance(ticks)
+        self._read_terminals()
+
+    def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
+        """Let the card live until a flag has this state, at most so many ticks."""
+        has_come = self._controller.until(bit, is_on, ticks=ticks)
+        self._read_terminals()
+        return has_come
+
+    def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
+        """Call `hear` with what programs print, `overhear` with what terminals answer."""
+        self._controller.listen(lambda program, text: hear(text))
+        self._overhear = overhear
+
+    def type_text(self, text: str, stream: str | None) -> None:
+        """Type text on a stream, by default the console."""
+        name = stream or ""
+        if name not in self._streams:
+            self._streams[name] = self._open(stream)
+        self._controller.receive(self._streams[name], text.encode("latin-1", errors="replace"))
+        self._read_terminals()
+
+    def _open(self, stream: str | None) -> int:
+        controller = self._controller
+        if stream is None:
+            return controller.console
+        if stream not in controller.system.sessions:
+            known = ", ".join(controller.system.sessions)
+            raise UserError(f"stream {stream}: the {controller.model.name} has {known}")
+        kind = _KINDS.get(stream[:3], StreamKind.TERMINAL)
+        return controller.streams.open(kind, controller.period_s, stream)
+
+    def _read_terminals(self) -> None:
+        for stream in self._streams.values():
+            if data := self._controller.take_output(stream):
+                self._overhear(data.decode("latin-1"))
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch an input."""
+        self._controller.set_input(bit, on)
+
+    def drag(self, axis: int, by_u: float) -> None:
+        """Move the load of an axis by hand, at once."""
+        self._controller.drag(axis, by_u)
+
+    def axis_reports(self) -> list[AxisReport]:
+        """Position and extremes of every axis."""
+        return [
+            AxisReport(
+                number,
+                found.position_u,
+                found.actual_u,
+                found.distance_u,
+                found.peak_velocity_ups,
+                found.peak_following_error_u,
+            )
+            for number in range(self._controller.model.axes)
+            for found in (self._controller.statistics(number),)
+        ]
+
+    def record(self, every_tk: int) -> None:
+        """Record every so many ticks from now on."""
+        self._controller.record(every_tk)
+
+    def curves(self, title: str) -> Curves:
+        """Give what was recorded, in time since the start of the run."""
+        trace = self._controller.trace()
+        masters, names = card_view.masters_of_axes(self.memory), self._names()
+        units = {axis.number: axis.units for axis in self._controller.world.axis}
+        axes = tuple(
+            AxisCurves(
+                number,
+                axis.commanded_u,
+                axis.actual_u,
+                axis.velocity_ups,
+                axis.following_error_u,
+                name=names.get(number, ""),
+                unit=units.get(number, "units"),
+                master=masters.get(number),
+            )
+            for number, axis in enumerate(trace.axes)
+        )
+        bits = tuple(
+            BitCurve(FIRST_OUTPUT + output, (trace.outputs >> output & 1).astype(np.bool_))
+            for output in range(OUTPUTS)
+        )
+        return Curves(trace.time_s - self._begin_s, axes, bits, title)
+
+    def _names(self) -> dict[int, str]:
+        """Name every axis as its first program calls it, else as the machine file does."""
+        names: dict[int, str] = {}
+        for name, axis in self._attached():
+            names.setdefault(axis, name)
+        return {axis.number: axis.name for axis in self._controller.world.axis} | names
+
+    def _attached(self) -> Iterator[tuple[str, int]]:
+        for program in card_view.PROGRAMS:
+            yield from self._controller.card.attachments.axes(program)
+
+
+_KINDS = {"COM": StreamKind.SERIAL, "DPC": StreamKind.DPCB}

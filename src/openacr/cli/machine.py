@@ -42,8 +42,8 @@ class Machine(Protocol):
     def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
         """Let the card live until a flag has this state, at most so many ticks."""
 
-    def listen(self, hear: Callable[[str], None]) -> None:
-        """Call `hear` with everything the card prints."""
+    def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
+        """Call `hear` with what programs print, `overhear` with what terminals answer."""
 
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream, by default the terminal of the run."""
@@ -51,8 +51,8 @@ class Machine(Protocol):
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""
 
-    def drag(self, axis: int, by_u: float, over_s: float) -> None:
-        """Move the load of an axis by hand."""
+    def drag(self, axis: int, by_u: float) -> None:
+        """Move the load of an axis by hand, at once."""
 
     def axis_reports(self) -> Sequence["AxisReport"]:
         """Position and extremes of every axis."""

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from openacr.cli.session import Until
     from openacr.scenario import Scenario
 
+BAD_INPUT = 2
 LONGEST_S = 600.0  # a run that is to end by itself ends here if it does not
 
 
@@ -37,10 +38,21 @@ def run(
     trace: Annotated[
         Path | None, typer.Option(help="Write the motion of all axes (.csv, .parquet).")
     ] = None,
+    trace_every: Annotated[
+        int | None,
+        typer.Option(
+            metavar="TICKS",
+            min=1,
+            help="Ticks between two rows of the trace; default: 1, more for runs above 200 s.",
+        ),
+    ] = None,
     plot: Annotated[
         Path | None, typer.Option(help="Draw the motion of all axes (.png, .svg, .html).")
     ] = None,
     summary: Annotated[Path | None, typer.Option(help="Write the outcome as JSON.")] = None,
+    keep_going: Annotated[
+        bool, typer.Option("--keep-going", help="Run although the card refuses lines of a file.")
+    ] = False,
     quiet: Annotated[
         bool, typer.Option("--quiet", help="Show only what the programs print.")
     ] = False,
@@ -73,6 +85,7 @@ def run(
         until=wanted,
         realtime=realtime,
         trace=trace,
+        trace_every_tk=trace_every,
         plot=plot,
         summary=summary,
         is_quiet=quiet,
@@ -80,7 +93,12 @@ def run(
     )
     from openacr.cli.controlled import load
 
-    session = Session(options, load(project), story)
+    machine, refused = load(found)
+    for error in refused:
+        typer.echo(f"{'warning' if keep_going else 'error'}: {error}", err=True)
+    if refused and not keep_going:
+        raise typer.Exit(BAD_INPUT)
+    session = Session(options, machine, story)
     raise typer.Exit(session.run())
 
 

@@ -15,7 +15,7 @@ from openacr.scenario import Play, Scenario
 
 STEP_S = 0.05  # between two looks at the progress bar; also the slow scan of the card
 IDLE_S = 0.1  # a card is idle when nothing ran or moved for two slow scans
-SAMPLES = 200_000  # recorded per axis at most: every tick for 100 s at the default period
+SAMPLES = 400_000  # recorded per axis at most: every tick for 200 s at the default period
 OK, FAILED = 0, 1
 
 
@@ -49,6 +49,7 @@ class Options:
     until: Until | None = None
     realtime: bool = False
     trace: Path | None = None
+    trace_every_tk: int | None = None
     plot: Path | None = None
     summary: Path | None = None
     is_quiet: bool = False
@@ -86,9 +87,10 @@ class Session:
 
     def _prepare(self) -> None:
         """Connect what listens to the card and records it."""
-        self._machine.listen(self._hear)
+        self._machine.listen(self._hear, self._play.heard)
         if self._options.trace or self._options.plot:
-            self._machine.record(max(1, -(-self._end_tk // SAMPLES)))
+            lived_tk = self._end_tk - self._begin_tk
+            self._machine.record(self._options.trace_every_tk or -(-lived_tk // SAMPLES))
 
     def _hear(self, text: str) -> None:
         self._play.heard(text)

@@ -76,7 +76,7 @@ def build_figure(curves: Curves) -> Figure:
 
 
 def _headline(figure: Figure, curves: Curves) -> None:
-    seconds = float(curves.time_s[-1] - curves.time_s[0]) if curves.time_s.size else 0.0
+    seconds = float(curves.time_s[-1]) if curves.time_s.size else 0.0
     text = f"{curves.title or 'openacr run'}   {seconds:.4g} s simulated"
     figure.suptitle(text, fontsize=12, x=0.01, ha="left")
 
@@ -104,7 +104,7 @@ def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
         strips = figure.add_subplot(grid[-1, :columns], sharex=first)
         _strip_panel(strips, curves)
     if first is not None:
-        first.set_xlim(float(curves.time_s[0]), float(curves.time_s[-1]))
+        first.set_xlim(min(0.0, float(curves.time_s[0])), float(curves.time_s[-1]))
 
 
 def _axis_column(panels: list[Axes], axis: AxisCurves, time_s: Array) -> None:

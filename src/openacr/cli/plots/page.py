@@ -31,7 +31,7 @@ def build_page(curves: Curves) -> str:
 def page_data(curves: Curves) -> dict[str, Any]:
     """Collect what the script of the page draws."""
     time_s = curves.time_s
-    span = [float(time_s[0]), float(time_s[-1])] if time_s.size else [0.0, 1.0]
+    span = [min(0.0, float(time_s[0])), float(time_s[-1])] if time_s.size else [0.0, 1.0]
     plane = curves.plane
     return {
         "title": curves.title or "openacr run",
