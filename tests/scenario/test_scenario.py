@@ -44,8 +44,8 @@ class Bench:
     def type_text(self, text: str, stream: str | None) -> None:
         self.deeds.append((self.tick, "type", text, stream))
 
-    def drag(self, axis: int, by_u: float, over_s: float) -> None:
-        self.deeds.append((self.tick, "drag", axis, by_u, over_s))
+    def drag(self, axis: int, by_u: float) -> None:
+        self.deeds.append((self.tick, "drag", axis, by_u))
 
 
 def nothing(bench: Bench, play: Play) -> None:
@@ -91,6 +91,11 @@ def test_timed_actions_happen_at_their_tick_in_the_order_of_the_file() -> None:
 def test_a_button_is_released_after_its_time() -> None:
     bench, _ = play("at = [{time_s = 0.001, press = [5], press_s = 0.002}]", ticks=20)
     assert bench.deeds == [(2, "input", 5, True), (6, "input", 5, False)]
+
+
+def test_a_load_is_dragged_evenly_over_its_time() -> None:
+    bench, _ = play("at = [{time_s = 0.001, drag = {axis = 3, by = 2.0, over_s = 0.002}}]", 20)
+    assert bench.deeds == [(tick, "drag", 3, 0.5) for tick in (2, 3, 4, 5)]
 
 
 @pytest.mark.parametrize(
@@ -149,7 +154,7 @@ def test_a_position_a_text_a_parameter_and_a_program_can_be_waited_for() -> None
         set = [3]
         [[at]]
         when = {program = 2, state = "running"}
-        drag = {axis = 0, by = 2.5, over_s = 0.1}
+        drag = {axis = 0, by = 2.5}
         """,
         10,
         world,
@@ -158,7 +163,7 @@ def test_a_position_a_text_a_parameter_and_a_program_can_be_waited_for() -> None
         (2, "input", 1, True),
         (4, "input", 3, True),
         (6, "input", 2, True),
-        (8, "drag", 0, 2.5, 0.1),
+        (8, "drag", 0, 2.5),
     ]
 
 

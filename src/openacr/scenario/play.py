@@ -43,8 +43,8 @@ class World(Protocol):
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream."""
 
-    def drag(self, axis: int, by_u: float, over_s: float) -> None:
-        """Move the load of an axis by hand."""
+    def drag(self, axis: int, by_u: float) -> None:
+        """Move the load of an axis by hand, at once."""
 
 
 @dataclass(slots=True)
@@ -58,6 +58,15 @@ class _Pending:
     heard_from: int = 0
 
 
+@dataclass(slots=True)
+class _Pull:
+    """A load that is being moved by hand, a little in every tick."""
+
+    axis: int
+    by_u: float
+    end_tk: int
+
+
 class Play:
     """A scenario on its way through a run."""
 
@@ -67,6 +76,7 @@ class Play:
         self._pending = [_Pending(item) for item in items]
         self._at_end = [item for item in scenario.expect if _belongs_to_end(item)]
         self._releases: list[tuple[int, int]] = []
+        self._pulls: list[_Pull] = []
         self._printed = ""
         self.checkpoints: dict[str, int] = {START: 0}
         self.verdicts: list[Verdict] = []
@@ -90,7 +100,7 @@ class Play:
 
     def next_tick(self, now_tk: int) -> int | None:
         """Say at which tick to look again; None when nothing more is to happen."""
-        if any(p.is_watched for p in self._pending):
+        if self._pulls or any(p.is_watched for p in self._pending):
             return now_tk + 1
         known = [p.due_tk for p in self._pending if p.due_tk is not None]
         known += [tick for tick, _ in self._releases]
@@ -101,6 +111,7 @@ class Play:
         for release in [r for r in self._releases if r[0] <= world.tick]:
             self._releases.remove(release)
             world.set_input(release[1], False)
+        self._pull(world)
         while any(self._look(pending, world) for pending in self._pending):
             pass  # looked at from the start again, so that the order of the file holds
 
@@ -113,6 +124,11 @@ class Play:
         self._pending = [p for p in self._pending if isinstance(p.item, Action)]
         for item in self._at_end:
             self._judge(item, world)
+
+    def _pull(self, world: World) -> None:
+        for pull in self._pulls:
+            world.drag(pull.axis, pull.by_u)
+        self._pulls = [pull for pull in self._pulls if pull.end_tk > world.tick]
 
     def _ticks(self, seconds: float) -> int:
         return round(seconds / self._period_s)
@@ -183,7 +199,11 @@ class Play:
             text = action.key.character if action.key else (action.send or "")
             world.type_text(text, action.stream)
         if action.drag is not None:
-            world.drag(action.drag.axis, action.drag.by, action.drag.over_s)
+            ticks = max(1, self._ticks(action.drag.over_s))
+            pull = _Pull(action.drag.axis, action.drag.by / ticks, world.tick + ticks - 1)
+            world.drag(pull.axis, pull.by_u)
+            if pull.end_tk > world.tick:
+                self._pulls.append(pull)
         if action.checkpoint is not None:
             self._reach(action.checkpoint, world.tick)
 
