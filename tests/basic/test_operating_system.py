@@ -179,6 +179,19 @@ def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
     assert bench.type("EPLC", "EPLC OFF", "EPLC") == "FAILED|SYS>SYS>OFF|SYS>"
 
 
+@pytest.mark.req("ACR-CMD-CPU")
+def test_cpu_load_rises_with_the_number_of_active_axes(bench: Bench) -> None:
+    assert bench.type("CPU") == "Foreground 53.0%|Background 47.0%|SYS>"
+    for axis in range(4, 16):
+        bench.type(f"AXIS{axis} OFF")
+    assert bench.type("CPU") == "Foreground 17.0%|Background 83.0%|SYS>"
+    assert bench.type("PERIOD 0.0001", "CPU").endswith("Foreground 85.0%|Background 15.0%|SYS>")
+
+
+def test_cip_reports_that_nobody_is_connected(bench: Bench) -> None:
+    assert bench.type("CIP") == "CIP INACTIVE|SYS>"
+
+
 def test_reboot_restarts_the_card(bench: Bench) -> None:
     restarted = []
     bench.system.reboot = lambda: restarted.append(True)

@@ -9,7 +9,10 @@ from openacr.basic.registry import ANY, IMMEDIATE, command
 from openacr.basic.run import Run
 from openacr.basic.setup import DEFAULT_CONFIG, Setup
 from openacr.lang.lexer import Kind
+from openacr.map import numbers as at
 from openacr.messages import SYNTAX_ERROR
+from openacr.motion.card import Card
+from openacr.motion.rows import axis_ints
 
 if TYPE_CHECKING:
     from openacr.basic.parser import Parser
@@ -22,6 +25,8 @@ DIAGNOSED = ("ISO", "EXT", "ENC", "BCF", "BCL", "VEE", "VDD")
 EXPANSION_BOARDS = 4
 EXPANSION_ENABLE = 116
 CANOPEN_STATE = 32779
+SERVO_FIXED_S = 25e-6
+SERVO_PER_AXIS_S = 15e-6
 EPL_STARTING, EPL_PRESENT, EPL_OPERATIONAL, EPL_FAILED = 16640, 16648, 16649, 16650
 
 
@@ -116,6 +121,30 @@ def eplc(run: Run, switch: str | None) -> None:
     memory.set_bit(EPL_STARTING, switch == "ON" and not is_missing)
     if switch == "OFF":
         memory.set_bit(EPL_OPERATIONAL, False)
+
+
+@command("CPU", group=GROUP, levels=ANY, ref=REF)
+def cpu(run: Run) -> None:
+    """Print the share of the servo interrupt and that of the rest of the processor time."""
+    foreground = min(servo_time_s(run.card) / run.card.period_s, 1.0) * 100
+    run.print(f"Foreground {foreground:.1f}%")
+    run.print(f"Background {100 - foreground:.1f}%")
+
+
+def servo_time_s(card: Card) -> float:
+    """Time one servo interrupt would take on the processor of a card.
+
+    A model, so that equal states report equal loads: a fixed part and one per axis that
+    is on.
+    """
+    on = sum(card.memory.I[axis_ints(axis) + at.AXI_ON] for axis in range(card.model.axes))
+    return SERVO_FIXED_S + SERVO_PER_AXIS_S * on
+
+
+@command("CIP", group="Global Objects", levels=ANY, ref="PG Global Objects")
+def cip(run: Run) -> None:
+    """Report the state of EtherNet/IP, which this controller has no connection to."""
+    run.print("CIP INACTIVE")
 
 
 @command("REBOOT", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
