@@ -87,25 +87,26 @@ def axis_sum(F: F64, n: int) -> None:
     F[a + AXF_SSP_CNT] = psp + F[a + AXF_BALLSCREW_CNT] + F[a + AXF_BACKLASH_CNT]
 
 
-def axis_setpoints(F: F64, S: F32, n: int, period_s: float) -> None:
-    """Setpoint sums of this tick and their first and second differences."""
+def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
+    """Setpoint sums of this tick and their differences; True if the primary one has moved."""
     a: int = AXF_BASE + n * AXF_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
     psp_old: float = F[a + AXF_PSP_CNT]
     F[a + AXF_SSP_OLD_CNT] = F[a + AXF_SSP_CNT]
     axis_sum(F, n)
     moved: float = F[a + AXF_PSP_CNT] - psp_old
-    velocity: float = moved / period_s
+    velocity: float = moved * rate_hz
     S[p + AX_VELOCITY] = velocity
-    S[p + AX_ACCELERATION] = (velocity - F[a + AXF_PSP_VELOCITY_CPS]) / period_s
+    S[p + AX_ACCELERATION] = (velocity - F[a + AXF_PSP_VELOCITY_CPS]) * rate_hz
     F[a + AXF_PSP_VELOCITY_CPS] = velocity
-    velocity = (F[a + AXF_SSP_CNT] - F[a + AXF_SSP_OLD_CNT]) / period_s
-    F[a + AXF_SSP_ACCEL_CPS2] = (velocity - F[a + AXF_SSP_VELOCITY_CPS]) / period_s
+    velocity = (F[a + AXF_SSP_CNT] - F[a + AXF_SSP_OLD_CNT]) * rate_hz
+    F[a + AXF_SSP_ACCEL_CPS2] = (velocity - F[a + AXF_SSP_VELOCITY_CPS]) * rate_hz
     F[a + AXF_SSP_VELOCITY_CPS] = velocity
     F[a + AXF_TRAVEL_CNT] += fabs(moved)
     F[a + AXF_PEAK_VELOCITY_CPS] = max(
         F[a + AXF_PEAK_VELOCITY_CPS], fabs(F[a + AXF_PSP_VELOCITY_CPS])
     )
+    return moved != 0.0
 
 
 def axis_settled(F: F64, I: I32, n: int) -> None:

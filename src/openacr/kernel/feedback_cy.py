@@ -83,7 +83,7 @@ def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
     F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] = 0.0
 
 
-def encoder_step(F: F64, I: I32, e: int, period_s: float) -> None:
+def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     """Count what the motor of encoder e has moved since the last tick."""
     f: int = ENF_BASE + e * ENF_STRIDE
     raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
@@ -95,7 +95,7 @@ def encoder_step(F: F64, I: I32, e: int, period_s: float) -> None:
     F[f + ENF_STEP_CNT] = whole
     row: int = encoder_row(e)
     I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + int(whole))
-    I[row + ENC_ENCODER_VELOCITY] = round32(whole / period_s)
+    I[row + ENC_ENCODER_VELOCITY] = round32(whole * rate_hz)
 
 
 def ideal_follows(I: I32, S: F32, n: int) -> bool:
@@ -132,7 +132,7 @@ def feedback_set(F: F64, I: I32, S: F32, n: int, actual: int) -> None:
     I[i + AXI_SHOWN_ACTUAL] = actual
 
 
-def feedback_read(F: F64, I: I32, S: F32, n: int, period_s: float) -> int:
+def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
     """Actual position of axis n from whatever is attached as its position feedback."""
     i: int = AXI_BASE + n * AXI_STRIDE
     source: int = I[i + AXI_POSITION_SOURCE]
@@ -140,7 +140,7 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, period_s: float) -> int:
     if source == FROM_ENCODER and 0 <= k < ENCODER_COUNT:
         modelled: bool = k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
         if not modelled and ideal_follows(I, S, n):
-            ideal_step(F, I, n, k, period_s)
+            ideal_step(F, I, n, k, rate_hz)
         return I[encoder_row(k) + ENC_ENCODER_POSITION]
     if source == FROM_ADC and 0 <= k < 16:
         return wrap32(adc_counts(S, k) + I[i + AXI_POSITION_OFFSET])
@@ -149,17 +149,17 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, period_s: float) -> int:
     return 0
 
 
-def ideal_step(F: F64, I: I32, n: int, e: int, period_s: float) -> None:
+def ideal_step(F: F64, I: I32, n: int, e: int, rate_hz: float) -> None:
     """Ideal feedback: encoder e stands where axis n was told to be."""
     row: int = encoder_row(e)
     old: int = I[row + ENC_ENCODER_POSITION]
     now: int = round32(F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT])
     I[row + ENC_ENCODER_POSITION] = now
-    I[row + ENC_ENCODER_VELOCITY] = round32(wrap32(now - old) / period_s)
+    I[row + ENC_ENCODER_VELOCITY] = round32(wrap32(now - old) * rate_hz)
     F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT] = wrap32(now - old)
 
 
-def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, period_s: float) -> None:
+def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, rate_hz: float) -> None:
     """Bring the actual position of axis n up to date.
 
     `written` says that it was written since the last tick: the feedback is then set to
@@ -170,5 +170,5 @@ def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, period_s: float
     if written:
         feedback_set(F, I, S, n, I[p + AX_ACTUAL_POSITION])
     else:
-        I[p + AX_ACTUAL_POSITION] = feedback_read(F, I, S, n, period_s)
+        I[p + AX_ACTUAL_POSITION] = feedback_read(F, I, S, n, rate_hz)
     I[i + AXI_SHOWN_ACTUAL] = I[p + AX_ACTUAL_POSITION]

@@ -112,12 +112,12 @@ __all__ = ["servo_step"]
 
 TO_DAC = 0
 TO_STEPPER = 1
-COUNTS_PER_VOLT = 3276.8
+VOLTS_PER_COUNT = 1.0 / 3276.8
 COUNTS_MAX = 32767.0
 TINY = 1e-30  # filter states below this are 0: denormal numbers are very slow
 
 
-def feedback_velocity(F: F64, I: I32, S: F32, n: int, period_s: float) -> float:
+def feedback_velocity(F: F64, I: I32, S: F32, n: int) -> float:
     """Velocity feedback of axis n [pulses/s], averaged over Smooth Encoder Velocity samples."""
     i: int = AXI_BASE + n * AXI_STRIDE
     k: int = I[i + AXI_VELOCITY_INDEX]
@@ -176,19 +176,20 @@ def integrate(F: F64, S: F32, n: int, value: float, rate: float, period_s: float
     return total
 
 
-def derivative(F: F64, I: I32, S: F32, n: int, error: float, period_s: float) -> float:
+def derivative(F: F64, I: I32, S: F32, n: int, error: float, rate_hz: float) -> float:
     """Derivative term [V], sampled every DWIDTH."""
     a: int = AXF_BASE + n * AXF_STRIDE
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
-    width: float = S[p + AX_DERIVATIVE_WIDTH] / period_s
     ticks: int = 1
-    if width >= 1.5:
-        ticks = int(rint(min(width, 1e6)))
+    if S[p + AX_DERIVATIVE_WIDTH] > 0.0:
+        ticks = int(rint(max(1.0, min(S[p + AX_DERIVATIVE_WIDTH] * rate_hz, 1e6))))
     I[i + AXI_DERIVATIVE_TICKS] += 1
     if I[i + AXI_DERIVATIVE_TICKS] >= ticks:
         I[i + AXI_DERIVATIVE_TICKS] = 0
-        slope: float = (error - F[a + AXF_ERROR_OLD_CNT]) / (ticks * period_s)
+        slope: float = (error - F[a + AXF_ERROR_OLD_CNT]) * rate_hz
+        if ticks > 1:
+            slope = slope / ticks
         F[a + AXF_ERROR_OLD_CNT] = error
         F[a + AXF_DERIVATIVE_V] = derivative_smoothed(F, I, n, slope)
     return S[p + AX_DERIVATIVE_GAIN] * F[a + AXF_DERIVATIVE_V]
@@ -223,7 +224,9 @@ def biquad(F: F64, S: F32, state: int, row: int, x: float) -> float:
     return y
 
 
-def servo_sum(F: F64, I: I32, S: F32, n: int, error: float, period_s: float) -> float:
+def servo_sum(
+    F: F64, I: I32, S: F32, n: int, error: float, period_s: float, rate_hz: float
+) -> float:
     """The summation point of axis n [V]; the terms are shown in their parameters."""
     a: int = AXF_BASE + n * AXF_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
@@ -236,9 +239,9 @@ def servo_sum(F: F64, I: I32, S: F32, n: int, error: float, period_s: float) -> 
     surge: float = S[p + AX_FEEDFORWARD_ACCEL] * F[a + AXF_SSP_ACCEL_CPS2]
     tacho: float = 0.0
     if S[p + AX_FBVEL_GAIN_SETTING] != 0.0:
-        tacho = S[p + AX_FBVEL_GAIN_SETTING] * feedback_velocity(F, I, S, n, period_s)
+        tacho = S[p + AX_FBVEL_GAIN_SETTING] * feedback_velocity(F, I, S, n)
     proportional: float = S[p + AX_PROPORTIONAL_GAIN] * used
-    slope: float = derivative(F, I, S, n, used, period_s)
+    slope: float = derivative(F, I, S, n, used, rate_hz)
     integral: float = F[a + AXF_INTEGRAL_V]
     total: float = 0.0
     if S[p + AX_KVP] > 0.0:
@@ -279,7 +282,7 @@ def servo_closed(I: I32, n: int) -> bool:
     return drive & AF4_DRIVE_ENABLED != 0 or not drive & AF4_DRIVE_I_O_ENABLE
 
 
-def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
+def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
     """One pass of the servo loop of axis n."""
     a: int = AXF_BASE + n * AXF_STRIDE
     i: int = AXI_BASE + n * AXI_STRIDE
@@ -297,7 +300,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     output: float = 0.0
     I[i + AXI_CLIPPED] = 0
     if servo_closed(I, n):
-        total: float = servo_sum(F, I, S, n, error, period_s)
+        total: float = servo_sum(F, I, S, n, error, period_s, rate_hz)
         S[p + AX_SUMMATION_POINT] = total
         if I[axis_word(n)] & AF1_BIQUAD_FILTER_ACTIVATE:
             total = biquad(F, S, a + AXF_FILTER_STATE, p + AX_FILTER0_B2, total)
@@ -314,7 +317,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
         d: int = DAC_BASE + k * DAC_STRIDE
         counts: float = (output + S[d + DAC_DAC_OFFSET]) * S[d + DAC_DAC_GAIN]
         counts = max(-COUNTS_MAX, min(COUNTS_MAX, counts))
-        S[d + DAC_DAC_OUTPUT] = counts / COUNTS_PER_VOLT
+        S[d + DAC_DAC_OUTPUT] = counts * VOLTS_PER_COUNT
 
 
 def stepper_step(F: F64, I: I32, S: F32, n: int) -> None:

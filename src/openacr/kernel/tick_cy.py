@@ -4,24 +4,30 @@ The world outside has moved during the period before; its new state is read firs
 outputs computed here act on it during the next one.
 """
 
-from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written
+from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written, axis_word
 from openacr.kernel.capture_cy import capture_step
 from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
 from openacr.kernel.feedback_cy import encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
-from openacr.kernel.master_cy import master_step
+from openacr.kernel.master_cy import master_step, master_word
 from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
 from openacr.map.numbers import (
+    AF1_BALLSCREW_ACTIVATE,
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVE,
+    AF1_JOG_ACTIVE,
     AXI_BASE,
+    AXI_MASTER,
     AXI_ON,
     AXI_STRIDE,
     KRI_AXES,
     KRI_BASE,
     KRI_MASTERS,
     KRI_SLOW_TICKS,
+    MF1_IN_MOTION,
     PLI_BASE,
     PLI_KIND,
     PLI_STRIDE,
@@ -35,34 +41,49 @@ from openacr.views import F32, F64, I32
 __all__ = ["tick"]
 
 MODELLED = 16
+OFFSETS_ACTIVE = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE | AF1_BALLSCREW_ACTIVATE
+
+
+def axis_changing(I: I32, n: int) -> bool:
+    """Whether the shown positions of axis n may change although its setpoint rests.
+
+    Parts can cancel each other out; at rest a refresh with every slow scan is enough.
+    """
+    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+    if I[axis_word(n)] & OFFSETS_ACTIVE or I[SYSI_BASE + SYSI_SLOW_PHASE] == 0:
+        return True
+    return m >= 0 and I[master_word(m)] & MF1_IN_MOTION != 0
 
 
 def tick(F: F64, I: I32, S: F32) -> None:
     """Everything the card does in one servo period."""
     period_s: float = F[SYSF_BASE + SYSF_PERIOD_S]
+    rate_hz: float = 1.0 / period_s
     axes: int = I[KRI_BASE + KRI_AXES]
     masters: int = I[KRI_BASE + KRI_MASTERS]
     for e in range(MODELLED):
         if I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
-            encoder_step(F, I, e, period_s)
+            encoder_step(F, I, e, rate_hz)
     for n in range(axes):
-        written: bool = axis_take_written(F, I, n)
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
-            feedback_step(F, I, S, n, written, period_s)
+            written: bool = axis_take_written(F, I, n)
+            feedback_step(F, I, S, n, written, rate_hz)
     capture_step(F, I)
     clock_step(F, I, period_s)
     motion_enable_step(I, axes)
     for n in range(axes):
-        drive_step(I, n, period_s)
-        limits_step(F, I, S, n)
+        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
+            drive_step(I, n, period_s)
+            limits_step(F, I, S, n)
     for m in range(masters):
         master_step(F, I, S, m, period_s)
     for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
             jog_step(F, I, S, n, period_s)
-            axis_setpoints(F, S, n, period_s)
-            servo_step(F, I, S, n, period_s)
-            axis_show(F, I, n)
+            moved: bool = axis_setpoints(F, S, n, rate_hz)
+            servo_step(F, I, S, n, period_s, rate_hz)
+            if moved or axis_changing(I, n):
+                axis_show(F, I, n)
     slow: int = I[SYSI_BASE + SYSI_SLOW_PHASE] + 1
     if slow >= I[KRI_BASE + KRI_SLOW_TICKS]:
         slow = 0
