@@ -6,9 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from openacr.basic.parser import Parser
-from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine, opens_capture
-from openacr.basic.registry import Level
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
@@ -96,8 +94,3 @@ class Entry:
         tree, cost_bytes = self.system.read_stored(owner, found)
         if tree is not None:
             self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
-
-
-def level_of(owner: int) -> Level:
-    """Whether an owner of text is a program or a PLC."""
-    return Level.PROG if owner < PROGRAMS else Level.PLC

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from openacr.basic.nodes import Line
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
@@ -92,11 +90,6 @@ class ProgramStore:
         if lines and lines[0].first_word == "PROGRAM":
             lines = lines[1:]
         return bool(lines) and lines[0].first_word == "PBOOT"
-
-    def trees(self, owner: int) -> Iterator[tuple[int, Line]]:
-        """Numbers and meanings of all lines, for the compiler."""
-        for line in self.lines(owner):
-            yield line.number, line.tree
 
     def protect(self, password: str) -> None:
         """PASSWORD ON: LIST is refused from now on."""

@@ -40,8 +40,3 @@ def owners(run: Run, target: ObjectRef | None) -> tuple[int, ...]:
     if target.word == "ALL":
         return tuple(range(OWNERS))
     return (named(target),)
-
-
-def owner_name(owner: int) -> str:
-    """`PROGn` or `PLCn`."""
-    return f"PROG{owner}" if owner < PROGRAMS else f"PLC{owner - PROGRAMS}"

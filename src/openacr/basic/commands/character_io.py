@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from openacr.basic import strings
-from openacr.basic.devices import Key
 from openacr.basic.grammar import (
     Command,
     Either,
     Form,
     Int,
-    Lvalue,
     Mark,
     Object,
     ObjectRef,
-    Repeat,
     Str,
 )
 from openacr.basic.nodes import (
@@ -31,9 +27,8 @@ from openacr.basic.nodes import (
     resolved,
 )
 from openacr.basic.number_format import UsingFormat, double_text, single_text
-from openacr.basic.registry import ANY, IMMEDIATE, PROG, PROGRAM, command, functions
-from openacr.basic.registry import function as register_function
-from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.basic.registry import ANY, IMMEDIATE, PROG, command, functions
+from openacr.basic.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.map import numbers as at
@@ -81,7 +76,7 @@ class PrintList(Form):
         """Whether a device, an item or a separator begins here."""
         if p.at_unknown_word:
             raise p.error(UNDEFINED_SYMBOL)
-        return p.is_operator("#") or _at_separator(p) or self._at_item(p)
+        return p.is_operator("#") or at_separator(p) or self._at_item(p)
 
     def parse(self, p: Parser) -> Print:
         """Read the device and as many items as there are."""
@@ -89,8 +84,8 @@ class PrintList(Form):
         if p.is_operator("#"):
             device = read_device(p)
         found: list[PrintItem] = []
-        while _at_separator(p) or self._at_item(p):
-            if _at_separator(p):
+        while at_separator(p) or self._at_item(p):
+            if at_separator(p):
                 found.append(str(p.advance().value))
             elif p.accept("USING"):
                 found.append(Picture(p.expression()))
@@ -109,7 +104,8 @@ class PrintList(Form):
         return token.kind in (Kind.NUMBER, Kind.STRING) or token.value in ("(", "-", "+")
 
 
-def _at_separator(p: Parser) -> bool:
+def at_separator(p: Parser) -> bool:
+    """Whether `;` or `,` stands here."""
     return p.is_operator(";") or p.is_operator(",")
 
 
@@ -119,7 +115,7 @@ def read_device(p: Parser) -> int:
     token = p.advance()
     if token.kind is not Kind.NUMBER or token.value not in range(DEVICES + 1):
         raise p.error(SYNTAX_ERROR)
-    if _at_separator(p):
+    if at_separator(p):
         p.advance()
     return int(token.value)
 
@@ -249,129 +245,6 @@ def close(run: Run, number: int) -> Wait | None:
         return Wait(WaitKind.NEXT_SLICE, retry=True)
     run.system.devices.close(key)
     return None
-
-
-# INPUT
-
-
-@dataclass(frozen=True, slots=True)
-class InputItem:
-    """INPUT as written: `;` directly behind the word, device, prompt, variables."""
-
-    keeps_line: bool
-    device: int
-    prompt: Expr | None
-    targets: tuple[Expr, ...]
-
-
-class InputList(Form):
-    """`{;} {#d{,|;}} {"prompt"{;|,}} var {, var}...`."""
-
-    def starts(self, p: Parser) -> bool:
-        """Whether anything is left in the block."""
-        return not p.at_block_end
-
-    def parse(self, p: Parser) -> InputItem:
-        """Read everything."""
-        keeps_line = p.accept(";")
-        device = read_device(p) if p.is_operator("#") else 0
-        prompt = None
-        if p.token.kind is Kind.STRING:
-            prompt = p.expression()
-            if _at_separator(p):
-                p.advance()
-        targets = Repeat(Lvalue("variable"), separator=",").parse(p)
-        return InputItem(keeps_line, device, prompt, cast(tuple[Expr, ...], targets))
-
-
-@command(
-    "INPUT",
-    group=GROUP,
-    levels=PROG,
-    use=PROGRAM,
-    grammar=(InputList("variables"),),
-    ref="PG Character I/O",
-)
-def input_(run: Run, item: InputItem) -> Wait | None:
-    """Send a prompt, wait for a line from the device and store its fields."""
-    devices = run.system.devices
-    key = (run.needed_program(), item.device)
-    devices.check_open(key)
-    row = devices.row(key, at.DQI_PROMPTED)
-    if not run.card.memory.I[row]:
-        devices.write(key, run.text(item.prompt) if item.prompt is not None else "? ")
-        run.card.memory.I[row] = 1
-        run.system.listeners.set_line_end(key[0], not item.keeps_line)
-    line = devices.read_line(key)
-    if line is not None and not _store_fields(run, item.targets, line):
-        devices.write(key, "Redo" + LINE_END)
-        line = None
-    if line is None:
-        return _until_received(run, key, at.DQI_LINES)
-    run.card.memory.I[row] = 0
-    run.system.listeners.set_line_end(key[0], True)
-    return None
-
-
-def _store_fields(run: Run, targets: tuple[Expr, ...], line: str) -> bool:
-    """Store the fields between commas; a string that comes last takes the rest."""
-    takes_rest = is_text(targets[-1])
-    fields = line.split(",", len(targets) - 1) if takes_rest else line.split(",")
-    if len(fields) < len(targets):
-        return False
-    for target, text in zip(targets, fields, strict=False):
-        run.assign(target, text if is_text(target) else strings.val(text))
-    return True
-
-
-def _until_received(run: Run, key: Key, offset: int) -> Wait:
-    row = run.system.devices.row(key, offset)
-    return Wait(WaitKind.ROW_ABOVE, row, 0, retry=True, show=Show.INHIBITED)
-
-
-# keys
-
-
-def _key(run: Run, device: float) -> Key:
-    if not 0 <= device <= DEVICES:
-        raise CardError(INVALID_DEVICE)
-    key = (run.needed_program(), int(device))
-    run.system.devices.check_open(key)
-    return key
-
-
-def inkey(run: Run, device: float = 0) -> str:
-    """One waiting character of a device, or an empty string; never waits."""
-    return str(run.system.devices.read_key(_key(run, device)))
-
-
-def getch_text(run: Run, device: float = 0) -> str | Wait:
-    """Wait for one character of a device."""
-    key = _key(run, device)
-    return run.system.devices.read_key(key) or _until_received(run, key, at.DQI_CHARACTERS)
-
-
-def getch(run: Run, device: float = 0) -> float | Wait:
-    """Wait for one character of a device and give its code."""
-    character = getch_text(run, device)
-    return character if isinstance(character, Wait) else float(ord(character))
-
-
-def kbhit(run: Run, device: float = 0) -> float:
-    """Tell whether a character waits on a device: -1 or 0."""
-    row = run.system.devices.row(_key(run, device), at.DQI_CHARACTERS)
-    return -1.0 if run.card.memory.I[row] else 0.0
-
-
-for _name, _apply in (
-    ("INKEY$", inkey),
-    ("GETCH$", getch_text),
-    ("GETCH", getch),
-    ("KBHIT", kbhit),
-):
-    register_function(
-        _name, "n", fewest=0, apply=_apply, summary=str(_apply.__doc__), wants_run=True
-    )
 
 
 @command(
