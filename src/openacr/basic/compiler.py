@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from openacr.basic import vm_cy as vm
+from openacr.basic import flow_cy as flow
+from openacr.basic import opcodes_cy as vm
 from openacr.basic.arith_cy import (
     FN_NEGATE,
     FN_NOT,
@@ -87,9 +88,9 @@ OPERATORS = {
     Op.XNOR: OP_XNOR, Op.LEFT: OP_SHIFT_LEFT, Op.RIGHT: OP_SHIFT_RIGHT,
 }  # fmt: skip
 UNCLOSED = {
-    vm.FLOW_IF: IF_WITHOUT_ENDIF,
-    vm.FLOW_FOR: FOR_WITHOUT_NEXT,
-    vm.FLOW_WHILE: WHILE_WITHOUT_WEND,
+    flow.FLOW_IF: IF_WITHOUT_ENDIF,
+    flow.FLOW_FOR: FOR_WITHOUT_NEXT,
+    flow.FLOW_WHILE: WHILE_WITHOUT_WEND,
 }
 _KINDS = kind_table()
 

@@ -14,15 +14,16 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from openacr.basic import commands as _commands  # noqa: F401 - registers the commands
+from openacr.basic import opcodes_cy as vm
 from openacr.basic import registry
 from openacr.basic import scheduler_cy as scheduler
-from openacr.basic import vm_cy as vm
 from openacr.basic.code import Chunk, CodeSpace
 from openacr.basic.compiler import CompileError, Emitter, compile_line, compile_program
 from openacr.basic.evaluate import Blocked, Operands
 from openacr.basic.nodes import Expr, Line, Move, Statement, is_text, resolved
 from openacr.basic.registry import Level
 from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.basic.vm_cy import vm_run
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -74,7 +75,7 @@ class Executor:
         self._runs: list[Run | None] = [None] * at.TH_COUNT
         self._sources: list[Any] = [None] * at.TH_COUNT
         self._advance = pick(scheduler.advance)
-        self._vm_run = pick(vm.vm_run)
+        self._vm_run = pick(vm_run)
         self._step = pick(scheduler.scheduler_step)
 
     # programs

@@ -9,17 +9,21 @@ served at the beginning of every slice, so that hosts are answered at once.
 deal with that thread (row event says why) and is then called again for the same tick.
 """
 
-from openacr.basic.vm_cy import (
-    PROGRAMS,
+from openacr.basic.opcodes_cy import (
     VM_END,
     VM_SLICE,
     VM_WAIT,
+)
+from openacr.basic.vm_cy import (
+    PROGRAMS,
+    vm_run,
+)
+from openacr.basic.waits_cy import (
     WAIT_BIT_CLEAR,
     WAIT_BIT_SET,
     WAIT_PARAMETER_ABOVE,
     WAIT_PARAMETER_BELOW,
     WAIT_TIME,
-    vm_run,
     wait_is_over,
 )
 from openacr.cmath import rint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic import vm_cy as vm
+from openacr.basic import opcodes_cy as vm
 from openacr.basic.grammar import Bit, BitItem, Bits, Group, Num, ParameterName
 from openacr.basic.nodes import Flag, Statement
 from openacr.basic.registry import ANY, command

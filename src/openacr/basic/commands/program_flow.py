@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from openacr.basic import flow_cy as flow
+from openacr.basic import opcodes_cy as vm
 from openacr.basic import registry
-from openacr.basic import vm_cy as vm
 from openacr.basic.grammar import Condition, Form, Int, Lvalue, Mark, Rest
 from openacr.basic.nodes import Block, Expr, Number, Statement
 from openacr.basic.registry import ANY, BOTH, PLC, PROG, PROGRAM, Level, command
@@ -136,8 +137,8 @@ def emit_if(e: Emitter, statement: Statement) -> None:
         e.blocks(then.blocks)
         e.put(behind)
         return
-    level = e.open(vm.FLOW_IF)
-    e.op(vm.DO_ENTER, vm.FLOW_IF, level.start, level.stop)
+    level = e.open(flow.FLOW_IF)
+    e.op(vm.DO_ENTER, flow.FLOW_IF, level.start, level.stop)
     e.put(level.start)
     level.next_branch = e.place()
     _condition(e, condition, level.next_branch)
@@ -151,7 +152,7 @@ def _condition(e: Emitter, condition: Any, otherwise: Any) -> None:
 
 def _next_branch(e: Emitter) -> OpenLevel:
     """End one branch of an IF: jump behind the level, and begin the next branch."""
-    level = _innermost(e, vm.FLOW_IF, ELSE_WITHOUT_IF)
+    level = _innermost(e, flow.FLOW_IF, ELSE_WITHOUT_IF)
     if level.next_branch is None:
         raise e.error(ELSE_WITHOUT_IF)
     e.op(vm.DO_JUMP, level.stop)
@@ -175,7 +176,7 @@ def emit_else(e: Emitter, statement: Statement) -> None:
 
 def emit_endif(e: Emitter, statement: Statement) -> None:
     """ENDIF."""
-    level = _innermost(e, vm.FLOW_IF, ENDIF_WITHOUT_IF)
+    level = _innermost(e, flow.FLOW_IF, ENDIF_WITHOUT_IF)
     e.levels.pop()
     if level.next_branch is not None:
         e.put(level.next_branch)
@@ -186,9 +187,9 @@ def emit_endif(e: Emitter, statement: Statement) -> None:
 def emit_while(e: Emitter, statement: Statement) -> None:
     """WHILE: the condition is computed at each pass, which counts as a statement."""
     (condition,) = statement.arguments
-    level = e.open(vm.FLOW_WHILE)
+    level = e.open(flow.FLOW_WHILE)
     test = e.place()
-    e.op(vm.DO_ENTER, vm.FLOW_WHILE, level.start, level.stop)
+    e.op(vm.DO_ENTER, flow.FLOW_WHILE, level.start, level.stop)
     e.op(vm.DO_JUMP, test)
     e.put(level.start)
     e.begin_statement()
@@ -198,7 +199,7 @@ def emit_while(e: Emitter, statement: Statement) -> None:
 
 def emit_wend(e: Emitter, statement: Statement) -> None:
     """WEND."""
-    level = _innermost(e, vm.FLOW_WHILE, WEND_WITHOUT_WHILE)
+    level = _innermost(e, flow.FLOW_WHILE, WEND_WITHOUT_WHILE)
     e.levels.pop()
     e.op(vm.DO_WEND, level.start, level.start)
     e.put(level.stop)
@@ -213,7 +214,7 @@ def emit_for(e: Emitter, statement: Statement) -> None:
     e.store(variable, lambda: e.expression(first))  # type: ignore[arg-type]
     e.expression(last)  # type: ignore[arg-type]
     e.expression(step or Number(1))  # type: ignore[arg-type]
-    level = e.open(vm.FLOW_FOR)
+    level = e.open(flow.FLOW_FOR)
     level.data = variable  # type: ignore[assignment]
     e.op(vm.DO_ENTER_FOR, level.start, level.stop)
     e.drop(2)
@@ -225,7 +226,7 @@ def emit_for(e: Emitter, statement: Statement) -> None:
 
 def emit_next(e: Emitter, statement: Statement) -> None:
     """NEXT: step the variable and test again."""
-    level = _innermost(e, vm.FLOW_FOR, NEXT_WITHOUT_FOR)
+    level = _innermost(e, flow.FLOW_FOR, NEXT_WITHOUT_FOR)
     e.levels.pop()
     variable = level.data
     if variable is None:
@@ -243,7 +244,7 @@ def emit_next(e: Emitter, statement: Statement) -> None:
 def emit_break(e: Emitter, statement: Statement) -> None:
     """BREAK: leave the innermost loop."""
     for level in reversed(e.levels):
-        if level.kind != vm.FLOW_IF:
+        if level.kind != flow.FLOW_IF:
             e.op(vm.DO_BREAK, level.start, level.stop)
             return
     raise e.error(BREAK_WITHOUT_LOOP)
