@@ -110,7 +110,7 @@ def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
 
 
 def axis_settled(F: F64, I: I32, n: int) -> None:
-    """After a jump of the registers: no velocity, no old setpoint, target = current."""
+    """After a jump of the registers: no velocity, no old setpoint, target = current, all shown."""
     a: int = AXF_BASE + n * AXF_STRIDE
     axis_sum(F, n)
     F[a + AXF_SSP_OLD_CNT] = F[a + AXF_SSP_CNT]
@@ -123,6 +123,7 @@ def axis_settled(F: F64, I: I32, n: int) -> None:
     m: int = I[i + AXI_MASTER]
     if m >= 0:
         F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + I[i + AXI_SLAVE]] = F[a + AXF_POSITION_CNT]
+    axis_show(F, I, n)
 
 
 def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:

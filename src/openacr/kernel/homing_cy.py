@@ -157,20 +157,20 @@ def home_start(F: F64, I: I32, S: F32, n: int) -> None:
     home_run(F, I, S, n, HOME_SEARCH, sign, jog_setting(S, n, AX_JOG_VELOC_SETTING))
 
 
-def home_step(F: F64, I: I32, S: F32, n: int) -> None:
-    """Look at limits and home input of this tick and change the motion accordingly."""
+def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
+    """Look at limits and home input of this tick; True when the axis is to rest at once."""
     i: int = AXI_BASE + n * AXI_STRIDE
     state: int = I[i + AXI_HOME_STATE]
     if state == HOME_START:
         home_start(F, I, S, n)
-        return
+        return False
     if I[i + AXI_HOME_LIMIT_HIT]:
         home_limit(F, I, S, n)
     now: int = I[AF5_WORD + n] & AF5_HOME_INPUT
     old: int = I[i + AXI_HOME_INPUT_OLD]
     I[i + AXI_HOME_INPUT_OLD] = now
     if now == old:
-        return
+        return False
     same: bool = I[i + AXI_HOME_MOVING] == home_edge(I, n)
     crossed: bool = now == 0 if same else now != 0
     backup: bool = I[AF5_WORD + n] & AF5_HOME_BACKUP_ENABLE != 0
@@ -183,8 +183,9 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> None:
         if I[i + AXI_HOME_MOVING] == home_final(I, n):
             F[AXF_BASE + n * AXF_STRIDE + AXF_HOME_EDGE_CNT] = home_edge_position(F, I, n, now)
             home_stop_dead(F, I, S, n)
-        else:
-            home_brake(F, I, S, n, HOME_STOP2)
+            return True
+        home_brake(F, I, S, n, HOME_STOP2)
+    return False
 
 
 def home_edge_position(F: F64, I: I32, n: int, now: int) -> float:

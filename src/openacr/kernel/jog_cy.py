@@ -251,8 +251,8 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
         if I[i + AXI_JOG_MODE] == JOG_IDLE:
             return
         jog_follow(F, I, S, n)
-    elif mode == JOG_HOMING:
-        home_step(F, I, S, n)
+    elif mode == JOG_HOMING and home_step(F, I, S, n):
+        jog_rest(F, I, n)
     if I[i + AXI_JOG_MODE] != JOG_IDLE:
         left: float = profile_advance(F, I, JOG_PROFILE + n, dt)
         jog_place(F, I, n)
