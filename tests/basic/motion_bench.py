@@ -2,6 +2,7 @@
 
 import math
 
+from openacr.basic.control import ProgramControl
 from openacr.basic.executor import Executor
 from openacr.basic.registry import Level
 from openacr.basic.session import Session
@@ -9,7 +10,8 @@ from openacr.basic.system import System
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
-from openacr.models import ACR8020, Model
+from openacr.models import DEFAULT_MODEL, Model
+from openacr.motion import attach
 from openacr.motion.card import Card
 
 PERIOD_S = 0.0005
@@ -19,12 +21,13 @@ _tick = pick(tick)
 class Bench:
     """Types lines on COM1 at PROG0, where axes 0, 1, ... are named as given."""
 
-    def __init__(self, *axes: str, model: Model = ACR8020) -> None:
+    def __init__(self, *axes: str, model: Model = DEFAULT_MODEL) -> None:
         self.card = Card(model)
         self.memory = self.card.memory
         self.system = System(self.card)
         self.executor = Executor(self.system)
         self.system.runner = self.executor
+        self.system.control = ProgramControl(self.system, self.executor)
         self.session = self._session("COM1")
         self.session.go(Level.PROG, 0)
         if axes:
@@ -38,8 +41,6 @@ class Bench:
 
     def attach(self, program: int, *axes: tuple[int, str]) -> None:
         """Give a program the master of its number and axes by number and name."""
-        from openacr.motion import attach
-
         attach.master(self.card, program, program)
         for slave, (axis, name) in enumerate(axes):
             attach.slave(self.card, program, slave, axis, name)
@@ -53,6 +54,16 @@ class Bench:
         """What a line prints; lines apart by `|`."""
         self.session.feed_line(line)
         return self.answer()
+
+    def all(self, *lines: str) -> "Bench":
+        """Type lines that print nothing."""
+        for line in lines:
+            assert self.type(line) == "", line
+        return self
+
+    def run(self, *lines: str) -> None:
+        """Store a program at the present level and start it."""
+        self.all("PROGRAM", *lines, "ENDP", "RUN")
 
     def answer(self) -> str:
         """What has been printed since."""
@@ -110,3 +121,12 @@ class Bench:
 def ticks(time_s: float, period_s: float = PERIOD_S) -> int:
     """The first tick at or after a time."""
     return math.ceil(time_s / period_s - 1e-9)
+
+
+def largest(bench: Bench, row: int, axis: int, *flags: int) -> float:
+    """The largest size of an axis parameter until the flags are clear."""
+    found = 0.0
+    while any(bench.bit(flag) for flag in flags):
+        bench.ticks(1)
+        found = max(found, abs(bench.axis(axis, row)))
+    return found

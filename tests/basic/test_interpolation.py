@@ -1,0 +1,267 @@
+"""Linear moves: targets, blocks, buffering and what refuses a move."""
+
+import pytest
+from tests.basic.motion_bench import Bench, ticks
+
+from openacr.basic.registry import Level
+from openacr.motion import settings
+
+IN_MOTION, BUFFERED = 516, 517
+MOVE_PENDING = 1027
+
+
+def bench(*axes: str) -> Bench:
+    made = Bench(*(axes or ("X", "Y", "Z")))
+    made.type("ACC 0 DEC 0 STP 0 VEL 1000")
+    return made
+
+
+def positions(made: Bench, count: int = 3) -> list[float]:
+    return [made.p(12288 + 256 * axis) for axis in range(count)]
+
+
+def run(made: Bench, *lines: str) -> list[float]:
+    """Type moves one after the other, each when the last is done."""
+    for line in lines:
+        assert made.type(line) == ""
+        made.until_clear(IN_MOTION)
+    return positions(made)
+
+
+@pytest.mark.parametrize("line", ["MOV X10", "X10", "x 10", "X(4+6)", "MOV X 10", "X10 VEL 1000"])
+@pytest.mark.req("ACR-MOT-05")
+def test_a_move_ends_at_its_target_with_and_without_mov(line: str) -> None:
+    assert run(bench(), line) == [10, 0, 0]
+
+
+@pytest.mark.req("ACR-MOT-06", "ACR-MOT-03")
+def test_axes_of_one_statement_end_at_the_same_instant() -> None:
+    made = bench()
+    made.type("X20 Y-30")
+    ended = {}
+    while len(ended) < 2:
+        made.ticks(1)
+        for axis, target in ((0, 20), (1, -30)):
+            if made.p(12288 + 256 * axis) == target and made.psp(axis) == target:
+                ended.setdefault(axis, made.card.tick)
+    assert ended[0] == ended[1]
+
+
+@pytest.mark.req("ACR-MOT-03")
+def test_separate_statements_move_one_after_the_other() -> None:
+    made = bench()
+    made.type("X10 : Y10")
+    while made.p(12288) < 10:
+        assert made.p(12544) == 0
+        made.ticks(1)
+    made.until_clear(IN_MOTION)
+    assert positions(made) == [10, 10, 0]
+
+
+@pytest.mark.req("ACR-MOT-07")
+def test_a_slash_adds_to_the_position() -> None:
+    assert run(bench(), "X5 Y5", "X/20 Y/-30") == [25, -25, 0]
+
+
+@pytest.mark.req("ACR-MOT-08")
+def test_absolute_and_incremental_targets_mix_in_one_move() -> None:
+    assert run(bench(), "X1 Y1 Z1", "X/2 Y2 Z/-2") == [3, 2, -1]
+
+
+@pytest.mark.parametrize(
+    "moves",
+    [
+        pytest.param("X0 X100 X200 X300 X400", marks=pytest.mark.req("ACR-MOT-10")),
+        pytest.param("X0 X/-400 X/500 X/200 X/100", marks=pytest.mark.req("ACR-MOT-11")),
+        pytest.param("x/-400 x200 x/50 x400", marks=pytest.mark.req("ACR-MOT-12")),
+    ],
+)
+def test_a_sequence_of_moves_ends_at_400(moves: str) -> None:
+    assert run(bench(), *moves.split()) == [400, 0, 0]
+
+
+def test_the_last_target_of_an_axis_in_a_block_wins() -> None:
+    assert run(bench(), "X10 Y5 X20") == [20, 5, 0]
+
+
+def test_what_stands_behind_a_target_in_its_block_still_shapes_the_move() -> None:
+    made = bench()
+    made.type("X10 VEL 100")
+    assert made.until_clear(IN_MOTION) == ticks(0.1)
+
+
+@pytest.mark.req("ACR-CMD-PPU")
+def test_a_move_of_one_unit_changes_the_encoder_by_ppu_counts() -> None:
+    made = bench()
+    made.type("PPU X400 Y-25")
+    made.type("X1 Y1")
+    made.until_clear(IN_MOTION)
+    made.ticks(1)
+    assert (made.p(6144), made.p(6160)) == (400, -25)
+
+
+@pytest.mark.req("ACR-MOT-04")
+def test_a_move_of_an_axis_by_number_is_refused() -> None:
+    made = bench()
+    assert made.type("MOV AXIS0 10") == "Undefined symbol"
+    assert made.type("X1 AXIS1 10") != ""
+    assert run(made) == [0, 0, 0]
+
+
+@pytest.mark.req("ACR-ATT-08", "ACR-MOT-02")
+def test_a_move_without_attachments_is_refused() -> None:
+    made = Bench()
+    assert made.type("X10") == "Unknown command"
+    assert made.at(Level.SYS).type("X10") == "Unknown command"
+    assert Bench("X").at(Level.PROG, 1).type("X10") == "Unknown command"
+
+
+@pytest.mark.req("ACR-ATT-20")
+def test_two_attached_axes_move_together() -> None:
+    assert run(bench("X", "Y"), "X1 Y2") == [1, 2, 0]
+
+
+@pytest.mark.req("ACR-ATT-21")
+def test_programs_with_masters_of_their_own_move_at_the_same_time() -> None:
+    made = bench("X")
+    made.attach(1, (1, "Y"))
+    made.type("VEL 100 X10")
+    made.at(Level.PROG, 1).type("ACC 0 STP 0 VEL 50 Y10")
+    made.ticks(10)
+    assert positions(made, 2) == [0, 0] or all(value > 0 for value in positions(made, 2))
+    assert made.until_clear(IN_MOTION) == ticks(0.1) - 10
+    assert made.until_clear(IN_MOTION + 32) == ticks(0.1)
+
+
+# the buffer
+
+
+def test_one_move_is_buffered_and_the_next_waits() -> None:
+    made = bench()
+    assert made.type("X10") == ""
+    assert (made.bit(IN_MOTION), made.bit(BUFFERED), made.is_waiting) == (True, False, False)
+    made.type("X20")
+    assert (made.bit(BUFFERED), made.is_waiting) == (True, False)
+    made.type("X30")
+    assert made.is_waiting
+    made.ticks(ticks(0.01) + 1)
+    assert not made.is_waiting
+    made.until_clear(IN_MOTION)
+    assert positions(made) == [30, 0, 0]
+
+
+def test_a_program_shows_that_it_waits_for_the_buffer() -> None:
+    made = bench()
+    made.run("X/10", "X/10", "X/10")
+    made.ticks(5)
+    assert made.bit(MOVE_PENDING)
+    made.ticks(ticks(0.01))
+    assert not made.bit(MOVE_PENDING)
+    made.until_clear(IN_MOTION)
+    assert positions(made) == [30, 0, 0]
+
+
+def test_profile_values_are_taken_when_the_move_is_issued() -> None:
+    made = bench()
+    made.type("VEL 100 X10 : VEL 10 X20 : VEL 500")
+    assert made.until_clear(IN_MOTION) == ticks(0.1 + 1.0)
+
+
+def test_a_move_of_length_0_does_not_set_in_motion() -> None:
+    made = bench()
+    assert made.type("X0 Y0") == ""
+    assert not made.bit(IN_MOTION)
+
+
+def test_a_move_shows_its_target_at_once() -> None:
+    made = bench()
+    made.type("PPU X10 : X5")
+    assert (made.p(12288), made.p(12289)) == (0, 50)
+
+
+# what refuses a move
+
+
+@pytest.mark.parametrize(
+    ("setup", "message"),
+    [
+        ("SET 8467", "Associated Slave Kill Motion Request Active"),
+        ("SET 8499", "Associated Slave Kill Motion Request Active"),
+        ("SET 522", "Master Kill All Moves Request Active"),
+        ("AXIS0 OFF", "Axis is off"),
+        ("SET 16132", "Hard limit"),
+        ("SET 16140", "Soft limit"),
+    ],
+)
+def test_a_move_is_refused_with_the_reason(setup: str, message: str) -> None:
+    made = bench()
+    made.type(setup)
+    assert made.type("X10") == message
+    assert not made.bit(IN_MOTION)
+    made.ticks(20)
+    assert positions(made) == [0, 0, 0]
+
+
+@pytest.mark.parametrize(("latch", "inward"), [(16132, "X-10"), (16133, "X10")])
+def test_a_limit_latch_refuses_outward_moves_only(latch: int, inward: str) -> None:
+    made = bench()
+    made.type(f"SET {latch}")
+    assert made.type(inward) == ""
+    made.until_clear(IN_MOTION)
+    assert made.p(12288) == float(inward[1:])
+
+
+@pytest.mark.parametrize("line", ["X(1,2)", "X", "MOV", "X/"])
+def test_a_malformed_move_is_a_syntax_error(line: str) -> None:
+    assert bench().type(line) == "Syntax error"
+
+
+# rotary axes
+
+
+@pytest.mark.parametrize(("line", "end"), [("X10", 370), ("X170", 530), ("X175", 175)])
+@pytest.mark.req("ACR-CMD-ROTARY", "ACR-PROF-11")
+def test_an_absolute_move_of_a_rotary_axis_takes_the_shorter_way(line: str, end: int) -> None:
+    made = bench()
+    made.type("X350")
+    made.until_clear(IN_MOTION)
+    made.type("ROTARY X360")
+    assert run(made, line)[0] == end
+
+
+def test_incremental_moves_of_a_rotary_axis_go_as_far_as_told() -> None:
+    made = bench()
+    made.type("ROTARY X360")
+    assert run(made, "X/500")[0] == 500
+
+
+# MAXVEL
+
+
+@pytest.mark.req("ACR-CMD-MAXVEL")
+def test_maxvel_slows_a_vector_move() -> None:
+    made = bench()
+    assert made.type("MAXVEL X30") == ""
+    assert (made.p(12368), made.bit(2076)) == (30.0, True)
+    made.type("VEL 1000 X30 Y40")
+    assert made.until_clear(IN_MOTION) == ticks(1.0)
+    made.type("MAXVEL OFF")
+    assert made.type("MAXVEL X Y") == "0|0"
+    assert not made.bit(2076)
+    made.type("X0 Y0")
+    assert made.until_clear(IN_MOTION) == ticks(0.05)
+
+
+def test_maxvel_written_as_a_parameter_counts_too() -> None:
+    made = bench()
+    made.type("P12368 = 10")
+    made.type("X10")
+    assert made.until_clear(IN_MOTION) == ticks(1.0)
+
+
+def test_maxvel_of_one_axis_is_cleared_by_its_prefix() -> None:
+    made = bench()
+    made.type("MAXVEL X3 Y4")
+    made.type("AXIS0 MAXVEL OFF")
+    assert made.type("MAXVEL X Y") == "0|4"
+    assert settings.MAX_VELOCITY.read(made.card, 1) == 4.0
