@@ -13,7 +13,7 @@ def card() -> Machine:
     return machine
 
 
-@pytest.mark.req("ACR-SYN-13", "ACR-SYN-14")
+@pytest.mark.req("ACR-SYN-13", "ACR-SYN-14", "ACR-CMD-PRINT")
 @pytest.mark.parametrize(
     ("line", "output"),
     [
@@ -82,7 +82,7 @@ def test_print_of_a_program_goes_to_its_listeners(card: Machine) -> None:
 # devices
 
 
-@pytest.mark.req("ACR-APP-OPEN-01", "ACR-SYN-12")
+@pytest.mark.req("ACR-APP-OPEN-01", "ACR-SYN-12", "ACR-CMD-PRINT")
 def test_print_to_a_device_reaches_the_channel_it_is_open_on(card: Machine) -> None:
     network = card.connect("STREAM3")
     card.load(0, 'OPEN "STREAM3:" AS #1', 'PRINT #1, "fruit? ";', "PRINT #1", "DWL 10")
@@ -164,6 +164,7 @@ def test_getch_waits_for_a_key_as_an_inhibited_program(card: Machine) -> None:
 # INPUT
 
 
+@pytest.mark.req("ACR-CMD-INPUT")
 def test_input_reads_fields_into_variables(card: Machine) -> None:
     card.load(
         1, "DIM $V(2,40)", "DIM LV(2)", 'INPUT "values";LV0,$V0,LV1', "PRINT LV0;$V0;LV1",
@@ -201,6 +202,7 @@ def test_backspace_takes_a_typed_character_back(card: Machine) -> None:
     assert card.sent() == "? 13|P01>"
 
 
+@pytest.mark.req("ACR-CMD-INPUT")
 def test_input_with_a_semicolon_keeps_the_cursor_in_its_line(card: Machine) -> None:
     card.load(1, 'INPUT; "Value = ";P1', "DWL 1")
     card.type("PROG 1", "LRUN")
@@ -258,7 +260,7 @@ def test_a_program_runs_beside_the_prompt_and_is_heard_by_listen(card: Machine) 
     assert not card.control.is_running(2)
 
 
-@pytest.mark.req("ACR-RUN-05")
+@pytest.mark.req("ACR-RUN-05", "ACR-CMD-LRUN")
 def test_lrun_shows_run_time_and_structure_errors(card: Machine) -> None:
     card.load(1, "P1 = 5", "P1 = 1 / (P1 - 5)")
     card.type("PROG 1")
@@ -272,10 +274,41 @@ def test_lrun_shows_run_time_and_structure_errors(card: Machine) -> None:
     assert card.type("LRUN") == "Error in PROG1 line 20: IF without ENDIF|P01>"
 
 
+@pytest.mark.req("ACR-CMD-TRON")
 def test_trace_shows_the_numbers_of_the_lines(card: Machine) -> None:
     assert card.type("10 P1 = 1", "20 P1 = 2", "TRON", "LRUN") == "P00>P00>P00>"
     card.advance()
     assert card.sent() == "[10][20]P00>"
+
+
+@pytest.mark.req("ACR-CMD-TROFF")
+def test_troff_ends_the_trace(card: Machine) -> None:
+    card.type("10 P1 = 1", "TRON", "TROFF", "LRUN")
+    card.advance()
+    assert card.sent() == "P00>"
+    assert not card.card.memory.bit(1036)
+
+
+@pytest.mark.req("ACR-SYN-15")
+def test_typographic_quotes_apostrophes_and_dashes_are_understood(card: Machine) -> None:
+    assert card.type("PRINT \u201ctries\u201d") == "tries|P00>"
+    assert card.type("?\u201e5\u201c;5\u20132") == "53|P00>"
+    assert card.type("\u2018 a comment") == "P00>"
+
+
+@pytest.mark.req("ACR-SYN-16")
+def test_an_unknown_mnemonic_changes_nothing(card: Machine) -> None:
+    before = card.card.memory.digest()
+    assert card.type("P1 = 5 : NONSENSE 5") == "Unknown command|P00>"
+    assert card.card.memory.digest() == before
+
+
+@pytest.mark.req("ACR-ALIAS-06")
+def test_an_alias_may_spell_like_an_axis(card: Machine) -> None:
+    card.type("SYS", "DIM DEF(2)", "PROG 0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "ARM"')
+    assert card.type("#DEFINE Arm P1", "Arm = 5", "?Arm", "PPU ARM 10", "PPU ARM").endswith(
+        "5|P00>P00>10|P00>"
+    )
 
 
 def test_a_line_that_dwells_is_answered_afterwards(card: Machine) -> None:

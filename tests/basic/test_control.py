@@ -25,6 +25,7 @@ def bits(card: Machine, *numbers: int) -> list[bool]:
     return [card.card.memory.bit(number) for number in numbers]
 
 
+@pytest.mark.req("ACR-CMD-RUN")
 def test_run_clears_modified_and_sets_running(card: Machine) -> None:
     assert bits(card, MODIFIED, RUNNING) == [True, False]
     card.type("RUN")
@@ -79,6 +80,7 @@ def test_clearing_pause_control_resumes_like_the_command(card: Machine) -> None:
     assert counts(card) > held
 
 
+@pytest.mark.req("ACR-CMD-BLK", "ACR-CMD-STEP")
 def test_block_mode_executes_one_line_per_step(card: Machine) -> None:
     card.load(1, "P1 = 1", "P2 = 1 : P3 = 1", "P1 = 2")
     card.type("RUN", "BLK")
@@ -106,6 +108,7 @@ def test_the_edge_of_step_control_is_a_step_too(card: Machine) -> None:
     assert counts(card) == (1, 0, 0)
 
 
+@pytest.mark.req("ACR-CMD-AUT")
 def test_aut_leaves_block_mode(card: Machine) -> None:
     card.type("RUN", "BLK")
     card.advance(100)
@@ -120,7 +123,7 @@ def test_step_outside_block_mode_does_nothing(card: Machine) -> None:
     assert bits(card, PROGRAM_1 + 21) == [False]
 
 
-@pytest.mark.req("ACR-PBOOT-06")
+@pytest.mark.req("ACR-PBOOT-06", "ACR-CMD-PBOOT")
 def test_all_programs_that_begin_with_pboot_run_together(card: Machine) -> None:
     for program in (2, 3):
         card.load(program, "PBOOT", f"P{program} = 1", "DWL 1")
@@ -171,7 +174,7 @@ def test_an_alias_may_stand_for_a_bit(card: Machine) -> None:
     assert bits(card, 32) == [True]
 
 
-@pytest.mark.req("ACR-REM-01", "ACR-REM-02")
+@pytest.mark.req("ACR-REM-01", "ACR-REM-02", "ACR-CMD-REM")
 def test_remarks_do_not_affect_execution(card: Machine) -> None:
     card.load(2, "REM P1 = 5", "P2 = 7 : REM P2 = 8 : P2 = 9", "P3 = 1 REM P3 = 2")
     card.type("RUN PROG2")

@@ -43,7 +43,7 @@ def test_hosts_may_leave_the_parentheses_out(bench: Bench) -> None:
     assert bench.type("DIM") == answer(listed)
 
 
-@pytest.mark.req("ACR-MEM-32")
+@pytest.mark.req("ACR-MEM-32", "ACR-CMD-DIM")
 def test_dim_at_sys_reports_programs_plcs_streams_globals_and_aliases(bench: Bench) -> None:
     bench.type("DIM PROG0(8192)", "DIM PLC1(1000)", "DIM P (100)", "DIM DEF(5)", "DIM COM1(1000)")
     bench.type("DIM FIFO(512)")
@@ -52,7 +52,7 @@ def test_dim_at_sys_reports_programs_plcs_streams_globals_and_aliases(bench: Ben
     )
 
 
-@pytest.mark.req("ACR-MEM-33", "ACR-MEM-10", "ACR-MEM-11")
+@pytest.mark.req("ACR-MEM-33", "ACR-MEM-10", "ACR-MEM-11", "ACR-CMD-DIM")
 def test_dim_at_a_program_reports_its_variables(bench: Bench) -> None:
     bench.type("PROG 1", "DIM LV10", "DIM SV(2)", "DIM DV(3)", "DIM $V(10,80)", "DIM LA(2)")
     bench.type("DIM LA0 10", "DIM LA1(5)", "DIM SA(1)", "DIM SA0(4)", "DIM DA 1", "DIM DA0(6)")
@@ -85,7 +85,7 @@ COSTS = [
 ]
 
 
-@pytest.mark.req("ACR-MEM-34")
+@pytest.mark.req("ACR-MEM-34", "ACR-CMD-MEM")
 @pytest.mark.parametrize(("line", "cost"), COSTS)
 def test_mem_shrinks_by_exactly_what_a_thing_costs(bench: Bench, line: str, cost: int) -> None:
     assert bench.type("PROG 0", "MEM") == answer("P00>65536\n", "P00>")
@@ -141,7 +141,7 @@ def test_clear_waits_for_running_programs(bench: Bench) -> None:
     assert bench.type("CLEAR") == answer("Program in memory\n")
 
 
-@pytest.mark.req("ACR-MEM-36", "ACR-CMD-CLEAR")
+@pytest.mark.req("ACR-MEM-36", "ACR-CMD-CLEAR", "ACR-SYN-03")
 def test_clear_frees_everything_at_sys_and_locals_at_a_program(bench: Bench) -> None:
     bench.type("DIM PROG0(8192)", "DIM PLC0(1000)", "DIM P(10)", "DIM DEF(3)", "#DEFINE A P0")
     bench.type("PROG 1", "DIM LV(10)", "PROG 2", "DIM LV(10)")

@@ -12,6 +12,7 @@ def bench() -> Bench:
     return Bench()
 
 
+@pytest.mark.req("ACR-CMD-ATTACH")
 def test_attachments_are_listed_as_hosts_read_them(bench: Bench) -> None:
     assert bench.type("PROG 0", "ATTACH") == "P00>P00>"
     bench.type("ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE 1 AXIS 1 "Y"')
@@ -25,6 +26,7 @@ def test_attachments_are_listed_as_hosts_read_them(bench: Bench) -> None:
     assert bench.type("DETACH", "ATTACH") == "P00>P00>"
 
 
+@pytest.mark.req("ACR-CMD-ATTACH")
 def test_axis_attachments_are_set_and_listed_at_sys(bench: Bench) -> None:
     bench.type("ATTACH AXIS0 STEPPER0 STEPPER0", "ATTACH AXIS1 ENC3 DAC2 ENC4")
     lines = bench.type("ATTACH").split("|")
@@ -36,6 +38,7 @@ def test_axis_attachments_are_set_and_listed_at_sys(bench: Bench) -> None:
     assert len(lines) == 17
 
 
+@pytest.mark.req("ACR-CMD-DETACH")
 def test_detach_at_sys_needs_all(bench: Bench) -> None:
     bench.type("PROG 3", "ATTACH MASTER3", "SYS")
     assert bench.type("DETACH") == "Not valid at this level|SYS>"
@@ -105,12 +108,14 @@ def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
 # reports and settings
 
 
+@pytest.mark.req("ACR-CMD-STREAM")
 def test_stream_names_the_channel(bench: Bench) -> None:
     assert bench.type("STREAM") == "COM1|SYS>"
     network = Bench(ACR9000, "STREAM2")
     assert network.type("STREAM") == "STREAM2|SYS>"
 
 
+@pytest.mark.req("ACR-CMD-VER")
 def test_ver_prints_model_and_firmware(bench: Bench) -> None:
     assert bench.type("VER") == "ACR8020 Version 1.18.06 Update 15|SYS>"
 
@@ -160,6 +165,7 @@ def test_ip_shows_and_sets_the_addresses(bench: Bench) -> None:
     assert bench.type("IP") == "IP 10.0.0.5|MASK 255.0.0.0|GATE 10.0.0.1|SYS>"
 
 
+@pytest.mark.req("ACR-CMD-DIAG")
 def test_diag_reports_supplies_boards_and_network(bench: Bench) -> None:
     lines = bench.type("DIAG").split("|")
     assert lines[0] == "ISO PASS"

@@ -27,7 +27,15 @@ def test_every_channel_starts_at_system_level() -> None:
         assert bench.type("", on=bench.connect(name)) == "SYS>"
 
 
-@pytest.mark.req("ACR-COMM-02", "ACR-COMM-03", "ACR-COMM-04", "ACR-COMM-05")
+@pytest.mark.req(
+    "ACR-COMM-02",
+    "ACR-COMM-03",
+    "ACR-COMM-04",
+    "ACR-COMM-05",
+    "ACR-CMD-PROG",
+    "ACR-CMD-PLC",
+    "ACR-CMD-SYS",
+)
 def test_level_commands_switch_the_prompt_from_any_level(bench: Bench) -> None:
     typed = ("PROG 1", "PLC 3", "PLC7", "prog15", "SYS", "PLC0", "PROG 0", "PROG 4", "SYS")
     assert [bench.type(line) for line in typed] == [
@@ -81,6 +89,7 @@ def test_echo_modes_switch_off_errors_and_prompts(bench: Bench) -> None:
     assert bench.session.echo == 2
 
 
+@pytest.mark.req("ACR-CMD-MODE")
 def test_the_binary_mode_of_the_channel_is_set_and_shown(bench: Bench) -> None:
     assert bench.type("MODE", "MODE 3", "MODE") == "1|SYS>SYS>3|SYS>"
     assert bench.session.mode == 3
@@ -172,6 +181,7 @@ def test_storing_sets_program_modified(bench: Bench) -> None:
     assert bench.card.memory.bit(1024 + 32 * 3 + 5)
 
 
+@pytest.mark.req("ACR-CMD-PROGRAM")
 def test_program_to_endp_is_stored_with_hidden_numbers(bench: Bench) -> None:
     lines = ("PROGRAM", "' dropped", "", "REM kept", "_Loop", "DWL 1", "GOTO Loop", "ENDP")
     assert bench.type("PROG 0", *lines) == "P00>" * 9
@@ -189,6 +199,7 @@ def test_line_numbers_of_free_form_text_show_with_bit_5651(bench: Bench) -> None
     assert bench.type("15 VER", "LIST") == "P00>PROGRAM| VER| DWL 1|ENDP|P00>"
 
 
+@pytest.mark.req("ACR-CMD-PROGRAM")
 def test_program_erases_the_old_text(bench: Bench) -> None:
     bench.type("PROG 0", "10 VER", "20 MEM", "PROGRAM", "DWL 1", "ENDP")
     assert bench.type("LIST").count("|") == 3
@@ -233,6 +244,7 @@ def test_program_at_sys_is_unknown(bench: Bench) -> None:
 # listening
 
 
+@pytest.mark.req("ACR-CMD-LISTEN")
 def test_listening_shows_output_and_no_prompt_until_escape(bench: Bench) -> None:
     assert bench.type("PROG 2", "LISTEN") == "P02>"
     assert bench.session.attention is Attention.LISTENING
@@ -277,6 +289,7 @@ def test_several_channels_may_listen_to_one_program(bench: Bench) -> None:
     assert bench.sent(other) == "both|"
 
 
+@pytest.mark.req("ACR-CMD-TALK-TO")
 def test_talk_to_joins_two_channels_until_escape(bench: Bench) -> None:
     other = bench.connect("COM2")
     assert bench.type('TALK TO "COM2:"') == ""
