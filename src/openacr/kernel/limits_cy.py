@@ -41,6 +41,7 @@ from openacr.map.numbers import (
     AXI_BASE,
     AXI_HLBIT,
     AXI_HOME_LIMIT_HIT,
+    AXI_HOME_MOVING,
     AXI_JOG_MODE,
     AXI_KAMR_OLD,
     AXI_MASTER,
@@ -142,10 +143,20 @@ def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> 
         return
     i: int = AXI_BASE + n * AXI_STRIDE
     if I[i + AXI_JOG_MODE] == JOG_HOMING:
-        I[i + AXI_HOME_LIMIT_HIT] = HARD_LIMIT_HIT
+        home_limit_hit(F, I, n, HARD_LIMIT_HIT)
     else:
         I[AF5_WORD + n] |= hit
         axis_kill(F, I, S, n)
+
+
+def home_limit_hit(F: F64, I: I32, n: int, kind: int) -> None:
+    """Tell the homing sequence of axis n about a limit.
+
+    In the tick in which a search turns round the axis has still moved into the limit.
+    """
+    i: int = AXI_BASE + n * AXI_STRIDE
+    if F[AXF_BASE + n * AXF_STRIDE + AXF_PSP_VELOCITY_CPS] * I[i + AXI_HOME_MOVING] > 0.0:
+        I[i + AXI_HOME_LIMIT_HIT] = kind
 
 
 def soft_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:
@@ -167,7 +178,7 @@ def soft_limit(F: F64, I: I32, S: F32, n: int, latch: int, beyond: bool, outward
     if not beyond:
         I[word] &= ~latch
     elif outward and I[i + AXI_JOG_MODE] == JOG_HOMING:
-        I[i + AXI_HOME_LIMIT_HIT] = SOFT_LIMIT_HIT
+        home_limit_hit(F, I, n, SOFT_LIMIT_HIT)
     elif outward and not I[word] & latch:
         I[word] |= latch
         soft_stop(F, I, S, n)
