@@ -1,0 +1,316 @@
+"""Bands, limit switches and software limits by command."""
+
+import pytest
+from tests.basic.motion_bench import Bench, ticks
+
+from openacr.basic.registry import Level
+from openacr.map import numbers as at
+
+POSITIVE_HARD, NEGATIVE_HARD, POSITIVE_SOFT, NEGATIVE_SOFT = 16132, 16133, 16140, 16141
+KAMR, KILL_MOVES = 8467, 522
+ACTIVE, IN_MOTION = 792, 516
+CURRENT, PSP, JOG = 12288, 12294, 12297
+
+
+def bench(*lines: str) -> Bench:
+    """Axes X and Y of 1000 pulses per unit on one master, Z on another."""
+    made = Bench("X", "Y")
+    made.attach(1, (2, "Z"))
+    made.all("PPU X1000 Y1000", "PPU AXIS2 1000", "ACC 0 DEC 0 STP 0 VEL 10")
+    made.all("JOG ACC X0 Y0 : JOG DEC X0 Y0 : JOG VEL X10 Y10")
+    return made.all(*lines)
+
+
+# bands
+
+
+@pytest.mark.parametrize(
+    ("word", "row"),
+    [
+        pytest.param("EXC", 12320, marks=pytest.mark.req("ACR-CMD-EXC")),
+        pytest.param("IPB", 12322, marks=pytest.mark.req("ACR-CMD-IPB")),
+        pytest.param("ALM", 12324, marks=pytest.mark.req("ACR-CMD-ALM")),
+        pytest.param("BLM", 12326, marks=pytest.mark.req("ACR-CMD-BLM")),
+        pytest.param("TLM", 12328, marks=pytest.mark.req("ACR-CMD-TLM")),
+        pytest.param("ITB", 12330, marks=pytest.mark.req("ACR-CMD-ITB")),
+        pytest.param("JLM", 12334, marks=pytest.mark.req("ACR-CMD-JLM")),
+    ],
+)
+def test_a_band_is_set_by_one_value_or_two(word: str, row: int) -> None:
+    made = Bench("X", "Y")
+    default = "10,-10" if word == "TLM" else "0,0"
+    assert made.type(f"{word} X Y") == f"{default}|{default}"
+    assert made.type(f"{word} X0.2 Y(3,-1)") == ""
+    assert made.type(f"{word} X Y") == "0.2,-0.2|3,-1"
+    assert [made.p(row + k) for k in (256, 257)] == [3.0, -1.0]
+    assert made.type(f"AXIS0 {word} (4,2) : {word} AXIS0") == "4,2"
+    assert made.at(Level.SYS).type(f"{word} AXIS1") == "3,-1"
+    assert made.type(f"{word} X") == "Unknown command"
+    assert made.at(Level.PROG, 0).type(word) == "Syntax error"
+
+
+@pytest.mark.req("ACR-CMD-SLM", "ACR-LIM-21")
+def test_slm_holds_two_absolute_positions() -> None:
+    made = Bench("X")
+    assert made.type("AXIS0 SLM (24,0)") == ""
+    assert made.type("SLM X") == "24,0"
+    assert made.type("SLM X5") == ""
+    assert made.type("SLM X") == "5,-5"
+
+
+def band_flag(made: Bench, flag: int) -> bool:
+    """The flag after the next slow scan."""
+    made.seconds(0.051)
+    return made.bit(flag)
+
+
+@pytest.mark.req("ACR-CMD-ALM", "ACR-CMD-BLM")
+def test_stroke_limits_follow_the_commanded_position() -> None:
+    made = bench("ALM X(5,-1) : BLM X(5,-1)", "X5")
+    made.until_clear(IN_MOTION)
+    assert (band_flag(made, 770), made.bit(771)) == (True, False)
+    made.all("X5.001")
+    made.until_clear(IN_MOTION)
+    assert (band_flag(made, 770), made.bit(771)) == (False, True)
+    assert made.p(PSP) == 5001
+
+
+@pytest.mark.req("ACR-CMD-IPB", "ACR-CMD-EXC")
+def test_error_bands_follow_the_following_error() -> None:
+    made = bench("IPB X0.1 : EXC X0.5", "TLM X0")  # no torque: the axis stays where it is
+    assert (band_flag(made, 768), made.bit(769)) == (False, True)
+    made.all("X0.3")
+    assert (band_flag(made, 768), made.bit(769)) == (True, True)
+    made.all("X0.6")
+    made.until_clear(IN_MOTION)
+    assert (band_flag(made, 768), made.bit(769)) == (True, False)
+    assert not made.bit(KAMR)  # the response is not enabled
+
+
+@pytest.mark.req("ACR-CMD-TLM", "ACR-CMD-ITB")
+def test_the_torque_limit_clips_the_output() -> None:
+    made = bench("TLM X1 : ITB X0.5", "PGAIN X0.001", "SET 785")
+    assert (band_flag(made, 772), made.bit(773)) == (True, False)
+    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1  # a motor that never turns
+    made.all("CLR 785", "X5")
+    made.until_clear(IN_MOTION)
+    assert (band_flag(made, 772), made.bit(773)) == (False, True)
+    assert made.p(12319) == 1.0
+    made.all("X0.3")
+    made.until_clear(IN_MOTION)
+    made.ticks(1)
+    assert made.p(12319) == pytest.approx(0.3)
+    assert (band_flag(made, 772), made.bit(773)) == (True, False)
+
+
+# values
+
+
+@pytest.mark.parametrize(
+    "word",
+    [
+        pytest.param("HLDEC", marks=pytest.mark.req("ACR-CMD-HLDEC")),
+        pytest.param("SLDEC", marks=pytest.mark.req("ACR-CMD-SLDEC")),
+    ],
+)
+def test_a_limit_rate_is_reported(word: str) -> None:
+    made = Bench("X", "Y")
+    assert made.type(f"{word} X1000 Y2.5 X Y") == "1000|2.5"
+    assert made.type(f"{word} X-1") == "Invalid argument"
+
+
+@pytest.mark.req("ACR-CMD-HLBIT", "ACR-LIMDET-02")
+def test_hlbit_assigns_three_inputs() -> None:
+    made = bench()
+    assert made.type("HLBIT X Y") == "0|3"
+    for pair in (("HLBIT X8", "8"), ("HLBIT X(P8192*0+9)", "9")):
+        made.all(pair[0])
+        assert made.type("HLBIT X") == pair[1]
+    made.all("SET 9").ticks(1)
+    assert [made.bit(16128 + place) for place in range(3)] == [True, False, False]
+    made.all("CLR 9", "SET 10 SET 11").ticks(1)
+    assert [made.bit(16128 + place) for place in range(3)] == [False, True, True]
+    for wrong in ("-1", "17664", "1e9"):
+        assert made.type(f"HLBIT X{wrong}") == "Invalid argument"
+
+
+@pytest.mark.req("ACR-LIMDET-02")
+def test_inputs_beyond_the_word_read_0() -> None:
+    made = bench("HLBIT X30", "SET 30 SET 31 SET 32").ticks(1)
+    assert [made.bit(16128 + place) for place in range(3)] == [True, True, False]
+
+
+@pytest.mark.parametrize(
+    ("word", "first"),
+    [
+        pytest.param("HLIM", 16148, marks=pytest.mark.req("ACR-CMD-HLIM", "ACR-LIM-14")),
+        pytest.param("SLIM", 16150, marks=pytest.mark.req("ACR-CMD-SLIM", "ACR-LIM-15")),
+    ],
+)
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_limit_mode_and_its_flags_are_the_same(word: str, first: int, axis: int) -> None:
+    made = Bench("X", "Y")
+    name, flag = "XY"[axis], first + 32 * axis
+    assert made.type(f"{word} {name}") == "0"
+    for mode in (3, 1, 2, 0):
+        made.all(f"{word} {name}{mode}")
+        assert (made.bit(flag), made.bit(flag + 1)) == (mode in (1, 3), mode in (2, 3))
+    made.all(f"SET {flag + 1}")
+    assert made.type(f"{word} {name}") == "2"
+    for wrong in (4, -1):
+        assert made.type(f"{word} {name}{wrong}") == "Invalid argument"
+    assert made.type(f"{word} {name}") == "2"
+
+
+# hardware limits
+
+
+@pytest.mark.parametrize(
+    ("mode", "positive", "negative"),
+    [
+        pytest.param(0, False, False, marks=pytest.mark.req("ACR-LIM-06")),
+        pytest.param(1, True, False, marks=pytest.mark.req("ACR-LIM-07")),
+        pytest.param(2, False, True, marks=pytest.mark.req("ACR-LIM-08")),
+        pytest.param(3, True, True, marks=pytest.mark.req("ACR-LIM-09")),
+    ],
+)
+def test_hlim_chooses_the_switches_that_stop_an_axis(
+    mode: int, positive: bool, negative: bool
+) -> None:
+    for line, switch, latch, stops in (
+        ("JOG FWD X", 0, POSITIVE_HARD, positive),
+        ("JOG REV X", 1, NEGATIVE_HARD, negative),
+    ):
+        made = bench(f"HLIM X{mode}", line).ticks(10)
+        made.all(f"SET {switch}").ticks(5)
+        here = made.p(JOG)
+        made.ticks(50)
+        assert (made.p(JOG) == here, made.bit(latch), made.bit(KAMR)) == (stops, stops, stops)
+
+
+@pytest.mark.parametrize("move", ["X20", "X/20"])
+@pytest.mark.req("ACR-LIM-01", "ACR-LIM-04", "ACR-LIM-18", "ACR-KAMR-12", "ACR-KAMR-32")
+def test_a_hardware_limit_kills_absolute_and_incremental_moves(move: str) -> None:
+    made = bench("HLIM X3 : HLDEC X100", move).seconds(0.1)
+    made.all("SET 0").seconds(0.2)
+    assert (made.bit(POSITIVE_HARD), made.bit(KAMR), made.bit(KILL_MOVES)) == (True, True, True)
+    assert made.type("X0") == "Associated Slave Kill Motion Request Active"
+    made.all("CLR 8467 CLR 8499", "CLR 522")
+    assert made.type("X/1") == "Hard limit"
+    made.all("X0")
+    made.until_clear(IN_MOTION)
+    assert made.p(CURRENT) == 0
+    assert made.bit(POSITIVE_HARD)
+
+
+@pytest.mark.req("ACR-LIM-03", "ACR-LIMDET-01")
+def test_each_limit_stops_with_its_own_rate() -> None:
+    made = bench("HLIM X1 : HLDEC X100 : SLIM X1 : SLM X(3,0) : SLDEC X50", "JOG FWD X")
+    made.seconds(0.1)
+    made.all("SET 0").ticks(1)
+    assert made.until_clear(ACTIVE) == ticks(10 / 100) - 1
+    made = bench("SLIM X1 : SLM X(3,0) : SLDEC X50", "JOG FWD X")
+    while not made.bit(POSITIVE_SOFT):
+        made.ticks(1)
+    assert made.until_clear(ACTIVE) == ticks(10 / 50) - 1
+    assert made.p(PSP) == pytest.approx(3000 + 1000, abs=11)
+
+
+@pytest.mark.req("ACR-LIM-02", "ACR-KAMR-07", "ACR-KAMR-08")
+def test_a_limit_stops_the_axes_of_its_master_and_no_others() -> None:
+    made = bench("HLIM X1", "AXIS2 JOG VEL 10", "JOG FWD X Y AXIS2").ticks(10)
+    made.all("SET 0").ticks(3)
+    stopped = [made.p(JOG + 256 * axis) for axis in range(3)]
+    made.ticks(200)
+    moved = [made.p(JOG + 256 * axis) - stopped[axis] for axis in range(3)]
+    assert moved[:2] == [0, 0]
+    assert moved[2] > 0
+
+
+@pytest.mark.req("ACR-LIM-16", "ACR-LIM-20")
+def test_an_inverted_limit_is_active_while_its_input_is_off() -> None:
+    made = bench("HLIM X3", "SET 16144 SET 16145").ticks(2)
+    assert (made.bit(16128), made.bit(16129)) == (True, True)
+    made.all("SET 0 SET 1").ticks(1)
+    assert (made.bit(16128), made.bit(16136)) == (False, True)
+    made.ticks(1)
+    assert (made.bit(16128), made.bit(16136)) == (False, False)
+    made.all("JOG FWD X").ticks(10)
+    made.all("CLR 0").ticks(3)
+    assert made.bit(POSITIVE_HARD)
+
+
+@pytest.mark.req("ACR-LIM-17")
+def test_the_quinary_flags_are_readable_as_a_word() -> None:
+    made = bench("HLIM X1")
+    assert made.p(4600) == 1 << 20
+    made.all("P4600 = 0")
+    assert made.type("HLIM X") == "0"
+
+
+@pytest.mark.req("ACR-LIM-19")
+def test_hardware_latches_stay_and_software_latches_clear_inside() -> None:
+    made = bench("HLIM X1", "JOG FWD X").ticks(10)
+    made.all("SET 0").ticks(3)
+    made.all("CLR 0").ticks(200)
+    assert made.bit(POSITIVE_HARD)
+    soft = bench("SLIM X1 : SLM X(1,-1)", "JOG FWD X").seconds(0.2)
+    assert (soft.bit(POSITIVE_SOFT), soft.bit(ACTIVE)) == (True, False)
+    soft.all("JOG REV X").seconds(0.1)
+    assert not soft.bit(POSITIVE_SOFT)
+
+
+# software limits
+
+
+@pytest.mark.parametrize(
+    ("mode", "upper", "lower"),
+    [
+        pytest.param(0, 30, -5, marks=pytest.mark.req("ACR-LIM-10")),
+        pytest.param(1, 24, -5, marks=pytest.mark.req("ACR-LIM-11")),
+        pytest.param(2, 30, 0, marks=pytest.mark.req("ACR-LIM-12")),
+        pytest.param(3, 24, 0, marks=pytest.mark.req("ACR-LIM-13")),
+    ],
+)
+def test_slim_chooses_the_limits_that_stop_a_move(mode: int, upper: int, lower: int) -> None:
+    for target, end in ((30, upper), (-5, lower)):
+        made = bench(f"SLIM X{mode} : SLM X(24,0)", "VEL 100", f"X{target}").seconds(0.4)
+        assert made.p(PSP) == pytest.approx(1000 * end, abs=101)
+
+
+@pytest.mark.req("ACR-LIM-05", "ACR-KAMR-12")
+def test_after_a_software_limit_inward_motion_is_possible_without_kamr() -> None:
+    made = bench("SLIM X3 : SLM X(1,-1)", "X5").seconds(0.3)
+    assert (made.bit(POSITIVE_SOFT), made.bit(KAMR), made.bit(KILL_MOVES)) == (True, False, True)
+    assert made.type("JOG FWD X") == "Soft limit"
+    assert made.type("X/1") == "Master Kill All Moves Request Active"
+    made.all("CLR 522")
+    assert made.type("X/1") == "Soft limit"
+    made.all("X/-0.5")
+    made.until_clear(IN_MOTION)
+    assert not made.bit(POSITIVE_SOFT)
+
+
+def test_after_a_software_limit_an_inward_jog_needs_no_clearing() -> None:
+    made = bench("SLIM X3 : SLM X(1,-1)", "X5").seconds(0.3)
+    assert made.type("JOG REV X") == ""
+    made.ticks(20)
+    assert made.p(PSP) < 1000
+
+
+@pytest.mark.req("ACR-LIM-22")
+def test_a_software_limit_before_the_switch_keeps_the_axis_off_it() -> None:
+    made = bench("SLIM X1 : SLM X(2,0) : SLDEC X100 : HLIM X1 : HLDEC X1000", "X10")
+    while made.bit(IN_MOTION) or made.bit(ACTIVE):
+        made.ticks(1)
+        if made.p(PSP) > 3000:  # where the switch would be
+            made.all("SET 0")
+    assert (made.bit(POSITIVE_SOFT), made.bit(POSITIVE_HARD)) == (True, False)
+    assert made.p(PSP) == pytest.approx(2500, abs=11)
+
+
+@pytest.mark.req("ACR-LIMDET-03")
+def test_a_limit_met_in_homing_turns_the_search_round_without_a_kill() -> None:
+    made = bench("HLIM X3 : HLDEC X1000", "JOG HOME X1").ticks(100)
+    made.all("SET 0").ticks(200)
+    assert (made.bit(KAMR), made.bit(POSITIVE_HARD), made.bit(793)) == (False, False, True)
