@@ -27,6 +27,8 @@ class Model:
     adcs: int = 16
     streams: tuple[str, ...]
     has_drive_control: bool = True
+    has_fixed_adc_mode: bool = False  # 16-bit analog inputs only
+    has_battery: bool = False  # keeps programs and variables without power
     system_memory_bytes: int = SYSTEM_MEMORY_BYTES
 
     @property
@@ -43,11 +45,14 @@ class Model:
 _CARD_STREAMS = ("FIFO", "COM1", "COM2")
 _BOX_STREAMS = ("COM1", "COM2", "STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 
-ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS)
-ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"))
-ACR9000 = Model(name="ACR9000", card_type=9000, axes=8, masters=8, slaves=8, streams=_BOX_STREAMS)
-ACR9030 = Model(name="ACR9030", card_type=9030, streams=_BOX_STREAMS)
-ACR9040 = Model(name="ACR9040", card_type=9040, streams=_BOX_STREAMS)
+ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS, has_battery=True)
+ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)
+ACR9000 = Model(
+    name="ACR9000", card_type=9000, axes=8, masters=8, slaves=8, streams=_BOX_STREAMS,
+    has_fixed_adc_mode=True,
+)  # fmt: skip
+ACR9030 = Model(name="ACR9030", card_type=9030, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
+ACR9040 = Model(name="ACR9040", card_type=9040, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
 
 MODELS = {model.name: model for model in (ACR1505, ACR8020, ACR9000, ACR9030, ACR9040)}
 DEFAULT_MODEL = ACR9000

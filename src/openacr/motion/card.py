@@ -24,6 +24,7 @@ from openacr.map.numbers import (
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
+    KRI_ADC_CHANNELS,
     KRI_AXES,
     KRI_BASE,
     KRI_MASTERS,
@@ -57,6 +58,7 @@ SLAVES = 16
 ENCODERS = 24
 DEFAULT_PERIOD_S = 0.0005
 SLOW_SCAN_S = 0.05
+SCANNED_ADCS = 8
 DEFAULT_RAMP_UPS2 = 20000.0
 DEFAULT_VEL_UPS = 10000.0
 
@@ -103,6 +105,7 @@ class Card:
         rows = self.memory.I
         rows[KRI_BASE + KRI_AXES] = self.model.axes
         rows[KRI_BASE + KRI_MASTERS] = self.model.masters
+        rows[KRI_BASE + KRI_ADC_CHANNELS] = SCANNED_ADCS
         self.set_period(DEFAULT_PERIOD_S)
         for axis in range(AXES):
             self._default_axis(AXI_BASE + axis * AXI_STRIDE, axis)

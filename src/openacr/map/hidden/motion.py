@@ -200,5 +200,5 @@ KERNEL = HiddenBlock(
     prefix="KR",
     count=1,
     doubles=("millisecond_phase",),
-    ints=("inputs_old", "slow_ticks", "axes", "masters"),
+    ints=("inputs_old", "slow_ticks", "axes", "masters", "adc_mode", "adc_channels"),
 )
