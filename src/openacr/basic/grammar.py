@@ -329,8 +329,8 @@ class AxisList(Form):
         self.each = each
 
     def starts(self, p: Parser) -> bool:
-        """Whether an axis is named here, or was by the prefix."""
-        return p.prefix is not None or p.at_axis
+        """Whether an axis is named here (an unknown one too), or was by the prefix."""
+        return p.prefix is not None or p.at_axis or p.at_unknown_word
 
     def missing(self, p: Parser) -> Message:
         """An unknown word is a symbol nobody defined."""
