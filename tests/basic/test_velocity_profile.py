@@ -149,7 +149,7 @@ def test_a_move_takes_its_time_to_the_tick(
 @pytest.mark.req("ACR-PROF-01", "ACR-PROF-04")
 def test_the_trapezoid_of_the_guide_takes_twelve_seconds() -> None:
     made = bench("PPU X4000", "ACC 10 STP 10 VEL 20", "X200")
-    seen = []
+    seen: list[list[int]] = []
     for _ in range(ticks(12.0)):
         made.ticks(1)
         flags = [made.bit(flag) for flag in (ACCELERATING, STOPPING)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from openacr.basic.commands.interpolation import room
 from openacr.basic.grammar import (
@@ -112,6 +112,9 @@ class Capture:
     copy: tuple[Expr, bool] | None = None
 
 
+CaptureGiven: TypeAlias = tuple[int | None, int | None] | None
+
+
 class CaptureForm(Form):
     """`mode {Pnnnn}` or `OFF`; the handler gets mode (None: off) and the parameter."""
 
@@ -133,12 +136,12 @@ class CaptureForm(Form):
         mode = self.mode.parse(p)
         return Capture(mode, self.copy.parse(p) if self.copy.starts(p) else None)
 
-    def evaluate(self, run: Run, read: Capture | None) -> tuple[int | None, int] | None:
-        """Mode and number of the parameter (0: none)."""
+    def evaluate(self, run: Run, read: Capture | None) -> CaptureGiven:
+        """Mode and number of the parameter."""
         if read is None:
             return None
         copy = self.copy.evaluate(run, read.copy)
-        return self.mode.evaluate(run, read.mode), 0 if copy is None else copy.number
+        return self.mode.evaluate(run, read.mode), None if copy is None else copy.number
 
 
 @command(
@@ -149,7 +152,7 @@ class CaptureForm(Form):
     ref=REF,
     default="OFF",
 )
-def intcap(run: Run, axes: tuple[tuple[Axis, tuple[int | None, int] | None], ...] | None) -> None:
+def intcap(run: Run, axes: tuple[tuple[Axis, CaptureGiven], ...] | None) -> None:
     """Arm the position capture of an axis, switch it off, or report its mode."""
     if axes is None:
         report_all(run, lambda axis: _capture_text(run, axis))
@@ -161,7 +164,7 @@ def intcap(run: Run, axes: tuple[tuple[Axis, tuple[int | None, int] | None], ...
             registers.disarm_capture(run.card, axis.number)
         else:
             _check_copy(run, given[1])
-            registers.arm_capture(run.card, axis.number, given[0], given[1])
+            registers.arm_capture(run.card, axis.number, given[0], given[1] or 0)
 
 
 def _capture_text(run: Run, axis: Axis) -> str:
@@ -169,9 +172,9 @@ def _capture_text(run: Run, axis: Axis) -> str:
     return "OFF" if mode is None else str(mode)
 
 
-def _check_copy(run: Run, number: int) -> None:
+def _check_copy(run: Run, number: int | None) -> None:
     """Positions are pulses: they go to LONG parameters."""
-    if number and kind_of(run.card.memory.I, number) != KIND_LONG:
+    if number is not None and kind_of(run.card.memory.I, number) != KIND_LONG:
         raise CardError(INVALID_PARAMETER)
 
 

@@ -1,0 +1,251 @@
+"""PPU, MULT, ROTARY, RES, REN, NORM, INTCAP and MSEEK."""
+
+import pytest
+from tests.basic.motion_bench import Bench
+
+from openacr.basic.registry import Level
+from openacr.map import numbers as at
+
+CURRENT, TARGET, ACTUAL, ERROR, CAPTURE = 12288, 12289, 12290, 12291, 12292
+PSP, SSP, GEAR, JOG, CAM = 12294, 12295, 12296, 12297, 12298
+CAPTURED, IN_MOTION = 777, 516
+MOVING = "Not valid while in motion"
+
+
+def rows(made: Bench, *numbers: int) -> list[float]:
+    return [made.p(number) for number in numbers]
+
+
+# scale
+
+
+@pytest.mark.req("ACR-CMD-PPU")
+def test_ppu_is_its_parameter_and_never_0() -> None:
+    made = Bench("X", "Y")
+    assert made.type("PPU X Y") == "1|1"
+    assert made.type("AXIS0 PPU 4000 : PPU AXIS1 -25.5") == ""
+    assert (made.type("PPU X Y"), made.p(12375), made.p(12631)) == ("4000|-25.5", 4000.0, -25.5)
+    assert made.type("PPU X0") == "Invalid argument"
+    assert made.type("PPU X 2000 Y 0") == "Invalid argument"
+    assert made.type("PPU X") == "4000"
+
+
+def test_ppu_leaves_pulses_and_scales_what_follows() -> None:
+    made = Bench("X").all("PPU X10", "JOG VEL X5", "X7")
+    made.until_clear(IN_MOTION)
+    made.all("PPU X100")
+    assert (made.p(CURRENT), made.type("JOG VEL X")) == (70, "5")
+    made.all("X/1")
+    made.until_clear(IN_MOTION)
+    assert made.p(CURRENT) == 170
+
+
+@pytest.mark.req("ACR-CMD-MULT")
+def test_mult_is_the_multiplier_of_the_attached_encoder() -> None:
+    made = Bench("X", "Y")
+    assert made.type("MULT X") == "1"
+    for value in (4, -4, 2, -2, 1, -1, 0):
+        assert made.type(f"MULT X{value} X") == str(value)
+        assert made.type("ENC0 MULT") == str(value)
+    for wrong in ("3", "1.5", "8"):
+        assert made.type(f"MULT X{wrong}") == "Invalid argument"
+    made.memory.I[at.AXI_BASE + at.AXI_STRIDE + at.AXI_POSITION_INDEX] = 5
+    made.all("MULT Y-2")
+    assert made.type("ENC5 MULT : ENC1 MULT") == "-2|1"
+
+
+@pytest.mark.req("ACR-CMD-MULT", "ACR-PROF-15")
+def test_mult_scales_and_turns_the_count_of_a_motor() -> None:
+    made = Bench("X").all("MULT X4")
+    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1
+    made.memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] = 100.0
+    made.ticks(1)
+    assert made.p(ACTUAL) == 100
+    made.all("MULT X-2")
+    made.memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] = 140.0
+    made.ticks(1)
+    assert made.p(ACTUAL) == 80
+
+
+def test_rotary_is_a_length() -> None:
+    made = Bench("X")
+    assert made.type("ROTARY X : ROTARY X360 X") == "0|360"
+    assert made.type("ROTARY X-1") == "Invalid argument"
+
+
+# registers
+
+
+@pytest.mark.req("ACR-REG-01", "ACR-REG-02", "ACR-REG-03", "ACR-CMD-REN")
+def test_ren_takes_the_actual_position_and_keeps_the_offsets() -> None:
+    made = Bench("X").all("TLM X0", "P12290 = 11").ticks(2)
+    made.place(0, position=9, jog=2, gear=3, cam=4)
+    made.ticks(2)
+    assert made.p(ERROR) == 7
+    made.all("REN X")
+    assert rows(made, CURRENT, TARGET, JOG, GEAR, CAM, PSP, SSP) == [2, 2, 2, 3, 4, 11, 11]
+    made.ticks(2)
+    assert rows(made, CURRENT, PSP, SSP, ACTUAL, ERROR) == [2, 11, 11, 11, 0]
+
+
+@pytest.mark.parametrize(
+    ("line", "value"),
+    [
+        pytest.param("RES X10", 10, marks=pytest.mark.req("ACR-REG-04", "ACR-CMD-RES")),
+        pytest.param("RES X", 0, marks=pytest.mark.req("ACR-REG-05", "ACR-CMD-RES")),
+        pytest.param("RES", 0, marks=pytest.mark.req("ACR-REG-05")),
+        ("AXIS0 RES -3", -3),
+        ("RES X 3.0 RES X -4.0", -4),
+    ],
+)
+@pytest.mark.req("ACR-REG-10")
+def test_res_sets_every_position_and_clears_the_offsets(line: str, value: int) -> None:
+    made = Bench("X")
+    made.place(0, position=9, jog=2, gear=3, cam=4)
+    made.ticks(2)
+    made.all(line)
+    positions, offsets = (CURRENT, TARGET, PSP, SSP, ACTUAL, 6144), (JOG, GEAR, CAM)
+    for _ in range(2):
+        assert rows(made, *positions) == [value] * 6
+        assert rows(made, *offsets) == [0] * 3
+        made.ticks(2)
+    assert made.p(12315) == 0.0
+
+
+def test_res_counts_in_units() -> None:
+    made = Bench("X").all("PPU X400", "RES X2.5")
+    assert rows(made, CURRENT, 6144) == [1000, 1000]
+
+
+@pytest.mark.parametrize("motion", ["Y5", "JOG FWD X"])
+@pytest.mark.parametrize("line", ["RES X", "RES", "REN X", "REN", "NORM X"])
+def test_registers_are_not_touched_in_motion(motion: str, line: str) -> None:
+    made = Bench("X", "Y").all("VEL 1", "JOG VEL X1", "P12288 = 50", motion).ticks(3)
+    assert made.type(line) == MOVING
+    assert made.p(CURRENT) == 50
+
+
+def test_res_and_ren_without_axis_mean_the_axes_of_the_program() -> None:
+    made = Bench("X", "Y").all("P12288 = 5 P12544 = 6 P12800 = 7").ticks(2)
+    made.all("RES").ticks(2)
+    assert rows(made, 12288, 12544, 12800) == [0, 0, 7]
+    assert made.at(Level.SYS).type("RES") == "Unknown command"
+    assert made.type("AXIS2 RES") == ""
+
+
+@pytest.mark.parametrize(("start", "end"), [(370, 10), (-10, 350), (360, 0), (725.5, 5.5)])
+@pytest.mark.req("ACR-CMD-NORM")
+def test_norm_takes_whole_turns_off_without_motion(start: float, end: float) -> None:
+    made = Bench("X").all("PPU X10", "ROTARY X360", f"RES X{start}")
+    made.ticks(2)
+    made.all("NORM X")
+    assert rows(made, CURRENT, TARGET, PSP, SSP, ACTUAL) == [end * 10] * 5
+    made.ticks(3)
+    assert rows(made, CURRENT, ACTUAL, ERROR) == [end * 10, end * 10, 0]
+
+
+def test_norm_keeps_offsets_and_does_nothing_to_a_linear_axis() -> None:
+    made = Bench("X").all("ROTARY X100")
+    made.place(0, position=250, jog=7)
+    made.ticks(2)
+    made.all("NORM X").ticks(2)
+    assert rows(made, CURRENT, JOG, PSP, ACTUAL) == [50, 7, 57, 57]
+    made.all("ROTARY X0", "RES X250", "NORM X")
+    assert made.p(CURRENT) == 250
+
+
+# capture
+
+
+@pytest.mark.req("ACR-CMD-INTCAP")
+def test_intcap_stores_the_position_at_the_edge() -> None:
+    made = Bench("X").all("ACC 0 STP 0 VEL 1000", "SET 777", "INTCAP X2 P38912")
+    assert (made.type("INTCAP X"), made.bit(CAPTURED)) == ("2", False)
+    made.all("X500").ticks(100)
+    made.all("SET 24").ticks(1)
+    assert (made.bit(CAPTURED), made.type("INTCAP X")) == (True, "OFF")
+    assert made.p(CAPTURE) == made.p(38912) == pytest.approx(50, abs=1)
+
+
+def test_intcap_can_be_switched_off_and_reports_all_axes() -> None:
+    made = Bench("X", "Y").all("INTCAP X 0 Y 15")
+    assert made.type("INTCAP") == "X 0|Y 15"
+    made.all("INTCAP X OFF")
+    assert made.type("INTCAP X Y : AXIS1 INTCAP") == "OFF|15|15"
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("INTCAP X16", "Invalid argument"),
+        ("INTCAP X-1", "Invalid argument"),
+        ("INTCAP X0 P12304", "Invalid parameter"),
+        ("INTCAP X0 P0", "Invalid parameter"),
+        ("INTCAP Z0", "Undefined symbol"),
+    ],
+)
+def test_a_wrong_capture_is_refused(line: str, message: str) -> None:
+    made = Bench("X")
+    assert made.type(line) == message
+    assert made.type("INTCAP X") == "OFF"
+
+
+def seeking(line: str = "MSEEK X(1,2)") -> Bench:
+    """An axis of 1000 pulses per unit that seeks the first external input."""
+    return Bench("X", "Y").all("PPU X1000 Y1000", "ACC 0 DEC 0 STP 100 VEL 2", "CLR 24", line)
+
+
+@pytest.mark.req("ACR-CMD-MSEEK")
+def test_mseek_returns_to_the_capture_and_makes_it_0() -> None:
+    made = seeking().seconds(0.2)
+    made.all("SET 24").ticks(1)
+    captured = made.p(CAPTURE)
+    assert captured == pytest.approx(400, abs=2)
+    made.until_clear(IN_MOTION)
+    made.ticks(2)
+    assert (made.bit(CAPTURED), made.p(CURRENT), made.p(ACTUAL)) == (True, 0, 0)
+
+
+@pytest.mark.req("ACR-CMD-MSEEK")
+def test_mseek_without_a_capture_ends_as_a_move() -> None:
+    made = seeking("MSEEK X(-1,2)")
+    made.until_clear(IN_MOTION)
+    assert (made.p(CURRENT), made.bit(CAPTURED), made.type("INTCAP X")) == (-1000, False, "OFF")
+
+
+def test_seeks_of_several_axes_follow_one_another() -> None:
+    made = seeking("MSEEK X(0.1,2) Y(0.2,2)")
+    made.until_clear(IN_MOTION)
+    assert (made.p(CURRENT), made.p(CURRENT + 256)) == (100, 200)
+
+
+def test_mseek_waits_until_the_buffer_has_room() -> None:
+    made = seeking("X1 : X2")
+    made.type("MSEEK X(1,2)")
+    assert made.is_waiting
+    made.until_clear(IN_MOTION)
+    made.ticks(2)
+    made.until_clear(IN_MOTION)
+    assert made.p(CURRENT) == 3000
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("MSEEK X(1,16)", "Invalid argument"),
+        ("MSEEK X(1,-1)", "Invalid argument"),
+        ("MSEEK X(1)", "Syntax error"),
+        ("MSEEK X1", "Syntax error"),
+        ("MSEEK X(1,0) Y(1,0) X(1,0)", "Invalid argument"),
+    ],
+)
+def test_a_wrong_seek_is_refused(line: str, message: str) -> None:
+    made = Bench("X", "Y")
+    assert made.type(line) == message
+    assert not made.bit(IN_MOTION)
+
+
+def test_mseek_is_refused_by_a_kill_like_a_move() -> None:
+    made = Bench("X").all("SET 8467")
+    assert made.type("MSEEK X(1,0)") == "Associated Slave Kill Motion Request Active"
+    assert Bench().type("MSEEK AXIS0(1,0)") == "No master attached"

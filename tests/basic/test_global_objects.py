@@ -1,0 +1,128 @@
+"""Objects by number: AXIS, MASTER, ENC, STEPPER, DAC, ADC."""
+
+import pytest
+from tests.basic.motion_bench import Bench
+
+from openacr.basic.registry import Level
+from openacr.map import numbers as at
+from openacr.motion import attach
+from openacr.motion.attach import Feedback, Signal
+
+LEVELS = [Level.SYS, Level.PROG, Level.PLC]
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_objects_are_known_at_every_level(level: Level) -> None:
+    made = Bench().at(level)
+    assert made.type("AXIS3 : MASTER2 : ENC1 : DAC0 : ADC0 : STEPPER0") == "ON|MASTER2|0|0|0|0"
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["AXIS8", "AXIS8 ON", "MASTER8", "ENC20", "ENC20 MULT", "DAC16", "ADC16 GAIN", "STEPPER8"],
+)
+def test_an_object_the_card_does_not_have_is_refused(line: str) -> None:
+    assert Bench().type(line) == "Invalid argument"
+
+
+def test_a_master_reports_its_program() -> None:
+    made = Bench("X")
+    made.attach(3, (1, "Y"))
+    assert made.type("MASTER0 : MASTER3 : MASTER1") == "MASTER0 PROG0|MASTER3 PROG3|MASTER1"
+
+
+# AXIS ON and OFF
+
+
+def test_an_axis_that_is_off_does_not_move_and_puts_out_nothing() -> None:
+    made = Bench("X").all("TLM X5", "PGAIN X0.01")
+    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1
+    made.all("X100")
+    made.until_clear(516)
+    made.ticks(2)
+    assert made.type("DAC0") == "1"
+    made.all("AXIS0 OFF")
+    assert made.type("AXIS0 : DAC0") == "OFF|0"
+    assert made.type("X1") == made.type("JOG FWD X") == "Axis is off"
+    made.ticks(10)
+    assert made.p(12319) == 0.0
+    made.all("AXIS0 ON")
+    assert made.type("AXIS0 : JOG INC X0") == "ON"
+
+
+@pytest.mark.parametrize("line", ["AXIS0 ON", "AXIS0 OFF"])
+def test_an_axis_is_not_switched_in_motion(line: str) -> None:
+    made = Bench("X").all("VEL 1 X10").ticks(2)
+    assert made.type(line) == "Not valid while in motion"
+    assert made.type("AXIS0") == "ON"
+
+
+# encoders
+
+
+def test_encoder_settings_are_reported() -> None:
+    made = Bench()
+    assert made.type("ENC0 SRC : ENC0 MULT") == "0|1"
+    assert made.type("ENC 0 SRC 2 : ENC0 MULT -4 : ENC0 SRC : ENC0 MULT") == "2|-4"
+    for wrong in ("SRC 3", "SRC -1", "MULT 3"):
+        assert made.type(f"ENC0 {wrong}") == "Invalid argument"
+
+
+def test_enc_res_sets_the_actual_position_only() -> None:
+    made = Bench("X").all("TLM X0", "P12288 = 5").ticks(2)
+    made.all("ENC0 RES 100").ticks(2)
+    assert (made.type("ENC0"), made.p(12290), made.p(12288)) == ("100", 100, 5)
+    made.all("ENC0 RES")
+    assert made.type("ENC0") == "0"
+    assert made.type("ENC0 RES 3e9") == "Invalid argument"
+
+
+def test_encoders_beyond_16_have_their_own_rows() -> None:
+    made = Bench().all("ENC18 RES 77")
+    assert (made.type("ENC18"), made.p(24576 + 32)) == ("77", 77)
+
+
+# analog outputs and inputs
+
+
+def test_dac_settings_are_parameters() -> None:
+    made = Bench()
+    assert made.type("DAC0 GAIN : DAC0 OFFSET") == "3276.8|0"
+    made.all("DAC1 GAIN -3276.8 DAC1 OFFSET 0.25")
+    assert [made.p(6418), made.p(6419)] == pytest.approx([-3276.8, 0.25])
+    assert made.type("DAC1 GAIN : DAC1 OFFSET") == "-3276.8|0.25"
+
+
+def test_the_offset_is_added_to_the_output_of_an_axis() -> None:
+    made = Bench().all("DAC0 OFFSET 0.5").ticks(2)
+    assert made.type("DAC0") == "0.5"
+
+
+def test_a_dac_without_axis_keeps_what_is_written() -> None:
+    made = Bench().all("P6640 = 2.5").ticks(5)
+    assert made.type("DAC15") == "2.5"
+
+
+def test_adc_values_and_settings_are_parameters() -> None:
+    made = Bench()
+    assert made.type("ADC2 GAIN : ADC2 OFFSET") == "10|0"
+    made.all("P6440 = 1.25", "ADC2 GAIN 5 ADC2 OFFSET -1")
+    assert made.type("ADC2 : ADC2 GAIN : ADC2 OFFSET") == "1.25|5|-1"
+
+
+# steppers
+
+
+def test_a_stepper_shows_the_steps_of_its_axis() -> None:
+    made = Bench("X")
+    attach.axis(made.card, 0, (Feedback.STEPPER, 0), (Signal.STEPPER, 0))
+    made.all("X25")
+    made.until_clear(516)
+    assert (made.type("STEPPER0"), made.p(6156)) == ("25", 25)
+
+
+def test_a_stepper_count_can_be_set() -> None:
+    made = Bench().all("STEPPER3 RES 40")
+    assert made.type("STEPPER3") == "40"
+    made.all("STEPPER3 RES")
+    assert made.type("STEPPER3") == "0"
