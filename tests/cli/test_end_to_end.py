@@ -1,6 +1,7 @@
 """The command line around a real card."""
 
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -187,3 +188,40 @@ def test_the_pure_form_of_the_core_ends_in_the_same_state(box: Path) -> None:
         )
         digests.append(json.loads(done.stdout)["digest"])
     assert digests[0] == digests[1]
+
+
+def test_an_interrupted_run_ends_quietly_and_leaves_no_files(tmp_path: Path) -> None:
+    path = tmp_path / "loop.8k"
+    path.write_text('PROG0\nPROGRAM\nPBOOT\nPRINT "on"\n_a\nDWL 0.01\nGOTO a\nENDP\n')
+    process = subprocess.Popen(
+        [
+            *(sys.executable, "-u", "-m", "openacr.cli.main", "run", "loop.8k"),
+            *("--for", "1000000", "--summary", "s.json", "--trace", "t.csv"),
+        ],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert process.stdout is not None
+    process.stdout.readline()  # the program runs
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate()
+    assert process.returncode == 130
+    assert b"Traceback" not in errors
+    assert [entry.name for entry in tmp_path.iterdir()] == ["loop.8k"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full device")
+def test_output_that_cannot_be_written_is_one_line(box: Path) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "openacr.cli.main", "run", str(box), "--for", "0.1"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1] == (
+        "error: output cannot be written: No space left on device"
+    )

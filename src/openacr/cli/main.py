@@ -4,11 +4,12 @@ A sub-command is imported when it is used, so that `openacr --help` and tab comp
 answer at once.
 """
 
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, TextIO
 
 import typer
 from typer.core import TyperGroup
@@ -126,6 +127,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
         app(arguments, prog_name="openacr")
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    except OSError as error:  # files are dealt with where they are opened
+        _silence(sys.stdout)
+        print(f"error: output cannot be written: {error.strerror}", file=sys.stderr)
+        sys.exit(BAD_INPUT)
+
+
+def _silence(stream: TextIO) -> None:
+    """Let the rest of the output go nowhere: the interpreter would fail on it once more."""
+    with open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), stream.fileno())
 
 
 if __name__ == "__main__":

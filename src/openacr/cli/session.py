@@ -168,8 +168,8 @@ class Session:
             times = {name: tick * period_s for name, tick in self._play.checkpoints.items()}
             verdicts = tuple(self._play.verdicts)
             report = replace(report, verdicts=verdicts, checkpoints_s=times)
-        self._write(report)
         self._show(report)
+        self._write(report)
         return FAILED if report.has_failed else OK
 
     def _write(self, report: Report) -> None:
