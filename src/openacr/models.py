@@ -42,8 +42,11 @@ class Model:
         return self.card_type * 10000
 
 
-_CARD_STREAMS = ("FIFO", "COM1", "COM2")
-_BOX_STREAMS = ("COM1", "COM2", "STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
+# STREAM1 is USB or the process the card runs in, the others are network connections. Cards
+# for a PC slot have no network of their own; here hosts reach them over it all the same.
+_NETWORK = ("STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
+_CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
+_BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
 ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS, has_battery=True)
 ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)

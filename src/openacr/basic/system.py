@@ -113,16 +113,13 @@ class System:
             if self.programs.starts_by_itself(owner) and not self.control.is_running(owner):
                 self.control.run(owner)
 
-    def power_up(self) -> None:
-        """Forget programs, dimensions, aliases and what the channels were doing."""
+    def forget(self) -> None:
+        """Forget programs, dimensions and aliases: memory without a battery."""
         for owner in self.owners():
             self.programs.texts[owner].clear()
         self.programs.password = None
         self.storage.restore_factory()
         self.aliases.clear()
-        self.devices.restore({})
-        for session in self.sessions.values():
-            session.power_up()
 
     def restart(self) -> None:
         """Restart the card; battery-backed memory keeps texts, dimensions and variables."""

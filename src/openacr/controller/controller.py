@@ -381,11 +381,13 @@ class Controller:
         self._wants_reboot = False
         outside = apply.take_state(self.memory)
         self.executor.reset()
-        self.card.power_up()
-        self.system.power_up()
+        if not self.model.has_battery:
+            self.system.forget()
+        self.system.restart()
         self._apply_world()
         apply.put_state(self.memory, outside)
         self.streams.disconnect_all()
+        self.system.start_boot_programs()
 
 
 def _model(model: str | Model) -> Model:
