@@ -195,6 +195,14 @@ def test_a_low_pass_smooths_the_output() -> None:
     assert smooth.p(12317) == 1.0
 
 
+def test_a_new_servo_period_keeps_the_frequency_of_a_filter() -> None:
+    made = Bench("X").all("LOPASS X100")
+    at_half_ms = made.p(12340)
+    made.all("PERIOD 0.001")
+    assert made.type("LOPASS X") == "100"
+    assert made.p(12340) > 2 * at_half_ms
+
+
 # the loop as a whole
 
 

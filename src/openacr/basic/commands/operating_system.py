@@ -20,6 +20,7 @@ from openacr.messages import (
     NOT_VALID_WHILE_IN_MOTION,
 )
 from openacr.motion import attach as attachment
+from openacr.motion import filters
 from openacr.motion.permits import axis_moving
 
 if TYPE_CHECKING:
@@ -273,7 +274,7 @@ def period(run: Run, period_s: float | None) -> None:
         raise CardError(INVALID_ARGUMENT)
     if any(axis_moving(run.card, axis) for axis in range(run.card.model.axes)):
         raise CardError(NOT_VALID_WHILE_IN_MOTION)
-    run.card.set_period(period_s)
+    filters.change_period(run.card, period_s)
 
 
 @command(
