@@ -118,7 +118,9 @@ def test_a_move_without_attachments_is_refused() -> None:
 
 @pytest.mark.req("ACR-ATT-20")
 def test_two_attached_axes_move_together() -> None:
-    assert run(bench("X", "Y"), "X1 Y2") == [1, 2, 0]
+    made = Bench().all("HALT", "DETACH", "ATTACH MASTER0")
+    made.all('ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE1 AXIS1 "Y"')
+    assert run(made, "X1 Y2") == [1, 2, 0]
 
 
 @pytest.mark.req("ACR-ATT-21")
