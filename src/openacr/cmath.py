@@ -6,8 +6,25 @@ their Python relatives; `rint` rounds halves to even, as the C library does).
 """
 
 import math
-from math import acos, acosh, asin, asinh, atan, atan2, atanh, cos, exp, fabs, fmod, log, log10
-from math import sin, sqrt, tan, tanh
+from math import (
+    acos,
+    acosh,
+    asin,
+    asinh,
+    atan,
+    atan2,
+    atanh,
+    cos,
+    exp,
+    fabs,
+    fmod,
+    log,
+    log10,
+    sin,
+    sqrt,
+    tan,
+    tanh,
+)
 
 __all__ = [
     "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "ceil", "cos", "cosh", "exp",
@@ -27,7 +44,7 @@ def ceil(x: float) -> float:
 
 
 def trunc(x: float) -> float:
-    """x without its fraction, as a float; infinities and NaN pass through."""
+    """The value without its fraction, as a float; infinities and NaN pass through."""
     return float(math.trunc(x)) if math.isfinite(x) else x
 
 
@@ -53,7 +70,7 @@ def cosh(x: float) -> float:
 
 
 def pow(x: float, y: float) -> float:
-    """x to the power y; infinite where it overflows, NaN where it is not real."""
+    """Power of x to y; infinite where it overflows, NaN where it is not real."""
     try:
         return math.pow(x, y)
     except OverflowError:
