@@ -1,9 +1,6 @@
 """A software ACR motion controller: AcroBASIC on a virtual card with real servo dynamics.
 
-    import openacr
-    card = openacr.Controller.from_project("examples/gantry")
-    card.send("PROG0\\rRUN\\r")
-    card.advance(seconds=2.5)
+`openacr.Controller.from_project("examples/gantry")` is where to begin.
 """
 
 from typing import TYPE_CHECKING, Any
