@@ -47,6 +47,7 @@ ORDER = (
     "plant/drive_cy.py",
     "plant/wiring_cy.py",
     "plant/step_cy.py",
+    "plc/scan_cy.py",
     "engine/loop_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)

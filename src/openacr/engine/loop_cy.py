@@ -37,6 +37,10 @@ from openacr.map.numbers import (
     PF_STEP_CONTROL,
     PF_STEP_EDGE_DETECT,
     PF_WORD,
+    PLC_COUNT,
+    PLF_HALT_REQUEST,
+    PLF_RUN_REQUEST,
+    PLF_WORD,
     SYSF_BASE,
     SYSF_PERIOD_S,
     SYSF_TIME_S,
@@ -48,6 +52,7 @@ from openacr.map.numbers import (
     W_OUTPUTS,
 )
 from openacr.plant.step_cy import plant_step
+from openacr.plc.scan_cy import plc_step
 from openacr.views import F32, F64, I32
 
 __all__ = ["engine_run"]
@@ -56,7 +61,7 @@ __all__ = ["engine_run"]
 DONE = 0
 UNTIL_MET = 1
 TRACE_FULL = 2
-REQUESTS = 3  # control flags of a program want something
+REQUESTS = 3  # control flags of a program or PLC want something
 THREAD = 16
 
 # How far the present tick has got (row in_tick); 0: not begun.
@@ -120,9 +125,12 @@ def until_met(I: I32) -> bool:
 
 
 def requests_pending(I: I32) -> bool:
-    """Whether, in this slow scan, the control flags of some program want something."""
+    """Whether, in this slow scan, the control flags of some program or PLC want something."""
     if I[SYSI_BASE + SYSI_SLOW_PHASE]:
         return False
+    for n in range(PLC_COUNT):
+        if I[PLF_WORD + n] & (PLF_RUN_REQUEST | PLF_HALT_REQUEST):
+            return True
     for p in range(PROGRAMS):
         flags: int = I[PF_WORD + p]
         if flags & CONTROLS and (
@@ -160,6 +168,7 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
         I[e + ENGI_TICKS_LEFT] -= 1
         plant_step(F, I, S, axes, F[SYSF_BASE + SYSF_PERIOD_S])
         tick(F, I, S)
+        plc_step(F, I)
         if trace_due(I):
             trace_sample(F, I, trace)
         I[e + ENGI_IN_TICK] = SERVO_DONE

@@ -1,9 +1,9 @@
 """State of the card that has no parameter number, one module per topic."""
 
-from openacr.map.hidden import devices, engine, motion, plant, storage, system, threads
+from openacr.map.hidden import devices, engine, motion, plant, plc, storage, system, threads
 from openacr.map.hidden.block import HiddenBlock
 
-TOPICS = (system, storage, motion, plant, threads, devices, engine)
+TOPICS = (system, storage, motion, plant, threads, devices, engine, plc)
 
 HIDDEN_BLOCKS: tuple[HiddenBlock, ...] = tuple(
     value for topic in TOPICS for value in vars(topic).values() if isinstance(value, HiddenBlock)

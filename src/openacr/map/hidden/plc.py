@@ -1,0 +1,16 @@
+"""Hidden rows of the PLCs: what is scanned, and what timers and counters remember."""
+
+from openacr.map.hidden.block import HiddenBlock
+
+INSTRUCTIONS = 200  # of one PLC
+
+PLC = HiddenBlock(
+    prefix="PC",
+    count=8,
+    doubles=("timer_ms",),  # since the timer count last went down
+    ints=(
+        "length",  # instructions to scan
+        "clock_old",  # counter clock of the tick before
+        ("code", 2 * INSTRUCTIONS),  # operation and operand, see plc/scan_cy.py
+    ),
+)

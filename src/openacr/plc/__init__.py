@@ -1,0 +1,1 @@
+"""PLC programs: relay ladder as text, compiled once, scanned inside the servo interrupt."""

@@ -1,0 +1,240 @@
+"""The PLC part of the servo interrupt: timers, counters, latches, then the scans that are due.
+
+A scan knows one logic value R and a stack of saved results. Between two output
+instructions they build a rung, e.g. two contacts in parallel with two others:
+
+    LD 0      R = b0                          saved: -
+    AND 1     R = b0 & b1                     saved: -
+    LD 2      R = b2                          saved: b0 & b1
+    AND 3     R = b2 & b3                     saved: b0 & b1
+    OR LD     R = (b0 & b1) | (b2 & b3)       saved: -
+    OUT 32    flag 32 = R
+
+The compiler has checked that no rung takes more than it has saved and saves at most 16
+results. So the stack is one integer with a bit for each result, the newest lowest, and a
+new rung empties it by writing 0. All operands are flags 0 to 8191.
+
+The objects are evaluated before the scans: an input written by a scan acts in the next
+interrupt, and a timer of n ms is seen by the scan exactly n ms after the one that set it.
+"""
+
+from openacr.map.numbers import (
+    CNT_BASE,
+    CNT_COUNTER_COUNT,
+    CNT_COUNTER_PRELOAD,
+    CNT_STRIDE,
+    FLAG_WORD_BASE,
+    PCF_BASE,
+    PCF_STRIDE,
+    PCF_TIMER_MS,
+    PCI_BASE,
+    PCI_CLOCK_OLD,
+    PCI_CODE,
+    PCI_LENGTH,
+    PCI_STRIDE,
+    PLC_BASE,
+    PLC_COUNT,
+    PLC_STRIDE,
+    PLC_TICK_COUNT,
+    PLC_TICK_PRELOAD,
+    PLF_COUNTER_CLOCK,
+    PLF_COUNTER_OUTPUT,
+    PLF_COUNTER_RESET,
+    PLF_FIRST_SCAN,
+    PLF_LATCH_OUTPUT,
+    PLF_LATCH_RESET,
+    PLF_LATCH_SET,
+    PLF_PLC_RUNNING,
+    PLF_TIMER_INPUT,
+    PLF_TIMER_OUTPUT,
+    PLF_WORD,
+    SYSF_BASE,
+    SYSF_PERIOD_S,
+    TIM_BASE,
+    TIM_STRIDE,
+    TIM_TIMER_COUNT,
+    TIM_TIMER_PRELOAD,
+)
+from openacr.views import F64, I32
+
+__all__ = ["plc_scan", "plc_step"]
+
+# Operations; NEGATED is added where the operand (or the result) is inverted first.
+OP_START = 1  # LD at the start of a rung
+OP_LOAD = 2
+OP_AND = 3
+OP_OR = 4
+OP_AND_BLOCK = 5
+OP_OR_BLOCK = 6
+OP_NOT = 7
+OP_OUT = 8
+OP_SET = 9
+OP_CLEAR = 10
+OP_TIMER = 11
+OP_COUNTER = 12
+OP_LATCH = 13
+NEGATED = 16
+
+INPUTS = (
+    PLF_TIMER_INPUT
+    | PLF_TIMER_OUTPUT
+    | PLF_COUNTER_CLOCK
+    | PLF_COUNTER_RESET
+    | PLF_LATCH_SET
+    | PLF_LATCH_RESET
+)
+EPS_MS = 1e-9
+
+
+def plc_flag(I: I32, number: int) -> int:
+    """State of a flag, 0 or 1."""
+    return (I[FLAG_WORD_BASE + (number >> 5)] >> (number & 31)) & 1
+
+
+def plc_put_flag(I: I32, number: int, on: int) -> None:
+    """Write a flag."""
+    word: int = FLAG_WORD_BASE + (number >> 5)
+    bit: int = number & 31
+    mask: int = 1
+    mask = -2147483648 if bit == 31 else mask << bit
+    I[word] = I[word] | mask if on else I[word] & ~mask
+
+
+def plc_put_inputs(I: I32, n: int, inputs: int, on: int) -> None:
+    """Set exactly those flags of object n out of `inputs` that are in `on`."""
+    I[PLF_WORD + n] = (I[PLF_WORD + n] & ~inputs) | on
+
+
+def plc_scan(I: I32, n: int) -> None:
+    """One scan of PLC n, from its first instruction to its last."""
+    rows: int = PCI_BASE + n * PCI_STRIDE
+    r: int = 0
+    saved: int = 0
+    for k in range(I[rows + PCI_LENGTH]):
+        word: int = I[rows + PCI_CODE + 2 * k]
+        operand: int = I[rows + PCI_CODE + 2 * k + 1]
+        negated: int = 1 if word & NEGATED else 0
+        op: int = word & ~NEGATED
+        if op == OP_AND:
+            r &= plc_flag(I, operand) ^ negated
+        elif op == OP_OR:
+            r |= plc_flag(I, operand) ^ negated
+        elif op == OP_START:
+            saved = 0
+            r = plc_flag(I, operand) ^ negated
+        elif op == OP_LOAD:
+            saved = (saved << 1) | r
+            r = plc_flag(I, operand) ^ negated
+        elif op == OP_OUT:
+            plc_put_flag(I, operand, r ^ negated)
+        elif op == OP_AND_BLOCK:
+            r &= saved & 1
+            saved >>= 1
+        elif op == OP_OR_BLOCK:
+            r |= saved & 1
+            saved >>= 1
+        elif op == OP_NOT:
+            r ^= 1
+        elif op == OP_SET:
+            if r:
+                plc_put_flag(I, operand, 1)
+        elif op == OP_CLEAR:
+            if r:
+                plc_put_flag(I, operand, 0)
+        elif op == OP_TIMER:
+            plc_put_inputs(I, operand, PLF_TIMER_INPUT, PLF_TIMER_INPUT if r else 0)
+        elif op == OP_COUNTER:
+            plc_put_inputs(
+                I,
+                operand,
+                PLF_COUNTER_CLOCK | PLF_COUNTER_RESET,
+                (PLF_COUNTER_CLOCK if saved & 1 else 0) | (PLF_COUNTER_RESET if r else 0),
+            )
+            saved >>= 1
+        elif op == OP_LATCH:
+            plc_put_inputs(
+                I,
+                operand,
+                PLF_LATCH_SET | PLF_LATCH_RESET,
+                (PLF_LATCH_SET if saved & 1 else 0) | (PLF_LATCH_RESET if r else 0),
+            )
+            saved >>= 1
+
+
+def plc_timer(F: F64, I: I32, n: int, period_ms: float) -> None:
+    """TIM n: its count goes down once per millisecond while the input is set."""
+    count: int = TIM_BASE + n * TIM_STRIDE + TIM_TIMER_COUNT
+    phase: int = PCF_BASE + n * PCF_STRIDE + PCF_TIMER_MS
+    if not I[PLF_WORD + n] & PLF_TIMER_INPUT:
+        I[count] = I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_PRELOAD]
+        F[phase] = 0.0
+        I[PLF_WORD + n] &= ~PLF_TIMER_OUTPUT
+        return
+    if I[count] > 0:
+        passed: float = F[phase] + period_ms
+        while passed >= 1.0 - EPS_MS and I[count] > 0:
+            passed -= 1.0
+            I[count] -= 1
+        F[phase] = max(passed, 0.0)
+    if I[count] <= 0:
+        I[PLF_WORD + n] |= PLF_TIMER_OUTPUT
+
+
+def plc_counter(I: I32, n: int) -> None:
+    """CNT n: its count goes down at every rising edge of the clock.
+
+    A counter that was never reset takes its preload at the first edge.
+    """
+    flags: int = I[PLF_WORD + n]
+    preload: int = I[CNT_BASE + n * CNT_STRIDE + CNT_COUNTER_PRELOAD]
+    count: int = CNT_BASE + n * CNT_STRIDE + CNT_COUNTER_COUNT
+    old: int = PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD
+    clock: int = 1 if flags & PLF_COUNTER_CLOCK else 0
+    if flags & PLF_COUNTER_RESET:
+        I[count] = preload
+        I[PLF_WORD + n] = flags & ~PLF_COUNTER_OUTPUT
+    elif clock and not I[old] and not flags & PLF_COUNTER_OUTPUT:
+        if I[count] <= 0:
+            I[count] = preload
+        if I[count] > 0:
+            I[count] -= 1
+        if I[count] <= 0:
+            I[PLF_WORD + n] = flags | PLF_COUNTER_OUTPUT
+    I[old] = clock
+
+
+def plc_latch(I: I32, n: int) -> None:
+    """KR n: set by one input, cleared by the other, which is the stronger."""
+    flags: int = I[PLF_WORD + n]
+    if flags & PLF_LATCH_RESET:
+        I[PLF_WORD + n] = flags & ~PLF_LATCH_OUTPUT
+    elif flags & PLF_LATCH_SET:
+        I[PLF_WORD + n] = flags | PLF_LATCH_OUTPUT
+
+
+def plc_step(F: F64, I: I32) -> None:
+    """Timers, counters and latches, then the scans due; at rest a look at a few rows."""
+    running: int = 0
+    for n in range(PLC_COUNT):
+        flags: int = I[PLF_WORD + n]
+        running |= flags & PLF_PLC_RUNNING
+        preload: int = I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_PRELOAD]
+        if (
+            flags & INPUTS
+            or I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_COUNT] != preload
+            or I[PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD]
+        ):
+            plc_timer(F, I, n, F[SYSF_BASE + SYSF_PERIOD_S] * 1000.0)
+            plc_counter(I, n)
+            plc_latch(I, n)
+    if not running:
+        return
+    for n in range(PLC_COUNT):
+        if I[PLF_WORD + n] & PLF_PLC_RUNNING:
+            count: int = PLC_BASE + n * PLC_STRIDE + PLC_TICK_COUNT
+            if I[count] > 0:
+                I[count] -= 1
+            if I[count] <= 0:
+                plc_scan(I, n)
+                I[PLF_WORD + n] &= ~PLF_FIRST_SCAN
+                I[count] = max(I[PLC_BASE + n * PLC_STRIDE + PLC_TICK_PRELOAD], 1)
