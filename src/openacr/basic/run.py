@@ -21,9 +21,6 @@ from openacr.messages import (
 if TYPE_CHECKING:
     from openacr.motion.card import Card
 
-AXES = 16
-MASTERS = 16
-
 
 class WaitKind(IntEnum):
     """What a thread waits for; the numbers are those of the scheduler."""
@@ -136,7 +133,7 @@ class Run:
         """The axis that is meant; `Undefined symbol` if the program has none of that name."""
         if ref.number is not None:
             number = self.integer(ref.number)
-            if not 0 <= number < AXES:
+            if not 0 <= number < self.card.model.axes:
                 raise CardError(INVALID_ARGUMENT)
             return Axis(number, f"AXIS{number}")
         if self.program is None:
@@ -155,7 +152,7 @@ class Run:
         """The master that is meant: by the prefix MASTERm, else that of the program."""
         if self.prefix is not None and self.prefix.word == "MASTER":
             number = self.integer(self.prefix.number)
-            if not 0 <= number < MASTERS:
+            if not 0 <= number < self.card.model.masters:
                 raise CardError(INVALID_ARGUMENT)
             return number
         found = self.card.attachments.master(self.needed_program())

@@ -10,7 +10,7 @@ command velocity) and runs the homing sequence.
 
 from openacr.cmath import fabs
 from openacr.kernel.axis_cy import axis_scale, axis_word
-from openacr.kernel.homing_cy import home_abort, home_arrived, home_step
+from openacr.kernel.homing_cy import HOME_START, home_abort, home_arrived, home_step
 from openacr.kernel.jogplan_cy import (
     FAR_CNT,
     JOG_PROFILE,
@@ -28,6 +28,15 @@ from openacr.map.numbers import (
     AF1_JOG_LOCKOUT,
     AF1_JOG_REVERSE,
     AF1_JOG_STOPPING,
+    AF4_KILL_ALL_MOTION_REQUEST,
+    AF4_WORD,
+    AF5_HOME_FAILED,
+    AF5_HOME_SUCCESSFUL,
+    AF5_HOMING_IN_PROGRESS,
+    AF5_WORD,
+    AF6_JOG_HOME_DIRECTION,
+    AF6_JOG_HOME_REQUEST,
+    AF6_WORD,
     AX_BASE,
     AX_CURRENT_JOG_ACCEL,
     AX_CURRENT_JOG_VELOC,
@@ -44,6 +53,8 @@ from openacr.map.numbers import (
     AXF_PSP_VELOCITY_CPS,
     AXF_STRIDE,
     AXI_BASE,
+    AXI_HOME_SEARCH,
+    AXI_HOME_STATE,
     AXI_JOG_MODE,
     AXI_JOG_REPLAN,
     AXI_JOG_SIGN,
@@ -128,11 +139,29 @@ def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
     profile_stop(F, I, JOG_PROFILE + n, FAR_CNT, rate, 0.0, STOPPING)
 
 
+def jog_home_request(I: I32, n: int) -> None:
+    """The flag form of JOG HOME: start the search at rest, unless a kill bars it."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    flags: int = I[AF6_WORD + n]
+    I[AF6_WORD + n] = flags & ~AF6_JOG_HOME_REQUEST
+    if I[i + AXI_JOG_MODE] != JOG_IDLE or I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
+        return
+    results: int = AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED
+    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~results) | AF5_HOMING_IN_PROGRESS
+    I[i + AXI_HOME_SEARCH] = -1 if flags & AF6_JOG_HOME_DIRECTION else 1
+    I[i + AXI_HOME_STATE] = HOME_START
+    I[i + AXI_JOG_MODE] = JOG_HOMING
+
+
 def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
     """Follow the jog flags, which commands, programs and hosts set and clear alike."""
     i: int = AXI_BASE + n * AXI_STRIDE
+    if I[AF6_WORD + n] & AF6_JOG_HOME_REQUEST:
+        jog_home_request(I, n)
     flags: int = I[axis_word(n)]
     mode: int = I[i + AXI_JOG_MODE]
+    if mode == JOG_HOMING:
+        return
     want: int = 0
     if flags & AF1_JOG_FORWARD:
         want += 1
@@ -251,7 +280,7 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
         if I[i + AXI_JOG_MODE] == JOG_IDLE:
             return
         jog_follow(F, I, S, n)
-    elif mode == JOG_HOMING and home_step(F, I, S, n):
+    if I[i + AXI_JOG_MODE] == JOG_HOMING and home_step(F, I, S, n):
         jog_rest(F, I, n)
     if I[i + AXI_JOG_MODE] != JOG_IDLE:
         left: float = profile_advance(F, I, JOG_PROFILE + n, dt)
