@@ -13,6 +13,7 @@ from openacr.map.numbers import (
     AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
     AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
     AF5_WORD,
+    AXI_DRIVE_OLD,
     AXI_ENABLE_TICKS,
     AXI_RESET_TICKS,
     MF1_KILL_ALL_MOVES_REQUEST,
@@ -72,8 +73,10 @@ def off(card: Card, axis: int) -> None:
 
 def disable(card: Card, axis: int) -> None:
     """Switch the drive of an axis off, moving or not."""
-    card.memory.I[axis_ints(axis) + AXI_ENABLE_TICKS] = 0
+    rows = axis_ints(axis)
+    card.memory.I[rows + AXI_ENABLE_TICKS] = 0
     card.memory.I[AF4_WORD + axis] &= ~AF4_DRIVE_ENABLED
+    card.memory.I[rows + AXI_DRIVE_OLD] = 0  # or the kernel would undo a DRIVE ON of this tick
 
 
 def reset(card: Card, axis: int) -> None:
