@@ -84,6 +84,7 @@ class Streams:
     def receive(self, number: int, data: bytes, tick: int) -> None:
         """Bytes that arrived together at `tick`."""
         stream = self._open[number]
+        self._settle(stream)  # a program may have opened or closed the stream meanwhile
         stream.terminal.receive_data(data, tick)
         self._pump(stream)
 

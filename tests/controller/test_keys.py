@@ -1,0 +1,97 @@
+"""Ctrl-X, Ctrl-Y, Ctrl-Z and ESC (terminal protocol, section 7)."""
+
+import pytest
+from tests.controller.hosts import Host, store
+
+KAMR = (8467, 8499, 8531)
+CTRL_X, CTRL_Y, CTRL_Z, ESC = "\x18", "\x19", "\x1a", "\x1b"
+
+
+def kills(host: Host) -> list[bool]:
+    return [host.card.bit[number] for number in KAMR]
+
+
+def run_endless(host: Host) -> None:
+    store(host, "_L", "DWL 0.01", "GOTO L")
+    assert host.type("RUN") == "P00>"
+    assert host.card.system.control.is_running(0)
+
+
+@pytest.mark.parametrize("key", [CTRL_X, CTRL_Z])
+def test_ctrl_x_and_z_kill_motion_and_programs_in_the_middle_of_a_line(
+    axes: Host, key: str
+) -> None:
+    run_endless(axes)
+    axes.send("X100\r")
+    axes.card.advance(200)
+    assert axes.send(f"?BIT{key}5") == "?BIT5"
+    assert kills(axes) == [True] * 3
+    assert not axes.card.system.control.is_running(0)
+    axes.card.advance(4000)
+    assert axes.send("16\r") == "16|0|P00>"
+    assert axes.card.axis(0).commanded_u < 100
+    assert axes.card.bit[8465] is (key == CTRL_X)
+
+
+def test_ctrl_y_alone_sends_nothing_and_with_cr_one_prompt(axes: Host) -> None:
+    axes.send(CTRL_X)
+    assert axes.send(CTRL_Y) == ""
+    assert axes.send(f"{CTRL_Y}\r") == "|P00>"
+    assert kills(axes) == [False] * 3
+
+
+@pytest.mark.req("ACR-KAMR-22")
+def test_motion_is_refused_while_killed_and_allowed_behind_ctrl_y(axes: Host) -> None:
+    axes.send(CTRL_X)
+    refused = "Associated Slave Kill Motion Request Active|P00>"
+    assert axes.type("X10", "Y10", "JOG FWD X") == refused * 3
+    axes.card.advance(500)
+    assert axes.asks("?P12288", "?P12544", "?BIT516") == ["0", "0", "0"]
+    assert axes.send(f"{CTRL_Y}:AXIS0 JOG ABS 5.0\r") == ":AXIS0 JOG ABS 5.0|P00>"
+    axes.card.advance(4000)
+    assert axes.ask("?P12294") == "5000"
+
+
+def test_ctrl_x_acts_ahead_of_lines_that_wait(axes: Host) -> None:
+    axes.send("DWL 1\rX10\r")
+    axes.send(CTRL_X)
+    assert kills(axes) == [True] * 3
+    assert axes.after(4000) == "P00>Associated Slave Kill Motion Request Active|P00>"
+
+
+def test_ctrl_x_ends_a_line_that_waits_for_room(axes: Host) -> None:
+    axes.send("X100:X200:X300:X400\r")
+    axes.card.advance(100)
+    axes.send(CTRL_X)
+    assert axes.after(100).endswith("P00>")
+    assert axes.ask("?BIT8467") == "-1"
+
+
+@pytest.mark.parametrize("listen", ["LRUN", "LISTEN"])
+def test_esc_ends_listening_with_exactly_one_prompt(axes: Host, listen: str) -> None:
+    store(axes, "_L", 'PRINT "tick"', "DWL 0.1", "GOTO L")
+    if listen == "LISTEN":
+        axes.type("RUN")
+    assert axes.type(listen) == ""
+    assert "tick|" in axes.after(500)
+    assert axes.send(ESC) == "|P00>"
+    assert axes.after(1000) == ""
+    assert axes.ask("?BIT516") == "0"
+    assert axes.card.system.control.is_running(0)
+    assert axes.type("HALT") == "P00>"
+    assert not axes.card.system.control.is_running(0)
+
+
+def test_esc_while_nobody_listens_discards_the_typed_text(host: Host) -> None:
+    assert host.send(f"SET 32{ESC}") == "SET 32"
+    assert host.send("\r") == "|SYS>"
+    assert not host.card.bit[32]
+    assert host.send(f"{ESC}{ESC}") == ""
+
+
+def test_keys_count_on_every_stream(axes: Host) -> None:
+    other = Host(axes.card)
+    other.send(CTRL_X)
+    assert kills(axes) == [True] * 3
+    axes.send(CTRL_Y)
+    assert kills(axes) == [False] * 3

@@ -1,0 +1,196 @@
+"""Lines in, echo and prompts out (terminal protocol, sections 2, 3 and 5)."""
+
+import random
+
+import pytest
+from tests.controller.hosts import Host, at_axes, connected
+
+
+def test_nothing_is_sent_before_the_host_says_something(host: Host) -> None:
+    assert host.after(2000) == ""
+
+
+@pytest.mark.req("ACR-COMM-01")
+def test_a_new_connection_is_at_the_system_level_with_echo(host: Host) -> None:
+    assert host.send("\r") == "|SYS>"
+    assert host.send("?1+1\r") == "?1+1|2|SYS>"
+
+
+def test_the_complete_picture_of_the_first_query(host: Host) -> None:
+    host.send("PROG0\r")
+    assert host.send("?P12288\r") == "?P12288|0|P00>"
+
+
+def test_characters_are_echoed_as_they_arrive_and_the_line_may_end_later(host: Host) -> None:
+    assert [host.send(c) for c in 'pRint ">"'] == list('pRint ">"')
+    host.after(5000)
+    assert host.send("\r") == "|>|SYS>"
+
+
+@pytest.mark.parametrize("end", ["\r", "\r\n"])
+def test_cr_and_cr_lf_end_a_line_once(host: Host, end: str) -> None:
+    assert host.send(f"?1{end}?2{end}") == "?1|1|SYS>?2|2|SYS>"
+
+
+def test_an_lf_in_the_next_segment_ends_no_second_line(host: Host) -> None:
+    assert host.send("?1\r") == "?1|1|SYS>"
+    host.after(100)
+    assert host.send("\n") == ""
+    assert host.send("?2\r") == "?2|2|SYS>"
+
+
+def test_an_empty_line_gives_one_prompt(host: Host) -> None:
+    assert host.send("\r\r") == "|SYS>|SYS>"
+
+
+@pytest.mark.req("ACR-IMM-01")
+def test_value_and_prompt_leave_in_one_write(host: Host) -> None:
+    host.send("?P6916")
+    host.send("")
+    host.card.receive(host.stream, b"\r")
+    assert host.writes() == ["|0|SYS>"]
+
+
+def test_case_and_blanks_are_free() -> None:
+    axes = at_axes()
+    assert axes.type("prog0", "Prog 0", "PROG  0", "ppu x 1000") == "P00>" * 4
+    assert axes.ask("?bit8467") == "0"
+    assert axes.type("BIT 32=1", "BIT33=1", "SET34", "X0   ", "jog abs x 0 y 0") == "P00>" * 5
+    assert axes.asks("?BIT32", "? BIT 33", "?BIT(34)") == ["-1", "-1", "-1"]
+    axes.type("CLR32", "CLR 33", "BIT34=0")
+    assert axes.asks("?BIT32", "?BIT33", "?BIT34") == ["0", "0", "0"]
+
+
+@pytest.mark.req("ACR-SYN-01")
+def test_several_commands_share_a_line() -> None:
+    axes = at_axes()
+    assert axes.type("ACC 5 DEC 6 VEL 15 STP 100") == "P00>"
+    assert axes.asks("?ACC", "?DEC", "?VEL", "?STP") == ["5", "6", "15", "100"]
+    assert axes.type("RES X RES Y", "RES X 3.0 RES Y -4.0") == "P00>P00>"
+    assert axes.asks("?P12288", "?P12544") == ["3000", "-4000"]
+    assert axes.type(":ACC 7::DEC 8:", "ACC 9 : REM : DEC 1") == "P00>P00>"
+    assert axes.asks("?ACC", "?DEC") == ["9", "8"]
+
+
+def test_two_axes_move_with_one_line() -> None:
+    axes = at_axes()
+    assert axes.type("X10 Y20") == "P00>"
+    axes.card.advance(4000)
+    assert axes.type("X/1 Y/-2") == "P00>"
+    axes.card.advance(4000)
+    assert axes.asks("?P12288", "?P12544") == ["11000", "18000"]
+
+
+def test_signed_and_exponent_numbers_need_no_parentheses() -> None:
+    axes = at_axes()
+    for line in ("X-1.25", "Y/-0.5", "X1e-03", "AXIS1 JOG INC -1.500000", "RES X -4.0"):
+        assert axes.type(line) == "P00>"
+        axes.card.advance(1000)
+    assert axes.asks("?P12288", "?P12544", "?P12550") == ["-4000", "-500", "-2000"]
+
+
+def test_expressions_stand_in_parentheses_behind_p_and_bit(host: Host) -> None:
+    host.card.p[12544] = 77
+    assert host.asks("?P(12288 + 1 * 256)", "?BIT(516)", "?BIT(512+4)") == ["77", "0", "0"]
+    host.type("SET BIT(8467)")
+    assert host.card.bit[8467]
+    host.type("CLR BIT(8467)")
+    assert not host.card.bit[8467]
+
+
+@pytest.mark.req("ACR-COMM-02", "ACR-COMM-03", "ACR-COMM-04", "ACR-COMM-05")
+def test_prompts_show_the_level(host: Host) -> None:
+    sent = "PROG3\rPROG 12\rPLC2\rPROG1\rPLC 0\rSYS\r"
+    assert host.send(sent) == "PROG3|P03>PROG 12|P12>PLC2|PLC2>PROG1|P01>PLC 0|PLC0>SYS|SYS>"
+
+
+@pytest.mark.req("ACR-COMM-10")
+def test_there_is_no_program_16(host: Host) -> None:
+    answer = host.type("PROG16")
+    assert answer.endswith("|SYS>")
+    assert answer.count("|") == 1
+    assert len(answer) > len("|SYS>")
+
+
+@pytest.mark.req("ACR-COMM-08", "ACR-COMM-09")
+def test_axis_moves_and_master_settings_are_unknown_at_the_system_level() -> None:
+    axes = at_axes()
+    assert axes.type("SYS", "X10", "ACC 5", "VEL") == "SYS>" + "Unknown command|SYS>" * 3
+    assert axes.type("PROG0", "?ACC", "?P12288") == "P00>1000|P00>0|P00>"
+
+
+def test_hosts_that_never_leave_sys_have_what_they_need(host: Host) -> None:
+    accepted = (
+        "AXIS0 PPU 2000", "AXIS0 RES 1", "AXIS0 JOG VEL 10", "AXIS0 JOG ACC 100",
+        "AXIS0 JOG DEC 100", "DRIVE ON AXIS0", "AXIS0 JOG INC 0.5", "AXIS0 JOG OFF",
+        "BIT32=1", "SET 33", "CLR 33", "ECHO 1", "HALT ALL", "DIM P(10)",
+    )  # fmt: skip
+    assert host.type(*accepted) == "SYS>" * len(accepted)
+    assert host.asks("?P12290", "?BIT32", "AXIS0 PPU") == ["2000", "-1", "2000"]
+    assert host.type("VER").count("ACR9000") == 1
+
+
+@pytest.mark.parametrize("line", ["", "foo", "X1", "?1", "PRINT", "10", "IF", "REM > x", "\x80\xff"])
+def test_every_line_is_answered_by_exactly_one_prompt_at_its_end(host: Host, line: str) -> None:
+    answer = host.send(f"{line}\r")
+    assert answer.removeprefix(line).count("SYS>") == 1
+    assert answer.endswith("|SYS>")
+
+
+def test_captured_lines_are_answered_by_a_prompt_each(host: Host) -> None:
+    host.send("PROG0\r")
+    assert host.send("PROGRAM\rX10\r\rfoo bar\rENDP\r").count("P00>") == 5
+
+
+def test_mode_4_sends_nothing_but_values_and_errors(host: Host) -> None:
+    assert host.send("ECHO 4\r") == "ECHO 4|"
+    assert host.send("?P6916\r?BIT516\r") == "0|0|"
+    assert host.send("\rPROG0\rfoo\r") == "Unknown command|"
+    assert host.send("ECHO\rECHO 1\r?1\r") == "4|P00>?1|1|P00>"
+
+
+@pytest.mark.parametrize(
+    ("mode", "query", "error"),
+    [
+        (0, "1|SYS>", "Unknown command|SYS>"),
+        (1, "?1|1|SYS>", "foo|Unknown command|SYS>"),
+        (2, "1|SYS>", "SYS>"),
+        (3, "?1|1|SYS>", "foo|SYS>"),
+        (4, "1|", "Unknown command|"),
+        (5, "?1|1|", "foo|Unknown command|"),
+        (6, "1|", ""),
+        (7, "?1|1|", "foo|"),
+    ],
+)
+def test_echo_modes(host: Host, mode: int, query: str, error: str) -> None:
+    host.send(f"ECHO {mode}\r")
+    assert (host.send("?1\r"), host.send("foo\r")) == (query, error)
+
+
+def test_a_line_of_255_characters_is_taken_and_a_longer_one_refused(host: Host) -> None:
+    fits = "?1" + "+1" * 126
+    assert host.ask(fits + " ") == "127"
+    assert host.type(fits + "+1") == "Line too long|SYS>"
+    assert host.ask("?2") == "2"
+
+
+def test_backspace_and_delete_take_characters_back(host: Host) -> None:
+    assert host.send("?12\b3\x7f4\r") == "?12\b \b3\b \b4|14|SYS>"
+
+
+SESSION = (
+    b"PROG0\rATTACH MASTER0\r\nATTACH SLAVE0 AXIS0 \"X\"\r\rPPU X1000\rATTACH\r\nfoo\r"
+    b"?P(12288+256)\x00\x30\x02\x03:?2\r\x19X10\rX20\r?BIT516\rECHO 4\r?ACC\r?foo\rECHO 1\r"
+    b"10 PRINT \">\"\r20 END\rLIST\r\x1bRUN\r\x1c\x20\x00?BIT32\rab\b\b\x7f\x08?3\r\x18PROG1\r?4\r\x19PROG0\rX50:X60:X70\r?5\r"
+)  # fmt: skip
+
+
+def test_any_chunking_gives_the_same_bytes() -> None:
+    whole = connected().send(SESSION)
+    assert whole.count(">") > 15
+    assert "?BIT516|-1|P00>" in whole
+    assert connected().send_apart(SESSION, [1] * len(SESSION)) == whole
+    chance = random.Random(5)
+    for _ in range(5):
+        sizes = [chance.randrange(1, 12) for _ in range(40)]
+        assert connected().send_apart(SESSION, sizes) == whole
