@@ -130,7 +130,9 @@ def test_hosts_that_never_leave_sys_have_what_they_need(host: Host) -> None:
     assert host.type("VER").count("ACR9000") == 1
 
 
-@pytest.mark.parametrize("line", ["", "foo", "X1", "?1", "PRINT", "10", "IF", "REM > x", "\x80\xff"])
+@pytest.mark.parametrize(
+    "line", ["", "foo", "X1", "?1", "PRINT", "10", "IF", "REM > x", "\x80\xff"]
+)
 def test_every_line_is_answered_by_exactly_one_prompt_at_its_end(host: Host, line: str) -> None:
     answer = host.send(f"{line}\r")
     assert answer.removeprefix(line).count("SYS>") == 1
@@ -181,7 +183,8 @@ def test_backspace_and_delete_take_characters_back(host: Host) -> None:
 SESSION = (
     b"PROG0\rATTACH MASTER0\r\nATTACH SLAVE0 AXIS0 \"X\"\r\rPPU X1000\rATTACH\r\nfoo\r"
     b"?P(12288+256)\x00\x30\x02\x03:?2\r\x19X10\rX20\r?BIT516\rECHO 4\r?ACC\r?foo\rECHO 1\r"
-    b"10 PRINT \">\"\r20 END\rLIST\r\x1bRUN\r\x1c\x20\x00?BIT32\rab\b\b\x7f\x08?3\r\x18PROG1\r?4\r\x19PROG0\rX50:X60:X70\r?5\r"
+    b"10 PRINT \">\"\r20 END\rLIST\r\x1bRUN\r\x1c\x20\x00?BIT32\r"
+    b"ab\b\b\x7f\x08?3\r\x18PROG1\r?4\r\x19PROG0\rX50:X60:X70\r?5\r"
 )  # fmt: skip
 
 

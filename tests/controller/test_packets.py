@@ -1,0 +1,111 @@
+"""Binary packets among the text of a terminal connection (terminal protocol, section 10)."""
+
+import struct
+
+import pytest
+from tests.controller.hosts import Host
+
+from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
+from openacr.protocol.stream import StreamKind
+
+FOV, ROV = MA_BASE + MA_FEEDRATE_OVERRIDE, MA_BASE + MA_RAPID_FEEDRATE_OVERRIDE
+
+
+def test_a_reply_is_one_write_without_echo_or_prompt(axes: Host) -> None:
+    axes.card.p[12290 + 256] = 0x23222120
+    request = bytes.fromhex("00 30 02 03")
+    assert axes.raw(request) == request + struct.pack("<2i", axes.card.p[12290], 0x23222120)
+
+
+@pytest.mark.req("BIN-047")
+def test_text_and_packets_alternate_and_a_typed_line_goes_on(axes: Host) -> None:
+    request = bytes.fromhex("00 88 00 30")
+    assert axes.send("?P12") == "?P12"
+    assert axes.raw(request) == request + bytes(4)
+    assert axes.send("288\r") == "288|0|P00>"
+    axes.card.receive(axes.stream, b"?1\r" + request + b"?2\r")
+    writes = axes.writes()
+    assert writes == ["?1|1|P00>", (request + bytes(4)).decode("latin-1"), "?2|2|P00>"]
+
+
+@pytest.mark.req("BIN-039")
+def test_packets_are_answered_while_lines_wait(axes: Host) -> None:
+    axes.send("DWL 1\r?1\r")
+    request = bytes.fromhex("00 88 00 30")
+    assert axes.raw(request) == request + bytes(4)
+    axes.raw(bytes.fromhex("1C 20 00"))
+    assert axes.card.bit[32]
+
+
+@pytest.mark.req("BIN-159", "BIN-166", "BIN-172")
+@pytest.mark.parametrize(
+    ("packet", "row", "value"),
+    [
+        ("00 89 01 10 05 00 00 00", 4097, 5),
+        ("1C 20 00", 4097, 1),
+        ("1C 20 00 00", 4097, 1),
+        ("00 95 01 10 00 00 00 00 06 00 00 00", 4097, 6),
+        ("07 01 00 00 00 00 00 3F", FOV, 0.5),
+        ("1F 01 00 00 00 00 00 3F", ROV, 0.5),
+    ],
+)
+def test_packets_that_set_something_have_no_reply_and_act_at_once(
+    axes: Host, packet: str, row: int, value: float
+) -> None:
+    axes.send("DWL 1\rVEL 5\r")
+    assert axes.card.p[row] != value
+    assert axes.raw(bytes.fromhex(packet)) == b""
+    assert axes.card.p[row] == value
+    axes.after(3000)
+    assert axes.ask("?1") == "1"
+
+
+def test_set_and_clear_change_a_flag(axes: Host) -> None:
+    axes.raw(bytes.fromhex("1C 08 02"))
+    assert axes.card.bit[520]
+    axes.raw(bytes.fromhex("1D 08 02"))
+    assert not axes.card.bit[520]
+
+
+@pytest.mark.req("BIN-003", "BIN-004", "BIN-005")
+def test_a_pause_of_50_ms_drops_an_incomplete_packet(axes: Host) -> None:
+    assert axes.raw(bytes.fromhex("00 89 01 10 05 00")) == b""
+    axes.card.advance(90)
+    axes.raw(bytes.fromhex("00 00"))
+    assert axes.card.p[4097] == 5
+    assert axes.raw(bytes.fromhex("00 89 01 10 07 00")) == b""
+    axes.card.advance(110)
+    assert axes.send("?P4097\r") == "?P4097|5|P00>"
+
+
+def test_a_flag_set_by_a_packet_starts_a_home_search(axes: Host) -> None:
+    number = 17160
+    axes.raw(b"\x1c" + struct.pack("<H", number))
+    axes.card.advance(200)
+    assert axes.ask("?BIT792") == "-1"
+
+
+def test_mode_3_prefixes_packets_on_the_stream_that_asked_for_it(axes: Host) -> None:
+    other = Host(axes.card)
+    axes.send("P4097=-1\r")
+    assert axes.type("MODE 3") == "P00>"
+    plain, prefixed = bytes.fromhex("00 88 01 10"), bytes.fromhex("00 26 23 48 23 41 23 50")
+    assert axes.raw(prefixed) == prefixed + b"&#?" * 4
+    assert other.raw(plain) == plain + b"\xff" * 4
+
+
+@pytest.mark.req("BIN-012", "BIN-013")
+@pytest.mark.parametrize(
+    ("kind", "prefixes"),
+    [(StreamKind.TERMINAL, False), (StreamKind.PACKETS, False), (StreamKind.SERIAL, True)],
+)
+def test_streams_start_in_their_mode(axes: Host, kind: StreamKind, prefixes: bool) -> None:
+    host = Host(axes.card, kind)
+    request = bytes.fromhex("00 88 23 41 23 50" if prefixes else "00 88 01 10")
+    assert host.raw(request) != b""
+
+
+def test_what_does_not_exist_reads_zero_and_keeps_the_host_in_step(axes: Host) -> None:
+    for request in ("00 88 FF FF", "00 8A FF FF"):
+        data = bytes.fromhex(request)
+        assert axes.raw(data) == data + bytes(4)

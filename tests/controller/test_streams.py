@@ -1,0 +1,158 @@
+"""Several hosts on one card (terminal protocol, section 1)."""
+
+import pytest
+from tests.controller.hosts import X_AND_Y, Host, connected, store
+
+from openacr.controller import Controller
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
+
+DATA = bytes.fromhex("00 30 02 01")
+
+
+@pytest.mark.req("ACR-COMM-06", "ACR-COMM-07")
+def test_streams_have_their_own_level_line_echo_and_output(host: Host) -> None:
+    second, third = Host(host.card), Host(host.card)
+    assert second.type("PROG3", "ECHO 4") == "P03>"
+    assert host.send("PROG5\r?BIT") == "PROG5|P05>?BIT"
+    assert third.send("PLC1\r") == "PLC1|PLC1>"
+    assert second.send("10 VEL 5\r?1\r") == "1|"
+    assert host.send("32\r") == "32|0|P05>"
+    assert third.send("?2\r") == "?2|2|PLC1>"
+    assert second.send("LIST\r") == "10 VEL 5|"
+    assert (host.heard(), third.heard()) == ("", "")
+
+
+def test_four_network_hosts_at_once_then_no_stream_is_free(host: Host) -> None:
+    others = [Host(host.card) for _ in range(3)]
+    names = [host.card.streams.session(each.stream) for each in (host, *others)]
+    assert [session and session.name for session in names] == [
+        "STREAM2", "STREAM3", "STREAM4", "STREAM5"
+    ]  # fmt: skip
+    with pytest.raises(NoFreeStreamError):
+        host.card.open_stream(StreamKind.TERMINAL)
+    others[1].close()
+    again = Host(host.card)
+    session = host.card.streams.session(again.stream)
+    assert session is not None
+    assert session.name == "STREAM4"
+
+
+def test_packet_connections_take_no_stream(host: Host) -> None:
+    packets = [Host(host.card, StreamKind.PACKETS) for _ in range(6)]
+    assert [each.raw(DATA) for each in packets] == [DATA + bytes(4)] * 6
+    assert packets[0].send("?1\r\x18") == ""
+    assert not host.card.bit[8467]
+    assert Host(host.card).ask("?1") == "1"
+
+
+def test_a_new_connection_begins_at_sys_whatever_the_one_before_did(host: Host) -> None:
+    host.send("PROG4\rECHO 7\rMODE 3\r?1")
+    host.close()
+    assert Host(host.card).send("?2\r") == "?2|2|SYS>"
+
+
+def test_serial_lines_have_their_own_streams(host: Host) -> None:
+    first, second = Host(host.card, StreamKind.SERIAL), Host(host.card, StreamKind.SERIAL)
+    assert first.type("PROG1") == "P01>"
+    assert second.ask("?1") == "1"
+    with pytest.raises(NoFreeStreamError):
+        host.card.open_stream(StreamKind.SERIAL)
+
+
+def test_xoff_holds_the_answers_of_a_serial_line_and_xon_lets_them_go(host: Host) -> None:
+    serial = Host(host.card, StreamKind.SERIAL)
+    assert serial.send("\x13?1\r") == ""
+    assert serial.send("\x11") == "?1|1|SYS>"
+
+
+def test_the_line_printed_by_a_program_reaches_only_who_listens(axes: Host) -> None:
+    other = Host(axes.card)
+    store(axes, "DWL 0.1", 'PRINT "text"')
+    assert axes.type("RUN") == "P00>"
+    other.type("PROG0", "LISTEN")
+    assert other.after(500) == "text|"
+    assert axes.heard() == ""
+
+
+# lines that wait
+
+
+def test_a_dwell_is_answered_when_it_is_over(host: Host) -> None:
+    assert host.send("DWL 0.5\r") == "DWL 0.5|"
+    assert host.after(990) == ""
+    assert host.after(20) == "SYS>"
+
+
+def test_inhibit_is_answered_when_the_flag_comes(host: Host) -> None:
+    assert host.send("INH 32\r") == "INH 32|"
+    assert host.after(5000) == ""
+    host.card.bit[32] = True
+    assert host.after(4) == "SYS>"
+
+
+def test_a_move_into_a_full_buffer_is_answered_when_there_is_room(axes: Host) -> None:
+    assert axes.type("X10", "X20") == "P00>P00>"
+    assert axes.send("X30\r") == "X30|"
+    while not (heard := axes.after(1)):
+        assert axes.card.p[12288] <= 10000
+    assert heard == "P00>"
+    assert axes.card.p[12288] == pytest.approx(10000, abs=200)
+    assert axes.type("PROG0") == "P00>"
+
+
+def test_output_before_a_wait_is_sent_before_it(host: Host) -> None:
+    assert host.send("PRINT 1:DWL 0.1:PRINT 2\r") == "PRINT 1:DWL 0.1:PRINT 2|1|"
+    assert host.after(300) == "2|SYS>"
+
+
+def test_typed_ahead_lines_are_executed_in_their_turn(host: Host) -> None:
+    assert host.send("DWL 0.1\rPROG3\r?BIT32\rSET 32\r") == "DWL 0.1|PROG3|?BIT32|SET 32|"
+    assert host.after(300) == "SYS>P03>0|P03>P03>"
+    assert host.card.bit[32]
+
+
+def test_other_streams_do_not_wait(axes: Host) -> None:
+    other = Host(axes.card)
+    axes.send("DWL 10\r")
+    assert other.ask("?1") == "1"
+    assert axes.after(100) == ""
+
+
+def test_blocked_lines_end_at_the_same_tick_however_time_is_cut() -> None:
+    def answered(step: int) -> tuple[list[str], str]:
+        host = connected(*X_AND_Y)
+        host.send("X1:X2:X3\rPRINT 1:DWL 0.1:PRINT P6916\r?P6916\r")
+        heard = []
+        for _ in range(4000 // step):
+            heard.append(host.after(step))
+        return ["".join(heard)], host.card.digest()
+
+    assert answered(1) == answered(40) == answered(4000)
+
+
+def test_a_host_that_leaves_takes_its_waiting_line_with_it(host: Host) -> None:
+    host.send("INH 32:SET 40\rSET 41\r")
+    host.close()
+    host.card.bit[32] = True
+    host.card.advance(100)
+    assert not host.card.bit[40]
+    assert not host.card.bit[41]
+    assert Host(host.card).ask("?BIT32") == "-1"
+
+
+def test_a_reboot_starts_every_stream_afresh(axes: Host) -> None:
+    other = Host(axes.card)
+    other.send("PROG3\rECHO 4\r")
+    axes.send("X100\rREBOOT\r")
+    axes.heard()
+    assert axes.asks("?P12288", "?BIT516", "?BIT8465") == ["0", "0", "0"]
+    assert other.ask("?1") == "1"
+    axes.send("\r")
+    assert axes.send("\r") == "|SYS>"
+
+
+@pytest.mark.parametrize("model", ["ACR1505", "ACR8020", "ACR9000", "ACR9030", "ACR9040"])
+def test_every_model_can_be_talked_to(model: str) -> None:
+    card = Controller(model)
+    assert card.send("?1\r") == "?1\r\n1\r\nSYS>"
+    assert [Host(card).ask("?2") for _ in range(4)] == ["2"] * 4
