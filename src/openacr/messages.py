@@ -79,5 +79,6 @@ PROGRAM_IS_PROTECTED = _row("Program is protected")
 INVALID_PASSWORD = _row("Invalid password")
 NOT_SUPPORTED = _row("Not supported")
 PLC_TOO_LONG = _row("PLC too long")
+PLC_ERROR = _row("PLC error line {}")
 
 MESSAGES: tuple[Message, ...] = tuple(_all)

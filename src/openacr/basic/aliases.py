@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 
-from openacr.basic.nodes import Expr
+from openacr.basic.nodes import Expr, Flag, Number, resolved
 from openacr.basic.registry import keywords
 from openacr.errors import CardError
 from openacr.messages import ILLEGAL_NAME, OUT_OF_DEFINE_SPACE
@@ -64,3 +64,12 @@ def check_name(name: str) -> None:
     is_letters = name.isascii() and name.isalpha()
     if not is_letters or len(name) > LONGEST_ALIAS or name.upper() in keywords():
         raise CardError(ILLEGAL_NAME)
+
+
+def whole_number(node: Expr | None) -> int | None:
+    """The flag or the whole number that an alias stands for; None for anything else."""
+    target = None if node is None else resolved(node)
+    if isinstance(target, Flag):
+        target = resolved(target.index)
+    value = target.value if isinstance(target, Number) else None
+    return value if isinstance(value, int) else None

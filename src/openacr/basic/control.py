@@ -7,6 +7,7 @@ flag is set, and the program stops before its next line.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -119,10 +120,23 @@ class ProgramControl:
     # flags
 
     def scan(self) -> None:
-        """Serve the request and control flags of all programs: part of the slow scan."""
+        """Serve the request and control flags of all programs and PLCs: part of the slow scan."""
         for program in range(PROGRAMS):
             if self._flags(program):
                 self._scan_program(program)
+        for plc in range(at.PLC_COUNT):
+            self._scan_plc(plc)
+
+    def _scan_plc(self, plc: int) -> None:
+        """A PLC that cannot run stays halted; there is no channel to tell."""
+        word = at.PLF_WORD + plc
+        flags = self._card.memory.I[word]
+        self._card.memory.I[word] = flags & ~(at.PLF_RUN_REQUEST | at.PLF_HALT_REQUEST)
+        if flags & at.PLF_HALT_REQUEST:
+            self.halt(PROGRAMS + plc)
+        if flags & at.PLF_RUN_REQUEST and not self.is_running(PROGRAMS + plc):
+            with suppress(CardError):
+                self.run(PROGRAMS + plc)
 
     def _scan_program(self, program: int) -> None:
         flags = self._flags(program)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from openacr.basic import registry
 from openacr.basic.grammar import Form, Mark, Object, Word
@@ -27,6 +27,15 @@ _OPENING = frozenset(("IF", "FOR", "WHILE"))
 _CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
 _OUTDENTED = frozenset(("ELSE", "ELSEIF", "NEXT", "WEND"))
 _SPACED_VARIABLE = "BIT"
+
+
+@runtime_checkable
+class Spelled(Protocol):
+    """The meaning of a line that is not AcroBASIC and says itself how it is written."""
+
+    @property
+    def spelled(self) -> str:
+        """The line as LIST shows it."""
 
 
 class Lister:
@@ -49,7 +58,9 @@ class Lister:
             frame = first in ("PROGRAM", "ENDP")
             outer = depth - (first in _OUTDENTED) + is_free_form
             indent = 0 if frame else max(outer, 0)
-            yield f"{numbered}{' ' * indent}{self.line(line.tokens)}"
+            own = isinstance(line.tree, Spelled)
+            text = line.tree.spelled if own else self.line(line.tokens)
+            yield f"{numbered}{' ' * indent}{text}"
             depth = max(depth + _depth_change(line.tokens), 0)
 
     def line(self, tokens: Iterable[Token]) -> str:

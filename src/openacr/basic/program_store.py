@@ -11,7 +11,7 @@ from openacr.basic.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token
 from openacr.map import numbers as at
-from openacr.messages import INVALID_PASSWORD, PROGRAM_IS_PROTECTED
+from openacr.messages import INVALID_PASSWORD, OUT_OF_MEMORY, PROGRAM_IS_PROTECTED
 
 OWNERS = 24  # programs 0-15, PLCs 16-23
 HIDDEN_STEP = 10
@@ -61,6 +61,8 @@ class ProgramStore:
 
     def put(self, owner: int, line: StoredLine) -> None:
         """Store a line, replacing the one of its number; `Out of memory` stores nothing."""
+        if owner >= PROGRAMS and not self.storage.size(owner):
+            raise CardError(OUT_OF_MEMORY)
         old = self.texts[owner].get(line.number)
         self._account(owner, line.cost_bytes - (old.cost_bytes if old else 0))
         self.texts[owner][line.number] = line

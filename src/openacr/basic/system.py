@@ -108,10 +108,19 @@ class System:
         return (None, 0) if line.is_empty else (line, line_bytes(found))
 
     def start_boot_programs(self) -> None:
-        """Start every program and PLC whose first statement is PBOOT."""
+        """Start every program and PLC whose first statement is PBOOT.
+
+        One that cannot start keeps no other from starting; the first error is raised.
+        """
+        errors: list[CardError] = []
         for owner in self.owners():
             if self.programs.starts_by_itself(owner) and not self.control.is_running(owner):
-                self.control.run(owner)
+                try:
+                    self.control.run(owner)
+                except CardError as error:
+                    errors.append(error)
+        if errors:
+            raise errors[0]
 
     def forget(self) -> None:
         """Forget programs, dimensions and aliases: memory without a battery."""

@@ -1,0 +1,58 @@
+"""Start and halt PLCs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plc.compile import Compiled, Preload, compile_plc
+from openacr.plc.instructions import Operand
+from openacr.plc.reader import PlcLine
+
+Text = Iterable[tuple[int, PlcLine]]
+
+_PRELOAD_ROWS = {
+    Operand.TIMER: (at.TIM_BASE + at.TIM_TIMER_PRELOAD, at.TIM_STRIDE),
+    Operand.COUNTER: (at.CNT_BASE + at.CNT_COUNTER_PRELOAD, at.CNT_STRIDE),
+}
+_FIRST = at.PLF_PLC_RUNNING | at.PLF_FIRST_SCAN
+
+
+class Plcs:
+    """The PLCs of a card; `text` gives the stored lines of one, with their numbers.
+
+    Whether a PLC runs is its flag, what is scanned lies in hidden rows: a snapshot of the
+    memory holds all of it.
+    """
+
+    def __init__(self, memory: Memory, text: Callable[[int], Text]) -> None:
+        self._memory = memory
+        self._text = text
+
+    def is_running(self, plc: int) -> bool:
+        """Whether it is scanned."""
+        return bool(self._memory.I[at.PLF_WORD + plc] & at.PLF_PLC_RUNNING)
+
+    def run(self, plc: int) -> None:
+        """RUN: the first scan is part of the next servo interrupt; CardError if it cannot be."""
+        compiled = compile_plc(self._text(plc))
+        self._write_code(plc, compiled)
+        for preload in compiled.preloads:
+            self._write_preload(preload)
+        self._memory.I[at.PLC_BASE + plc * at.PLC_STRIDE + at.PLC_TICK_COUNT] = 1
+        self._memory.I[at.PLF_WORD + plc] |= _FIRST
+
+    def halt(self, plc: int) -> None:
+        """HALT: outputs stay as they are."""
+        self._memory.I[at.PLF_WORD + plc] &= ~_FIRST
+
+    def _write_code(self, plc: int, compiled: Compiled) -> None:
+        rows = at.PCI_BASE + plc * at.PCI_STRIDE
+        for place, value in enumerate(compiled.code):
+            self._memory.I[rows + at.PCI_CODE + place] = value
+        self._memory.I[rows + at.PCI_LENGTH] = len(compiled.code) // 2
+
+    def _write_preload(self, preload: Preload) -> None:
+        row, stride = _PRELOAD_ROWS[preload.operand]
+        self._memory.I[row + preload.number * stride] = preload.value
