@@ -7,7 +7,8 @@ state: `digest` is equal on every machine build of the core.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -22,11 +23,13 @@ from openacr.compiled import pick
 from openacr.controller import snapshot as snapshots
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError
 from openacr.controller.packets import PacketHost
+from openacr.controller.plc_names import plc_names
 from openacr.controller.streams import CONSOLE, Streams
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.controller.views import AxisView, Bits, Parameters
 from openacr.engine import loop_cy
-from openacr.errors import SourceError, UserError
+from openacr.errors import CardError, SourceError, UserError
+from openacr.lang.lexer import Token
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AXF_PEAK_ERROR_CNT,
@@ -49,6 +52,7 @@ from openacr.map.numbers import (
     ENI_MULT,
     ENI_STRIDE,
     P_CARD_SERIAL_NUMBER,
+    PLC_COUNT,
 )
 from openacr.models import MODELS, Model
 from openacr.motion import drive
@@ -56,6 +60,8 @@ from openacr.motion.card import Card
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
 from openacr.plant import apply, load, schema
+from openacr.plc.control import Plcs
+from openacr.plc.reader import PlcLine, read_line
 from openacr.project import Project, find_project
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import ControlKey
@@ -101,10 +107,12 @@ class Controller:
         self.memory = self.card.memory
         self.system = System(self.card)
         self.executor = Executor(self.system)
-        self.control = ProgramControl(self.system, self.executor)
+        self.plcs = Plcs(self.memory, self._plc_text)
+        self.control = ProgramControl(self.system, self.executor, self.plcs)
         self.system.control = self.control
         self.system.runner = self.executor
         self.system.reboot = self._ask_reboot
+        self.system.read_plc = self._read_plc
         self.streams = Streams(self.system.sessions, PacketHost(self.card), self.press)
         self.p = Parameters(self.memory)
         self.bit = Bits(self.memory)
@@ -133,7 +141,10 @@ class Controller:
         session.connect()
         errors = Loader(session, controller._wait_for_console_line).load(project)
         session.disconnect()
-        controller.system.start_boot_programs()
+        try:
+            controller.system.start_boot_programs()
+        except CardError as error:
+            errors.append(SourceError(error.text, path=str(project.root)))
         return controller, errors
 
     # time
@@ -251,6 +262,8 @@ class Controller:
             return
         for program in range(PROGRAMS):
             self.executor.halt_program(program)
+        for plc in range(PLC_COUNT):
+            self.plcs.halt(plc)
         drive.kill_all(self.card)
         if key is ControlKey.CTRL_Z:
             drive.disable_all(self.card)
@@ -387,7 +400,18 @@ class Controller:
         self._apply_world()
         apply.put_state(self.memory, outside)
         self.streams.disconnect_all()
-        self.system.start_boot_programs()
+        with suppress(CardError):  # nobody is connected who could be told
+            self.system.start_boot_programs()
+
+    # PLCs
+
+    def _plc_text(self, plc: int) -> Iterator[tuple[int, PlcLine]]:
+        for line in self.system.programs.lines(PROGRAMS + plc):
+            yield line.number, line.tree
+
+    def _read_plc(self, found: list[Token]) -> tuple[PlcLine | None, int]:
+        line = read_line(found, plc_names(self.system.aliases.nodes))
+        return line, line.count if line else 0
 
 
 def _model(model: str | Model) -> Model:
