@@ -7,6 +7,7 @@ present is not used, and says so: results would silently belong to old code.
 import logging
 import os
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any, ParamSpec, TypeVar, cast
 
 _P = ParamSpec("_P")
@@ -18,15 +19,15 @@ def _load() -> Any:
     if os.environ.get("OPENACR_PURE") == "1":
         return None
     try:
-        from openacr import _compiled  # type: ignore[attr-defined, unused-ignore]
+        compiled = import_module("openacr._compiled")
     except ImportError:
         return None
     from openacr.unity import source_hash
 
-    if source_hash() != _compiled.SOURCE_HASH:
+    if source_hash() != compiled.SOURCE_HASH:
         _log.warning("the compiled core is older than its sources; running plain Python")
         return None
-    return _compiled
+    return compiled
 
 
 extension = _load()
