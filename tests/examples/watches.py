@@ -1,0 +1,19 @@
+"""Which flags tell the story of each example."""
+
+from tests.examples.observe import Watch
+
+MOTION, KILL_MOVES, KILL = 516, 522, 8467
+
+GANTRY = Watch("gantry", (10, 34, MOTION, 548, 1024, 1056, 8465, 8497, 8529), 3)
+SQUARE = Watch("square", (MOTION, 517, 518, 519, 1024, 1050), 2)
+DIAMONDS = Watch("diamonds", (MOTION, 792, 824, 1024), 3)
+BASIC_MOTION = Watch("basic_motion", (MOTION, 792, 1024), 1)
+_HOMING = (MOTION, 777, 792, 809, 824, 841, 856, 1024, KILL, 16134, 16135, 16166, 16167)
+HOMING = Watch("homing_xyz", (*_HOMING, 16198, 16199), 3)
+MISSING_SWITCH = Watch(
+    "homing_xyz", (9, 10, *HOMING.flags), 3, "missing_switch.toml", "missing_switch.txt"
+)
+_STOPS = (KILL_MOVES, KILL, 8499, 8465, 8497, 8477, 8479, 8509, 8511, 16132, 16140)
+ERRORS = Watch("error_handler", (16, MOTION, 792, 824, 1024, 1050, 1056, *_STOPS), 2)
+
+ALL = (GANTRY, SQUARE, DIAMONDS, BASIC_MOTION, HOMING, MISSING_SWITCH, ERRORS)
