@@ -19,12 +19,15 @@ HAS_ERRORS = 1
 File = Annotated[Path, typer.Argument(help="Controller file (.8k) or project folder.")]
 
 
-def list_file(file: File) -> None:
+def list_file(
+    file: File,
+    ladder: Annotated[bool, typer.Option("--ladder", help="Draw PLCs as ladders instead.")] = False,
+) -> None:
     """Print a controller file as the card lists it."""
-    from openacr.cli.source import listing
+    from openacr.cli.source import ladders, listing
 
     reader = read(file, find_project(file))
-    for line in listing(reader):
+    for line in ladders(reader) if ladder and not reader.faults else listing(reader):
         typer.echo(line)
     if reader.faults:
         _show(reader.faults, on_stderr=True)

@@ -18,6 +18,7 @@ from openacr.basic.loader import FileLine, file_lines
 from openacr.basic.memory_cost import line_bytes
 from openacr.basic.nodes import Expr, Line, Move, Number, Statement, String
 from openacr.basic.parser import Parser, Scope
+from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import StoredLine, opens_capture
 from openacr.basic.registry import Level
 from openacr.errors import CardError
@@ -32,6 +33,9 @@ from openacr.messages import (
     UNKNOWN_COMMAND,
     Message,
 )
+from openacr.plc.compile import PlcCompileError, compile_plc
+from openacr.plc.ladder import draw
+from openacr.plc.reader import PlcLine, read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 
 HIDDEN_STEP = 10
@@ -80,6 +84,10 @@ class Text:
         """The lines by their numbers."""
         return [self.lines[number] for number in sorted(self.lines)]
 
+    def rungs(self) -> list[tuple[int, PlcLine]]:
+        """The lines of a PLC with their numbers."""
+        return [(line.number, line.tree) for line in self.in_order()]
+
 
 @dataclass(frozen=True, slots=True)
 class Part:
@@ -115,8 +123,12 @@ class Reader:
         for line in file_lines(source.text):
             self._take(line)
         for key in [key for key in self.texts if key not in read_before]:
-            if key[0] is Level.PROG and not self.texts[key].is_incomplete:
+            if self.texts[key].is_incomplete:
+                continue
+            if key[0] is Level.PROG:
                 self._check_structure(self.texts[key])
+            else:
+                self._check_rungs(self.texts[key])
         self.faults[known_faults:] = sorted(
             self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
         )
@@ -126,7 +138,7 @@ class Reader:
             self._line(line)
         except CardError as error:
             self._fault(line, error)
-            if self.is_capturing:
+            if self.is_capturing or self.level is Level.PLC:
                 self._text().is_incomplete = True
 
     def _line(self, line: FileLine) -> None:
@@ -168,15 +180,17 @@ class Reader:
 
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
-        tree = Line()
-        if self.level is Level.PROG:
-            tree = Parser(found, self._scope(stored=True)).line()
         number = text.next_number()
         if found[0].kind is Kind.NUMBER:
             number, found = int(found[0].value), found[1:]
         if found[0].kind is Kind.END:
             text.lines.pop(number, None)
             return
+        tree: Line | PlcLine | None
+        if self.level is Level.PROG:
+            tree = Parser(found, self._scope(stored=True)).line()
+        else:
+            tree = read_line(found, PlcNames(self.aliases))
         text.lines[number] = StoredLine(number, tuple(found), tree, line_bytes(found))
         text.places[number] = line
 
@@ -217,6 +231,15 @@ class Reader:
                     error_here = StatementError(message, target.span, target.value)
                     self._fault(text.places[line.number], error_here)
 
+    def _check_rungs(self, text: Text) -> None:
+        """Check a PLC as RUN would."""
+        try:
+            compile_plc(text.rungs())
+        except PlcCompileError as error:
+            self._fault(text.places[error.line], error)
+        except CardError as error:
+            self._fault(text.places[max(text.places)], error)
+
     def _fault(self, line: FileLine, error: CardError) -> None:
         original = self._originals[line.number - 1].rstrip()
         span: Span | None = getattr(error, "span", None)
@@ -255,6 +278,14 @@ def listing(reader: Reader) -> Iterator[str]:
             yield from lister.program(part.text.in_order())
         else:
             yield lister.line(part.tokens)
+
+
+def ladders(reader: Reader) -> Iterator[str]:
+    """Draw the PLCs that were read."""
+    for (level, number), text in reader.texts.items():
+        if level is Level.PLC:
+            yield f"PLC{number}"
+            yield from draw(text.rungs())
 
 
 def _jumps(found: tuple[Token, ...]) -> Iterator[Token]:

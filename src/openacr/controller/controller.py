@@ -17,13 +17,13 @@ import numpy as np
 
 from openacr.basic.control import ProgramControl
 from openacr.basic.executor import Executor
+from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.system import System
 from openacr.compiled import pick
 from openacr.controller import snapshot as snapshots
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError
 from openacr.controller.packets import PacketHost
-from openacr.controller.plc_names import plc_names
 from openacr.controller.streams import CONSOLE, Streams
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.controller.views import AxisView, Bits, Parameters
@@ -117,6 +117,7 @@ class Controller:
         self.p = Parameters(self.memory)
         self.bit = Bits(self.memory)
         self.journal: list[JournalEntry] = []
+        self.is_journalled = True
         self._console: int | None = None
         self._trace_parts: list[Reals] = []
         self._trace_buffer: Reals | None = None
@@ -223,7 +224,7 @@ class Controller:
 
     def receive(self, stream: int, data: bytes) -> None:
         """Bytes that arrived together, at the present tick."""
-        self.journal.append(JournalEntry(self.tick, stream, data))
+        self._note(stream, data)
         self.streams.receive(stream, data, self.tick)
         if self._wants_reboot:
             self._reboot()
@@ -276,8 +277,12 @@ class Controller:
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input that no part of the world drives."""
-        self.journal.append(JournalEntry(self.tick, 0, b"1" if on else b"0", bit))
+        self._note(0, b"1" if on else b"0", bit)
         self.memory.set_bit(bit, on)
+
+    def _note(self, stream: int, data: bytes, bit: int = -1) -> None:
+        if self.is_journalled:
+            self.journal.append(JournalEntry(self.tick, stream, data, bit))
 
     def drag(self, axis: int, by_u: float) -> None:
         """Push the load of an axis by hand, at once; it takes part in the physics after that."""
@@ -410,7 +415,7 @@ class Controller:
             yield line.number, line.tree
 
     def _read_plc(self, found: list[Token]) -> tuple[PlcLine | None, int]:
-        line = read_line(found, plc_names(self.system.aliases.nodes))
+        line = read_line(found, PlcNames(self.system.aliases.nodes))
         return line, line.count if line else 0
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token
@@ -37,12 +38,14 @@ class PlcError(CardError):
         self.span = span
 
 
-@dataclass(frozen=True, slots=True)
-class Names:
+class Names(Protocol):
     """What words mean outside the PLC language."""
 
-    alias: Callable[[str], int | None]  # the number of a flag, or a constant
-    is_command: Callable[[str], bool]  # of AcroBASIC
+    def number(self, name: str) -> int | None:
+        """The flag or whole number that an alias stands for."""
+
+    def is_command(self, word: str) -> bool:
+        """Whether AcroBASIC knows the word."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +179,7 @@ class _Reader:
         token = self.token
         value: object = token.value
         if token.kind is Kind.WORD:
-            value = self.names.alias(token.text)
+            value = self.names.number(token.text)
             if value is None:
                 raise self.error(UNDEFINED_SYMBOL)
         elif token.kind is not Kind.NUMBER:
