@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from openacr.controller import Controller
     from openacr.io.host import CardHost
     from openacr.io.server import Address
 
 log = logging.getLogger(__name__)
+BAD_INPUT = 2
 
 
 def serve(
@@ -26,15 +28,24 @@ def serve(
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[int, typer.Option(help="Speed of the serial port.")] = 38400,
     speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
-    data: Annotated[
-        Path | None, typer.Option(help="Folder that keeps what ESAVE and FLASH store.")
-    ] = None,
 ) -> None:
     """Run a card in real time and let hosts talk to it over TCP and serial lines."""
-    from openacr.controller import Controller
-
-    card = Controller.from_project(project, data=data) if project else Controller(data=data)
+    card = _load(project)
     asyncio.run(serve_card(card, host, ascii_port, binary_port, serial, baud, speed))
+
+
+def _load(path: Path | None) -> "Controller":
+    """A card with a project; refused lines are printed and end it with exit code 2."""
+    from openacr.controller import Controller
+    from openacr.project import find_project
+
+    card, refused = Controller.load(find_project(path)) if path else (Controller(), [])
+    for error in refused:
+        typer.echo(f"error: {error}", err=True)
+    if refused:
+        raise typer.Exit(BAD_INPUT)
+    card.is_journalled = False  # it may run for months
+    return card
 
 
 async def serve_card(

@@ -68,7 +68,8 @@ class TcpPeer(asyncio.BufferedProtocol):
         if not isinstance(transport, asyncio.Transport):
             return
         self._transport = transport
-        self._name = str(transport.get_extra_info("peername"))
+        host, port, *_ = transport.get_extra_info("peername") or ("?", 0)
+        self._name = f"{host}:{port}"
         _set_options(transport.get_extra_info("socket"))
         self._joined = self._board.joined(self)
         if self._joined:
