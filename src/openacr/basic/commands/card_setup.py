@@ -27,7 +27,7 @@ EXPANSION_ENABLE = 116
 CANOPEN_STATE = 32779
 SERVO_FIXED_S = 25e-6
 SERVO_PER_AXIS_S = 15e-6
-EPL_STARTING, EPL_PRESENT, EPL_OPERATIONAL, EPL_FAILED = 16640, 16648, 16649, 16650
+EPL_OPERATIONAL, EPL_FAILED = 16649, 16650
 
 
 class Modules(Form):
@@ -110,17 +110,14 @@ def diag(run: Run) -> None:
     ref="PG Drive Control",
 )
 def eplc(run: Run, switch: str | None) -> None:
-    """Start or stop the Ethernet Powerlink network; a card without one fails to start."""
+    """Start or stop the Ethernet Powerlink network; the virtual card has none to start."""
     memory = run.card.memory
     if switch is None:
         states = ((EPL_OPERATIONAL, "OPERATIONAL"), (EPL_FAILED, "FAILED"))
         run.print(next((text for bit, text in states if memory.bit(bit)), "OFF"))
         return
-    is_missing = not memory.bit(EPL_PRESENT)
-    memory.set_bit(EPL_FAILED, switch == "ON" and is_missing)
-    memory.set_bit(EPL_STARTING, switch == "ON" and not is_missing)
-    if switch == "OFF":
-        memory.set_bit(EPL_OPERATIONAL, False)
+    memory.set_bit(EPL_FAILED, switch == "ON")
+    memory.set_bit(EPL_OPERATIONAL, False)
 
 
 @command("CPU", group=GROUP, levels=ANY, ref=REF)
