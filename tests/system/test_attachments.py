@@ -1,7 +1,6 @@
 """Attachments: feedback and output of axes, masters and slaves of programs."""
 
 import pytest
-
 from tests.system.terminal import Console
 
 

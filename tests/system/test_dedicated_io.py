@@ -1,7 +1,6 @@
 """Limit and home inputs (HLBIT), drive signals."""
 
 import pytest
-
 from tests.system.terminal import Console
 
 POSITIVE, NEGATIVE, HOME = 1, 2, 4
@@ -49,9 +48,7 @@ def test_no_parameter_shows_or_changes_the_assignment() -> None:
 @pytest.mark.req("ACR-HLBIT-04", "ACR-HLBIT-05")
 @pytest.mark.parametrize(("first", "real"), [(31, POSITIVE), (30, POSITIVE | NEGATIVE), (29, 7)])
 @pytest.mark.parametrize("inverted", [False, True])
-def test_inputs_beyond_the_word_of_32_always_read_0(
-    first: int, real: int, inverted: bool
-) -> None:
+def test_inputs_beyond_the_word_of_32_always_read_0(first: int, real: int, inverted: bool) -> None:
     console = Console()
     console.type(f"AXIS0 HLBIT {first}")
     for bit in (16144, 16145, 16146):

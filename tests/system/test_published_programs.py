@@ -1,9 +1,9 @@
 """Sample programs of the guide, run as they are used there."""
 
 import pytest
+from tests.system.terminal import Console
 
 from openacr.protocol.stream import StreamKind
-from tests.system.terminal import Console
 
 CRLF = "\r\n"
 
