@@ -1,0 +1,32 @@
+"""Run all figures, or those named on the command line."""
+
+import sys
+from importlib import import_module
+
+from bench.figures import print_head
+
+ORDER = (
+    "gantry",
+    "sixteen_axes",
+    "kernel_tick",
+    "statements",
+    "lexer",
+    "state",
+    "startup",
+    "terminal_latency",
+    "packets",
+)
+
+
+def main() -> None:
+    names = sys.argv[1:] or list(ORDER)
+    unknown = sorted(set(names) - set(ORDER))
+    if unknown:
+        sys.exit(f"bench {' '.join(unknown)}: known are {', '.join(ORDER)}")
+    print_head()
+    for name in names:
+        import_module(f"bench.{name}").main()
+
+
+if __name__ == "__main__":
+    main()
