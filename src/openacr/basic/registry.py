@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Flag, auto
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -235,6 +236,12 @@ def commands() -> Iterator[Command]:
 
 def keywords() -> frozenset[str]:
     """Words that no alias and no axis may be named."""
+    return _keywords(len(root.children), len(functions))
+
+
+@lru_cache(maxsize=1)
+def _keywords(command_words: int, function_words: int) -> frozenset[str]:
+    """The keywords while there are so many commands and functions."""
     first = {word for word in root.children if word.isalpha()}
     return frozenset(first | set(functions) | VARIABLES | OPERATORS | CLAUSES)
 
