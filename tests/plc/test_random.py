@@ -60,11 +60,12 @@ class Model:
         return self.flags.get(name, False)
 
     def load(self, program: list[Instruction]) -> None:
-        tables = {"TIM": self.timers, "CNT": self.counters}
         for name, operand in program:
             number, _, preload = str(operand).partition(" ")
-            if preload and name in tables:
-                tables[name][int(number)][0] = int(preload)
+            if preload and name == "TIM":
+                self.timers[int(number)][0] = int(preload)
+            elif preload:
+                self.counters[int(number)][0] = int(preload)
 
     def objects(self) -> None:
         for n, timer in self.timers.items():
