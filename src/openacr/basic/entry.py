@@ -79,12 +79,12 @@ class Entry:
             self.session.capture = None
             self._append(owner, tokens("ENDP"))
             return False
+        if first.kind is Kind.WORD and first.value == "ENDP":
+            self.session.capture = None  # also where no room is left to store it
         if found[0].kind is Kind.NUMBER:
             self._numbered(owner, found)
         elif found[0].kind is not Kind.END:
             self._append(owner, found)
-        if first.kind is Kind.WORD and first.value == "ENDP":
-            self.session.capture = None
         return True
 
     def _append(self, owner: int, found: list[Token]) -> None:
