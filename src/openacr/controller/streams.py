@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from openacr.basic import session as sessions
 from openacr.basic.session import Session
 from openacr.protocol.escape import BinaryMode
 from openacr.protocol.execute import Host, execute
-from openacr.protocol.stream import EchoMode, NoFreeStreamError, StreamKind
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import (
     NEED_DATA,
     Attention,
@@ -29,6 +30,7 @@ _NAMES = {
     StreamKind.SERIAL: ("COM1", "COM2"),
     StreamKind.DPCB: ("DPCB",),
 }
+_ATTENTION = {each: Attention(each.value) for each in sessions.Attention}
 CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
 
 
@@ -153,9 +155,10 @@ class Streams:
         if session is None:
             return
         terminal.busy = session.busy
-        terminal.attention = Attention(session.attention.value)
-        terminal.echo = EchoMode(session.echo)
-        terminal.mode = BinaryMode(session.mode)
+        terminal.attention = _ATTENTION[session.attention]
+        terminal.echo = session.echo
+        if terminal.mode != session.mode:
+            terminal.mode = BinaryMode(session.mode)
         terminal.echo_line_end = session.echo_line_end
         output = session.take_output()
         if output:

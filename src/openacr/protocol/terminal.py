@@ -37,6 +37,7 @@ LINE_LIMIT = 255
 BACKLOG_LIMIT_BYTES = 1 << 16
 BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
 CRLF = b"\r\n"
+ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
 
 
@@ -168,7 +169,7 @@ class Terminal:
 
     def __init__(self, kind: StreamKind, *, timeout_tk: int) -> None:
         self.kind = kind
-        self.echo = EchoMode.CHARACTERS
+        self.echo = ECHO_CHARACTERS  # bits of EchoMode
         self.mode: BinaryMode = kind.startup_mode
         self.attention = Attention.COMMANDS
         self.busy = False
@@ -347,7 +348,7 @@ class Terminal:
     # --- output -----------------------------------------------------------------------
 
     def _echo(self, data: bytes) -> None:
-        if self.echo & EchoMode.CHARACTERS:
+        if self.echo & ECHO_CHARACTERS:
             self.output.text(data)
 
     def send_text(self, text: str) -> None:
