@@ -7,9 +7,10 @@ only on motion into it, so that an axis can always be driven off a switch.
 """
 
 from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, jog_take_over
-from openacr.kernel.master_cy import master_drop, master_word
+from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
     AF1_BALLSCREW_ACTIVATE,
     AF1_CAM_ACTIVATE,

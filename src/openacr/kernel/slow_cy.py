@@ -1,7 +1,8 @@
 """The slow flag scan, every 50 ms: limit bands and the request flags of masters and axes."""
 
 from openacr.kernel.axis_cy import axis_renew, axis_scale, axis_word
-from openacr.kernel.master_cy import NOT_HELD, master_hold, master_release, master_word
+from openacr.kernel.hold_cy import NOT_HELD, master_hold, master_release
+from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
     AF1_NOT_EXCESS_ERROR,
     AF1_NOT_IN_POSITION,

@@ -11,7 +11,8 @@ from openacr.kernel.drive_cy import drive_step, motion_enable_step
 from openacr.kernel.feedback_cy import encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
-from openacr.kernel.master_cy import master_step, master_word
+from openacr.kernel.master_cy import master_step
+from openacr.kernel.path_cy import master_word
 from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
 from openacr.map.numbers import (

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import master_cy
+from openacr.kernel import hold_cy, path_cy
 from openacr.map.numbers import (
     AXF_POSITION_CNT,
     AXF_ROTARY_U,
@@ -58,7 +58,7 @@ from openacr.motion.permits import (
 )
 from openacr.motion.rows import axis_reals, master_ints, master_parameter, master_reals, master_word
 
-RING = master_cy.RING
+RING = path_cy.RING
 
 _COPIED = (
     (MSF_ACC_UPS2, MQF_ACC_UPS2),
@@ -68,9 +68,9 @@ _COPIED = (
     (MSF_FVEL_UPS, MQF_FVEL_UPS),
     (MSF_IVEL_UPS, MQF_IVEL_UPS),
 )
-_master_hold = pick(master_cy.master_hold)
-_master_release = pick(master_cy.master_release)
-_master_drop = pick(master_cy.master_drop)
+_master_hold = pick(hold_cy.master_hold)
+_master_release = pick(hold_cy.master_release)
+_master_drop = pick(hold_cy.master_drop)
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,13 +220,13 @@ def _write_ways(card: Card, master: int, record: int, ways: list[_Way], *, first
 
 def hold(card: Card, master: int) -> None:
     """Feedhold: slow the path to rest; the move stays loaded."""
-    if card.memory.I[master_ints(master) + MSI_HOLD] == master_cy.NOT_HELD:
+    if card.memory.I[master_ints(master) + MSI_HOLD] == hold_cy.NOT_HELD:
         _master_hold(card.memory.F, card.memory.I, card.memory.S, master)
 
 
 def release(card: Card, master: int) -> None:
     """Cycle start: the path goes on."""
-    if card.memory.I[master_ints(master) + MSI_HOLD] != master_cy.NOT_HELD:
+    if card.memory.I[master_ints(master) + MSI_HOLD] != hold_cy.NOT_HELD:
         _master_release(card.memory.F, card.memory.I, card.memory.S, master)
 
 
@@ -235,7 +235,7 @@ def halt(card: Card, master: int) -> None:
     if not master_moving(card, master):
         return
     rows = master_ints(master)
-    if card.memory.I[rows + MSI_HOLD] == master_cy.IN_FEEDHOLD:
+    if card.memory.I[rows + MSI_HOLD] == hold_cy.IN_FEEDHOLD:
         _master_drop(card.memory.F, card.memory.I, card.memory.S, master)
     else:
         hold(card, master)

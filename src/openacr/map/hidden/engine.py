@@ -15,5 +15,22 @@ ENGINE = HiddenBlock(
         "trace_wait",
         "trace_row",
         "trace_rows",
+        "trace_peaks",  # keep the extremes between samples, see engine/loop_cy.py
+        "watch_count",
+        "stop",  # return at the end of this tick
+    ),
+)
+
+# What the caller waits for: the engine returns behind a tick in which one of these changed.
+WATCH = HiddenBlock(
+    prefix="WAT",
+    count=64,
+    doubles=("bound",),
+    ints=(
+        "kind",  # where the value is, see engine/loop_cy.py
+        "row",
+        "mask",  # of a word
+        "is_above",  # a number is compared with the bound: 1 above it, 0 below it
+        "state",
     ),
 )

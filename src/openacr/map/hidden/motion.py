@@ -91,7 +91,7 @@ MASTER = HiddenBlock(
         "moving",  # the move at the head has begun
         "hold",  # 0 none, 1 feedholding, 2 in feedhold
         "drop_at_rest",  # HALT: drop all moves once the path has stopped
-        "seek_phase",  # of MSEEK, see kernel/master_cy.py
+        "seek_phase",  # of MSEEK, see kernel/seek_cy.py
     ),
 )
 

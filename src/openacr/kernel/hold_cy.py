@@ -1,0 +1,157 @@
+"""Feedhold, cycle start, and dropping the moves of a master."""
+
+from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, master_word, move_record
+from openacr.kernel.profile_cy import (
+    DECELERATING,
+    STOPPING,
+    profile_plan,
+    profile_reset,
+    profile_stop,
+)
+from openacr.kernel.seek_cy import SEEK_NONE
+from openacr.map.numbers import (
+    AXF_BASE,
+    AXF_POSITION_CNT,
+    AXF_STRIDE,
+    AXF_TARGET_CNT,
+    MA_BASE,
+    MA_MBUF_FILLED,
+    MA_STRIDE,
+    MA_VECTOR_ACCELERATION,
+    MA_VECTOR_JERK,
+    MA_VECTOR_VELOCITY,
+    MA_VELOCITY_SQUARED,
+    MF1_ACCELERATING,
+    MF1_DECELERATING,
+    MF1_FEEDHOLDING,
+    MF1_IN_FEEDHOLD,
+    MF1_IN_MOTION,
+    MF1_JERKING,
+    MF1_KILL_ALL_MOVES_REQUEST,
+    MF1_MOVE_BUFFERED,
+    MF1_STOP_ALL_MOVES_REQUEST,
+    MF1_STOPPING,
+    MQF_BASE,
+    MQF_DEC_UPS2,
+    MQF_JRK_UPS3,
+    MQF_LENGTH_U,
+    MQF_STP_UPS2,
+    MQF_STRIDE,
+    MSF_BASE,
+    MSF_STRIDE,
+    MSF_TARGET_CNT,
+    MSI_BASE,
+    MSI_DROP_AT_REST,
+    MSI_HOLD,
+    MSI_MOVING,
+    MSI_QUEUED,
+    MSI_SEEK_PHASE,
+    MSI_SLAVE_AXIS,
+    MSI_STRIDE,
+    PRF_BASE,
+    PRF_STRIDE,
+    PRF_TARGET_VELOCITY,
+    PRF_VELOCITY,
+    PRI_BASE,
+    PRI_KIND,
+    PRI_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["master_drop", "master_hold", "master_release"]
+
+NOT_HELD = 0
+FEEDHOLDING = 1
+IN_FEEDHOLD = 2
+
+
+def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
+    """Drop the present move and all that wait; the axes stay where they are commanded."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    I[i + MSI_QUEUED] = 0
+    I[i + MSI_MOVING] = 0
+    I[i + MSI_HOLD] = NOT_HELD
+    I[i + MSI_DROP_AT_REST] = 0
+    I[i + MSI_SEEK_PHASE] = SEEK_NONE
+    profile_reset(F, I, m, 0.0, 0.0)
+    F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY] = 0.0
+    master_settle(F, I, S, m)
+    word: int = master_word(m)
+    I[word] &= ~(
+        MF1_IN_MOTION
+        | MF1_MOVE_BUFFERED
+        | MF1_ACCELERATING
+        | MF1_DECELERATING
+        | MF1_STOPPING
+        | MF1_JERKING
+        | MF1_FEEDHOLDING
+        | MF1_IN_FEEDHOLD
+    )
+
+
+def master_settle(F: F64, I: I32, S: F32, m: int) -> None:
+    """At rest the target of every slave is its current position; shown values clear."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    for s in range(SLAVE_COUNT):
+        axis: int = I[i + MSI_SLAVE_AXIS + s]
+        if axis >= 0:
+            a: int = AXF_BASE + axis * AXF_STRIDE
+            F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+            F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + s] = F[a + AXF_POSITION_CNT]
+    p: int = MA_BASE + m * MA_STRIDE
+    S[p + MA_VECTOR_VELOCITY] = 0.0
+    S[p + MA_VECTOR_ACCELERATION] = 0.0
+    S[p + MA_VECTOR_JERK] = 0.0
+    S[p + MA_VELOCITY_SQUARED] = 0.0
+    I[p + MA_MBUF_FILLED] = 0
+
+
+def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
+    """Slow the path to rest with DEC (STP if DEC is 0); the move itself stays loaded.
+
+    Where the end ramp of the move is already running, or the ramp would pass a target at
+    which the path stops anyway, the move simply ends at its target.
+    """
+    i: int = MSI_BASE + m * MSI_STRIDE
+    I[i + MSI_HOLD] = FEEDHOLDING
+    I[master_word(m)] |= MF1_FEEDHOLDING
+    if not I[i + MSI_MOVING]:
+        return
+    q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
+    if I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] == STOPPING:
+        return
+    rate: float = F[q + MQF_DEC_UPS2]
+    if rate <= 0.0:
+        rate = F[q + MQF_STP_UPS2]
+    end: float = F[q + MQF_LENGTH_U]
+    jerk: float = F[q + MQF_JRK_UPS3]
+    merged: bool = F[q + MQF_STP_UPS2] <= 0.0 and I[i + MSI_QUEUED] > 1
+    if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
+        stp: float = F[q + MQF_STP_UPS2]
+        if stp <= 0.0:
+            stp = rate
+        limit: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
+        profile_plan(F, I, m, end, limit, 0.0, rate, rate, stp, jerk)
+
+
+def master_release(F: F64, I: I32, S: F32, m: int) -> None:
+    """End a feedhold: the path speeds up again (Cycle Start)."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    I[i + MSI_HOLD] = NOT_HELD
+    I[i + MSI_DROP_AT_REST] = 0
+    I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
+    if I[i + MSI_MOVING]:
+        master_plan(F, I, S, m)
+
+
+def master_at_rest(F: F64, I: I32, S: F32, m: int) -> None:
+    """A feedhold has come to rest: note it, and finish what it was the first step of."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    word: int = master_word(m)
+    I[i + MSI_HOLD] = IN_FEEDHOLD
+    I[word] = (I[word] & ~MF1_FEEDHOLDING) | MF1_IN_FEEDHOLD
+    if I[word] & MF1_STOP_ALL_MOVES_REQUEST:
+        I[word] = (I[word] & ~MF1_STOP_ALL_MOVES_REQUEST) | MF1_KILL_ALL_MOVES_REQUEST
+        master_drop(F, I, S, m)
+    elif I[i + MSI_DROP_AT_REST]:
+        master_drop(F, I, S, m)
