@@ -7,7 +7,7 @@ state: `digest` is equal on every machine build of the core.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,6 +28,7 @@ from openacr.controller.streams import CONSOLE, Streams
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.controller.views import AxisView, Bits, Parameters
 from openacr.engine import loop_cy
+from openacr.engine.watches import Watch, give_orders, set_watches, take_orders
 from openacr.errors import CardError, SourceError, UserError
 from openacr.lang.lexer import Token
 from openacr.map.numbers import (
@@ -36,18 +37,18 @@ from openacr.map.numbers import (
     AXF_PEAK_VELOCITY_CPS,
     AXF_TRAVEL_CNT,
     AXI_POSITION_INDEX,
-    ENG_COUNT,
     ENGI_BASE,
-    ENGI_IN_TICK,
-    ENGI_STRIDE,
+    ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_TRACE_EVERY,
+    ENGI_TRACE_PEAKS,
     ENGI_TRACE_ROW,
     ENGI_TRACE_ROWS,
     ENGI_TRACE_WAIT,
     ENGI_UNTIL_MASK,
     ENGI_UNTIL_STATE,
     ENGI_UNTIL_WORD,
+    ENGI_WATCH_COUNT,
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
@@ -123,6 +124,8 @@ class Controller:
         self._trace_buffer: Reals | None = None
         self._trace_view = _NO_TRACE
         self._wants_reboot = False
+        self._look: Callable[[], bool] | None = None
+        self._lived_before_tk = 0
         self._apply_world()
 
     @classmethod
@@ -156,6 +159,11 @@ class Controller:
         return self.card.tick
 
     @property
+    def lived_tk(self) -> int:
+        """Ticks this card has lived altogether; restarting it does not begin anew."""
+        return self._lived_before_tk + self.tick
+
+    @property
     def time_s(self) -> float:
         """Simulated seconds since power-up."""
         return self.tick * self.period_s
@@ -166,7 +174,7 @@ class Controller:
         return self.card.period_s
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
-        """Let the card live for so many ticks (or seconds)."""
+        """Let the card live for so many ticks (or seconds), or until a watch ends it."""
         self._set_engine(ENGI_TICKS_LEFT, ticks + round(seconds / self.period_s))
         self._run()
 
@@ -181,33 +189,49 @@ class Controller:
         self._set_engine(ENGI_UNTIL_STATE, int(is_))
         limit = round(timeout_s / self.period_s) if ticks is None else ticks
         self._set_engine(ENGI_TICKS_LEFT, limit)
-        met = self._run()
+        reason = self._run()
         self._set_engine(ENGI_UNTIL_WORD, 0)
-        return met
+        return reason == loop_cy.UNTIL_MET
 
-    def _run(self) -> bool:
-        """Run the engine to the end of its ticks; True if the awaited flag came first."""
+    def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:
+        """End `advance` and `until` early from now on, behind the tick in which it happened.
+
+        It ends when a watch has changed, or when `look`, which is asked behind every tick in
+        which statements were performed that can print or answer, returns True.
+        """
+        set_watches(self.memory, watches)
+        self._look = look
+
+    def _run(self) -> int:
+        """Run the engine to the end of its ticks or until what was awaited; why it ended."""
         memory, space = self.memory, self.executor.space
-        met = False
         while True:
             reason = _engine_run(
                 memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view
             )
-            if reason == loop_cy.DONE:
-                break
-            if reason == loop_cy.UNTIL_MET:
-                met = True
-                break
-            if reason == loop_cy.TRACE_FULL:
+            if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
+                return reason
+            if reason == loop_cy.STOPPED:
+                if self._look is not None and self._look():
+                    return reason
+            elif reason == loop_cy.TRACE_FULL:
                 self._next_trace_part()
-            elif reason == loop_cy.REQUESTS:
-                self.control.scan()
             else:
-                self.executor.attend(reason - loop_cy.THREAD)
-                self.streams.settle()
-            if self._wants_reboot:
-                self._reboot()
-        return met
+                self._attend(reason)
+                if self._wants_reboot:
+                    self._reboot()
+                    if self._look is not None or memory.I[ENGI_BASE + ENGI_WATCH_COUNT]:
+                        return loop_cy.WATCH
+
+    def _attend(self, reason: int) -> None:
+        """Do what the engine leaves to Python."""
+        if reason == loop_cy.REQUESTS:
+            self.control.scan()
+        else:
+            self.executor.attend(reason - loop_cy.THREAD)
+            self.streams.settle()
+        if self._look is not None:
+            self._set_engine(ENGI_STOP, 1)
 
     def _set_engine(self, row: int, value: int) -> None:
         self.memory.I[ENGI_BASE + row] = value
@@ -324,22 +348,21 @@ class Controller:
 
     def digest(self) -> str:
         """Fingerprint of the state; what this process asked of the engine does not count."""
-        rows = self.memory.I
-        first, last = ENGI_BASE, ENGI_BASE + ENG_COUNT * ENGI_STRIDE
-        kept = rows[first:last].tolist()
-        for row in range(first, last):
-            if row != ENGI_BASE + ENGI_IN_TICK:
-                rows[row] = 0
+        orders = take_orders(self.memory)
         digest = self.memory.digest()
-        for row, value in zip(range(first, last), kept, strict=True):
-            rows[row] = value
+        give_orders(self.memory, orders)
         return digest
 
     # recording
 
-    def record(self, every_tk: int = 1) -> None:
-        """Record all axes every so many ticks from now on."""
+    def record(self, every_tk: int = 1, *, keep_peaks: bool = False) -> None:
+        """Record all axes every so many ticks from now on.
+
+        With `keep_peaks` no peak of velocity or following error between two samples is lost:
+        every other sample has the lowest value since the one before, the next the highest.
+        """
         self._trace_parts = []
+        self._set_engine(ENGI_TRACE_PEAKS, int(keep_peaks))
         self._set_engine(ENGI_TRACE_EVERY, every_tk)
         self._set_engine(ENGI_TRACE_WAIT, 1)
         self._new_trace_buffer()
@@ -378,7 +401,9 @@ class Controller:
 
     def restore(self, snapshot: snapshots.Snapshot) -> None:
         """Return to a snapshot of this card, or of one with the same model and world."""
+        orders = take_orders(self.memory)
         snapshots.put_back(self, snapshot)
+        give_orders(self.memory, orders)
 
     # loading and restarting
 
@@ -397,6 +422,8 @@ class Controller:
     def _reboot(self) -> None:
         """Restart as at power-up; the world outside stays as it is."""
         self._wants_reboot = False
+        self._lived_before_tk += self.tick
+        orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
         self.executor.reset()
         if not self.model.has_battery:
@@ -404,6 +431,7 @@ class Controller:
         self.system.restart()
         self._apply_world()
         apply.put_state(self.memory, outside)
+        give_orders(self.memory, orders)
         self.streams.disconnect_all()
         with suppress(CardError):  # nobody is connected who could be told
             self.system.start_boot_programs()

@@ -19,11 +19,7 @@ class AxisTrace:
     commanded_u: Reals
     actual_u: Reals
     velocity_ups: Reals
-
-    @property
-    def following_error_u(self) -> Reals:
-        """Commanded minus actual position."""
-        return self.commanded_u - self.actual_u
+    following_error_u: Reals  # commanded minus actual position
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +33,7 @@ class Trace:
 
 
 def build_trace(samples: Reals, pulses_per_unit: list[float]) -> Trace:
-    """Name the columns of the raw samples, shape (n, 3 + 3 * axes)."""
+    """Name the columns of the raw samples, shape (n, 3 + 4 * axes)."""
     axes = []
     for axis, ppu in enumerate(pulses_per_unit):
         first = TRACE_HEAD + TRACE_AXIS * axis

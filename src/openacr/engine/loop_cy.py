@@ -11,6 +11,7 @@ from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AX_BASE,
+    AX_PPU,
     AX_STRIDE,
     AXF_BASE,
     AXF_PSP_VELOCITY_CPS,
@@ -18,14 +19,17 @@ from openacr.map.numbers import (
     AXF_STRIDE,
     ENGI_BASE,
     ENGI_IN_TICK,
+    ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_TRACE_EVERY,
+    ENGI_TRACE_PEAKS,
     ENGI_TRACE_ROW,
     ENGI_TRACE_ROWS,
     ENGI_TRACE_WAIT,
     ENGI_UNTIL_MASK,
     ENGI_UNTIL_STATE,
     ENGI_UNTIL_WORD,
+    ENGI_WATCH_COUNT,
     KRI_AXES,
     KRI_BASE,
     PF_BLOCK_CONTROL,
@@ -50,23 +54,43 @@ from openacr.map.numbers import (
     SYSI_TICK_LOW,
     W_INPUTS,
     W_OUTPUTS,
+    WAT_COUNT,
+    WATF_BASE,
+    WATF_BOUND,
+    WATF_STRIDE,
+    WATI_BASE,
+    WATI_IS_ABOVE,
+    WATI_KIND,
+    WATI_MASK,
+    WATI_ROW,
+    WATI_STATE,
+    WATI_STRIDE,
 )
 from openacr.plant.step_cy import plant_step
 from openacr.plc.scan_cy import plc_step
 from openacr.views import F32, F64, I32
 
-__all__ = ["engine_run"]
+__all__ = ["engine_run", "watch_fired"]
 
 # Reasons for coming back; THREAD + t: thread t needs Python.
 DONE = 0
 UNTIL_MET = 1
 TRACE_FULL = 2
 REQUESTS = 3  # control flags of a program or PLC want something
+STOPPED = 4  # the tick is over at whose end somebody wanted to look
+WATCH = 5  # something watched has changed in the tick that is over
 THREAD = 16
 
 # How far the present tick has got (row in_tick); 0: not begun.
 SERVO_DONE = 1
 REQUESTS_DONE = 2
+
+# Where a watched value is: masked bits of a word, or a number that is compared.
+WATCH_WORD = 0
+WATCH_LONG = 1
+WATCH_FP32 = 2
+WATCH_FP64 = 3
+WATCH_AXIS = 4  # actual position in units; row: the first parameter of the axis
 
 PROGRAMS = 16
 CONTROLS = (
@@ -81,37 +105,67 @@ CONTROLS = (
 )
 
 TRACE_HEAD = 3  # time, input word, output word
-TRACE_AXIS = 3  # setpoint, actual position, velocity
+TRACE_AXIS = 4  # setpoint, actual position, velocity, following error
 
 
-def trace_sample(F: F64, I: I32, trace: F64) -> None:
-    """Append one sample to the trace."""
-    e: int = ENGI_BASE
+def trace_place(F: F64, I: I32, trace: F64, row: int) -> None:
+    """Write time, inputs, outputs and the positions of this tick into a row of the trace."""
     axes: int = I[KRI_BASE + KRI_AXES]
-    at: int = I[e + ENGI_TRACE_ROW] * (TRACE_HEAD + TRACE_AXIS * axes)
-    I[e + ENGI_TRACE_ROW] += 1
+    at: int = row * (TRACE_HEAD + TRACE_AXIS * axes)
     trace[at] = F[SYSF_BASE + SYSF_TIME_S]
     trace[at + 1] = I[W_INPUTS]
     trace[at + 2] = I[W_OUTPUTS]
     at += TRACE_HEAD
     for n in range(axes):
-        a: int = AXF_BASE + n * AXF_STRIDE
-        trace[at] = F[a + AXF_SSP_CNT]
+        trace[at] = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
         trace[at + 1] = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
-        trace[at + 2] = F[a + AXF_PSP_VELOCITY_CPS]
         at += TRACE_AXIS
 
 
-def trace_due(I: I32) -> bool:
-    """Whether this tick is to be sampled."""
+def trace_rates(F: F64, I: I32, trace: F64, low: int, high: int, first: bool) -> None:
+    """Keep the lowest velocities and following errors in one row, the highest in another."""
+    axes: int = I[KRI_BASE + KRI_AXES]
+    columns: int = TRACE_HEAD + TRACE_AXIS * axes
+    for n in range(axes):
+        a: int = AXF_BASE + n * AXF_STRIDE
+        place: int = TRACE_HEAD + TRACE_AXIS * n + 2
+        lowest: int = low * columns + place
+        highest: int = high * columns + place
+        velocity: float = F[a + AXF_PSP_VELOCITY_CPS]
+        error: float = F[a + AXF_SSP_CNT] - I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
+        if first or velocity < trace[lowest]:
+            trace[lowest] = velocity
+        if first or velocity > trace[highest]:
+            trace[highest] = velocity
+        if first or error < trace[lowest + 1]:
+            trace[lowest + 1] = error
+        if first or error > trace[highest + 1]:
+            trace[highest + 1] = error
+
+
+def trace_tick(F: F64, I: I32, trace: F64) -> None:
+    """Record this tick if it is its turn.
+
+    To keep the peaks, rows are written in pairs for twice the time between two samples. The
+    positions are those of the begin and the middle of that time; velocity and following
+    error are the lowest and highest of all its ticks.
+    """
     e: int = ENGI_BASE
-    if I[e + ENGI_TRACE_EVERY] <= 0:
-        return False
+    every: int = I[e + ENGI_TRACE_EVERY]
+    row: int = I[e + ENGI_TRACE_ROW]
     I[e + ENGI_TRACE_WAIT] -= 1
-    if I[e + ENGI_TRACE_WAIT] > 0:
-        return False
-    I[e + ENGI_TRACE_WAIT] = I[e + ENGI_TRACE_EVERY]
-    return True
+    wait: int = I[e + ENGI_TRACE_WAIT]
+    if wait <= 0:
+        pair: int = 1 if I[e + ENGI_TRACE_PEAKS] else 0
+        trace_place(F, I, trace, row)
+        trace_place(F, I, trace, row + pair)
+        trace_rates(F, I, trace, row, row + pair, True)
+        I[e + ENGI_TRACE_ROW] = row + 1 + pair
+        I[e + ENGI_TRACE_WAIT] = every + every * pair
+    elif I[e + ENGI_TRACE_PEAKS] and row >= 2:
+        if wait == every:
+            trace_place(F, I, trace, row - 1)
+        trace_rates(F, I, trace, row - 2, row - 1, False)
 
 
 def until_met(I: I32) -> bool:
@@ -122,6 +176,48 @@ def until_met(I: I32) -> bool:
         return False
     on: int = 1 if I[word] & I[e + ENGI_UNTIL_MASK] else 0
     return on == I[e + ENGI_UNTIL_STATE]
+
+
+def watch_value(F: F64, I: I32, S: F32, kind: int, row: int) -> float:
+    """The watched number."""
+    value: float = 0.0
+    if kind == WATCH_LONG:
+        value = I[row]
+    elif kind == WATCH_FP32:
+        value = S[row]
+    elif kind == WATCH_FP64:
+        value = F[row]
+    elif kind == WATCH_AXIS:
+        value = I[row + AX_ACTUAL_POSITION]
+        ppu: float = S[row + AX_PPU]
+        if ppu != 0.0:
+            value /= ppu
+    return value
+
+
+def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
+    """The masked bits of a word, or whether a number is beyond its bound."""
+    w: int = WATI_BASE + n * WATI_STRIDE
+    row: int = I[w + WATI_ROW]
+    if I[w + WATI_KIND] == WATCH_WORD:
+        return I[row] & I[w + WATI_MASK]
+    value: float = watch_value(F, I, S, I[w + WATI_KIND], row)
+    bound: float = F[WATF_BASE + n * WATF_STRIDE + WATF_BOUND]
+    if I[w + WATI_IS_ABOVE]:
+        return 1 if value > bound else 0
+    return 1 if value < bound else 0
+
+
+def watch_fired(F: F64, I: I32, S: F32) -> bool:
+    """Whether something watched has changed since the last look."""
+    fired: bool = False
+    for n in range(min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)):
+        state: int = watch_state(F, I, S, n)
+        w: int = WATI_BASE + n * WATI_STRIDE
+        if state != I[w + WATI_STATE]:
+            I[w + WATI_STATE] = state
+            fired = True
+    return fired
 
 
 def requests_pending(I: I32) -> bool:
@@ -161,14 +257,24 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
             if until_met(I):
                 I[e + ENGI_UNTIL_WORD] = 0
                 return UNTIL_MET
+            if I[e + ENGI_WATCH_COUNT] and watch_fired(F, I, S):
+                I[e + ENGI_STOP] = 0
+                return WATCH
+            if I[e + ENGI_STOP]:
+                I[e + ENGI_STOP] = 0
+                return STOPPED
         if I[e + ENGI_TICKS_LEFT] <= 0:
             return DONE
-        if I[e + ENGI_TRACE_EVERY] and I[e + ENGI_TRACE_ROW] >= I[e + ENGI_TRACE_ROWS]:
+        if (
+            I[e + ENGI_TRACE_EVERY] > 0
+            and I[e + ENGI_TRACE_WAIT] <= 1
+            and I[e + ENGI_TRACE_ROW] >= I[e + ENGI_TRACE_ROWS]
+        ):
             return TRACE_FULL
         I[e + ENGI_TICKS_LEFT] -= 1
         plant_step(F, I, S, axes, F[SYSF_BASE + SYSF_PERIOD_S])
         tick(F, I, S)
         plc_step(F, I)
-        if trace_due(I):
-            trace_sample(F, I, trace)
+        if I[e + ENGI_TRACE_EVERY] > 0:
+            trace_tick(F, I, trace)
         I[e + ENGI_IN_TICK] = SERVO_DONE

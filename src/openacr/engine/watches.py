@@ -1,0 +1,86 @@
+"""Tell the engine what to watch, so that whoever waits for it need not look at every tick."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from openacr.compiled import pick
+from openacr.engine import loop_cy
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+WATCHES = at.WAT_COUNT
+_ROWS = (
+    (at.ENGI_BASE, at.ENG_COUNT * at.ENGI_STRIDE),
+    (at.WATI_BASE, at.WAT_COUNT * at.WATI_STRIDE),
+)
+_BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
+_IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
+
+_watch_fired = pick(loop_cy.watch_fired)
+
+
+class Place(Enum):
+    """Where a watched value is, and of what kind it is."""
+
+    WORD = loop_cy.WATCH_WORD
+    LONG = loop_cy.WATCH_LONG
+    FP32 = loop_cy.WATCH_FP32
+    FP64 = loop_cy.WATCH_FP64
+    AXIS = loop_cy.WATCH_AXIS
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """The masked bits of a word, or whether a number is above or below a bound."""
+
+    place: Place
+    row: int
+    mask: int = -1
+    bound: float = 0.0
+    is_above: bool = True
+
+
+def set_watches(memory: Memory, watches: Sequence[Watch]) -> None:
+    """Watch these, at most WATCHES, from the present state on."""
+    rows = memory.I
+    for index, watch in enumerate(watches):
+        row = at.WATI_BASE + index * at.WATI_STRIDE
+        rows[row + at.WATI_KIND] = watch.place.value
+        rows[row + at.WATI_ROW] = watch.row
+        rows[row + at.WATI_MASK] = watch.mask
+        rows[row + at.WATI_IS_ABOVE] = watch.is_above
+        memory.F[at.WATF_BASE + index * at.WATF_STRIDE + at.WATF_BOUND] = watch.bound
+    rows[at.ENGI_BASE + at.ENGI_WATCH_COUNT] = len(watches)
+    _watch_fired(memory.F, memory.I, memory.S)  # takes note of the present states
+
+
+@dataclass(frozen=True, slots=True)
+class Orders:
+    """What this process has asked of the engine; it is no part of the state of the card."""
+
+    rows: tuple["memoryview[int]", ...]
+    bounds: "memoryview[float]"
+
+
+def take_orders(memory: Memory) -> Orders:
+    """Take all orders away; `give_orders` brings them back."""
+    taken = []
+    in_tick = memory.I[_IN_TICK]
+    for first, count in _ROWS:
+        part = memory.I[first : first + count]
+        taken.append(memoryview(part.tobytes()).cast("i"))
+        part[:] = memoryview(bytes(4 * count)).cast("i")
+    memory.I[_IN_TICK] = in_tick
+    bounds = memoryview(memory.F[_BOUNDS].tobytes()).cast("d")
+    memory.F[_BOUNDS] = memoryview(bytes(8 * len(bounds))).cast("d")
+    return Orders(tuple(taken), bounds)
+
+
+def give_orders(memory: Memory, orders: Orders) -> None:
+    """Bring back what `take_orders` has taken; how far a tick has got stays as it is."""
+    in_tick = memory.I[_IN_TICK]
+    for (first, count), part in zip(_ROWS, orders.rows, strict=True):
+        memory.I[first : first + count] = part
+    memory.I[_IN_TICK] = in_tick
+    memory.F[_BOUNDS] = orders.bounds
