@@ -1,6 +1,6 @@
 """A card without motion: real memory, and a world of the test's own making."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +10,7 @@ from openacr.cli.plots.curves import Array
 from openacr.cli.report import AxisReport
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.scenario import Condition
 
 PERIOD_S = 0.0005
 
@@ -24,6 +25,7 @@ class FakeMachine:
     period_s: float = PERIOD_S
     typed: list[tuple[int, str, str | None]] = field(default_factory=list)
     recorded_every_tk: int = 0
+    keeps_peaks: bool = False
     reports: tuple[AxisReport, ...] = ()
     hear: Callable[[str], None] = lambda text: None
     overhear: Callable[[str], None] = lambda text: None
@@ -34,6 +36,9 @@ class FakeMachine:
 
     def digest(self) -> str:
         return self.memory.digest()
+
+    def watch(self, conditions: Sequence[Condition]) -> bool:
+        return not conditions
 
     def advance(self, ticks: int) -> None:
         for _ in range(ticks):
@@ -62,8 +67,8 @@ class FakeMachine:
     def axis_reports(self) -> tuple[AxisReport, ...]:
         return self.reports
 
-    def record(self, every_tk: int) -> None:
-        self.recorded_every_tk = every_tk
+    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
+        self.recorded_every_tk, self.keeps_peaks = every_tk, keep_peaks
 
     def curves(self, title: str) -> Curves:
         time_s: Array = np.arange(5, dtype=np.float64) * self.period_s * self.recorded_every_tk

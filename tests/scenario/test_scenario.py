@@ -318,9 +318,21 @@ def test_the_card_may_run_to_the_next_known_moment() -> None:
     assert seen == [2000, 4000]
 
 
-def test_while_a_condition_is_watched_every_tick_is_looked_at() -> None:
+def test_what_is_waited_for_is_known_as_long_as_it_is() -> None:
     run = Play(parse_scenario("at = [{when = {bit = 1}, set = [1]}]"), PERIOD_S)
-    assert run.next_tick(41) == 42
+    bench = Bench(tick=41)
+    assert [condition.bit for condition in run.conditions] == [1]
+    assert run.next_tick(41) is None
+    bench.bits[1] = True
+    run.step(bench)
+    assert run.conditions == ()
+
+
+def test_while_a_load_is_dragged_every_tick_is_looked_at() -> None:
+    drag = "at = [{time_s = 0, drag = {axis = 3, by = 2.0, over_s = 0.002}}]"
+    run = Play(parse_scenario(drag), PERIOD_S)
+    run.step(Bench())
+    assert run.next_tick(0) == 1
 
 
 def test_a_step_skipped_over_its_moment_is_made_up_for() -> None:

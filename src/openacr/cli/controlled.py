@@ -1,6 +1,6 @@
 """The machine of a run: a `Controller` with its project loaded."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -8,10 +8,13 @@ from openacr.cli import card_view
 from openacr.cli.plots import AxisCurves, BitCurve, Curves
 from openacr.cli.report import AxisReport
 from openacr.controller import Controller
+from openacr.engine.watches import WATCHES
 from openacr.errors import SourceError, UserError
 from openacr.map.memory import Memory
 from openacr.project import Project
 from openacr.protocol.stream import StreamKind
+from openacr.scenario import Condition
+from openacr.scenario.watches import watches
 
 FIRST_OUTPUT = 32
 OUTPUTS = 32
@@ -31,6 +34,8 @@ class ControlledMachine:
         self._begin_s = controller.time_s
         self._streams: dict[str, int] = {}
         self._overhear: Callable[[str], None] = lambda text: None
+        self._awaits_text = False
+        self._was_heard = False
 
     @property
     def memory(self) -> Memory:
@@ -39,13 +44,13 @@ class ControlledMachine:
 
     @property
     def tick(self) -> int:
-        """Servo periods since power-up."""
-        return self._controller.tick
+        """Servo periods lived so far."""
+        return self._controller.lived_tk
 
     @property
     def time_s(self) -> float:
-        """Simulated seconds since power-up."""
-        return self._controller.time_s
+        """Simulated seconds lived so far."""
+        return self._controller.lived_tk * self._controller.period_s
 
     @property
     def period_s(self) -> float:
@@ -56,20 +61,39 @@ class ControlledMachine:
         """Fingerprint of the whole state."""
         return self._controller.digest()
 
+    def watch(self, conditions: Sequence[Condition]) -> bool:
+        """Make `advance` end when one of these may have changed; False if that is too much."""
+        wanted = [watch for each in conditions for watch in watches(each, self.memory)]
+        self._awaits_text = any(condition.printed for condition in conditions)
+        is_possible = len(wanted) <= WATCHES
+        self._controller.watch(wanted if is_possible else (), self._look)
+        return is_possible
+
+    def _look(self) -> bool:
+        """Read what terminals have answered in this tick; True if a text is waited for."""
+        self._read_terminals()
+        was_heard, self._was_heard = self._was_heard, False
+        return was_heard and self._awaits_text
+
     def advance(self, ticks: int) -> None:
-        """Let the card live for so many ticks."""
+        """Let the card live for so many ticks, less if something watched changes."""
         self._controller.advance(ticks)
         self._read_terminals()
 
     def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
-        """Let the card live until a flag has this state, at most so many ticks."""
+        """Let the card live until a flag has this state, but no longer than `advance` would."""
         has_come = self._controller.until(bit, is_on, ticks=ticks)
         self._read_terminals()
         return has_come
 
     def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
         """Call `hear` with what programs print, `overhear` with what terminals answer."""
-        self._controller.listen(lambda program, text: hear(text))
+
+        def take(program: int, text: str) -> None:
+            self._was_heard = True
+            hear(text)
+
+        self._controller.listen(take)
         self._overhear = overhear
 
     def type_text(self, text: str, stream: str | None) -> None:
@@ -93,6 +117,7 @@ class ControlledMachine:
     def _read_terminals(self) -> None:
         for stream in self._streams.values():
             if data := self._controller.take_output(stream):
+                self._was_heard = True
                 self._overhear(data.decode("latin-1"))
 
     def set_input(self, bit: int, on: bool) -> None:
@@ -118,9 +143,9 @@ class ControlledMachine:
             for found in (self._controller.statistics(number),)
         ]
 
-    def record(self, every_tk: int) -> None:
-        """Record every so many ticks from now on."""
-        self._controller.record(every_tk)
+    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
+        """Record every so many ticks from now on, with the peaks between them if wanted."""
+        self._controller.record(every_tk, keep_peaks=keep_peaks)
 
     def curves(self, title: str) -> Curves:
         """Give what was recorded, in time since the start of the run."""

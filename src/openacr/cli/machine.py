@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 from openacr.cli import card_view
 from openacr.errors import CardError
 from openacr.map.memory import Memory
-from openacr.scenario import State
+from openacr.scenario import Condition, State
 
 if TYPE_CHECKING:
     from openacr.cli.plots import Curves
@@ -23,11 +23,11 @@ class Machine(Protocol):
 
     @property
     def tick(self) -> int:
-        """Servo periods since power-up."""
+        """Servo periods lived so far."""
 
     @property
     def time_s(self) -> float:
-        """Simulated seconds since power-up."""
+        """Simulated seconds lived so far."""
 
     @property
     def period_s(self) -> float:
@@ -36,11 +36,14 @@ class Machine(Protocol):
     def digest(self) -> str:
         """Fingerprint of the whole state."""
 
+    def watch(self, conditions: Sequence[Condition]) -> bool:
+        """Make `advance` end when one of these may have changed; False if that is too much."""
+
     def advance(self, ticks: int) -> None:
-        """Let the card live for so many ticks."""
+        """Let the card live for so many ticks, less if something watched changes."""
 
     def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
-        """Let the card live until a flag has this state, at most so many ticks."""
+        """Let the card live until a flag has this state, but no longer than `advance` would."""
 
     def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
         """Call `hear` with what programs print, `overhear` with what terminals answer."""
@@ -57,8 +60,8 @@ class Machine(Protocol):
     def axis_reports(self) -> Sequence["AxisReport"]:
         """Position and extremes of every axis."""
 
-    def record(self, every_tk: int) -> None:
-        """Record every so many ticks from now on."""
+    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
+        """Record every so many ticks from now on, with the peaks between them if wanted."""
 
     def curves(self, title: str) -> "Curves":
         """Give what was recorded."""

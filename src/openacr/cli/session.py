@@ -11,11 +11,14 @@ from openacr.cli.machine import Machine, MachineWorld
 from openacr.cli.progress import Bar, bar_for
 from openacr.cli.report import Report, report_on, show_report, show_verdicts, summary
 from openacr.compiled import is_compiled
-from openacr.scenario import Play, Scenario
+from openacr.scenario import Condition, Play, Scenario
 
-STEP_S = 0.05  # between two looks at the progress bar; also the slow scan of the card
+SCAN_S = 0.05  # the slow scan of the card: time between two looks whether it is idle
+LOOK_S = 0.5  # between two looks at the progress bar
+BAR_S = 0.1  # of real time between two changes of the bar
 IDLE_S = 0.1  # a card is idle when nothing ran or moved for two slow scans
-SAMPLES = 400_000  # recorded per axis at most: every tick for 200 s at the default period
+TRACE_SAMPLES = 400_000  # per axis at most: every tick for 200 s at the default period
+PLOT_SAMPLES = 40_000  # far more than a picture has pixels; peaks between them are kept
 OK, FAILED = 0, 1
 
 
@@ -77,6 +80,8 @@ class Session:
         self._end_tk = machine.tick + max(1, round(options.limit_s / machine.period_s))
         self._busy_tk = machine.tick
         self._was_other = False
+        self._watched: tuple[Condition, ...] | None = None
+        self._sees_every_tick = False
 
     def run(self) -> int:
         """Let the card live, write and show what came out, and give the exit code."""
@@ -88,9 +93,13 @@ class Session:
     def _prepare(self) -> None:
         """Connect what listens to the card and records it."""
         self._machine.listen(self._hear, self._play.heard)
-        if self._options.trace or self._options.plot:
-            lived_tk = self._end_tk - self._begin_tk
-            self._machine.record(self._options.trace_every_tk or -(-lived_tk // SAMPLES))
+        lived_tk = self._end_tk - self._begin_tk
+        if self._options.trace:
+            every_tk = self._options.trace_every_tk or -(-lived_tk // TRACE_SAMPLES)
+            self._machine.record(every_tk, keep_peaks=False)
+        elif self._options.plot:
+            every_tk = -(-lived_tk // PLOT_SAMPLES)
+            self._machine.record(every_tk, keep_peaks=every_tk > 1)
 
     def _hear(self, text: str) -> None:
         self._play.heard(text)
@@ -103,39 +112,53 @@ class Session:
 
     def _live(self) -> float:
         """Let the card live until the run is over; give the seconds of real time it took."""
-        started_s = time.perf_counter()
-        is_wanted = not self._options.is_quiet
-        with bar_for(sys.stderr, self._limit_s, is_wanted=is_wanted) as bar:
+        with bar_for(sys.stderr, self._limit_s, is_wanted=not self._options.is_quiet) as bar:
+            started_s = time.perf_counter()
             stop = self._pace(bar, started_s)
+            wall_s = time.perf_counter() - started_s
         self._play.finish(self._world)
         sys.stdout.flush()
         if stop is Stop.TIME and self._until is not None:
             self._note(f"{self._until} was not reached within {self._limit_s:g} s")
-        return time.perf_counter() - started_s
+        return wall_s
 
     def _pace(self, bar: Bar, started_s: float) -> Stop:
         machine = self._machine
-        begin_s = machine.time_s
+        shown_s = 0.0
         while True:
             self._play.step(self._world)
             if stop := self._reached():
                 return stop
+            self._watch()
             if self._advance(self._next_tick() - machine.tick):
+                self._play.step(self._world)
                 return Stop.BIT
-            lived_s = machine.time_s - begin_s
-            if self._options.realtime:
-                time.sleep(max(0.0, lived_s - (time.perf_counter() - started_s)))
+            lived_s = (machine.tick - self._begin_tk) * machine.period_s
             wall_s = max(1e-9, time.perf_counter() - started_s)
-            running = card_view.running_programs(machine.memory)
-            bar.show(lived_s, lived_s / wall_s, running)
+            if self._options.realtime and lived_s > wall_s:
+                time.sleep(lived_s - wall_s)
+            if wall_s - shown_s >= BAR_S:
+                shown_s = wall_s
+                running = card_view.running_programs(machine.memory)
+                bar.show(lived_s, lived_s / wall_s, running)
+
+    def _watch(self) -> None:
+        """Have the card watch what the scenario waits for, or look at every tick instead."""
+        conditions = self._play.conditions
+        if conditions != self._watched:
+            self._watched = conditions
+            self._sees_every_tick = not self._machine.watch(conditions)
 
     def _next_tick(self) -> int:
         """How far the card may run before the next look."""
-        now = self._machine.tick
-        step_tk = max(1, round(STEP_S / self._machine.period_s))
+        now, period_s = self._machine.tick, self._machine.period_s
+        if self._sees_every_tick:
+            return now + 1
+        is_scanned = self._until == Until() or self._options.realtime
+        look_tk = max(1, round((SCAN_S if is_scanned else LOOK_S) / period_s))
         known = self._play.next_tick(self._world.tick)
         planned_tk = self._end_tk if known is None else self._begin_tk + known
-        return min(self._end_tk, now - now % step_tk + step_tk, planned_tk)
+        return min(self._end_tk, now - now % look_tk + look_tk, planned_tk)
 
     def _advance(self, ticks: int) -> bool:
         """Let the card live; True when the flag to wait for has come."""
@@ -155,7 +178,9 @@ class Session:
             return Stop.TIME
         if self._until is None or self._until.bit is not None:
             return None
-        if not card_view.is_idle(machine.memory) or self._play.next_tick(self._world.tick):
+        play = self._play
+        awaits_more = play.conditions or play.next_tick(self._world.tick) is not None
+        if awaits_more or not card_view.is_idle(machine.memory):
             self._busy_tk = machine.tick
         quiet_s = (machine.tick - self._busy_tk) * machine.period_s
         return Stop.IDLE if quiet_s >= IDLE_S else None

@@ -2,8 +2,8 @@
 
 `Play.step` is called with the card at rest between two ticks. It performs what is due,
 actions before expectations, each in the order of the file. `Play.next_tick` says how far
-the card may run before the next look: to the next known moment, or one tick while a
-condition is watched.
+the card may run before the next look at the latest; a change that may decide one of
+`Play.conditions` has to be followed by a look in the tick in which it happens.
 """
 
 from collections.abc import Iterator
@@ -98,9 +98,15 @@ class Play:
         """Take note of what the card printed."""
         self._printed += text
 
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """What is waited for at present."""
+        whens = (p.item.when for p in self._pending if p.is_watched)
+        return tuple(when for when in whens if when is not None)
+
     def next_tick(self, now_tk: int) -> int | None:
-        """Say at which tick to look again; None when nothing more is to happen."""
-        if self._pulls or any(p.is_watched for p in self._pending):
+        """Say at which tick to look again whatever happens; None when no time is known."""
+        if self._pulls:
             return now_tk + 1
         known = [p.due_tk for p in self._pending if p.due_tk is not None]
         known += [tick for tick, _ in self._releases]
