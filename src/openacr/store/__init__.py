@@ -1,0 +1,6 @@
+"""What survives without power: named images of bytes, each checked, each save atomic."""
+
+from openacr.store.database import Database
+from openacr.store.images import Image, Images, Scratch
+
+__all__ = ["Database", "Image", "Images", "Scratch"]

@@ -1,0 +1,161 @@
+"""Images in one SQLite file of a data folder.
+
+The file is in WAL mode and every save is one transaction: after a power cut, or the end of
+the process at any moment, a reader finds all of a save or nothing of it. One process owns
+the file while it is open; the lock ends with the process.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import TypeVar
+
+from openacr.errors import StoreError
+from openacr.store.images import Image
+
+FILE_NAME = "card.db"
+FORMAT = 1
+APPLICATION_ID = 0x41435231  # marks the file as ours: "ACR1"
+DAMAGED_SUFFIX = ".damaged"
+
+_TABLE = """
+    CREATE TABLE IF NOT EXISTS image (
+        name TEXT PRIMARY KEY, version INTEGER NOT NULL, digest BLOB NOT NULL, data BLOB NOT NULL
+    ) WITHOUT ROWID
+"""
+_Result = TypeVar("_Result")
+
+
+class Database:
+    """The images of one card in a data folder, which is made if it is not there."""
+
+    is_durable = True
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / FILE_NAME
+        self._flushes = True
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=0.0)
+        except (OSError, sqlite3.Error) as failure:
+            raise StoreError(f"the data folder {folder} cannot be used: {failure}") from None
+        try:
+            self._do(self._prepare)
+        except StoreError:
+            self._connection.close()
+            raise
+
+    @classmethod
+    def open(cls, folder: Path) -> tuple[Database, str | None]:
+        """The images of a folder; a file that is no database any more is put aside.
+
+        The second value says so, in a sentence, and where the old file is.
+        """
+        try:
+            return cls(folder), None
+        except _UnreadableError as damage:
+            path = folder / FILE_NAME
+            aside = _put_aside(path)
+            return cls(folder), f"{damage}; it was kept as {aside.name}, nothing is stored now"
+
+    def _prepare(self) -> None:
+        run = self._connection.execute
+        run("PRAGMA locking_mode = EXCLUSIVE")
+        run("PRAGMA journal_mode = WAL")
+        run("PRAGMA synchronous = FULL")
+        run("BEGIN IMMEDIATE")
+        owner, written = (run(f"PRAGMA {name}").fetchone()[0] for name in _MARKS)
+        if (owner, written) != (APPLICATION_ID, FORMAT):
+            if (owner, written) != (0, 0):
+                raise StoreError(f"{self.path} belongs to another program or a newer version")
+            run(f"PRAGMA application_id = {APPLICATION_ID}")
+            run(f"PRAGMA user_version = {FORMAT}")
+            run(_TABLE)
+        run("COMMIT")
+
+    def names(self) -> list[str]:
+        """What there is, damaged ones included."""
+        rows = self._do(lambda: self._connection.execute("SELECT name FROM image").fetchall())
+        return sorted(row[0] for row in rows)
+
+    def read(self, name: str) -> Image | None:
+        """One image, None if there is none; StoreError if it is damaged."""
+        query = "SELECT version, digest, data FROM image WHERE name = ?"
+        row = self._do(lambda: self._connection.execute(query, (name,)).fetchone())
+        if row is None:
+            return None
+        version, digest, data = row
+        if isinstance(version, int) and isinstance(data, bytes):
+            image = Image(version, data)
+            if image.digest == digest:
+                return image
+        raise StoreError(f"the stored {name} in {self.path} is damaged")
+
+    def write(self, changes: Mapping[str, Image | None], *, flush: bool = True) -> None:
+        """Store images and delete those given as None: all of them, or none at all."""
+        if flush != self._flushes:
+            self._connection.execute(f"PRAGMA synchronous = {'FULL' if flush else 'NORMAL'}")
+            self._flushes = flush
+        self._do(lambda: self._write(changes))
+
+    def _write(self, changes: Mapping[str, Image | None]) -> None:
+        run = self._connection.execute
+        run("BEGIN IMMEDIATE")
+        for name, image in changes.items():
+            if image is None:
+                run("DELETE FROM image WHERE name = ?", (name,))
+            else:
+                row = (name, image.version, image.digest, image.data)
+                run("INSERT OR REPLACE INTO image VALUES (?, ?, ?, ?)", row)
+        run("COMMIT")
+
+    def close(self) -> None:
+        """Fold the log into the file and unlock it."""
+        with suppress(sqlite3.Error):
+            self._connection.close()
+
+    def _do(self, work: Callable[[], _Result]) -> _Result:
+        """Work on the file; what goes wrong is undone and said in a sentence."""
+        try:
+            return work()
+        except sqlite3.Error as failure:
+            self._undo()
+            raise _explained(self.path, failure) from None
+        except BaseException:
+            self._undo()
+            raise
+
+    def _undo(self) -> None:
+        if self._connection.in_transaction:
+            with suppress(sqlite3.Error):
+                self._connection.execute("ROLLBACK")
+
+
+_MARKS = ("application_id", "user_version")
+
+
+class _UnreadableError(StoreError):
+    """The file as a whole is not a database (any more)."""
+
+
+def _explained(path: Path, failure: sqlite3.Error) -> StoreError:
+    code = getattr(failure, "sqlite_errorcode", 0) & 0xFF
+    if code in (sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT):
+        return _UnreadableError(f"{path} is damaged and cannot be read")
+    if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+        return StoreError(f"{path} is in use by another card; give each card its own data folder")
+    return StoreError(f"{path} cannot be read or written: {failure}")
+
+
+def _put_aside(path: Path) -> Path:
+    """Rename a file and what belongs to it, keeping every earlier one."""
+    number = 1
+    while (aside := path.with_name(f"{path.name}{DAMAGED_SUFFIX}{number}")).exists():
+        number += 1
+    path.rename(aside)
+    for suffix in ("-wal", "-shm"):
+        path.with_name(path.name + suffix).unlink(missing_ok=True)
+    return aside
