@@ -18,6 +18,7 @@ SHORT_RUNS = (
     ("basic_motion", "PROG0\rRUN\r", 1_600),
     ("homing_xyz", "PROG0\rRUN\r", 1_000),
     ("error_handler", "PROG0\rRUN\r", 2_400),
+    ("plc_excess_error", "PROG0\rPGAIN X0\rX20\r", 1_000),
 )
 _PURE = """
 import sys
