@@ -151,6 +151,21 @@ def test_a_reboot_starts_every_stream_afresh(axes: Host) -> None:
     assert axes.send("\r") == "|SYS>"
 
 
+def test_programs_and_lines_of_several_hosts_run_side_by_side_after_a_reboot(axes: Host) -> None:
+    other = Host(axes.card)
+    axes.send("REBOOT\r")
+    axes.heard()
+    axes.type("DIM P(10)", "PROG0")
+    store(axes, "_L", "P0=P0+1", "DWL 0.001", "GOTO L")
+    assert axes.type("RUN") == "P00>"
+    other.send("DWL 0.05:PRINT 7\r")
+    axes.card.advance(60)
+    assert axes.ask("?1+2") == "3"
+    axes.card.advance(60)
+    assert other.heard() == "7|SYS>"
+    assert float(axes.ask("?P0")) > 20
+
+
 @pytest.mark.parametrize("model", ["ACR1505", "ACR8020", "ACR9000", "ACR9030", "ACR9040"])
 def test_every_model_can_be_talked_to(model: str) -> None:
     card = Controller(model)

@@ -429,6 +429,7 @@ class Controller:
         if not self.model.has_battery:
             self.system.forget()
         self.system.restart()
+        self.executor.space.rebuild()  # the rows that say whose code lies where are gone
         self._apply_world()
         apply.put_state(self.memory, outside)
         give_orders(self.memory, orders)
