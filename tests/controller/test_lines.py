@@ -197,3 +197,12 @@ def test_any_chunking_gives_the_same_bytes() -> None:
     for _ in range(5):
         sizes = [chance.randrange(1, 12) for _ in range(40)]
         assert connected().send_apart(SESSION, sizes) == whole
+
+
+@pytest.mark.parametrize(
+    "line", ["ENC # SRC 15", "STEPPER # RES", "ATTACH MASTER #", "PRINT DAC #"]
+)
+def test_a_number_sign_is_no_object_number(host: Host, line: str) -> None:
+    answer = host.type("PROG0", line).removeprefix("P00>")
+    assert answer.endswith("|P00>")
+    assert answer.count("|") == 1

@@ -192,7 +192,8 @@ class Parser(ExpressionParser):
             if self.is_operator("#") and node is registry.root:
                 self.advance()
                 key = f"#{self.token.value}"
-            if self.token.kind in (Kind.WORD, Kind.OPERATOR) and key in node.children:
+            is_key = self.token.kind in (Kind.WORD, Kind.OPERATOR) and key != registry.INDEX
+            if is_key and key in node.children:
                 self.advance()
                 node = node.children[key]
             elif registry.INDEX in node.children and self.at_object_index:
