@@ -78,6 +78,7 @@ class Session:
         # The run counts from here, whatever the loading took.
         self._begin_tk = machine.tick
         self._end_tk = machine.tick + max(1, round(options.limit_s / machine.period_s))
+        self._scan_tk = max(1, round(SCAN_S / machine.period_s))
         self._busy_tk = machine.tick
         self._was_other = False
         self._watched: tuple[Condition, ...] | None = None
@@ -151,11 +152,11 @@ class Session:
 
     def _next_tick(self) -> int:
         """How far the card may run before the next look."""
-        now, period_s = self._machine.tick, self._machine.period_s
+        now = self._machine.tick
         if self._sees_every_tick:
             return now + 1
         is_scanned = self._until == Until() or self._options.realtime
-        look_tk = max(1, round((SCAN_S if is_scanned else LOOK_S) / period_s))
+        look_tk = self._scan_tk if is_scanned else max(1, round(LOOK_S / self._machine.period_s))
         known = self._play.next_tick(self._world.tick)
         planned_tk = self._end_tk if known is None else self._begin_tk + known
         return min(self._end_tk, now - now % look_tk + look_tk, planned_tk)
@@ -176,7 +177,8 @@ class Session:
         machine = self._machine
         if machine.tick >= self._end_tk:
             return Stop.TIME
-        if self._until is None or self._until.bit is not None:
+        # Only the ticks of the slow scan count, whatever else the run was stopped for.
+        if self._until != Until() or machine.tick % self._scan_tk:
             return None
         play = self._play
         awaits_more = play.conditions or play.next_tick(self._world.tick) is not None
