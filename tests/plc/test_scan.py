@@ -219,6 +219,17 @@ def test_clearing_the_input_reloads_a_timer_and_clears_its_output(rack: Rack) ->
     assert not rack.on(TIMER_OUTPUT)
 
 
+def test_part_of_a_millisecond_is_forgotten_with_the_input(rack: Rack) -> None:
+    rack.write(TIMER_PRELOAD, 1)
+    rack.step()
+    for _ in range(3):
+        rack.put(True, TIMER_INPUT)
+        rack.step()
+        rack.put(False, TIMER_INPUT)
+        rack.step()
+    assert not rack.on(TIMER_OUTPUT)
+
+
 def test_a_timer_of_nothing_follows_its_input(rack: Rack) -> None:
     rack.put(True, TIMER_INPUT)
     rack.step()

@@ -223,6 +223,7 @@ def plc_step(F: F64, I: I32) -> None:
             flags & INPUTS
             or I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_COUNT] != preload
             or I[PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD]
+            or F[PCF_BASE + n * PCF_STRIDE + PCF_TIMER_MS]
         ):
             plc_timer(F, I, n, F[SYSF_BASE + SYSF_PERIOD_S] * 1000.0)
             plc_counter(I, n)
