@@ -11,9 +11,9 @@ The second marker is that of the other encoder of the pair (0-1, 2-3, ...). Exte
 of axis n are inputs 24, 16, 8 and 0 plus n mod 8.
 """
 
-from openacr.cmath import rint
+from openacr.cmath import floor, rint
 from openacr.kernel.axis_cy import axis_word
-from openacr.kernel.feedback_cy import feedback_set
+from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
 from openacr.kernel.words_cy import wrap32
 from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,
@@ -34,8 +34,10 @@ from openacr.map.numbers import (
     AXI_CAPTURE_COPY,
     AXI_CAPTURE_MODE,
     AXI_POSITION_INDEX,
+    AXI_POSITION_SOURCE,
     AXI_STRIDE,
     ENF_BASE,
+    ENF_PARTIAL_CNT,
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
@@ -46,6 +48,8 @@ from openacr.map.numbers import (
     PLF_BASE,
     PLF_MARKER_FALL_CNT,
     PLF_MARKER_RISE_CNT,
+    PLF_POSITION_CNT,
+    PLF_PREVIOUS_CNT,
     PLF_RAW_COUNT,
     PLF_STRIDE,
     PLGF_BASE,
@@ -55,6 +59,7 @@ from openacr.map.numbers import (
     PLGI_FALLS,
     PLGI_RISES,
     PLI_BASE,
+    PLI_KIND,
     PLI_MARKER_EDGES,
     PLI_STRIDE,
     W_INPUTS,
@@ -127,10 +132,14 @@ def external_input(n: int, order: int) -> int:
 
 
 def input_edge(I: I32, number: int, falling: bool) -> bool:
-    """Whether input `number` had an edge in this tick."""
+    """Whether input `number` had an edge in this tick, also one taken back within it."""
     now: int = I[W_INPUTS]
     old: int = I[KRI_BASE + KRI_INPUTS_OLD]
-    changed: int = (old & ~now) if falling else (now & ~old)
+    changed: int = 0
+    if falling:
+        changed = (old & ~now) | I[PLGI_BASE + PLGI_FALLS]
+    else:
+        changed = (now & ~old) | I[PLGI_BASE + PLGI_RISES]
     return (changed >> number) & 1 != 0
 
 
@@ -145,20 +154,40 @@ def input_fraction(F: F64, I: I32, number: int, falling: bool) -> float:
 
 
 def position_at_fraction(F: F64, I: I32, n: int, fraction: float) -> int:
-    """Actual position of axis n at a fraction of this tick, to the nearest count."""
+    """Actual position of axis n at a fraction of this tick.
+
+    A modelled motor moves on a straight line during the tick, its encoder shows whole
+    counts; without a model the counts of the tick are spread evenly.
+    """
     i: int = AXI_BASE + n * AXI_STRIDE
     e: int = I[i + AXI_POSITION_INDEX]
     now: int = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
+    if I[i + AXI_POSITION_SOURCE] != FROM_ENCODER or not 0 <= e < ENCODER_COUNT:
+        return now
+    f: int = PLF_BASE + e * PLF_STRIDE
+    if e < MODELLED and I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
+        travel: float = F[f + PLF_POSITION_CNT] - F[f + PLF_PREVIOUS_CNT]
+        raw: float = floor(F[f + PLF_PREVIOUS_CNT] + fraction * travel)
+        return position_before(F, I, n, e, F[f + PLF_RAW_COUNT] - raw)
     step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
     return wrap32(now - int(rint((1.0 - fraction) * step)))
+
+
+def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
+    """Actual position of axis n when its encoder e had `since_cnt` raw counts less.
+
+    MULT below 4 counts only some of them: the present fraction tells which.
+    """
+    scaled: float = since_cnt * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
+    behind: float = floor(F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] - scaled)
+    return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] + int(behind))
 
 
 def position_at_marker(F: F64, I: I32, n: int, encoder: int, falling: bool) -> int:
     """Actual position of axis n at the marker edge of its own encoder."""
     f: int = PLF_BASE + encoder * PLF_STRIDE
     raw: float = F[f + PLF_MARKER_FALL_CNT] if falling else F[f + PLF_MARKER_RISE_CNT]
-    since: float = (F[f + PLF_RAW_COUNT] - raw) * I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT]
-    return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] - int(rint(since * 0.25)))
+    return position_before(F, I, n, encoder, F[f + PLF_RAW_COUNT] - raw)
 
 
 def capture_input_position(F: F64, I: I32, n: int, number: int, falling: bool) -> float:

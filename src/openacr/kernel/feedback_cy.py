@@ -139,8 +139,10 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
     k: int = I[i + AXI_POSITION_INDEX]
     if source == FROM_ENCODER and 0 <= k < ENCODER_COUNT:
         modelled: bool = k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
-        if not modelled and ideal_follows(I, S, n):
-            ideal_step(F, I, n, k, rate_hz)
+        if not modelled:
+            F[ENF_BASE + k * ENF_STRIDE + ENF_STEP_CNT] = 0.0
+            if ideal_follows(I, S, n):
+                ideal_step(F, I, n, k, rate_hz)
         return I[encoder_row(k) + ENC_ENCODER_POSITION]
     if source == FROM_ADC and 0 <= k < 16:
         return wrap32(adc_counts(S, k) + I[i + AXI_POSITION_OFFSET])

@@ -26,6 +26,7 @@ from openacr.map.numbers import (
     AF5_HOME_BACKUP_ENABLE,
     AF5_HOME_FAILED,
     AF5_HOME_INPUT,
+    AF5_HOME_LEVEL_INVERT,
     AF5_HOME_NEGATIVE_EDGE_SELECT,
     AF5_HOME_NEGATIVE_FINAL_DIRECTION,
     AF5_HOME_SUCCESSFUL,
@@ -189,9 +190,13 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
 
 
 def home_edge_position(F: F64, I: I32, n: int, now: int) -> float:
-    """Actual position at which the home input changed within this tick."""
+    """Actual position at which the home input changed within this tick.
+
+    The edge of the input itself is the other one where its level is inverted.
+    """
     number: int = I[AXI_BASE + n * AXI_STRIDE + AXI_HLBIT] + 2
-    return capture_input_position(F, I, n, number, now == 0)
+    inverted: bool = I[AF5_WORD + n] & AF5_HOME_LEVEL_INVERT != 0
+    return capture_input_position(F, I, n, number, (now == 0) != inverted)
 
 
 def home_stop_dead(F: F64, I: I32, S: F32, n: int) -> None:
