@@ -27,6 +27,7 @@ from openacr.map.numbers import (
     PLI_BASE,
     PLI_DRIVE_ENABLED,
     PLI_DRIVE_FAULT,
+    PLI_FAULT_MASK,
     PLI_STRIDE,
     W_MISC_CONTROL_1,
 )
@@ -63,7 +64,7 @@ def drive_faulted(I: I32, n: int) -> bool:
 
 
 def drive_wiring(I: I32, n: int) -> None:
-    """Read the fault line of the drive of axis n and drive its enable line."""
+    """Read the fault line of the drive of axis n, if it has one, and drive its enable line."""
     i: int = AXI_BASE + n * AXI_STRIDE
     k: int = I[i + AXI_POSITION_INDEX]
     if I[i + AXI_POSITION_SOURCE] != 0 or not 0 <= k < MODELLED:
@@ -72,7 +73,7 @@ def drive_wiring(I: I32, n: int) -> None:
     flags: int = I[AF4_WORD + n]
     if I[row + PLI_DRIVE_FAULT]:
         flags |= AF4_DRIVE_FAULT_INPUT
-    else:
+    elif I[row + PLI_FAULT_MASK]:  # without a fault line the flag is the user's
         flags &= ~AF4_DRIVE_FAULT_INPUT
     I[AF4_WORD + n] = flags
     enabled: bool = flags & AF4_DRIVE_ENABLED != 0 or not flags & AF4_DRIVE_I_O_ENABLE
