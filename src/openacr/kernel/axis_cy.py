@@ -34,7 +34,7 @@ from openacr.map.numbers import (
     AXF_ERROR_OLD_CNT,
     AXF_GEAR_CNT,
     AXF_JOG_CNT,
-    AXF_JOG_TARGET_CNT,
+    AXF_JOG_ORIGIN_CNT,
     AXF_PEAK_VELOCITY_CPS,
     AXF_POSITION_CNT,
     AXF_PSP_CNT,
@@ -47,6 +47,7 @@ from openacr.map.numbers import (
     AXF_TARGET_CNT,
     AXF_TRAVEL_CNT,
     AXI_BASE,
+    AXI_JOG_REPLAN,
     AXI_MASTER,
     AXI_SHOWN_ACTUAL,
     AXI_SHOWN_BALLSCREW,
@@ -72,9 +73,9 @@ def axis_word(n: int) -> int:
 
 
 def axis_scale(S: F32, n: int) -> float:
-    """Pulses per unit of axis n with its sign; a 0 written past the command counts as 1."""
+    """Pulses per unit of axis n with its sign; a 0, infinity or NaN written counts as 1."""
     ppu: float = S[AX_BASE + n * AX_STRIDE + AX_PPU]
-    return ppu if ppu != 0.0 else 1.0
+    return ppu if ppu != 0.0 and ppu - ppu == 0.0 else 1.0
 
 
 def axis_sum(F: F64, n: int) -> None:
@@ -85,6 +86,26 @@ def axis_sum(F: F64, n: int) -> None:
     )
     F[a + AXF_PSP_CNT] = psp
     F[a + AXF_SSP_CNT] = psp + F[a + AXF_BALLSCREW_CNT] + F[a + AXF_BACKLASH_CNT]
+
+
+def axis_offsets(F: F64, n: int) -> float:
+    """What the secondary setpoint is beyond the coordinated position."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    return (
+        F[a + AXF_GEAR_CNT]
+        + F[a + AXF_JOG_CNT]
+        + F[a + AXF_CAM_CNT]
+        + F[a + AXF_BALLSCREW_CNT]
+        + F[a + AXF_BACKLASH_CNT]
+    )
+
+
+def axis_jog_set(F: F64, I: I32, n: int, offset_cnt: float) -> None:
+    """Replace the jog offset of axis n; a jog under way goes on from there."""
+    a: int = AXF_BASE + n * AXF_STRIDE
+    F[a + AXF_JOG_ORIGIN_CNT] += offset_cnt - F[a + AXF_JOG_CNT]
+    F[a + AXF_JOG_CNT] = offset_cnt
+    I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_REPLAN] = 1
 
 
 def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
@@ -118,7 +139,6 @@ def axis_settled(F: F64, I: I32, n: int) -> None:
     F[a + AXF_SSP_VELOCITY_CPS] = 0.0
     F[a + AXF_SSP_ACCEL_CPS2] = 0.0
     F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
-    F[a + AXF_JOG_TARGET_CNT] = F[a + AXF_JOG_CNT]
     i: int = AXI_BASE + n * AXI_STRIDE
     m: int = I[i + AXI_MASTER]
     if m >= 0:
@@ -131,8 +151,8 @@ def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
     a: int = AXF_BASE + n * AXF_STRIDE
     F[a + AXF_POSITION_CNT] = position_cnt
     F[a + AXF_GEAR_CNT] = 0.0
-    F[a + AXF_JOG_CNT] = 0.0
     F[a + AXF_CAM_CNT] = 0.0
+    axis_jog_set(F, I, n, 0.0)
     F[a + AXF_ERROR_OLD_CNT] = 0.0
     axis_settled(F, I, n)
 
@@ -195,7 +215,7 @@ def axis_take_written(F: F64, I: I32, n: int) -> bool:
     if I[p + AX_GEAR_OFFSET] != I[i + AXI_SHOWN_GEAR]:
         F[a + AXF_GEAR_CNT] = I[p + AX_GEAR_OFFSET]
     if I[p + AX_JOG_OFFSET] != I[i + AXI_SHOWN_JOG]:
-        F[a + AXF_JOG_CNT] = I[p + AX_JOG_OFFSET]
+        axis_jog_set(F, I, n, I[p + AX_JOG_OFFSET])
     if I[p + AX_CAM_OFFSET] != I[i + AXI_SHOWN_CAM]:
         F[a + AXF_CAM_CNT] = I[p + AX_CAM_OFFSET]
     if I[p + AX_BALLSCREW_OFFSET] != I[i + AXI_SHOWN_BALLSCREW]:

@@ -82,6 +82,9 @@ JOG_STOPPING = 3  # JOG OFF
 JOG_KILLED = 4  # kill, limit
 JOG_HOMING = 5
 
+JOG_WANTED = AF1_JOG_FORWARD | AF1_JOG_REVERSE
+JOG_STATES = AF1_JOG_ACTIVE | AF1_JOG_DIRECTION | AF1_JOG_AT_SPEED | AF1_JOG_STOPPING
+
 
 def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
     """Plan the jog of axis n from its present motion towards what is wanted."""
@@ -128,7 +131,7 @@ def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
     if I[i + AXI_JOG_MODE] == JOG_HOMING:
         home_abort(I, n)
     velocity: float = F[a + AXF_PSP_VELOCITY_CPS]
-    I[axis_word(n)] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
+    I[axis_word(n)] &= ~JOG_WANTED
     I[i + AXI_JOG_SIGN] = -1 if velocity < 0.0 else 1
     I[i + AXI_JOG_TURNING] = 0
     I[i + AXI_JOG_REPLAN] = 0
@@ -163,6 +166,10 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
     if mode == JOG_HOMING:
         return
     want: int = 0
+    if I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST and flags & JOG_WANTED:
+        # Not left for later: lifting the kill must not start anything.
+        flags &= ~JOG_WANTED
+        I[axis_word(n)] = flags
     if flags & AF1_JOG_FORWARD:
         want += 1
     if flags & AF1_JOG_REVERSE:
@@ -257,9 +264,7 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     S[p + AX_CURRENT_JOG_VELOC] = velocity / scale
     S[p + AX_CURRENT_JOG_ACCEL] = sign * F[f + PRF_ACCEL] / scale
     word: int = axis_word(n)
-    flags: int = I[word] & ~(
-        AF1_JOG_ACTIVE | AF1_JOG_DIRECTION | AF1_JOG_AT_SPEED | AF1_JOG_STOPPING
-    )
+    flags: int = I[word] & ~JOG_STATES
     if I[i + AXI_JOG_MODE] != JOG_IDLE:
         flags |= AF1_JOG_ACTIVE
         if velocity < 0.0:
@@ -278,6 +283,7 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     if mode != JOG_KILLED and mode != JOG_HOMING:
         jog_requests(F, I, S, n)
         if I[i + AXI_JOG_MODE] == JOG_IDLE:
+            I[axis_word(n)] &= ~JOG_STATES  # a command may have been ahead of a refusal
             return
         jog_follow(F, I, S, n)
     if I[i + AXI_JOG_MODE] == JOG_HOMING and home_step(F, I, S, n):
