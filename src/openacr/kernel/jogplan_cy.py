@@ -2,7 +2,13 @@
 
 from openacr.cmath import fabs
 from openacr.kernel.axis_cy import axis_scale
-from openacr.kernel.profile_cy import DECELERATING, profile_plan, profile_reset, profile_stop
+from openacr.kernel.profile_cy import (
+    DECELERATING,
+    plain,
+    profile_plan,
+    profile_reset,
+    profile_stop,
+)
 from openacr.map.numbers import (
     AX_BASE,
     AX_JOG_ACCEL_SETTING,
@@ -30,8 +36,8 @@ FAR_CNT = 1e18  # end of a jog without target
 
 
 def jog_setting(S: F32, n: int, row: int) -> float:
-    """A jog setting of axis n in pulses and seconds; negative values count as 0."""
-    return max(S[AX_BASE + n * AX_STRIDE + row] * fabs(axis_scale(S, n)), 0.0)
+    """A jog setting of axis n in pulses and seconds; negative values and NaN count as 0."""
+    return plain(S[AX_BASE + n * AX_STRIDE + row] * fabs(axis_scale(S, n)))
 
 
 def jog_mirror(F: F64, I: I32, n: int, sign: int) -> None:

@@ -27,9 +27,10 @@ the change,
 which contains the textbook cases t = dv/a + a/J and t = 2 sqrt(dv/J) for a0 = 0.
 
 A move too short for its cruising speed gets a lower peak, found in closed form without
-jerk and by bisection with it. If even an immediate end ramp does not fit, its rate is
-raised just enough: the target is never overshot. Distances run forwards only; the owner
-mirrors a backward motion.
+jerk and by bisection with it; one that is braking already may need a softer end ramp
+instead. Only if even the end ramp itself, begun at once, does not fit, its rate is raised
+just enough: the target is never overshot. Distances run forwards only; the owner mirrors a
+backward motion.
 
 Instances 0-15 are the masters (programming units), 16-31 the jog profilers (pulses).
 """
@@ -74,6 +75,9 @@ STOPPING = 3
 FOREVER_S = 1e30  # a plan that waits at speed 0 for a new cruising speed
 TIME_EPS_S = 1e-10  # far below a servo period, far above the rounding of a sum of them
 BISECTIONS = 64
+SLACK = 1e-12  # of a length: what sums of its parts may miss by rounding
+BACKWARD = 1e-6  # of a speed: more than rounding, see plan_start
+LARGEST = 1e15  # speeds and rates beyond are no numbers of any machine
 
 
 def profile_reset(F: F64, I: I32, n: int, velocity: float, accel: float) -> None:
@@ -92,14 +96,36 @@ def profile_reset(F: F64, I: I32, n: int, velocity: float, accel: float) -> None
     I[i + PRI_KIND] = CRUISING
 
 
-def plan_start(F: F64, I: I32, f: int, i: int) -> None:
-    """Empty the plan; planning continues from where the profile is now."""
+def plan_start(F: F64, I: I32, f: int, i: int, jerk: float) -> None:
+    """Empty the plan; planning continues from where the profile is now.
+
+    A jerk too low to end the present braking before the path would run backwards (it has
+    been lowered meanwhile) lets the acceleration start from 0 instead.
+    """
+    velocity: float = F[f + PRF_VELOCITY]
+    accel: float = F[f + PRF_ACCEL]
+    if jerk <= 0.0 or rest_speed(velocity, accel, jerk) < -BACKWARD * fabs(velocity):
+        accel = 0.0
     F[f + PRF_PLAN_DISTANCE] = F[f + PRF_DISTANCE]
-    F[f + PRF_PLAN_VELOCITY] = F[f + PRF_VELOCITY]
-    F[f + PRF_PLAN_ACCEL] = F[f + PRF_ACCEL]
+    F[f + PRF_PLAN_VELOCITY] = velocity
+    F[f + PRF_PLAN_ACCEL] = accel
     F[f + PRF_TIME_S] = 0.0
     I[i + PRI_SEG_COUNT] = 0
     I[i + PRI_SEG_INDEX] = 0
+
+
+def rest_speed(velocity: float, accel: float, jerk: float) -> float:
+    """Speed that is reached when the acceleration is taken to 0 at once."""
+    if jerk <= 0.0:
+        return velocity
+    return velocity + accel * fabs(accel) / (2.0 * jerk)
+
+
+def plain(value: float) -> float:
+    """A speed or rate as the planner can use it: 0 for less and for NaN, never infinite."""
+    if not value > 0.0:
+        return 0.0
+    return min(value, LARGEST)
 
 
 def plan_append(
@@ -132,8 +158,7 @@ def plan_ramp(
     v0: float = F[f + PRF_PLAN_VELOCITY]
     a0: float = F[f + PRF_PLAN_ACCEL]
     if limit > 0.0 and jerk > 0.0:
-        rest: float = v0 + a0 * fabs(a0) / (2.0 * jerk)  # speed if a were taken to 0 now
-        sign: float = 1.0 if velocity >= rest else -1.0
+        sign: float = 1.0 if velocity >= rest_speed(v0, a0, jerk) else -1.0
         square: float = jerk * sign * (velocity - v0) + a0 * a0 / 2.0
         peak: float = sign * min(sqrt(max(square, 0.0)), limit)
         rise: float = jerk if peak > a0 else -jerk
@@ -165,8 +190,8 @@ def plan_build(
     cruise: float,
 ) -> float:
     """Plan ramp to `peak`, `cruise` seconds there, end ramp; return the distance used."""
-    plan_start(F, I, f, i)
-    if peak >= F[f + PRF_VELOCITY]:
+    plan_start(F, I, f, i, jerk)
+    if peak >= rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk):
         plan_ramp(F, I, f, i, peak, acc, jerk, ACCELERATING)
     else:
         plan_ramp(F, I, f, i, peak, dec, jerk, DECELERATING)
@@ -230,7 +255,17 @@ def profile_plan(
     f: int = PRF_BASE + n * PRF_STRIDE
     i: int = PRI_BASE + n * PRI_STRIDE
     F[f + PRF_TARGET_VELOCITY] = cruise
+    cruise = plain(cruise)
+    acc = plain(acc)
+    dec = plain(dec)
+    stp = plain(stp)
+    jerk = plain(jerk)
     distance: float = end - F[f + PRF_DISTANCE]
+    plan_start(F, I, f, i, jerk)
+    rest: float = rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk)
+    # FVEL never speeds up: at or below it there is nothing to slow down for.
+    if end_velocity >= cruise and end_velocity >= rest:
+        stp = 0.0
     if stp <= 0.0:
         end_velocity = cruise
     used: float = plan_build(F, I, f, i, cruise, end_velocity, acc, dec, stp, jerk, 0.0)
@@ -266,37 +301,48 @@ def plan_short(
     """
     velocity: float = F[f + PRF_VELOCITY]
     distance: float = end - F[f + PRF_DISTANCE]
-    rate: float = acc if velocity <= cruise else -dec
-    inverse: float = 1.0 / stp
-    square: float = 2.0 * distance + end_velocity * end_velocity / stp
-    if rate != 0.0:
-        inverse += 1.0 / rate
-        square += velocity * velocity / rate
-    peak: float = -1.0
-    if inverse != 0.0 and square / inverse > 0.0:
-        peak = sqrt(square / inverse)
-    rising: bool = velocity <= cruise
-    if rising and peak <= end_velocity:
-        # Not even FVEL is reached: speed up to the end, no end ramp.
-        plan_build(F, I, f, i, cruise, cruise, acc, dec, stp, 0.0, 0.0)
-        plan_truncate(F, I, f, i, end)
-    elif (rising and peak >= velocity) or (
-        not rising and end_velocity <= peak and peak <= velocity
-    ):
+    peak: float = 0.0
+    if velocity <= cruise:
+        peak = short_peak(velocity, end_velocity, distance, acc, stp)
+        if peak <= end_velocity:
+            # Not even FVEL is reached: speed up to the end, no end ramp.
+            plan_build(F, I, f, i, cruise, cruise, acc, dec, stp, 0.0, 0.0)
+            plan_truncate(F, I, f, i, end)
+            return
+        peak = peak if peak >= velocity else -1.0
+    else:
+        peak = short_peak(velocity, end_velocity, distance, -dec, stp)
+        peak = peak if end_velocity <= peak <= velocity else -1.0
+    if peak >= 0.0:
         plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, 0.0, 0.0)
         plan_finish(F, I, f, i, end)
     else:
         plan_forced(F, I, f, i, end, end_velocity)
 
 
+def short_peak(v: float, end_velocity: float, distance: float, rate: float, stp: float) -> float:
+    """Speed at which a ramp of `rate` from v and the end ramp meet; -1 if they do not."""
+    inverse: float = 1.0 / stp
+    square: float = 2.0 * distance + end_velocity * end_velocity / stp
+    if rate != 0.0:
+        inverse += 1.0 / rate
+        square += v * v / rate
+    if inverse != 0.0 and square / inverse > 0.0:
+        return sqrt(square / inverse)
+    return -1.0
+
+
 def plan_forced(F: F64, I: I32, f: int, i: int, end: float, end_velocity: float) -> None:
-    """Brake at the one constant rate that still arrives with `end_velocity`."""
+    """Brake at the one constant rate that still arrives with `end_velocity` (or less)."""
     velocity: float = F[f + PRF_VELOCITY]
     distance: float = end - F[f + PRF_DISTANCE]
-    plan_start(F, I, f, i)
-    if distance > 0.0 and velocity > 0.0:
+    plan_start(F, I, f, i, 0.0)
+    if distance > 0.0 and velocity > end_velocity:
         rate: float = (velocity * velocity - end_velocity * end_velocity) / (2.0 * distance)
         plan_ramp(F, I, f, i, end_velocity, rate, 0.0, STOPPING)
+    elif distance > 0.0 and velocity > 0.0:
+        plan_append(F, I, f, i, distance / velocity, 0.0, 0.0, STOPPING)
+        end_velocity = velocity
     F[f + PRF_PLAN_VELOCITY] = end_velocity
     F[f + PRF_PLAN_ACCEL] = 0.0
     plan_finish(F, I, f, i, end)
@@ -321,17 +367,22 @@ def plan_short_jerk(
     tried, so bisection finds the p that covers exactly the distance. The last bracket end
     that still fits is used and the tiny remainder becomes cruising time.
     """
-    velocity: float = F[f + PRF_VELOCITY]
-    accel: float = F[f + PRF_ACCEL]
     distance: float = end - F[f + PRF_DISTANCE]
-    rest: float = velocity + accel * fabs(accel) / (2.0 * jerk)
+    plan_start(F, I, f, i, jerk)
+    rest: float = rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk)
     fits: float = max(rest, 0.0)
-    if rest > cruise:
-        fits = end_velocity if dec > stp else velocity
-    if plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
-        plan_forced(F, I, f, i, end, end_velocity)
-        return
+    if rest <= end_velocity:
+        # Not even FVEL is reached: speed up to the end, no end ramp.
+        fits = end_velocity
+        if plan_build(F, I, f, i, fits, fits, acc, dec, stp, jerk, 0.0) > distance:
+            plan_truncate(F, I, f, i, end)
+            return
+    elif rest > cruise and dec > stp:
+        fits = end_velocity
     fails: float = cruise
+    if plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
+        plan_brake(F, I, f, i, end, end_velocity, max(dec, stp), jerk)
+        return
     for _ in range(BISECTIONS):
         peak: float = (fits + fails) / 2.0
         if plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
@@ -344,6 +395,40 @@ def plan_short_jerk(
     plan_finish(F, I, f, i, end)
 
 
+def plan_ramp_at_once(
+    F: F64, I: I32, f: int, i: int, velocity: float, rate: float, jerk: float
+) -> float:
+    """Plan an end ramp that begins now; return the distance it takes."""
+    plan_start(F, I, f, i, jerk)
+    plan_ramp(F, I, f, i, velocity, rate, jerk, STOPPING)
+    return F[f + PRF_PLAN_DISTANCE] - F[f + PRF_DISTANCE]
+
+
+def plan_brake(
+    F: F64, I: I32, f: int, i: int, end: float, end_velocity: float, limit: float, jerk: float
+) -> None:
+    """Plan the end ramp from here, at the softest rate that still fits; else force it.
+
+    A path that brakes already and has too little way left to let go of the brake first
+    keeps braking. The way grows as the rate falls, so bisection finds the rate; it may be
+    above STP, which is then too weak, but not above `limit`.
+    """
+    distance: float = end - F[f + PRF_DISTANCE]
+    if plan_ramp_at_once(F, I, f, i, end_velocity, limit, jerk) > distance + SLACK * fabs(end):
+        plan_forced(F, I, f, i, end, end_velocity)
+        return
+    fails: float = 0.0
+    fits: float = limit
+    for _ in range(BISECTIONS):
+        rate: float = (fits + fails) / 2.0
+        if plan_ramp_at_once(F, I, f, i, end_velocity, rate, jerk) > distance:
+            fails = rate
+        else:
+            fits = rate
+    plan_ramp_at_once(F, I, f, i, end_velocity, fits, jerk)
+    plan_finish(F, I, f, i, end)
+
+
 def profile_stop(F: F64, I: I32, n: int, end: float, rate: float, jerk: float, kind: int) -> bool:
     """Plan a ramp to rest at `rate`, wherever that is; False if it would pass `end`.
 
@@ -351,8 +436,9 @@ def profile_stop(F: F64, I: I32, n: int, end: float, rate: float, jerk: float, k
     """
     f: int = PRF_BASE + n * PRF_STRIDE
     i: int = PRI_BASE + n * PRI_STRIDE
-    plan_start(F, I, f, i)
-    plan_ramp(F, I, f, i, 0.0, rate, jerk, kind)
+    jerk = plain(jerk)
+    plan_start(F, I, f, i, jerk)
+    plan_ramp(F, I, f, i, 0.0, plain(rate), jerk, kind)
     if F[f + PRF_PLAN_DISTANCE] > end:
         plan_truncate(F, I, f, i, end)
         return False
@@ -385,8 +471,10 @@ def profile_advance(F: F64, I: I32, n: int, dt: float) -> float:
     F[f + PRF_JERK] = jerk
     F[f + PRF_ACCEL] = accel + t * jerk
     F[f + PRF_VELOCITY] = velocity + t * (accel + t * jerk / 2.0)
-    F[f + PRF_DISTANCE] = F[f + PRF_SEG_DISTANCE + k] + t * (
+    distance: float = F[f + PRF_SEG_DISTANCE + k] + t * (
         velocity + t * (accel / 2.0 + t * jerk / 6.0)
     )
+    # Just before the end the sum may be beyond it in its last bit.
+    F[f + PRF_DISTANCE] = min(distance, F[f + PRF_END_DISTANCE])
     I[i + PRI_KIND] = I[i + PRI_SEG_KIND + k]
     return -1.0

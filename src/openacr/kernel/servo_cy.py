@@ -268,8 +268,11 @@ def velocity_integral(F: F64, S: F32, n: int, value: float, period_s: float) -> 
     if S[p + AX_INTEGRAL_LIMIT] > 0.0:
         return integrate(F, S, n, value, S[p + AX_KVI], period_s)
     a: int = AXF_BASE + n * AXF_STRIDE
-    F[a + AXF_INTEGRAL_V] += S[p + AX_KVI] * value * period_s
-    return F[a + AXF_INTEGRAL_V]
+    total: float = F[a + AXF_INTEGRAL_V] + S[p + AX_KVI] * value * period_s
+    if total - total != 0.0:  # a gain that is no number must not stay in the integral
+        total = 0.0
+    F[a + AXF_INTEGRAL_V] = total
+    return total
 
 
 def servo_closed(I: I32, n: int) -> bool:
