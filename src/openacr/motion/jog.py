@@ -3,6 +3,7 @@
 from openacr.errors import CardError
 from openacr.kernel.homing_cy import HOME_START
 from openacr.kernel.jog_cy import JOG_CONTINUOUS, JOG_HOMING, JOG_IDLE, JOG_TO_TARGET
+from openacr.kernel.jogplan_cy import FAR_CNT
 from openacr.map.numbers import (
     AF1_JOG_ACTIVE,
     AF1_JOG_FORWARD,
@@ -25,7 +26,7 @@ from openacr.map.numbers import (
     AXI_SLAVE,
     MSF_TARGET_CNT,
 )
-from openacr.messages import NOT_VALID_WHILE_IN_MOTION
+from openacr.messages import INVALID_ARGUMENT, NOT_VALID_WHILE_IN_MOTION
 from openacr.motion.card import Card
 from openacr.motion.permits import (
     master_moving,
@@ -82,6 +83,8 @@ def incremental(card: Card, axis: int, distance_u: float) -> None:
 
 def _to_target(card: Card, axis: int, target_cnt: float) -> None:
     memory = card.memory
+    if not abs(target_cnt) < FAR_CNT:
+        raise CardError(INVALID_ARGUMENT)
     distance = target_cnt - memory.F[axis_reals(axis) + AXF_JOG_CNT]
     permit(card, axis, distance / scale_of(card, axis))
     ints, word = axis_ints(axis), axis_word(axis)

@@ -46,7 +46,7 @@ from openacr.map.numbers import (
     MSI_HOLD,
     MSI_QUEUED,
 )
-from openacr.messages import NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
+from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
 from openacr.motion import settings
 from openacr.motion.card import Card
 from openacr.motion.permits import (
@@ -59,6 +59,7 @@ from openacr.motion.permits import (
 from openacr.motion.rows import axis_reals, master_ints, master_parameter, master_reals, master_word
 
 RING = path_cy.RING
+FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
 
 _COPIED = (
     (MSF_ACC_UPS2, MQF_ACC_UPS2),
@@ -147,6 +148,8 @@ def _way(card: Card, program: int, master: int, target: Target) -> _Way:
     slave = card.attachments.slave_of(program, target.axis)
     if slave is None:
         raise CardError(UNDEFINED_SYMBOL)
+    if not abs(target.value_u) < FARTHEST_U:
+        raise CardError(INVALID_ARGUMENT)
     scale = scale_of(card, target.axis)
     here = _planned_end(card, master, slave, target.axis)
     if target.incremental:

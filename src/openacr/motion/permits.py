@@ -1,5 +1,7 @@
 """What bars a motion command: the checks every motion command shares."""
 
+from math import isfinite
+
 from openacr.errors import CardError
 from openacr.map.numbers import (
     AF1_CAM_ACTIVATE,
@@ -42,8 +44,9 @@ OFFSETS_MOVING = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE | AF1_CAM_
 
 
 def scale_of(card: Card, axis: int) -> float:
-    """Pulses per unit of an axis."""
-    return card.memory.S[axis_parameter(axis) + AX_PPU] or 1.0
+    """Pulses per unit of an axis; as in the kernel, what is no number counts as 1."""
+    ppu = card.memory.S[axis_parameter(axis) + AX_PPU]
+    return ppu if ppu and isfinite(ppu) else 1.0
 
 
 def master_of(card: Card, axis: int) -> int | None:
