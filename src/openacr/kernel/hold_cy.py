@@ -8,7 +8,7 @@ from openacr.kernel.profile_cy import (
     profile_reset,
     profile_stop,
 )
-from openacr.kernel.seek_cy import SEEK_NONE
+from openacr.kernel.seek_cy import SEEK_NONE, SEEK_STOPPING
 from openacr.map.numbers import (
     AXF_BASE,
     AXF_POSITION_CNT,
@@ -49,6 +49,7 @@ from openacr.map.numbers import (
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
     PRF_BASE,
+    PRF_DISTANCE,
     PRF_STRIDE,
     PRF_TARGET_VELOCITY,
     PRF_VELOCITY,
@@ -118,7 +119,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     if not I[i + MSI_MOVING]:
         return
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
-    if I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] == STOPPING:
+    if master_stopping(I, m):
         return
     rate: float = F[q + MQF_DEC_UPS2]
     if rate <= 0.0:
@@ -140,8 +141,17 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     I[i + MSI_HOLD] = NOT_HELD
     I[i + MSI_DROP_AT_REST] = 0
     I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
-    if I[i + MSI_MOVING]:
+    if not I[i + MSI_MOVING] or master_stopping(I, m):
+        return
+    if I[i + MSI_SEEK_PHASE] == SEEK_STOPPING:  # has captured: on to the way back
+        profile_stop(F, I, m, F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE], 0.0, 0.0, STOPPING)
+    else:
         master_plan(F, I, S, m)
+
+
+def master_stopping(I: I32, m: int) -> bool:
+    """Whether the end ramp of the move, or the stop of a seek, is running already."""
+    return I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] == STOPPING
 
 
 def master_at_rest(F: F64, I: I32, S: F32, m: int) -> None:

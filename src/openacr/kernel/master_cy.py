@@ -17,6 +17,7 @@ from openacr.kernel.hold_cy import (
     master_drop,
     master_hold,
     master_settle,
+    master_stopping,
 )
 from openacr.kernel.path_cy import (
     RING,
@@ -108,7 +109,7 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["master_step"]
 
-MOVES_PER_TICK = 8  # a chain of shorter moves than a tick still ends
+MOVES_PER_TICK = 17  # a full ring of moves shorter than a tick, and a seek that turns back
 
 
 def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> None:
@@ -273,12 +274,11 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
             break
         velocity = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
         accel = F[PRF_BASE + m * PRF_STRIDE + PRF_ACCEL]
-        if I[i + MSI_SEEK_PHASE] != SEEK_NONE:
-            if seek_end(F, I, S, m):
-                continue
-        elif master_short_of_target(F, I, m):
+        if master_short_of_target(F, I, m):
             master_at_rest(F, I, S, m)
             break
+        if I[i + MSI_SEEK_PHASE] != SEEK_NONE and seek_end(F, I, S, m):
+            continue
         move_end(F, I, S, m)
         if not I[i + MSI_QUEUED]:
             break
@@ -306,7 +306,7 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         if I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] == SEEK_STOPPING:
             return
     if (
-        I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] != STOPPING
+        not master_stopping(I, m)
         and I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] != SEEK_STOPPING
         and master_limit(F, I, S, m) != F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY]
     ):

@@ -64,6 +64,7 @@ from openacr.views import F32, F64, I32
 
 RING = 16  # moves per master (map/hidden/motion.py)
 SLAVE_COUNT = 16
+FAR_U = 1e30
 
 
 def master_word(m: int) -> int:
@@ -82,12 +83,15 @@ def move_record(I: I32, m: int) -> int:
 
 
 def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
-    """Cruising speed wanted now [units/s]: the move's own under override and limits."""
+    """Cruising speed wanted now [units/s]: the move's own under override and limits.
+
+    The comparisons are written so that what is no number counts as 0 or as no limit.
+    """
     record: int = move_record(I, m)
     q: int = MQF_BASE + record * MQF_STRIDE
     p: int = MA_BASE + m * MA_STRIDE
     velocity: float = F[q + MQF_VEL_UPS]
-    if velocity <= 0.0:  # accepted while VEL was 0: takes over the first VEL above it
+    if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
         velocity = S[p + MA_USER_VELOCITY]
         F[q + MQF_VEL_UPS] = velocity
     if not I[master_word(m)] & MF1_FOV_ROV_LOCK_ACTIVE:
@@ -99,7 +103,7 @@ def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
         velocity = min(velocity, S[p + MA_VEL_LIMIT])
     if F[q + MQF_MAXVEL_UPS] > 0.0:
         velocity = min(velocity, F[q + MQF_MAXVEL_UPS])
-    return max(velocity, 0.0)
+    return velocity if velocity > 0.0 else 0.0
 
 
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
@@ -151,7 +155,7 @@ def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     length: float = sqrt(square)
     if length <= 0.0 and longest > 0.0:
         length = S[MA_BASE + m * MA_STRIDE + MA_MANUAL_VECTOR]
-        if length <= 0.0:
+        if not 0.0 < length < FAR_U:
             length = longest
     F[q + MQF_LENGTH_U] = length
     F[q + MQF_MAXVEL_UPS] = 0.0

@@ -3,7 +3,7 @@
 The captured position becomes 0.
 """
 
-from openacr.kernel.axis_cy import axis_preload, axis_word
+from openacr.kernel.axis_cy import axis_offsets, axis_preload, axis_word
 from openacr.kernel.capture_cy import capture_arm, encoder_shift
 from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, move_geometry, move_record
 from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
@@ -11,8 +11,6 @@ from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,
     AXF_BASE,
     AXF_CAPTURE_CNT,
-    AXF_POSITION_CNT,
-    AXF_SSP_CNT,
     AXF_STRIDE,
     MQF_BASE,
     MQF_DEC_UPS2,
@@ -65,8 +63,7 @@ def seek_end(F: F64, I: I32, S: F32, m: int) -> bool:
         # Jog, gear and cam offsets take part in the captured actual position.
         for s in range(SLAVE_COUNT):
             if I[i + MSI_SLAVE_AXIS + s] == axis:
-                offsets: float = F[a + AXF_SSP_CNT] - F[a + AXF_POSITION_CNT]
-                F[q + MQF_TARGET_CNT + s] = F[a + AXF_CAPTURE_CNT] - offsets
+                F[q + MQF_TARGET_CNT + s] = F[a + AXF_CAPTURE_CNT] - axis_offsets(F, axis)
                 I[MQI_BASE + record * MQI_STRIDE + MQI_RELATIVE] = 0
         move_geometry(F, I, S, m)
         I[i + MSI_SEEK_PHASE] = SEEK_RETURNING

@@ -1,7 +1,13 @@
 """The slow flag scan, every 50 ms: limit bands and the request flags of masters and axes."""
 
 from openacr.kernel.axis_cy import axis_renew, axis_scale, axis_word
-from openacr.kernel.hold_cy import NOT_HELD, master_hold, master_release
+from openacr.kernel.hold_cy import (
+    IN_FEEDHOLD,
+    NOT_HELD,
+    master_at_rest,
+    master_hold,
+    master_release,
+)
 from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
     AF1_NOT_EXCESS_ERROR,
@@ -175,6 +181,8 @@ def master_requests(F: F64, I: I32, S: F32, m: int) -> None:
     hold: int = I[MSI_BASE + m * MSI_STRIDE + MSI_HOLD]
     if flags & (MF1_FEEDHOLD_REQUEST | MF1_STOP_ALL_MOVES_REQUEST) and hold == NOT_HELD:
         master_hold(F, I, S, m)
+    elif flags & MF1_STOP_ALL_MOVES_REQUEST and hold == IN_FEEDHOLD:
+        master_at_rest(F, I, S, m)
     I[word] &= ~MF1_FEEDHOLD_REQUEST
     if flags & MF1_CYCLE_START_REQUEST:
         I[word] &= ~MF1_CYCLE_START_REQUEST
