@@ -1,0 +1,145 @@
+"""Coordinated moves with JRK: jerk bounded, time near the optimum, limits under disturbance."""
+
+import numpy as np
+import pytest
+import ruckig
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.kernel import oracle
+from tests.kernel.rig import Rig, T, acceleration, jerk, noise, velocity
+from tests.kernel.test_profile import disturbed, set_up, shapes, spread, ticks_moved
+
+settings.load_profile("kernel")
+
+
+@st.composite
+def curves(draw: st.DrawFn) -> dict[str, float]:
+    """A move from rest to rest with jerk, ACC and STP above 0."""
+    shape = draw(shapes())
+    shape["acc"] = shape["vel"] / draw(spread(2e-3, 0.5))
+    shape["jrk"] = shape["acc"] / draw(spread(2e-3, 0.5))
+    shape["fvel"] = shape["ivel"] = 0.0
+    return shape
+
+
+@settings(max_examples=400)
+@given(curves())
+def test_an_s_curve_ends_exactly_keeps_its_jerk_and_takes_the_closed_form_time(
+    shape: dict[str, float],
+) -> None:
+    rig = Rig(ppu=[100.0])
+    shape = set_up(shape, rig)
+    rig.move(shape["length"])
+    positions = rig.record()
+    assert positions[-1] == positions[-2] == shape["length"] * 100
+    assert np.all(np.diff(positions) >= 0)
+    units = positions / 100
+    assert velocity(units).max() <= shape["vel"] * (1 + 1e-6) + noise(units, 1)
+    strongest = max(shape["acc"], shape["stp"])
+    assert np.abs(acceleration(units)).max() <= strongest * (1 + 1e-6) + noise(units, 2)
+    assert np.abs(jerk(units)).max() <= shape["jrk"] * (1 + 1e-6) + noise(units, 3)
+    leg = oracle.move(
+        shape["length"], shape["vel"], shape["acc"], 0, shape["stp"], jerk=shape["jrk"]
+    )
+    assert abs(ticks_moved(positions) - leg.time / T) <= 1 + 1e-6 * leg.time / T
+
+
+@settings(max_examples=300)
+@given(curves())
+def test_an_s_curve_is_at_most_a_hundredth_slower_than_the_optimum(
+    shape: dict[str, float],
+) -> None:
+    shape["stp"] = shape["acc"]
+    rig = Rig()
+    shape = set_up(shape, rig)
+    rig.move(shape["length"])
+    positions = rig.record()
+    wanted = ruckig.InputParameter(1)
+    wanted.current_position, wanted.target_position = [0.0], [shape["length"]]
+    wanted.max_velocity, wanted.max_acceleration = [shape["vel"]], [shape["acc"]]
+    wanted.max_jerk = [shape["jrk"]]
+    best = ruckig.Trajectory(1)
+    assert ruckig.Ruckig(1).calculate(wanted, best) in (
+        ruckig.Result.Working,
+        ruckig.Result.Finished,
+    )
+    moved = ticks_moved(positions) * T
+    assert best.duration - T <= moved <= best.duration * 1.01 + T
+
+
+@settings(max_examples=300)
+@given(curves(), st.data())
+def test_overrides_and_holds_during_an_s_curve_keep_end_acceleration_and_jerk(
+    shape: dict[str, float], data: st.DataObject
+) -> None:
+    rig = Rig(ppu=[1000.0])
+    shape["dec"] = shape["dec"] or shape["stp"]
+    shape = set_up(shape, rig)
+    units = disturbed(rig, shape, data)
+    assert units[-1] == shape["length"] * 1000
+    units = units / 1000
+    assert np.all(np.diff(units) >= -noise(units, 0))
+    strongest = max(shape[r] for r in ("acc", "dec", "stp"))
+    assert np.abs(acceleration(units)).max() <= strongest * (1 + 1e-6) + noise(units, 2)
+    assert np.abs(jerk(units)).max() <= shape["jrk"] * (1 + 1e-6) + noise(units, 3)
+
+
+def test_an_s_curve_that_brakes_for_a_lower_override_goes_on_braking_at_its_end() -> None:
+    """Released so late that taking the brake off first would pass the target."""
+    for ticks in range(0, 900, 7):
+        rig = Rig(ppu=[1000.0]).master(acc=100, dec=100, stp=100, jrk=1000, vel=50)
+        rig.move(10.0)
+        positions = [0.0]
+        for tick in range(ticks):
+            positions.append(rig.ticks().real("psp_cnt"))
+            if tick == ticks // 2:
+                rig.master(fov=0.1)
+        rig.master(fov=1.0)
+        units = np.array([*positions[:-1], *rig.record()]) / 1000
+        assert units[-1] == 10.0
+        assert np.abs(acceleration(units)).max() <= 100 * (1 + 1e-6)
+        assert np.abs(jerk(units)).max() <= 1000 * (1 + 1e-5)
+
+
+@settings(max_examples=150)
+@given(st.lists(curves(), min_size=2, max_size=3))
+def test_merged_s_curves_pass_on_speed_and_acceleration(chain: list[dict[str, float]]) -> None:
+    rig = Rig(ppu=[100.0])
+    rig.depth(5)
+    scale, first = 0.0, chain[0]
+    acc, jrk = first["acc"], first["jrk"]
+    for number, shape in enumerate(chain):
+        last = number + 1 == len(chain)
+        vel = first["vel"] * (0.2 + number % 2)
+        rig.master(acc=acc, dec=acc, stp=acc if last else 0.0, jrk=jrk, vel=vel)
+        scale += first["length"] * (0.2 + shape["length"] % 1.0)
+        rig.move(scale)
+    positions = rig.record(limit=200_000)
+    units = positions / 100
+    assert positions[-1] == scale * 100
+    assert np.all(np.diff(positions) >= -noise(positions, 0))
+    assert velocity(units).max() <= first["vel"] * 1.2 * (1 + 1e-3) + acc**2 / jrk / 2
+    smooth = np.abs(jerk(units)) <= 2 * jrk * (1 + 1e-6) + noise(units, 3)
+    assert smooth[:-4].mean() > 0.5 or len(units) < 20
+
+
+@pytest.mark.req("ACR-PROF-19")
+def test_jerk_spares_the_motor() -> None:
+    """The peak of the tracking error falls with JRK."""
+    world = """
+[[axis]]
+number = 0
+counts_per_rev = 4000
+motor = { inertia_kgm2 = 2e-5, torque_nm_per_a = 0.5 }
+drive = { mode = "torque", amps_per_volt = 0.01, peak_amps = 20.0 }
+"""
+    peaks = []
+    for jrk in (0.0, 3e5):
+        rig = Rig(world=world)
+        rig.axis(proportional_gain=0.1, derivative_gain=3e-4)
+        rig.master(acc=2e4, dec=2e4, stp=2e4, vel=2000, jrk=jrk)
+        rig.ticks(100)
+        rig.move(4000.0)
+        rig.record()
+        peaks.append(rig.real("peak_error_cnt"))
+    assert peaks[1] < 0.8 * peaks[0]
