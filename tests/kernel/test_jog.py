@@ -26,7 +26,7 @@ def flags(rig: Rig) -> str:
 def jogging(**settings_: float) -> Rig:
     """An axis of 1000 pulses per unit with VEL 10, ACC 100, DEC 50."""
     rig = Rig(ppu=[1000.0])
-    return rig.jog(**{"vel": 10.0, "acc": 100.0, "dec": 50.0, **settings_})
+    return rig.jog(0, **{"vel": 10.0, "acc": 100.0, "dec": 50.0, **settings_})
 
 
 def jogged(rig: Rig) -> float:
@@ -277,7 +277,7 @@ def obey(rig: Rig, what: str, value: float) -> None:
     elif what == "off":
         jog.off(card, 0)
     elif what in ("vel", "acc", "dec"):
-        rig.jog(**{what: 1 + magnitude * (10 if what != "vel" else 1)})
+        rig.jog(0, **{what: 1 + magnitude * (10 if what != "vel" else 1)})
     elif what == "jrk":
         rig.jog(jrk=0.0 if value < 0 else 500 + 1000 * value)
     elif what == "move":
