@@ -80,5 +80,6 @@ INVALID_PASSWORD = _row("Invalid password")
 NOT_SUPPORTED = _row("Not supported")
 PLC_TOO_LONG = _row("PLC too long")
 PLC_ERROR = _row("PLC error line {}")
+SAVE_FAILED = _row("Save failed")
 
 MESSAGES: tuple[Message, ...] = tuple(_all)

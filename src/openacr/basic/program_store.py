@@ -49,6 +49,7 @@ class ProgramStore:
     storage: Storage
     texts: list[dict[int, StoredLine]] = field(default_factory=lambda: [{} for _ in range(OWNERS)])
     password: str | None = None
+    changed: set[int] = field(default_factory=set)  # owners, for who stores their text
 
     def lines(self, owner: int) -> list[StoredLine]:
         """The lines of a program in the order of their numbers."""
@@ -80,6 +81,11 @@ class ProgramStore:
         self.texts[owner].clear()
         self.storage.set_code_bytes(owner, 0)
         self._mark_modified(owner)
+
+    def forget(self, owner: int) -> None:
+        """Remove all lines, as a loss of memory does: nothing is accounted or marked."""
+        self.texts[owner].clear()
+        self.changed.add(owner)
 
     def next_number(self, owner: int) -> int:
         """The hidden number of the next line of free-form text."""
@@ -116,12 +122,14 @@ class ProgramStore:
         """Take over what `state` returned."""
         texts, self.password = state
         self.texts = [{line.number: line for line in text} for text in texts]
+        self.changed.update(range(OWNERS))
 
     def _account(self, owner: int, growth: int) -> None:
         row = self.storage.heap.row(owner, at.STI_CODE_BYTES)
         self.storage.set_code_bytes(owner, row + growth)
 
     def _mark_modified(self, owner: int) -> None:
+        self.changed.add(owner)
         if owner < PROGRAMS:
             self.storage.memory.I[at.PF_WORD + owner] |= at.PF_PROGRAM_MODIFIED
 

@@ -112,6 +112,10 @@ class Storage:
         """Bytes of the buffer of a stream."""
         return self._stream_row(name) or STREAM_BYTES
 
+    def dimensioned(self, name: str) -> int:
+        """Bytes given to a stream with DIM, 0 for none."""
+        return self._stream_row(name)
+
     def clear_stream(self, name: str) -> None:
         """CLEAR COM1 and others: back to 256 bytes."""
         self._set_system(self._stream_offset(name), 0)

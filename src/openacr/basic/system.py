@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from openacr.basic import retained
@@ -58,6 +59,37 @@ class Control(Protocol):
         """TRON and TROFF."""
 
 
+class NonVolatile(Protocol):
+    """What the card keeps without power: saved parameters, user flash, battery, firmware."""
+
+    def esave(self) -> None:
+        """ESAVE."""
+
+    def eload(self) -> None:
+        """ELOAD."""
+
+    def erase(self) -> None:
+        """ERASE."""
+
+    def flash_save(self, *, values: bool) -> None:
+        """FLASH SAVE, with values FLASH IMAGE."""
+
+    def flash_load(self) -> None:
+        """FLASH LOAD."""
+
+    def flash_erase(self) -> None:
+        """FLASH ERASE."""
+
+    def breset(self) -> None:
+        """BRESET."""
+
+    def firmware_backup(self) -> None:
+        """FIRMWARE BACKUP."""
+
+    def firmware_checksum(self) -> None:
+        """FIRMWARE CHECKSUM."""
+
+
 def _no_plc(found: list[Token]) -> tuple[Any, int]:
     raise CardError(NOT_SUPPORTED)
 
@@ -65,14 +97,15 @@ def _no_plc(found: list[Token]) -> tuple[Any, int]:
 class System:
     """The language side of one card.
 
-    `control` and `runner` execute, `reboot` restarts the card; they are set by the
-    composition root, as is `read_plc`, which turns the tokens of a PLC line into
+    `control` and `runner` execute, `reboot` restarts the card, `nonvolatile` stores; they
+    are set by the composition root, as is `read_plc`, which turns the tokens of a PLC line into
     instructions and their count.
     """
 
     control: Control
     runner: Runner
     reboot: Callable[[], None]
+    nonvolatile: NonVolatile
 
     def __init__(self, card: Card) -> None:
         self.card = card
@@ -98,12 +131,18 @@ class System:
         axes = frozenset(name.upper() for name, _ in named)
         return Scope(level, stored, axes, self.aliases.nodes)
 
-    def read_stored(self, owner: int, found: list[Token]) -> tuple[Any, int]:
-        """Meaning and cost of a line to be stored; no meaning if there is nothing to store."""
+    def read_stored(
+        self, owner: int, found: list[Token], names: frozenset[str] = frozenset()
+    ) -> tuple[Any, int]:
+        """Meaning and cost of a line to be stored; no meaning if there is nothing to store.
+
+        `names` are axes it may name besides those that are attached.
+        """
         if owner >= PROGRAMS:
             tree, count = self.read_plc(found)
             return tree, count * PLC_INSTRUCTION.each
         scope = self.scope(Level.PROG, owner, stored=True)
+        scope = replace(scope, axes=scope.axes | names)
         line = Parser(found, scope).line()
         return (None, 0) if line.is_empty else (line, line_bytes(found))
 
@@ -125,18 +164,24 @@ class System:
     def forget(self) -> None:
         """Forget programs, dimensions and aliases: memory without a battery."""
         for owner in self.owners():
-            self.programs.texts[owner].clear()
+            self.programs.forget(owner)
         self.programs.password = None
         self.storage.restore_factory()
+        for name in self.storage.streams:
+            self.storage.clear_stream(name)
         self.aliases.clear()
 
-    def restart(self) -> None:
+    def restart(self, *, keeps_memory: bool = True) -> None:
         """Restart the card; battery-backed memory keeps texts, dimensions and variables."""
         for program in range(PROGRAMS):
             self.devices.close_all(program)
-        kept = retained.take(self.card.memory)
+        kept = retained.take(self.card.memory) if keeps_memory else []
         self.card.power_up()
-        retained.put_back(self.card.memory, kept)
+        if keeps_memory:
+            retained.put_back(self.card.memory, kept)
+        else:
+            self.forget()
+            self.setup = Setup()
         self.devices.restore({})
         for session in self.sessions.values():
             session.power_up()

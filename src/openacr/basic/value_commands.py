@@ -15,6 +15,7 @@ from openacr.basic.grammar import Axis, AxisPairs, AxisValue, AxisValues, Num
 from openacr.basic.number_format import Kind, number_text
 from openacr.basic.registry import ANY, BY_OBJECT, Level, command
 from openacr.basic.run import Run
+from openacr.basic.saved import keep
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
@@ -115,6 +116,16 @@ def axis_values(rows: Iterable[Value], *, group: str, ref: str) -> None:
         form = AxisValues(optional=row.bare)
         handler = _axis_value(row)
         put(row, handler, form, group=group, ref=ref, levels=BY_OBJECT, saved=row.saved)
+        if row.saved:
+            keep(row.words, row.setting, count=_axes, then=row.then)
+
+
+def _axes(card: Card) -> int:
+    return card.model.axes
+
+
+def _masters(card: Card) -> int:
+    return card.model.masters
 
 
 def _axis_value(row: Value) -> Callable[..., None]:
@@ -150,6 +161,7 @@ def axis_bands(rows: Iterable[Band], *, group: str, ref: str) -> None:
     for row in rows:
         handler = _axis_band(row)
         put(row, handler, AxisPairs(), group=group, ref=ref, levels=BY_OBJECT, saved=True)
+        keep(row.words, row.plus, row.minus, count=_axes)
 
 
 def _axis_band(row: Band) -> Callable[..., None]:
@@ -171,6 +183,8 @@ def master_values(rows: Iterable[Value], *, group: str, ref: str) -> None:
         form = Num("value", optional=True)
         handler = _master_value(row)
         put(row, handler, form, group=group, ref=ref, levels=BY_OBJECT, saved=row.saved)
+        if row.saved:
+            keep(row.words, row.setting, count=_masters, then=row.then)
 
 
 def _master_value(row: Value) -> Callable[..., None]:
@@ -189,6 +203,7 @@ def object_values(rows: Iterable[ObjectValue], *, group: str, ref: str) -> None:
     for row in rows:
         form = Num("value", optional=True)
         put(row, _object_value(row), form, group=group, ref=ref, levels=ANY, saved=True)
+        keep(row.words, row.setting, count=row.count)
 
 
 def _object_value(row: ObjectValue) -> Callable[..., None]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import cast
 
@@ -22,14 +23,16 @@ from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.system import System
 from openacr.compiled import pick
 from openacr.controller import snapshot as snapshots
+from openacr.controller.journal import Entered, JournalEntry, Recorder, Ring
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError
 from openacr.controller.packets import PacketHost
+from openacr.controller.persistence import Persistence
 from openacr.controller.streams import CONSOLE, Streams
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.controller.views import AxisView, Bits, Parameters
 from openacr.engine import loop_cy
 from openacr.engine.watches import Watch, give_orders, set_watches, take_orders
-from openacr.errors import CardError, SourceError, UserError
+from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.lexer import Token
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
@@ -76,16 +79,6 @@ _NO_TRACE = memoryview(bytearray(8)).cast("d")
 
 
 @dataclass(frozen=True, slots=True)
-class JournalEntry:
-    """One thing that entered the card: bytes on a stream, or an input that switched."""
-
-    tick: int
-    stream: int  # 0 for an input
-    data: bytes  # b"1" or b"0" for an input
-    bit: int = -1
-
-
-@dataclass(frozen=True, slots=True)
 class AxisStatistics:
     """What an axis has done since power-up, in its units."""
 
@@ -100,7 +93,11 @@ class Controller:
     """A virtual card; see design notes in docs/overview.md."""
 
     def __init__(
-        self, model: str | Model = "ACR9000", *, world: schema.World | None = None
+        self,
+        model: str | Model = "ACR9000",
+        *,
+        world: schema.World | None = None,
+        data: Path | None = None,
     ) -> None:
         self.model = _model(model)
         self.world = world or schema.default_world(self.model)
@@ -114,11 +111,12 @@ class Controller:
         self.system.runner = self.executor
         self.system.reboot = self._ask_reboot
         self.system.read_plc = self._read_plc
-        self.streams = Streams(self.system.sessions, PacketHost(self.card), self.press)
-        self.p = Parameters(self.memory)
-        self.bit = Bits(self.memory)
+        self.streams = Streams(self.system.sessions, PacketHost(self.card), self._press)
+        self.p = Parameters(self.memory, partial(self._note, Entered.PARAMETER))
+        self.bit = Bits(self.memory, partial(self._note, Entered.FLAG))
         self.journal: list[JournalEntry] = []
         self.is_journalled = True
+        self.recorder: Recorder | Ring | None = None
         self._console: int | None = None
         self._trace_parts: list[Reals] = []
         self._trace_buffer: Reals | None = None
@@ -127,6 +125,9 @@ class Controller:
         self._look: Callable[[], bool] | None = None
         self._lived_before_tk = 0
         self._apply_world()
+        self.nonvolatile = Persistence.open(self.system, data)
+        self.nonvolatile.power_up()
+        self._start_boot_programs()
 
     @classmethod
     def from_project(cls, path: str | Path) -> Controller:
@@ -137,10 +138,18 @@ class Controller:
         return controller
 
     @classmethod
-    def load(cls, project: Project) -> tuple[Controller, list[SourceError]]:
-        """A card with a project loaded, and the lines it has refused."""
+    def load(
+        cls, project: Project, *, data: Path | None = None
+    ) -> tuple[Controller, list[SourceError]]:
+        """A card with a project loaded, and the lines it has refused.
+
+        A card that finds programs in its data folder keeps them; of the project it takes
+        the world alone, as a machine whose card is switched on again.
+        """
         world = load.load_world(project.machine) if project.machine else None
-        controller = cls(str(world.card.model) if world else "ACR9000", world=world)
+        controller = cls(str(world.card.model) if world else "ACR9000", world=world, data=data)
+        if not all(map(controller.system.programs.is_empty, controller.system.owners())):
+            return controller, []
         session = controller.system.sessions[CONSOLE]
         session.connect()
         errors = Loader(session, controller._wait_for_console_line).load(project)
@@ -175,8 +184,7 @@ class Controller:
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Let the card live for so many ticks (or seconds), or until a watch ends it."""
-        self._set_engine(ENGI_TICKS_LEFT, ticks + round(seconds / self.period_s))
-        self._run()
+        self._live(ticks + round(seconds / self.period_s))
 
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
@@ -188,10 +196,25 @@ class Controller:
         self._set_engine(ENGI_UNTIL_MASK, 1 << bit % 32 if bit % 32 < 31 else -(1 << 31))
         self._set_engine(ENGI_UNTIL_STATE, int(is_))
         limit = round(timeout_s / self.period_s) if ticks is None else ticks
-        self._set_engine(ENGI_TICKS_LEFT, limit)
-        reason = self._run()
+        reason = self._live(limit)
         self._set_engine(ENGI_UNTIL_WORD, 0)
         return reason == loop_cy.UNTIL_MET
+
+    def _live(self, ticks: int) -> int:
+        """Run the engine, with a stop wherever the journal wants a digest; why it ended."""
+        while True:
+            step = ticks
+            if self.recorder is not None:
+                step = min(ticks, self.recorder.next_tk - self.lived_tk)
+            before = self.lived_tk
+            self._set_engine(ENGI_TICKS_LEFT, step)
+            reason = self._run()
+            ticks -= self.lived_tk - before
+            if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
+                self.recorder.mark()
+            if reason != loop_cy.DONE or ticks <= 0 or self.recorder is None:
+                self.nonvolatile.follow()
+                return reason
 
     def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:
         """End `advance` and `until` early from now on, behind the tick in which it happened.
@@ -238,20 +261,24 @@ class Controller:
 
     # streams
 
-    def open_stream(self, kind: StreamKind) -> int:
-        """A stream for a new connection; NoFreeStreamError when all are taken."""
-        return self.streams.open(kind, self.period_s)
+    def open_stream(self, kind: StreamKind, name: str | None = None) -> int:
+        """A stream for a new connection; NoFreeStreamError when all (or that one) are taken."""
+        stream = self.streams.open(kind, self.period_s, name)
+        self._note(Entered.OPEN, stream, text=kind.value, name=name or "")
+        return stream
 
     def close_stream(self, stream: int) -> None:
         """The connection ended; motion and programs go on."""
+        self._note(Entered.CLOSE, stream)
         self.streams.close(stream)
 
     def receive(self, stream: int, data: bytes) -> None:
         """Bytes that arrived together, at the present tick."""
-        self._note(stream, data)
+        self._note(Entered.BYTES, stream, text=data.decode("latin-1"))
         self.streams.receive(stream, data, self.tick)
         if self._wants_reboot:
             self._reboot()
+        self.nonvolatile.follow()
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
@@ -272,7 +299,7 @@ class Controller:
     def console(self) -> int:
         """The stream of this process, opened at first use."""
         if self._console is None:
-            self._console = self.streams.open(StreamKind.TERMINAL, self.period_s, CONSOLE)
+            self._console = self.open_stream(StreamKind.TERMINAL, CONSOLE)
         return self._console
 
     def send(self, text: str) -> str:
@@ -282,6 +309,10 @@ class Controller:
 
     def press(self, key: ControlKey) -> None:
         """Ctrl-X kills motion and ends programs, Ctrl-Y lifts kills, Ctrl-Z also drops drives."""
+        self._note(Entered.KEY, int(key))
+        self._press(key)
+
+    def _press(self, key: ControlKey) -> None:
         if key is ControlKey.CTRL_Y:
             drive.clear_kills(self.card)
             return
@@ -301,12 +332,19 @@ class Controller:
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input that no part of the world drives."""
-        self._note(0, b"1" if on else b"0", bit)
         self.memory.set_bit(bit, on)
+        self._note(Entered.INPUT, bit, on)
 
-    def _note(self, stream: int, data: bytes, bit: int = -1) -> None:
-        if self.is_journalled:
-            self.journal.append(JournalEntry(self.tick, stream, data, bit))
+    def _note(
+        self, what: Entered, number: int, value: float = 0.0, *, text: str = "", name: str = ""
+    ) -> None:
+        """Enter something that comes from outside into the journals."""
+        if self.is_journalled or self.recorder is not None:
+            entry = JournalEntry(self.lived_tk, what, number, text, float(value), name)
+            if self.is_journalled:
+                self.journal.append(entry)
+            if self.recorder is not None:
+                self.recorder.note(entry)
 
     def drag(self, axis: int, by_u: float) -> None:
         """Push the load of an axis by hand, at once; it takes part in the physics after that."""
@@ -316,6 +354,7 @@ class Controller:
         if not apply.push(self.memory, encoder, pulses * RAW_COUNTS / mult):
             row = axis_parameter(axis) + AX_ACTUAL_POSITION
             self.memory.write(row, self.memory.I[row] + round(pulses))
+        self._note(Entered.DRAG, axis, by_u)
 
     def _apply_world(self) -> None:
         apply.apply_world(self.world, self.memory)
@@ -400,10 +439,30 @@ class Controller:
         return snapshots.take(self)
 
     def restore(self, snapshot: snapshots.Snapshot) -> None:
-        """Return to a snapshot of this card, or of one with the same model and world."""
+        """Return to a snapshot of this card, or of one with the same model and world.
+
+        A journal on disk cannot tell of this: StoreError while one is written.
+        """
+        if self.recorder is not None:
+            raise StoreError("a card that writes a journal cannot return to a snapshot")
         orders = take_orders(self.memory)
         snapshots.put_back(self, snapshot)
         give_orders(self.memory, orders)
+        self._lived_before_tk = snapshot.lived_before_tk
+
+    def take_over(self, snapshot: snapshots.Snapshot) -> None:
+        """Become the card of a snapshot, with everybody who was connected to it."""
+        self.restore(snapshot)
+        snapshots.put_back_streams(self, snapshot)
+
+    # the end
+
+    def close(self) -> None:
+        """Close the journal and the data folder; the card is not used any more."""
+        if self.recorder is not None:
+            self.recorder.close()
+            self.recorder = None
+        self.nonvolatile.close()
 
     # loading and restarting
 
@@ -426,14 +485,16 @@ class Controller:
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
         self.executor.reset()
-        if not self.model.has_battery:
-            self.system.forget()
-        self.system.restart()
+        self.system.restart(keeps_memory=self.nonvolatile.keeps_memory)
         self.executor.space.rebuild()  # the rows that say whose code lies where are gone
         self._apply_world()
         apply.put_state(self.memory, outside)
         give_orders(self.memory, orders)
+        self.nonvolatile.restart()
         self.streams.disconnect_all()
+        self._start_boot_programs()
+
+    def _start_boot_programs(self) -> None:
         with suppress(CardError):  # nobody is connected who could be told
             self.system.start_boot_programs()
 

@@ -125,6 +125,29 @@ class Streams:
                 stream.session.connect()
                 self._settle(stream)
 
+    def state(self) -> dict[int, tuple[StreamKind, dict[str, object], str | None]]:
+        """All connections, for a snapshot: kind, terminal and name of the session."""
+        return {
+            number: (
+                stream.terminal.kind,
+                stream.terminal.state(),
+                stream.session.name if stream.session else None,
+            )
+            for number, stream in self._open.items()
+        }
+
+    def restore(self, state: dict[int, tuple[StreamKind, dict[str, object], str | None]]) -> None:
+        """Take over what `state` returned; sessions have been restored before."""
+        self._open.clear()
+        for number, (kind, kept, name) in state.items():
+            terminal = Terminal(kind, timeout_tk=1)
+            terminal.restore(kept)
+            session = self._sessions[name] if name else None
+            if session is not None:
+                session.is_connected = True
+            self._open[number] = Stream(terminal, session)
+        self._next = max(state, default=0) + 1
+
     def _pump(self, stream: Stream) -> None:
         while (event := stream.terminal.next_event()) is not NEED_DATA:
             self._deal(stream, event)

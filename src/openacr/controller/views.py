@@ -1,5 +1,7 @@
 """Ways to look into a card from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
 
+from collections.abc import Callable
+
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
@@ -14,29 +16,31 @@ from openacr.motion.rows import axis_parameter, axis_reals
 
 
 class Parameters:
-    """Parameters by number."""
+    """Parameters by number; `note` is told of everything that is written."""
 
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
+    def __init__(self, memory: Memory, note: Callable[[int, float], None]) -> None:
+        self._memory, self._note = memory, note
 
     def __getitem__(self, number: int) -> int | float:
         return self._memory.read(number)
 
     def __setitem__(self, number: int, value: float) -> None:
         self._memory.write(number, value)
+        self._note(number, value)
 
 
 class Bits:
-    """Flags by number."""
+    """Flags by number; `note` is told of everything that is written."""
 
-    def __init__(self, memory: Memory) -> None:
-        self._memory = memory
+    def __init__(self, memory: Memory, note: Callable[[int, float], None]) -> None:
+        self._memory, self._note = memory, note
 
     def __getitem__(self, number: int) -> bool:
         return self._memory.bit(number)
 
     def __setitem__(self, number: int, on: bool) -> None:
         self._memory.set_bit(number, on)
+        self._note(number, on)
 
 
 class AxisView:

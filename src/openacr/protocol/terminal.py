@@ -367,6 +367,16 @@ class Terminal:
         """The bytes of the next write, or none."""
         return self.output.take()
 
+    # --- snapshot ---------------------------------------------------------------------
+
+    def state(self) -> dict[str, object]:
+        """Everything but the kind, for a snapshot; it can be pickled."""
+        return {name: value for name, value in vars(self).items() if name != "_keys"}
+
+    def restore(self, state: dict[str, object]) -> None:
+        """Take over what `state` returned."""
+        vars(self).update(state)
+
 
 def _is_control(byte: int) -> bool:
     return ControlKey.CTRL_X <= byte <= ControlKey.CTRL_Z

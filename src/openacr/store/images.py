@@ -67,7 +67,7 @@ class Scratch:
 
     def write(self, changes: Mapping[str, Image | None], *, flush: bool = True) -> None:
         """Store images and delete those given as None."""
-        merged = self._images | changes
+        merged: dict[str, Image | None] = {**self._images, **changes}
         self._images = {name: image for name, image in merged.items() if image is not None}
 
     def close(self) -> None:

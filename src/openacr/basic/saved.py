@@ -1,0 +1,269 @@
+"""The parameters ESAVE keeps: how each is taken from a card and put back.
+
+Commands made from rows with a `Setting` enter themselves (`keep`), the others stand in a
+table here. Order matters when all are put back: the servo period before the filters that
+follow from it, attachments before what belongs to a master.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.map.block import Access
+from openacr.map.lookup import parameters
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import attach, filters, settings
+from openacr.motion.card import SLAVES, Card
+from openacr.motion.rows import axis_ints, master_reals
+
+if TYPE_CHECKING:
+    from openacr.basic.system import System
+    from openacr.motion.settings import LimitEnables, Setting
+
+VERSION = 1
+# Commands that show the same value under another name or in another unit.
+SAME_VALUE = {"MULT": "ENC # MULT", "F": "VEL", "AXIS # OFF": "AXIS # ON"}
+STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)
+_CANOPEN = (range(32768, 32779), range(at.CANN_BASE, at.CANN_BASE + at.CANN_COUNT * at.CANN_STRIDE))
+
+
+@dataclass(frozen=True, slots=True)
+class Saved:
+    """What belongs to one command, as plain data."""
+
+    words: str
+    take: Callable[[System], Any]
+    put: Callable[[System, Any], None]
+
+
+_settings: dict[str, Saved] = {}
+
+
+def keep(
+    words: str,
+    *places: Setting,
+    count: Callable[[Card], int],
+    then: Callable[[Card, int], None] | None = None,
+) -> None:
+    """Enter a command whose values are settings of objects 0 to `count` - 1."""
+    if words in SAME_VALUE:
+        return
+
+    def take(system: System) -> list[list[float]]:
+        card = system.card
+        return [[place.read(card, number) for place in places] for number in range(count(card))]
+
+    def put(system: System, rows: list[list[float]]) -> None:
+        for number, row in _numbered(rows, count(system.card)):
+            for place, value in zip(places, row, strict=True):
+                place.write(system.card, number, value)
+            if then is not None:
+                then(system.card, number)
+
+    _settings[words] = Saved(words, take, put)
+
+
+def _numbered(rows: list[Any], count: int) -> Iterator[tuple[int, Any]]:
+    yield from enumerate(rows[:count])
+
+
+def all_saved() -> Iterator[Saved]:
+    """Everything in the order in which it is put back."""
+    yield _PERIOD
+    yield from _settings.values()
+    yield from _TABLE
+
+
+def take(system: System) -> dict[str, Any]:
+    """The parameters of a card as they are now, by command."""
+    return {each.words: each.take(system) for each in all_saved()}
+
+
+def put(system: System, image: dict[str, Any]) -> list[str]:
+    """Bring parameters back; what this card does not take is left out and listed."""
+    refused = []
+    for each in all_saved():
+        if each.words in image:
+            try:
+                each.put(system, image[each.words])
+            except (CardError, ValueError, TypeError, LookupError) as error:
+                refused.append(f"{each.words}: {error}")
+    return refused
+
+
+def take_stream_modes(system: System) -> list[int]:
+    """Start-up modes of the serial streams, which ERASE leaves alone."""
+    return [system.card.memory.I[number] for number in STREAM_MODES]
+
+
+def put_stream_modes(system: System, modes: list[int]) -> None:
+    """Bring the start-up modes back."""
+    for number, mode in zip(STREAM_MODES, modes, strict=True):
+        system.card.memory.write(number, mode)
+
+
+# one axis at a time
+
+
+def _per_axis(
+    words: str, read: Callable[[Card, int], Any], write: Callable[[Card, int, Any], None]
+) -> Saved:
+    def take(system: System) -> list[Any]:
+        return [read(system.card, axis) for axis in range(system.card.model.axes)]
+
+    def put(system: System, values: list[Any]) -> None:
+        for axis, value in _numbered(values, system.card.model.axes):
+            write(system.card, axis, value)
+
+    return Saved(words, take, put)
+
+
+def _limit_mode(words: str, enables: LimitEnables) -> Saved:
+    return _per_axis(words, enables.read, enables.write)
+
+
+def _write_notch(card: Card, axis: int, value: list[float]) -> None:
+    filters.set_notch(card, axis, *value)
+
+
+def _write_axis_on(card: Card, axis: int, on: bool) -> None:
+    if settings.is_axis_on(card, axis) != on:
+        settings.set_axis_on(card, axis, on)
+
+
+def _sources(card: Card, axis: int) -> list[int]:
+    rows = card.memory.I[axis_ints(axis) : axis_ints(axis) + at.AXI_STRIDE]
+    return [rows[row] for row in _SOURCE_ROWS]
+
+
+def _write_sources(card: Card, axis: int, values: list[int]) -> None:
+    place, index, signal, channel, velocity, other = values
+    attach.axis(
+        card,
+        axis,
+        (attach.Feedback(place), index),
+        (attach.Signal(signal), channel),
+        (attach.Feedback(velocity), other),
+    )
+
+
+_SOURCE_ROWS = (
+    at.AXI_POSITION_SOURCE,
+    at.AXI_POSITION_INDEX,
+    at.AXI_SIGNAL_SOURCE,
+    at.AXI_SIGNAL_INDEX,
+    at.AXI_VELOCITY_SOURCE,
+    at.AXI_VELOCITY_INDEX,
+)
+
+
+# masters and slaves
+
+
+def _take_masters(system: System) -> list[tuple[int, int]]:
+    attachments = system.card.attachments
+    found = ((program, attachments.master(program)) for program in _programs(system))
+    return [(program, master) for program, master in found if master is not None]
+
+
+def _programs(system: System) -> range:
+    return range(system.card.model.programs)
+
+
+def _put_masters(system: System, masters: list[tuple[int, int]]) -> None:
+    attach.detach_all(system.card)
+    for program, master in masters:
+        attach.master(system.card, program, master)
+
+
+def _take_slaves(system: System) -> list[tuple[int, int, int, str]]:
+    return [
+        (program, slave.number, slave.axis, slave.name)
+        for program in _programs(system)
+        for slave in system.card.attachments.slaves(program)
+    ]
+
+
+def _put_slaves(system: System, slaves: list[tuple[int, int, int, str]]) -> None:
+    for program, number, axis, name in slaves:
+        attach.slave(system.card, program, number, axis, name)
+
+
+def _take_weights(system: System) -> list[list[float]]:
+    first = [master_reals(number) + at.MSF_VECDEF for number in range(system.card.model.masters)]
+    return [list(system.card.memory.F[start : start + SLAVES]) for start in first]
+
+
+def _put_weights(system: System, rows: list[list[float]]) -> None:
+    for master, weights in _numbered(rows, system.card.model.masters):
+        start = master_reals(master) + at.MSF_VECDEF
+        for slave, weight in _numbered(weights, SLAVES):
+            if not weight >= 0.0:
+                raise CardError(INVALID_ARGUMENT)
+            system.card.memory.F[start + slave] = weight
+
+
+# the card as a whole
+
+
+def _row(words: str, row: int, highest: Callable[[Card], int]) -> Saved:
+    def put(system: System, value: int) -> None:
+        if not 0 <= value <= highest(system.card):
+            raise CardError(INVALID_ARGUMENT)
+        system.card.memory.I[at.KRI_BASE + row] = value
+
+    return Saved(words, lambda system: system.card.memory.I[at.KRI_BASE + row], put)
+
+
+def _put_config(system: System, modules: list[str]) -> None:
+    system.setup.configure(tuple(modules))
+
+
+def _put_addresses(system: System, addresses: dict[str, str]) -> None:
+    for name in ("MASK", "IP", "GATE"):  # the host address is checked against the mask
+        system.setup.set_address(name, addresses[name])
+
+
+def _canopen_numbers() -> list[int]:
+    """The parameters of the network and its nodes that a user can set."""
+    known = parameters()
+    numbers = (number for span in _CANOPEN for number in span if number in known)
+    return [number for number in numbers if known[number].access is Access.READ_WRITE]
+
+
+def _take_canopen(system: System) -> dict[int, int]:
+    return {number: int(system.card.memory.read(number)) for number in _canopen_numbers()}
+
+
+def _put_canopen(system: System, values: dict[int, int]) -> None:
+    for number in _canopen_numbers():
+        with suppress(KeyError):
+            system.card.memory.write(number, values[number])
+
+
+_PERIOD = Saved(
+    "PERIOD",
+    lambda system: system.card.period_s,
+    lambda system, period_s: filters.change_period(system.card, period_s),
+)
+_TABLE = (
+    _per_axis("NOTCH", lambda card, axis: list(filters.notch_hz(card, axis)), _write_notch),
+    _limit_mode("HLIM", settings.HARD_LIMITS),
+    _limit_mode("SLIM", settings.SOFT_LIMITS),
+    _per_axis("ATTACH AXIS #", _sources, _write_sources),
+    Saved("ATTACH MASTER #", _take_masters, _put_masters),
+    Saved("ATTACH SLAVE #", _take_slaves, _put_slaves),
+    _per_axis("MAXVEL", settings.MAX_VELOCITY.read, settings.set_max_velocity),
+    Saved("VECDEF", _take_weights, _put_weights),
+    _per_axis("AXIS # ON", settings.is_axis_on, _write_axis_on),
+    _row("ADC MODE", at.KRI_ADC_MODE, lambda card: 1),
+    _row("ADC MAX", at.KRI_ADC_CHANNELS, lambda card: card.model.adcs),
+    Saved("CONFIG", lambda system: list(system.setup.config), _put_config),
+    Saved("IP", lambda system: dict(system.setup.addresses), _put_addresses),
+    Saved("CANopen", _take_canopen, _put_canopen),
+)

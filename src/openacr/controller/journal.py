@@ -1,0 +1,278 @@
+"""Everything that entered a card, with its tick: in memory, and in files to replay.
+
+A journal file is text, one record per line:
+
+    openacr journal 1
+    {"model": ..., "world": ..., "tick": ..., "digest": ..., "snapshot": ..., ...}
+    [tick, "open", stream, kind, name]      a connection begins
+    [tick, "bytes", stream, text]           bytes that arrived together, as Latin-1
+    [tick, "close", stream]                 it ends
+    [tick, "input", flag, 0 or 1]           an input switches
+    [tick, "drag", axis, units]             a load is pushed by hand
+    [tick, "parameter", number, value]      a parameter written from Python
+    [tick, "flag", number, 0 or 1]          a flag written from Python
+    [tick, "key", code]                     Ctrl-X, Ctrl-Y or Ctrl-Z pressed from Python
+    [tick, "digest", fingerprint]           every simulated second
+    [tick, "end", fingerprint]              the end of a journal that was closed
+
+Ticks count all the card has lived, restarts included. Records are written whole and at
+once; a last line that was cut off in the middle is left out by the reader.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64decode, b64encode
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from openacr.controller import snapshot as snapshots
+from openacr.errors import StoreError
+from openacr.plant import schema
+
+if TYPE_CHECKING:
+    from openacr.controller.controller import Controller
+
+MAGIC = b"openacr journal 1\n"
+SUFFIX = ".journal"
+DIGEST_EVERY_S = 1.0
+
+
+class Entered(StrEnum):
+    """What entered the card, or what is said about its state."""
+
+    OPEN = "open"
+    BYTES = "bytes"
+    CLOSE = "close"
+    INPUT = "input"
+    DRAG = "drag"
+    PARAMETER = "parameter"
+    FLAG = "flag"
+    KEY = "key"
+    DIGEST = "digest"
+    END = "end"
+
+
+@dataclass(frozen=True, slots=True)
+class JournalEntry:
+    """One thing that entered the card, `tick` ticks into its life.
+
+    `number` is the stream, input, axis, parameter, flag or key. `text` holds bytes (one
+    character each), the kind of a stream, or a digest; `name` the stream that was asked for.
+    """
+
+    tick: int
+    what: Entered
+    number: int = 0
+    text: str = ""
+    value: float = 0.0
+    name: str = ""
+
+    @property
+    def data(self) -> bytes:
+        """The bytes that arrived."""
+        return self.text.encode("latin-1")
+
+    @property
+    def is_digest(self) -> bool:
+        """Whether it says something about the card instead of changing it."""
+        return self.what in (Entered.DIGEST, Entered.END)
+
+
+class Header(msgspec.Struct, frozen=True):
+    """What a journal begins with: the card as it was, and where it came from."""
+
+    program: str
+    layout: str
+    model: str
+    world: schema.World
+    tick: int
+    period_s: float
+    digest: str
+    digest_every_tk: int
+    snapshot: str
+    project: str = ""
+    fingerprint: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """A journal as read from a file; `is_whole`: it was closed, nothing is cut off."""
+
+    header: Header
+    entries: tuple[JournalEntry, ...]
+    is_whole: bool
+
+    @property
+    def snapshot(self) -> snapshots.Snapshot:
+        """The card as it was; StoreError if this version cannot take it over."""
+        if self.header.layout != snapshots.layout():
+            raise StoreError(
+                f"the journal was written by openacr {self.header.program} with another layout"
+                " of the memory; replay it with that version"
+            )
+        return snapshots.decode(b64decode(self.header.snapshot))
+
+
+class Recorder:
+    """Writes the journal of a card from now on, until `close`."""
+
+    def __init__(
+        self, card: Controller, path: Path, *, project: str = "", fingerprint: str = ""
+    ) -> None:
+        self._card = card
+        self.path = path
+        self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
+        self.next_tk = card.lived_tk + self.every_tk
+        header = Header(
+            version("openacr"),
+            snapshots.layout(),
+            card.model.name,
+            card.world,
+            card.lived_tk,
+            card.period_s,
+            card.digest(),
+            self.every_tk,
+            b64encode(snapshots.encode(card.snapshot())).decode(),
+            project,
+            fingerprint,
+        )
+        try:
+            self._file = path.open("wb", buffering=0)
+            self._file.write(MAGIC + msgspec.json.encode(header) + b"\n")
+        except OSError as failure:
+            raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
+
+    def note(self, entry: JournalEntry) -> None:
+        """Write one entry."""
+        self._file.write(json.dumps(_record(entry)).encode() + b"\n")
+
+    def mark(self) -> None:
+        """Write the digest that is due."""
+        card = self._card
+        self.note(JournalEntry(card.lived_tk, Entered.DIGEST, text=card.digest()))
+        self.next_tk = card.lived_tk + self.every_tk
+
+    def close(self) -> None:
+        """Write the last digest and close the file."""
+        card = self._card
+        self.note(JournalEntry(card.lived_tk, Entered.END, text=card.digest()))
+        self._file.close()
+
+
+class Ring:
+    """Keeps the last minutes of a card in a folder: a file for each stretch of time.
+
+    Every file begins with a snapshot, so each can be replayed without those before it.
+    """
+
+    def __init__(
+        self, card: Controller, folder: Path, *, stretch_s: float = 300.0, files: int = 3
+    ) -> None:
+        self._card, self._folder, self._files = card, folder, files
+        self._stretch_tk = round(stretch_s / card.period_s)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as failure:
+            raise StoreError(f"{folder} cannot be used: {failure.strerror}") from None
+        self._number = max(map(_number_of, self._paths()), default=0)
+        self._recorder = self._begin()
+
+    @property
+    def next_tk(self) -> int:
+        """When the next digest is due."""
+        return self._recorder.next_tk
+
+    def note(self, entry: JournalEntry) -> None:
+        """Write one entry."""
+        self._recorder.note(entry)
+
+    def mark(self) -> None:
+        """Write the digest that is due; when a stretch is over, begin the next file."""
+        self._recorder.mark()
+        if self._card.lived_tk >= self._end_tk:
+            self._recorder.close()
+            self._recorder = self._begin()
+
+    def close(self) -> None:
+        """Close the present file."""
+        self._recorder.close()
+
+    def _begin(self) -> Recorder:
+        self._number += 1
+        for path in self._paths()[: -self._files + 1 or None]:
+            path.unlink(missing_ok=True)
+        self._end_tk = self._card.lived_tk + self._stretch_tk
+        return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}")
+
+    def _paths(self) -> list[Path]:
+        found = (path for path in self._folder.glob(f"*{SUFFIX}") if _number_of(path))
+        return sorted(found, key=_number_of)
+
+
+def _number_of(path: Path) -> int:
+    return int(path.stem) if path.stem.isascii() and path.stem.isdigit() else 0
+
+
+# records
+
+
+def _record(entry: JournalEntry) -> list[Any]:
+    head: list[Any] = [entry.tick, entry.what.value]
+    if entry.is_digest:
+        return [*head, entry.text]
+    head.append(entry.number)
+    if entry.what is Entered.OPEN:
+        return [*head, entry.text, entry.name]
+    if entry.what is Entered.BYTES:
+        return [*head, entry.text]
+    if entry.what in (Entered.CLOSE, Entered.KEY):
+        return head
+    return [*head, entry.value]
+
+
+def _entry(record: list[Any]) -> JournalEntry:
+    tick, what, *rest = record
+    what = Entered(what)
+    if what in (Entered.DIGEST, Entered.END):
+        return JournalEntry(tick, what, text=rest[0])
+    if what is Entered.OPEN:
+        return JournalEntry(tick, what, rest[0], rest[1], name=rest[2])
+    if what is Entered.BYTES:
+        return JournalEntry(tick, what, rest[0], rest[1])
+    value = rest[1] if len(rest) > 1 else 0.0
+    return JournalEntry(tick, what, rest[0], value=value)
+
+
+def read_journal(path: Path) -> Journal:
+    """Read a journal file, up to its last whole record."""
+    try:
+        content = path.read_bytes()
+    except OSError as failure:
+        raise StoreError(f"{path} cannot be read: {failure.strerror}") from None
+    if not content.startswith(MAGIC):
+        raise StoreError(f"{path} is not a journal (or of another version)")
+    head, *lines = content[len(MAGIC) :].split(b"\n")
+    if not lines:
+        raise StoreError(f"{path} ends within its first record: nothing can be replayed")
+    try:
+        header = msgspec.json.decode(head, type=Header)
+    except msgspec.MsgspecError as error:
+        raise StoreError(f"{path}: its first record cannot be read: {error}") from None
+    entries = tuple(_entries(path, lines[:-1]))  # behind the last line end: nothing, or a part
+    is_whole = bool(entries) and entries[-1].what is Entered.END and not lines[-1]
+    return Journal(header, entries, is_whole)
+
+
+def _entries(path: Path, lines: list[bytes]) -> Iterator[JournalEntry]:
+    for number, line in enumerate(lines, 3):
+        try:
+            yield _entry(json.loads(line))
+        except (ValueError, TypeError, LookupError):
+            raise StoreError(f"{path}: line {number} is damaged") from None
