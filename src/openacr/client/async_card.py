@@ -1,0 +1,234 @@
+"""One ACR card for asyncio programs: the same requests as `Card`, awaited."""
+
+from asyncio import Lock
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Self, TypeVar
+
+from openacr.client import transfer, values
+from openacr.client.async_links import AsyncLink, for_asyncio
+from openacr.client.drive import carry_out_async
+from openacr.client.errors import ConnectionLostError
+from openacr.client.links import DEFAULT_BAUD, Host, link_to
+from openacr.client.names import What
+from openacr.client.objects import Axis, Master
+from openacr.client.requests import Follow, Level, Press
+from openacr.client.talk import Op, Options, Talk
+from openacr.client.transfer import Progress, Report
+from openacr.client.values import Number
+from openacr.protocol.terminal import ControlKey
+
+T = TypeVar("T")
+
+
+class AsyncCard:
+    """A card at the other end of a link. Tasks may share it; each call is one exchange."""
+
+    def __init__(self, link: AsyncLink, options: Options | None = None) -> None:
+        self._link = link
+        self._talk = Talk(link.name, link.kind, options or Options())
+        self._lock = Lock()
+
+    @classmethod
+    async def open(
+        cls, target: str | Host, options: Options | None = None, *, baud: int = DEFAULT_BAUD
+    ) -> Self:
+        """Connect to `HOST[:PORT]`, a serial port, or a card in this process."""
+        card = cls(for_asyncio(link_to(target, baud)), options)
+        await card.connect()
+        return card
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        await self.close()
+
+    async def _do(self, op: Op[T]) -> T:
+        async with self._lock:
+            return await carry_out_async(op, self._link)
+
+    @property
+    def name(self) -> str:
+        """Where the card is."""
+        return self._talk.name
+
+    @property
+    def level(self) -> Level:
+        """The level lines are typed at."""
+        return self._talk.level
+
+    def now_s(self) -> float:
+        """The clock that time-outs count in."""
+        return self._link.now_s()
+
+    async def pause(self, seconds: float) -> None:
+        """Let time pass: real time, or card time for a card in this process."""
+        if seconds > 0:
+            await self._link.pause(seconds)
+
+    async def connect(self) -> None:
+        """Connect now; without it the first request connects."""
+        await self._do(self._talk.query(""))
+
+    async def close(self) -> None:
+        """Disconnect; motion and programs go on."""
+        await self._do(self._talk.close())
+
+    # --- lines ------------------------------------------------------------------------
+
+    async def go(self, level: Level) -> None:
+        """Come to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
+        await self._do(self._talk.go(level))
+
+    async def command(
+        self, line: str, *, program: int | None = None, timeout_s: float | None = None
+    ) -> list[str]:
+        """Type a line, at a program if one is given; what the card prints. RefusedError."""
+        at = None if program is None else Level.program(program)
+        return list(await self._do(self._talk.command(line, at=at, wait_s=timeout_s)))
+
+    async def ask(self, expression: str, *, program: int | None = None) -> Number:
+        """The value of an expression, computed by the card."""
+        at = None if program is None else Level.program(program)
+        return await self._do(values.ask(self._talk, expression, at=at))
+
+    # --- parameters, flags, variables -------------------------------------------------
+
+    async def read(self, what: What) -> Number:
+        """One parameter."""
+        return await self._do(values.read(self._talk, what))
+
+    async def read_many(self, whats: Iterable[What]) -> list[Number]:
+        """Several parameters in their order, up to eight of a kind at once."""
+        return await self._do(values.read_many(self._talk, whats))
+
+    async def write(self, what: What, value: Number) -> None:
+        """Set a parameter."""
+        await self._do(values.write(self._talk, what, value))
+
+    async def read_bit(self, what: What) -> bool:
+        """Whether a flag is set."""
+        return await self._do(values.read_bit(self._talk, what))
+
+    async def read_bits(self, whats: Iterable[What]) -> list[bool]:
+        """Several flags in their order."""
+        return await self._do(values.read_bits(self._talk, whats))
+
+    async def write_bit(self, what: What, on: bool) -> None:
+        """Set or clear a flag."""
+        await self._do(values.write_bit(self._talk, what, on))
+
+    def axis(self, number: int) -> Axis[Awaitable[Number], Awaitable[bool], Awaitable[None]]:
+        """One axis: `await card.axis(0).following_error`."""
+        return Axis(number, self.read, self.read_bit, self.write, self.write_bit)
+
+    def master(self, number: int) -> Master[Awaitable[Number], Awaitable[bool], Awaitable[None]]:
+        """One master: `await card.master(0).is_in_motion`."""
+        return Master(number, self.read, self.read_bit, self.write, self.write_bit)
+
+    async def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
+        """An array of a program."""
+        return await self._do(values.read_array(self._talk, program, array, part))
+
+    async def write_array(
+        self, program: int, array: str, numbers: Iterable[Number], first: int = 0
+    ) -> None:
+        """Set elements of an array of a program."""
+        await self._do(values.write_array(self._talk, program, array, numbers, first))
+
+    async def wait(
+        self,
+        is_reached: Callable[[], Awaitable[bool]],
+        *,
+        timeout_s: float = 60.0,
+        every_s: float = 0.02,
+    ) -> bool:
+        """Ask again and again until something is so; False if it is not in time."""
+        end_s = self.now_s() + timeout_s
+        while not await is_reached():
+            if self.now_s() >= end_s:
+                return False
+            await self.pause(every_s)
+        return True
+
+    async def watch(
+        self, whats: Iterable[What], every_s: float = 0.1
+    ) -> AsyncIterator[list[Number]]:
+        """Read parameters again and again, for ever."""
+        chosen = list(whats)
+        while True:
+            yield await self.read_many(chosen)
+            await self.pause(every_s)
+
+    # --- programs ---------------------------------------------------------------------
+
+    async def run(self, program: int) -> None:
+        """Start a program."""
+        await self._do(self._talk.order(f"RUN PROG{program}"))
+
+    async def halt(self, program: int | None = None) -> None:
+        """End a program, or all of them; their coordinated motion stops."""
+        await self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
+
+    async def listen(self, program: int, *, run: bool = False) -> AsyncIterator[str]:
+        """What a program prints, as it comes; ends when the program does after `run`."""
+        await self._do(self._talk.go(Level.program(program)))
+        await self._do(self._talk.exchange(Follow("LRUN" if run else "LISTEN")))
+        try:
+            while (text := await self._do(self._talk.hear(0.25))) is not None:
+                yield text
+        finally:
+            with suppress(ConnectionLostError):
+                await self._do(self._talk.leave())
+
+    async def download(
+        self,
+        text: str,
+        *,
+        path: str = "",
+        to: Level | None = None,
+        progress: Progress | None = None,
+        is_verified: bool = True,
+    ) -> Report:
+        """Send a controller file; DownloadError, VerificationError."""
+        op = transfer.download(
+            self._talk, text, path=path, to=to, progress=progress, is_verified=is_verified
+        )
+        return await self._do(op)
+
+    async def upload(self, level: Level) -> str:
+        """The text of a program or PLC as a file that stores it again."""
+        return await self._do(transfer.upload(self._talk, level))
+
+    async def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
+        """Store everything a terminal can read in a folder; the names of the files."""
+        from openacr.client.backup import backup, write_folder
+
+        files = await self._do(backup(self._talk, progress))
+        write_folder(files, Path(folder))
+        return list(files)
+
+    async def restore(self, folder: str | Path, progress: Progress | None = None) -> list[Report]:
+        """Stop everything, clear the card and put a backup back."""
+        from openacr.client.backup import read_folder, restore
+
+        return await self._do(restore(self._talk, read_folder(Path(folder)), progress))
+
+    # --- keys -------------------------------------------------------------------------
+
+    async def kill_all(self, *, disable: bool = False) -> None:
+        """Stop all motion and end all programs (Ctrl-X); drives off as well (Ctrl-Z)."""
+        key = ControlKey.CTRL_Z if disable else ControlKey.CTRL_X
+        await self._do(self._talk.send(Press(key)))
+
+    async def clear_kills(self) -> None:
+        """Let the axes move again (Ctrl-Y)."""
+        await self._do(self._talk.send(Press(ControlKey.CTRL_Y)))

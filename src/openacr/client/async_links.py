@@ -1,0 +1,185 @@
+"""Links to a card for asyncio: TCP by itself, any blocking link through a thread."""
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from typing import Protocol, TypeVar
+
+from openacr.client.errors import ConnectionLostError
+from openacr.client.links import CONNECT_S, READ_BYTES, Link, ProcessLink, TcpLink
+from openacr.protocol.stream import StreamKind
+
+T = TypeVar("T")
+
+
+class AsyncLink(Protocol):
+    """As `links.Link`, for asyncio."""
+
+    name: str
+    kind: StreamKind
+
+    async def open(self) -> None:
+        """Connect."""
+
+    async def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived; empty when nothing came in time."""
+
+    async def write(self, data: bytes) -> None:
+        """Send everything."""
+
+    async def pause(self, seconds: float) -> None:
+        """Let time pass."""
+
+    def now_s(self) -> float:
+        """The time."""
+
+    async def close(self) -> None:
+        """Disconnect."""
+
+
+class AsyncTcpLink:
+    """A TCP connection to the card's terminal port."""
+
+    kind = StreamKind.TERMINAL
+
+    def __init__(self, link: TcpLink) -> None:
+        self.name = link.name
+        self._address = link.address
+        self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
+
+    async def open(self) -> None:
+        """Connect; asyncio sets no-delay by itself."""
+        try:
+            connecting = asyncio.open_connection(*self._address)
+            self._streams = await asyncio.wait_for(connecting, CONNECT_S)
+        except (OSError, OverflowError) as failure:
+            raise ConnectionLostError(f"cannot connect to {self.name}: {failure}") from None
+
+    async def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived."""
+        reader, _ = self._connected()
+        try:
+            data = await asyncio.wait_for(reader.read(READ_BYTES), timeout_s)
+        except TimeoutError:
+            return b""
+        except OSError as failure:
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+        if not data:
+            raise ConnectionLostError(f"{self.name} has closed the connection")
+        return data
+
+    async def write(self, data: bytes) -> None:
+        """Send everything."""
+        _, writer = self._connected()
+        try:
+            writer.write(data)
+            await writer.drain()
+        except OSError as failure:
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+
+    def _connected(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+        if self._streams is None:
+            raise ConnectionLostError(f"{self.name} is not connected")
+        return self._streams
+
+    async def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        await asyncio.sleep(seconds)
+
+    def now_s(self) -> float:
+        """The clock of the loop."""
+        return asyncio.get_running_loop().time()
+
+    async def close(self) -> None:
+        """Disconnect."""
+        if self._streams is not None:
+            _, writer = self._streams
+            self._streams = None
+            writer.close()
+            with suppress(OSError):
+                await writer.wait_closed()
+
+
+class AsyncProcessLink:
+    """A card in this process; other tasks run between its steps."""
+
+    def __init__(self, link: ProcessLink) -> None:
+        self.name, self.kind = link.name, link.kind
+        self._link = link
+
+    async def open(self) -> None:
+        """Take a stream of the card."""
+        self._link.open()
+
+    async def read(self, timeout_s: float | None) -> bytes:
+        """What the card has to say."""
+        await asyncio.sleep(0)
+        return self._link.read(timeout_s)
+
+    async def write(self, data: bytes) -> None:
+        """Give the card bytes."""
+        self._link.write(data)
+
+    async def pause(self, seconds: float) -> None:
+        """Let card time pass."""
+        await asyncio.sleep(0)
+        self._link.pause(seconds)
+
+    def now_s(self) -> float:
+        """Card time."""
+        return self._link.now_s()
+
+    async def close(self) -> None:
+        """Free the stream."""
+        self._link.close()
+
+
+class ThreadLink:
+    """A blocking link whose calls run one after the other in a thread of its own."""
+
+    def __init__(self, link: Link) -> None:
+        self.name, self.kind = link.name, link.kind
+        self._link = link
+        self._thread: ThreadPoolExecutor | None = None
+
+    async def open(self) -> None:
+        """Connect."""
+        await self._run(self._link.open)
+
+    async def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived."""
+        return await self._run(lambda: self._link.read(timeout_s))
+
+    async def write(self, data: bytes) -> None:
+        """Send everything."""
+        await self._run(lambda: self._link.write(data))
+
+    async def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        await asyncio.sleep(seconds)
+
+    def now_s(self) -> float:
+        """The time."""
+        return self._link.now_s()
+
+    async def close(self) -> None:
+        """Disconnect and end the thread."""
+        await self._run(self._link.close)
+        if self._thread is not None:
+            self._thread.shutdown(wait=False)
+            self._thread = None
+
+    async def _run(self, work: Callable[[], T]) -> T:
+        if self._thread is None:
+            self._thread = ThreadPoolExecutor(1, thread_name_prefix=self.name)
+        return await asyncio.get_running_loop().run_in_executor(self._thread, work)
+
+
+def for_asyncio(link: Link) -> AsyncLink:
+    """The same way to the card, for asyncio."""
+    if isinstance(link, TcpLink):
+        return AsyncTcpLink(link)
+    if isinstance(link, ProcessLink):
+        return AsyncProcessLink(link)
+    return ThreadLink(link)

@@ -1,0 +1,243 @@
+"""Everything a terminal can read of a card, as controller files that put it back.
+
+The settings come from the rows of the language: every command that is saved and reports its
+value when the value is left out. A card that does not know one of them is not a reason to
+fail; the file then says in a remark what is missing.
+
+Not kept, because a terminal cannot read it or must not write it back: the network address,
+passwords, positions and captures, running programs and their local variables, strings, and
+what the drives and the machine remember.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
+from openacr.basic import registry
+from openacr.basic.grammar import AxisList, Either, Num
+from openacr.client import values
+from openacr.client.errors import RefusedError
+from openacr.client.names import flag_number
+from openacr.client.requests import SYS, Level
+from openacr.client.talk import Op, Talk
+from openacr.client.transfer import Progress, Report, download, upload
+from openacr.errors import UserError
+
+PROGRAMS, PLCS = 16, 8
+SETUP_FILE = "setup.8k"
+_HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
+# Said better by another row, or not to be written back.
+_LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "AXIS # ON", "AXIS # OFF", "FOV", "ROV"))
+_OF_MASTER = "VECDEF"  # of an axis, but only while it has a master
+_FLAGS = (
+    "drive fault level invert",
+    "step direction output",
+    "drive i/o enable",
+    "exc response enable",
+    "disable drive on exc only",
+    "disable drive on kill",
+    "positive limit level invert",
+    "negative limit level invert",
+    "home level invert",
+    "positive hardware limit enable",
+    "negative hardware limit enable",
+    "positive software limit enable",
+    "negative software limit enable",
+    "home backup enable",
+    "home negative edge select",
+    "home negative final direction",
+    "jog limit check",
+)
+_ATTACHED_AXIS = re.compile(r"ATTACH AXIS(\d+) ")
+_SLAVE = re.compile(r"ATTACH SLAVE\d+ AXIS(\d+) ")
+_VARIABLES = re.compile(r"DIM P\((\d+)\)")
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Collects lines that put back what the card reports."""
+
+    talk: Talk
+    progress: Progress | None
+    total: int = 1
+    done: int = 0
+    lines: list[str] = field(default_factory=list)
+
+    def ask(self, query: str, *, at: Level = SYS) -> Op[tuple[str, ...]]:
+        """What the card reports; nothing, and a remark, if it does not know the query."""
+        self.done += 1
+        if self.progress is not None:
+            self.progress(min(self.done, self.total), self.total)
+        try:
+            return (yield from self.talk.query(query, at=at))
+        except RefusedError as refused:
+            self.lines.append(f"REM not readable: {query}: {refused.text}")
+            return ()
+
+    def setting(self, command: str, *, at: Level = SYS) -> Op[None]:
+        """A command that reports its value, with that value behind it."""
+        for value in (yield from self.ask(command, at=at)):
+            self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
+
+
+def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
+    """The files by name: setup.8k, and prog0.8k, plc0.8k ... for what is stored."""
+    home = talk.level
+    reader = _Reader(talk, progress)
+    version = yield from reader.ask("VER")
+    reader.lines += [f"REM Backup of {line}" for line in version[:1]] + list(_HEAD)
+    yield from _read_system(reader)
+    files = {SETUP_FILE: "".join(f"{line}\n" for line in reader.lines)}
+    for level in _levels():
+        try:
+            text = yield from upload(talk, level)
+        except RefusedError as refused:
+            files[SETUP_FILE] += f"REM not readable: {level}: {refused.text}\n"
+        else:
+            files |= {_file_name(level): text} if text else {}
+    yield from talk.go(home)
+    return files
+
+
+def _read_system(reader: _Reader) -> Op[None]:
+    sizes = yield from reader.ask("DIM")
+    aliases = yield from reader.ask("DEF")
+    attachments = yield from reader.ask("ATTACH")
+    axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
+    rows = list(_object_rows()), list(_axis_rows()), list(_master_rows())
+    reader.total = 2 * len(axes) + len(axes) * (len(rows[0]) + len(rows[1])) + 3 * PROGRAMS
+    reader.lines += [*sizes, *aliases]
+    for command in _system_rows():
+        yield from reader.setting(command)
+    reader.lines += attachments
+    for axis in axes:
+        yield from _read_axis(reader, axis, rows[0], rows[1])
+    yield from _read_variables(reader, sizes)
+    for number in range(PROGRAMS):
+        yield from _read_program(reader, Level.program(number), rows[2])
+
+
+def _read_axis(reader: _Reader, axis: int, objects: list[str], commands: list[str]) -> Op[None]:
+    for command in objects:
+        yield from reader.setting(command.replace("#", str(axis)).replace(" ", "", 1))
+    for command in commands:
+        yield from reader.setting(f"AXIS{axis} {command}")
+    yield from _read_flags(reader, axis)
+    for state in (yield from reader.ask(f"AXIS{axis}")):
+        reader.lines.append(f"AXIS{axis} {state}")
+
+
+def _read_flags(reader: _Reader, axis: int) -> Op[None]:
+    """The flags that configure an axis."""
+    numbers = [flag_number(f"axis{axis}.{name}") for name in _FLAGS]
+    for number, is_set in zip(
+        numbers, (yield from values.read_bits(reader.talk, numbers)), strict=True
+    ):
+        reader.lines.append(f"{'SET' if is_set else 'CLR'} BIT{number}")
+
+
+def _read_variables(reader: _Reader, sizes: Iterable[str]) -> Op[None]:
+    """The user's P variables that are not zero."""
+    counts = [int(found[1]) for found in map(_VARIABLES.fullmatch, sizes) if found]
+    for number in range(max(counts, default=0)):
+        value = yield from values.ask(reader.talk, f"P{number}", at=SYS)
+        if value:
+            reader.lines.append(f"P{number}={values.number_text(value)}")
+
+
+def _read_program(reader: _Reader, level: Level, commands: list[str]) -> Op[None]:
+    attachments = yield from reader.ask("ATTACH", at=level)
+    sizes = yield from reader.ask("DIM", at=level)
+    if attachments or sizes:
+        reader.lines += [str(level), *attachments, *sizes]
+    for command in commands if attachments else ():
+        yield from reader.setting(command, at=level)
+    for axis in (found[1] for found in map(_SLAVE.match, attachments) if found):
+        yield from reader.setting(f"AXIS{axis} {_OF_MASTER}", at=level)
+
+
+def _levels() -> Iterator[Level]:
+    yield from map(Level.program, range(PROGRAMS))
+    yield from map(Level.plc, range(PLCS))
+
+
+def _file_name(level: Level) -> str:
+    return f"{level.word.lower()}{level.number}.8k"
+
+
+# --- which commands report a setting ------------------------------------------------------
+
+
+def _saved() -> Iterator[tuple[str, object]]:
+    """Words and first argument form of every command whose value is saved."""
+    for row in registry.commands():
+        words = " ".join(row.words)
+        if row.saved and row.grammar and words not in _LEFT_OUT:
+            yield words, row.grammar[0]
+
+
+def _axis_rows() -> Iterator[str]:
+    """Commands of one axis; PPU first, since the others count in units."""
+    found = (words for words, form in _saved() if isinstance(form, AxisList | Either))
+    own = (words for words in found if words != _OF_MASTER)
+    yield from sorted(own, key=lambda words: words != "PPU")
+
+
+def _object_rows() -> Iterator[str]:
+    """Commands of encoders, outputs and inputs."""
+    yield from (words for words, form in _saved() if "#" in words and isinstance(form, Num))
+
+
+def _master_rows() -> Iterator[str]:
+    for words, form in _saved():
+        if isinstance(form, Num) and words not in _system_rows() and "#" not in words:
+            yield words
+
+
+def _system_rows() -> tuple[str, ...]:
+    return ("PERIOD", "ADC MODE", "ADC MAX")
+
+
+# --- folders ------------------------------------------------------------------------------
+
+
+def write_folder(files: dict[str, str], folder: Path) -> None:
+    """Store a backup in a new or empty folder; UserError if it holds controller files."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if present := sorted(path.name for path in folder.glob("*.8k")):
+            raise UserError(f"{folder}: {present[0]} is there already; choose an empty folder")
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="latin-1", newline="\n")
+    except OSError as failure:
+        raise UserError(f"{folder}: cannot be written: {failure.strerror}") from None
+
+
+def read_folder(folder: Path) -> list[tuple[Path, Level, str]]:
+    """The files of a backup in the order they are sent: set-up, programs, PLCs."""
+    setup = folder / SETUP_FILE
+    if not setup.is_file():
+        raise UserError(f"{folder}: there is no {SETUP_FILE}, so this is no backup")
+    found = [(setup, SYS)]
+    for level in _levels():
+        path = folder / _file_name(level)
+        found += [(path, level)] if path.is_file() else []
+    try:
+        return [(path, level, path.read_text(encoding="latin-1")) for path, level in found]
+    except OSError as failure:
+        raise UserError(f"{folder}: cannot be read: {failure.strerror}") from None
+
+
+def restore(
+    talk: Talk, files: list[tuple[Path, Level, str]], progress: Progress | None = None
+) -> Op[list[Report]]:
+    """Stop everything, clear the card and send a backup; DownloadError, VerificationError."""
+    reports: list[Report] = []
+    for path, level, text in files:
+        reports.append((yield from download(
+            talk, text, path=str(path), to=level, progress=progress
+        )))  # fmt: skip
+    yield from talk.go(SYS)
+    return reports

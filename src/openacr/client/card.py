@@ -1,0 +1,259 @@
+"""One ACR card for ordinary, blocking programs."""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from threading import RLock
+from types import TracebackType
+from typing import Self, TypeVar
+
+from openacr.client import transfer, values
+from openacr.client.drive import carry_out
+from openacr.client.errors import ConnectionLostError
+from openacr.client.links import DEFAULT_BAUD, Host, Link, link_to
+from openacr.client.names import What
+from openacr.client.objects import Axis, Master
+from openacr.client.requests import Follow, Level, Press
+from openacr.client.talk import Op, Options, Talk
+from openacr.client.transfer import Progress, Report
+from openacr.client.values import Number
+from openacr.protocol.terminal import ControlKey
+
+T = TypeVar("T")
+
+
+class Parameters:
+    """Parameters by number or name: `card.p[12288]`, `card.p["axis0.following error"] `."""
+
+    def __init__(self, card: "Card") -> None:
+        self._card = card
+
+    def __getitem__(self, what: What) -> Number:
+        return self._card.read(what)
+
+    def __setitem__(self, what: What, value: Number) -> None:
+        self._card.write(what, value)
+
+
+class Flags:
+    """Flags by number or name: `card.bit[516]`, `card.bit["master0.in motion"]`."""
+
+    def __init__(self, card: "Card") -> None:
+        self._card = card
+
+    def __getitem__(self, what: What) -> bool:
+        return self._card.read_bit(what)
+
+    def __setitem__(self, what: What, on: bool) -> None:
+        self._card.write_bit(what, on)
+
+
+class Card:
+    """A card at the other end of a link. Threads may share it; each call is one exchange."""
+
+    def __init__(self, link: Link, options: Options | None = None) -> None:
+        self._link = link
+        self._talk = Talk(link.name, link.kind, options or Options())
+        self._lock = RLock()
+        self.p = Parameters(self)
+        self.bit = Flags(self)
+
+    @classmethod
+    def open(
+        cls, target: str | Host, options: Options | None = None, *, baud: int = DEFAULT_BAUD
+    ) -> Self:
+        """Connect to `HOST[:PORT]`, a serial port, or a card in this process."""
+        card = cls(link_to(target, baud), options)
+        card.connect()
+        return card
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _do(self, op: Op[T]) -> T:
+        with self._lock:
+            return carry_out(op, self._link)
+
+    @property
+    def name(self) -> str:
+        """Where the card is."""
+        return self._talk.name
+
+    @property
+    def level(self) -> Level:
+        """The level lines are typed at."""
+        return self._talk.level
+
+    def now_s(self) -> float:
+        """The clock that time-outs count in."""
+        return self._link.now_s()
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass: real time, or card time for a card in this process."""
+        if seconds > 0:
+            self._link.pause(seconds)
+
+    def connect(self) -> None:
+        """Connect now; without it the first request connects."""
+        self._do(self._talk.query(""))
+
+    def close(self) -> None:
+        """Disconnect; motion and programs go on."""
+        self._do(self._talk.close())
+
+    # --- lines ------------------------------------------------------------------------
+
+    def go(self, level: Level) -> None:
+        """Come to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
+        self._do(self._talk.go(level))
+
+    def command(
+        self, line: str, *, program: int | None = None, timeout_s: float | None = None
+    ) -> list[str]:
+        """Type a line, at a program if one is given; what the card prints. RefusedError."""
+        at = None if program is None else Level.program(program)
+        return list(self._do(self._talk.command(line, at=at, wait_s=timeout_s)))
+
+    def ask(self, expression: str, *, program: int | None = None) -> Number:
+        """The value of an expression, computed by the card: `card.ask("P0+2*P1")`."""
+        at = None if program is None else Level.program(program)
+        return self._do(values.ask(self._talk, expression, at=at))
+
+    # --- parameters, flags, variables -------------------------------------------------
+
+    def read(self, what: What) -> Number:
+        """One parameter."""
+        return self._do(values.read(self._talk, what))
+
+    def read_many(self, whats: Iterable[What]) -> list[Number]:
+        """Several parameters in their order, up to eight of a kind at once."""
+        return self._do(values.read_many(self._talk, whats))
+
+    def write(self, what: What, value: Number) -> None:
+        """Set a parameter."""
+        self._do(values.write(self._talk, what, value))
+
+    def read_bit(self, what: What) -> bool:
+        """Whether a flag is set."""
+        return self._do(values.read_bit(self._talk, what))
+
+    def read_bits(self, whats: Iterable[What]) -> list[bool]:
+        """Several flags in their order."""
+        return self._do(values.read_bits(self._talk, whats))
+
+    def write_bit(self, what: What, on: bool) -> None:
+        """Set or clear a flag."""
+        self._do(values.write_bit(self._talk, what, on))
+
+    def axis(self, number: int) -> Axis[Number, bool, None]:
+        """One axis: `card.axis(0).following_error`."""
+        return Axis(number, self.read, self.read_bit, self.write, self.write_bit)
+
+    def master(self, number: int) -> Master[Number, bool, None]:
+        """One master: `card.master(0).is_in_motion`."""
+        return Master(number, self.read, self.read_bit, self.write, self.write_bit)
+
+    def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
+        """An array of a program: `card.read_array(0, "LA0")`."""
+        return self._do(values.read_array(self._talk, program, array, part))
+
+    def write_array(
+        self, program: int, array: str, numbers: Iterable[Number], first: int = 0
+    ) -> None:
+        """Set elements of an array of a program."""
+        self._do(values.write_array(self._talk, program, array, numbers, first))
+
+    def wait(
+        self, is_reached: Callable[[], bool], *, timeout_s: float = 60.0, every_s: float = 0.02
+    ) -> bool:
+        """Ask again and again until something is so; False if it is not in time."""
+        end_s = self.now_s() + timeout_s
+        while not is_reached():
+            if self.now_s() >= end_s:
+                return False
+            self.pause(every_s)
+        return True
+
+    def watch(self, whats: Iterable[What], every_s: float = 0.1) -> Iterator[list[Number]]:
+        """Read parameters again and again, for ever."""
+        chosen = list(whats)
+        while True:
+            yield self.read_many(chosen)
+            self.pause(every_s)
+
+    # --- programs ---------------------------------------------------------------------
+
+    def run(self, program: int) -> None:
+        """Start a program."""
+        self._do(self._talk.order(f"RUN PROG{program}"))
+
+    def halt(self, program: int | None = None) -> None:
+        """End a program, or all of them; their coordinated motion stops."""
+        self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
+
+    def listen(self, program: int, *, run: bool = False) -> Iterator[str]:
+        """What a program prints, as it comes; ends when the program does after `run`.
+
+        Leave the loop to stop listening; the program runs on. The text is empty after
+        every quarter of a second in which nothing was printed.
+        """
+        self._do(self._talk.go(Level.program(program)))
+        self._do(self._talk.exchange(Follow("LRUN" if run else "LISTEN")))
+        try:
+            while (text := self._do(self._talk.hear(0.25))) is not None:
+                yield text
+        finally:
+            with suppress(ConnectionLostError):
+                self._do(self._talk.leave())
+
+    def download(
+        self,
+        text: str,
+        *,
+        path: str = "",
+        to: Level | None = None,
+        progress: Progress | None = None,
+        is_verified: bool = True,
+    ) -> Report:
+        """Send a controller file; DownloadError, VerificationError."""
+        op = transfer.download(
+            self._talk, text, path=path, to=to, progress=progress, is_verified=is_verified
+        )
+        return self._do(op)
+
+    def upload(self, level: Level) -> str:
+        """The text of a program or PLC as a file that stores it again."""
+        return self._do(transfer.upload(self._talk, level))
+
+    def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
+        """Store everything a terminal can read in a folder; the names of the files."""
+        from openacr.client.backup import backup, write_folder
+
+        files = self._do(backup(self._talk, progress))
+        write_folder(files, Path(folder))
+        return list(files)
+
+    def restore(self, folder: str | Path, progress: Progress | None = None) -> list[Report]:
+        """Stop everything, clear the card and put a backup back."""
+        from openacr.client.backup import read_folder, restore
+
+        return self._do(restore(self._talk, read_folder(Path(folder)), progress))
+
+    # --- keys -------------------------------------------------------------------------
+
+    def kill_all(self, *, disable: bool = False) -> None:
+        """Stop all motion and end all programs (Ctrl-X); drives off as well (Ctrl-Z)."""
+        key = ControlKey.CTRL_Z if disable else ControlKey.CTRL_X
+        self._do(self._talk.send(Press(key)))
+
+    def clear_kills(self) -> None:
+        """Let the axes move again (Ctrl-Y)."""
+        self._do(self._talk.send(Press(ControlKey.CTRL_Y)))

@@ -1,0 +1,78 @@
+"""What can go wrong between a host and a card, as types whose fields say what and where."""
+
+import re
+
+from openacr.errors import OpenacrError, SourceError
+from openacr.messages import (
+    MESSAGES,
+    OK,
+    PROGRAM_IS_RUNNING,
+    REDIMENSIONED_BLOCK,
+    SLAVE_KILL_ACTIVE,
+    UNKNOWN_COMMAND,
+    Message,
+)
+
+_TEXTS = [
+    (re.compile(re.escape(message.text).replace(r"\{\}", ".*")), message)
+    for message in MESSAGES
+    if message is not OK
+]
+_HINTS = {
+    UNKNOWN_COMMAND: "moves and profile settings need a program level",
+    PROGRAM_IS_RUNNING: "halt it first",
+    REDIMENSIONED_BLOCK: "NEW ALL and CLEAR at the SYS level free the memory",
+    SLAVE_KILL_ACTIVE: "Ctrl-Y (clear_kills) lets the axes move again",
+}
+
+
+class ClientError(OpenacrError):
+    """Base of everything the client reports."""
+
+
+class RefusedError(ClientError):
+    """The card has answered a line with an error: `line` was sent, `text` came back."""
+
+    def __init__(self, line: str, text: str, hint: str = "") -> None:
+        self.line, self.text = line, text
+        self.message = message_of(text)
+        self.hint = hint or _HINTS.get(self.message or OK, "")
+        super().__init__(f"{line}: {text}" + (f" ({self.hint})" if self.hint else ""))
+
+
+class NoReplyError(ClientError, TimeoutError):
+    """The card did not answer in time."""
+
+    def __init__(self, link: str, sent: str, wait_s: float) -> None:
+        self.sent = sent
+        super().__init__(
+            f"{link}: no reply within {wait_s:g} s to {sent} (is the card's terminal there, and"
+            " the line free? lines that wait, such as DWL, INH or a move with a full buffer,"
+            " need a longer time-out)"
+        )
+
+
+class GarbledError(ClientError):
+    """What came back does not fit what was sent: noise on the line, or another host on it."""
+
+    def __init__(self, link: str, sent: str, received: bytes) -> None:
+        self.sent, self.received = sent, received
+        super().__init__(f"{link}: garbled reply to {sent}: {received[:60]!r}")
+
+
+class ConnectionLostError(ClientError, ConnectionError):
+    """The connection is gone; a command that was on its way may or may not have acted."""
+
+
+class DownloadError(ClientError, SourceError):
+    """The card has refused a line of a file; nothing behind that line was sent."""
+
+
+class VerificationError(ClientError, SourceError):
+    """The card lists something else than was sent."""
+
+
+def message_of(text: str) -> Message | None:
+    """The card's known message with this text."""
+    found = (message for pattern, message in _TEXTS if pattern.fullmatch(text))
+    return next(found, None)

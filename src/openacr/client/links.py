@@ -1,0 +1,264 @@
+"""Links to a card: TCP, a serial line, or a card in the same process; blocking.
+
+`now_s` is the clock that time-outs and pauses count in: the wall clock, but card time
+where the card lives in this process, since there time passes only while somebody waits.
+"""
+
+import re
+import socket
+import time
+from typing import TYPE_CHECKING, Protocol
+
+from openacr.client.errors import ConnectionLostError
+from openacr.errors import UserError
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
+
+if TYPE_CHECKING:
+    import serial
+
+ASCII_PORT = 5002
+DEFAULT_BAUD = 38400
+CONNECT_S = 5.0
+READ_BYTES = 65536
+STEP_S = 0.001
+_TCP_TARGET = re.compile(r"(?:\[(?P<v6>[^\]]+)\]|(?P<host>[^:/]+))(?::(?P<port>\d+))?$")
+
+
+class Host(Protocol):
+    """A card in this process: what `openacr.Controller` offers to whoever serves it."""
+
+    @property
+    def period_s(self) -> float:
+        """Seconds of card time per tick."""
+
+    def open_stream(self, kind: StreamKind) -> int:
+        """A stream for a new connection."""
+
+    def close_stream(self, stream: int) -> None:
+        """The connection ended."""
+
+    def receive(self, stream: int, data: bytes) -> None:
+        """Bytes that arrived together."""
+
+    def take_output(self, stream: int) -> bytes:
+        """The bytes of the next write, none when there is nothing to send."""
+
+    def advance(self, ticks: int) -> None:
+        """Let card time pass."""
+
+
+class Link(Protocol):
+    """A way to a card; every method raises ConnectionLostError when it is broken."""
+
+    name: str
+    kind: StreamKind
+
+    def open(self) -> None:
+        """Connect."""
+
+    def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived; empty when nothing came in time."""
+
+    def write(self, data: bytes) -> None:
+        """Send everything."""
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+
+    def now_s(self) -> float:
+        """The time."""
+
+    def close(self) -> None:
+        """Disconnect; nothing happens when that is so already."""
+
+
+class TcpLink:
+    """A TCP connection to the card's terminal port."""
+
+    kind = StreamKind.TERMINAL
+
+    def __init__(self, host: str, port: int = ASCII_PORT) -> None:
+        self.name = f"{host}:{port}"
+        self.address = (host, port)
+        self._socket: socket.socket | None = None
+
+    def open(self) -> None:
+        """Connect."""
+        try:
+            self._socket = socket.create_connection(self.address, CONNECT_S)
+        except (OSError, OverflowError) as failure:
+            raise ConnectionLostError(f"cannot connect to {self.name}: {failure}") from None
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived."""
+        link = self._connected()
+        link.settimeout(timeout_s)
+        try:
+            data = link.recv(READ_BYTES)
+        except (TimeoutError, BlockingIOError):
+            return b""
+        except OSError as failure:
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+        if not data:
+            raise ConnectionLostError(f"{self.name} has closed the connection")
+        return data
+
+    def write(self, data: bytes) -> None:
+        """Send everything."""
+        link = self._connected()
+        link.settimeout(CONNECT_S)
+        try:
+            link.sendall(data)
+        except OSError as failure:
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+
+    def _connected(self) -> socket.socket:
+        if self._socket is None:
+            raise ConnectionLostError(f"{self.name} is not connected")
+        return self._socket
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        time.sleep(seconds)
+
+    def now_s(self) -> float:
+        """The wall clock."""
+        return time.monotonic()
+
+    def close(self) -> None:
+        """Disconnect."""
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+
+class SerialLink:
+    """A serial line; XON and XOFF of the card hold the sender back."""
+
+    kind = StreamKind.SERIAL
+
+    def __init__(self, path: str, baud: int = DEFAULT_BAUD) -> None:
+        self.name = path
+        self.baud = baud
+        self._port: serial.Serial | None = None
+
+    def open(self) -> None:
+        """Open the port."""
+        import serial
+
+        try:
+            self._port = serial.serial_for_url(
+                self.name, baudrate=self.baud, xonxoff=True, write_timeout=CONNECT_S
+            )
+        except (serial.SerialException, OSError, ValueError) as failure:
+            raise ConnectionLostError(f"cannot open serial port {self.name}: {failure}") from None
+
+    def read(self, timeout_s: float | None) -> bytes:
+        """What has arrived."""
+        port = self._connected()
+        try:
+            port.timeout = timeout_s
+            first: bytes = port.read(1)
+            return first + port.read(port.in_waiting) if first else b""
+        except OSError as failure:  # also what pyserial raises
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+
+    def write(self, data: bytes) -> None:
+        """Send everything."""
+        try:
+            self._connected().write(data)
+        except OSError as failure:
+            raise ConnectionLostError(f"{self.name}: {failure}") from None
+
+    def _connected(self) -> "serial.Serial":
+        if self._port is None:
+            raise ConnectionLostError(f"{self.name} is not open")
+        return self._port
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        time.sleep(seconds)
+
+    def now_s(self) -> float:
+        """The wall clock."""
+        return time.monotonic()
+
+    def close(self) -> None:
+        """Give the port back."""
+        if self._port is not None:
+            self._port.close()
+            self._port = None
+
+
+class ProcessLink:
+    """A card in this process; its time passes while an answer is awaited."""
+
+    kind = StreamKind.TERMINAL
+
+    def __init__(self, card: Host) -> None:
+        self.name = "the card in this process"
+        self._card = card
+        self._stream: int | None = None
+        self._passed_tk = 0
+
+    def open(self) -> None:
+        """Take a stream of the card."""
+        try:
+            self._stream = self._card.open_stream(self.kind)
+        except NoFreeStreamError as failure:
+            raise ConnectionLostError(str(failure)) from None
+
+    def read(self, timeout_s: float | None) -> bytes:
+        """What the card has to say; lets its time pass until there is something."""
+        stream = self._connected()
+        left_tk = None if timeout_s is None else self._ticks(timeout_s)
+        while not (data := self._card.take_output(stream)):
+            if left_tk is not None and left_tk <= 0:
+                return b""
+            step_tk = self._ticks(STEP_S)
+            self._advance(step_tk)
+            left_tk = None if left_tk is None else left_tk - step_tk
+        return data
+
+    def write(self, data: bytes) -> None:
+        """Give the card bytes."""
+        self._card.receive(self._connected(), data)
+
+    def _connected(self) -> int:
+        if self._stream is None:
+            raise ConnectionLostError(f"{self.name} is not connected")
+        return self._stream
+
+    def _ticks(self, seconds: float) -> int:
+        return max(1, round(seconds / self._card.period_s))
+
+    def _advance(self, ticks: int) -> None:
+        self._card.advance(ticks)
+        self._passed_tk += ticks
+
+    def pause(self, seconds: float) -> None:
+        """Let card time pass."""
+        self._advance(self._ticks(seconds))
+
+    def now_s(self) -> float:
+        """Card time since the link was made, as far as this link let it pass."""
+        return self._passed_tk * self._card.period_s
+
+    def close(self) -> None:
+        """Free the stream."""
+        if self._stream is not None:
+            self._card.close_stream(self._stream)
+            self._stream = None
+
+
+def link_to(target: "str | Host", baud: int = DEFAULT_BAUD) -> Link:
+    """The link to `HOST[:PORT]`, to a serial port (a path, or COM1), or to a card."""
+    if not isinstance(target, str):
+        return ProcessLink(target)
+    if "/" in target or re.fullmatch(r"COM\d+", target, re.IGNORECASE):
+        return SerialLink(target, baud)
+    found = _TCP_TARGET.fullmatch(target)
+    if found is None:
+        raise UserError(f"{target!r} is neither HOST, HOST:PORT nor a serial port")
+    return TcpLink(found["v6"] or found["host"], int(found["port"] or ASCII_PORT))

@@ -1,0 +1,55 @@
+"""Which parameter or flag a user means: by number, by name, by object and name."""
+
+from collections.abc import Iterable
+from functools import cache
+from typing import TypeAlias
+
+from openacr.errors import UserError
+from openacr.map import Flag, Parameter, find_flag, find_parameter, flags, parameters
+
+What: TypeAlias = int | str
+
+
+def parameter_number(what: What) -> int:
+    """The number meant by `12288`, `"P12288"` or `"axis0.current position"`."""
+    if isinstance(what, int):
+        return what
+    return _parameters().get(what.lower()) or _only(what, find_parameter(what))
+
+
+def flag_number(what: What) -> int:
+    """The number meant by `516`, `"BIT516"` or `"master0.in motion"`."""
+    if isinstance(what, int):
+        return what
+    return _flags().get(what.lower()) or _only(what, find_flag(what))
+
+
+def _only(text: str, found: Iterable[Parameter] | Iterable[Flag]) -> int:
+    numbers = [record.number for record in found]
+    if len(numbers) != 1:
+        some = ", ".join(str(number) for number in numbers[:3])
+        raise UserError(f"{text!r} means {len(numbers)} things ({some}, ...): name the object too")
+    return numbers[0]
+
+
+@cache
+def _parameters() -> dict[str, int]:
+    """Full names, for those asked for again and again; everything else is searched."""
+    return _full_names(parameters().values())
+
+
+@cache
+def _flags() -> dict[str, int]:
+    return _full_names(flags().values())
+
+
+def _full_names(records: Iterable[Parameter] | Iterable[Flag]) -> dict[str, int]:
+    """Numbers by `axis0.current position`; names that several have are left out."""
+    found: dict[str, int] = {}
+    several: set[str] = set()
+    for record in records:
+        index = "" if record.index is None else record.index
+        name = f"{record.object}{index}.{record.name}".lower()
+        several |= {name} & found.keys()
+        found[name] = record.number
+    return {name: number for name, number in found.items() if name not in several}

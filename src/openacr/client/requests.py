@@ -1,0 +1,144 @@
+"""What a host asks of one stream of a card, and what it gets back."""
+
+import re
+from dataclasses import dataclass
+from typing import Self, TypeAlias
+
+from openacr.protocol.packets import Packet
+from openacr.protocol.terminal import ControlKey
+
+_PROMPT = re.compile(r"(SYS|P|PLC)(\d*)>")
+_GO = re.compile(r"\s*(SYS|PROG|PLC)\s*(\d*)\s*", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """Where a stream stands: at the system level, a program or a PLC."""
+
+    word: str = "SYS"
+    number: int = 0
+
+    @classmethod
+    def program(cls, number: int) -> Self:
+        """The level of a program."""
+        return cls("PROG", number)
+
+    @classmethod
+    def plc(cls, number: int) -> Self:
+        """The level of a PLC."""
+        return cls("PLC", number)
+
+    @classmethod
+    def of_prompt(cls, text: str) -> Self | None:
+        """The level a prompt names."""
+        found = _PROMPT.fullmatch(text)
+        if found is None:
+            return None
+        return cls("PROG" if found[1] == "P" else found[1], int(found[2] or 0))
+
+    @classmethod
+    def of_line(cls, line: str) -> Self | None:
+        """The level that a line goes to; None for a line that does something else."""
+        found = _GO.fullmatch(line)
+        return cls(found[1].upper(), int(found[2] or 0)) if found else None
+
+    def __str__(self) -> str:
+        return self.word if self.word == "SYS" else f"{self.word}{self.number}"
+
+
+SYS = Level()
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of text; `is_query`: it changes nothing and may be sent again."""
+
+    text: str
+    is_query: bool = False
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """A packet the card replies to."""
+
+    packet: Packet
+    is_query: bool = True
+
+    def __str__(self) -> str:
+        return str(self.packet)
+
+
+@dataclass(frozen=True, slots=True)
+class Tell:
+    """A packet the card says nothing about."""
+
+    packet: Packet
+    is_query: bool = False
+
+    def __str__(self) -> str:
+        return str(self.packet)
+
+
+@dataclass(frozen=True, slots=True)
+class Press:
+    """Ctrl-X, Ctrl-Y or Ctrl-Z: acts at once and is not answered."""
+
+    key: ControlKey
+    is_query: bool = False
+
+    def __str__(self) -> str:
+        return self.key.name.replace("_", "-").title()
+
+
+@dataclass(frozen=True, slots=True)
+class Follow:
+    """LISTEN or LRUN: the output of a program comes until it ends or ESC is sent."""
+
+    text: str
+    is_query: bool = False
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """ESC: listening ends, the prompt comes back."""
+
+    is_query: bool = False
+
+    def __str__(self) -> str:
+        return "ESC"
+
+
+@dataclass(frozen=True, slots=True)
+class Align:
+    """Whatever the stream was doing: come to the SYS level and a known ECHO mode."""
+
+    is_query: bool = True
+
+    def __str__(self) -> str:
+        return "the greeting of the client"
+
+
+Request: TypeAlias = Line | Ask | Tell | Press | Follow | Leave | Align
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A request is dealt with: the lines or the packet data that came back."""
+
+    lines: tuple[str, ...] = ()
+    data: bytes = b""
+    is_garbled: bool = False
+    raw: bytes = b""  # of a garbled answer
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """Text a followed program has printed."""
+
+    text: str

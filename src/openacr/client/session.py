@@ -1,0 +1,293 @@
+"""The host's end of one stream, sans I/O: requests become bytes, bytes become answers.
+
+`begin(request)` gives the bytes to send, `receive_data` takes what comes back in pieces of
+any size, `next_event` says what it means: an Answer when the request is dealt with, Heard
+while a program is followed, NEED_DATA while something is missing. One request at a time:
+a card answers in order and says nothing by itself, so nothing more can be told apart.
+
+How the end of a text answer is found depends on the ECHO mode:
+
+    1, 0 (prompts on)    the prompt behind the last output line
+    4 (no prompts)       a second line is sent behind the first: it prints a mark that
+                         nothing else prints; the answer ends where the mark comes back
+
+A packet reply repeats the request, then follows data of known length. It is found by the
+repeated request, so text and packets may alternate on one stream.
+"""
+
+import re
+from collections.abc import Callable
+
+from openacr.client.requests import (
+    SYS,
+    Align,
+    Answer,
+    Ask,
+    Follow,
+    Heard,
+    Leave,
+    Level,
+    Line,
+    Press,
+    Request,
+    Tell,
+)
+from openacr.errors import UserError
+from openacr.protocol.escape import BinaryMode, Decoder, encode_packet
+from openacr.protocol.packet import WORD_BYTES
+from openacr.protocol.packets import Packet
+from openacr.protocol.stream import EchoMode
+from openacr.protocol.terminal import NEED_DATA, NeedData, text_of
+
+CR, CRLF, ESC = b"\r", b"\r\n", b"\x1b"
+ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))
+_PROMPT = rb"(SYS>|P\d\d>|PLC\d>)"
+_AT_LINE_START = re.compile(rb"(?:^|\n)" + _PROMPT + rb"\Z")
+_ANYWHERE = re.compile(_PROMPT + rb"\Z")
+_PERHAPS_PROMPT = re.compile(rb"(?:^|\n)(?:SY?|SYS|P\d{0,2}|PLC?|PLC\d)\Z")
+_CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f]")  # keys, line ends, headers of packets
+# Typographic characters of published text and what the card understands instead.
+_PLAIN = str.maketrans(
+    "\u201c\u201d\u201e\u2018\u2019\u201a\u2013\u2014\u2212\u00a0", "\"\"\"'''--- "
+)
+
+Event = Answer | Heard | NeedData
+
+
+class Session:
+    """One stream as its host sees it."""
+
+    def __init__(self, echo: EchoMode = EchoMode.CHARACTERS) -> None:
+        if echo not in ECHO_MODES:
+            raise UserError(f"ECHO {int(echo)}: the client works with ECHO 1, 4 and 0")
+        self.echo = echo
+        self.mode = BinaryMode.PLAIN
+        self.level = SYS
+        self.is_listening = False
+        self._request: Request | None = None
+        self._received = bytearray()
+        self._marks = 0
+        self._mark = b""
+        self._is_echoed = False  # the echo of the line that began listening is gone
+        self._readers: dict[type, Callable[[bool], Event]] = {
+            Line: self._line,
+            Ask: self._packet,
+            Follow: self._followed,
+            Leave: self._left,
+            Align: self._aligned,
+        }
+
+    @property
+    def has_prompts(self) -> bool:
+        """The card ends every line with a prompt."""
+        return not self.echo & EchoMode.NO_PROMPT
+
+    @property
+    def received(self) -> bytes:
+        """What has come back and is not understood yet."""
+        return bytes(self._received)
+
+    def forget(self) -> None:
+        """Drop an unfinished request, as after a lost connection."""
+        self._request = None
+        self._received.clear()
+        self.is_listening = False
+
+    # --- requests ---------------------------------------------------------------------
+
+    def begin(self, request: Request) -> bytes:
+        """The bytes to send; what was received for the request before is forgotten."""
+        if not isinstance(request, Ask | Tell | Press | Leave):
+            self.forget()
+        self._request = request
+        if isinstance(request, Line):
+            return self._typed(request.text) + self._fence()
+        if isinstance(request, Follow):
+            self.is_listening, self._is_echoed = True, not self.echo & EchoMode.CHARACTERS
+            return self._typed(request.text)
+        if isinstance(request, Align):
+            echo = self._typed(f"ECHO {int(self.echo)}")
+            return ESC + CR + self._typed("SYS") + echo + self._mark_line()
+        if isinstance(request, Ask | Tell):
+            return encode_packet(request.packet.encode(), self.mode)
+        return ESC if isinstance(request, Leave) else bytes((request.key,))
+
+    def _typed(self, text: str) -> bytes:
+        return bytes_of(text) + CR
+
+    def _fence(self) -> bytes:
+        return b"" if self.has_prompts else self._mark_line()
+
+    def _mark_line(self) -> bytes:
+        """A line whose output is like no other."""
+        self._marks += 1
+        self._mark = b"=%d=" % self._marks
+        return b'PRINT "' + self._mark + b'"' + CR
+
+    # --- answers ----------------------------------------------------------------------
+
+    def receive_data(self, data: bytes) -> None:
+        """Take what has arrived."""
+        self._received += data
+
+    @property
+    def may_be_done(self) -> bool:
+        """What is there could be a whole answer: wait a moment only, then `end_of_data`."""
+        if not self.has_prompts:
+            return self.is_listening and bool(self._received)
+        return _ANYWHERE.search(self._received) is not None or self.is_listening
+
+    def next_event(self) -> Event:
+        """What the received bytes mean; Answer once the request is dealt with."""
+        return self._next(is_silent=False)
+
+    def end_of_data(self) -> Event:
+        """As `next_event`, when nothing more has come for a while."""
+        return self._next(is_silent=True)
+
+    def _next(self, *, is_silent: bool) -> Event:
+        request = self._request
+        if request is None:
+            return self._followed(is_silent) if self.is_listening else NEED_DATA
+        if isinstance(request, Tell | Press):
+            return self._done(Answer())
+        return self._readers[type(request)](is_silent)
+
+    def _done(self, answer: Answer) -> Answer:
+        """The request is over; while listening the followed program goes on talking."""
+        self._request = None
+        if not self.is_listening:
+            self._received.clear()
+        return answer
+
+    def _reach(self, prompt: bytes) -> None:
+        level = Level.of_prompt(prompt.decode())
+        if level is not None:
+            self.level = level
+
+    # --- text -------------------------------------------------------------------------
+
+    def _line(self, is_silent: bool) -> Event:
+        request = self._request
+        sent = request.text if isinstance(request, Line) else ""
+        body = self._without_end(is_silent)
+        if body is None:
+            return NEED_DATA
+        expected = bytes_of(sent) + CRLF if self.echo & EchoMode.CHARACTERS else b""
+        if not body.startswith(expected):
+            return self._done(Answer(is_garbled=True, raw=body))
+        lines = split(body[len(expected) :])
+        if not self.has_prompts and not lines:
+            self.level = Level.of_line(sent) or self.level
+        return self._done(Answer(lines))
+
+    def _without_end(self, is_silent: bool) -> bytes | None:
+        """The answer without prompt or mark, once its end is there."""
+        text = bytes(self._received)
+        if not self.has_prompts:
+            body, end, _ = text.partition(self._mark + CRLF)
+            return body if end else None
+        # The echo may contain anything, so a prompt counts only behind its line end.
+        begin = text.find(CRLF) + 2 if self.echo & EchoMode.CHARACTERS else 0
+        if self.echo & EchoMode.CHARACTERS and begin < 2:
+            return None
+        pattern = _ANYWHERE if is_silent else _AT_LINE_START
+        found = pattern.search(text, begin) or _AT_LINE_START.match(text[begin:])
+        if found is None:
+            return None
+        self._reach(found[1])
+        return text[: -len(found[1])]
+
+    def _aligned(self, is_silent: bool) -> Event:
+        _, end, behind = bytes(self._received).rpartition(self._mark + CRLF)
+        if not end or (self.has_prompts and not _AT_LINE_START.match(behind)):
+            return NEED_DATA
+        self.level = SYS
+        return self._done(Answer())
+
+    # --- packets ----------------------------------------------------------------------
+
+    def _packet(self, is_silent: bool) -> Event:
+        request = self._request
+        if not isinstance(request, Ask):
+            return NEED_DATA
+        wire = encode_packet(request.packet.encode(), self.mode)
+        at = self._received.find(wire)
+        if at < 0:
+            return NEED_DATA
+        if at > 0 and not self.is_listening:
+            return self._done(Answer(is_garbled=True, raw=self.received))
+        found = self._reply_data(request.packet, at + len(wire))
+        if found is None:
+            return NEED_DATA
+        data, end = found
+        del self._received[at:end]
+        return self._done(Answer(data=data))
+
+    def _reply_data(self, packet: Packet, begin: int) -> tuple[bytes, int] | None:
+        """The data behind the repeated request, and where the reply ends."""
+        wanted = packet.reply_words() * WORD_BYTES
+        decoder, data = Decoder(self.mode), bytearray()
+        for at in range(begin, len(self._received)):
+            if len(data) == wanted:
+                return bytes(data), at
+            byte = decoder.feed(self._received[at])
+            if byte is not None:
+                data.append(byte)
+        return (bytes(data), len(self._received)) if len(data) == wanted else None
+
+    # --- listening --------------------------------------------------------------------
+
+    def _followed(self, is_silent: bool) -> Event:
+        """Text of the followed program; an Answer when it has ended."""
+        if not self._is_echoed:
+            _, end, behind = bytes(self._received).partition(CRLF)
+            if not end:
+                return NEED_DATA
+            self._is_echoed, self._received = True, bytearray(behind)
+        text = self.received
+        prompt = _AT_LINE_START.search(text) if self.has_prompts else None
+        if prompt is not None:
+            return self._heard(prompt.start(1)) if prompt.start(1) else self._end(prompt[1])
+        is_open = self.has_prompts and not is_silent
+        held = _PERHAPS_PROMPT.search(text) if is_open else None
+        return self._heard(held.end() - len(held[0].lstrip(b"\n")) if held else len(text))
+
+    def _heard(self, length: int) -> Event:
+        """Give out the first bytes; what follows has to wait."""
+        if not length:
+            return NEED_DATA
+        text = text_of(self._received[:length])
+        del self._received[:length]
+        return Heard(text.replace("\r\n", "\n"))
+
+    def _end(self, prompt: bytes) -> Answer:
+        self._reach(prompt)
+        self.is_listening = False
+        return self._done(Answer())
+
+    def _left(self, is_silent: bool) -> Event:
+        if not self.is_listening:
+            return self._done(Answer())
+        if self.has_prompts:
+            return self._followed(is_silent)
+        if not self._received.endswith(CRLF) or not is_silent:
+            return NEED_DATA
+        self.is_listening = False
+        return self._done(Answer())
+
+
+def bytes_of(text: str) -> bytes:
+    """The text as a card takes it: one byte per character, quotes and dashes plain."""
+    if control := _CONTROL.search(text):
+        raise UserError(f"{control[0]!r} cannot be part of a line: {text!r}")
+    try:
+        return text.translate(_PLAIN).encode("latin-1")
+    except UnicodeEncodeError as wrong:
+        raise UserError(f"{text[wrong.start]!r} cannot be sent to a card: {text}") from None
+
+
+def split(text: bytes) -> tuple[str, ...]:
+    """The lines of an answer; the last one may lack its end."""
+    lines = text_of(text).split("\r\n")
+    return tuple(lines[:-1] if not lines[-1] else lines)

@@ -1,0 +1,167 @@
+"""Read and write parameters, flags and variables: by number, by name, one or many."""
+
+import re
+import struct
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
+
+from openacr.client.errors import RefusedError
+from openacr.client.names import What, flag_number, parameter_number
+from openacr.client.requests import Ask, Level
+from openacr.client.talk import Op, Talk
+from openacr.errors import UserError
+from openacr.map import parameters
+from openacr.map.block import FLAG_WORD_BASE, Kind
+from openacr.protocol.data import DataRequest, locate
+from openacr.protocol.packet import WORD_BYTES
+from openacr.protocol.packets import Packet
+from openacr.protocol.parameter import GetIeee, GetLong
+
+Number: TypeAlias = int | float
+
+BITS_PER_WORD = 32
+ARRAY_WORDS = frozenset(("LA", "SA", "DA"))
+_INTEGER = re.compile(r"-?\d+")
+_DIMENSION = re.compile(r"DIM (\w+?)\((\d+)\)")
+
+
+def number_of(line: str, text: str) -> Number:
+    """The number in an answer; anything else is a refusal."""
+    try:
+        return int(text) if _INTEGER.fullmatch(text) else float(text)
+    except ValueError:
+        raise RefusedError(line, text) from None
+
+
+def number_text(value: Number) -> str:
+    """A number as a card reads it, with all its digits."""
+    return repr(value).upper() if isinstance(value, float) else str(int(value))
+
+
+# --- reading ------------------------------------------------------------------------------
+
+
+def ask(talk: Talk, expression: str, *, at: Level | None = None) -> Op[Number]:
+    """What `?expression` prints."""
+    line = f"?{expression}"
+    lines = yield from talk.query(line, at=at)
+    if len(lines) != 1:
+        raise RefusedError(line, " / ".join(lines) or "no value")
+    return number_of(line, lines[0])
+
+
+def read(talk: Talk, what: What) -> Op[Number]:
+    """One parameter: exact by packet where the card has a packet for it, else by text."""
+    number = parameter_number(what)
+    kind = _packet_kind(talk, number)
+    if kind is None:
+        return (yield from ask(talk, f"P{number}"))
+    packet = GetLong(number) if kind is Kind.LONG else GetIeee(number)
+    return (yield from _fetch(talk, packet, [kind]))[0]
+
+
+def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
+    """Several parameters in their order; those of one packet group with one packet."""
+    numbers = [parameter_number(what) for what in whats]
+    found: dict[int, Number] = {}
+    for packet in _packets(talk, numbers):
+        asked = list(packet.parameters())
+        kinds = [parameters()[number].kind for number in asked]
+        found.update(zip(asked, (yield from _fetch(talk, packet, kinds)), strict=True))
+    for number in dict.fromkeys(numbers):
+        if number not in found:
+            found[number] = yield from read(talk, number)
+    return [found[number] for number in numbers]
+
+
+def _packets(talk: Talk, numbers: Iterable[int]) -> list[DataRequest]:
+    """The data packets that fetch these parameters, as far as packets reach them."""
+    masks: dict[tuple[int, int], int] = {}
+    for number in numbers:
+        packet = locate(number) if _packet_kind(talk, number) is not None else None
+        if packet is not None:
+            key = (packet.group, packet.index)
+            masks[key] = masks.get(key, 0) | packet.mask
+    return [DataRequest(group, index, mask) for (group, index), mask in masks.items()]
+
+
+def _packet_kind(talk: Talk, number: int) -> Kind | None:
+    """How a packet carries a parameter without loss; None where only text does."""
+    known = parameters().get(number) if talk.options.uses_packets else None
+    return known.kind if known is not None and known.kind is not Kind.FP64 else None
+
+
+def _fetch(talk: Talk, packet: Packet, kinds: Sequence[Kind]) -> Op[list[Number]]:
+    answer = yield from talk.exchange(Ask(packet))
+    layout = "<" + "".join("i" if kind is Kind.LONG else "f" for kind in kinds)
+    if len(answer.data) != WORD_BYTES * len(kinds):
+        raise RefusedError(str(packet), "reply of another length")
+    return list(struct.unpack(layout, answer.data))
+
+
+def read_bit(talk: Talk, what: What) -> Op[bool]:
+    """Whether a flag is set."""
+    return (yield from read_bits(talk, [what]))[0]
+
+
+def read_bits(talk: Talk, whats: Iterable[What]) -> Op[list[bool]]:
+    """Several flags in their order; one word is read once."""
+    numbers = [flag_number(what) for what in whats]
+    words = list(dict.fromkeys(FLAG_WORD_BASE + number // BITS_PER_WORD for number in numbers))
+    found = dict(zip(words, (yield from read_many(talk, words)), strict=True))
+    return [
+        bool(int(found[FLAG_WORD_BASE + number // BITS_PER_WORD]) >> number % BITS_PER_WORD & 1)
+        for number in numbers
+    ]
+
+
+# --- writing ------------------------------------------------------------------------------
+
+
+def write(talk: Talk, what: What, value: Number) -> Op[None]:
+    """Set one parameter; by text, since the card acknowledges no packet."""
+    yield from talk.order(f"P{parameter_number(what)}={number_text(value)}")
+
+
+def write_bit(talk: Talk, what: What, on: bool) -> Op[None]:
+    """Set or clear a flag."""
+    yield from talk.order(f"{'SET' if on else 'CLR'} {flag_number(what)}")
+
+
+# --- variables and arrays of programs -----------------------------------------------------
+
+
+def array_length(talk: Talk, program: int, array: str) -> Op[int]:
+    """How many elements `LA0` (SA, DA likewise) of a program has; 0 if it has none."""
+    lines = yield from talk.query("DIM", at=Level.program(program))
+    found = (_DIMENSION.fullmatch(line) for line in lines)
+    sizes = {match[1]: int(match[2]) for match in found if match}
+    return sizes.get(_array_name(array), 0)
+
+
+def read_array(talk: Talk, program: int, array: str, part: range | None = None) -> Op[list[Number]]:
+    """The elements of an array of a program, all of them unless a range is given."""
+    name = _array_name(array)
+    if part is None:
+        part = range((yield from array_length(talk, program, name)))
+    values: list[Number] = []
+    for index in part:
+        values.append((yield from ask(talk, f"{name}({index})", at=Level.program(program))))
+    return values
+
+
+def write_array(
+    talk: Talk, program: int, array: str, values: Iterable[Number], first: int = 0
+) -> Op[None]:
+    """Set elements of an array of a program from one index on."""
+    name = _array_name(array)
+    for index, value in enumerate(values, start=first):
+        line = f"{name}({index})={number_text(value)}"
+        yield from talk.order(line, at=Level.program(program))
+
+
+def _array_name(array: str) -> str:
+    name = array.replace(" ", "").upper()
+    if name[:2] not in ARRAY_WORDS or not name[2:].isdigit():
+        raise UserError(f"{array!r} is no numeric array: LA0, SA0, DA0 and so on are")
+    return name
