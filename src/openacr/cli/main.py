@@ -35,11 +35,19 @@ COMMANDS = {
         "serve",
         "Run a card in real time and let hosts talk to it over TCP and serial lines.",
     ),
+    "replay": Entry(
+        "replay", "replay", "Replay a journal: the same inputs at the same ticks, the same states."
+    ),
     "term": Entry(
         "term",
         "term",
         "Talk to a card: interactively, or line by line when standard input is piped.",
     ),
+    "download": Entry("download", "download", "Send controller files to a card."),
+    "upload": Entry("upload", "upload", "Read programs and PLCs of a card into files."),
+    "monitor": Entry("monitor", "monitor", "Show parameters, flags and axes of a card, live."),
+    "backup": Entry("backup", "backup", "Store settings and programs of a card in a folder."),
+    "restore": Entry("backup", "restore", "Stop a card, clear it and put a backup back."),
     "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
     "check": Entry("check", "check_file", "Find every error in a controller file."),
     "param": Entry(
