@@ -1,10 +1,13 @@
 """Binary packets among the text of a terminal connection (terminal protocol, section 10)."""
 
+import csv
 import struct
+from pathlib import Path
 
 import pytest
 from tests.controller.hosts import Host
 
+from openacr.controller import Controller
 from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
 from openacr.protocol.stream import StreamKind
 
@@ -109,3 +112,23 @@ def test_what_does_not_exist_reads_zero_and_keeps_the_host_in_step(axes: Host) -
     for request in ("00 88 FF FF", "00 8A FF FF"):
         data = bytes.fromhex(request)
         assert axes.raw(data) == data + bytes(4)
+
+
+GROUPS = csv.DictReader((Path(__file__).parents[1] / "data" / "binary-groups.csv").open())
+
+
+@pytest.mark.req("BIN-050", "BIN-051", "BIN-052", "BIN-053", "BIN-059")
+def test_every_documented_group_reads_the_parameters_it_names() -> None:
+    card = Controller("ACR8020")
+    host = Host(card)
+    for row in GROUPS:
+        first, stride, count = int(row["first_parameter"]), int(row["stride"]), int(row["count"])
+        fields = [first + stride * n for n in range(count)]
+        for n, number in enumerate(fields):
+            card.memory.write(number, 3 * n + 1)
+        mask = (1 << count) - 1
+        request = bytes((0, int(row["code"], 16), int(row["group_index"], 16), mask))
+        form = f"<{count}{'i' if row['type'] == 'LONG' else 'f'}"
+        reply = host.raw(request)
+        assert reply[:4] == request
+        assert list(struct.unpack(form, reply[4:])) == [card.p[number] for number in fields], row
