@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
+from hashlib import blake2b
 from pathlib import Path
 
 from openacr.errors import SourceError, UserError
@@ -77,6 +78,15 @@ class Project:
     machine: Path | None = None
     scenario: Path | None = None
     ignored: tuple[Path, ...] = field(default=())
+
+    @property
+    def fingerprint(self) -> str:
+        """What tells whether two projects are the same: all their files but the scenario."""
+        found = blake2b(digest_size=16)
+        machine = [read_bytes(self.machine)] if self.machine else []
+        for data in [*machine, *(source.data for source in self.sources)]:
+            found.update(len(data).to_bytes(8, "little") + data)
+        return found.hexdigest()
 
     @property
     def sources(self) -> tuple[SourceFile, ...]:

@@ -1,13 +1,17 @@
 """The machine of a run: a `Controller` with its project loaded."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 
+from openacr.basic.lister import Lister
 from openacr.cli import card_view
 from openacr.cli.plots import AxisCurves, BitCurve, Curves
 from openacr.cli.report import AxisReport
 from openacr.controller import Controller
+from openacr.controller.journal import Recorder
 from openacr.engine.watches import WATCHES
 from openacr.errors import SourceError, UserError
 from openacr.map.memory import Memory
@@ -104,6 +108,16 @@ class ControlledMachine:
         self._controller.receive(self._streams[name], text.encode("latin-1", errors="replace"))
         self._read_terminals()
 
+    @contextmanager
+    def journalled(self, path: Path, project: Project) -> Iterator[None]:
+        """Write everything that enters meanwhile to a file."""
+        card, root = self._controller, str(project.root)
+        card.recorder = Recorder(card, path, project=root, fingerprint=project.fingerprint)
+        try:
+            yield
+        finally:
+            card.close()
+
     def _open(self, stream: str | None) -> int:
         controller = self._controller
         if stream is None:
@@ -112,13 +126,24 @@ class ControlledMachine:
             known = ", ".join(controller.system.sessions)
             raise UserError(f"stream {stream}: the {controller.model.name} has {known}")
         kind = _KINDS.get(stream[:3], StreamKind.TERMINAL)
-        return controller.streams.open(kind, controller.period_s, stream)
+        return controller.open_stream(kind, stream)
 
     def _read_terminals(self) -> None:
         for stream in self._streams.values():
             if data := self._controller.take_output(stream):
                 self._was_heard = True
                 self._overhear(data.decode("latin-1"))
+
+    def start_all(self) -> None:
+        """Start every stored program, as RUN ALL does."""
+        self.type_text("SYS\rRUN ALL\r", None)
+
+    def failure(self, program: int) -> tuple[str, str]:
+        """Say what ended a program with an error, and the text of the line that did."""
+        system = self._controller.system
+        stored = system.programs.texts[program].get(card_view.program_line(self.memory, program))
+        text = Lister(system.aliases.nodes).line(stored.tokens) if stored else ""
+        return self._controller.executor.failures.get(program, "error"), text
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""

@@ -4,6 +4,7 @@ Everything the user said is checked before anything runs: the project, the scena
 that every result can be written.
 """
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -50,6 +51,9 @@ def run(
         Path | None, typer.Option(help="Draw the motion of all axes (.png, .svg, .html).")
     ] = None,
     summary: Annotated[Path | None, typer.Option(help="Write the outcome as JSON.")] = None,
+    journal: Annotated[
+        Path | None, typer.Option(help="Write all that enters the card, for `openacr replay`.")
+    ] = None,
     keep_going: Annotated[
         bool, typer.Option("--keep-going", help="Run although the card refuses lines of a file.")
     ] = False,
@@ -62,6 +66,10 @@ def run(
 ) -> None:
     """Run a project: as fast as possible, or paced by the wall clock.
 
+    Programs that begin with PBOOT start by themselves. If none does and there is no
+    scenario, all programs are started as RUN ALL does; with a scenario it is the scenario
+    that starts them.
+
     Without --for and --until the run ends when no program runs and nothing moves, or after
     600 simulated seconds. Exit code 1: a program ended in an error or an expectation
     failed; 2: something about the input is wrong.
@@ -70,7 +78,7 @@ def run(
 
     found = find_project(project)
     wanted = parse_until(until)
-    check_outputs(trace, plot, summary)
+    check_outputs(trace, plot, summary, journal)
 
     from openacr.cli.session import Options, Session, Until  # heavy: not for a slip above
     from openacr.scenario import load_scenario
@@ -99,7 +107,9 @@ def run(
     if refused and not keep_going:
         raise typer.Exit(BAD_INPUT)
     session = Session(options, machine, story)
-    raise typer.Exit(session.run())
+    with machine.journalled(journal, found) if journal else nullcontext():
+        code = session.run()
+    raise typer.Exit(code)
 
 
 def parse_until(text: str | None) -> "Until | None":
@@ -129,11 +139,13 @@ def limit_s(for_s: float | None, scenario: "Scenario | None") -> float:
     return (scenario.duration_s if scenario else None) or LONGEST_S
 
 
-def check_outputs(trace: Path | None, plot: Path | None, summary: Path | None) -> None:
+def check_outputs(
+    trace: Path | None, plot: Path | None, summary: Path | None, journal: Path | None
+) -> None:
     """Refuse results that could not be written, before anything runs."""
     from openacr.cli import output
 
-    paths = (trace, plot, summary)
+    paths = (trace, plot, summary, journal)
     output.require_different(paths)
     if trace:
         output.require_trace(trace)

@@ -28,21 +28,50 @@ def serve(
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[int, typer.Option(help="Speed of the serial port.")] = 38400,
     speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
+    data: Annotated[
+        Path | None, typer.Option(help="Folder for what the card keeps without power.")
+    ] = None,
+    journal: Annotated[
+        Path | None,
+        typer.Option(help="Folder for the last minutes, to replay; default: in that of --data."),
+    ] = None,
 ) -> None:
-    """Run a card in real time and let hosts talk to it over TCP and serial lines."""
-    card = _load(project)
-    asyncio.run(serve_card(card, host, ascii_port, binary_port, serial, baud, speed))
+    """Run a card in real time and let hosts talk to it over TCP and serial lines.
+
+    With --data saved parameters, user flash and battery-backed memory outlast the process,
+    and the journal of the last minutes can be replayed with `openacr replay`.
+    """
+    card = _load(project, data)
+    try:
+        _keep_journal(card, journal or (data / "journal" if data else None))
+        asyncio.run(serve_card(card, host, ascii_port, binary_port, serial, baud, speed))
+    finally:
+        card.close()
 
 
-def _load(path: Path | None) -> "Controller":
+def _keep_journal(card: "Controller", folder: Path | None) -> None:
+    if folder is not None:
+        from openacr.controller.journal import Ring
+
+        card.recorder = Ring(card, folder)
+
+
+def _load(path: Path | None, data: Path | None) -> "Controller":
     """A card with a project; refused lines are printed and end it with exit code 2."""
     from openacr.controller import Controller
+    from openacr.errors import SourceError
     from openacr.project import find_project
 
-    card, refused = Controller.load(find_project(path)) if path else (Controller(), [])
+    if path is None:
+        card, refused = Controller(data=data), list[SourceError]()
+    else:
+        card, refused = Controller.load(find_project(path), data=data)
+    for notice in card.nonvolatile.notices:
+        typer.echo(f"warning: {notice}", err=True)
     for error in refused:
         typer.echo(f"error: {error}", err=True)
     if refused:
+        card.close()
         raise typer.Exit(BAD_INPUT)
     card.is_journalled = False  # it may run for months
     return card

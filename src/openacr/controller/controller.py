@@ -149,6 +149,10 @@ class Controller:
         world = load.load_world(project.machine) if project.machine else None
         controller = cls(str(world.card.model) if world else "ACR9000", world=world, data=data)
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
+            controller.nonvolatile.notice(
+                f"the card has programs in {data} and keeps them; of {project.root} only the"
+                " machine is used (give an empty folder to load its programs)"
+            )
             return controller, []
         session = controller.system.sessions[CONSOLE]
         session.connect()

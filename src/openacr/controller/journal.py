@@ -22,6 +22,7 @@ once; a last line that was cut off in the middle is left out by the reader.
 from __future__ import annotations
 
 import json
+import logging
 from base64 import b64decode, b64encode
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -38,6 +39,8 @@ from openacr.plant import schema
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
+
+log = logging.getLogger(__name__)
 
 MAGIC = b"openacr journal 1\n"
 SUFFIX = ".journal"
@@ -121,13 +124,17 @@ class Journal:
 
 
 class Recorder:
-    """Writes the journal of a card from now on, until `close`."""
+    """Writes the journal of a card from now on, until `close`.
+
+    When the disk is full the journal ends with its last whole record and the card goes on.
+    """
 
     def __init__(
         self, card: Controller, path: Path, *, project: str = "", fingerprint: str = ""
     ) -> None:
         self._card = card
         self.path = path
+        self.failure = ""  # why nothing is written any more
         self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
         self.next_tk = card.lived_tk + self.every_tk
         header = Header(
@@ -151,7 +158,13 @@ class Recorder:
 
     def note(self, entry: JournalEntry) -> None:
         """Write one entry."""
-        self._file.write(json.dumps(_record(entry)).encode() + b"\n")
+        if self.failure:
+            return
+        try:
+            self._file.write(json.dumps(_record(entry)).encode() + b"\n")
+        except OSError as failure:  # the card goes on
+            self.failure = f"{self.path} is not complete: {failure.strerror}"
+            log.warning("%s", self.failure)
 
     def mark(self) -> None:
         """Write the digest that is due."""

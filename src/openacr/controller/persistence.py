@@ -63,6 +63,7 @@ class Persistence:
         system.nonvolatile = self
         self.images = images
         self.notices: list[str] = []
+        self._is_up = False  # what comes to light at power-up is said by whoever switches on
         self._has_battery = system.card.model.has_battery
         self._follows = self._has_battery and images.is_durable
         self._written_tk = 0
@@ -103,6 +104,7 @@ class Persistence:
         config = self._power_up_battery() if self._has_battery else None
         self._load(config)
         self.follow()
+        self._is_up = True
 
     def restart(self) -> None:
         """Bring back what is stored, at REBOOT; battery-backed memory is there already."""
@@ -320,7 +322,8 @@ class Persistence:
         """Keep what whoever switched the card on should know."""
         if text not in self.notices:
             self.notices.append(text)
-            log.warning("%s", text)
+            if self._is_up:
+                log.warning("%s", text)
 
     def _write(self, changes: Mapping[str, Image | None]) -> None:
         try:
