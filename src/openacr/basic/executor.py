@@ -52,6 +52,14 @@ _ENDS_WITH_PROGRAM = (
     | at.PF_PAUSE_MODE_WAITING
     | at.PF_STEP_REQUEST_FLAG
 )
+_CLEARED_BY_START = (
+    at.THI_SP,
+    at.THI_DEPTH,
+    at.THI_LINE,
+    at.THI_PASSED,
+    at.THI_SPARE_FLAGS,
+    at.THI_ERROR,
+)
 _CLEARED_BY_RUN = (
     _ENDS_WITH_PROGRAM
     | _HOLDS
@@ -74,6 +82,7 @@ class Executor:
         self.operands = Operands(self)
         self._runs: list[Run | None] = [None] * at.TH_COUNT
         self._sources: list[Any] = [None] * at.TH_COUNT
+        self.failures: dict[int, str] = {}  # of programs that an error has ended
         self._advance = pick(scheduler.advance)
         self._vm_run = pick(vm_run)
         self._step = pick(scheduler.scheduler_step)
@@ -93,7 +102,9 @@ class Executor:
         try:
             chunk = compile_program(lines)
         except CompileError as error:
-            self.system.listeners.error(program, error.line, error.text)
+            row = at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER
+            self.memory.I[row] = error.line
+            self._fail(program, error.line, error)
             self.system.listeners.ended(program)
             return
         if line is not None and line not in chunk.starts:
@@ -358,7 +369,8 @@ class Executor:
     def _start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
         self.space.put(thread, chunk)
         self._runs[thread] = run
-        for row in (at.THI_SP, at.THI_DEPTH, at.THI_LINE, at.THI_PASSED, at.THI_SPARE_FLAGS):
+        self.failures.pop(thread, None)
+        for row in _CLEARED_BY_START:
             self.set_row(thread, row, 0)
         self.set_row(thread, at.THI_PC, start)
         self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
@@ -387,12 +399,18 @@ class Executor:
             return
         self.memory.I[at.PF_WORD + thread] &= ~_ENDS_WITH_PROGRAM
         if error is not None:
-            line = self._row(thread, at.THI_LINE)
-            self.system.listeners.error(thread, line, error.text)
+            self._fail(thread, self._row(thread, at.THI_LINE), error)
         self.system.listeners.ended(thread)
+
+    def _fail(self, program: int, line: int, error: CardError) -> None:
+        """Note and report the error that has ended a program."""
+        self.set_row(program, at.THI_ERROR, error.message.number)
+        self.failures[program] = error.text
+        self.system.listeners.error(program, line, error.text)
 
     def reset(self) -> None:
         """Forget what all threads execute (REBOOT)."""
+        self.failures.clear()
         for thread in range(at.TH_COUNT):
             self._forget(thread)
 
@@ -404,6 +422,7 @@ class Executor:
 
     def restore(self, state: bytes) -> None:
         """Take over what `state` returned, after the memory has been restored."""
+        self.failures.clear()
         self._sources, self.space.rooms = pickle.loads(state)
         for thread, source in enumerate(self._sources):
             if source is None:
