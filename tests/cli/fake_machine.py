@@ -58,6 +58,12 @@ class FakeMachine:
     def type_text(self, text: str, stream: str | None) -> None:
         self.typed.append((self.tick, text, stream))
 
+    def start_all(self) -> None:
+        self.typed.append((self.tick, "RUN ALL", None))
+
+    def failure(self, program: int) -> tuple[str, str]:
+        return "Divide by zero", "P1 = 1/0"
+
     def set_input(self, bit: int, on: bool) -> None:
         self.memory.set_bit(bit, on)
 

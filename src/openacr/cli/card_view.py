@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from openacr.map import numbers as at
 from openacr.map.block import FLAG_WORD_BASE
 from openacr.map.memory import Memory
-from openacr.messages import MESSAGES
 from openacr.scenario import State
 
 PROGRAMS = range(at.PROG_COUNT)
@@ -22,13 +21,9 @@ _STATES = (
 )
 
 
-def program_error(memory: Memory, program: int) -> str | None:
-    """Give the message a program ended with, or None."""
-    number = memory.I[at.THI_BASE + program * at.THI_STRIDE + at.THI_ERROR]
-    if not 0 < number < len(MESSAGES):
-        return None
-    detail = memory.F[at.THF_BASE + program * at.THF_STRIDE + at.THF_ERROR_DETAIL]
-    return MESSAGES[number].text.format(f"{detail:g}")
+def has_failed(memory: Memory, program: int) -> bool:
+    """Whether an error has ended a program since it was started."""
+    return memory.I[at.THI_BASE + program * at.THI_STRIDE + at.THI_ERROR] > 0
 
 
 def program_state(memory: Memory, program: int) -> State:
@@ -37,7 +32,7 @@ def program_state(memory: Memory, program: int) -> State:
     for mask, state in _STATES:
         if flags & mask:
             return state
-    return State.ERROR if program_error(memory, program) else State.IDLE
+    return State.ERROR if has_failed(memory, program) else State.IDLE
 
 
 def program_line(memory: Memory, program: int) -> int:

@@ -51,6 +51,12 @@ class Machine(Protocol):
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream, by default the terminal of the run."""
 
+    def start_all(self) -> None:
+        """Start every stored program, as RUN ALL does."""
+
+    def failure(self, program: int) -> tuple[str, str]:
+        """Say what ended a program with an error, and the text of the line that did."""
+
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""
 

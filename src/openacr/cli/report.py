@@ -34,6 +34,7 @@ class ProgramReport:
     state: State
     line: int
     error: str | None
+    text: str = ""  # of the line, where there was an error
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,17 +74,20 @@ def report_on(machine: "Machine", begin_tk: int, wall_s: float) -> Report:
             if axis.number in attached or axis.distance_u > 0.0
         ),
         programs=tuple(
-            ProgramReport(
-                number,
-                card_view.program_state(memory, number),
-                card_view.program_line(memory, number),
-                card_view.program_error(memory, number),
-            )
+            _program(machine, number)
             for number in card_view.PROGRAMS
             if card_view.has_program(memory, number)
         ),
         flags=tuple(card_view.set_flags(memory)),
     )
+
+
+def _program(machine: "Machine", number: int) -> ProgramReport:
+    memory = machine.memory
+    has_failed = card_view.has_failed(memory, number)
+    error, text = machine.failure(number) if has_failed else (None, "")
+    state, line = card_view.program_state(memory, number), card_view.program_line(memory, number)
+    return ProgramReport(number, state, line, error, text)
 
 
 def summary(report: Report) -> dict[str, Any]:
@@ -144,6 +148,15 @@ def show_report(report: Report, console: "Console") -> None:
         highlight=False,
         soft_wrap=True,
     )
+
+
+def show_failures(report: Report, console: "Console") -> None:
+    """Print what ended programs with an error, and the line that did."""
+    for program in report.programs:
+        if program.error:
+            text = f"error: PROG{program.number} line {program.line}: {program.error}"
+            text += f"\n    {program.text}" if program.text else ""
+            console.print(text, style="red", highlight=False, markup=False, soft_wrap=True)
 
 
 def show_verdicts(report: Report, console: "Console") -> None:

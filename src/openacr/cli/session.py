@@ -9,7 +9,14 @@ from pathlib import Path
 from openacr.cli import card_view, output
 from openacr.cli.machine import Machine, MachineWorld
 from openacr.cli.progress import Bar, bar_for
-from openacr.cli.report import Report, report_on, show_report, show_verdicts, summary
+from openacr.cli.report import (
+    Report,
+    report_on,
+    show_failures,
+    show_report,
+    show_verdicts,
+    summary,
+)
 from openacr.compiled import is_compiled
 from openacr.scenario import Condition, Play, Scenario
 
@@ -94,6 +101,8 @@ class Session:
     def _prepare(self) -> None:
         """Connect what listens to the card and records it."""
         self._machine.listen(self._hear, self._play.heard)
+        if not self._has_scenario:
+            self._start()
         lived_tk = self._end_tk - self._begin_tk
         if self._options.trace:
             every_tk = self._options.trace_every_tk or -(-lived_tk // TRACE_SAMPLES)
@@ -101,6 +110,15 @@ class Session:
         elif self._options.plot:
             every_tk = -(-lived_tk // PLOT_SAMPLES)
             self._machine.record(every_tk, keep_peaks=every_tk > 1)
+
+    def _start(self) -> None:
+        """Start the programs if nothing else will: nothing runs and nobody is to type RUN."""
+        memory = self._machine.memory
+        stored = [p for p in card_view.PROGRAMS if card_view.has_program(memory, p)]
+        if stored and not card_view.running_programs(memory):
+            names = ", ".join(f"PROG{program}" for program in stored)
+            self._note(f"no program starts by itself: starting {names} as RUN ALL does")
+            self._machine.start_all()
 
     def _hear(self, text: str) -> None:
         self._play.heard(text)
@@ -219,6 +237,7 @@ class Session:
             sys.stdout.write(output.summary_text(summary(report)))
         elif not self._options.is_quiet:
             show_report(report, Console())
+        show_failures(report, Console(stderr=True))
         show_verdicts(report, Console(stderr=True))
         for moment in self._play.idle_actions:
             self._note(f"an action of the scenario never came: {moment}")
