@@ -81,6 +81,23 @@ def test_a_pause_of_50_ms_drops_an_incomplete_packet(axes: Host) -> None:
     assert axes.send("?P4097\r") == "?P4097|5|P00>"
 
 
+@pytest.mark.req("BIN-006")
+@pytest.mark.parametrize("time_ms", [5, 200])
+def test_the_longest_gap_is_a_parameter_of_the_channel(axes: Host, time_ms: int) -> None:
+    axes.type("P7012=" + str(time_ms))
+    serial, network = Host(axes.card, StreamKind.SERIAL), Host(axes.card)
+    for gap_ms, taken in ((time_ms - 1, True), (time_ms + 1, False)):
+        serial.raw(bytes.fromhex("1C 20"))
+        axes.card.advance(2 * gap_ms)
+        serial.raw(bytes.fromhex("23 40"))
+        assert axes.card.bit[32] is taken
+        axes.card.bit[32] = False
+    network.raw(bytes.fromhex("1C 20"))
+    axes.card.advance(80)
+    network.raw(bytes.fromhex("00"))
+    assert axes.card.bit[32]
+
+
 def test_a_flag_set_by_a_packet_starts_a_home_search(axes: Host) -> None:
     number = 17160
     axes.raw(b"\x1c" + struct.pack("<H", number))

@@ -267,7 +267,7 @@ class Controller:
 
     def open_stream(self, kind: StreamKind, name: str | None = None) -> int:
         """A stream for a new connection; NoFreeStreamError when all (or that one) are taken."""
-        stream = self.streams.open(kind, self.period_s, name)
+        stream = self.streams.open(kind, name)
         self._note(Entered.OPEN, stream, text=kind.value, name=name or "")
         return stream
 

@@ -3,12 +3,27 @@
 from collections.abc import Sequence
 
 from openacr.errors import CardError
-from openacr.map.numbers import MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
+from openacr.map.numbers import (
+    MA_FEEDRATE_OVERRIDE,
+    MA_RAPID_FEEDRATE_OVERRIDE,
+    P_COM1_COMMUNICATION_TIMEOUT,
+    P_COM2_COMMUNICATION_TIMEOUT,
+    P_DPCB_COMMUNICATION_TIMEOUT,
+    P_FIFO_COMMUNICATION_TIMEOUT,
+)
 from openacr.messages import NOT_SUPPORTED
 from openacr.motion.card import Card
 from openacr.motion.rows import master_parameter
 from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.move import Move
+
+TIMEOUT_MS = 50  # of channels without a parameter for it
+_TIMEOUTS = {
+    "FIFO": P_FIFO_COMMUNICATION_TIMEOUT,
+    "COM1": P_COM1_COMMUNICATION_TIMEOUT,
+    "COM2": P_COM2_COMMUNICATION_TIMEOUT,
+    "DPCB": P_DPCB_COMMUNICATION_TIMEOUT,
+}
 
 
 class PacketHost:
@@ -24,6 +39,12 @@ class PacketHost:
         self.write_words = self._space.write_words
         self.parameter_address = self._space.parameter_address
         self.variable_address = self._space.variable_address
+
+    def timeout_tk(self, channel: str) -> int:
+        """The longest gap between the bytes of a packet on a channel, in ticks."""
+        row = _TIMEOUTS.get(channel)
+        time_ms = TIMEOUT_MS if row is None else self._card.memory.I[row]
+        return max(1, round(time_ms / 1000 / self._card.period_s))
 
     def override(self, masters: Sequence[int], value: float, *, rapid: bool) -> None:
         """Set FOV, or ROV if `rapid`, of these masters; negative values count as 0."""

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from openacr.basic import session as sessions
 from openacr.basic.session import Session
+from openacr.controller.packets import PacketHost
 from openacr.protocol.escape import BinaryMode
-from openacr.protocol.execute import Host, execute
+from openacr.protocol.execute import execute
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import (
     NEED_DATA,
@@ -24,7 +25,6 @@ from openacr.protocol.terminal import (
     Typed,
 )
 
-TIMEOUT_S = 0.05  # between the bytes of a packet
 _NAMES = {
     StreamKind.TERMINAL: ("STREAM2", "STREAM3", "STREAM4", "STREAM5"),
     StreamKind.SERIAL: ("COM1", "COM2"),
@@ -48,7 +48,7 @@ class Streams:
     def __init__(
         self,
         sessions: dict[str, Session],
-        host: Host,
+        host: PacketHost,
         press: Callable[[ControlKey], None],
     ) -> None:
         self._sessions = sessions
@@ -57,16 +57,15 @@ class Streams:
         self._open: dict[int, Stream] = {}
         self._next = 1
 
-    def open(self, kind: StreamKind, period_s: float, name: str | None = None) -> int:
+    def open(self, kind: StreamKind, name: str | None = None) -> int:
         """A stream for a new connection; NoFreeStreamError when all are taken."""
         session = None
         if kind is not StreamKind.PACKETS:
             session = self._free(kind, name)
             session.connect()
             session.mode = int(kind.startup_mode)
-        terminal = Terminal(kind, timeout_tk=max(1, round(TIMEOUT_S / period_s)))
         number, self._next = self._next, self._next + 1
-        self._open[number] = Stream(terminal, session)
+        self._open[number] = Stream(Terminal(kind, timeout_tk=1), session)
         self._settle(self._open[number])
         return number
 
@@ -87,6 +86,8 @@ class Streams:
         """Bytes that arrived together at `tick`."""
         stream = self._open[number]
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
+        name = stream.session.name if stream.session else ""
+        stream.terminal.timeout_tk = self._host.timeout_tk(name)
         stream.terminal.receive_data(data, tick)
         self._pump(stream)
 
