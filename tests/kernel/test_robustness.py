@@ -34,7 +34,7 @@ motor = { inertia_kgm2 = 2e-5, torque_nm_per_a = 0.5 }
 drive = { mode = "torque", amps_per_volt = 1.0, peak_amps = 20.0, fault_input = 20 }
 """
 LONGS = (0, 1, -1, 2, 31, 255, 4096, -(2**31), 2**31 - 1, 0x7FC00000, 123456789)
-REALS = (0.0, -0.0, 1.0, -1.0, 1e-45, 1e-3, 1e9, -1e9, 3.4e38, -3.4e38)
+REALS: tuple[float, ...] = (0.0, -0.0, 1.0, -1.0, 1e-45, 1e-3, 1e9, -1e9, 3.4e38, -3.4e38)
 REALS += (math.nan, math.inf, -math.inf)
 FIRST_OBJECT, LAST = 4096, 40959
 

@@ -1,0 +1,60 @@
+"""The same life on the compiled and the pure core, and from any snapshot, ends the same."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.parity.journeys import JOURNEYS, card, live, random_split, take
+
+from openacr import compiled
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.skipif(not compiled.is_compiled, reason="needs both builds")
+@pytest.mark.parametrize("name", JOURNEYS)
+def test_both_builds_live_the_same_life(name: str) -> None:
+    path = os.pathsep.join((str(ROOT / "src"), str(ROOT)))
+    pure = subprocess.run(
+        [sys.executable, "-m", "tests.parity.journeys", name],
+        env=os.environ | {"OPENACR_PURE": "1", "PYTHONPATH": path},
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert pure.stdout.split() == list(live(name))
+
+
+@pytest.mark.parametrize("name", JOURNEYS)
+def test_a_life_repeats_itself(name: str) -> None:
+    first = list(live(name))
+    assert first == list(live(name))
+    assert len(set(first)) == len(first)  # every step has an effect
+
+
+@pytest.mark.parametrize("name", JOURNEYS)
+def test_a_life_continued_from_a_snapshot_ends_the_same(name: str) -> None:
+    """At random ticks the card returns to a snapshot, after having gone astray."""
+    expected = list(live(name))
+    made = card()
+    for number, step in enumerate(JOURNEYS[name]):
+        for piece in random_split(step, number) if isinstance(step, int) else [step]:
+            snapshot = made.snapshot()
+            made.set_input(7, True)
+            made.advance(13 + number)
+            made.restore(snapshot)
+            take(made, piece)
+        assert made.digest() == expected[number], step
+
+
+def test_ticks_in_pieces_are_the_same_ticks() -> None:
+    whole, pieces = card(), card()
+    for made in (whole, pieces):
+        take(made, "X0.2 Y0.1")
+    whole.advance(300)
+    for piece in random_split(300, 3):
+        pieces.advance(piece)
+    assert whole.digest() == pieces.digest()
