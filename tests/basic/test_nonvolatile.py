@@ -1,0 +1,164 @@
+"""What is saved: the list of parameters, user memory as text, Intel-HEX."""
+
+from pathlib import Path
+
+import msgspec
+import pytest
+from tests.basic.machine import Machine
+
+from openacr.basic import registry, saved, user_memory
+from openacr.basic.commands.nonvolatile import hex_records
+from openacr.basic.user_memory import UserMemory
+from openacr.controller import Controller
+from openacr.map import numbers as at
+from openacr.models import ACR8020, ACR9000
+from openacr.project import find_project
+
+EXAMPLES = sorted(path for path in Path("examples").iterdir() if path.is_dir())
+SETTINGS = (
+    "PROG 1", "ATTACH MASTER2", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE3 AXIS5 "Y"',
+    "PPU X1000.5", "ACC 55.25", "VEL 0.1", "VECDEF Y0", "NOTCH X(100,20)", "LOPASS Y300",
+    "HLIM X3", "SLIM Y2", "MAXVEL X7", "DAC3 GAIN 7", "ADC2 OFFSET -1", "AXIS7 OFF",
+    "EXC X(1,-2)", "ATTACH AXIS6 STEPPER3 STEPPER3", "P32768=9", "P33040=3", "PERIOD 0.001",
+    'IP GATE "10.0.0.9"', "MULT X-4", "JOG HOMVF Y3", "HLBIT Y7", "ADC MAX 3",
+)  # fmt: skip
+
+
+def test_every_command_whose_value_is_kept_is_in_the_list_of_esave() -> None:
+    rows = {row.name for row in registry.commands() if row.saved}
+    kept = [each.words for each in saved.all_saved()]
+    assert len(set(kept)) == len(kept)
+    assert rows - set(kept) == set(saved.SAME_VALUE)
+    assert set(kept) - rows == {"CANopen"}
+    assert set(saved.SAME_VALUE.values()) <= set(kept)
+
+
+def test_saved_parameters_make_the_same_card() -> None:
+    first, second = Machine(ACR8020), Machine(ACR8020)
+    assert "|" not in first.type(*SETTINGS)
+    image = saved.take(first.system)
+    assert saved.put(second.system, _through_bytes(image)) == []
+    assert saved.take(second.system) == image
+    assert image != saved.take(Machine(ACR8020).system)
+    for view in ("F", "I"):  # settings, filters, flags: all but the clock of the channels
+        mine, other = getattr(first.card.memory, view), getattr(second.card.memory, view)
+        first_row = {"F": at.USER_BASE, "I": 12288}[view]
+        last_row = {"F": at.THF_BASE, "I": 40960}[view]
+        assert mine[first_row:last_row].tolist() == other[first_row:last_row].tolist()
+
+
+def _through_bytes(image: dict[str, object]) -> dict[str, object]:
+    return msgspec.msgpack.decode(msgspec.msgpack.encode(image), type=dict[str, object])
+
+
+def test_parameters_of_a_larger_card_are_taken_as_far_as_they_fit() -> None:
+    large, small = Machine(ACR8020), Machine(ACR9000)
+    large.type("AXIS12 PPU 7", "AXIS3 PPU 5", "PROG 1", "ATTACH MASTER12")
+    refused = saved.put(small.system, saved.take(large.system))
+    assert refused == ["ATTACH MASTER #: Invalid argument"]
+    assert small.type("AXIS3 PPU") == "5|SYS>"
+
+
+def test_nonsense_in_place_of_a_value_is_named_and_left_out() -> None:
+    card = Machine()
+    image = saved.take(card.system) | {"PGAIN": [["high"]], "HLIM": 3, "IP": {"IP": "1.2.3"}}
+    assert [line.split(":")[0] for line in saved.put(card.system, image)] == ["PGAIN", "HLIM", "IP"]
+    assert saved.put(card.system, {"NO SUCH": 1}) == []
+
+
+# user memory
+
+
+TEXT = (
+    "_start", 'PRINT "a ""b"" \xe9" : X10', "x10 jog abs X(Count+1)", "GOTO start",
+    "rem hello ' there", "IF (Count = &HFF) THEN SET Lamp", "P2=1e-3-.5:P3=&B101",
+)  # fmt: skip
+
+
+def card_with_everything() -> Machine:
+    card = Machine(ACR8020)
+    card.type("DIM P(10)", "DIM DEF(3)", "#DEFINE Count P1", "#DEFINE Lamp BIT 32", "DIM COM1(999)")
+    card.type("Count=5.5", "P38912=9", "P39200=1.5", 'PASSWORD ON "s"', "PROG 1", "ATTACH MASTER0")
+    card.type('ATTACH SLAVE0 AXIS0 "X"', "DIM LV(3)", "DIM DA(2)", "DIM DA1(4)", "DIM SA(1)")
+    card.type("DIM $V(2,10)", "DIM $A(2)", "DIM $A1(2,4)", '$V1="h\xe9llo"', '$A1(0)="abc"')
+    card.type("LV2=7", "DA1(3)=1.25", "DIM MBUF(3)")
+    card.load(1, *TEXT)
+    card.type("PROG 2", "10 PRINT 1:PRINT    2", "20   REM", "30 _label PRINT 2")
+    return card
+
+
+def test_user_memory_comes_back_as_it_was() -> None:
+    first, second = card_with_everything(), Machine(ACR8020)
+    image = user_memory.take(first.system, values=True)
+    encoded = msgspec.msgpack.encode(image)
+    assert user_memory.put(second.system, msgspec.msgpack.decode(encoded, type=UserMemory)) == []
+    assert user_memory.take(second.system, values=True) == image
+    assert _lines(first) == _lines(second)
+    for program in ("SYS", "PROG 1", "PROG 2"):
+        for line in (program, "DIM", "DEF", "MEM", "?Count;P38912;P39200"):
+            assert second.type(line) == first.type(line)
+    assert second.type("PROG 1", "?LV2;DA1(3);$V1;$A1(0)") == "P01>71.25h\xc3\xa9lloabc|P01>"
+
+
+def _lines(card: Machine) -> list[object]:
+    texts = card.system.programs.texts
+    return [(n, line.tree, line.cost_bytes) for text in texts for n, line in sorted(text.items())]
+
+
+def test_without_values_sizes_are_kept_and_everything_is_zero() -> None:
+    first, second = card_with_everything(), Machine(ACR8020)
+    user_memory.put(second.system, user_memory.take(first.system, values=False))
+    assert second.type("DIM") == first.type("SYS", "DIM").removeprefix("SYS>")
+    assert second.type("PROG 1", "?LV2;DA1(3);P1;$V1;$A1(0)") == "P01>000|P01>"
+
+
+def test_lines_that_cannot_be_read_any_more_are_named_and_left_out() -> None:
+    first, second = card_with_everything(), Machine(ACR8020)
+    first.type("SYS", "DEF CLEAR")
+    refused = user_memory.put(second.system, user_memory.take(first.system, values=True))
+    assert [line.split(":")[0] for line in refused] == ["PROG1 line 40", "PROG1 line 70"]
+    assert "start" in second.type('PASSWORD OFF "s"', "PROG 1", "LIST")
+
+
+@pytest.mark.parametrize("folder", EXAMPLES, ids=lambda path: path.name)
+def test_every_example_survives(folder: Path) -> None:
+    first, _ = Controller.load(find_project(folder))
+    second = Controller(first.model)
+    image = user_memory.take(first.system, values=False)
+    assert user_memory.put(second.system, image) == []
+    for owner in first.system.owners():
+        pairs = zip(
+            first.system.programs.lines(owner), second.system.programs.lines(owner), strict=True
+        )
+        for before, after in pairs:
+            assert (before.number, before.tree) == (after.number, after.tree)
+
+
+# Intel-HEX
+
+
+def test_hex_records_as_a_programmer_reads_them() -> None:
+    assert list(hex_records(bytes(range(18)))) == [
+        ":10000000000102030405060708090A0B0C0D0E0F78",
+        ":020010001011CD",
+        ":00000001FF",
+    ]
+    assert list(hex_records(bytes(65536)))[-2] == ":10FFF00000000000000000000000000000000000" + "01"
+
+
+@pytest.mark.parametrize(
+    ("line", "answer"),
+    [
+        ("ESAVE", "P01>"),
+        ("ELOAD", "Not valid at this level|P01>"),
+        ("ERASE", "Not valid at this level|P01>"),
+        ("FLASH SAVE", "Not valid at this level|P01>"),
+        ("BRESET", "Not valid at this level|P01>"),
+        ("PROM 0", "Not valid at this level|P01>"),
+        ("FIRMWARE BACKUP", "Not valid at this level|P01>"),
+    ],
+)
+def test_all_but_esave_belong_to_the_system_level(line: str, answer: str) -> None:
+    card = Controller()
+    card.send("PROG1\r")
+    assert card.send(line + "\r").removeprefix(line + "\r\n").replace("\r\n", "|") == answer

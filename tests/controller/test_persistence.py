@@ -1,0 +1,463 @@
+"""What a card keeps without power, seen by a host: REBOOT, and power-up with a data folder."""
+
+import sqlite3
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from tests.controller.hosts import Host, connected, store
+
+from openacr.controller import Controller
+from openacr.errors import StoreError
+from openacr.project import find_project
+
+SETTINGS = (
+    "PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "PPU X1000", "PGAIN X0.01",
+    "ACC 123.456", "VEL 7", "JOG VEL X3.5", "EXC X(0.5,-0.25)", "HLIM X3", "SLM X(9,-1)",
+    "DAC1 GAIN 3000", "MULT X-4", "P32768=9", "P33024=3", "NOTCH X(100,20)", "VECDEF X0",
+)  # fmt: skip
+QUERIES = (
+    "?PPU X", "PGAIN X", "ACC", "VEL", "JOG VEL X", "EXC X", "HLIM X", "SLM X", "DAC1 GAIN",
+    "MULT X", "?P32768", "?P33024", "NOTCH X", "VECDEF X",
+)  # fmt: skip
+FACTORY_DEFAULT = (
+    "HALT ALL", "NEW ALL", "DETACH ALL", "CLEAR", "ERASE", "FLASH ERASE", "CONFIG CLEAR",
+    "CLEAR DPCB", "CLEAR FIFO", "CLEAR COM1", "CLEAR COM2", "BRESET",
+)  # fmt: skip
+BLINK = ("PBOOT", "_LOOP1", "BIT 32 = NOT BIT 32", "DWL 0.25", "GOTO LOOP1")
+
+PowerUp = Callable[..., Host]
+
+
+@pytest.fixture
+def power_up(tmp_path: Path) -> PowerUp:
+    """A host of a card on the data folder; the card before it is without power from now on."""
+    cards: list[Controller] = []
+
+    def switch(model: str = "ACR8020") -> Host:
+        if cards:
+            cards[-1].close()
+        cards.append(Controller(model, data=tmp_path))
+        return Host(cards[-1])
+
+    return switch
+
+
+def answers(host: Host) -> list[str]:
+    host.type("PROG0")
+    return [host.type(query) for query in QUERIES]
+
+
+def notices(host: Host) -> str:
+    return " ".join(host.card.nonvolatile.notices)
+
+
+# ESAVE, ELOAD, ERASE
+
+
+@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02")
+def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
+    host = connected(*SETTINGS)
+    before = answers(host)
+    attached = host.type("ATTACH")
+    host.type("ESAVE", "ACC 5", "REBOOT", "PROG0")
+    assert host.type("ATTACH") == attached
+    assert answers(host) == before
+    assert host.type("ACC") == "123.456|P00>"
+
+
+@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02")
+def test_without_esave_parameters_are_defaults_after_reboot() -> None:
+    host = connected(*SETTINGS, "SYS", 'IP "10.0.0.7"', "CONFIG NONE NONE NONE NONE")
+    host.type("REBOOT", "PROG0")
+    assert host.type("ATTACH") == "P00>"
+    assert host.asks("AXIS0 PPU", "AXIS0 PGAIN", "AXIS0 HLIM", "DAC1 GAIN", "?P32768") == [
+        "1", "0.002441406", "0", "3276.8", "5",
+    ]  # fmt: skip
+    assert host.type("SYS", "CONFIG", "IP").startswith(
+        "SYS>CONFIG ENC8 DAC4 DAC4 ADC8|SYS>IP 192.168.10.40|"
+    )
+
+
+@pytest.mark.req("ACR-CMD-ELOAD")
+def test_eload_brings_the_saved_parameters_back() -> None:
+    host = connected(*SETTINGS)
+    before = answers(host)
+    host.type("ESAVE", "PPU X1", "ACC 5", "MULT X1", "NOTCH X0", "DETACH", "SYS")
+    assert host.type("ELOAD") == "SYS>"
+    assert answers(host) == before
+
+
+def test_eload_is_refused_while_something_runs_or_moves() -> None:
+    host = connected(*SETTINGS, "DRIVE ON X", "ESAVE")
+    host.card.advance(100)
+    host.type("JOG FWD X", "SYS")
+    host.card.advance(100)
+    assert host.type("ELOAD") == "Programs running|SYS>"
+    host.type("AXIS0 JOG OFF")
+    host.card.advance(10_000)
+    assert host.type("ELOAD") == "SYS>"
+    host.type("PROG1", "10 DWL 100", "RUN", "SYS")
+    assert host.type("ELOAD") == "Programs running|SYS>"
+    assert host.type("FLASH SAVE", "FLASH ERASE") == "Programs running|SYS>" * 2
+
+
+@pytest.mark.req("ACR-CMD-ERASE")
+def test_after_erase_the_next_boot_uses_defaults_but_stream_modes_stay() -> None:
+    host = connected(*SETTINGS, "P7013=128", "ESAVE", "SYS", "ERASE")
+    assert host.ask("AXIS0 PPU") == "1000"
+    host.type("REBOOT")
+    assert host.asks("AXIS0 PPU", "?P32768", "?P7013") == ["1", "5", "128"]
+    assert host.type("ELOAD") == "SYS>"
+
+
+def test_a_program_can_save() -> None:
+    host = connected("PROG0", "ATTACH MASTER0")
+    store(host, "ACC 55", "ESAVE")
+    host.type("RUN")
+    host.card.advance(100)
+    host.type("REBOOT", "PROG0")
+    assert host.ask("ACC") == "55"
+
+
+def test_the_servo_period_is_saved() -> None:
+    host = connected("PERIOD 0.001", "ESAVE", "REBOOT")
+    assert host.ask("PERIOD") == "0.001"
+    assert host.card.period_s == 0.001
+
+
+@pytest.mark.req("ACR-IP-02")
+def test_a_saved_address_is_used_after_reboot(power_up: PowerUp) -> None:
+    host = power_up("ACR9000")
+    host.type('IP "10.0.3.7"', 'IP MASK "255.0.0.0"', "ESAVE", "REBOOT")
+    assert host.type("IP") == "IP 10.0.3.7|MASK 255.0.0.0|GATE 0.0.0.0|SYS>"
+    assert power_up("ACR9000").type("IP").startswith("IP 10.0.3.7|")
+
+
+@pytest.mark.req("ACR-OUTMOD-01")
+@pytest.mark.parametrize("model", ["ACR9000", "ACR8020"])
+def test_a_stepper_card_stays_one(model: str) -> None:
+    lines = ["CONFIG NONE STEPPER4 STEPPER4 NONE"]
+    lines += [f"ATTACH AXIS{n} STEPPER{n} STEPPER{n}" for n in range(8)]
+    host = connected(*lines, "ESAVE", "REBOOT", model=model)
+    assert host.type("CONFIG") == "CONFIG NONE STEPPER4 STEPPER4 NONE|SYS>"
+    attached = host.type("ATTACH").split("|")[:8]
+    assert attached == [f"ATTACH AXIS{n} STEPPER{n} STEPPER{n} STEPPER{n}" for n in range(8)]
+
+
+# FLASH
+
+
+@pytest.mark.req("ACR-CMD-FLASH")
+@pytest.mark.parametrize("model", ["ACR9000", "ACR8020"])
+def test_flash_image_restores_programs_and_variables_at_reboot(model: str) -> None:
+    host = connected("DIM P(10)", "DIM DEF(2)", "#DEFINE Count P1", "PROG0", model=model)
+    store(host, "DIM LV(2)", "Count = Count + 1", "LV1 = 7")
+    host.type("RUN")
+    host.card.advance(100)
+    listing = host.type("LIST")
+    host.type("SYS", "FLASH IMAGE", "PROG0", "NEW", "SYS", "P1 = 99", "REBOOT", "PROG0")
+    assert host.type("LIST") == listing
+    assert host.ask("?Count;LV1") == "17"
+
+
+@pytest.mark.req("ACR-CMD-FLASH")
+def test_flash_save_keeps_programs_and_sizes_and_no_values() -> None:
+    host = connected("DIM P(10)", "DIM PLC1(1000)", "P1 = 5", "PROG0")
+    store(host, "PRINT 1")
+    host.type("SYS", "FLASH SAVE", "REBOOT")
+    assert host.type("DIM") == "DIM PLC1(1000)|DIM P(10)|SYS>"
+    assert host.ask("?P1") == "0"
+    assert host.type("PROG0", "LIST") == "P00>PROGRAM| PRINT 1|ENDP|P00>"
+
+
+def test_flash_save_leaves_the_variables_of_a_battery_alone() -> None:
+    host = connected("DIM P(10)", "P1 = 5", "FLASH SAVE", "P1 = 6", "REBOOT", model="ACR8020")
+    assert host.ask("?P1") == "6"
+
+
+@pytest.mark.req("ACR-CMD-FLASH")
+def test_flash_load_erase_and_res() -> None:
+    host = connected("PROG0")
+    store(host, "PBOOT", "SET 40")
+    host.type("SYS", "FLASH SAVE", "NEW ALL", "FLASH LOAD", "PROG0")
+    assert host.type("LIST") == "PROGRAM| PBOOT| SET 40|ENDP|P00>"
+    host.card.advance(100)
+    assert not host.card.bit[40]
+    host.type("NEW", "SYS")
+    assert host.type("FLASH RES") == "SYS>"
+    host.card.advance(100)
+    assert host.card.bit[40]
+    host.type("HALT ALL", "FLASH ERASE", "FLASH LOAD", "PROG0")
+    assert host.type("LIST") == "PROGRAM| PBOOT| SET 40|ENDP|P00>"
+    host.type("REBOOT", "PROG0")
+    assert host.type("LIST") == "P00>"
+    assert host.type("SYS", "FLASH", "FLASH 1") == "SYS>" + "Syntax error|SYS>" * 2
+
+
+def test_a_program_comes_back_that_names_axes_nobody_has_attached_yet() -> None:
+    host = connected("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS2 "ROLL"')
+    store(host, 'ATTACH SLAVE0 AXIS2 "ROLL"', "ROLL 5 JOG VEL ROLL (2 * 3)", "IF (1) THEN ROLL/1")
+    listing = host.type("LIST")
+    host.type("SYS", "FLASH SAVE", "REBOOT", "PROG0")
+    assert host.type("ATTACH") == "P00>"
+    assert host.type("LIST") == listing
+    assert notices(host) == ""
+
+
+# start-up programs
+
+
+@pytest.mark.req("ACR-PBOOT-01", "ACR-PBOOT-05")
+def test_the_blinking_light_blinks_after_reboot_and_after_power_up(power_up: PowerUp) -> None:
+    host = power_up("ACR9000")
+    host.type("PROG0")
+    store(host, *BLINK)
+    host.type("SYS", "FLASH SAVE", "REBOOT")
+    assert _changes(host) == 4
+    host = power_up("ACR9000")
+    assert _changes(host) == 4
+
+
+def _changes(host: Host) -> int:
+    """How often output 32 changes in a second, not counting the first time."""
+    host.card.advance(seconds=0.1)
+    states = [host.card.bit[32]]
+    for _ in range(100):
+        host.card.advance(seconds=0.01)
+        states.append(host.card.bit[32])
+    return sum(a != b for a, b in pairwise(states))
+
+
+# reset
+
+
+@pytest.mark.req("ACR-CMD-REBOOT", "ACR-RST-01")
+def test_reboot_drops_outputs_programs_and_connections() -> None:
+    host = connected("PROG0", model="ACR8020")
+    store(host, "SET 33", "DWL 100")
+    host.type("RUN", "ECHO 3")
+    host.card.advance(100)
+    assert host.card.bit[33]
+    host.type("REBOOT")
+    assert not host.card.bit[33]
+    assert not host.card.system.control.is_running(0)
+    assert host.card.tick == 0
+    assert host.type("PROG0", "ECHO", "LIST") == "P00>1|P00>PROGRAM| SET 33| DWL 100|ENDP|P00>"
+
+
+@pytest.mark.req("ACR-RST-03", "ACR-RST-04")
+def test_the_factory_default_sequence(power_up: PowerUp) -> None:
+    fresh = _factory_state(connected(model="ACR8020"))
+    host = power_up()
+    host.type("DIM P(10)", "DIM DEF(3)", "DIM COM1(1000)", "DIM PROG8(9000)", "CONFIG CLEAR")
+    host.type("CONFIG ENC4 NONE NONE NONE", "#DEFINE Count P1", 'IP "10.0.0.1"', *SETTINGS)
+    store(host, "PBOOT", "DWL 1000")
+    host.type("RUN", "ESAVE", "HALT", "SYS", "FLASH IMAGE")
+    assert _factory_state(host) != fresh
+    host.type("SYS")
+    assert [host.type(line) for line in FACTORY_DEFAULT] == ["SYS>"] * len(FACTORY_DEFAULT)
+    assert host.type("REBOOT") == "SYS>"
+    assert _factory_state(host) == fresh
+    assert _factory_state(power_up()) == fresh
+
+
+def _factory_state(host: Host) -> list[str]:
+    found = [host.type("SYS")]
+    found += [host.type(line) for line in ("CONFIG", "DIM", "DEF", "ATTACH", "IP", "MEM")]
+    for axis in range(8):
+        found += host.asks(f"AXIS{axis} PPU", f"AXIS{axis} PGAIN", f"AXIS{axis} JOG VEL")
+    found += host.asks("MASTER0 ACC", "MASTER0 VEL", "MASTER0 JRK", "?P32768", "DAC1 GAIN")
+    return found + [host.type(f"PROG{n}", "ATTACH", "LIST") for n in range(16)]
+
+
+@pytest.mark.req("ACR-RST-05")
+def test_what_a_card_does_not_have_is_refused() -> None:
+    host = connected()
+    assert host.type("CLEAR DPCB", "CLEAR FIFO") == "Invalid device|SYS>" * 2
+
+
+# battery
+
+
+@pytest.mark.req("ACR-CMD-REBOOT")
+def test_a_battery_keeps_what_was_typed_through_a_power_cut(
+    power_up: PowerUp, tmp_path: Path
+) -> None:
+    host = power_up()
+    host.type("DIM P(10)", "DIM DEF(2)", "#DEFINE Count P1", "CONFIG ENC4 NONE NONE NONE")
+    host.type("DIM PLC0(1000)", 'PASSWORD ON "x"', 'PASSWORD OFF "x"', "PROG0")
+    host.type("10 PRINT Count", "20 DWL 1", "30 GOTO 10", "20", "DIM DA(2)", "DIM DA1(3)")
+    host.type("DIM $V(1,10)", '$V0 = "text"', "Count = 5.5", "DA1(2) = 1.25", "P38912 = 4")
+    host.card.advance(seconds=1.1)
+    again = Host(Controller("ACR8020", data=_copied(tmp_path)))
+    assert again.type("PROG0", "LIST") == "P00>10 PRINT Count|30 GOTO 10|P00>"
+    assert again.ask("?Count;DA1(2);$V0;P38912") == "5.51.25text4"
+    assert again.type("SYS", "CONFIG", "PASSWORD") == (
+        "SYS>CONFIG ENC4 NONE NONE NONE|SYS>OFF|SYS>"
+    )
+    assert again.type("DIM") == host.type("SYS", "DIM").removeprefix("SYS>")
+    assert again.type("MEM PROG0") == host.type("MEM PROG0")
+
+
+def _copied(folder: Path) -> Path:
+    """The data folder as a power cut leaves it."""
+    copy = folder / "copy"
+    copy.mkdir()
+    for path in folder.glob("card.db*"):
+        (copy / path.name).write_bytes(path.read_bytes())
+    return copy
+
+
+def test_a_clean_end_keeps_the_last_values(power_up: PowerUp) -> None:
+    host = power_up()
+    host.type("DIM P(10)", "P1 = 5")
+    assert power_up().ask("?P1") == "5"
+
+
+def test_a_card_without_battery_forgets(power_up: PowerUp) -> None:
+    host = power_up("ACR9000")
+    host.type("DIM P(10)", "P38912 = 1", "PROG0", "10 PRINT 1", "REBOOT")
+    assert host.type("DIM", "?P38912", "PROG0", "LIST") == "SYS>0|SYS>P00>P00>"
+    assert power_up("ACR9000").type("DIM", "PROG0", "LIST") == "SYS>P00>P00>"
+
+
+@pytest.mark.req("ACR-CMD-BRESET", "ACR-MEM-04")
+def test_breset_takes_the_battery_away_until_power_is_removed(power_up: PowerUp) -> None:
+    host = power_up()
+    host.type("DIM P(10)", "DIM PROG8(5000)", "PROG0", "10 PRINT 1", "SYS")
+    assert host.type("BRESET") == "SYS>"
+    assert host.type("DIM") == "DIM PROG8(5000)|DIM P(10)|SYS>"
+    assert host.type("REBOOT", "DIM", "PROG0", "LIST") == "SYS>SYS>P00>P00>"
+    host.type("10 PRINT 2", "REBOOT", "PROG0")
+    assert host.type("LIST") == "P00>"
+    host.type("10 PRINT 3")
+    host = power_up()
+    assert host.type("PROG0", "LIST") == "P00>P00>"
+    host.type("10 PRINT 4", "REBOOT", "PROG0")
+    assert host.type("LIST") == "10 PRINT 4|P00>"
+    assert power_up().type("PROG0", "LIST") == "P00>10 PRINT 4|P00>"
+
+
+# FIRMWARE and PROM
+
+
+@pytest.mark.req("ACR-CMD-FIRMWARE")
+def test_firmware_checksums_and_flags() -> None:
+    host = connected("FIRMWARE CHECKSUM")
+    assert _flags(host) == [False, False, True, True, False]
+    assert host.ask("?P7104") == host.ask("?P7042") == "11806"
+    assert host.ask("?P7105") != "0"
+    assert host.asks("?P7112", "?P7113", "?P7117") == ["0", "0", "0"]
+    host.type("FIRMWARE BACKUP", "FLASH SAVE", "FIRMWARE CHECKSUM")
+    assert _flags(host) == [False, False, False, False, True]
+    assert host.ask("?P7113") == host.ask("?P7109") != "0"
+    first = host.ask("?P7117")
+    host.type("DIM P(5)", "FLASH SAVE", "FIRMWARE CHECKSUM")
+    assert host.ask("?P7117") != first != "0"
+    assert host.type("FIRMWARE UPGRADE", "FIRMWARE LOAD") == "Not supported|SYS>" * 2
+
+
+def _flags(host: Host) -> list[bool]:
+    return [host.card.bit[number] for number in range(5656, 5661)]
+
+
+@pytest.mark.req("ACR-CMD-PROM")
+def test_prom_prints_records_whose_sums_are_right() -> None:
+    host = connected("PROG0", "10 PRINT 12345", "SYS")
+    *records, end, prompt = host.type("PROM 0").split("|")
+    assert (end, prompt) == (":00000001FF", "SYS>")
+    image = b""
+    for record in records:
+        content = bytes.fromhex(record.removeprefix(":"))
+        assert sum(content) % 256 == 0
+        assert (len(content) - 5, content[1:3], content[3]) == (
+            content[0], len(image).to_bytes(2, "big"), 0,
+        )  # fmt: skip
+        image += content[4:-1]
+    assert b"PRINT 12345" in image
+    assert host.type("PROM 1") == ":00000001FF|SYS>"
+    assert host.type("PROM 16") == "Invalid argument|SYS>"
+    host.type('PASSWORD ON "x"')
+    assert host.type("PROM 0") == "Program is protected|SYS>"
+
+
+# damage
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("parameters", "the stored parameters in"),
+        ("flash", "the stored flash in"),
+        ("battery", "battery-backed memory is lost: the card starts with defaults"),
+        ("battery text 0", "battery-backed memory is lost: the card starts with defaults"),
+    ],
+)
+def test_a_damaged_image_gives_defaults_and_is_named(
+    power_up: PowerUp, tmp_path: Path, name: str, said: str
+) -> None:
+    host = power_up()
+    host.type(*SETTINGS, "ESAVE", "10 PRINT 1", "SYS", "DIM P(10)")
+    if name == "flash":
+        host.type("FLASH SAVE")
+    host.card.close()
+    with sqlite3.connect(tmp_path / "card.db") as file:
+        file.execute("UPDATE image SET data = zeroblob(20) WHERE name = ?", (name,))
+    file.close()
+    host = power_up()
+    assert said in notices(host)
+    assert (host.ask("AXIS0 PPU") == "1") == (name == "parameters")
+    is_lost = name.startswith("battery")
+    assert host.type("PROG0", "LIST") == ("P00>P00>" if is_lost else "P00>10 PRINT 1|P00>")
+    host.type("SYS", "DIM P(20)" if is_lost else "SYS", "ESAVE", "FLASH SAVE")
+    assert notices(power_up()) == ""
+
+
+def test_a_file_that_is_no_database_does_not_keep_the_card_from_starting(
+    power_up: PowerUp, tmp_path: Path
+) -> None:
+    (tmp_path / "card.db").write_bytes(b"nonsense" * 1000)
+    host = power_up()
+    assert "card.db.damaged1" in notices(host)
+    assert host.type("DIM P(10)", "ESAVE") == "SYS>SYS>"
+    assert power_up().type("DIM") == "DIM P(10)|SYS>"
+
+
+def test_data_of_another_model_is_refused(power_up: PowerUp, tmp_path: Path) -> None:
+    power_up("ACR8020").card.close()
+    with pytest.raises(StoreError, match="belongs to an ACR8020, the card is an ACR9000"):
+        Controller("ACR9000", data=tmp_path)
+    assert Controller("ACR8020", data=tmp_path).nonvolatile.notices == []
+
+
+def test_a_full_disk_is_an_error_of_the_command(
+    power_up: PowerUp, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    host = power_up("ACR9000")
+
+    def fail(changes: object, *, flush: bool = True) -> None:
+        raise StoreError("no space left")
+
+    monkeypatch.setattr(host.card.nonvolatile.images, "write", fail)
+    assert host.type("ESAVE") == "Save failed|SYS>"
+    assert "no space left" in notices(host)
+
+
+# projects
+
+
+def test_a_card_with_programs_keeps_them_when_a_project_is_loaded(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text("PROG0\nPROGRAM\nPRINT 1\nENDP\nSYS\nFLASH SAVE\n")
+    project = find_project(tmp_path)
+    first, errors = Controller.load(project, data=tmp_path / "data")
+    assert (errors, first.nonvolatile.notices) == ([], [])
+    host = Host(first)
+    host.type("PROG0", "NEW", "10 PRINT 2", "SYS", "FLASH SAVE")
+    first.close()
+    second, errors = Controller.load(project, data=tmp_path / "data")
+    assert errors == []
+    assert "keeps them" in " ".join(second.nonvolatile.notices)
+    assert Host(second).type("PROG0", "LIST") == "P00>10 PRINT 2|P00>"
+    second.close()
