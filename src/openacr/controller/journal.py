@@ -27,6 +27,7 @@ from base64 import b64decode, b64encode
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from io import FileIO
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -150,11 +151,7 @@ class Recorder:
             project,
             fingerprint,
         )
-        try:
-            self._file = path.open("wb", buffering=0)
-            self._file.write(MAGIC + msgspec.json.encode(header) + b"\n")
-        except OSError as failure:
-            raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
+        self._file = _begun(path, MAGIC + msgspec.json.encode(header) + b"\n")
 
     def note(self, entry: JournalEntry) -> None:
         """Write one entry."""
@@ -177,6 +174,20 @@ class Recorder:
         card = self._card
         self.note(JournalEntry(card.lived_tk, Entered.END, text=card.digest()))
         self._file.close()
+
+
+def _begun(path: Path, head: bytes) -> FileIO:
+    """A new file that begins with these bytes; what is written to it is not held back."""
+    try:
+        file = path.open("wb", buffering=0)
+        try:
+            file.write(head)
+        except OSError:
+            file.close()
+            raise
+    except OSError as failure:
+        raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
+    return file
 
 
 class Ring:
