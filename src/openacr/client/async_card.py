@@ -1,7 +1,7 @@
 """One ACR card for asyncio programs: the same requests as `Card`, awaited."""
 
 from asyncio import Lock
-from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from collections.abc import AsyncGenerator, Awaitable, Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -161,7 +161,7 @@ class AsyncCard:
 
     async def watch(
         self, whats: Iterable[What], every_s: float = 0.1
-    ) -> AsyncIterator[list[Number]]:
+    ) -> AsyncGenerator[list[Number], None]:
         """Read parameters again and again, for ever."""
         chosen = list(whats)
         while True:
@@ -178,7 +178,7 @@ class AsyncCard:
         """End a program, or all of them; their coordinated motion stops."""
         await self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
 
-    async def listen(self, program: int, *, run: bool = False) -> AsyncIterator[str]:
+    async def listen(self, program: int, *, run: bool = False) -> AsyncGenerator[str, None]:
         """What a program prints, as it comes; ends when the program does after `run`."""
         await self._do(self._talk.go(Level.program(program)))
         await self._do(self._talk.exchange(Follow("LRUN" if run else "LISTEN")))

@@ -1,6 +1,6 @@
 """One ACR card for ordinary, blocking programs."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from contextlib import suppress
 from pathlib import Path
 from threading import RLock
@@ -182,7 +182,9 @@ class Card:
             self.pause(every_s)
         return True
 
-    def watch(self, whats: Iterable[What], every_s: float = 0.1) -> Iterator[list[Number]]:
+    def watch(
+        self, whats: Iterable[What], every_s: float = 0.1
+    ) -> Generator[list[Number], None, None]:
         """Read parameters again and again, for ever."""
         chosen = list(whats)
         while True:
@@ -199,7 +201,7 @@ class Card:
         """End a program, or all of them; their coordinated motion stops."""
         self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
 
-    def listen(self, program: int, *, run: bool = False) -> Iterator[str]:
+    def listen(self, program: int, *, run: bool = False) -> Generator[str, None, None]:
         """What a program prints, as it comes; ends when the program does after `run`.
 
         Leave the loop to stop listening; the program runs on. The text is empty after

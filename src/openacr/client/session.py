@@ -44,7 +44,8 @@ ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))
 _PROMPT = rb"(SYS>|P\d\d>|PLC\d>)"
 _AT_LINE_START = re.compile(rb"(?:^|\n)" + _PROMPT + rb"\Z")
 _ANYWHERE = re.compile(_PROMPT + rb"\Z")
-_PERHAPS_PROMPT = re.compile(rb"(?:^|\n)(?:SY?|SYS|P\d{0,2}|PLC?|PLC\d)\Z")
+# The end of a text that may turn out to be a prompt or a line end.
+_UNFINISHED = re.compile(rb"(?:^|\n)(?:SY?|SYS|P\d{0,2}|PLC?|PLC\d)\Z|\r\Z")
 _CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f]")  # keys, line ends, headers of packets
 # Typographic characters of published text and what the card understands instead.
 _PLAIN = str.maketrans(
@@ -86,6 +87,17 @@ class Session:
     def received(self) -> bytes:
         """What has come back and is not understood yet."""
         return bytes(self._received)
+
+    @property
+    def is_fitting(self) -> bool:
+        """What has come back so far can be the beginning of the answer."""
+        if isinstance(self._request, Line) and self.echo & EchoMode.CHARACTERS:
+            expected = bytes_of(self._request.text) + CRLF
+        elif isinstance(self._request, Ask):
+            expected = encode_packet(self._request.packet.encode(), self.mode)
+        else:
+            return True
+        return self._received[: len(expected)] == expected[: len(self._received)]
 
     def forget(self) -> None:
         """Drop an unfinished request, as after a lost connection."""
@@ -249,8 +261,7 @@ class Session:
         prompt = _AT_LINE_START.search(text) if self.has_prompts else None
         if prompt is not None:
             return self._heard(prompt.start(1)) if prompt.start(1) else self._end(prompt[1])
-        is_open = self.has_prompts and not is_silent
-        held = _PERHAPS_PROMPT.search(text) if is_open else None
+        held = None if is_silent else _UNFINISHED.search(text)
         return self._heard(held.end() - len(held[0].lstrip(b"\n")) if held else len(text))
 
     def _heard(self, length: int) -> Event:

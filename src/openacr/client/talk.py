@@ -172,9 +172,9 @@ class Talk:
         return self.session.next_event()
 
     def _give_up(self, request: Request, wait_s: float) -> None:
-        received = self.session.received
+        received, is_fitting = self.session.received, self.session.is_fitting
         self.session.forget()
-        if received and not isinstance(request, Align):
+        if not is_fitting:
             raise GarbledError(self.name, str(request), received)
         raise NoReplyError(self.name, str(request), wait_s)
 
@@ -184,19 +184,23 @@ class Talk:
         """The next text of the followed program, empty if none came in time; None: it ended."""
         if not self.is_listening:
             return None
-        event = self.session.next_event()
-        if event is NEED_DATA:
-            try:
-                data = yield Receive(QUIET_S if self.session.received else wait_s)
-            except ConnectionLostError:
-                yield from self._drop()
-                raise
-            self.session.receive_data(data or b"")
-            event = self.session.next_event() if data else self.session.end_of_data()
+        try:
+            event = yield from self._next_heard(wait_s)
+        except ConnectionLostError:
+            yield from self._drop()
+            raise
         if isinstance(event, Answer):
             self._home, self._is_aligned = self.session.level, True
             return None
         return event.text if isinstance(event, Heard) else ""
+
+    def _next_heard(self, wait_s: float | None) -> Op[Event]:
+        while (event := self.session.next_event()) is NEED_DATA:
+            data = yield Receive(QUIET_S if self.session.received else wait_s)
+            if not data:
+                return self.session.end_of_data()
+            self.session.receive_data(data)
+        return event
 
     # --- connection -------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from openacr.basic.loader import FileLine, file_lines
 from openacr.basic.program_store import opens_capture
-from openacr.client.errors import DownloadError, RefusedError, VerificationError
+from openacr.client.errors import ClientError, DownloadError, RefusedError, VerificationError
 from openacr.client.listing import Stored, is_free_form, is_numbered, plain
 from openacr.client.requests import SYS, Level, Line
 from openacr.client.talk import Op, Talk, checked
@@ -87,17 +87,18 @@ class _Sender:
 
     def send(self, line: FileLine) -> Op[None]:
         """Send a line; DownloadError if the card refuses it."""
-        was_captured = self._captured is not None
         try:
             answer = yield from self.talk.exchange(Line(line.text))
             output = checked(line.text, answer.lines)
-            if was_captured and output:
+            if self._captured is not None and output:
                 raise RefusedError(line.text, output[-1])
         except RefusedError as refused:
-            raise (yield from self._failed(line, refused)) from None
+            raise (yield from self._failed(line, refused.text, refused.hint)) from None
         except UserError as unsendable:
-            refusal = RefusedError(line.text, str(unsendable))
-            raise (yield from self._failed(line, refusal)) from None
+            raise (yield from self._failed(line, str(unsendable))) from None
+        except ClientError:
+            yield from self._erase()
+            raise
         self.report.sent += 1
         self.report.remarks += [Remark(line.number, text) for text in output]
         self._note(line)
@@ -124,16 +125,23 @@ class _Sender:
         if self._captured is not None:
             yield from self.send(FileLine(self._last, "ENDP"))
 
-    def _failed(self, line: FileLine, refused: RefusedError) -> Op[DownloadError]:
-        """Leave nothing behind that could be run by mistake."""
-        hint = refused.hint
-        if self._captured is not None:
-            self._captured = None
-            level = self.talk.level
-            yield from self.talk.exchange(Line("ENDP"))
-            yield from self.talk.exchange(Line("NEW"))
-            hint = "; ".join(filter(None, (hint, f"{level} was erased: it was incomplete")))
-        return DownloadError(refused.text, path=self.path, line=line.number, hint=hint)
+    def _failed(self, line: FileLine, text: str, hint: str = "") -> Op[DownloadError]:
+        erased = yield from self._erase()
+        hint = "; ".join(filter(None, (hint, erased)))
+        return DownloadError(text, path=self.path, line=line.number, hint=hint)
+
+    def _erase(self) -> Op[str]:
+        """Leave no half of a program that could be run by mistake; what was done about it."""
+        if self._captured is None:
+            return ""
+        self._captured = None
+        level = self.talk.level
+        try:
+            yield from self.talk.order("SYS")  # ends the entry, also on a new connection
+            yield from self.talk.order("NEW", at=level)
+        except ClientError:
+            return f"{level} is incomplete now"
+        return f"{level} was erased: it was incomplete"
 
 
 def _verify(talk: Talk, report: Report, path: str) -> Op[None]:
