@@ -185,3 +185,20 @@ def test_list_shows_what_it_can_and_reports_the_rest(tmp_path: Path) -> None:
     assert result.exit_code == 1
     assert result.stdout.startswith("DIM P")
     assert "bad.8k:2:1: Unknown command" in result.stderr
+
+
+def test_lines_that_cannot_be_read_do_not_hide_what_else_is_wrong(tmp_path: Path) -> None:
+    text = "PROG0\nPROGRAM\n_here VELL 5\nGOTO here\nGOTO there\nFOR P0 = 1 TO 3\nENDP\n"
+    result = check(write(tmp_path, "bad.8k", text))
+    places = [line.split("bad.8k:")[1] for line in result.stdout.splitlines() if ".8k:" in line]
+    assert [place.split(" (")[0] for place in places] == [
+        "3:7: Syntax error",
+        "5:6: Label not found: there",
+        "6:1: FOR without NEXT",
+    ]
+
+
+def test_a_line_that_cannot_be_read_may_have_closed_a_level(tmp_path: Path) -> None:
+    text = "PROG0\nPROGRAM\nIF (P0)\nENDIF 5 Q\nENDP\n"
+    result = check(write(tmp_path, "bad.8k", text))
+    assert "1 error\n" in result.stderr

@@ -111,7 +111,13 @@ def test_lines_the_card_refuses_are_shown_with_file_and_line(tmp_path: Path) -> 
     path.write_text("DIM P(10)\nFOO\nPROG0\nBAR 5\n")
     result = run(path)
     assert result.exit_code == 2
-    assert result.stderr == f"error: {path}:2: Unknown command\nerror: {path}:4: Unknown command\n"
+    assert result.stderr.splitlines() == [
+        f"error: {path}:2: Unknown command",
+        "    FOO",
+        f"error: {path}:4: Unknown command",
+        "    BAR 5",
+        f"`openacr check {path}` shows more about each",
+    ]
 
 
 def test_a_scenario_drives_a_project(box: Path, tmp_path: Path) -> None:
@@ -190,7 +196,7 @@ def test_the_pure_form_of_the_core_ends_in_the_same_state(box: Path) -> None:
     assert digests[0] == digests[1]
 
 
-def test_an_interrupted_run_ends_quietly_and_leaves_no_files(tmp_path: Path) -> None:
+def test_an_interrupted_run_ends_with_130_and_what_there_is(tmp_path: Path) -> None:
     path = tmp_path / "loop.8k"
     path.write_text('PROG0\nPROGRAM\nPBOOT\nPRINT "on"\n_a\nDWL 0.01\nGOTO a\nENDP\n')
     process = subprocess.Popen(
@@ -208,7 +214,9 @@ def test_an_interrupted_run_ends_quietly_and_leaves_no_files(tmp_path: Path) -> 
     _, errors = process.communicate()
     assert process.returncode == 130
     assert b"Traceback" not in errors
-    assert [entry.name for entry in tmp_path.iterdir()] == ["loop.8k"]
+    assert b"note: interrupted after " in errors
+    assert json.loads((tmp_path / "s.json").read_text())["time_s"] < 1000000
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["loop.8k", "s.json", "t.csv"]
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full device")
@@ -225,3 +233,79 @@ def test_output_that_cannot_be_written_is_one_line(box: Path) -> None:
     assert done.stderr.splitlines()[-1] == (
         "error: output cannot be written: No space left on device"
     )
+
+
+def stored(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "stored.8k"
+    path.write_text(text)
+    return path
+
+
+HELLO = 'PROG0\nPROGRAM\nPRINT "zero"\nENDP\nPROG3\nPROGRAM\nPRINT "three"\nENDP\n'
+
+
+def test_without_pboot_and_scenario_every_program_is_started(tmp_path: Path) -> None:
+    result = run(stored(tmp_path, HELLO), "--for", "0.1")
+    assert sorted(result.stdout.splitlines()[:2]) == ["three", "zero"]
+    assert result.stderr == (
+        "note: no program starts by itself: starting PROG0, PROG3 as RUN ALL does\n"
+    )
+    quiet = run(stored(tmp_path, HELLO), "--for", "0.1", "--quiet")
+    assert sorted(quiet.stdout.split()) == ["three", "zero"]
+    assert quiet.stderr == ""
+
+
+def test_a_program_that_starts_by_itself_starts_alone(tmp_path: Path) -> None:
+    text = HELLO.replace('PRINT "three"', 'PBOOT\nPRINT "three"\nDWL 1')
+    result = run(stored(tmp_path, text), "--for", "0.1", "--quiet")
+    assert result.stdout == "three\n"
+
+
+def test_with_a_scenario_only_the_scenario_starts_programs(tmp_path: Path) -> None:
+    scenario = tmp_path / "typed.toml"
+    scenario.write_text('at = [{time_s = 0.05, send = "PROG3\\rRUN\\r"}]')
+    result = run(stored(tmp_path, HELLO), "--for", "0.2", "--quiet", "--scenario", scenario)
+    assert result.stdout == "three\n"
+
+
+@pytest.mark.parametrize(
+    ("line", "number", "message"),
+    [
+        ("P1 = 1/0", 20, "Divide by zero"),
+        ("MASTER9 VEL 5", 20, "Invalid argument"),
+        ("IF (P1)", 20, "IF without ENDIF"),
+    ],
+)
+def test_an_error_names_program_line_and_text(
+    tmp_path: Path, line: str, number: int, message: str
+) -> None:
+    text = f'DIM P(10)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\nPROGRAM\n{line}\nENDP\n'
+    result = run(stored(tmp_path, text), "--for", "0.1", "--quiet")
+    assert result.exit_code == 1
+    assert result.stderr == f"error: PROG0 line {number}: {message}\n    {line}\n"
+
+
+def test_a_program_started_again_has_no_error_any_more(tmp_path: Path) -> None:
+    path = stored(tmp_path, "DIM P(10)\nPROG0\nPROGRAM\nP1 = 1 / P0\nENDP\n")
+    scenario = tmp_path / "twice.toml"
+    scenario.write_text(
+        'at = [{time_s = 0, send = "PROG0\\rRUN\\r"}, {time_s = 0.05, send = "P0 = 2\\rRUN\\r"}]\n'
+        'expect = [{time_s = 0.04, program = 0, state = "error"}, {program = 0, state = "idle"}]'
+    )
+    assert run(path, "--for", "0.1", "--scenario", scenario).exit_code == 0
+
+
+def test_a_restart_of_the_card_does_not_turn_back_the_time_of_the_run(tmp_path: Path) -> None:
+    path = stored(tmp_path, "REM nothing\n")
+    scenario = tmp_path / "reboot.toml"
+    scenario.write_text('at = [{time_s = 0.05, send = "SYS\\rREBOOT\\r"}]')
+    assert summary_of(path, "--for", "0.2", "--scenario", scenario)["ticks"] == 400
+
+
+def test_a_sparse_picture_keeps_its_peaks(box: Path, tmp_path: Path) -> None:
+    path = tmp_path / "long.html"
+    assert run(box, "--for", "100", "--plot", path).exit_code == 0
+    # 200000 ticks are recorded in 40000 rows; the peak is that of the closing table.
+    peak = summary_of(box, "--for", "100")["axes"]["0"]["peak_following_error"]
+    data = json.loads(path.read_text().split('type="application/json">')[1].split("</script>")[0])
+    assert max(map(abs, data["axes"][0]["error"])) == pytest.approx(peak, rel=1e-3)

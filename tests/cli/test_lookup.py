@@ -63,3 +63,18 @@ def test_nothing_found_ends_with_code_2_and_a_suggestion(command: str) -> None:
     assert result.exit_code == 2
     assert "perhaps" in result.output
     assert run(command, "99999").exit_code == 2
+
+
+def test_a_long_list_is_cut_and_says_so() -> None:
+    result = run("flag", "user defined")
+    assert result.stdout.count("BIT") == 60
+    assert "more; say more of the name" in result.stderr
+    assert len(json.loads(run("flag", "user defined", "--json").stdout)) > 60
+
+
+@pytest.mark.parametrize(("command", "number"), [("param", "99999"), ("flag", "99999")])
+def test_a_number_that_does_not_exist_names_the_range(command: str, number: str) -> None:
+    result = run(command, number)
+    assert result.exit_code == 2
+    assert result.stderr.startswith("error: there is no ")
+    assert "a number 0.." in result.stderr

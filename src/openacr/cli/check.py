@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 HAS_ERRORS = 1
 
-File = Annotated[Path, typer.Argument(help="Controller file (.8k) or project folder.")]
+File = Annotated[
+    Path, typer.Argument(metavar="FILE", help="Controller file (.8k) or project folder.")
+]
 
 
 def list_file(

@@ -9,6 +9,7 @@ import typer
 from openacr.errors import MapError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags_of
 from openacr.map.block import RESERVED, UNDOCUMENTED, Access, Kind, Packet
+from openacr.map.numbers import FLAG_LAST, PUBLIC_COUNT
 from openacr.units import explain
 
 if TYPE_CHECKING:
@@ -28,7 +29,16 @@ KIND = {
     Kind.FP64: "FP64 (64-bit float)",
 }
 
-What = Annotated[str, typer.Argument(help="Number or name, e.g. 12291, 'axis 2 following error'.")]
+PARAMETER_HINT = f"a number 0..{PUBLIC_COUNT - 1}, or words of a name"
+FLAG_HINT = f"a number 0..{FLAG_LAST}, or words of a name"
+SHOWN = 60  # of what was found by name
+
+What = Annotated[
+    str,
+    typer.Argument(
+        metavar="NUMBER|NAME", help="Number or name, e.g. 12291, 'axis 2 following error'."
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print a JSON array of everything found.")]
 
 
@@ -37,11 +47,13 @@ def show_parameter(text: What, json: AsJson = False) -> None:
     try:
         found = find_parameter(text)
     except MapError as error:
-        _refuse(error)
+        _refuse(error, PARAMETER_HINT)
     if json:
         _print_json([_parameter_fields(parameter) for parameter in found])
     elif len(found) > 1:
-        _print(_choice(found, [parameter.kind.value for parameter in found], "Type", "P"))
+        shown = found[:SHOWN]
+        _print(_choice(shown, [parameter.kind.value for parameter in shown], "Type", "P"))
+        _say_more(len(found) - len(shown))
     else:
         _print_parameter(found[0])
 
@@ -51,17 +63,24 @@ def show_flag(text: What, json: AsJson = False) -> None:
     try:
         found = find_flag(text)
     except MapError as error:
-        _refuse(error)
+        _refuse(error, FLAG_HINT)
     if json:
         _print_json([_flag_fields(flag) for flag in found])
     elif len(found) > 1:
-        _print(_choice(found, [f"P{flag.parameter}.{flag.bit}" for flag in found], "Word", "BIT"))
+        shown = found[:SHOWN]
+        _print(_choice(shown, [f"P{flag.parameter}.{flag.bit}" for flag in shown], "Word", "BIT"))
+        _say_more(len(found) - len(shown))
     else:
         _print_flag(found[0])
 
 
-def _refuse(error: MapError) -> NoReturn:
-    typer.echo(f"openacr: {error}", err=True)
+def _say_more(count: int) -> None:
+    if count > 0:
+        typer.echo(f"and {count} more; say more of the name, or --json for all", err=True)
+
+
+def _refuse(error: MapError, hint: str) -> NoReturn:
+    typer.echo(f"error: {error} ({hint})", err=True)
     raise typer.Exit(2)
 
 

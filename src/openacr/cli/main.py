@@ -43,10 +43,18 @@ COMMANDS = {
         "term",
         "Talk to a card: interactively, or line by line when standard input is piped.",
     ),
-    "download": Entry("download", "download", "Send controller files to a card."),
-    "upload": Entry("upload", "upload", "Read programs and PLCs of a card into files."),
+    "download": Entry(
+        "download", "download", "Send a controller file, or all files of a project, to a card."
+    ),
+    "upload": Entry(
+        "upload", "upload", "Read a program or PLC of a card, or all of them into a folder."
+    ),
     "monitor": Entry("monitor", "monitor", "Show parameters, flags and axes of a card, live."),
-    "backup": Entry("backup", "backup", "Store settings and programs of a card in a folder."),
+    "backup": Entry(
+        "backup",
+        "backup",
+        "Store settings, attachments, variables and programs of a card in a folder.",
+    ),
     "restore": Entry("backup", "restore", "Stop a card, clear it and put a backup back."),
     "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
     "check": Entry("check", "check_file", "Find every error in a controller file."),

@@ -10,10 +10,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.errors import UserError
+from openacr.errors import MapError, UserError
+from openacr.project import decode, find_project
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from openacr.cli.session import Until
+    from openacr.errors import SourceError
     from openacr.scenario import Scenario
 
 BAD_INPUT = 2
@@ -21,7 +25,9 @@ LONGEST_S = 600.0  # a run that is to end by itself ends here if it does not
 
 
 def run(
-    project: Annotated[Path, typer.Argument(help="Project folder or controller file (.8k).")],
+    project: Annotated[
+        Path, typer.Argument(metavar="PROJECT", help="Project folder or controller file (.8k).")
+    ],
     for_s: Annotated[
         float | None, typer.Option("--for", metavar="SECONDS", help="Simulated time at most.")
     ] = None,
@@ -74,8 +80,6 @@ def run(
     600 simulated seconds. Exit code 1: a program ended in an error or an expectation
     failed; 2: something about the input is wrong.
     """
-    from openacr.project import find_project
-
     found = find_project(project)
     wanted = parse_until(until)
     check_outputs(trace, plot, summary, journal)
@@ -102,14 +106,24 @@ def run(
     from openacr.cli.controlled import load
 
     machine, refused = load(found)
-    for error in refused:
-        typer.echo(f"{'warning' if keep_going else 'error'}: {error}", err=True)
+    show_refused(refused, "warning" if keep_going else "error")
     if refused and not keep_going:
+        typer.echo(f"`openacr check {project}` shows more about each", err=True)
         raise typer.Exit(BAD_INPUT)
     session = Session(options, machine, story)
     with machine.journalled(journal, found) if journal else nullcontext():
         code = session.run()
     raise typer.Exit(code)
+
+
+def show_refused(refused: "Sequence[SourceError]", word: str) -> None:
+    """Print the lines the card has refused, each with its text."""
+    for error in refused:
+        typer.echo(f"{word}: {error}", err=True)
+        path = Path(error.path)
+        lines = decode(path.read_bytes()).splitlines() if path.is_file() else []
+        if 0 < error.line <= len(lines):
+            typer.echo(f"    {lines[error.line - 1].strip()}", err=True)
 
 
 def parse_until(text: str | None) -> "Until | None":
@@ -125,8 +139,12 @@ def parse_until(text: str | None) -> "Until | None":
         hint = "give `idle`, a flag that is to be set (516) or one that is to be clear (-516)"
         raise UserError(f"--until {text}: {hint}")
     from openacr.map import flag
+    from openacr.map.numbers import FLAG_LAST
 
-    flag(int(number))
+    try:
+        flag(int(number))
+    except MapError as error:
+        raise UserError(f"--until {text}: {error} (flags are 0..{FLAG_LAST})") from None
     return Until(int(number), not text.strip().startswith("-"))
 
 

@@ -20,7 +20,8 @@ BAD_INPUT = 2
 
 def serve(
     project: Annotated[
-        Path | None, typer.Argument(help="Project folder or .8k file; default: eight axes.")
+        Path | None,
+        typer.Argument(metavar="PROJECT", help="Project folder or .8k file; default: eight axes."),
     ] = None,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     ascii_port: Annotated[int, typer.Option(help="Terminal and packets; 0: any free.")] = 5002,

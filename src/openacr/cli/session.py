@@ -26,7 +26,8 @@ BAR_S = 0.1  # of real time between two changes of the bar
 IDLE_S = 0.1  # a card is idle when nothing ran or moved for two slow scans
 TRACE_SAMPLES = 400_000  # per axis at most: every tick for 200 s at the default period
 PLOT_SAMPLES = 40_000  # far more than a picture has pixels; peaks between them are kept
-OK, FAILED = 0, 1
+TABLE_COLUMNS = 72
+OK, FAILED, INTERRUPTED = 0, 1, 130
 
 
 class Stop(Enum):
@@ -35,6 +36,7 @@ class Stop(Enum):
     TIME = "time"
     BIT = "bit"
     IDLE = "idle"
+    INTERRUPT = "interrupt"
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +98,11 @@ class Session:
         if not is_compiled:
             self._note("no compiled core is used: running the slower pure-Python kernel")
         self._prepare()
-        return self._conclude(self._live())
+        stop, wall_s = self._live()
+        has_failed = self._conclude(wall_s)
+        if stop is Stop.INTERRUPT:
+            return INTERRUPTED
+        return FAILED if has_failed else OK
 
     def _prepare(self) -> None:
         """Connect what listens to the card and records it."""
@@ -129,17 +135,24 @@ class Session:
         if self._options.realtime:
             stream.flush()
 
-    def _live(self) -> float:
-        """Let the card live until the run is over; give the seconds of real time it took."""
+    def _live(self) -> tuple[Stop, float]:
+        """Let the card live until the run is over; why it is, and the real seconds it took."""
         with bar_for(sys.stderr, self._limit_s, is_wanted=not self._options.is_quiet) as bar:
             started_s = time.perf_counter()
-            stop = self._pace(bar, started_s)
+            try:
+                stop = self._pace(bar, started_s)
+            except KeyboardInterrupt:
+                stop = Stop.INTERRUPT
             wall_s = time.perf_counter() - started_s
-        self._play.finish(self._world)
         sys.stdout.flush()
+        if stop is Stop.INTERRUPT:
+            lived_s = self._world.tick * self._machine.period_s
+            self._note(f"interrupted after {lived_s:g} s; the results end there")
+        else:
+            self._play.finish(self._world)
         if stop is Stop.TIME and self._until is not None:
             self._note(f"{self._until} was not reached within {self._limit_s:g} s")
-        return wall_s
+        return stop, wall_s
 
     def _pace(self, bar: Bar, started_s: float) -> Stop:
         machine = self._machine
@@ -205,8 +218,8 @@ class Session:
         quiet_s = (machine.tick - self._busy_tk) * machine.period_s
         return Stop.IDLE if quiet_s >= IDLE_S else None
 
-    def _conclude(self, wall_s: float) -> int:
-        """Write the files, print the table and give the exit code."""
+    def _conclude(self, wall_s: float) -> bool:
+        """Write the files and print the table; True if something has failed."""
         report = report_on(self._machine, self._begin_tk, wall_s)
         if self._has_scenario:
             period_s = self._machine.period_s
@@ -215,7 +228,7 @@ class Session:
             report = replace(report, verdicts=verdicts, checkpoints_s=times)
         self._show(report)
         self._write(report)
-        return FAILED if report.has_failed else OK
+        return report.has_failed
 
     def _write(self, report: Report) -> None:
         options = self._options
@@ -236,7 +249,8 @@ class Session:
         if self._options.is_json:
             sys.stdout.write(output.summary_text(summary(report)))
         elif not self._options.is_quiet:
-            show_report(report, Console())
+            # Rather lines that the terminal wraps than tables that hide their numbers.
+            show_report(report, Console(width=max(TABLE_COLUMNS, Console().width)))
         show_failures(report, Console(stderr=True))
         show_verdicts(report, Console(stderr=True))
         for moment in self._play.idle_actions:

@@ -4,6 +4,7 @@ The reader keeps what later lines depend on: the level (SYS, PROG n, PLC n), the
 entered with PROGRAM, the axis names of each program and the aliases. Nothing is executed.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -40,6 +41,7 @@ from openacr.project import PROGRAM_COUNT, Place, SourceFile
 
 HIDDEN_STEP = 10
 _JUMPS = frozenset(("GOTO", "GOSUB"))
+_LEVELS = frozenset("IF ELSE ELSEIF ENDIF FOR NEXT WHILE WEND".split())
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
@@ -73,7 +75,7 @@ class Text:
 
     lines: dict[int, StoredLine] = field(default_factory=dict)
     places: dict[int, FileLine] = field(default_factory=dict)
-    is_incomplete: bool = False  # a line could not be read
+    lost: set[str] = field(default_factory=set)  # the words of lines that could not be read
 
     def next_number(self) -> int:
         """The hidden number of the next line of free-form text."""
@@ -123,11 +125,10 @@ class Reader:
         for line in file_lines(source.text):
             self._take(line)
         for key in [key for key in self.texts if key not in read_before]:
-            if self.texts[key].is_incomplete:
-                continue
             if key[0] is Level.PROG:
                 self._check_structure(self.texts[key])
-            else:
+                self._check_jumps(self.texts[key])
+            elif not self.texts[key].lost:
                 self._check_rungs(self.texts[key])
         self.faults[known_faults:] = sorted(
             self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
@@ -138,8 +139,9 @@ class Reader:
             self._line(line)
         except CardError as error:
             self._fault(line, error)
-            if self.is_capturing or self.level is Level.PLC:
-                self._text().is_incomplete = True
+            is_numbered = self.level is Level.PROG and line.text[:1].isdigit()
+            if self.is_capturing or is_numbered or self.level is Level.PLC:
+                self._text().lost.update(_words(line.text))
 
     def _line(self, line: FileLine) -> None:
         found = tokens(line.text, 1)
@@ -217,16 +219,23 @@ class Reader:
                 self.aliases[item.name] = item.target
 
     def _check_structure(self, text: Text) -> None:
-        """Tie levels and jumps together as RUN would."""
+        """Tie levels together as RUN would, unless a line that could belong to one is lost."""
+        if text.lost & _LEVELS:
+            return
         try:
             compile_program((line.number, line.tree) for line in text.in_order())
         except CompileError as error:
             self._fault(text.places[error.line], error)
+
+    def _check_jumps(self, text: Text) -> None:
+        """Find jumps to labels and lines that are not there, not even in a lost line."""
         labels = {line.tree.label for line in text.lines.values()}
         for line in text.in_order():
             for target in _jumps(line.tokens):
-                known = labels if target.kind is Kind.LABEL else text.lines
-                if target.value not in known:
+                is_label = target.kind is Kind.LABEL
+                lost = f"_{target.value}".upper() if is_label else str(target.value)
+                known = labels if is_label else text.lines
+                if target.value not in known and lost not in text.lost:
                     message = LABEL_NOT_FOUND if target.kind is Kind.LABEL else LINE_NOT_FOUND
                     error_here = StatementError(message, target.span, target.value)
                     self._fault(text.places[line.number], error_here)
@@ -286,6 +295,11 @@ def ladders(reader: Reader) -> Iterator[str]:
         if level is Level.PLC:
             yield f"PLC{number}"
             yield from draw(text.rungs())
+
+
+def _words(text: str) -> set[str]:
+    """The words of a line that cannot be read, and its number."""
+    return {word.upper() for word in re.findall(r"\w+", text)}
 
 
 def _jumps(found: tuple[Token, ...]) -> Iterator[Token]:

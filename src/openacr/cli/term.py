@@ -25,7 +25,9 @@ KEY_BYTES = 1024
 
 
 def term(
-    target: Annotated[str, typer.Argument(help="HOST, HOST:PORT or a serial port.")],
+    target: Annotated[
+        str, typer.Argument(metavar="TARGET", help="HOST, HOST:PORT or a serial port.")
+    ],
     baud: Annotated[int, typer.Option(help="Speed of a serial port.")] = 38400,
     wait: Annotated[
         float, typer.Option(help="Longest wait [s] for the prompt of a piped line.")
