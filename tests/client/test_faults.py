@@ -136,6 +136,22 @@ def test_a_download_over_a_broken_connection_leaves_no_half_program() -> None:
     assert card.upload(Level.program(0)) == ""
 
 
+def test_a_download_that_is_interrupted_leaves_no_half_program() -> None:
+    card, link = wrapped()
+    card.command("DIM PROG0(2000)")
+    interrupts = [KeyboardInterrupt()]
+
+    def interrupt(data: bytes) -> bytes:
+        if b"P1=2" in data and interrupts:
+            raise interrupts.pop()
+        return data
+
+    link.alters = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        card.download("PROGRAM\nP0=1\nP1=2\nENDP\n", to=Level.program(0))
+    assert card.upload(Level.program(0)) == ""
+
+
 class StreamLink(ProcessLink):
     """A serial line of a card in this process, in the state another host has left it in."""
 

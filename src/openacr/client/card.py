@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 class Parameters:
-    """Parameters by number or name: `card.p[12288]`, `card.p["axis0.following error"] `."""
+    """Parameters by number or name: `card.p[12288]`, `card.p["axis0.following error"]`."""
 
     def __init__(self, card: "Card") -> None:
         self._card = card

@@ -11,9 +11,12 @@ T = TypeVar("T")
 
 
 def carry_out(op: Op[T], link: Link) -> T:
-    """The result of a conversation over a blocking link."""
+    """The result of a conversation over a blocking link.
+
+    Ctrl-C is handed to the conversation like a broken link: it may have to tidy up.
+    """
     result: bytes | None = None
-    failure: ConnectionLostError | None = None
+    failure: ConnectionLostError | KeyboardInterrupt | None = None
     while True:
         try:
             effect = op.throw(failure) if failure else op.send(result)
@@ -23,7 +26,7 @@ def carry_out(op: Op[T], link: Link) -> T:
         result = failure = None
         try:
             result = _perform(effect, link)
-        except ConnectionLostError as broken:
+        except (ConnectionLostError, KeyboardInterrupt) as broken:
             failure = broken
 
 

@@ -225,9 +225,9 @@ class Talk:
         while True:
             try:
                 yield Open()
-            except (ConnectionLostError, UserError) as failure:
+            except ConnectionLostError:
                 if patience_s <= 0:
-                    raise ConnectionLostError(str(failure)) from None
+                    raise
                 yield Pause(pause_s)
                 patience_s -= pause_s
                 pause_s = min(2 * pause_s, LONGEST_PAUSE_S)

@@ -96,7 +96,7 @@ class _Sender:
             raise (yield from self._failed(line, refused.text, refused.hint)) from None
         except UserError as unsendable:
             raise (yield from self._failed(line, str(unsendable))) from None
-        except ClientError:
+        except (ClientError, KeyboardInterrupt):
             yield from self._erase()
             raise
         self.report.sent += 1
