@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from msgspec import Struct
 
@@ -33,6 +33,8 @@ VERSION = 1
 _LONG_VARIABLES = slice(38912, 39424)  # in the I view: LONG up to 39167, then FP32
 _SCALARS = {kind.name: kind for kind in SCALARS}
 _ARRAYS = {kind.name: kind for kind in ARRAYS}
+
+Memo: TypeAlias = dict[int, tuple[StoredLine, str, frozenset[str]]]
 
 
 class Text(Struct, frozen=True):
@@ -84,12 +86,15 @@ def take(system: System, *, values: bool) -> UserMemory:
     return UserMemory(texts, take_data(system, values=values))
 
 
-def take_text(system: System, owner: int) -> Text:
-    """The lines of one program or PLC."""
+def take_text(system: System, owner: int, memo: Memo | None = None) -> Text:
+    """The lines of one program or PLC; a `memo` kept by the caller saves work next time."""
+    memo = {} if memo is None else memo
     lines = system.programs.lines(owner)
-    written = [(line.number, _source(line.tokens)) for line in lines]
-    names = {name for line in lines for name in _axis_names(line.tree)}
-    return Text(owner, written, sorted(names))
+    for line in lines:
+        if line.number not in memo or memo[line.number][0] is not line:
+            memo[line.number] = line, _source(line.tokens), frozenset(_axis_names(line.tree))
+    names = frozenset[str]().union(*(memo[line.number][2] for line in lines))
+    return Text(owner, [(line.number, memo[line.number][1]) for line in lines], sorted(names))
 
 
 def take_data(system: System, *, values: bool) -> Data:

@@ -69,6 +69,7 @@ class Persistence:
         self._written_tk = 0
         self._shape: object = None
         self._stored = b""
+        self._memos: list[user_memory.Memo] = [{} for _ in system.owners()]
         self._claim()
 
     @classmethod
@@ -239,7 +240,7 @@ class Persistence:
     def _text_image(self, owner: int) -> Image | None:
         if self._system.programs.is_empty(owner):
             return None
-        text = user_memory.take_text(self._system, owner)
+        text = user_memory.take_text(self._system, owner, self._memos[owner])
         return Image(user_memory.VERSION, msgspec.msgpack.encode(text))
 
     def _present_shape(self) -> object:
