@@ -1,5 +1,6 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
+from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
 from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, master_word, move_record
 from openacr.kernel.profile_cy import (
     DECELERATING,
@@ -31,23 +32,30 @@ from openacr.map.numbers import (
     MF1_MOVE_BUFFERED,
     MF1_STOP_ALL_MOVES_REQUEST,
     MF1_STOPPING,
+    MF1_TRG_PENDING,
     MQF_BASE,
     MQF_DEC_UPS2,
     MQF_JRK_UPS3,
-    MQF_LENGTH_U,
     MQF_STP_UPS2,
     MQF_STRIDE,
     MSF_BASE,
+    MSF_ENTRY_UPS,
+    MSF_ENTRY_UPS2,
+    MSF_STRETCH_U,
     MSF_STRIDE,
     MSF_TARGET_CNT,
     MSI_BASE,
+    MSI_CUT,
     MSI_DROP_AT_REST,
     MSI_HOLD,
+    MSI_HSINT_PHASE,
     MSI_MOVING,
     MSI_QUEUED,
     MSI_SEEK_PHASE,
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
+    MSI_TRIGGER,
+    MSI_TRIGGER_AXIS,
     PRF_BASE,
     PRF_DISTANCE,
     PRF_STRIDE,
@@ -74,6 +82,12 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     I[i + MSI_HOLD] = NOT_HELD
     I[i + MSI_DROP_AT_REST] = 0
     I[i + MSI_SEEK_PHASE] = SEEK_NONE
+    I[i + MSI_HSINT_PHASE] = HSINT_NONE
+    I[i + MSI_CUT] = 0
+    I[i + MSI_TRIGGER] = 0
+    I[i + MSI_TRIGGER_AXIS] = 0
+    F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
+    F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
     profile_reset(F, I, m, 0.0, 0.0)
     F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY] = 0.0
     master_settle(F, I, S, m)
@@ -87,6 +101,7 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
         | MF1_JERKING
         | MF1_FEEDHOLDING
         | MF1_IN_FEEDHOLD
+        | MF1_TRG_PENDING
     )
 
 
@@ -124,7 +139,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     rate: float = F[q + MQF_DEC_UPS2]
     if rate <= 0.0:
         rate = F[q + MQF_STP_UPS2]
-    end: float = F[q + MQF_LENGTH_U]
+    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]
     merged: bool = F[q + MQF_STP_UPS2] <= 0.0 and I[i + MSI_QUEUED] > 1
     if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
@@ -143,7 +158,9 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
     if not I[i + MSI_MOVING] or master_stopping(I, m):
         return
-    if I[i + MSI_SEEK_PHASE] == SEEK_STOPPING:  # has captured: on to the way back
+    passing: bool = I[i + MSI_HSINT_PHASE] == HSINT_PASSING
+    if I[i + MSI_SEEK_PHASE] == SEEK_STOPPING or passing or I[i + MSI_CUT]:
+        # Has found what it looked for, or is to go no farther: it ends here.
         profile_stop(F, I, m, F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE], 0.0, 0.0, STOPPING)
     else:
         master_plan(F, I, S, m)

@@ -5,7 +5,8 @@ wait. Time left over at the end of a move goes into the next one, so a chain of 
 nothing to the tick grid.
 
 The slow side writes records and counts (motion/moves.py); everything else happens here,
-in path_cy (geometry), hold_cy (stops) and seek_cy (MSEEK).
+in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), seek_cy
+(MSEEK) and hsint_cy (HSINT).
 """
 
 from openacr.kernel.capture_cy import capture_arm
@@ -19,8 +20,9 @@ from openacr.kernel.hold_cy import (
     master_settle,
     master_stopping,
 )
+from openacr.kernel.hsint_cy import HSINT_NONE, hsint_begin, hsint_end, hsint_step
+from openacr.kernel.interrupt_cy import cut_end, interrupt_step, move_barred, response_period
 from openacr.kernel.path_cy import (
-    RING,
     master_limit,
     master_place,
     master_plan,
@@ -69,6 +71,7 @@ from openacr.map.numbers import (
     MF1_MOVE_BUFFERED,
     MF1_START_MOVE_INHIBIT,
     MF1_STOPPING,
+    MF1_TRG_PENDING,
     MF2_BLOCK_SKIP_CHECK,
     MF2_BLOCK_SKIP_INPUT,
     MF2_ENABLE_CLEAR_REQUEST,
@@ -82,16 +85,27 @@ from openacr.map.numbers import (
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQI_BASE,
+    MQI_HSINT_AXIS,
+    MQI_INTERRUPT,
     MQI_RAPID,
     MQI_SEEK_AXIS,
     MQI_SEEK_MODE,
     MQI_STRIDE,
+    MSF_BASE,
+    MSF_ENTRY_UPS,
+    MSF_ENTRY_UPS2,
+    MSF_STRETCH_U,
+    MSF_STRIDE,
     MSI_BASE,
+    MSI_CUT,
     MSI_HEAD,
     MSI_HOLD,
+    MSI_HSINT_PHASE,
     MSI_MOVING,
     MSI_QUEUED,
+    MSI_RESPONSE,
     MSI_SEEK_PHASE,
+    MSI_SIZE,
     MSI_STRIDE,
     PRF_ACCEL,
     PRF_BASE,
@@ -109,6 +123,7 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["master_step"]
 
+BARS = MF1_START_MOVE_INHIBIT | MF1_TRG_PENDING
 MOVES_PER_TICK = 17  # a full ring of moves shorter than a tick, and a seek that turns back
 
 
@@ -121,6 +136,11 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
     I[i + MSI_MOVING] = 1
+    I[i + MSI_CUT] = 0
+    I[i + MSI_RESPONSE] = response_period(I, m)
+    I[i + MSI_HSINT_PHASE] = HSINT_NONE
+    if I[MQI_BASE + record * MQI_STRIDE + MQI_HSINT_AXIS]:
+        hsint_begin(F, I, m)
     I[i + MSI_SEEK_PHASE] = SEEK_NONE
     if I[MQI_BASE + record * MQI_STRIDE + MQI_SEEK_AXIS]:
         capture_arm(
@@ -175,7 +195,7 @@ def move_pop(I: I32, m: int) -> None:
     """Remove the record at the head of the ring."""
     i: int = MSI_BASE + m * MSI_STRIDE
     head: int = I[i + MSI_HEAD] + 1
-    I[i + MSI_HEAD] = 0 if head >= RING else head
+    I[i + MSI_HEAD] = 0 if head >= I[i + MSI_SIZE] else head
     I[i + MSI_QUEUED] -= 1
     I[i + MSI_MOVING] = 0
 
@@ -251,12 +271,18 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
     left: float = dt
     velocity: float = 0.0
     accel: float = 0.0
+    if not I[i + MSI_MOVING]:
+        velocity = F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS]
+        accel = F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2]
+        F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
+        F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
     for _ in range(MOVES_PER_TICK):
         if not I[i + MSI_MOVING]:
             if I[i + MSI_HOLD] == FEEDHOLDING and velocity <= 0.0:
                 master_at_rest(F, I, S, m)
                 break
-            if I[word] & MF1_START_MOVE_INHIBIT:
+            if I[word] & BARS and move_barred(I, m):
+                profile_reset(F, I, m, 0.0, 0.0)
                 break
             if move_skipped(I, m):
                 move_pop(I, m)
@@ -279,6 +305,10 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
             break
         if I[i + MSI_SEEK_PHASE] != SEEK_NONE and seek_end(F, I, S, m):
             continue
+        if I[i + MSI_HSINT_PHASE] != HSINT_NONE and hsint_end(F, I, S, m):
+            continue
+        if I[i + MSI_CUT]:
+            cut_end(F, I, m)
         move_end(F, I, S, m)
         if not I[i + MSI_QUEUED]:
             break
@@ -292,10 +322,10 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
 
 def master_short_of_target(F: F64, I: I32, m: int) -> bool:
     """True when a hold has stopped the path before the target of the move."""
-    length: float = F[MQF_BASE + move_record(I, m) * MQF_STRIDE + MQF_LENGTH_U]
     return (
         I[MSI_BASE + m * MSI_STRIDE + MSI_HOLD] == FEEDHOLDING
-        and F[PRF_BASE + m * PRF_STRIDE + PRF_END_DISTANCE] < length
+        and F[PRF_BASE + m * PRF_STRIDE + PRF_END_DISTANCE]
+        < F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     )
 
 
@@ -305,9 +335,14 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         seek_step(F, I, S, m)
         if I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] == SEEK_STOPPING:
             return
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_HSINT_PHASE] != HSINT_NONE:
+        hsint_step(F, I, S, m)
+    if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_INTERRUPT]:
+        interrupt_step(F, I, S, m)
     if (
         not master_stopping(I, m)
         and I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] != SEEK_STOPPING
+        and not I[MSI_BASE + m * MSI_STRIDE + MSI_CUT]
         and master_limit(F, I, S, m) != F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY]
     ):
         master_plan(F, I, S, m)

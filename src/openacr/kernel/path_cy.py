@@ -5,11 +5,18 @@ takes part stands at
 
     target - delta * (1 - s/L),
 
-which is exactly the target at s = L.
+which is exactly the target at s = L; those on a curve where curve_cy says.
 """
 
 from openacr.cmath import fabs, sqrt
 from openacr.kernel.axis_cy import axis_scale
+from openacr.kernel.curve_cy import (
+    curve_longest_deg,
+    curve_position,
+    curve_shape,
+    curve_slope,
+    curve_steepest,
+)
 from openacr.kernel.profile_cy import profile_plan
 from openacr.map.numbers import (
     AX_BASE,
@@ -48,13 +55,22 @@ from openacr.map.numbers import (
     MQF_VEL_UPS,
     MQF_WEIGHT,
     MQI_BASE,
+    MQI_CURVE,
+    MQI_CURVED,
     MQI_RAPID,
     MQI_RELATIVE,
     MQI_SLAVES,
     MQI_STRIDE,
+    MSF_BASE,
+    MSF_ORIGIN_U,
+    MSF_STRETCH_U,
+    MSF_STRIDE,
+    MSF_TARGET_CNT,
     MSI_BASE,
+    MSI_FIRST,
     MSI_HEAD,
     MSI_SLAVE_AXIS,
+    MSI_STRETCH,
     MSI_STRIDE,
     PRF_BASE,
     PRF_DISTANCE,
@@ -62,7 +78,8 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-RING = 16  # moves per master (map/hidden/motion.py)
+__all__ = ["move_shape", "path_slope"]
+
 SLAVE_COUNT = 16
 FAR_U = 1e30
 
@@ -79,7 +96,8 @@ def master_word2(m: int) -> int:
 
 def move_record(I: I32, m: int) -> int:
     """Index of the record of the present move of master m."""
-    return m * RING + I[MSI_BASE + m * MSI_STRIDE + MSI_HEAD]
+    i: int = MSI_BASE + m * MSI_STRIDE
+    return I[i + MSI_FIRST] + I[i + MSI_HEAD]
 
 
 def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
@@ -128,31 +146,53 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
 
 
 def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
-    """Vector length and axis limits of the present move from where the axes are.
-
-    L = sqrt(sum (w d)^2) over the moving slaves; without any weight the manual vector,
-    without that the longest single displacement, so that no displacement is a jump.
-    """
+    """Lay the present move out from where the axes are; its path begins anew."""
     record: int = move_record(I, m)
+    move_shape(F, I, S, m, record, False)
+    F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U] = 0.0
+    length: float = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
+    F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U] = length
+    I[MSI_BASE + m * MSI_STRIDE + MSI_STRETCH] = 1
+
+
+def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> None:
+    """Displacements, vector length and axis limits of a move.
+
+    It starts where the axes are or, while it is only `planned`, where the move before it
+    ends. L = sqrt(arc^2 + sum (w d)^2) over the slaves on straight lines; sines alone are
+    as long as their sweep in degrees. Without any weight L is the manual vector, without
+    that the longest single displacement, so that no displacement is a jump.
+    """
     q: int = MQF_BASE + record * MQF_STRIDE
     i: int = MSI_BASE + m * MSI_STRIDE
     slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
     relative: int = I[MQI_BASE + record * MQI_STRIDE + MQI_RELATIVE]
+    curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
     square: float = 0.0
     longest: float = 0.0
     for s in range(SLAVE_COUNT):
         axis: int = I[i + MSI_SLAVE_AXIS + s]
         if slaves & (1 << s) and axis >= 0:
             position: float = F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT]
+            if planned:
+                position = F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + s]
             if relative & (1 << s):
                 F[q + MQF_TARGET_CNT + s] = position + F[q + MQF_DELTA_CNT + s]
             else:
                 F[q + MQF_DELTA_CNT + s] = F[q + MQF_TARGET_CNT + s] - position
-            F[AXF_BASE + axis * AXF_STRIDE + AXF_TARGET_CNT] = F[q + MQF_TARGET_CNT + s]
-            travel: float = fabs(F[q + MQF_DELTA_CNT + s]) / fabs(axis_scale(S, axis))
-            square += F[q + MQF_WEIGHT + s] * F[q + MQF_WEIGHT + s] * travel * travel
-            longest = max(longest, travel)
+            if not planned:
+                F[AXF_BASE + axis * AXF_STRIDE + AXF_TARGET_CNT] = F[q + MQF_TARGET_CNT + s]
+            if not curved & (1 << s):
+                travel: float = fabs(F[q + MQF_DELTA_CNT + s]) / fabs(axis_scale(S, axis))
+                square += F[q + MQF_WEIGHT + s] * F[q + MQF_WEIGHT + s] * travel * travel
+                longest = max(longest, travel)
+    if curved:
+        arc: float = curve_shape(F, I, S, m, record, not planned)
+        square += arc * arc
+        longest = max(longest, arc)
     length: float = sqrt(square)
+    if curved == slaves and I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE] == 0:
+        length = curve_longest_deg(F, I, record)
     if length <= 0.0 and longest > 0.0:
         length = S[MA_BASE + m * MA_STRIDE + MA_MANUAL_VECTOR]
         if not 0.0 < length < FAR_U:
@@ -160,18 +200,24 @@ def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     F[q + MQF_LENGTH_U] = length
     F[q + MQF_MAXVEL_UPS] = 0.0
     if I[master_word2(m)] & MF2_SLAVEMAXVEL:
-        move_maxvel(F, I, S, m, q, slaves)
+        move_maxvel(F, I, S, m, record)
 
 
-def move_maxvel(F: F64, I: I32, S: F32, m: int, q: int, slaves: int) -> None:
-    """Bound of the path speed by MAXVEL of the axes: the least v_i L/|d_i|."""
+def move_maxvel(F: F64, I: I32, S: F32, m: int, record: int) -> None:
+    """Bound of the path speed by MAXVEL of the axes: the least v_i L/|dp_i/df|."""
     i: int = MSI_BASE + m * MSI_STRIDE
+    q: int = MQF_BASE + record * MQF_STRIDE
+    slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
+    curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
     bound: float = 0.0
     for s in range(SLAVE_COUNT):
         axis: int = I[i + MSI_SLAVE_AXIS + s]
         if slaves & (1 << s) and axis >= 0:
             limit: float = S[AX_BASE + axis * AX_STRIDE + AX_MAX_VELOCITY_LIMIT]
-            travel: float = fabs(F[q + MQF_DELTA_CNT + s]) / fabs(axis_scale(S, axis))
+            travel: float = fabs(F[q + MQF_DELTA_CNT + s])
+            if curved & (1 << s):
+                travel = curve_steepest(F, record, s)
+            travel = travel / fabs(axis_scale(S, axis))
             if limit > 0.0 and travel > 0.0:
                 speed: float = limit * F[q + MQF_LENGTH_U] / travel
                 if bound <= 0.0 or speed < bound:
@@ -179,23 +225,41 @@ def move_maxvel(F: F64, I: I32, S: F32, m: int, q: int, slaves: int) -> None:
     F[q + MQF_MAXVEL_UPS] = bound
 
 
+def path_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
+    """Change of the position of slave s [pulses] with the part of a move."""
+    if not I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES] & (1 << s):
+        return 0.0
+    if I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED] & (1 << s):
+        return curve_slope(F, record, s, part)
+    return F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
+
+
 def master_place(F: F64, I: I32, m: int) -> None:
     """Put the slaves of the present move where the path is."""
     record: int = move_record(I, m)
     q: int = MQF_BASE + record * MQF_STRIDE
-    i: int = MSI_BASE + m * MSI_STRIDE
-    slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
     length: float = F[q + MQF_LENGTH_U]
     rest: float = 0.0
     if length > 0.0:
-        rest = 1.0 - F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE] / length
+        gone: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE]
+        rest = 1.0 - (gone - F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]) / length
+    move_place(F, I, m, record, rest)
+
+
+def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
+    """Put the slaves of a move where they are when `rest` of it (1 to 0) is still to go."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    i: int = MSI_BASE + m * MSI_STRIDE
+    slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
+    curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
     s: int = 0
     while slaves:
         if slaves & 1:
             axis: int = I[i + MSI_SLAVE_AXIS + s]
             if 0 <= axis < AX_COUNT:
-                F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT] = (
-                    F[q + MQF_TARGET_CNT + s] - F[q + MQF_DELTA_CNT + s] * rest
-                )
+                position: float = F[q + MQF_TARGET_CNT + s] - F[q + MQF_DELTA_CNT + s] * rest
+                if curved & (1 << s):
+                    position = curve_position(F, record, s, rest)
+                F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT] = position
         slaves = slaves >> 1
         s += 1

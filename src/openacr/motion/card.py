@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from openacr.compiled import pick
 from openacr.kernel import axis_cy, slow_cy
+from openacr.map.hidden.motion import MOVES_PER_MASTER
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     AX_BASE,
@@ -40,7 +41,9 @@ from openacr.map.numbers import (
     MSF_VECDEF,
     MSI_BASE,
     MSI_DEPTH,
+    MSI_FIRST,
     MSI_PROGRAM,
+    MSI_SIZE,
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
     SYSF_BASE,
@@ -136,6 +139,8 @@ class Card:
         rows = MSI_BASE + master * MSI_STRIDE
         self.memory.I[rows + MSI_PROGRAM] = -1
         self.memory.I[rows + MSI_DEPTH] = 1
+        self.memory.I[rows + MSI_FIRST] = master * MOVES_PER_MASTER
+        self.memory.I[rows + MSI_SIZE] = MOVES_PER_MASTER
         for slave in range(SLAVES):
             self.memory.F[reals + MSF_VECDEF + slave] = 1.0
             self.memory.I[rows + MSI_SLAVE_AXIS + slave] = -1

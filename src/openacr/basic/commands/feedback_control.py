@@ -163,7 +163,7 @@ def intcap(run: Run, axes: tuple[tuple[Axis, CaptureGiven], ...] | None) -> None
         elif given[0] is None:
             registers.disarm_capture(run.card, axis.number)
         else:
-            _check_copy(run, given[1])
+            check_copy(run, given[1])
             registers.arm_capture(run.card, axis.number, given[0], given[1] or 0)
 
 
@@ -172,7 +172,7 @@ def _capture_text(run: Run, axis: Axis) -> str:
     return "OFF" if mode is None else str(mode)
 
 
-def _check_copy(run: Run, number: int | None) -> None:
+def check_copy(run: Run, number: int | None) -> None:
     """Positions are pulses: they go to LONG parameters."""
     if number is not None and kind_of(run.card.memory.I, number) != KIND_LONG:
         raise CardError(INVALID_PARAMETER)

@@ -2,32 +2,66 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
 from openacr.basic import registry
-from openacr.basic.grammar import AxisTarget, AxisTargets
+from openacr.basic.grammar import AxisTarget, AxisTargets, Bit, BitState
 from openacr.basic.registry import PROG, command
 from openacr.basic.run import Run, Show, Wait, WaitKind
 from openacr.motion import moves
-from openacr.motion.moves import Target
+from openacr.motion.orders import Circle, FlagState, Part, Sine, SpaceArc, Target
 
 GROUP = "Interpolation"
 REF = "PG Interpolation"
 
 
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How the move of a block is to be made: ended by a flag (INT), at once (TRJ)."""
+
+    interrupt: FlagState | None = None
+    replace: bool = False
+
+
+Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | Manner
+
+
 @command("MOV", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
-def mov(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[AxisTarget, ...]:
+def mov(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move axes in a straight line to targets, or with a slash by distances."""
     return targets
 
 
+@command(
+    "INT",
+    group=GROUP,
+    levels=PROG,
+    grammar=(Bit(signed=True), AxisTargets()),
+    ref=REF,
+    move=True,
+)
+def int_(run: Run, bit: BitState, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Move in a straight line that ends early when a flag is set (with a minus: clear)."""
+    return (Manner(interrupt=flag_state(run, bit)), *targets)
+
+
+@command("TRJ", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
+def trj(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Start a new trajectory at once, in place of the moves under way and waiting."""
+    return (Manner(replace=True), *targets)
+
+
 @registry.issues_moves
-def issue(run: Run, targets: tuple[AxisTarget, ...]) -> Wait | None:
+def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
     """Start the move of a block, or buffer it; wait while the buffer is full."""
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
-    if not moves.has_room(run.card, master):
+    manner = _manner(given)
+    if not manner.replace and not moves.has_room(run.card, master):
         return room(run, master)
-    last = {target.axis.number: target for target in targets}
-    moves.issue(run.card, program, [_target(target) for target in last.values()])
+    parts = [_part(item) for item in given if not isinstance(item, Manner)]
+    moves.issue(run.card, program, parts, interrupt=manner.interrupt, replace=manner.replace)
     return None
 
 
@@ -38,5 +72,27 @@ def room(run: Run, master: int, count: int = 1) -> Wait:
     return Wait(WaitKind.ROW_BELOW, row, value, retry=True, show=Show.MOVE_PENDING)
 
 
-def _target(given: AxisTarget) -> Target:
-    return Target(given.axis.number, given.value, given.incremental)
+def flag_state(run: Run, bit: BitState) -> FlagState:
+    """A flag as written; `Invalid bit` if there is no such flag."""
+    run.card.memory.bit(bit.number)
+    return FlagState(bit.number, bit.clear)
+
+
+def _manner(given: tuple[Given, ...]) -> Manner:
+    found = Manner()
+    for item in given:
+        if isinstance(item, Manner):
+            found = replace(
+                found,
+                interrupt=item.interrupt or found.interrupt,
+                replace=item.replace or found.replace,
+            )
+    return found
+
+
+def _part(given: Given) -> Part:
+    if isinstance(given, AxisTarget):
+        return Target(given.axis.number, given.value, given.incremental)
+    if isinstance(given, Manner):
+        raise TypeError(given)
+    return given

@@ -10,6 +10,8 @@ from openacr.map.hidden.block import HiddenBlock
 SEGMENTS = 16
 SLAVES = 16
 MOVES_PER_MASTER = 16
+MOVES_DIMENSIONED = 512  # room for the buffers that DIM MBUF makes longer
+MOVES = 16 * MOVES_PER_MASTER + MOVES_DIMENSIONED
 
 # One motion profile: pieces of constant jerk, evaluated in order (kernel/profile_cy.py).
 # Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes.
@@ -42,10 +44,11 @@ PROFILE = HiddenBlock(
     ),
 )
 
-# Moves waiting for or executed by a master: a ring of records per master.
+# Moves waiting for or executed by a master: a ring of records per master. The first 256
+# belong to the masters in turn, those behind are lent to the masters with DIM MBUF.
 MOVE = HiddenBlock(
     prefix="MQ",
-    count=16 * MOVES_PER_MASTER,
+    count=MOVES,
     doubles=(
         "vel_ups",
         "acc_ups2",
@@ -56,6 +59,13 @@ MOVE = HiddenBlock(
         "ivel_ups",
         "length_u",
         "maxvel_ups",  # bound by MAXVEL of the axes, 0 none
+        "tmov_s",  # time it is to take, 0 as long as it needs
+        "turn_deg",  # angle between its end and the beginning of the next
+        "hsint_window_cnt",  # HSINT: captures count from `start` to `start + window`
+        "hsint_start_cnt",
+        "hsint_way_cnt",  # and lead this much farther
+        ("enter", 3),  # direction of the path at its beginning and end (slaves 0-2)
+        ("leave", 3),
         ("target_cnt", SLAVES),
         ("delta_cnt", SLAVES),
         ("weight", SLAVES),
@@ -66,6 +76,31 @@ MOVE = HiddenBlock(
         "rapid",
         "seek_axis",  # MSEEK: axis + 1
         "seek_mode",
+        "curved",  # mask of the slaves that follow a curve, see kernel/curve_cy.py
+        "half_wave",  # of those, the ones in Sinusoidal Mode
+        "curve",  # 0 none but SINE, 1 CIRCW, 2 CIRCCW, 3 TARC
+        ("plane", 3),  # slaves of CIRCW, CIRCCW and TARC
+        "interrupt",  # INT: flag + 1 that ends it, negative: by being clear
+        "trigger",  # TRG: flag + 1 that starts it, negative: by being clear
+        "trigger_axis",  # TRG: axis + 1 whose capture starts it
+        "hsint_axis",  # HSINT: axis + 1
+        "hsint_mode",
+        "hsint_abort",  # flag + 1 that ends it
+    ),
+)
+
+# The curves of those moves: per slave a wave on a straight base (kernel/curve_cy.py).
+CURVE = HiddenBlock(
+    prefix="MW",
+    count=MOVES,
+    doubles=(
+        ("amplitude_cnt", SLAVES),
+        ("growth_cnt", SLAVES),
+        ("phase_rad", SLAVES),
+        ("sweep_rad", SLAVES),
+        ("end_cnt", SLAVES),  # value of the wave at its end
+        ("slope_cnt", SLAVES),  # of the base, over the whole move
+        ("point_cnt", 3),  # centre of CIRCW and CIRCCW, mid point of TARC
     ),
 )
 
@@ -81,10 +116,19 @@ MASTER = HiddenBlock(
         "ivel_ups",
         ("vecdef", SLAVES),
         ("target_cnt", SLAVES),  # end of the last queued move, per slave
+        "origin_u",  # path distance at which the present move begins
+        "stretch_u",  # path distance at which the present plan ends
+        "entry_ups",  # speed and acceleration a replacing move (TRJ) is entered with
+        "entry_ups2",
+        "look_from_deg",  # LOOK ANG
+        "look_to_deg",
+        "source_old",
     ),
     ints=(
         "program",  # program that owns the master, -1 none
         ("slave_axis", SLAVES),  # axis of each slave, -1 none
+        "first",  # record at ring index 0
+        "size",  # records in the ring
         "head",  # ring index of the present move
         "queued",  # moves in the ring, the present one included
         "depth",  # moves that may wait behind the present one
@@ -92,6 +136,15 @@ MASTER = HiddenBlock(
         "hold",  # 0 none, 1 feedholding, 2 in feedhold
         "drop_at_rest",  # HALT: drop all moves once the path has stopped
         "seek_phase",  # of MSEEK, see kernel/seek_cy.py
+        "cut",  # the present move ends where it comes to rest
+        "response",  # ticks until INT looks at its flag again
+        "hsint_phase",  # see kernel/hsint_cy.py
+        "stretch",  # moves the present plan runs through, the present one included
+        "look_dirty",  # the buffer has changed: look ahead again
+        "trigger",  # TRG for the next move to be issued, as in the move
+        "trigger_axis",
+        "source_kind",  # of the time base, see kernel/timebase_cy.py
+        "source_index",
     ),
 )
 

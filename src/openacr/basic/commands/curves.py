@@ -1,0 +1,124 @@
+"""Moves along circles, arcs in space and sine waves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.basic.commands.interpolation import GROUP, REF, Given
+from openacr.basic.grammar import AxisTarget, AxisTargets, Group, TargetItem
+from openacr.basic.registry import PROG, command
+from openacr.basic.run import Run
+from openacr.map.numbers import MF2_TARC_MODE
+from openacr.messages import SYNTAX_ERROR
+from openacr.motion.orders import Circle, Direction, Sine, SpaceArc
+from openacr.motion.rows import master_word2
+
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
+
+class CurveTargets(AxisTargets):
+    """`axis(a, b, ...)...`: exactly `count` axes, or as many as have parentheses."""
+
+    def __init__(self, *names: str, count: int = 0) -> None:
+        super().__init__(Group(*names))
+        self.count = count
+
+    def parse(self, p: Parser) -> tuple[TargetItem, ...]:
+        """Read the axes; those behind them belong to the straight part of the block."""
+        found = [self._target(p)]
+        while len(found) < self.count or (not self.count and self._goes_on(p)):
+            if not self.starts(p):
+                raise p.error(SYNTAX_ERROR)
+            found.append(self._target(p))
+        return tuple(found)
+
+    def _goes_on(self, p: Parser) -> bool:
+        return self.starts(p) and p.ahead(1).value == "("
+
+
+def _circle(targets: tuple[AxisTarget, ...], direction: Direction) -> tuple[Given, ...]:
+    first, second = targets
+    return (
+        Circle(
+            (first.axis.number, second.axis.number),
+            (first.values[0], second.values[0]),
+            (first.values[1], second.values[1]),
+            direction,
+        ),
+    )
+
+
+@command(
+    "CIRCW",
+    group=GROUP,
+    levels=PROG,
+    grammar=(CurveTargets("target", "center", count=2),),
+    ref=REF,
+    units="units",
+    move=True,
+)
+def circw(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Move two axes clockwise round a centre; other axes of the block go straight (helix)."""
+    return _circle(targets, Direction.CLOCKWISE)
+
+
+@command(
+    "CIRCCW",
+    group=GROUP,
+    levels=PROG,
+    grammar=(CurveTargets("target", "center", count=2),),
+    ref=REF,
+    units="units",
+    move=True,
+)
+def circcw(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Move two axes counter-clockwise round a centre; the same place again is a full circle."""
+    return _circle(targets, Direction.COUNTER_CLOCKWISE)
+
+
+@command(
+    "TARC",
+    group=GROUP,
+    levels=PROG,
+    grammar=(CurveTargets("target", "mid", count=3),),
+    ref=REF,
+    units="units",
+    move=True,
+)
+def tarc(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Move three axes on the circular arc through a mid point to a target."""
+    first, second, third = targets
+    return (
+        SpaceArc(
+            (first.axis.number, second.axis.number, third.axis.number),
+            (first.values[0], second.values[0], third.values[0]),
+            (first.values[1], second.values[1], third.values[1]),
+        ),
+    )
+
+
+@command("TARC ON", group=GROUP, levels=PROG, ref=REF)
+def tarc_on(run: Run) -> None:
+    """Set TARC Mode."""
+    run.card.memory.I[master_word2(run.master())] |= MF2_TARC_MODE
+
+
+@command("TARC OFF", group=GROUP, levels=PROG, ref=REF)
+def tarc_off(run: Run) -> None:
+    """Clear TARC Mode."""
+    run.card.memory.I[master_word2(run.master())] &= ~MF2_TARC_MODE
+
+
+@command(
+    "SINE",
+    group=GROUP,
+    levels=PROG,
+    grammar=(CurveTargets("target", "phase", "sweep", "amplitude"),),
+    ref=REF,
+    units="units, degrees",
+    move=True,
+)
+def sine(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
+    """Move axes on a part of a sine wave, alone or beside straight moves of other axes."""
+    return tuple(Sine(target.axis.number, *target.values) for target in targets)

@@ -1,0 +1,280 @@
+"""Moves along curves: CIRCW, CIRCCW, TARC, SINE and axes in Sinusoidal Mode.
+
+All of them are one formula. With f = s/L from 0 to 1, a slave on a curve stands at
+
+    target - slope (1 - f) + wave(f) - wave(1),
+    wave(f) = (amplitude + growth f) sin(phase + sweep f),
+
+which is exactly the target at f = 1 and needs one sine per slave and tick. In a circle the
+first axis is a wave a quarter turn ahead of the second, and there is no slope; growth makes
+it a spiral. An arc in space is a circle of its own plane: every axis sees it as a wave of
+some amplitude and phase. SINE gives phase, sweep and amplitude directly; the slope takes
+up whatever start and target leave. Angles are radians, everything else pulses.
+
+The program gives targets and centre (or mid point); start and so radius and angles are
+known only when the move begins, or is planned behind others.
+"""
+
+from openacr.cmath import atan2, cos, fabs, sin, sqrt
+from openacr.kernel.axis_cy import axis_scale
+from openacr.map.numbers import (
+    AX_BASE,
+    AX_END_RADIUS,
+    AX_START_RADIUS,
+    AX_STRIDE,
+    MF2_SPIRAL_MODE,
+    MF2_WORD,
+    MF2_WORD_HIGH,
+    MQF_BASE,
+    MQF_DELTA_CNT,
+    MQF_STRIDE,
+    MQF_TARGET_CNT,
+    MQF_WEIGHT,
+    MQI_BASE,
+    MQI_CURVE,
+    MQI_CURVED,
+    MQI_HALF_WAVE,
+    MQI_PLANE,
+    MQI_STRIDE,
+    MSI_BASE,
+    MSI_SLAVE_AXIS,
+    MSI_STRIDE,
+    MWF_AMPLITUDE_CNT,
+    MWF_BASE,
+    MWF_END_CNT,
+    MWF_GROWTH_CNT,
+    MWF_PHASE_RAD,
+    MWF_POINT_CNT,
+    MWF_SLOPE_CNT,
+    MWF_STRIDE,
+    MWF_SWEEP_RAD,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["curve_slope"]
+
+PI = 3.141592653589793
+DEGREES = 57.29577951308232
+FULL_TURN_RAD = 1e-6 / DEGREES  # a smaller difference of angles is a full circle
+
+CURVE_NONE = 0
+CURVE_CW = 1
+CURVE_CCW = 2
+CURVE_SPACE = 3
+SLAVES = 16
+
+
+def curve_wave(F: F64, w: int, s: int, part: float) -> float:
+    """The wave of slave s at a part of the move."""
+    return (F[w + MWF_AMPLITUDE_CNT + s] + F[w + MWF_GROWTH_CNT + s] * part) * sin(
+        F[w + MWF_PHASE_RAD + s] + F[w + MWF_SWEEP_RAD + s] * part
+    )
+
+
+def curve_position(F: F64, record: int, s: int, rest: float) -> float:
+    """Position of slave s of a move when `rest` of it (1 to 0) is still to go."""
+    w: int = MWF_BASE + record * MWF_STRIDE
+    return (
+        F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s]
+        - F[w + MWF_SLOPE_CNT + s] * rest
+        + (curve_wave(F, w, s, 1.0 - rest) - F[w + MWF_END_CNT + s])
+    )
+
+
+def curve_slope(F: F64, record: int, s: int, part: float) -> float:
+    """Change of the position of slave s with the part of the move."""
+    w: int = MWF_BASE + record * MWF_STRIDE
+    angle: float = F[w + MWF_PHASE_RAD + s] + F[w + MWF_SWEEP_RAD + s] * part
+    growth: float = F[w + MWF_GROWTH_CNT + s]
+    size: float = F[w + MWF_AMPLITUDE_CNT + s] + growth * part
+    return (
+        F[w + MWF_SLOPE_CNT + s]
+        + growth * sin(angle)
+        + size * F[w + MWF_SWEEP_RAD + s] * cos(angle)
+    )
+
+
+def curve_steepest(F: F64, record: int, s: int) -> float:
+    """A bound of the size of `curve_slope` over the whole move."""
+    w: int = MWF_BASE + record * MWF_STRIDE
+    size: float = F[w + MWF_AMPLITUDE_CNT + s]
+    growth: float = F[w + MWF_GROWTH_CNT + s]
+    largest: float = max(fabs(size), fabs(size + growth))
+    sweep: float = fabs(F[w + MWF_SWEEP_RAD + s])
+    return fabs(F[w + MWF_SLOPE_CNT + s]) + fabs(growth) + largest * sweep
+
+
+def curve_set(
+    F: F64,
+    record: int,
+    s: int,
+    amplitude: float,
+    growth: float,
+    phase: float,
+    sweep: float,
+    closed: bool,
+) -> None:
+    """Give slave s its wave; a closed one lies on it, else the slope makes up the way."""
+    w: int = MWF_BASE + record * MWF_STRIDE
+    F[w + MWF_AMPLITUDE_CNT + s] = amplitude
+    F[w + MWF_GROWTH_CNT + s] = growth
+    F[w + MWF_PHASE_RAD + s] = phase
+    F[w + MWF_SWEEP_RAD + s] = sweep
+    F[w + MWF_END_CNT + s] = curve_wave(F, w, s, 1.0)
+    slope: float = 0.0
+    if not closed:
+        delta: float = F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
+        slope = delta - (F[w + MWF_END_CNT + s] - curve_wave(F, w, s, 0.0))
+    F[w + MWF_SLOPE_CNT + s] = slope
+
+
+def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> float:
+    """Lay out the waves of a move whose starts are known; return its weighted arc length.
+
+    `shown` publishes the radii of a circle in the parameters of its axes.
+    """
+    q: int = MQI_BASE + record * MQI_STRIDE
+    kind: int = I[q + MQI_CURVE]
+    arc: float = 0.0
+    curve_sines(F, I, record)
+    if kind == CURVE_CW or kind == CURVE_CCW:
+        spiral: bool = I[MF2_WORD + m if m < 8 else MF2_WORD_HIGH + m] & MF2_SPIRAL_MODE != 0
+        arc = curve_circle(F, I, S, m, record, spiral, shown)
+    elif kind == CURVE_SPACE:
+        arc = curve_space(F, I, S, m, record)
+    return arc * F[MQF_BASE + record * MQF_STRIDE + MQF_WEIGHT + I[q + MQI_PLANE]]
+
+
+def curve_sines(F: F64, I: I32, record: int) -> None:
+    """SINE as given; Sinusoidal Mode is half a wave over the whole way."""
+    q: int = MQI_BASE + record * MQI_STRIDE
+    w: int = MWF_BASE + record * MWF_STRIDE
+    for s in range(SLAVES):
+        if I[q + MQI_HALF_WAVE] & (1 << s):
+            half: float = F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s] / 2.0
+            curve_set(F, record, s, half, 0.0, -PI / 2.0, PI, False)
+        elif I[q + MQI_CURVED] & (1 << s):
+            phase: float = F[w + MWF_PHASE_RAD + s]
+            sweep: float = F[w + MWF_SWEEP_RAD + s]
+            curve_set(F, record, s, F[w + MWF_AMPLITUDE_CNT + s], 0.0, phase, sweep, False)
+
+
+def curve_longest_deg(F: F64, I: I32, record: int) -> float:
+    """The largest sweep of the waves of a move in degrees."""
+    longest: float = 0.0
+    for s in range(SLAVES):
+        if I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED] & (1 << s):
+            sweep: float = F[MWF_BASE + record * MWF_STRIDE + MWF_SWEEP_RAD + s]
+            longest = max(longest, fabs(sweep) * DEGREES)
+    return longest
+
+
+def curve_scale(I: I32, S: F32, m: int, record: int, place: int) -> float:
+    """Pulses per unit of axis `place` of the plane of a curve."""
+    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
+    axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+    return axis_scale(S, axis) if axis >= 0 else 1.0
+
+
+def curve_start(F: F64, I: I32, record: int, place: int) -> float:
+    """Start of axis `place` of the plane relative to the given point, in pulses."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
+    start: float = F[q + MQF_TARGET_CNT + s] - F[q + MQF_DELTA_CNT + s]
+    return start - F[MWF_BASE + record * MWF_STRIDE + MWF_POINT_CNT + place]
+
+
+def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, shown: bool) -> float:
+    """CIRCW and CIRCCW: radius and angles from start, centre and target; return the arc.
+
+    Without Spiral Mode a start beside the circle of the target jumps onto it.
+    """
+    i: int = MQI_BASE + record * MQI_STRIDE
+    q: int = MQF_BASE + record * MQF_STRIDE
+    a: int = I[i + MQI_PLANE]
+    b: int = I[i + MQI_PLANE + 1]
+    scale_a: float = curve_scale(I, S, m, record, 0)
+    scale_b: float = curve_scale(I, S, m, record, 1)
+    x0: float = curve_start(F, I, record, 0) / scale_a
+    y0: float = curve_start(F, I, record, 1) / scale_b
+    x1: float = x0 + F[q + MQF_DELTA_CNT + a] / scale_a
+    y1: float = y0 + F[q + MQF_DELTA_CNT + b] / scale_b
+    first: float = sqrt(x0 * x0 + y0 * y0)
+    last: float = sqrt(x1 * x1 + y1 * y1)
+    phase: float = atan2(y0, x0)
+    sweep: float = atan2(y1, x1) - phase
+    clockwise: bool = I[i + MQI_CURVE] == CURVE_CW
+    if clockwise:
+        sweep = -sweep
+    if sweep < -FULL_TURN_RAD:
+        sweep += 2.0 * PI
+    if sweep < FULL_TURN_RAD:
+        sweep = 2.0 * PI
+    mean: float = (first + last) / 2.0 if spiral else last
+    arc: float = mean * sweep
+    if shown:
+        for place in range(2):
+            axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + I[i + MQI_PLANE + place]]
+            S[AX_BASE + axis * AX_STRIDE + AX_START_RADIUS] = first
+            S[AX_BASE + axis * AX_STRIDE + AX_END_RADIUS] = last
+    if clockwise:
+        sweep = -sweep
+    growth: float = 0.0
+    if spiral:
+        growth = last - first
+        last = first
+    curve_set(F, record, a, last * scale_a, growth * scale_a, phase + PI / 2.0, sweep, True)
+    curve_set(F, record, b, last * scale_b, growth * scale_b, phase, sweep, True)
+    return arc
+
+
+def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
+    """TARC: the circle through start, mid point and target; return the arc, 0 if there is none.
+
+    With a and b leading from the start to mid point and target and n = a x b, the centre
+    lies at ((n x a) b^2 + (b x n) a^2) / (2 n^2), and the way from start over mid point to
+    target turns about n. u leads from centre to start, v a quarter turn on.
+    """
+    i: int = MQI_BASE + record * MQI_STRIDE
+    q: int = MQF_BASE + record * MQF_STRIDE
+    scale_x: float = curve_scale(I, S, m, record, 0)
+    scale_y: float = curve_scale(I, S, m, record, 1)
+    scale_z: float = curve_scale(I, S, m, record, 2)
+    ax: float = -curve_start(F, I, record, 0) / scale_x
+    ay: float = -curve_start(F, I, record, 1) / scale_y
+    az: float = -curve_start(F, I, record, 2) / scale_z
+    bx: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE]] / scale_x
+    by: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE + 1]] / scale_y
+    bz: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE + 2]] / scale_z
+    nx: float = ay * bz - az * by
+    ny: float = az * bx - ax * bz
+    nz: float = ax * by - ay * bx
+    square: float = nx * nx + ny * ny + nz * nz
+    aa: float = ax * ax + ay * ay + az * az
+    bb: float = bx * bx + by * by + bz * bz
+    if square <= 1e-20 * aa * bb:
+        return 0.0
+    half: float = -0.5 / square
+    ux: float = half * ((ny * az - nz * ay) * bb + (by * nz - bz * ny) * aa)
+    uy: float = half * ((nz * ax - nx * az) * bb + (bz * nx - bx * nz) * aa)
+    uz: float = half * ((nx * ay - ny * ax) * bb + (bx * ny - by * nx) * aa)
+    normal: float = sqrt(square)
+    vx: float = (ny * uz - nz * uy) / normal
+    vy: float = (nz * ux - nx * uz) / normal
+    vz: float = (nx * uy - ny * ux) / normal
+    # From the centre the target lies at u + b.
+    radius: float = sqrt(ux * ux + uy * uy + uz * uz)
+    along: float = radius * radius + bx * ux + by * uy + bz * uz
+    sweep: float = atan2(bx * vx + by * vy + bz * vz, along)
+    if sweep <= 0.0:
+        sweep += 2.0 * PI
+    curve_turn(F, I, record, 0, ux * scale_x, vx * scale_x, sweep)
+    curve_turn(F, I, record, 1, uy * scale_y, vy * scale_y, sweep)
+    curve_turn(F, I, record, 2, uz * scale_z, vz * scale_z, sweep)
+    return radius * sweep
+
+
+def curve_turn(F: F64, I: I32, record: int, place: int, u: float, v: float, sweep: float) -> None:
+    """Write u cos(t) + v sin(t) as one wave."""
+    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
+    curve_set(F, record, s, sqrt(u * u + v * v), 0.0, atan2(u, v), sweep, True)

@@ -1,0 +1,89 @@
+"""Write the curves of a move into its record: what the kernel lays out when it begins."""
+
+from collections.abc import Sequence
+from math import radians
+
+from openacr.errors import CardError
+from openacr.kernel import curve_cy
+from openacr.map.numbers import (
+    AF1_SINUSOIDAL_MODE,
+    MQI_BASE,
+    MQI_CURVE,
+    MQI_CURVED,
+    MQI_HALF_WAVE,
+    MQI_PLANE,
+    MQI_STRIDE,
+    MWF_AMPLITUDE_CNT,
+    MWF_BASE,
+    MWF_PHASE_RAD,
+    MWF_POINT_CNT,
+    MWF_STRIDE,
+    MWF_SWEEP_RAD,
+)
+from openacr.messages import INVALID_ARC, UNDEFINED_SYMBOL
+from openacr.motion.card import Card
+from openacr.motion.orders import Circle, Part, Sine, SpaceArc, Target
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import axis_word
+
+
+def write(card: Card, program: int, record: int, parts: Sequence[Part]) -> None:
+    """Write the curves of all parts; parts on straight lines have none."""
+    rows = MQI_BASE + record * MQI_STRIDE
+    ints = card.memory.I
+    ints[rows + MQI_CURVED] = ints[rows + MQI_HALF_WAVE] = 0
+    ints[rows + MQI_CURVE] = curve_cy.CURVE_NONE
+    ints[rows + MQI_PLANE] = 0
+    for part in parts:
+        match part:
+            case Target(axis):
+                if ints[axis_word(axis)] & AF1_SINUSOIDAL_MODE:
+                    _mark(card, program, record, axis, MQI_CURVED, MQI_HALF_WAVE)
+            case Sine(axis):
+                _mark(card, program, record, axis, MQI_CURVED)
+                _write_sine(card, program, record, part)
+            case Circle(axes, _, center, direction):
+                _write_plane(card, program, record, axes, center, direction)
+            case SpaceArc(axes, _, mid):
+                _write_plane(card, program, record, axes, mid, curve_cy.CURVE_SPACE)
+
+
+def slave_of(card: Card, program: int, axis: int) -> int:
+    """The slave number of an axis; `Undefined symbol` if the program does not have it."""
+    slave = card.attachments.slave_of(program, axis)
+    if slave is None:
+        raise CardError(UNDEFINED_SYMBOL)
+    return slave
+
+
+def _mark(card: Card, program: int, record: int, axis: int, *masks: int) -> None:
+    bit = 1 << slave_of(card, program, axis)
+    for mask in masks:
+        card.memory.I[MQI_BASE + record * MQI_STRIDE + mask] |= bit
+
+
+def _write_sine(card: Card, program: int, record: int, sine: Sine) -> None:
+    slave = slave_of(card, program, sine.axis)
+    reals, row = card.memory.F, MWF_BASE + record * MWF_STRIDE + slave
+    reals[row + MWF_AMPLITUDE_CNT] = sine.amplitude_u * scale_of(card, sine.axis)
+    reals[row + MWF_PHASE_RAD] = radians(sine.phase_deg)
+    reals[row + MWF_SWEEP_RAD] = radians(sine.sweep_deg)
+
+
+def _write_plane(
+    card: Card,
+    program: int,
+    record: int,
+    axes: Sequence[int],
+    point_u: Sequence[float],
+    curve: int,
+) -> None:
+    rows = MQI_BASE + record * MQI_STRIDE
+    if card.memory.I[rows + MQI_CURVE] or len(set(axes)) < len(axes):
+        raise CardError(INVALID_ARC)
+    card.memory.I[rows + MQI_CURVE] = curve
+    for place, (axis, value) in enumerate(zip(axes, point_u, strict=True)):
+        _mark(card, program, record, axis, MQI_CURVED)
+        card.memory.I[rows + MQI_PLANE + place] = slave_of(card, program, axis)
+        point = MWF_BASE + record * MWF_STRIDE + MWF_POINT_CNT + place
+        card.memory.F[point] = value * scale_of(card, axis)

@@ -1,0 +1,84 @@
+"""What a coordinated move is to do, in units and absolute angles, before it is a record."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TypeAlias
+
+from openacr.kernel import curve_cy
+
+
+class Direction(IntEnum):
+    """Which way a circle goes round; counter-clockwise leads from the first axis to the second."""
+
+    CLOCKWISE = curve_cy.CURVE_CW
+    COUNTER_CLOCKWISE = curve_cy.CURVE_CCW
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Where one axis of a move goes: to `value_u`, or by `value_u` if incremental."""
+
+    axis: int
+    value_u: float
+    incremental: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Sine:
+    """One axis on a part of a sine wave, to `target_u`."""
+
+    axis: int
+    target_u: float
+    phase_deg: float
+    sweep_deg: float
+    amplitude_u: float
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """Two axes round a centre; the same place again is a full turn."""
+
+    axes: tuple[int, int]
+    target_u: tuple[float, float]
+    center_u: tuple[float, float]
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class SpaceArc:
+    """Three axes on the circle through where they are, a mid point and a target."""
+
+    axes: tuple[int, int, int]
+    target_u: tuple[float, float, float]
+    mid_u: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class FlagState:
+    """A flag in the state that is waited for."""
+
+    number: int
+    clear: bool = False
+
+    @property
+    def signed(self) -> int:
+        """As the kernel keeps it: the number + 1, negative for the clear state."""
+        return -(self.number + 1) if self.clear else self.number + 1
+
+
+Part: TypeAlias = Target | Sine | Circle | SpaceArc
+
+
+def end_points(parts: Sequence[Part]) -> list[Target]:
+    """The target of every axis of a move, whatever curve leads there; the last one counts."""
+    found: dict[int, Target] = {}
+    for part in parts:
+        match part:
+            case Target(axis):
+                found[axis] = part
+            case Sine(axis, target):
+                found[axis] = Target(axis, target)
+            case Circle(axes, targets) | SpaceArc(axes, targets):
+                found |= {a: Target(a, t) for a, t in zip(axes, targets, strict=True)}
+    return list(found.values())

@@ -1,0 +1,237 @@
+"""INT, TRJ, TRG and HSINT: moves that begin, end or turn elsewhere by flags and captures."""
+
+from itertools import pairwise
+
+import pytest
+from tests.basic.motion_bench import Bench, ticks
+
+from openacr.map import numbers as at
+
+IN_MOTION, TRG_PENDING = 516, 539
+VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
+RESPONSE = at.MA_BASE + at.MA_INT_RESPONSE_PERIOD
+FLAG = 128
+REGISTERED, ABORTED = 778, 779
+
+
+def bench(*lines: str) -> Bench:
+    """A card with axes of 1000 pulses per unit and ramps of 0.1 s."""
+    made = Bench("X", "Y").all("PPU X1000 Y1000", "ACC 100 DEC 100 STP 100 VEL 10")
+    return made.all(*lines)
+
+
+def speeds(made: Bench, limit_s: float = 10.0) -> list[float]:
+    """Path speed of every tick until the motion ends."""
+    found: list[float] = []
+    while made.bit(IN_MOTION) and len(found) < limit_s / 0.0005:
+        made.ticks(1)
+        found.append(made.p(VELOCITY))
+    return found
+
+
+def smooth(values: list[float], rate_ups2: float = 100.0) -> bool:
+    """Whether no change of speed is faster than the ramp."""
+    changes = (abs(b - a) for a, b in pairwise(values))
+    return max(changes) <= rate_ups2 * 0.0005 * 1.01
+
+
+# INT
+
+
+@pytest.mark.req("ACR-CMD-INT")
+def test_int_ends_a_move_at_its_flag_and_the_next_one_starts() -> None:
+    made = bench()
+    made.type(f"INT {FLAG} X100 : Y1")
+    made.ticks(ticks(1.0)).all(f"SET {FLAG}")
+    at_flag = made.psp(0) / 1000
+    while made.psp(1) == 0:
+        made.ticks(1)
+    assert made.psp(0) / 1000 == pytest.approx(at_flag + 0.5, abs=0.05)
+    made.until_clear(IN_MOTION)
+    assert made.psp(1) == 1000
+    assert made.p(12289) == made.p(12288)
+
+
+@pytest.mark.parametrize(("period", "delay"), [(5, 5), (50, 50), (0, 1)])
+@pytest.mark.req("ACR-CMD-INT")
+def test_int_looks_at_its_flag_every_response_period(period: int, delay: int) -> None:
+    made = bench(f"P{RESPONSE} = {period}", "ACC 0 STP 0 DEC 0", f"SET {FLAG}")
+    made.type(f"INT {FLAG} X100")
+    assert made.until_clear(IN_MOTION) - delay in (0, 1)
+
+
+def test_int_never_looks_with_a_period_of_minus_1_and_5_is_the_default() -> None:
+    made = bench(f"SET {FLAG}")
+    assert made.p(RESPONSE) == 5
+    made.all(f"P{RESPONSE} = -1", f"INT {FLAG} X5")
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 5000
+
+
+def test_int_with_a_minus_waits_for_the_clear_state() -> None:
+    made = bench(f"SET {FLAG}", f"INT -{FLAG} X5")
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 5000
+    made.all(f"CLR {FLAG}", f"INT -{FLAG} X50")
+    assert made.until_clear(IN_MOTION) < 20
+
+
+def test_a_hold_during_the_stop_of_int_keeps_it_ended() -> None:
+    made = bench()
+    made.type(f"INT {FLAG} X100")
+    made.ticks(1000).all(f"SET {FLAG}").ticks(20).all("SET 520").ticks(600)
+    stopped = made.psp(0)
+    made.all("SET 521").ticks(300)
+    assert not made.bit(IN_MOTION)
+    assert made.psp(0) == stopped
+
+
+def test_int_refuses_flags_that_are_none() -> None:
+    assert bench().type("INT 99999 X1") == "Invalid bit"
+
+
+# TRJ
+
+
+@pytest.mark.req("ACR-CMD-TRJ")
+def test_trj_replaces_the_running_and_the_buffered_move_with_the_speed_kept() -> None:
+    made = bench()
+    made.type("X100 : X200")
+    made.ticks(ticks(0.5))
+    assert made.type("TRJ X20 Y3") == ""
+    found = speeds(made)
+    assert smooth(found)
+    assert found[0] == pytest.approx(10)
+    assert (made.psp(0), made.psp(1)) == (20000, 3000)
+
+
+@pytest.mark.req("ACR-CMD-TRJ")
+def test_trj_backwards_comes_to_rest_first() -> None:
+    made = bench()
+    made.type("X100")
+    made.ticks(ticks(0.5))
+    made.type("TRJ X0")
+    found = speeds(made)
+    assert smooth(found)
+    assert min(found[: ticks(0.15)]) < 0.06
+    assert made.psp(0) == 0
+
+
+def test_trj_of_an_idle_master_is_a_move() -> None:
+    made = bench("TRJ X1 Y/2")
+    made.until_clear(IN_MOTION)
+    assert (made.psp(0), made.psp(1)) == (1000, 2000)
+
+
+def test_trj_never_waits_for_the_buffer() -> None:
+    made = bench()
+    made.type("X100 : X200")
+    assert made.type("TRJ X30") == ""
+    assert not made.is_waiting
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 30000
+
+
+# TRG
+
+
+def test_trg_holds_the_next_move_until_its_flag() -> None:
+    made = bench(f"TRG {FLAG}")
+    assert made.bit(TRG_PENDING)
+    made.type("X1")
+    made.ticks(100)
+    assert (made.psp(0), made.bit(IN_MOTION), made.bit(TRG_PENDING)) == (0, True, True)
+    made.all(f"SET {FLAG}").ticks(1)
+    assert made.psp(0) > 0
+    assert not made.bit(TRG_PENDING)
+    made.until_clear(IN_MOTION)
+    made.type("X2")
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 2000
+
+
+def test_trg_is_for_the_move_issued_after_it() -> None:
+    made = bench()
+    made.type(f"X1 : TRG -{FLAG} : SET {FLAG} : X2")
+    made.ticks(1000)
+    assert (made.psp(0), made.bit(TRG_PENDING)) == (1000, True)
+    made.all(f"CLR {FLAG}")
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 2000
+
+
+def test_trg_waits_for_a_capture() -> None:
+    made = bench("TRG X(11)", "X1").ticks(50)
+    assert made.psp(0) == 0
+    made.all("SET 113")
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == 1000
+
+
+@pytest.mark.parametrize("line", ["TRG OFF", "SET 522", "HALT"])
+def test_trg_is_lifted_by_off_kill_and_halt(line: str) -> None:
+    made = bench(f"TRG {FLAG}", "X1").ticks(3)
+    made.type(line)
+    made.ticks(600)
+    assert not made.bit(TRG_PENDING)
+    assert made.psp(0) == (1000 if line == "TRG OFF" else 0)
+
+
+# HSINT
+
+
+def hsint(made: Bench, arguments: str, at_s: float) -> Bench:
+    """Start HSINT on X, capture by software after a time, and wait for the end."""
+    assert made.type(f"HSINT X({arguments})") == ""
+    made.ticks(ticks(at_s)).all("SET 113")
+    return made
+
+
+def test_hsint_leads_a_way_behind_the_capture() -> None:
+    made = hsint(bench(), "11,100,3", at_s=1.0)
+    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    found = speeds(made)
+    assert smooth(found)
+    assert made.bit(REGISTERED)
+    assert made.psp(0) == captured + 3000
+
+
+def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
+    made = hsint(bench(), "11,100,0.1", at_s=1.0)
+    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    farthest = 0.0
+    while made.bit(IN_MOTION):
+        farthest = max(farthest, made.ticks(1).psp(0))
+    assert farthest > captured + 400
+    assert made.psp(0) == captured + 100
+
+
+def test_hsint_takes_captures_in_its_window_only() -> None:
+    made = hsint(bench(), "11,30,2,5,15", at_s=1.0)
+    made.ticks(10)
+    assert not made.bit(REGISTERED)
+    made.ticks(ticks(0.8)).all("SET 113").ticks(1)
+    captured = made.p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    assert 15000 < captured < 20000
+    assert made.bit(REGISTERED)
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == captured + 2000
+
+
+def test_hsint_without_capture_goes_to_its_target() -> None:
+    made = bench("HSINT X(11,4,3)")
+    made.until_clear(IN_MOTION)
+    assert (made.psp(0), made.bit(REGISTERED)) == (4000, False)
+
+
+def test_hsint_is_aborted_by_its_flag() -> None:
+    made = bench(f"HSINT X(11,100,3,0,0,{FLAG})").ticks(ticks(1.0)).all(f"SET {FLAG}")
+    assert smooth(speeds(made))
+    assert (made.bit(ABORTED), made.bit(REGISTERED)) == (True, False)
+    assert 9000 < made.psp(0) < 11000
+
+
+def test_a_response_period_of_minus_1_never_turns_hsint() -> None:
+    made = hsint(bench(f"P{RESPONSE} = -1"), "11,12,3", at_s=0.5)
+    made.until_clear(IN_MOTION)
+    assert (made.psp(0), made.bit(REGISTERED)) == (12000, True)
