@@ -1,0 +1,88 @@
+"""The compiled core: it is there where it can be, and made of what it may be made of."""
+
+import ast
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from openacr import compiled, unity
+from openacr.unity import UnityError, source_hash, unity_source, write_unity
+
+HEAD = "from openacr.views import F64\n\nLIMIT = 4\n\n"
+
+
+def can_be_compiled() -> bool:
+    """Whether this machine has what the compiled core needs."""
+    has_compiler = any(shutil.which(name) for name in ("cc", "gcc", "clang"))
+    return has_compiler and os.environ.get("OPENACR_PURE") != "1"
+
+
+@pytest.mark.skipif(not can_be_compiled(), reason="no C compiler, or plain Python is asked for")
+def test_with_a_compiler_the_core_is_compiled_from_the_present_sources() -> None:
+    assert compiled.is_compiled
+    assert compiled.extension.SOURCE_HASH == source_hash()
+
+
+@pytest.mark.skipif(os.environ.get("OPENACR_PURE") != "1", reason="the core may be compiled")
+def test_plain_python_is_used_when_asked_for() -> None:
+    assert not compiled.is_compiled
+
+
+def test_the_joined_source_is_python_and_holds_the_whole_core() -> None:
+    text = unity_source()
+    names = {node.name for node in ast.parse(text.replace("LL", "")).body if hasattr(node, "name")}
+    assert {"engine_run", "py_engine_run", "tick", "vm_run"} <= names
+
+
+def test_an_unchanged_source_keeps_its_time_and_a_changed_one_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    joined(tmp_path, monkeypatch, "def f(n: int) -> int:\n    return n + LIMIT\n")
+    target = tmp_path / "deep" / "core.pyx"
+    write_unity(target, checked=False)
+    os.utime(target, (1000, 1000))
+    write_unity(target, checked=False)
+    assert target.stat().st_mtime == 1000
+    write_unity(target, checked=True)
+    assert target.stat().st_mtime > 1000
+    assert "CHECKED = True" in target.read_text()
+
+
+def joined(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> str:
+    source = tmp_path / "small_cy.py"
+    source.write_text(HEAD + text)
+    monkeypatch.setattr(unity, "source_files", lambda: [source])
+    return unity_source()
+
+
+def test_a_small_source_gets_c_types_and_literals(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = joined(
+        tmp_path, monkeypatch, "def f(F: F64, n: int) -> float:\n    return F[n + LIMIT]\n"
+    )
+    assert "n: cython.longlong" in text
+    assert "F[n + 4]" in text
+
+
+@pytest.mark.parametrize(
+    ("code", "message"),
+    [
+        ("def f(n: int) -> int:\n    return n // 2\n", "//, % and ** differ between builds"),
+        ("def f(n: int) -> int:\n    n //= 2\n    return n\n", "//, % and ** differ"),
+        ("def f(n: int) -> int:\n    return n % 2\n", "//, % and ** differ"),
+        ("def f(n: float) -> float:\n    return n**2\n", "//, % and ** differ"),
+        ("def f(n) -> int:\n    return 1\n", "every argument and result needs a simple type"),
+        ("def f(n: str) -> int:\n    return 1\n", "every argument and result needs a simple type"),
+        ("class A:\n    pass\n", "only functions and constants are compiled"),
+        ("from os import path\n", "import of os cannot be compiled"),
+        ("def f() -> None:\n    pass\n\n\ndef f() -> None:\n    pass\n", "f is defined twice"),
+    ],
+)
+def test_what_could_differ_between_the_builds_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, message: str
+) -> None:
+    with pytest.raises(UnityError, match=message.replace("*", r"\*")):
+        joined(tmp_path, monkeypatch, code)
