@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
-from tests.kernel.rig import Reals, Rig, T, acceleration, noise, velocity
+from tests.kernel.rig import Reals, Rig, T, acceleration, examples, noise, velocity
 
 from openacr.motion import moves
 
@@ -53,7 +53,7 @@ def ticks_moved(positions: Reals) -> int:
     return len(positions) - 2
 
 
-@settings(max_examples=600)
+@settings(max_examples=examples(600))
 @given(shapes(), st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, 0.01, 1000.0, -8000.0]))
 def test_a_move_ends_on_its_target_within_limits_and_in_time(
     shape: dict[str, float], sign: float, ppu: float
@@ -126,7 +126,7 @@ def test_profile_values_are_in_units() -> None:
     assert positions[-1] == 800_000
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(st.lists(shapes(), min_size=2, max_size=3), st.lists(st.booleans(), min_size=3, max_size=3))
 def test_merged_moves_pass_on_their_speed_and_end_exactly(
     chain: list[dict[str, float]], stops: list[bool]
@@ -158,7 +158,7 @@ def test_merged_moves_pass_on_their_speed_and_end_exactly(
     assert abs(ticks_moved(positions) - expected / T) <= 1 + 1e-5 * expected / T
 
 
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 @given(shapes(), st.data())
 @example(
     {"length": 10.0, "vel": 50.0, "acc": 100.0, "dec": 50.0, "stp": 100.0, "fvel": 20.0, "ivel": 0},

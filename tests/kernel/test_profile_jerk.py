@@ -6,7 +6,7 @@ import ruckig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
-from tests.kernel.rig import Rig, T, acceleration, jerk, noise, velocity
+from tests.kernel.rig import Rig, T, acceleration, examples, jerk, noise, velocity
 from tests.kernel.test_profile import disturbed, set_up, shapes, spread, ticks_moved
 
 settings.load_profile("kernel")
@@ -22,7 +22,7 @@ def curves(draw: st.DrawFn) -> dict[str, float]:
     return shape
 
 
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 @given(curves())
 def test_an_s_curve_ends_exactly_keeps_its_jerk_and_takes_the_closed_form_time(
     shape: dict[str, float],
@@ -44,7 +44,7 @@ def test_an_s_curve_ends_exactly_keeps_its_jerk_and_takes_the_closed_form_time(
     assert abs(ticks_moved(positions) - leg.time / T) <= 1 + 1e-6 * leg.time / T
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(curves())
 def test_an_s_curve_is_at_most_a_hundredth_slower_than_the_optimum(
     shape: dict[str, float],
@@ -67,7 +67,7 @@ def test_an_s_curve_is_at_most_a_hundredth_slower_than_the_optimum(
     assert optimum_s - T <= moved <= optimum_s * 1.01 + T
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(curves(), st.data())
 def test_overrides_and_holds_during_an_s_curve_keep_end_acceleration_and_jerk(
     shape: dict[str, float], data: st.DataObject
@@ -86,7 +86,7 @@ def test_overrides_and_holds_during_an_s_curve_keep_end_acceleration_and_jerk(
 
 def test_an_s_curve_that_brakes_for_a_lower_override_goes_on_braking_at_its_end() -> None:
     """Released so late that taking the brake off first would pass the target."""
-    for ticks in range(0, 900, 7):
+    for ticks in range(0, 900, 900 // examples(130)):
         rig = Rig(ppu=[1000.0]).master(acc=100, dec=100, stp=100, jrk=1000, vel=50)
         rig.move(10.0)
         positions = [0.0]
@@ -101,7 +101,7 @@ def test_an_s_curve_that_brakes_for_a_lower_override_goes_on_braking_at_its_end(
         assert np.abs(jerk(units)).max() <= 1000 * (1 + 1e-5)
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(st.lists(curves(), min_size=2, max_size=3))
 def test_merged_s_curves_pass_on_speed_and_acceleration(chain: list[dict[str, float]]) -> None:
     rig = Rig(ppu=[100.0])

@@ -57,7 +57,8 @@ JOURNEYS: dict[str, tuple[Step, ...]] = {
     ),
     "programs": (
         "PROGRAM", "P0=0", "_LOOP", "X/0.01", "INH -516", "P0=P0+SQRT(2)",
-        "IF (P0<9) THEN GOTO LOOP", "ENDP", "PROG1", "PROGRAM", "DIM LV(2)", "_AGAIN", "LV0=LV0+1", "P1=SIN(LV0)*P6916",
+        "IF (P0<9) THEN GOTO LOOP", "ENDP", "PROG1", "PROGRAM", "DIM LV(2)", "_AGAIN", "LV0=LV0+1",
+        "P1=SIN(LV0)*P6916",
         "DWL 0.005", "GOTO AGAIN", "ENDP", "RUN", "PROG0", "RUN", 300, "HALT PROG1", 60,
     ),
     "filters": (
