@@ -1,7 +1,7 @@
 from pathlib import Path
 
 import pytest
-from tests.client.cards import load_example, with_axis
+from tests.client.cards import load_example, with_axis, wrapped
 
 from openacr.client import Card, Level
 from openacr.controller import Controller
@@ -44,6 +44,18 @@ def test_what_a_card_does_not_know_is_left_out_with_a_remark(tmp_path: Path) -> 
     setup = texts(tmp_path / "backup")["setup.8k"]
     assert "REM not readable: PROG0: Program is protected\n" in setup
     card.command('PASSWORD OFF "x"')
+    card.restore(tmp_path / "backup")
+
+
+def test_what_a_card_reports_in_another_form_is_kept_as_a_remark(tmp_path: Path) -> None:
+    card, link = wrapped()
+    card.command("DIM P(7)")
+    link.alters = lambda data: data.replace(b"ATTACH AXIS", b"AXIS ").replace(b"DIM P(7)", b"P 7")
+    card.backup(tmp_path / "backup")
+    setup = texts(tmp_path / "backup")["setup.8k"]
+    assert "REM not understood: DIM: P 7\n" in setup
+    assert "REM not understood: ATTACH: AXIS 0 ENC0 DAC0 ENC0\n" in setup
+    assert "AXIS7 PPU 1\n" in setup
     card.restore(tmp_path / "backup")
 
 

@@ -25,7 +25,7 @@ from openacr.client.talk import Op, Talk
 from openacr.client.transfer import Progress, Report, download, upload
 from openacr.errors import UserError
 
-PROGRAMS, PLCS = 16, 8
+AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
 # Said better by another row, or not to be written back.
@@ -50,6 +50,8 @@ _FLAGS = (
     "home negative final direction",
     "jog limit check",
 )
+_NUMBER = r"-?[\d.]+(?:[Ee][-+]?\d+)?"
+_VALUE = re.compile(rf"{_NUMBER}(?:,{_NUMBER})?")
 _ATTACHED_AXIS = re.compile(r"ATTACH AXIS(\d+) ")
 _SLAVE = re.compile(r"ATTACH SLAVE\d+ AXIS(\d+) ")
 _VARIABLES = re.compile(r"DIM P\((\d+)\)")
@@ -79,7 +81,20 @@ class _Reader:
     def setting(self, command: str, *, at: Level = SYS) -> Op[None]:
         """A command that reports its value, with that value behind it."""
         for value in (yield from self.ask(command, at=at)):
-            self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
+            if not _VALUE.fullmatch(value):
+                self.lines.append(f"REM not understood: {command}: {value}")
+            else:
+                self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
+
+    def commands(self, query: str, word: str, *, at: Level = SYS) -> Op[list[str]]:
+        """What a query reports in the form of commands that begin with a word."""
+        found: list[str] = []
+        for line in (yield from self.ask(query, at=at)):
+            if line.startswith(f"{word} "):
+                found.append(line)
+            else:
+                self.lines.append(f"REM not understood: {query}: {line}")
+        return found
 
 
 def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
@@ -102,10 +117,12 @@ def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
 
 
 def _read_system(reader: _Reader) -> Op[None]:
-    sizes = yield from reader.ask("DIM")
-    aliases = yield from reader.ask("DEF")
-    attachments = yield from reader.ask("ATTACH")
+    sizes = yield from reader.commands("DIM", "DIM")
+    aliases = yield from reader.commands("DEF", "#DEFINE")
+    attachments = yield from reader.commands("ATTACH", "ATTACH")
     axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
+    if not axes:
+        axes = yield from _axes_that_answer(reader)
     rows = list(_object_rows()), list(_axis_rows()), list(_master_rows())
     reader.total = 2 * len(axes) + len(axes) * (len(rows[0]) + len(rows[1])) + 3 * PROGRAMS
     reader.lines += [*sizes, *aliases]
@@ -119,6 +136,16 @@ def _read_system(reader: _Reader) -> Op[None]:
         yield from _read_program(reader, Level.program(number), rows[2])
 
 
+def _axes_that_answer(reader: _Reader) -> Op[list[int]]:
+    """The axes of a card that does not tell how they are attached."""
+    for axis in range(AXES):
+        try:
+            yield from reader.talk.query(f"AXIS{axis} PPU", at=SYS)
+        except RefusedError:
+            return list(range(axis))
+    return list(range(AXES))
+
+
 def _read_axis(reader: _Reader, axis: int, objects: list[str], commands: list[str]) -> Op[None]:
     for command in objects:
         yield from reader.setting(command.replace("#", str(axis)).replace(" ", "", 1))
@@ -126,7 +153,8 @@ def _read_axis(reader: _Reader, axis: int, objects: list[str], commands: list[st
         yield from reader.setting(f"AXIS{axis} {command}")
     yield from _read_flags(reader, axis)
     for state in (yield from reader.ask(f"AXIS{axis}")):
-        reader.lines.append(f"AXIS{axis} {state}")
+        if state in ("ON", "OFF"):
+            reader.lines.append(f"AXIS{axis} {state}")
 
 
 def _read_flags(reader: _Reader, axis: int) -> Op[None]:
@@ -148,8 +176,8 @@ def _read_variables(reader: _Reader, sizes: Iterable[str]) -> Op[None]:
 
 
 def _read_program(reader: _Reader, level: Level, commands: list[str]) -> Op[None]:
-    attachments = yield from reader.ask("ATTACH", at=level)
-    sizes = yield from reader.ask("DIM", at=level)
+    attachments = yield from reader.commands("ATTACH", "ATTACH", at=level)
+    sizes = yield from reader.commands("DIM", "DIM", at=level)
     if attachments or sizes:
         reader.lines += [str(level), *attachments, *sizes]
     for command in commands if attachments else ():
