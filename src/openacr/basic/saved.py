@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from openacr.basic.system import System
     from openacr.motion.settings import LimitEnables, Setting
 
-VERSION = 1
 # Commands that show the same value under another name or in another unit.
 SAME_VALUE = {"MULT": "ENC # MULT", "F": "VEL", "AXIS # OFF": "AXIS # ON"}
 STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)

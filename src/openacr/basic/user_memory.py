@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from openacr.basic.heap import Heap
     from openacr.basic.system import System
 
-VERSION = 1
 _LONG_VARIABLES = slice(38912, 39424)  # in the I view: LONG up to 39167, then FP32
 _SCALARS = {kind.name: kind for kind in SCALARS}
 _ARRAYS = {kind.name: kind for kind in ARRAYS}

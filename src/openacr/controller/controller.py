@@ -217,7 +217,7 @@ class Controller:
             if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
                 self.recorder.mark()
             if reason != loop_cy.DONE or ticks <= 0 or self.recorder is None:
-                self.nonvolatile.follow()
+                self.nonvolatile.follow_in_time()
                 return reason
 
     def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:

@@ -38,7 +38,7 @@ log = logging.getLogger(__name__)
 
 CARD, FLASH, PARAMETERS, STREAM_MODES, BACKUP = "card", "flash", "parameters", "streams", "firmware"
 BATTERY, BATTERY_TEXT = "battery", "battery text "
-FORMAT = 1
+FORMAT = 1  # of all images; one of another format counts as damaged
 VALUES_EVERY_S = 1.0
 BOOT_EMPTY, SYSTEM1_EMPTY, SYSTEM2_EMPTY, USER_EMPTY, BACKED_UP = range(5656, 5661)
 
@@ -141,8 +141,8 @@ class Persistence:
 
     def esave(self) -> None:
         """ESAVE."""
-        parameters = Image(saved.VERSION, msgspec.msgpack.encode(saved.take(self._system)))
-        modes = Image(saved.VERSION, msgspec.msgpack.encode(saved.take_stream_modes(self._system)))
+        parameters = Image(FORMAT, msgspec.msgpack.encode(saved.take(self._system)))
+        modes = Image(FORMAT, msgspec.msgpack.encode(saved.take_stream_modes(self._system)))
         self._write({PARAMETERS: parameters, STREAM_MODES: modes})
 
     def eload(self) -> None:
@@ -161,7 +161,7 @@ class Persistence:
     def flash_save(self, *, values: bool) -> None:
         """FLASH SAVE, and with values FLASH IMAGE."""
         image = user_memory.take(self._system, values=values)
-        self._write({FLASH: Image(user_memory.VERSION, msgspec.msgpack.encode(image))})
+        self._write({FLASH: Image(FORMAT, msgspec.msgpack.encode(image))})
 
     def flash_load(self) -> None:
         """FLASH LOAD; from an empty flash nothing is loaded."""
@@ -205,30 +205,38 @@ class Persistence:
         self._has_battery = self._follows = False
         self._write(dict.fromkeys(self._battery_names()))
 
-    def follow(self, *, at_end: bool = False) -> None:
-        """Write what has changed of battery-backed memory; values in their time, or `at_end`."""
-        if not self._follows:
-            return
-        system, now = self._system, self._system.card.tick
-        shape = self._present_shape()
-        every_tk = VALUES_EVERY_S / system.card.period_s
-        is_due = at_end or not 0 <= now - self._written_tk < every_tk
-        if not system.programs.changed and shape == self._shape and not is_due:
-            return
+    def follow_in_time(self) -> None:
+        """Write battery-backed memory if the last time is long enough ago."""
+        if self._follows and self._is_due:
+            self._follow(values=True)
+
+    def follow(self) -> None:
+        """Write what has changed of battery-backed memory: texts and sizes at once."""
+        if self._follows:
+            shape = self._present_shape()
+            self._follow(values=self._is_due or shape != self._shape)
+            self._shape = shape
+
+    @property
+    def _is_due(self) -> bool:
+        lived_s = (self._system.card.tick - self._written_tk) * self._system.card.period_s
+        return not 0.0 <= lived_s < VALUES_EVERY_S  # REBOOT begins to count anew
+
+    def _follow(self, *, values: bool) -> None:
+        system = self._system
         changes: dict[str, Image | None] = {}
         for owner in sorted(system.programs.changed):
             changes[f"{BATTERY_TEXT}{owner}"] = self._text_image(owner)
-        if shape != self._shape or is_due:
+        if values:
             data = user_memory.take_data(system, values=True)
             content = msgspec.msgpack.encode(Battery(data, list(system.setup.config)))
-            self._written_tk = now
+            self._written_tk = system.card.tick
             if content != self._stored:
-                changes[BATTERY] = Image(user_memory.VERSION, content)
+                changes[BATTERY] = Image(FORMAT, content)
                 self._stored = content
         if changes:
             self._write_battery(changes)
         system.programs.changed.clear()
-        self._shape = shape
 
     def _write_battery(self, changes: Mapping[str, Image | None]) -> None:
         try:
@@ -241,7 +249,7 @@ class Persistence:
         if self._system.programs.is_empty(owner):
             return None
         text = user_memory.take_text(self._system, owner, self._memos[owner])
-        return Image(user_memory.VERSION, msgspec.msgpack.encode(text))
+        return Image(FORMAT, msgspec.msgpack.encode(text))
 
     def _present_shape(self) -> object:
         """Everything but values and text: it changes with every DIM, #DEFINE, CONFIG, ..."""
@@ -296,7 +304,8 @@ class Persistence:
 
     def close(self) -> None:
         """Write what is left and let go of the data folder."""
-        self.follow(at_end=True)
+        if self._follows:
+            self._follow(values=True)
         self._follows = False
         self.images.close()
 
