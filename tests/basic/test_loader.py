@@ -103,3 +103,8 @@ def test_set_up_commands_alone_stay_commands(source: str) -> None:
 
 def test_an_own_endp_closes_wrapped_text() -> None:
     assert texts("_A\nX10\nENDP\nRUN") == ["PROGRAM", "_A", "X10", "ENDP", "RUN"]
+
+
+def test_lines_with_numbers_are_stored_as_they_are_without_program_around_them() -> None:
+    text = "PROG0\n10 _LOOP\n20 PRINT 1 : GOTO LOOP\n30 X10\n"
+    assert [line.text for line in file_lines(text)] == text.splitlines()

@@ -24,6 +24,7 @@ _FLOW = re.compile(
     r"\s*(?:IF|ELSEIF|ELSE|ENDIF|FOR|NEXT|WHILE|WEND|BREAK|GOTO|GOSUB|RETURN|END)(?![A-Za-z])",
     re.IGNORECASE,
 )
+_LINE_NUMBER = re.compile(r"[\s:]*\d")
 _ONE_LINE_IF = re.compile(r"\s*IF(?![A-Za-z]).*?(?<![A-Za-z])THEN(?![A-Za-z])", re.IGNORECASE)
 _LEVEL_BOUND = re.compile(
     r"\s*(?:(?:DRIVE|RES|JOG|MOV|CIRCC?W|SINE|TARC|INT|TRJ)(?![A-Za-z])"
@@ -124,6 +125,8 @@ def _scan(text: str) -> _Scan:
 def _is_program_text(text: str) -> bool:
     """Whether a line can stand in a program only: label, ENDP, flow but the one-line IF."""
     code = _scan(text).code
+    if _LINE_NUMBER.match(code):
+        return False  # the card stores it by its number
     if _LABEL.match(code) or _ENDP.match(code):
         return True
     return any(_FLOW.match(block) for block in _flow_blocks(code))
