@@ -36,6 +36,8 @@ ORDER = (
     "kernel/interrupt_cy.py",
     "kernel/hsint_cy.py",
     "kernel/hold_cy.py",
+    "kernel/timebase_cy.py",
+    "kernel/timed_cy.py",
     "kernel/master_cy.py",
     "kernel/limits_cy.py",
     "kernel/drive_cy.py",

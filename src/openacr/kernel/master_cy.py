@@ -6,7 +6,7 @@ nothing to the tick grid.
 
 The slow side writes records and counts (motion/moves.py); everything else happens here,
 in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), seek_cy
-(MSEEK) and hsint_cy (HSINT).
+(MSEEK), hsint_cy (HSINT), timed_cy (TMOV) and timebase_cy (SRC, TOV).
 """
 
 from openacr.kernel.capture_cy import capture_arm
@@ -35,10 +35,11 @@ from openacr.kernel.profile_cy import (
     ACCELERATING,
     DECELERATING,
     STOPPING,
-    profile_advance,
     profile_reset,
 )
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_SEARCHING, SEEK_STOPPING, seek_end, seek_step
+from openacr.kernel.timebase_cy import path_advance, path_time
+from openacr.kernel.timed_cy import move_timed
 from openacr.map.numbers import (
     MA_BASE,
     MA_DISTANCE_INTO_MOVE,
@@ -84,6 +85,7 @@ from openacr.map.numbers import (
     MQF_LENGTH_U,
     MQF_STP_UPS2,
     MQF_STRIDE,
+    MQF_TMOV_S,
     MQI_BASE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
@@ -94,6 +96,7 @@ from openacr.map.numbers import (
     MSF_BASE,
     MSF_ENTRY_UPS,
     MSF_ENTRY_UPS2,
+    MSF_PACE,
     MSF_STRETCH_U,
     MSF_STRIDE,
     MSI_BASE,
@@ -102,6 +105,7 @@ from openacr.map.numbers import (
     MSI_HOLD,
     MSI_HSINT_PHASE,
     MSI_MOVING,
+    MSI_PACED,
     MSI_QUEUED,
     MSI_RESPONSE,
     MSI_SEEK_PHASE,
@@ -159,6 +163,8 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
         S[MA_BASE + m * MA_STRIDE + MA_DISTANCE_INTO_PATH] = 0.0
     I[word] |= MF1_IN_MOTION
     profile_reset(F, I, m, velocity, accel)
+    if F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] > 0.0:
+        move_timed(F, I, S, m)
     master_plan(F, I, S, m)
 
 
@@ -216,11 +222,14 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
     length: float = F[q + MQF_LENGTH_U]
     distance: float = F[f + PRF_DISTANCE]
-    velocity: float = F[f + PRF_VELOCITY]
+    pace: float = 1.0
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_PACED]:
+        pace = F[MSF_BASE + m * MSF_STRIDE + MSF_PACE]
+    velocity: float = F[f + PRF_VELOCITY] * pace
     S[p + MA_DISTANCE_INTO_MOVE] = distance
     S[p + MA_VECTOR_VELOCITY] = velocity
-    S[p + MA_VECTOR_ACCELERATION] = F[f + PRF_ACCEL]
-    S[p + MA_VECTOR_JERK] = F[f + PRF_JERK]
+    S[p + MA_VECTOR_ACCELERATION] = F[f + PRF_ACCEL] * pace * pace
+    S[p + MA_VECTOR_JERK] = F[f + PRF_JERK] * pace * pace * pace
     S[p + MA_VECTOR_LENGTH] = length
     S[p + MA_TARGET_VELOCITY] = F[f + PRF_TARGET_VELOCITY]
     S[p + MA_DISTANCE_TO_GO] = length - distance
@@ -256,6 +265,9 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
     """Advance master m by one servo period of `dt` seconds of path time."""
     i: int = MSI_BASE + m * MSI_STRIDE
     word: int = master_word(m)
+    left: float = dt
+    if I[i + MSI_PACED]:
+        left = path_time(F, I, S, m, dt)
     if I[word] & MF1_KILL_ALL_MOVES_REQUEST:
         if I[i + MSI_QUEUED] or I[i + MSI_HOLD]:
             master_drop(F, I, S, m)
@@ -268,7 +280,6 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         return
     if I[i + MSI_HOLD] == IN_FEEDHOLD:
         return
-    left: float = dt
     velocity: float = 0.0
     accel: float = 0.0
     if not I[i + MSI_MOVING]:
@@ -294,7 +305,7 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
                 master_hold(F, I, S, m)
         elif I[i + MSI_HOLD] == NOT_HELD:
             master_follow(F, I, S, m)
-        left = profile_advance(F, I, m, left)
+        left = path_advance(F, I, m, left)
         master_place(F, I, m)
         if left < 0.0:
             break

@@ -8,9 +8,11 @@ from openacr.errors import CardError
 from openacr.kernel import path_cy
 from openacr.map.numbers import (
     AXF_TARGET_CNT,
+    MA_MOVE_TIME,
     MA_USER_VELOCITY,
     MF1_IN_MOTION,
     MF1_MOVE_BUFFERED,
+    MF2_MASTER_IN_TMOV,
     MQF_ACC_UPS2,
     MQF_BASE,
     MQF_DEC_UPS2,
@@ -22,6 +24,7 @@ from openacr.map.numbers import (
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TARGET_CNT,
+    MQF_TMOV_S,
     MQF_VEL_UPS,
     MQF_WEIGHT,
     MQI_BASE,
@@ -54,7 +57,14 @@ from openacr.messages import INVALID_ARC
 from openacr.motion import curves, settings
 from openacr.motion.card import Card
 from openacr.motion.orders import Part
-from openacr.motion.rows import axis_reals, master_ints, master_parameter, master_reals, master_word
+from openacr.motion.rows import (
+    axis_reals,
+    master_ints,
+    master_parameter,
+    master_reals,
+    master_word,
+    master_word2,
+)
 
 _COPIED = (
     (MSF_ACC_UPS2, MQF_ACC_UPS2),
@@ -109,6 +119,9 @@ def _write_profile(card: Card, master: int, record: int) -> None:
     source = master_reals(master)
     for row, copy in _COPIED:
         reals[record + copy] = reals[source + row]
+    timed = card.memory.I[master_word2(master)] & MF2_MASTER_IN_TMOV
+    time_s = card.memory.S[master_parameter(master) + MA_MOVE_TIME]
+    reals[record + MQF_TMOV_S] = time_s if timed else 0.0
     reals[record + MQF_VEL_UPS] = card.memory.S[master_parameter(master) + MA_USER_VELOCITY]
 
 

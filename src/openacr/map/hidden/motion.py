@@ -123,6 +123,7 @@ MASTER = HiddenBlock(
         "look_from_deg",  # LOOK ANG
         "look_to_deg",
         "source_old",
+        "pace",  # path time per time in the last tick
     ),
     ints=(
         "program",  # program that owns the master, -1 none
@@ -145,6 +146,7 @@ MASTER = HiddenBlock(
         "trigger_axis",
         "source_kind",  # of the time base, see kernel/timebase_cy.py
         "source_index",
+        "paced",  # path time is not simply time: another source, or TOV
     ),
 )
 

@@ -1,0 +1,74 @@
+"""The time of moves: TMOV, and the time base of a master: TOV, SRC."""
+
+from __future__ import annotations
+
+from openacr.basic.commands.velocity_profile import GROUP, REF
+from openacr.basic.grammar import Either, Num, ObjectRef, Source, Word
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import value_text
+from openacr.map.numbers import MA_MOVE_TIME, MA_TIME_OVER_VELOCITY
+from openacr.motion import time_base
+from openacr.motion.settings import of_master
+
+TIME = of_master(MA_MOVE_TIME)
+FACTOR = of_master(MA_TIME_OVER_VELOCITY)
+
+
+@command(
+    "TMOV",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Either(Word("ON", "OFF"), Num("seconds"), optional=True),),
+    ref=REF,
+    units="s",
+    default="0",
+    saved=True,
+)
+def tmov(run: Run, given: str | float | None) -> None:
+    """Set the time every move takes, never faster than the other values allow; 0 or OFF ends it."""
+    master = run.master()
+    if given is None:
+        run.print(value_text(TIME, TIME.read(run.card, master)))
+    elif isinstance(given, str):
+        time_base.switch_move_time(run.card, master, on=given == "ON")
+    else:
+        TIME.check(given)
+        time_base.set_move_time(run.card, master, given)
+
+
+@command(
+    "TOV",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Either(Word("ON", "OFF"), Num("factor"), optional=True),),
+    ref=REF,
+    default="1",
+)
+def tov(run: Run, given: str | float | None) -> None:
+    """Multiply the pace of the time base, 0 to 2: speeds scale with it, the path stays."""
+    master = run.master()
+    if given is None:
+        run.print(value_text(FACTOR, FACTOR.read(run.card, master)))
+    elif isinstance(given, str):
+        time_base.switch_factor(run.card, master, on=given == "ON")
+    else:
+        time_base.set_factor(run.card, master, given)
+
+
+@command(
+    "SRC",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Source(optional=True),),
+    ref=REF,
+    default="CLK",
+    saved=True,
+)
+def src(run: Run, source: ObjectRef | None) -> None:
+    """Set the time base of moves: 1000 pulses of the source are one second."""
+    master = run.master()
+    if source is None:
+        run.print(time_base.source_text(run.card, master))
+    else:
+        time_base.set_source(run.card, master, source.word, source.number)
