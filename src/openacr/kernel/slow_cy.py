@@ -10,6 +10,9 @@ from openacr.kernel.hold_cy import (
 )
 from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVE,
+    AF1_JOG_ACTIVE,
     AF1_NOT_EXCESS_ERROR,
     AF1_NOT_IN_POSITION,
     AF1_NOT_IN_TORQUE_BAND,
@@ -44,12 +47,14 @@ from openacr.map.numbers import (
     AXF_STRIDE,
     AXI_BASE,
     AXI_CLIPPED,
+    AXI_MASTER,
     AXI_ON,
     AXI_POSITION_INDEX,
     AXI_STRIDE,
     MF1_CYCLE_START_LOCKOUT,
     MF1_CYCLE_START_REQUEST,
     MF1_FEEDHOLD_REQUEST,
+    MF1_IN_MOTION,
     MF1_NOT_EXCESS_ERROR,
     MF1_NOT_IN_POSITION,
     MF1_NOT_IN_TORQUE_BAND,
@@ -90,6 +95,7 @@ MASTER_BANDS = (
     | MF1_NOT_TORQUE_LIMIT
     | MF1_NOT_IN_TORQUE_BAND
 )
+OFFSETS_MOVING = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE
 MASTER_SHIFT = 16  # bands 0-5 of an axis are flags 16-21 of its master
 
 
@@ -193,7 +199,19 @@ def master_requests(F: F64, I: I32, S: F32, m: int) -> None:
         for s in range(SLAVE_COUNT):
             axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
             if axis >= 0:
-                axis_renew(F, I, axis)
+                I[axis_word(axis)] |= AF1_REN_REQUEST_FLAG
+                axis_request(F, I, axis)
+
+
+def axis_request(F: F64, I: I32, n: int) -> None:
+    """Serve the REN request of axis n; in motion, where REN is refused, it waits for rest."""
+    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+    if I[axis_word(n)] & OFFSETS_MOVING:
+        return
+    if m >= 0 and I[master_word(m)] & MF1_IN_MOTION:
+        return
+    I[axis_word(n)] &= ~AF1_REN_REQUEST_FLAG
+    axis_renew(F, I, n)
 
 
 def slow_scan(F: F64, I: I32, S: F32, axes: int, masters: int) -> None:
@@ -202,8 +220,7 @@ def slow_scan(F: F64, I: I32, S: F32, axes: int, masters: int) -> None:
         axis_bands(F, I, S, n)
         axis_marker(I, n)
         if I[axis_word(n)] & AF1_REN_REQUEST_FLAG:
-            I[axis_word(n)] &= ~AF1_REN_REQUEST_FLAG
-            axis_renew(F, I, n)
+            axis_request(F, I, n)
     for m in range(masters):
         master_bands(I, m)
         master_requests(F, I, S, m)
