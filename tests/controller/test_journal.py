@@ -11,8 +11,9 @@ import pytest
 from tests.controller.hosts import Host, at_axes, connected, store
 
 from openacr.controller import Controller
-from openacr.controller.journal import Entered, Recorder, Ring, read_journal
+from openacr.controller.journal import Entered, Recorder, read_journal
 from openacr.controller.replay import Replay
+from openacr.controller.ring import Ring
 from openacr.errors import StoreError
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import ControlKey

@@ -440,7 +440,7 @@ def test_a_full_disk_is_an_error_of_the_command(
     def fail(changes: object, *, flush: bool = True) -> None:
         raise StoreError("no space left")
 
-    monkeypatch.setattr(host.card.nonvolatile.images, "write", fail)
+    monkeypatch.setattr(host.card.nonvolatile.shelf.images, "write", fail)
     assert host.type("ESAVE") == "Save failed|SYS>"
     assert "no space left" in notices(host)
 

@@ -18,7 +18,7 @@ def cut_power(folder: Path, kind: str, cuts: int, seed: int) -> Counter[str]:
         [sys.executable, str(PROGRAM), str(folder / kind), kind, str(cuts), str(seed)],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert (found.returncode, found.stderr) == (0, "")
+    assert found.returncode == 0, found.stderr
     *counts, _ = found.stdout.split()
     return Counter({name: int(count) for name, count in (each.split("=") for each in counts)})
 

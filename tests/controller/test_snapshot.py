@@ -70,6 +70,16 @@ def test_a_card_returns_to_what_was_stored() -> None:
     assert card.send("AXIS0 PPU\r").splitlines()[1] == "5"
 
 
+def test_a_battery_that_was_reset_stays_so() -> None:
+    first, second = Controller("ACR8020"), Controller("ACR8020")
+    first.send("PROG0\r10 PRINT 1\rSYS\rBRESET\r")
+    second.take_over(snapshot.decode(snapshot.encode(first.snapshot())))
+    for card in (first, second):
+        card.send("REBOOT\r")
+        assert card.system.programs.is_empty(0)
+    assert first.digest() == second.digest()
+
+
 class Trap:
     """Unpickling this would run a command."""
 

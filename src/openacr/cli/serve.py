@@ -52,7 +52,7 @@ def serve(
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
     if folder is not None:
-        from openacr.controller.journal import Ring
+        from openacr.controller.ring import Ring
 
         card.recorder = Ring(card, folder)
 

@@ -23,10 +23,11 @@ from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.system import System
 from openacr.compiled import pick
 from openacr.controller import snapshot as snapshots
-from openacr.controller.journal import Entered, JournalEntry, Recorder, Ring
+from openacr.controller.journal import Entered, JournalEntry, Recorder
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError
 from openacr.controller.packets import PacketHost
 from openacr.controller.persistence import Persistence
+from openacr.controller.ring import Ring
 from openacr.controller.streams import CONSOLE, Streams
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.controller.views import AxisView, Bits, Parameters
@@ -149,7 +150,7 @@ class Controller:
         world = load.load_world(project.machine) if project.machine else None
         controller = cls(str(world.card.model) if world else "ACR9000", world=world, data=data)
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
-            controller.nonvolatile.notice(
+            controller.nonvolatile.shelf.notice(
                 f"the card has programs in {data} and keeps them; of {project.root} only the"
                 " machine is used (give an empty folder to load its programs)"
             )
@@ -217,7 +218,7 @@ class Controller:
             if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
                 self.recorder.mark()
             if reason != loop_cy.DONE or ticks <= 0 or self.recorder is None:
-                self.nonvolatile.follow_in_time()
+                self.nonvolatile.battery.follow_in_time()
                 return reason
 
     def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:
@@ -282,7 +283,7 @@ class Controller:
         self.streams.receive(stream, data, self.tick)
         if self._wants_reboot:
             self._reboot()
-        self.nonvolatile.follow()
+        self.nonvolatile.battery.follow()
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
@@ -458,6 +459,7 @@ class Controller:
         """Become the card of a snapshot, with everybody who was connected to it."""
         self.restore(snapshot)
         snapshots.put_back_streams(self, snapshot)
+        self._console = self.streams.number_of(CONSOLE)
 
     # the end
 
@@ -489,7 +491,7 @@ class Controller:
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
         self.executor.reset()
-        self.system.restart(keeps_memory=self.nonvolatile.keeps_memory)
+        self.system.restart(keeps_memory=self.nonvolatile.battery.is_on)
         self.executor.space.rebuild()  # the rows that say whose code lies where are gone
         self._apply_world()
         apply.put_state(self.memory, outside)

@@ -44,7 +44,7 @@ class Snapshot:
     memory: bytes
     language: bytes
     execution: bytes
-    stored: dict[str, tuple[int, bytes]]
+    stored: dict[str, bytes]
     streams: bytes
     lived_before_tk: int
 

@@ -113,6 +113,11 @@ class Streams:
         """The session of a stream."""
         return self._open[number].session
 
+    def number_of(self, name: str) -> int | None:
+        """The stream whose session has this name."""
+        opened = self._open.items()
+        return next((n for n, each in opened if each.session and each.session.name == name), None)
+
     def take_output(self, number: int) -> bytes:
         """The bytes of the next write."""
         stream = self._open.get(number)

@@ -1,0 +1,126 @@
+"""Battery-backed memory in a data folder: it is written while the card lives.
+
+Texts of programs and sizes are written at once, values once a second of card time, each
+time as one transaction. In the process itself the memory simply stays through REBOOT.
+"""
+
+from __future__ import annotations
+
+from array import array
+
+import msgspec
+from msgspec import Struct
+
+from openacr.basic import user_memory
+from openacr.basic.system import System
+from openacr.basic.user_memory import Data, Text, UserMemory
+from openacr.controller.shelf import Shelf
+from openacr.errors import CardError
+from openacr.map import numbers as at
+
+BATTERY, BATTERY_TEXT = "battery", "battery text "
+VALUES_EVERY_S = 1.0
+
+
+class Backed(Struct, frozen=True):
+    """What is kept beside the texts."""
+
+    data: Data
+    config: list[str]
+
+
+class Battery:
+    """The battery of a card; `is_on` is False for cards without one, and after BRESET."""
+
+    def __init__(self, system: System, shelf: Shelf) -> None:
+        self._system, self._shelf = system, shelf
+        self.is_on = system.card.model.has_battery
+        self._follows = self.is_on and shelf.images.is_durable
+        self._written_tk = 0
+        self._shape: object = None
+        self._stored = b""
+        self._memos: list[user_memory.Memo] = [{} for _ in system.owners()]
+
+    def stored(self) -> tuple[UserMemory, tuple[str, ...]] | None:
+        """User memory and CONFIG as they were without power; None where nothing is usable."""
+        names = self._shelf.names(BATTERY) if self.is_on else []
+        if not names:
+            return None
+        backed = self._shelf.decoded(BATTERY, Backed)
+        texts = [self._shelf.decoded(name, Text) for name in names if name != BATTERY]
+        found = [text for text in texts if text is not None]
+        if backed is None or len(found) != len(names) - 1:
+            self._shelf.notice("battery-backed memory is lost: the card starts with defaults")
+            self._shelf.write(dict.fromkeys(names))
+            return None
+        return UserMemory(found, backed.data), tuple(backed.config)
+
+    def disable(self) -> None:
+        """BRESET: nothing is kept any more, until the next power-up."""
+        self.is_on = self._follows = False
+        self._shelf.write(dict.fromkeys(self._shelf.names(BATTERY)))
+
+    def follow(self) -> None:
+        """Write what has changed: texts and sizes at once."""
+        if self._follows:
+            shape = self._present_shape()
+            self._write(values=self._is_due or shape != self._shape)
+            self._shape = shape
+
+    def follow_in_time(self) -> None:
+        """Write if the last time is long enough ago."""
+        if self._follows and self._is_due:
+            self._write(values=True)
+
+    def close(self) -> None:
+        """Write what is left."""
+        if self._follows:
+            self._write(values=True)
+        self._follows = False
+
+    @property
+    def _is_due(self) -> bool:
+        lived_s = (self._system.card.tick - self._written_tk) * self._system.card.period_s
+        return not 0.0 <= lived_s < VALUES_EVERY_S  # REBOOT begins to count anew
+
+    def _write(self, *, values: bool) -> None:
+        programs = self._system.programs
+        changes = {f"{BATTERY_TEXT}{owner}": self._text(owner) for owner in programs.changed}
+        if values:
+            self._written_tk = self._system.card.tick
+            content = self._data()
+            if content != self._stored:
+                changes[BATTERY] = self._stored = content
+        try:
+            if changes:
+                self._shelf.write(changes, flush=False)
+        except CardError:
+            self._follows = False
+            self._shelf.notice("battery-backed memory is not stored any more")
+        programs.changed.clear()
+
+    def _text(self, owner: int) -> bytes | None:
+        if self._system.programs.is_empty(owner):
+            return None
+        text = user_memory.take_text(self._system, owner, self._memos[owner])
+        return msgspec.msgpack.encode(text)
+
+    def _data(self) -> bytes:
+        data = user_memory.take_data(self._system, values=True)
+        return msgspec.msgpack.encode(Backed(data, list(self._system.setup.config)))
+
+    def _present_shape(self) -> object:
+        """Everything but values and text: it changes with every DIM, #DEFINE, CONFIG, ..."""
+        system, rows = self._system, self._system.card.memory.I
+        sizes = array("i", rows[at.STI_BASE : at.STI_BASE + at.ST_COUNT * at.STI_STRIDE])
+        for place in range(at.STI_CODE_BYTES, len(sizes), at.STI_STRIDE):
+            sizes[place] = 0  # follows from the text
+        return (
+            sizes.tobytes(),
+            rows[at.SMI_BASE : at.SMI_BASE + at.SM_COUNT * at.SMI_STRIDE].tobytes(),
+            rows[at.SYSI_BASE + at.SYSI_P_COUNT],
+            tuple(system.aliases.lines()),
+            system.programs.password,
+            system.setup.config,
+            tuple(each.bytes for each in system.storage.locals.strings),
+        )
