@@ -272,7 +272,6 @@ def _factory_state(host: Host) -> list[str]:
     return found + [host.type(f"PROG{n}", "ATTACH", "LIST") for n in range(16)]
 
 
-@pytest.mark.req("ACR-RST-05")
 def test_what_a_card_does_not_have_is_refused() -> None:
     host = connected()
     assert host.type("CLEAR DPCB", "CLEAR FIFO") == "Invalid device|SYS>" * 2
@@ -281,7 +280,6 @@ def test_what_a_card_does_not_have_is_refused() -> None:
 # battery
 
 
-@pytest.mark.req("ACR-CMD-REBOOT")
 def test_a_battery_keeps_what_was_typed_through_a_power_cut(
     power_up: PowerUp, tmp_path: Path
 ) -> None:
