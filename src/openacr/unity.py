@@ -22,11 +22,17 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parent
 ORDER = (
+    "map/kinds_cy.py",
     "kernel/words_cy.py",
     "kernel/profile_cy.py",
     "kernel/axis_cy.py",
     "kernel/feedback_cy.py",
     "kernel/capture_cy.py",
+    "kernel/source_cy.py",
+    "kernel/gear_cy.py",
+    "kernel/cam_cy.py",
+    "kernel/object_cy.py",
+    "kernel/sample_cy.py",
     "kernel/jogplan_cy.py",
     "kernel/homing_cy.py",
     "kernel/jog_cy.py",
@@ -39,6 +45,7 @@ ORDER = (
     "kernel/timebase_cy.py",
     "kernel/timed_cy.py",
     "kernel/master_cy.py",
+    "kernel/offset_cy.py",
     "kernel/limits_cy.py",
     "kernel/drive_cy.py",
     "kernel/servo_cy.py",

@@ -18,6 +18,7 @@ from openacr.map.numbers import (
     AX_BALLSCREW_OFFSET,
     AX_BASE,
     AX_CAM_OFFSET,
+    AX_COUNT,
     AX_CURRENT_POSITION,
     AX_GEAR_OFFSET,
     AX_JOG_OFFSET,
@@ -31,6 +32,7 @@ from openacr.map.numbers import (
     AXF_BALLSCREW_CNT,
     AXF_BASE,
     AXF_CAM_CNT,
+    AXF_CAM_SMOOTHING_CPS,
     AXF_ERROR_OLD_CNT,
     AXF_GEAR_CNT,
     AXF_JOG_CNT,
@@ -58,9 +60,18 @@ from openacr.map.numbers import (
     AXI_SHOWN_TARGET,
     AXI_SLAVE,
     AXI_STRIDE,
+    FOF_BASE,
+    FOF_LOCK_OLD_CNT,
+    FOF_STRIDE,
+    FOI_BASE,
+    FOI_LEADER,
+    FOI_STRIDE,
     MSF_BASE,
     MSF_STRIDE,
     MSF_TARGET_CNT,
+    TBI_BASE,
+    TBI_RUNNING,
+    TBI_STRIDE,
 )
 from openacr.views import F32, F64, I32
 
@@ -121,6 +132,7 @@ def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
     S[p + AX_ACCELERATION] = (velocity - F[a + AXF_PSP_VELOCITY_CPS]) * rate_hz
     F[a + AXF_PSP_VELOCITY_CPS] = velocity
     velocity = (F[a + AXF_SSP_CNT] - F[a + AXF_SSP_OLD_CNT]) * rate_hz
+    velocity += F[a + AXF_CAM_SMOOTHING_CPS]
     F[a + AXF_SSP_ACCEL_CPS2] = (velocity - F[a + AXF_SSP_VELOCITY_CPS]) * rate_hz
     F[a + AXF_SSP_VELOCITY_CPS] = velocity
     F[a + AXF_TRAVEL_CNT] += fabs(moved)
@@ -139,6 +151,9 @@ def axis_settled(F: F64, I: I32, n: int) -> None:
     F[a + AXF_SSP_VELOCITY_CPS] = 0.0
     F[a + AXF_SSP_ACCEL_CPS2] = 0.0
     F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+    for other in range(AX_COUNT):  # axes locked to this one do not follow the jump
+        if I[FOI_BASE + other * FOI_STRIDE + FOI_LEADER] == n + 1:
+            F[FOF_BASE + other * FOF_STRIDE + FOF_LOCK_OLD_CNT] = F[a + AXF_PSP_CNT]
     i: int = AXI_BASE + n * AXI_STRIDE
     m: int = I[i + AXI_MASTER]
     if m >= 0:
@@ -152,6 +167,9 @@ def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
     F[a + AXF_POSITION_CNT] = position_cnt
     F[a + AXF_GEAR_CNT] = 0.0
     F[a + AXF_CAM_CNT] = 0.0
+    F[a + AXF_BALLSCREW_CNT] = 0.0
+    F[a + AXF_BACKLASH_CNT] = 0.0
+    I[TBI_BASE + (AX_COUNT + n) * TBI_STRIDE + TBI_RUNNING] = 0  # look up the ballscrew anew
     axis_jog_set(F, I, n, 0.0)
     F[a + AXF_ERROR_OLD_CNT] = 0.0
     axis_settled(F, I, n)

@@ -17,8 +17,10 @@ from openacr.kernel.jogplan_cy import (
     jog_ramp_down,
     jog_run,
     jog_setting,
+    jog_speed,
 )
 from openacr.kernel.profile_cy import STOPPING, profile_advance, profile_reset, profile_stop
+from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.numbers import (
     AF1_JOG_ACTIVE,
     AF1_JOG_AT_SPEED,
@@ -42,7 +44,6 @@ from openacr.map.numbers import (
     AX_CURRENT_JOG_VELOC,
     AX_JOG_DECEL_SETTING,
     AX_JOG_JERK_SETTING,
-    AX_JOG_VELOC_SETTING,
     AX_MINUS_JOG_LIMIT,
     AX_PLUS_JOG_LIMIT,
     AX_STRIDE,
@@ -70,6 +71,9 @@ from openacr.map.numbers import (
     PRI_BASE,
     PRI_KIND,
     PRI_STRIDE,
+    SRI_BASE,
+    SRI_KIND,
+    SRI_STRIDE,
 )
 from openacr.views import F32, F64, I32
 
@@ -90,7 +94,7 @@ def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
     """Plan the jog of axis n from its present motion towards what is wanted."""
     a: int = AXF_BASE + n * AXF_STRIDE
     i: int = AXI_BASE + n * AXI_STRIDE
-    speed: float = jog_setting(S, n, AX_JOG_VELOC_SETTING)
+    speed: float = jog_speed(F, I, S, n)
     I[i + AXI_JOG_REPLAN] = 0
     sign: int = I[i + AXI_JOG_WANT]
     distance: float = FAR_CNT
@@ -149,6 +153,8 @@ def jog_home_request(I: I32, n: int) -> None:
     I[AF6_WORD + n] = flags & ~AF6_JOG_HOME_REQUEST
     if I[i + AXI_JOG_MODE] != JOG_IDLE or I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
         return
+    if I[SRI_BASE + (n * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK:
+        return
     results: int = AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED
     I[AF5_WORD + n] = (I[AF5_WORD + n] & ~results) | AF5_HOMING_IN_PROGRESS
     I[i + AXI_HOME_SEARCH] = -1 if flags & AF6_JOG_HOME_DIRECTION else 1
@@ -199,7 +205,7 @@ def jog_follow(F: F64, I: I32, S: F32, n: int) -> None:
         if I[PRI_BASE + (JOG_PROFILE + n) * PRI_STRIDE + PRI_KIND] == STOPPING:
             return
         planned: float = F[PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE + PRF_TARGET_VELOCITY]
-        if jog_setting(S, n, AX_JOG_VELOC_SETTING) == planned:
+        if jog_speed(F, I, S, n) == planned:
             return
     jog_plan(F, I, S, n)
 
@@ -238,9 +244,7 @@ def jog_arrived(F: F64, I: I32, S: F32, n: int, left: float) -> None:
     elif mode == JOG_CONTINUOUS:
         profile_reset(F, I, JOG_PROFILE + n, 0.0, 0.0)  # at the jog limit
         F[a + AXF_JOG_ORIGIN_CNT] = F[a + AXF_JOG_CNT]
-        F[PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE + PRF_TARGET_VELOCITY] = jog_setting(
-            S, n, AX_JOG_VELOC_SETTING
-        )
+        F[PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE + PRF_TARGET_VELOCITY] = jog_speed(F, I, S, n)
     else:
         jog_finish_target(F, I, n)
 

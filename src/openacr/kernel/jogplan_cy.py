@@ -14,6 +14,7 @@ from openacr.map.numbers import (
     AX_JOG_ACCEL_SETTING,
     AX_JOG_DECEL_SETTING,
     AX_JOG_JERK_SETTING,
+    AX_JOG_VELOC_SETTING,
     AX_STRIDE,
     AXF_BASE,
     AXF_JOG_CNT,
@@ -22,6 +23,13 @@ from openacr.map.numbers import (
     AXI_BASE,
     AXI_JOG_SIGN,
     AXI_STRIDE,
+    HWF_ACC_UPS2,
+    HWF_BASE,
+    HWF_STRIDE,
+    HWF_VEL_UPS,
+    HWI_BASE,
+    HWI_ON,
+    HWI_STRIDE,
     PRF_ACCEL,
     PRF_BASE,
     PRF_PLAN_DISTANCE,
@@ -38,6 +46,22 @@ FAR_CNT = 1e18  # end of a jog without target
 def jog_setting(S: F32, n: int, row: int) -> float:
     """A jog setting of axis n in pulses and seconds; negative values and NaN count as 0."""
     return plain(S[AX_BASE + n * AX_STRIDE + row] * fabs(axis_scale(S, n)))
+
+
+def jog_speed(F: F64, I: I32, S: F32, n: int) -> float:
+    """Speed of jogs of axis n [pulses/s]: HDW VEL while the hand wheel has one, else JOG VEL."""
+    own: float = F[HWF_BASE + n * HWF_STRIDE + HWF_VEL_UPS]
+    if I[HWI_BASE + n * HWI_STRIDE + HWI_ON] and own > 0.0:
+        return own * fabs(axis_scale(S, n))
+    return jog_setting(S, n, AX_JOG_VELOC_SETTING)
+
+
+def jog_rate(F: F64, I: I32, S: F32, n: int, row: int) -> float:
+    """Ramp of jogs of axis n [pulses/s2]: HDW ACC while the hand wheel has one, else `row`."""
+    own: float = F[HWF_BASE + n * HWF_STRIDE + HWF_ACC_UPS2]
+    if I[HWI_BASE + n * HWI_STRIDE + HWI_ON] and own > 0.0:
+        return own * fabs(axis_scale(S, n))
+    return jog_setting(S, n, row)
 
 
 def jog_mirror(F: F64, I: I32, n: int, sign: int) -> None:
@@ -60,7 +84,7 @@ def jog_run(F: F64, I: I32, S: F32, n: int, sign: int, distance: float, speed: f
     """
     i: int = AXI_BASE + n * AXI_STRIDE
     f: int = PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE
-    dec: float = jog_setting(S, n, AX_JOG_DECEL_SETTING)
+    dec: float = jog_rate(F, I, S, n, AX_JOG_DECEL_SETTING)
     jerk: float = jog_setting(S, n, AX_JOG_JERK_SETTING)
     moving: int = sign
     if F[f + PRF_VELOCITY] != 0.0:
@@ -71,7 +95,7 @@ def jog_run(F: F64, I: I32, S: F32, n: int, sign: int, distance: float, speed: f
         if moving != sign or F[f + PRF_PLAN_DISTANCE] > distance * (1.0 + 1e-12) + 1e-9:
             F[f + PRF_TARGET_VELOCITY] = speed
             return False
-    acc: float = jog_setting(S, n, AX_JOG_ACCEL_SETTING)
+    acc: float = jog_rate(F, I, S, n, AX_JOG_ACCEL_SETTING)
     profile_plan(F, I, JOG_PROFILE + n, distance, speed, 0.0, acc, dec, dec, jerk)
     return True
 

@@ -6,16 +6,13 @@ Axes on the same master stop together, each at its own rate. An end-of-travel li
 only on motion into it, so that an axis can always be driven off a switch.
 """
 
-from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, jog_take_over
+from openacr.kernel.offset_cy import followers_halt, lock_leader
 from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
-    AF1_BALLSCREW_ACTIVATE,
-    AF1_CAM_ACTIVATE,
-    AF1_GEAR_ACTIVATE,
-    AF1_GEAR_ACTIVE,
     AF4_DISABLE_DRIVE_ON_KILL,
     AF4_DRIVE_ENABLED,
     AF4_KILL_ALL_MOTION_REQUEST,
@@ -94,9 +91,9 @@ def limit_inputs(I: I32, n: int) -> int:
 
 def axis_halt(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
     """Stop every profiler of axis n; the jog profiler ramps the axis to rest."""
-    I[axis_word(n)] &= ~(
-        AF1_CAM_ACTIVATE | AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE | AF1_BALLSCREW_ACTIVATE
-    )
+    if lock_leader(I, n) >= 0:  # a locked axis stops with its leader, which it follows
+        return
+    followers_halt(F, I, n)
     jog_take_over(F, I, S, n, rate_ups2)
 
 
@@ -121,6 +118,8 @@ def axis_kill_one(F: F64, I: I32, S: F32, n: int) -> None:
     if not I[i + AXI_KAMR_OLD]:
         I[i + AXI_KAMR_OLD] = 1
         axis_halt(F, I, S, n, F[AXF_BASE + n * AXF_STRIDE + AXF_HLDEC_UPS2])
+        if lock_leader(I, n) >= 0:
+            axis_kill(F, I, S, lock_leader(I, n))
     if I[AF4_WORD + n] & AF4_DISABLE_DRIVE_ON_KILL:
         I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
 
@@ -187,6 +186,9 @@ def soft_limit(F: F64, I: I32, S: F32, n: int, latch: int, beyond: bool, outward
 
 def soft_stop(F: F64, I: I32, S: F32, n: int) -> None:
     """Ramp axis n and the others of its master down with their SLDEC; no kill of axes."""
+    if lock_leader(I, n) >= 0:
+        soft_stop(F, I, S, lock_leader(I, n))
+        return
     m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
     if m < 0:
         axis_halt(F, I, S, n, F[AXF_BASE + n * AXF_STRIDE + AXF_SLDEC_UPS2])

@@ -101,6 +101,9 @@ from openacr.map.numbers import (
     DAC_DAC_OUTPUT,
     DAC_STRIDE,
     ENC_ENCODER_VELOCITY,
+    FOF_BASE,
+    FOF_LOCK_V,
+    FOF_STRIDE,
     STPR_BASE,
     STPR_STEPPER_COUNT,
     STPR_STEPPER_SIGNAL,
@@ -253,6 +256,7 @@ def servo_sum(
         if not banded:
             integral = integrate(F, S, n, error, S[p + AX_INTEGRAL_GAIN], period_s)
         total = proportional + integral + slope + feed + surge - tacho
+    total += F[FOF_BASE + n * FOF_STRIDE + FOF_LOCK_V]
     S[p + AX_PROPORTIONAL_TERM] = proportional
     S[p + AX_INTEGRAL_TERM] = integral
     S[p + AX_DERIVATIVE_TERM] = slope

@@ -12,9 +12,21 @@ from openacr.kernel.feedback_cy import encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
 from openacr.kernel.master_cy import master_step
+from openacr.kernel.object_cy import object_outputs_step, object_sources_step
+from openacr.kernel.offset_cy import (
+    followers_step,
+    followers_used,
+    jog_time,
+    lock_leader,
+    lock_step,
+    locks_couple,
+    wheel_step,
+)
 from openacr.kernel.path_cy import master_word
+from openacr.kernel.sample_cy import sample_step
 from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
+from openacr.kernel.source_cy import sources_follow, triggers_watch
 from openacr.map.numbers import (
     AF1_BALLSCREW_ACTIVATE,
     AF1_CAM_ACTIVATE,
@@ -24,18 +36,31 @@ from openacr.map.numbers import (
     AXI_MASTER,
     AXI_ON,
     AXI_STRIDE,
+    FOI_BASE,
+    FOI_LIVE,
+    FOI_STRIDE,
+    HWI_BASE,
+    HWI_ON,
+    HWI_STRIDE,
     KRI_AXES,
     KRI_BASE,
     KRI_MASTERS,
     KRI_SLOW_TICKS,
     MF1_IN_MOTION,
+    MO_SAMPLE_TRIGGER_ARMED,
+    OBI_BASE,
+    OBI_LIVE,
+    OBI_LOCKED,
     PLI_BASE,
     PLI_KIND,
     PLI_STRIDE,
+    SAI_ARMED_OLD,
+    SAI_BASE,
     SYSF_BASE,
     SYSF_PERIOD_S,
     SYSI_BASE,
     SYSI_SLOW_PHASE,
+    W_MISC_OUTPUTS,
 )
 from openacr.views import F32, F64, I32
 
@@ -56,6 +81,31 @@ def axis_changing(I: I32, n: int) -> bool:
     return m >= 0 and I[master_word(m)] & MF1_IN_MOTION != 0
 
 
+def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
+    """Jog and all offsets of axis n, and its setpoint sums."""
+    dt: float = period_s
+    used: bool = followers_used(I, n) != 0
+    if used:
+        if I[HWI_BASE + n * HWI_STRIDE + HWI_ON]:
+            wheel_step(F, I, S, n)
+        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+            dt = jog_time(F, I, n, period_s)
+    jog_step(F, I, S, n, dt)
+    if used:
+        followers_step(F, I, S, n, period_s, rate_hz)
+    if axis_setpoints(F, S, n, rate_hz) or used or axis_changing(I, n):
+        axis_show(F, I, n)
+
+
+def locked_advance(F: F64, I: I32, S: F32, axes: int, period_s: float, rate_hz: float) -> None:
+    """Axes locked to others, behind their leaders."""
+    for n in range(axes):
+        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON] and lock_leader(I, n) >= 0:
+            lock_step(F, I, S, n)
+            axis_advance(F, I, S, n, period_s, rate_hz)
+    locks_couple(F, I, S)
+
+
 def tick(F: F64, I: I32, S: F32) -> None:
     """Everything the card does in one servo period."""
     period_s: float = F[SYSF_BASE + SYSF_PERIOD_S]
@@ -69,8 +119,16 @@ def tick(F: F64, I: I32, S: F32) -> None:
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
             written: bool = axis_take_written(F, I, n)
             feedback_step(F, I, S, n, written, rate_hz)
+    for n in range(axes):
+        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+            triggers_watch(F, I, S, n)
     capture_step(F, I)
     clock_step(F, I, period_s)
+    if I[OBI_BASE + OBI_LIVE]:
+        object_sources_step(F, I, S, period_s)
+    for n in range(axes):
+        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+            sources_follow(F, I, S, n)
     motion_enable_step(I, axes)
     for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
@@ -79,12 +137,17 @@ def tick(F: F64, I: I32, S: F32) -> None:
     for m in range(masters):
         master_step(F, I, S, m, period_s)
     for n in range(axes):
+        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON] and lock_leader(I, n) < 0:
+            axis_advance(F, I, S, n, period_s, rate_hz)
+    if I[OBI_BASE + OBI_LOCKED]:
+        locked_advance(F, I, S, axes, period_s, rate_hz)
+    for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
-            jog_step(F, I, S, n, period_s)
-            moved: bool = axis_setpoints(F, S, n, rate_hz)
             servo_step(F, I, S, n, period_s, rate_hz)
-            if moved or axis_changing(I, n):
-                axis_show(F, I, n)
+    if I[OBI_BASE + OBI_LIVE]:
+        object_outputs_step(F, I, S)
+    if I[W_MISC_OUTPUTS] & MO_SAMPLE_TRIGGER_ARMED or I[SAI_BASE + SAI_ARMED_OLD]:
+        sample_step(F, I, S, period_s)
     slow: int = I[SYSI_BASE + SYSI_SLOW_PHASE] + 1
     if slow >= I[KRI_BASE + KRI_SLOW_TICKS]:
         slow = 0

@@ -54,6 +54,7 @@ from openacr.map.numbers import (
 )
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.attachments import Attachments
+from openacr.motion.follower_defaults import set_follower_defaults
 
 AXES = 16
 MASTERS = 16
@@ -117,6 +118,7 @@ class Card:
         for encoder in range(ENCODERS):
             rows[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] = 1
         memory = self.memory
+        set_follower_defaults(memory)
         _slow_scan(memory.F, memory.I, memory.S, self.model.axes, self.model.masters)
 
     def _default_axis(self, row: int, axis: int) -> None:

@@ -4,6 +4,7 @@ from openacr.errors import CardError
 from openacr.kernel.homing_cy import HOME_START
 from openacr.kernel.jog_cy import JOG_CONTINUOUS, JOG_HOMING, JOG_IDLE, JOG_TO_TARGET
 from openacr.kernel.jogplan_cy import FAR_CNT
+from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.numbers import (
     AF1_JOG_ACTIVE,
     AF1_JOG_FORWARD,
@@ -25,8 +26,11 @@ from openacr.map.numbers import (
     AXI_MASTER,
     AXI_SLAVE,
     MSF_TARGET_CNT,
+    SRI_BASE,
+    SRI_KIND,
+    SRI_STRIDE,
 )
-from openacr.messages import INVALID_ARGUMENT, NOT_VALID_WHILE_IN_MOTION
+from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE, NOT_VALID_WHILE_IN_MOTION
 from openacr.motion.card import Card
 from openacr.motion.permits import (
     master_moving,
@@ -126,6 +130,8 @@ def permit_home(card: Card, axis: int, direction: int) -> None:
     """Refuse homing of an axis that moves or may not."""
     needs_rest(card, axis)
     permit(card, axis, direction)
+    if card.memory.I[SRI_BASE + (axis * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK:
+        raise CardError(INVALID_SOURCE)
 
 
 def home(card: Card, axis: int, direction: int) -> None:

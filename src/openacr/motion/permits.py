@@ -18,12 +18,16 @@ from openacr.map.numbers import (
     AX_PPU,
     AXI_MASTER,
     AXI_ON,
+    FOI_BASE,
+    FOI_LEADER,
+    FOI_STRIDE,
     MF1_IN_MOTION,
     MF1_KILL_ALL_MOVES_REQUEST,
     MSI_QUEUED,
     MSI_SLAVE_AXIS,
 )
 from openacr.messages import (
+    AXIS_IS_LOCKED,
     AXIS_IS_OFF,
     HARD_LIMIT,
     MASTER_KILL_ACTIVE,
@@ -98,9 +102,11 @@ def needs_moves(card: Card, master: int) -> None:
 
 
 def needs_on(card: Card, axis: int) -> None:
-    """Refuse motion of an axis that is off."""
+    """Refuse motion of an axis that is off, or that is locked to another."""
     if not card.memory.I[axis_ints(axis) + AXI_ON]:
         raise CardError(AXIS_IS_OFF)
+    if card.memory.I[FOI_BASE + axis * FOI_STRIDE + FOI_LEADER]:
+        raise CardError(AXIS_IS_LOCKED)
 
 
 def needs_free_way(card: Card, axis: int, direction: float) -> None:

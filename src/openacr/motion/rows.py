@@ -3,6 +3,8 @@
 from openacr.map.numbers import (
     AF1_WORD,
     AF1_WORD_HIGH,
+    AF2_WORD,
+    AF2_WORD_HIGH,
     AX_BASE,
     AX_STRIDE,
     AXF_BASE,
@@ -40,6 +42,11 @@ def axis_ints(axis: int) -> int:
 def axis_word(axis: int) -> int:
     """Parameter number of the primary flag word of an axis."""
     return axis + (AF1_WORD if axis < 8 else AF1_WORD_HIGH)
+
+
+def axis_word2(axis: int) -> int:
+    """Parameter number of the secondary flag word of an axis."""
+    return axis + (AF2_WORD if axis < 8 else AF2_WORD_HIGH)
 
 
 def master_parameter(master: int) -> int:

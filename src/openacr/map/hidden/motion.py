@@ -192,6 +192,7 @@ AXIS = HiddenBlock(
         "travel_cnt",
         "velocity_sum_cnt",
         ("velocity_window_cnt", 64),
+        "cam_smoothing_cps",  # smoothed minus actual speed of the cam, for the feed-forward
     ),
     ints=(
         "on",

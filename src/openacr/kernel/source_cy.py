@@ -1,0 +1,385 @@
+"""Sources of pulses: what gears, cams, time bases and objects follow.
+
+Each user of a source has a tap. Once per tick the tap reads its source and keeps the change:
+
+    delta = value - old        wrapped to 32 bits where the value is a 32-bit count,
+
+so a counter may run over without a jump. Choosing another source only reads `old` anew.
+Deltas are float64: a fraction of a pulse (the clock has 1000 pulses per second) is carried
+by whoever adds them up. A value that is no finite number counts as standing still.
+
+A trigger says when a follower engages: when a parameter passes a setpoint, or at an edge
+captured as INTCAP does. `over_cnt` is then the part of this tick's delta behind the event.
+"""
+
+from openacr.cmath import fabs
+from openacr.kernel.capture_cy import (
+    FALLING,
+    FIRST_EXTERNAL,
+    MARKER,
+    MARKER_AND_EXTERNAL,
+    OTHER_MARKER,
+    SOFTWARE,
+    SOFTWARE_TRIGGER,
+    capture_signal,
+    external_input,
+    input_edge,
+    input_fraction,
+    marker_edge,
+)
+from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, adc_counts, encoder_row
+from openacr.kernel.words_cy import round32, wrap32
+from openacr.map.kinds_cy import kind_of
+from openacr.map.numbers import (
+    AF2_WORD,
+    AF2_WORD_HIGH,
+    AX_BASE,
+    AX_PRIMARY_SETPOINT,
+    AX_STRIDE,
+    AXF_BASE,
+    AXF_PSP_CNT,
+    AXF_STRIDE,
+    AXI_BASE,
+    AXI_POSITION_INDEX,
+    AXI_POSITION_SOURCE,
+    AXI_STRIDE,
+    ENC_ENCODER_POSITION,
+    ENI_BASE,
+    ENI_MULT,
+    ENI_STRIDE,
+    KIND_FP32,
+    KIND_FP64,
+    KIND_LONG,
+    LTF_BASE,
+    LTF_OUTPUT_CNT,
+    LTF_STRIDE,
+    PLF_BASE,
+    PLF_MARKER_FALL_CNT,
+    PLF_MARKER_RISE_CNT,
+    PLF_RAW_COUNT,
+    PLF_STRIDE,
+    RTF_BASE,
+    RTF_OUTPUT_CNT,
+    RTF_STRIDE,
+    SRF_BASE,
+    SRF_DELTA,
+    SRF_OLD,
+    SRF_STRIDE,
+    SRI_BASE,
+    SRI_INDEX,
+    SRI_KIND,
+    SRI_STRIDE,
+    STPR_BASE,
+    STPR_STEPPER_COUNT,
+    STPR_STRIDE,
+    SYSF_BASE,
+    SYSF_PERIOD_S,
+    SYSF_TIME_S,
+    TGF_BASE,
+    TGF_OVER_CNT,
+    TGF_SETPOINT,
+    TGF_STRIDE,
+    TGF_TRAVEL_CNT,
+    TGI_BASE,
+    TGI_COPY,
+    TGI_KIND,
+    TGI_MODE,
+    TGI_PARAMETER,
+    TGI_STRIDE,
+    TGI_TICKS_LEFT,
+    USER_BASE,
+    W_INPUTS,
+    W_MISC_OUTPUTS,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["parameter_value", "source_follow", "source_prime", "source_value", "trigger_step"]
+
+FROM_NONE = 0
+FROM_CLOCK = 1
+FROM_COUNTER = 2  # an encoder
+FROM_STEPS = 3
+FROM_AXIS = 4
+FROM_RATCHET = 5
+FROM_LIMITER = 6
+FROM_ANALOG = 7
+FROM_PARAMETER = 8
+FROM_SELF = 9  # the axis itself: default of a ballscrew table
+
+# taps
+USE_GEAR = 0
+USE_CAM = 1
+USE_BALLSCREW = 2
+USE_FILTER = 3
+USE_WHEEL = 4
+USE_JOG = 5
+USES = 6
+RATCHET_TAPS = 96
+LIMITER_TAPS = 104
+SWITCH_TAPS = 112
+OUTPUT_TAPS = 120
+
+PULSES_PER_S = 1000.0
+LARGEST_DELTA = 1e15
+
+# triggers
+GEAR_ON = 0
+GEAR_OFF = 1
+CAM_ON = 2
+TRIGGERS = 3
+DISARMED = 0
+ABOVE = 1
+BELOW = 2
+CAPTURE = 3
+CAPTURED = 4  # in this tick; travel_cnt is the part of the tick behind the edge
+TRAVELLING = 5
+WAITING = 0
+FIRED = 1
+EXPIRED = 2
+NO_EDGE = -1.0
+
+
+def axis_word2(n: int) -> int:
+    """Parameter number of the secondary flag word of axis n."""
+    return AF2_WORD + n if n < 8 else AF2_WORD_HIGH + n
+
+
+def parameter_value(F: F64, I: I32, S: F32, number: int) -> float:
+    """Value of a parameter or user variable; 0 where there is none."""
+    kind: int = kind_of(I, number)
+    if kind == KIND_LONG:
+        return I[number]
+    if kind == KIND_FP32:
+        return S[number]
+    if kind == KIND_FP64:
+        return F[USER_BASE + number]
+    return 0.0
+
+
+def source_value(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
+    """Present value of a source."""
+    if kind == FROM_CLOCK:
+        return F[SYSF_BASE + SYSF_TIME_S] * PULSES_PER_S
+    if kind == FROM_COUNTER and 0 <= k < ENCODER_COUNT:
+        return I[encoder_row(k) + ENC_ENCODER_POSITION]
+    if kind == FROM_STEPS and 0 <= k < 16:
+        return I[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT]
+    if kind == FROM_AXIS and 0 <= k < 16:
+        return F[AXF_BASE + k * AXF_STRIDE + AXF_PSP_CNT]
+    if kind == FROM_RATCHET and 0 <= k < 8:
+        return F[RTF_BASE + k * RTF_STRIDE + RTF_OUTPUT_CNT]
+    if kind == FROM_LIMITER and 0 <= k < 8:
+        return F[LTF_BASE + k * LTF_STRIDE + LTF_OUTPUT_CNT]
+    if kind == FROM_ANALOG and 0 <= k < 16:
+        return adc_counts(S, k)
+    if kind == FROM_PARAMETER:
+        return parameter_value(F, I, S, k)
+    return 0.0
+
+
+def source_wraps(I: I32, kind: int, k: int) -> bool:
+    """Whether a source is a 32-bit count."""
+    if kind == FROM_PARAMETER:
+        return kind_of(I, k) == KIND_LONG
+    return kind == FROM_COUNTER or kind == FROM_STEPS
+
+
+def source_prime(F: F64, I: I32, S: F32, t: int) -> None:
+    """Let tap t count from the present value of its source."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_value(
+        F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX]
+    )
+    F[SRF_BASE + t * SRF_STRIDE + SRF_DELTA] = 0.0
+
+
+def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
+    """Take the change of the source of tap t in this tick."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    f: int = SRF_BASE + t * SRF_STRIDE
+    kind: int = I[i + SRI_KIND]
+    if kind == FROM_NONE or kind == FROM_SELF:
+        F[f + SRF_DELTA] = 0.0
+        return
+    value: float = source_value(F, I, S, kind, I[i + SRI_INDEX])
+    delta: float = value - F[f + SRF_OLD]
+    if kind == FROM_CLOCK:
+        delta = F[SYSF_BASE + SYSF_PERIOD_S] * PULSES_PER_S
+    elif source_wraps(I, kind, I[i + SRI_INDEX]):
+        delta = wrap32(round32(delta))
+    elif not fabs(delta) < LARGEST_DELTA:
+        delta = 0.0
+    F[f + SRF_OLD] = value
+    F[f + SRF_DELTA] = delta
+
+
+def sources_follow(F: F64, I: I32, S: F32, n: int) -> None:
+    """All taps of axis n."""
+    for use in range(USES):
+        source_follow(F, I, S, n * USES + use)
+
+
+def source_parameter(I: I32, t: int) -> int:
+    """The parameter that shows the source of tap t, -1 if none does."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    kind: int = I[i + SRI_KIND]
+    k: int = I[i + SRI_INDEX]
+    if kind == FROM_PARAMETER:
+        return k
+    if kind == FROM_COUNTER:
+        return encoder_row(k) + ENC_ENCODER_POSITION
+    if kind == FROM_STEPS:
+        return STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT
+    if kind == FROM_AXIS:
+        return AX_BASE + k * AX_STRIDE + AX_PRIMARY_SETPOINT
+    return -1
+
+
+# captured edges
+
+
+def source_encoder(I: I32, t: int, n: int) -> int:
+    """Encoder whose markers trigger a follower of axis n with tap t, -1 if there is none."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    if I[i + SRI_KIND] == FROM_COUNTER:
+        return I[i + SRI_INDEX]
+    axis: int = AXI_BASE + source_inputs(I, t, n) * AXI_STRIDE
+    return I[axis + AXI_POSITION_INDEX] if I[axis + AXI_POSITION_SOURCE] == FROM_ENCODER else -1
+
+
+def source_inputs(I: I32, t: int, n: int) -> int:
+    """Axis whose capture inputs trigger a follower of axis n with tap t."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    k: int = I[i + SRI_INDEX]
+    kind: int = I[i + SRI_KIND]
+    if (kind == FROM_COUNTER or kind == FROM_AXIS) and 0 <= k < 16:
+        return k
+    return n
+
+
+def marker_behind(F: F64, I: I32, e: int, falling: bool, delta: float) -> float:
+    """Part of the tick behind the marker edge of encoder e, which moved `delta` in it."""
+    f: int = PLF_BASE + e * PLF_STRIDE
+    edge: float = F[f + PLF_MARKER_FALL_CNT] if falling else F[f + PLF_MARKER_RISE_CNT]
+    since: float = (F[f + PLF_RAW_COUNT] - edge) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
+    if delta == 0.0:
+        return 0.0
+    return max(0.0, min(1.0, since / delta))
+
+
+def edge_behind(F: F64, I: I32, mode: int, e: int, inputs: int, moved: float) -> float:
+    """Part of the tick behind the edge that `mode` names, NO_EDGE if it did not come."""
+    signal: int = capture_signal(mode)
+    falling: bool = mode & FALLING != 0
+    if signal == MARKER or signal == MARKER_AND_EXTERNAL:
+        gate: int = I[W_INPUTS] >> external_input(inputs, 0)
+        if marker_edge(I, e, falling) and (signal == MARKER or gate & 1):
+            return marker_behind(F, I, e, falling, moved)
+    elif signal == OTHER_MARKER:
+        if marker_edge(I, e ^ 1, falling):
+            return 0.0
+    elif signal == SOFTWARE:
+        if I[W_MISC_OUTPUTS] & SOFTWARE_TRIGGER:
+            return 0.0
+    else:
+        number: int = external_input(inputs, signal - FIRST_EXTERNAL)
+        if input_edge(I, number, falling):
+            return 1.0 - input_fraction(F, I, number, falling)
+    return NO_EDGE
+
+
+def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
+    """Look for the edges that triggers of axis n wait for; the edges last one tick."""
+    for place in range(TRIGGERS):
+        t: int = n * TRIGGERS + place
+        i: int = TGI_BASE + t * TGI_STRIDE
+        if I[i + TGI_KIND] != CAPTURE:
+            continue
+        tap: int = n * USES + (USE_CAM if place == CAM_ON else USE_GEAR)
+        s: int = SRI_BASE + tap * SRI_STRIDE
+        old: float = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
+        moved: float = source_value(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
+        behind: float = edge_behind(
+            F,
+            I,
+            I[i + TGI_MODE],
+            source_encoder(I, tap, n),
+            source_inputs(I, tap, n),
+            moved,
+        )
+        if behind >= 0.0:
+            I[i + TGI_KIND] = CAPTURED
+            F[TGF_BASE + t * TGF_STRIDE + TGF_TRAVEL_CNT] = behind
+
+
+# triggers
+
+
+def trigger_over(over: float, delta: float) -> float:
+    """Source pulses behind an event: never more than the tick has brought."""
+    if delta >= 0.0:
+        return max(0.0, min(over, delta))
+    return min(0.0, max(over, delta))
+
+
+def trigger_passed(F: F64, I: I32, S: F32, t: int) -> bool:
+    """IHPOS: whether the parameter is strictly beyond the setpoint."""
+    i: int = TGI_BASE + t * TGI_STRIDE
+    value: float = parameter_value(F, I, S, I[i + TGI_PARAMETER])
+    setpoint: float = F[TGF_BASE + t * TGF_STRIDE + TGF_SETPOINT]
+    return value > setpoint if I[i + TGI_KIND] == ABOVE else value < setpoint
+
+
+def trigger_captured(F: F64, I: I32, t: int, tap: int) -> None:
+    """The edge came in this tick: keep the source position at it and count on from there."""
+    i: int = TGI_BASE + t * TGI_STRIDE
+    f: int = TGF_BASE + t * TGF_STRIDE
+    s: int = SRF_BASE + tap * SRF_STRIDE
+    F[f + TGF_TRAVEL_CNT] = F[f + TGF_TRAVEL_CNT] * F[s + SRF_DELTA]
+    I[i + TGI_KIND] = TRAVELLING
+    copy: int = I[i + TGI_COPY]
+    if kind_of(I, copy) == KIND_LONG:
+        I[copy] = round32(F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT])
+
+
+def trigger_step(F: F64, I: I32, S: F32, t: int, tap: int, offset_cnt: float) -> int:
+    """Advance an armed trigger: WAITING, FIRED (and disarmed, see over_cnt) or EXPIRED.
+
+    A captured edge fires once the source has gone on by `offset_cnt`.
+    """
+    i: int = TGI_BASE + t * TGI_STRIDE
+    f: int = TGF_BASE + t * TGF_STRIDE
+    s: int = SRF_BASE + tap * SRF_STRIDE
+    delta: float = F[s + SRF_DELTA]
+    over: float = 0.0
+    kind: int = I[i + TGI_KIND]
+    if kind == CAPTURE:
+        return WAITING
+    if kind == CAPTURED or kind == TRAVELLING:
+        if kind == CAPTURED:
+            trigger_captured(F, I, t, tap)
+        else:
+            F[f + TGF_TRAVEL_CNT] += delta
+        over = F[f + TGF_TRAVEL_CNT] - offset_cnt
+        if (offset_cnt > 0.0 and over < 0.0) or (offset_cnt < 0.0 and over > 0.0):
+            return WAITING
+    elif trigger_passed(F, I, S, t):
+        if source_parameter(I, tap) == I[i + TGI_PARAMETER]:
+            over = F[s + SRF_OLD] - F[f + TGF_SETPOINT]
+    else:
+        return trigger_timed(I, t)
+    I[i + TGI_KIND] = DISARMED
+    F[f + TGF_OVER_CNT] = trigger_over(over, delta)
+    return FIRED
+
+
+def trigger_timed(I: I32, t: int) -> int:
+    """One tick of waiting less until the timeout."""
+    i: int = TGI_BASE + t * TGI_STRIDE
+    if I[i + TGI_TICKS_LEFT] <= 0:
+        return WAITING
+    I[i + TGI_TICKS_LEFT] -= 1
+    if I[i + TGI_TICKS_LEFT] > 0:
+        return WAITING
+    I[i + TGI_KIND] = DISARMED
+    return EXPIRED

@@ -1,0 +1,35 @@
+"""Hidden rows of what follows a source directly: gears, filters, hand wheels."""
+
+from openacr.map.hidden.block import HiddenBlock
+
+FILTER_WINDOW = 128
+
+GEAR = HiddenBlock(
+    prefix="GR",
+    count=16,
+    doubles=(
+        "ppu",  # source pulses per source unit
+        "ratio",
+        "acc_rps",  # ratio units per second
+        "dec_rps",
+        "max_u",
+        "min_u",
+        "ratio_now",
+        "slip_cnt",
+        "slip_shown_cnt",
+    ),
+)
+
+FILTER = HiddenBlock(
+    prefix="FL",
+    count=16,
+    doubles=(("window_cnt", FILTER_WINDOW), "sum_cnt", "carry_cnt"),
+    ints=("on", "size", "index", "out"),
+)
+
+HAND_WHEEL = HiddenBlock(
+    prefix="HW",
+    count=16,
+    doubles=("ppu", "ratio", "vel_ups", "acc_ups2"),
+    ints=("on",),
+)

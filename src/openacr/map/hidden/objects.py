@@ -1,0 +1,75 @@
+"""Hidden rows of the objects beside the profilers."""
+
+from openacr.map.hidden.block import HiddenBlock
+
+OBJECTS = 8
+CHANNELS = 8
+
+# What an axis uses beyond moves and jogs.
+FOLLOWER = HiddenBlock(
+    prefix="FO",
+    count=16,
+    doubles=(
+        "jog_debt_s",  # time the source of the jog has run back
+        "backlash_wanted_cnt",
+        "backlash_step_cnt",  # per second
+        "backlash_old_cnt",  # primary setpoint of the last tick
+        "lock_old_cnt",  # primary setpoint of the leader in the last tick
+        "lock_v",  # coupling voltage of a locked pair
+    ),
+    ints=(
+        "live",  # sources are followed
+        "leader",  # axis it is locked to + 1
+    ),
+)
+
+RATCHET = HiddenBlock(
+    prefix="RT",
+    count=OBJECTS,
+    doubles=("output_cnt", "backlog_cnt"),
+    ints=("mode",),
+)
+
+LIMITER = HiddenBlock(
+    prefix="LT",
+    count=OBJECTS,
+    doubles=("output_cnt", "backlog_cnt", "freq_hz", "mult"),
+)
+
+LIMIT_SWITCH = HiddenBlock(
+    prefix="PS",
+    count=OBJECTS,
+    doubles=("base_cnt", "ratio", "flz_cnt", "rotary"),
+    ints=("program", "array", "destination", "mask"),
+)
+
+OUTPUT_OBJECT = HiddenBlock(
+    prefix="OO",
+    count=OBJECTS,
+    doubles=("from_cnt", "to_cnt", "start_cnt", "pitch_cnt", "width_cnt"),
+    ints=("on", "bit", "windows"),
+)
+
+SAMPLER = HiddenBlock(
+    prefix="SA",
+    count=1,
+    doubles=("timer_ms",),
+    ints=(
+        "armed_old",
+        "trigger",  # flag + 1, 0 none
+        "trigger_clear",  # the flag is waited for clear
+        ("source", CHANNELS),  # parameter, 0 none
+        ("kind", CHANNELS),  # of the array: 1 LA, 2 SA, 3 DA
+        ("program", CHANNELS),
+        ("array", CHANNELS),
+    ),
+)
+
+OBJECT_STATE = HiddenBlock(
+    prefix="OB",
+    count=1,
+    ints=(
+        "live",  # ratchets, limiters or output objects are in use
+        "locked",  # axes that are locked to another
+    ),
+)

@@ -1,0 +1,33 @@
+"""Hidden rows of sources: what followers take their pulses from, and what triggers them."""
+
+from openacr.map.hidden.block import HiddenBlock
+
+# One tap per user of a source (kernel/source_cy.py): six per axis, then one for each ratchet,
+# limiter, limit switch and output object.
+SOURCE = HiddenBlock(
+    prefix="SR",
+    count=128,
+    doubles=(
+        "old",  # value of the last tick
+        "delta",  # change of this tick
+    ),
+    ints=("kind", "index"),
+)
+
+# What a gear or cam waits for: three per axis (gear on, gear off, cam on).
+TRIGGER = HiddenBlock(
+    prefix="TG",
+    count=48,
+    doubles=(
+        "setpoint",  # of IHPOS
+        "travel_cnt",  # source pulses since the captured edge
+        "over_cnt",  # source pulses behind the event when it came
+    ),
+    ints=(
+        "kind",  # 0 not armed
+        "parameter",  # of IHPOS
+        "mode",  # of the capture
+        "copy",  # parameter that receives the captured source position, 0 none
+        "ticks_left",  # until the timeout, 0 never
+    ),
+)

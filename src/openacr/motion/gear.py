@@ -1,0 +1,117 @@
+"""Gears of axes: engage, disengage, registers."""
+
+from __future__ import annotations
+
+from openacr.kernel.source_cy import GEAR_OFF, GEAR_ON, TRIGGERS
+from openacr.map.numbers import (
+    AF1_GEAR_ACTIVATE,
+    AF1_GEAR_ACTIVE,
+    AF2_GEAR_OFF_ARMED,
+    AF2_GEAR_OFF_POSITION,
+    AF2_GEAR_ON_POSITION,
+    AF2_GEAR_ON_TRIG_ARMED,
+    AXF_CAM_CNT,
+    AXF_GEAR_CNT,
+    AXF_POSITION_CNT,
+    AXF_TARGET_CNT,
+    AXI_MASTER,
+    AXI_SLAVE,
+    GRF_BASE,
+    GRF_RATIO_NOW,
+    GRF_STRIDE,
+    MSF_TARGET_CNT,
+)
+from openacr.motion import sources
+from openacr.motion.card import Card
+from openacr.motion.follower_defaults import set_gear_defaults
+from openacr.motion.jog import needs_no_moves
+from openacr.motion.permits import needs_no_kill, needs_on, scale_of
+from openacr.motion.rows import axis_ints, axis_reals, axis_word, axis_word2, master_reals
+
+
+def permit(card: Card, axis: int) -> None:
+    """Refuse a follower that a kill or the axis bars."""
+    needs_no_kill(card, axis)
+    needs_on(card, axis)
+
+
+def on_trigger(axis: int) -> int:
+    """The trigger GEAR ON may wait for."""
+    return axis * TRIGGERS + GEAR_ON
+
+
+def off_trigger(axis: int) -> int:
+    """The trigger GEAR OFF may wait for."""
+    return axis * TRIGGERS + GEAR_OFF
+
+
+def is_on(card: Card, axis: int) -> bool:
+    """Whether the gear is switched on."""
+    return bool(card.memory.I[axis_word(axis)] & AF1_GEAR_ACTIVATE)
+
+
+def on(card: Card, axis: int) -> None:
+    """GEAR ON: follow the source from now."""
+    sources.go_live(card, axis)
+    disarm_on(card, axis)
+    card.memory.I[axis_word(axis)] |= AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE
+
+
+def off(card: Card, axis: int) -> None:
+    """GEAR OFF: ramp the ratio down; anything armed is disarmed."""
+    disarm_on(card, axis)
+    disarm_off(card, axis)
+    card.memory.I[axis_word(axis)] &= ~AF1_GEAR_ACTIVATE
+
+
+def disarm_on(card: Card, axis: int) -> None:
+    """Forget what GEAR ON waits for."""
+    sources.disarm(card, on_trigger(axis))
+    card.memory.I[axis_word2(axis)] &= ~(AF2_GEAR_ON_TRIG_ARMED | AF2_GEAR_ON_POSITION)
+
+
+def disarm_off(card: Card, axis: int) -> None:
+    """Forget what GEAR OFF waits for."""
+    sources.disarm(card, off_trigger(axis))
+    card.memory.I[axis_word2(axis)] &= ~(AF2_GEAR_OFF_ARMED | AF2_GEAR_OFF_POSITION)
+
+
+def clear(card: Card, axis: int) -> None:
+    """GEAR CLEAR: off at once, settings as at power-up; the offset stays."""
+    off(card, axis)
+    card.memory.F[GRF_BASE + axis * GRF_STRIDE + GRF_RATIO_NOW] = 0.0
+    set_gear_defaults(card.memory, axis)
+
+
+def set_offset(card: Card, axis: int, offset_u: float) -> None:
+    """GEAR OFFSET: the axis moves by the difference."""
+    permit(card, axis)
+    card.take_written(axis)
+    card.memory.F[axis_reals(axis) + AXF_GEAR_CNT] = offset_u * scale_of(card, axis)
+    card.show(axis)
+
+
+def reset(card: Card, axis: int, offset_u: float) -> None:
+    """GEAR RES: the gear offset becomes `offset_u`, the coordinated position the rest."""
+    transfer(card, axis, AXF_GEAR_CNT, offset_u)
+
+
+def reset_cam(card: Card, axis: int, offset_u: float) -> None:
+    """CAM RES: the cam offset becomes `offset_u`, the coordinated position the rest."""
+    transfer(card, axis, AXF_CAM_CNT, offset_u)
+
+
+def transfer(card: Card, axis: int, part: int, offset_u: float) -> None:
+    """Set one offset and give the difference to the coordinated position; PSP stays."""
+    needs_no_moves(card, axis)
+    card.take_written(axis)
+    reals, ints, memory = axis_reals(axis), axis_ints(axis), card.memory
+    offset_cnt = offset_u * scale_of(card, axis)
+    position = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + part] - offset_cnt
+    memory.F[reals + part] = offset_cnt
+    memory.F[reals + AXF_POSITION_CNT] = position
+    memory.F[reals + AXF_TARGET_CNT] = position
+    master = memory.I[ints + AXI_MASTER]
+    if master >= 0:
+        memory.F[master_reals(master) + MSF_TARGET_CNT + memory.I[ints + AXI_SLAVE]] = position
+    card.show(axis)
