@@ -1,0 +1,190 @@
+"""Setpoint control: electronic gearing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openacr.basic.follower_forms import (
+    AxisSources,
+    Captured,
+    CapturedForm,
+    Passing,
+    PassingForm,
+    choose_sources,
+)
+from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
+from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values
+from openacr.kernel.source_cy import USE_GEAR
+from openacr.map import block
+from openacr.map.numbers import (
+    AF2_GEAR_OFF_ARMED,
+    AF2_GEAR_OFF_POSITION,
+    AF2_GEAR_ON_POSITION,
+    AF2_GEAR_ON_TRIG_ARMED,
+    AXF_GEAR_CNT,
+    GRF_ACC_RPS,
+    GRF_BASE,
+    GRF_DEC_RPS,
+    GRF_MAX_U,
+    GRF_MIN_U,
+    GRF_PPU,
+    GRF_RATIO,
+    GRF_STRIDE,
+)
+from openacr.motion import gear, jog, sources
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import axis_reals, axis_word2
+from openacr.motion.settings import Setting, anything, not_negative, not_zero
+
+GROUP = "Setpoint Control"
+REF = "PG Setpoint Control"
+
+
+def of_gear(row: int, allows: Callable[[float], bool] = anything) -> Setting:
+    """A setting of the gear of each axis."""
+    return Setting(block.Kind.FP64, GRF_BASE + row, GRF_STRIDE, allows)
+
+
+axis_values(
+    (
+        Value("GEAR PPU", of_gear(GRF_PPU, not_zero),
+              "Set the source pulses per source unit of a gear.", "pulses/unit", "1"),
+        Value("GEAR RATIO", of_gear(GRF_RATIO),
+              "Set the units an axis moves per source unit, also while geared.", "", "1"),
+        Value("GEAR ACC", of_gear(GRF_ACC_RPS, not_negative),
+              "Set the rate at which the ratio of a gear ramps up; 0 is at once.", "1/s"),
+        Value("GEAR DEC", of_gear(GRF_DEC_RPS, not_negative),
+              "Set the rate at which the ratio of a gear ramps down; 0 is at once.", "1/s"),
+        Value("GEAR MAX", of_gear(GRF_MAX_U),
+              "Set the highest gear offset; acts while it is above GEAR MIN.", "units"),
+        Value("GEAR MIN", of_gear(GRF_MIN_U),
+              "Set the lowest gear offset; acts while it is below GEAR MAX.", "units"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command("GEAR SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
+         default="NONE", saved=True)  # fmt: skip
+def gear_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
+    """Choose what a gear follows."""
+    choose_sources(run, axes, USE_GEAR)
+
+
+@command("GEAR", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def gear_report(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Report whether gears are on."""
+    for axis in axes:
+        run.print("ON" if gear.is_on(run.card, axis.number) else "OFF")
+
+
+@command("GEAR ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def gear_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Let axes follow their sources."""
+    for axis in axes:
+        gear.permit(run.card, axis.number)
+    for axis in axes:
+        gear.on(run.card, axis.number)
+
+
+@command("GEAR OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def gear_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Ramp the ratio of gears down to 0."""
+    for axis in axes:
+        gear.off(run.card, axis.number)
+
+
+@command("GEAR ON IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),),
+         ref=REF)  # fmt: skip
+def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
+    """Switch gears on when a parameter passes a setpoint."""
+    for axis, _ in axes:
+        gear.permit(run.card, axis.number)
+    for axis, passing in axes:
+        gear.disarm_on(run.card, axis.number)
+        _arm_passing(run, axis, gear.on_trigger(axis.number), passing, AF2_GEAR_ON_POSITION)
+
+
+@command("GEAR OFF IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),),
+         ref=REF)  # fmt: skip
+def gear_off_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
+    """Switch gears off when a parameter passes a setpoint."""
+    for axis, passing in axes:
+        gear.disarm_off(run.card, axis.number)
+        _arm_passing(run, axis, gear.off_trigger(axis.number), passing, AF2_GEAR_OFF_POSITION)
+
+
+def _arm_passing(run: Run, axis: Axis, trigger: int, passing: Passing, flag: int) -> None:
+    sources.go_live(run.card, axis.number)
+    sources.arm_passing(
+        run.card,
+        trigger,
+        passing.parameter,
+        passing.setpoint,
+        below=passing.below,
+        timeout_s=passing.timeout_s,
+    )
+    run.card.memory.I[axis_word2(axis.number)] |= flag
+
+
+@command("GEAR ON TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF)
+def gear_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
+    """Switch gears on at a captured source position plus Gear Trigger On Offset."""
+    for axis, _ in axes:
+        gear.permit(run.card, axis.number)
+    for axis, captured in axes:
+        gear.disarm_on(run.card, axis.number)
+        _arm_capture(run, axis, gear.on_trigger(axis.number), captured, AF2_GEAR_ON_TRIG_ARMED)
+
+
+@command("GEAR OFF TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),),
+         ref=REF)  # fmt: skip
+def gear_off_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
+    """Switch gears off at a captured source position plus Gear Trigger Off Offset."""
+    for axis, captured in axes:
+        gear.disarm_off(run.card, axis.number)
+        _arm_capture(run, axis, gear.off_trigger(axis.number), captured, AF2_GEAR_OFF_ARMED)
+
+
+def _arm_capture(run: Run, axis: Axis, trigger: int, captured: Captured, flag: int) -> None:
+    sources.go_live(run.card, axis.number)
+    sources.arm_capture(run.card, trigger, captured.mode, captured.copy_to)
+    run.card.memory.I[axis_word2(axis.number)] |= flag
+
+
+@command("GEAR OFFSET", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF,
+         units="units")  # fmt: skip
+def gear_offset(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Set the gear offset of axes, which move by the difference, or report it."""
+    for item in axes:
+        if item.is_query:
+            run.print(offset_text(run, item.axis.number, AXF_GEAR_CNT))
+        else:
+            gear.set_offset(run.card, item.axis.number, item.value)
+
+
+def offset_text(run: Run, axis: int, part: int) -> str:
+    """One part of the setpoint of an axis in units."""
+    cnt = run.card.memory.F[axis_reals(axis) + part]
+    return number_text(cnt / scale_of(run.card, axis), Kind.DOUBLE)
+
+
+@command("GEAR RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+def gear_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Make the gear offset of axes a value (0); the coordinated position takes the rest."""
+    for item in axes:
+        jog.needs_no_moves(run.card, item.axis.number)
+    for item in axes:
+        gear.reset(run.card, item.axis.number, 0.0 if item.is_query else item.value)
+
+
+@command("GEAR CLEAR", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def gear_clear(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Switch gears off and forget their settings; the offset stays."""
+    for axis in axes:
+        gear.clear(run.card, axis.number)
+        choose_sources(run, ((axis, ObjectRef("NONE")),), USE_GEAR)
