@@ -59,10 +59,10 @@ def test_program_commands_are_unknown_at_sys_and_change_nothing(bench: Bench, li
 
 @pytest.mark.req("ACR-CMD-DEFINE", "ACR-ALIAS-01")
 def test_an_alias_is_usable_on_every_channel_and_in_every_program(bench: Bench) -> None:
-    bench.type("DIM DEF(5)", "DIM P(10)", "#DEFINE Counter P5", "#DEFINE Limit 7")
+    bench.type("DIM DEF(5)", "DIM P(10)", "#DEFINE Counter P5", "#DEFINE Most 7")
     bench.card.memory.write(5, 12.5)
     assert bench.type("?Counter") == "12.5|SYS>"
-    assert bench.type("PROG 4", "?Counter;Limit", on=bench.connect("COM2")) == "P04>12.57|P04>"
+    assert bench.type("PROG 4", "?Counter;Most", on=bench.connect("COM2")) == "P04>12.57|P04>"
 
 
 @pytest.mark.req("ACR-ALIAS-02")

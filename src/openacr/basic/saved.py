@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from openacr.errors import CardError
+from openacr.kernel import source_cy
 from openacr.map import numbers as at
 from openacr.map.block import Access
 from openacr.map.lookup import parameters
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import attach, filters, settings
+from openacr.motion import attach, filters, settings, sources
 from openacr.motion.card import SLAVES, Card
 from openacr.motion.rows import axis_ints, master_reals
 
@@ -207,6 +208,21 @@ def _put_weights(system: System, rows: list[list[float]]) -> None:
             system.card.memory.F[start + slave] = weight
 
 
+# what gears, cams and tables follow
+
+
+def _followed(words: str, use: int) -> Saved:
+    def read(card: Card, axis: int) -> list[int]:
+        return sources.connection(card, sources.axis_tap(axis, use))
+
+    def write(card: Card, axis: int, connection: list[int]) -> None:
+        kind, index = connection
+        if read(card, axis) != [kind, index]:
+            sources.connect(card, axis, use, kind, index)
+
+    return _per_axis(words, read, write)
+
+
 # the card as a whole
 
 
@@ -265,4 +281,9 @@ _TABLE = (
     Saved("CONFIG", lambda system: list(system.setup.config), _put_config),
     Saved("IP", lambda system: dict(system.setup.addresses), _put_addresses),
     Saved("CANopen", _take_canopen, _put_canopen),
+    _followed("GEAR SRC", source_cy.USE_GEAR),
+    _followed("CAM SRC", source_cy.USE_CAM),
+    _followed("BSC SRC", source_cy.USE_BALLSCREW),
+    _followed("HDW SRC", source_cy.USE_WHEEL),
+    _followed("JOG SRC", source_cy.USE_JOG),
 )

@@ -1,0 +1,71 @@
+"""Servo control: filtered following."""
+
+from __future__ import annotations
+
+from openacr.basic.follower_forms import AxisSources, choose_sources, needs_parameter
+from openacr.basic.grammar import (
+    Axes,
+    Axis,
+    AxisList,
+    AxisValue,
+    Int,
+    ObjectRef,
+    ParameterName,
+    SignedParameter,
+)
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.kernel.source_cy import USE_FILTER
+from openacr.map.numbers import FLF_WINDOW_CNT_SIZE, FLI_BASE, FLI_SIZE, FLI_STRIDE
+from openacr.motion import gear, objects
+
+GROUP = "Servo Control"
+REF = "PG Servo Control"
+
+
+@command("FLT SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
+         default="NONE")  # fmt: skip
+def flt_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
+    """Choose what an axis follows through its filter."""
+    choose_sources(run, axes, USE_FILTER)
+
+
+@command("FLT OUT", group=GROUP, levels=BY_OBJECT, ref=REF, default="the gear offset",
+         grammar=(AxisList(ParameterName(optional=True)),))  # fmt: skip
+def flt_out(run: Run, axes: tuple[tuple[Axis, SignedParameter | None], ...]) -> None:
+    """Let the filter of an axis move a parameter; without one, the gear offset."""
+    for _, parameter in axes:
+        if parameter is not None:
+            needs_parameter(run, parameter.number)
+    for axis, parameter in axes:
+        number = None if parameter is None else parameter.number
+        objects.set_filter_out(run.card, axis.number, number)
+
+
+@command("FLT COEF", group=GROUP, levels=BY_OBJECT,
+         grammar=(AxisList(Int("ticks", 1, FLF_WINDOW_CNT_SIZE, optional=True)),),
+         ref=REF, units="servo periods", default="10")  # fmt: skip
+def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Set over how many servo periods a filter averages, or report it."""
+    for item in axes:
+        if item.is_query:
+            size = run.card.memory.I[FLI_BASE + item.axis.number * FLI_STRIDE + FLI_SIZE]
+            run.print(str(size))
+        else:
+            objects.set_filter_size(run.card, item.axis.number, int(item.value))
+
+
+@command("FLT ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def flt_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Let axes follow their sources, averaged."""
+    for axis in axes:
+        gear.permit(run.card, axis.number)
+    for axis in axes:
+        objects.filter_on(run.card, axis.number)
+
+
+@command("FLT OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def flt_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Stop filtered following at once."""
+    for axis in axes:
+        objects.filter_off(run.card, axis.number)

@@ -1,0 +1,81 @@
+"""Setpoint control: hand wheels, and the time base of jogs."""
+
+from __future__ import annotations
+
+from openacr.basic.follower_forms import AxisSources, choose_sources
+from openacr.basic.grammar import Axes, Axis, ObjectRef
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values
+from openacr.kernel.source_cy import USE_JOG, USE_WHEEL
+from openacr.map import block
+from openacr.map.numbers import (
+    HWF_ACC_UPS2,
+    HWF_BASE,
+    HWF_PPU,
+    HWF_RATIO,
+    HWF_STRIDE,
+    HWF_VEL_UPS,
+    HWI_BASE,
+    HWI_ON,
+    HWI_STRIDE,
+)
+from openacr.motion import gear, objects
+from openacr.motion.settings import Setting, not_negative, not_zero
+
+GROUP = "Setpoint Control"
+REF = "PG Setpoint Control"
+FP64 = block.Kind.FP64
+
+axis_values(
+    (
+        Value("HDW PPU", Setting(FP64, HWF_BASE + HWF_PPU, HWF_STRIDE, not_zero),
+              "Set the source pulses per turn unit of a hand wheel.", "pulses", "1"),
+        Value("HDW RATIO", Setting(FP64, HWF_BASE + HWF_RATIO, HWF_STRIDE),
+              "Set the travel of an axis per turn unit of its hand wheel.", "units", "1"),
+        Value("HDW VEL", Setting(FP64, HWF_BASE + HWF_VEL_UPS, HWF_STRIDE, not_negative),
+              "Set the highest speed behind a hand wheel; 0 is JOG VEL.", "units/s"),
+        Value("HDW ACC", Setting(FP64, HWF_BASE + HWF_ACC_UPS2, HWF_STRIDE, not_negative),
+              "Set the ramps behind a hand wheel; 0 is JOG ACC and JOG DEC.", "units/s2"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command("HDW SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
+         default="NONE", saved=True)  # fmt: skip
+def hdw_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
+    """Choose the hand wheel of an axis."""
+    choose_sources(run, axes, USE_WHEEL)
+
+
+@command("HDW", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def hdw_report(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Report whether hand wheels are on."""
+    for axis in axes:
+        on = run.card.memory.I[HWI_BASE + axis.number * HWI_STRIDE + HWI_ON]
+        run.print("ON" if on else "OFF")
+
+
+@command("HDW ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def hdw_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Let hand wheels jog axes."""
+    for axis in axes:
+        gear.permit(run.card, axis.number)
+    for axis in axes:
+        objects.wheel_on(run.card, axis.number, True)
+
+
+@command("HDW OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def hdw_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Disconnect hand wheels; the way already turned is still travelled."""
+    for axis in axes:
+        objects.wheel_on(run.card, axis.number, False)
+
+
+@command("JOG SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
+         default="CLK", saved=True)  # fmt: skip
+def jog_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
+    """Choose the time base of jogs: 1000 source pulses are one second."""
+    choose_sources(run, axes, USE_JOG)

@@ -1,0 +1,273 @@
+"""Global objects: ratchets, limiters, programmable limit switches, output objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openacr.basic.follower_forms import ArrayName, choose_object_source
+from openacr.basic.grammar import (
+    Bit,
+    BitState,
+    Group,
+    Num,
+    ObjectRef,
+    ParameterName,
+    SignedParameter,
+    Source,
+)
+from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import ANY, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import ObjectValue, check_number, object_values
+from openacr.errors import CardError
+from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
+from openacr.map import block
+from openacr.map import numbers as at
+from openacr.map.kinds_cy import kind_of
+from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
+from openacr.motion import cam, objects, sources
+from openacr.motion.card import Card
+from openacr.motion.settings import Setting, anything, not_negative, not_zero
+
+GROUP = "Global Objects"
+REF = "PG Global Objects"
+HIGHEST_MODE = 15
+FIRST_SWITCH_FLAG = 120
+FP64, LONG = block.Kind.FP64, block.Kind.LONG
+
+
+def eight(card: Card) -> int:
+    """How many ratchets, limiters, limit switches and output objects there are."""
+    return at.RT_COUNT
+
+
+def mode(value: float) -> bool:
+    """A ratchet mode: 4 * treatment of positive + treatment of negative counts."""
+    return value == int(value) and 0 <= value <= HIGHEST_MODE
+
+
+def real(first: int, stride: int, allows: Callable[[float], bool] = anything) -> Setting:
+    """A setting of each object."""
+    return Setting(FP64, first, stride, allows)
+
+
+object_values(
+    (
+        ObjectValue("RATCH # MODE", Setting(LONG, at.RTI_BASE + at.RTI_MODE, at.RTI_STRIDE, mode),
+                    eight, "Choose what a ratchet does with positive and negative counts."),
+        ObjectValue("LIMIT # FREQ", real(at.LTF_BASE + at.LTF_FREQ_HZ, at.LTF_STRIDE, not_negative),
+                    eight, "Set the highest rate of a limiter; 0 is none.", "pulses/s"),
+        ObjectValue("LIMIT # MULT", real(at.LTF_BASE + at.LTF_MULT, at.LTF_STRIDE),
+                    eight, "Multiply the counts of a limiter.", "", "1"),
+        ObjectValue("PLS # MASK", Setting(LONG, at.PSI_BASE + at.PSI_MASK, at.PSI_STRIDE),
+                    eight, "Set the bits a limit switch writes.", "", "-1"),
+        ObjectValue("PLS # RATIO", real(at.PSF_BASE + at.PSF_RATIO, at.PSF_STRIDE, not_zero),
+                    eight, "Set the array elements per source pulse of a limit switch.", "", "1"),
+        ObjectValue("PLS # ROTARY", real(at.PSF_BASE + at.PSF_ROTARY, at.PSF_STRIDE, not_negative),
+                    eight, "Set the elements after which a limit switch begins again; 0 is never."),
+        ObjectValue("PLS # FLZ", real(at.PSF_BASE + at.PSF_FLZ_CNT, at.PSF_STRIDE),
+                    eight, "Shift the source of a limit switch.", "pulses"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+# ratchets and limiters
+
+
+@command("RATCH # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
+         default="NONE")  # fmt: skip
+def ratch_src(run: Run, number: int, source: ObjectRef | None) -> None:
+    """Choose the source of a ratchet."""
+    check_number(number, at.RT_COUNT)
+    choose_object_source(run, RATCHET_TAPS + number, source)
+
+
+@command("RATCH # RES", group=GROUP, levels=ANY, grammar=(Num("value", optional=True),), ref=REF,
+         units="pulses")  # fmt: skip
+def ratch_res(run: Run, number: int, value: float | None) -> None:
+    """Set the output of a ratchet (0) and forget what it has buffered."""
+    check_number(number, at.RT_COUNT)
+    objects.reset_ratchet(run.card, number, value or 0.0)
+
+
+@command("RATCH #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+def ratch_report(run: Run, number: int) -> None:
+    """Report the output of a ratchet."""
+    _print_row(run, number, at.RTF_BASE + at.RTF_OUTPUT_CNT, at.RTF_STRIDE)
+
+
+@command("LIMIT # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
+         default="NONE")  # fmt: skip
+def limit_src(run: Run, number: int, source: ObjectRef | None) -> None:
+    """Choose the source of a limiter."""
+    check_number(number, at.LT_COUNT)
+    choose_object_source(run, LIMITER_TAPS + number, source)
+
+
+@command("LIMIT # RES", group=GROUP, levels=ANY, grammar=(Num("value", optional=True),), ref=REF,
+         units="pulses")  # fmt: skip
+def limit_res(run: Run, number: int, value: float | None) -> None:
+    """Set the output of a limiter (0) and forget what it has held back."""
+    check_number(number, at.LT_COUNT)
+    objects.reset_limiter(run.card, number, value or 0.0)
+
+
+@command("LIMIT #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+def limit_report(run: Run, number: int) -> None:
+    """Report the output of a limiter."""
+    _print_row(run, number, at.LTF_BASE + at.LTF_OUTPUT_CNT, at.LTF_STRIDE)
+
+
+def _print_row(run: Run, number: int, first: int, stride: int) -> None:
+    check_number(number, at.RT_COUNT)
+    run.print(number_text(run.card.memory.F[first + number * stride], Kind.DOUBLE))
+
+
+# programmable limit switches
+
+
+@command("PLS # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
+         default="NONE")  # fmt: skip
+def pls_src(run: Run, number: int, source: ObjectRef | None) -> None:
+    """Choose the position a limit switch looks at."""
+    check_number(number, at.PS_COUNT)
+    choose_object_source(run, SWITCH_TAPS + number, source)
+
+
+@command("PLS # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA"),), ref=REF)
+def pls_base(run: Run, number: int, array: ObjectRef) -> None:
+    """Choose the array of output patterns of a limit switch."""
+    check_number(number, at.PS_COUNT)
+    program = run.needed_program()
+    cam.array_length(run.card, program, at.STI_LA_BASE, array.number, 1)
+    row = at.PSI_BASE + number * at.PSI_STRIDE
+    run.card.memory.I[row + at.PSI_PROGRAM] = program
+    run.card.memory.I[row + at.PSI_ARRAY] = array.number + 1
+
+
+@command("PLS # DST", group=GROUP, levels=ANY, grammar=(ParameterName(optional=True),), ref=REF,
+         default="P4097")  # fmt: skip
+def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
+    """Choose the LONG parameter a limit switch writes to."""
+    check_number(number, at.PS_COUNT)
+    row = at.PSI_BASE + number * at.PSI_STRIDE + at.PSI_DESTINATION
+    if parameter is None:
+        run.print(f"P{run.card.memory.I[row]}")
+    elif kind_of(run.card.memory.I, parameter.number) != at.KIND_LONG:
+        raise CardError(INVALID_PARAMETER)
+    else:
+        run.card.memory.I[row] = parameter.number
+
+
+@command("PLS # RES", group=GROUP, levels=ANY, grammar=(Num("index", optional=True),), ref=REF)
+def pls_res(run: Run, number: int, index: float | None) -> None:
+    """Make the present position of the source this index (0) of the array."""
+    check_number(number, at.PS_COUNT)
+    memory = run.card.memory
+    row = at.PSF_BASE + number * at.PSF_STRIDE
+    now = sources.value(run.card, SWITCH_TAPS + number)
+    behind = (index or 0.0) / memory.F[row + at.PSF_RATIO]
+    memory.F[row + at.PSF_BASE_CNT] = now + memory.F[row + at.PSF_FLZ_CNT] - behind
+
+
+@command("PLS # ON", group=GROUP, levels=ANY, ref=REF)
+def pls_on(run: Run, number: int) -> None:
+    """Switch a limit switch on."""
+    check_number(number, at.PS_COUNT)
+    if not run.card.memory.I[at.PSI_BASE + number * at.PSI_STRIDE + at.PSI_ARRAY]:
+        raise CardError(UNDEFINED_VARIABLE)
+    sources.objects_go_live(run.card)
+    run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, True)
+
+
+@command("PLS # OFF", group=GROUP, levels=ANY, ref=REF)
+def pls_off(run: Run, number: int) -> None:
+    """Switch a limit switch off; its outputs stay."""
+    check_number(number, at.PS_COUNT)
+    run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, False)
+
+
+@command("PLS #", group=GROUP, levels=ANY, ref=REF)
+def pls_report(run: Run, number: int) -> None:
+    """Report source, array, destination and state of a limit switch."""
+    check_number(number, at.PS_COUNT)
+    memory, row = run.card.memory, at.PSI_BASE + number * at.PSI_STRIDE
+    array = memory.I[row + at.PSI_ARRAY] - 1
+    base = "NONE" if array < 0 else f"LA{array}"
+    on = "ON" if memory.bit(FIRST_SWITCH_FLAG + number) else "OFF"
+    source = sources.text(run.card, SWITCH_TAPS + number)
+    destination = memory.I[row + at.PSI_DESTINATION]
+    run.print(f"PLS{number} {on} SRC {source} BASE {base} DST P{destination}")
+
+
+# output objects
+
+
+@command("OOP # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
+         default="ENC of the same number")  # fmt: skip
+def oop_src(run: Run, number: int, source: ObjectRef | None) -> None:
+    """Choose the position an output object looks at."""
+    check_number(number, at.OO_COUNT)
+    choose_object_source(run, OUTPUT_TAPS + number, source)
+
+
+@command("OOP # BIT", group=GROUP, levels=ANY, grammar=(Bit(optional=True),), ref=REF,
+         default="32 + number")  # fmt: skip
+def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
+    """Choose the flag of an output object."""
+    check_number(number, at.OO_COUNT)
+    row = at.OOI_BASE + number * at.OOI_STRIDE + at.OOI_BIT
+    if bit is None:
+        run.print(str(run.card.memory.I[row]))
+    elif not 0 <= bit.number <= at.FLAG_LAST:
+        raise CardError(INVALID_BIT)
+    else:
+        run.card.memory.I[row] = bit.number
+
+
+@command("OOP # POS", group=GROUP, levels=ANY, grammar=(Group("from", "to"),), ref=REF,
+         units="pulses")  # fmt: skip
+def oop_pos(run: Run, number: int, window: tuple[float, float]) -> None:
+    """Set the window in which the flag of an output object is set."""
+    check_number(number, at.OO_COUNT)
+    objects.set_window(run.card, number, *window)
+
+
+@command("OOP # INC", group=GROUP, levels=ANY, ref=REF, units="pulses",
+         grammar=(Group("start", "pitch", "width", "count", fewest=3),))  # fmt: skip
+def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
+    """Set repeating windows of an output object; without a count they are endless."""
+    check_number(number, at.OO_COUNT)
+    start, pitch, width = windows[:3]
+    objects.set_windows(run.card, number, start, pitch, width, int((*windows, 0)[3]))
+
+
+@command("OOP # ON", group=GROUP, levels=ANY, ref=REF)
+def oop_on(run: Run, number: int) -> None:
+    """Switch an output object on."""
+    check_number(number, at.OO_COUNT)
+    objects.output_on(run.card, number, True)
+
+
+@command("OOP # OFF", group=GROUP, levels=ANY, ref=REF)
+def oop_off(run: Run, number: int) -> None:
+    """Switch an output object off; its flag is cleared."""
+    check_number(number, at.OO_COUNT)
+    objects.output_on(run.card, number, False)
+
+
+@command("OOP #", group=GROUP, levels=ANY, ref=REF)
+def oop_report(run: Run, number: int) -> None:
+    """Report source, flag, windows and state of an output object."""
+    check_number(number, at.OO_COUNT)
+    memory = run.card.memory
+    row, reals = at.OOI_BASE + number * at.OOI_STRIDE, at.OOF_BASE + number * at.OOF_STRIDE
+    on = "ON" if memory.I[row + at.OOI_ON] else "OFF"
+    source = sources.text(run.card, OUTPUT_TAPS + number)
+    window = ",".join(
+        number_text(memory.F[reals + place], Kind.DOUBLE)
+        for place in (at.OOF_FROM_CNT, at.OOF_TO_CNT)
+    )
+    run.print(f"OOP{number} {on} SRC {source} BIT {memory.I[row + at.OOI_BIT]} POS ({window})")

@@ -1,0 +1,104 @@
+"""Global objects: the sampler."""
+
+from __future__ import annotations
+
+from openacr.basic.follower_forms import ArrayName, needs_parameter
+from openacr.basic.grammar import Bit, BitState, Num, ObjectRef, ParameterName, SignedParameter
+from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import ANY, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import check_number
+from openacr.errors import CardError
+from openacr.kernel.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
+from openacr.map import numbers as at
+from openacr.messages import INVALID_ARGUMENT, INVALID_BIT
+from openacr.motion import cam
+
+GROUP = "Global Objects"
+REF = "PG Global Objects"
+CHANNELS = at.SAI_SOURCE_SIZE
+MS_PER_S = 1000.0
+LONGEST_S = 2e6
+
+# Kind of array: its number in the kernel, its storage row, words per element.
+_ARRAYS = {
+    "LA": (INTO_LONG, at.STI_LA_BASE, 1),
+    "SA": (INTO_SINGLE, at.STI_SA_BASE, 1),
+    "DA": (INTO_DOUBLE, at.STI_DA_BASE, 2),
+}
+_WORDS = {row[0]: word for word, row in _ARRAYS.items()}
+
+
+@command("SAMP # SRC", group=GROUP, levels=ANY, grammar=(ParameterName(),), ref=REF)
+def samp_src(run: Run, channel: int, parameter: SignedParameter) -> None:
+    """Choose the parameter a channel records."""
+    check_number(channel, CHANNELS)
+    needs_parameter(run, parameter.number)
+    run.card.memory.I[at.SAI_BASE + at.SAI_SOURCE + channel] = parameter.number + 1
+
+
+@command("SAMP # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA", "SA", "DA"),), ref=REF)
+def samp_base(run: Run, channel: int, array: ObjectRef) -> None:
+    """Choose the array a channel records into."""
+    check_number(channel, CHANNELS)
+    program = run.needed_program()
+    kind, row, words = _ARRAYS[array.word]
+    cam.array_length(run.card, program, row, array.number, words)
+    memory = run.card.memory
+    memory.I[at.SAI_BASE + at.SAI_KIND + channel] = kind
+    memory.I[at.SAI_BASE + at.SAI_PROGRAM + channel] = program
+    memory.I[at.SAI_BASE + at.SAI_ARRAY + channel] = array.number
+
+
+@command("SAMP TRG", group=GROUP, levels=ANY, grammar=(Bit(signed=True),), ref=REF)
+def samp_trg(run: Run, bit: BitState) -> None:
+    """Choose the flag, and its state, that starts sampling."""
+    if not 0 <= bit.number <= at.FLAG_LAST:
+        raise CardError(INVALID_BIT)
+    run.card.memory.I[at.SAI_BASE + at.SAI_TRIGGER] = bit.number + 1
+    run.card.memory.I[at.SAI_BASE + at.SAI_TRIGGER_CLEAR] = int(bit.clear)
+
+
+@command("SAMP PERIOD", group=GROUP, levels=ANY, grammar=(Num("period", optional=True),), ref=REF,
+         units="s")  # fmt: skip
+def samp_period(run: Run, period_s: float | None) -> None:
+    """Set the time from sample to sample; 0 is every servo period."""
+    if period_s is None:
+        every_s = run.card.memory.I[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S
+        run.print(number_text(every_s, Kind.DOUBLE))
+    elif not 0.0 <= period_s <= LONGEST_S:
+        raise CardError(INVALID_ARGUMENT)
+    else:
+        run.card.memory.I[at.P_SAMPLE_TIMER_PERIOD] = round(period_s * MS_PER_S)
+
+
+@command("SAMP CLEAR", group=GROUP, levels=ANY, ref=REF)
+def samp_clear(run: Run) -> None:
+    """Stop sampling and forget channels, trigger and period."""
+    memory = run.card.memory
+    flags = at.MO_SAMPLE_TRIGGER_ARMED | at.MO_SAMPLE_IN_PROGRESS | at.MO_SAMPLE_TRIGGER_LATCHED
+    memory.I[at.W_MISC_OUTPUTS] &= ~flags
+    for offset in range(at.SAI_STRIDE):
+        memory.I[at.SAI_BASE + offset] = 0
+    for row in (at.P_SAMPLE_ARRAY_INDEX, at.P_SAMPLE_TRIGGER_INDEX, at.P_SAMPLE_TIMER_PERIOD):
+        memory.I[row] = 0
+
+
+@command("SAMP", group=GROUP, levels=ANY, ref=REF)
+def samp_report(run: Run) -> None:
+    """Report trigger, period and channels of the sampler."""
+    rows = run.card.memory.I
+    trigger = rows[at.SAI_BASE + at.SAI_TRIGGER] - 1
+    if trigger >= 0:
+        sign = "-" if rows[at.SAI_BASE + at.SAI_TRIGGER_CLEAR] else ""
+        run.print(f"SAMP TRG {sign}BIT{trigger}")
+    every_s = number_text(rows[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S, Kind.DOUBLE)
+    run.print(f"SAMP PERIOD {every_s}")
+    for channel in range(CHANNELS):
+        source = rows[at.SAI_BASE + at.SAI_SOURCE + channel] - 1
+        kind = rows[at.SAI_BASE + at.SAI_KIND + channel]
+        if source >= 0:
+            run.print(f"SAMP {channel} SRC P{source}")
+        if kind:
+            array = rows[at.SAI_BASE + at.SAI_ARRAY + channel]
+            run.print(f"SAMP {channel} BASE {_WORDS[kind]}{array}")
