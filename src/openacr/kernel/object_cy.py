@@ -19,7 +19,7 @@ from openacr.kernel.source_cy import (
     RATCHET_TAPS,
     SWITCH_TAPS,
     source_follow,
-    source_value,
+    source_reading,
 )
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
@@ -132,7 +132,7 @@ def object_sources_step(F: F64, I: I32, S: F32, period_s: float) -> None:
 def tap_value(F: F64, I: I32, S: F32, t: int) -> float:
     """Present value of the source of tap t."""
     i: int = SRI_BASE + t * SRI_STRIDE
-    return source_value(F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX])
+    return source_reading(F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX])
 
 
 def switch_step(F: F64, I: I32, S: F32, k: int) -> None:

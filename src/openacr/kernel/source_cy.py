@@ -93,7 +93,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["parameter_value", "source_follow", "source_prime", "source_value", "trigger_step"]
+__all__ = ["parameter_value", "source_follow", "source_prime", "source_reading", "trigger_step"]
 
 FROM_NONE = 0
 FROM_CLOCK = 1
@@ -156,7 +156,7 @@ def parameter_value(F: F64, I: I32, S: F32, number: int) -> float:
     return 0.0
 
 
-def source_value(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
+def source_reading(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
     """Present value of a source."""
     if kind == FROM_CLOCK:
         return F[SYSF_BASE + SYSF_TIME_S] * PULSES_PER_S
@@ -187,7 +187,7 @@ def source_wraps(I: I32, kind: int, k: int) -> bool:
 def source_prime(F: F64, I: I32, S: F32, t: int) -> None:
     """Let tap t count from the present value of its source."""
     i: int = SRI_BASE + t * SRI_STRIDE
-    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_value(
+    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_reading(
         F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX]
     )
     F[SRF_BASE + t * SRF_STRIDE + SRF_DELTA] = 0.0
@@ -201,7 +201,7 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
     if kind == FROM_NONE or kind == FROM_SELF:
         F[f + SRF_DELTA] = 0.0
         return
-    value: float = source_value(F, I, S, kind, I[i + SRI_INDEX])
+    value: float = source_reading(F, I, S, kind, I[i + SRI_INDEX])
     delta: float = value - F[f + SRF_OLD]
     if kind == FROM_CLOCK:
         delta = F[SYSF_BASE + SYSF_PERIOD_S] * PULSES_PER_S
@@ -298,7 +298,7 @@ def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
         tap: int = n * USES + (USE_CAM if place == CAM_ON else USE_GEAR)
         s: int = SRI_BASE + tap * SRI_STRIDE
         old: float = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
-        moved: float = source_value(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
+        moved: float = source_reading(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
         behind: float = edge_behind(
             F,
             I,

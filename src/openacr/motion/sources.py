@@ -47,7 +47,7 @@ from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_source
 
 _prime = pick(source_cy.source_prime)
-_value = pick(source_cy.source_value)
+_value = pick(source_cy.source_reading)
 
 _WORDS = {
     "NONE": FROM_NONE,
