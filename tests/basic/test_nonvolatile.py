@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.basic import registry, saved, user_memory
+from openacr.basic import registry, saved, saving, user_memory
 from openacr.basic.commands.nonvolatile import hex_records
 from openacr.basic.user_memory import UserMemory
 from openacr.controller import Controller
@@ -21,6 +21,7 @@ SETTINGS = (
     "HLIM X3", "SLIM Y2", "MAXVEL X7", "DAC3 GAIN 7", "ADC2 OFFSET -1", "AXIS7 OFF",
     "EXC X(1,-2)", "ATTACH AXIS6 STEPPER3 STEPPER3", "P32768=9", "P33040=3", "PERIOD 0.001",
     'IP GATE "10.0.0.9"', "MULT X-4", "JOG HOMVF Y3", "HLBIT Y7", "ADC MAX 3",
+    "TMOV 2.5", "SRC ENC3", "MASTER5 SRC P38912", "MASTER6 TMOV 3", "MASTER6 TMOV OFF",
 )  # fmt: skip
 
 
@@ -28,9 +29,9 @@ def test_every_command_whose_value_is_kept_is_in_the_list_of_esave() -> None:
     rows = {row.name for row in registry.commands() if row.saved}
     kept = [each.words for each in saved.all_saved()]
     assert len(set(kept)) == len(kept)
-    assert rows - set(kept) == set(saved.SAME_VALUE)
+    assert rows - set(kept) == set(saving.SAME_VALUE)
     assert set(kept) - rows == {"CANopen"}
-    assert set(saved.SAME_VALUE.values()) <= set(kept)
+    assert set(saving.SAME_VALUE.values()) <= set(kept)
 
 
 def test_saved_parameters_make_the_same_card() -> None:

@@ -1,7 +1,7 @@
 """The parameters ESAVE keeps: how each is taken from a card and put back.
 
-Commands made from rows with a `Setting` enter themselves (`keep`), the others stand in a
-table here. Order matters when all are put back: the servo period before the filters that
+Commands made from rows with a `Setting` enter themselves (`saving.keep`), the others stand
+in a table here. Order matters when all are put back: the servo period before the filters that
 follow from it, attachments before what belongs to a master.
 """
 
@@ -9,63 +9,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from openacr.basic.saving import Saved, each, kept
 from openacr.errors import CardError
 from openacr.kernel import source_cy
 from openacr.map import numbers as at
 from openacr.map.block import Access
 from openacr.map.lookup import parameters
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import attach, filters, settings, sources
+from openacr.motion import attach, filters, settings, sources, time_base
 from openacr.motion.card import SLAVES, Card
-from openacr.motion.rows import axis_ints, master_reals
+from openacr.motion.rows import axis_ints, master_parameter, master_reals, master_word2
 
 if TYPE_CHECKING:
     from openacr.basic.system import System
-    from openacr.motion.settings import LimitEnables, Setting
+    from openacr.motion.settings import LimitEnables
 
-# Commands that show the same value under another name or in another unit.
-SAME_VALUE = {"MULT": "ENC # MULT", "F": "VEL", "AXIS # OFF": "AXIS # ON"}
 STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)
 _CANOPEN = (range(32768, 32779), range(at.CANN_BASE, at.CANN_BASE + at.CANN_COUNT * at.CANN_STRIDE))
-
-
-@dataclass(frozen=True, slots=True)
-class Saved:
-    """What belongs to one command, as plain data."""
-
-    words: str
-    take: Callable[[System], Any]
-    put: Callable[[System, Any], None]
-
-
-_settings: dict[str, Saved] = {}
-
-
-def keep(
-    words: str,
-    *places: Setting,
-    count: Callable[[Card], int],
-    then: Callable[[Card, int], None] | None = None,
-) -> None:
-    """Enter a command whose values are settings of objects 0 to `count` - 1."""
-    if words in SAME_VALUE:
-        return
-
-    def take(system: System) -> list[list[float]]:
-        card = system.card
-        return [[place.read(card, number) for place in places] for number in range(count(card))]
-
-    def put(system: System, rows: list[list[float]]) -> None:
-        for number, row in _numbered(rows, count(system.card)):
-            for place, value in zip(places, row, strict=True):
-                place.write(system.card, number, value)
-            if then is not None:
-                then(system.card, number)
-
-    _settings[words] = Saved(words, take, put)
 
 
 def _numbered(rows: list[Any], count: int) -> Iterator[tuple[int, Any]]:
@@ -75,24 +37,24 @@ def _numbered(rows: list[Any], count: int) -> Iterator[tuple[int, Any]]:
 def all_saved() -> Iterator[Saved]:
     """Everything in the order in which it is put back."""
     yield _PERIOD
-    yield from _settings.values()
+    yield from kept.values()
     yield from _TABLE
 
 
 def take(system: System) -> dict[str, Any]:
     """The parameters of a card as they are now, by command."""
-    return {each.words: each.take(system) for each in all_saved()}
+    return {item.words: item.take(system) for item in all_saved()}
 
 
 def put(system: System, image: dict[str, Any]) -> list[str]:
     """Bring parameters back; what this card does not take is left out and listed."""
     refused = []
-    for each in all_saved():
-        if each.words in image:
+    for item in all_saved():
+        if item.words in image:
             try:
-                each.put(system, image[each.words])
+                item.put(system, image[item.words])
             except (CardError, ValueError, TypeError, LookupError) as error:
-                refused.append(f"{each.words}: {error}")
+                refused.append(f"{item.words}: {error}")
     return refused
 
 
@@ -113,14 +75,13 @@ def put_stream_modes(system: System, modes: list[int]) -> None:
 def _per_axis(
     words: str, read: Callable[[Card, int], Any], write: Callable[[Card, int, Any], None]
 ) -> Saved:
-    def take(system: System) -> list[Any]:
-        return [read(system.card, axis) for axis in range(system.card.model.axes)]
+    return each(words, lambda card: card.model.axes, read, write)
 
-    def put(system: System, values: list[Any]) -> None:
-        for axis, value in _numbered(values, system.card.model.axes):
-            write(system.card, axis, value)
 
-    return Saved(words, take, put)
+def _per_master(
+    words: str, read: Callable[[Card, int], Any], write: Callable[[Card, int, Any], None]
+) -> Saved:
+    return each(words, lambda card: card.model.masters, read, write)
 
 
 def _limit_mode(words: str, enables: LimitEnables) -> Saved:
@@ -160,6 +121,23 @@ _SOURCE_ROWS = (
     at.AXI_VELOCITY_SOURCE,
     at.AXI_VELOCITY_INDEX,
 )
+
+
+def _read_move_time(card: Card, master: int) -> list[float]:
+    is_on = bool(card.memory.I[master_word2(master)] & at.MF2_MASTER_IN_TMOV)
+    return [card.memory.S[master_parameter(master) + at.MA_MOVE_TIME], is_on]
+
+
+def _write_move_time(card: Card, master: int, value: list[float]) -> None:
+    time_s, is_on = value
+    time_base.set_move_time(card, master, time_s)
+    time_base.switch_move_time(card, master, on=bool(is_on))
+
+
+def _write_source(card: Card, master: int, text: str) -> None:
+    if text != time_base.source_text(card, master):
+        word = text.rstrip("0123456789")
+        time_base.set_source(card, master, word, int(text.removeprefix(word) or -1))
 
 
 # masters and slaves
@@ -275,6 +253,8 @@ _TABLE = (
     Saved("ATTACH SLAVE #", _take_slaves, _put_slaves),
     _per_axis("MAXVEL", settings.MAX_VELOCITY.read, settings.set_max_velocity),
     Saved("VECDEF", _take_weights, _put_weights),
+    _per_master("TMOV", _read_move_time, _write_move_time),
+    _per_master("SRC", time_base.source_text, _write_source),
     _per_axis("AXIS # ON", settings.is_axis_on, _write_axis_on),
     _row("ADC MODE", at.KRI_ADC_MODE, lambda card: 1),
     _row("ADC MAX", at.KRI_ADC_CHANNELS, lambda card: card.model.adcs),

@@ -15,7 +15,7 @@ from openacr.basic.grammar import Axis, AxisPairs, AxisValue, AxisValues, Num
 from openacr.basic.number_format import Kind, number_text
 from openacr.basic.registry import ANY, BY_OBJECT, Level, command
 from openacr.basic.run import Run
-from openacr.basic.saved import keep
+from openacr.basic.saving import keep
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
