@@ -1,0 +1,166 @@
+"""Ratchets, limiters, programmable limit switches and output objects."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.basic.motion_bench import Bench
+
+from openacr.basic.registry import Level
+from openacr.map import numbers as at
+
+WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
+
+
+def turn(made: Bench, *counts: int) -> Bench:
+    """The source moves by each of these, tick by tick."""
+    for count in counts:
+        made.memory.I[WHEEL] += count
+        made.ticks(1)
+    return made
+
+
+def place(made: Bench, position: int) -> Bench:
+    made.memory.I[WHEEL] = position
+    return made.ticks(1)
+
+
+# ratchets
+
+
+@pytest.mark.parametrize(
+    ("mode", "counts", "outputs"),
+    [
+        (0, (5, -3), (5, 2)),
+        (3, (5, -3, 2, 4), (5, 5, 5, 8)),
+        (3, (-10, 10, 1), (0, 0, 1)),
+        (1, (5, -3, 2), (5, 5, 7)),
+        (4, (5, -3), (0, -3)),
+        (2, (5, -3), (5, 8)),
+        (10, (5, -3), (-5, -2)),
+        (12, (5, -3, -4), (0, 0, -2)),
+    ],
+)
+@pytest.mark.req("ACR-CMD-RATCH")
+def test_a_ratchet_treats_counts_by_their_sign(
+    mode: int, counts: tuple[int, ...], outputs: tuple[int, ...]
+) -> None:
+    made = Bench().at(Level.SYS).all("RATCH0 SRC ENC10", f"RATCH0 MODE {mode}")
+    for count, output in zip(counts, outputs, strict=True):
+        assert turn(made, count).type("RATCH0") == str(output)
+
+
+def test_a_ratchet_is_a_source() -> None:
+    made = Bench("X").all("RATCH2 SRC ENC10 : RATCH2 MODE 3", "GEAR SRC X RATCH2", "GEAR ON X")
+    assert turn(made, 5, -3, 2, 4).p(12296) == 8
+    made.all("RATCH2 RES 0")
+    assert made.type("RATCH2 SRC") == "ENC10"
+
+
+def test_ratch_res_sets_the_output_and_drops_the_backlog() -> None:
+    made = Bench().all("RATCH0 SRC ENC10 : RATCH0 MODE 3")
+    turn(made, -7).all("RATCH0 RES 100")
+    assert turn(made, 4).type("RATCH0") == "104"
+
+
+@given(st.integers(0, 15), st.lists(st.integers(-9, 9), max_size=20))
+@settings(max_examples=50, deadline=None)
+def test_a_ratchet_that_passes_or_buffers_loses_nothing(mode: int, counts: list[int]) -> None:
+    made = Bench().all("RATCH0 SRC ENC10", f"RATCH0 MODE {mode & 0b1100 | 3}")
+    turn(made, *counts)
+    output, backlog = made.memory.F[at.RTF_BASE : at.RTF_BASE + 2]
+    if mode >> 2 in (0, 3):
+        assert output + backlog == sum(counts)
+        assert output >= 0
+    if mode >> 2 == 3:
+        assert output == 0
+
+
+@pytest.mark.parametrize("line", ["RATCH8", "RATCH0 MODE 16", "RATCH0 MODE -1", "LIMIT0 FREQ -1"])
+def test_what_does_not_exist_is_refused(line: str) -> None:
+    assert Bench().type(line) == "Invalid argument"
+
+
+# limiters
+
+
+@pytest.mark.req("ACR-CMD-LIMIT")
+def test_a_limiter_delivers_later_what_it_holds_back() -> None:
+    made = Bench().all("LIMIT0 SRC ENC10", "LIMIT0 FREQ 20000")  # 10 per tick
+    outputs = [float(turn(made, count).type("LIMIT0")) for count in (35, 0, -5, 0, 0)]
+    assert outputs == [10, 20, 30, 30, 30]
+    made.all("LIMIT0 FREQ 0 : LIMIT0 MULT -2 : LIMIT0 RES 5")
+    assert turn(made, 35).type("LIMIT0") == "-65"
+
+
+# limit switches
+
+
+def switch(*patterns: int, lines: tuple[str, ...] = ()) -> Bench:
+    made = Bench("X").all("DIM LA(1)", f"DIM LA0({len(patterns)})")
+    for index, pattern in enumerate(patterns):
+        made.all(f"LA0({index})={pattern}")
+    return made.all("PLS0 SRC ENC10", "PLS0 BASE LA0", "PLS0 DST P4100", *lines, "PLS0 ON")
+
+
+@pytest.mark.req("ACR-CMD-PLS")
+def test_each_position_has_its_pattern() -> None:
+    made = switch(1, 2, 4)
+    assert [place(made, position).p(4100) for position in (0, 1, 2)] == [1, 2, 4]
+    assert place(made, 3).p(4100) == 4
+    assert place(made, -1).p(4100) == 4
+    assert made.bit(120)
+    made.all("PLS0 OFF")
+    assert place(made, 0).p(4100) == 4
+
+
+def test_mask_ratio_rotary_and_flz() -> None:
+    made = switch(255, 0, 255, lines=("PLS0 MASK 15", "PLS0 RATIO 0.1", "PLS0 ROTARY 3"))
+    made.all("P4100=240", "PLS0 FLZ 10")
+    assert [place(made, p).p(4100) for p in (0, 10, 19, 20, -10)] == [240, 255, 255, 255, 255]
+    assert place(made, 30).p(4100) == 240
+
+
+def test_pls_res_makes_the_present_place_an_index() -> None:
+    made = switch(1, 2, 4)
+    place(made, 1000).all("PLS0 RES 1")
+    assert place(made, 1000).p(4100) == 2
+    assert place(made, 1001).p(4100) == 4
+
+
+def test_a_freed_array_switches_it_off() -> None:
+    made = switch(1, 2)
+    made.all("CLEAR").ticks(1)
+    assert not made.bit(120)
+
+
+def test_a_limit_switch_needs_an_array_and_a_long_parameter() -> None:
+    made = Bench("X")
+    assert made.type("PLS0 ON") == "Undefined variable"
+    assert made.type("PLS0 BASE LA0") == "Undefined variable"
+    assert made.type("PLS0 DST P12304") == "Invalid parameter"
+    assert made.type("PLS0") == "PLS0 OFF SRC NONE BASE NONE DST P4097"
+
+
+# output objects
+
+
+def test_the_flag_is_set_within_the_window() -> None:
+    made = Bench().all("OOP1 SRC ENC10", "OOP1 BIT 40", "OOP1 POS (10,20)", "OOP1 ON")
+    seen = [place(made, position).bit(40) for position in (9, 10, 19, 20)]
+    assert seen == [False, True, True, False]
+    place(made, 15).all("OOP1 OFF")
+    assert not made.bit(40)
+    assert made.type("OOP1") == "OOP1 OFF SRC ENC10 BIT 40 POS (10,20)"
+
+
+@pytest.mark.parametrize(("count", "last"), [("", True), (",0", True), (",2", False)])
+def test_windows_repeat(count: str, last: bool) -> None:
+    made = Bench().all("OOP0 SRC ENC10", f"OOP0 INC (100,50,10{count})", "OOP0 ON")
+    seen = [place(made, p).bit(32) for p in (99, 100, 109, 110, 150, 160, 200, 50)]
+    assert seen == [False, True, True, False, True, False, last, False]
+
+
+def test_the_defaults_are_an_encoder_and_an_output_of_the_same_number() -> None:
+    made = Bench()
+    assert (made.type("OOP3 SRC"), made.type("OOP3 BIT")) == ("ENC3", "35")
+    assert made.type("OOP0 INC (0,0,1)") == "Invalid argument"
