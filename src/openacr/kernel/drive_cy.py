@@ -16,6 +16,8 @@ from openacr.map.numbers import (
     AF4_WORD,
     AXI_BASE,
     AXI_DRIVE_OLD,
+    AXI_DRIVE_SEEN,
+    AXI_DRIVE_WIRED,
     AXI_ENABLE_TICKS,
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
@@ -80,10 +82,25 @@ def drive_wiring(I: I32, n: int) -> None:
     I[row + PLI_DRIVE_ENABLED] = 1 if enabled else 0
 
 
+def drive_resting(I: I32, n: int) -> bool:
+    """Whether nothing about the drive of axis n has changed since its last step."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    flags: int = I[AF4_WORD + n]
+    k: int = I[i + AXI_POSITION_INDEX]
+    if flags != I[i + AXI_DRIVE_SEEN] or I[i + AXI_ENABLE_TICKS] or k != I[i + AXI_DRIVE_WIRED]:
+        return False
+    if not 0 <= k < MODELLED or not I[PLI_BASE + k * PLI_STRIDE + PLI_FAULT_MASK]:
+        return True
+    fault: bool = I[PLI_BASE + k * PLI_STRIDE + PLI_DRIVE_FAULT] != 0
+    return fault == (flags & AF4_DRIVE_FAULT_INPUT != 0)
+
+
 def drive_step(I: I32, n: int, period_s: float) -> None:
     """Follow the drive flags of axis n."""
     i: int = AXI_BASE + n * AXI_STRIDE
     word: int = AF4_WORD + n
+    if drive_resting(I, n):
+        return
     drive_request(I, n)
     if I[i + AXI_ENABLE_TICKS] > 0:
         I[i + AXI_ENABLE_TICKS] -= 1
@@ -98,7 +115,11 @@ def drive_step(I: I32, n: int, period_s: float) -> None:
         I[word] |= AF4_DRIVE_FAULT | AF4_KILL_ALL_MOTION_REQUEST
         I[word] &= ~AF4_DRIVE_ENABLED
     I[i + AXI_DRIVE_OLD] = I[word] & AF4_DRIVE_ENABLED
+    I[i + AXI_DRIVE_SEEN] = I[word]  # a change of the fault line has to be looked at again
+    I[i + AXI_DRIVE_WIRED] = I[i + AXI_POSITION_INDEX]
     drive_wiring(I, n)
+    if I[word] & AF4_DRIVE_RESET_REQUEST:
+        I[i + AXI_DRIVE_WIRED] = -1  # the reset pulse counts ticks
 
 
 def drive_request(I: I32, n: int) -> None:

@@ -264,9 +264,9 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     f: int = PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE
     sign: int = I[i + AXI_JOG_SIGN]
     velocity: float = sign * F[f + PRF_VELOCITY]
-    scale: float = fabs(axis_scale(S, n))
-    S[p + AX_CURRENT_JOG_VELOC] = velocity / scale
-    S[p + AX_CURRENT_JOG_ACCEL] = sign * F[f + PRF_ACCEL] / scale
+    units: float = 1.0 / fabs(axis_scale(S, n))
+    S[p + AX_CURRENT_JOG_VELOC] = velocity * units
+    S[p + AX_CURRENT_JOG_ACCEL] = sign * F[f + PRF_ACCEL] * units
     word: int = axis_word(n)
     flags: int = I[word] & ~JOG_STATES
     if I[i + AXI_JOG_MODE] != JOG_IDLE:

@@ -15,6 +15,7 @@ from openacr.map.numbers import (
     AX_STRIDE,
     AXI_BASE,
     AXI_CAPTURE_MODE,
+    AXI_DRIVE_WIRED,
     AXI_HLBIT,
     AXI_MASTER,
     AXI_ON,
@@ -130,6 +131,7 @@ class Card:
         rows[row + AXI_VELOCITY_INDEX] = axis
         rows[row + AXI_HLBIT] = 3 * axis
         rows[row + AXI_CAPTURE_MODE] = -1
+        rows[row + AXI_DRIVE_WIRED] = -1
         for bypass in (AX_FILTER0_A0, AX_FILTER1_A0):
             self.memory.S[AX_BASE + axis * AX_STRIDE + bypass] = 1.0
 

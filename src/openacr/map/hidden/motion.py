@@ -223,6 +223,8 @@ AXIS = HiddenBlock(
         "capture_copy",  # parameter that receives a copy, 0 none
         "enable_ticks",  # until the drive reports enabled, 0 idle
         "drive_old",
+        "drive_seen",  # quaternary flags after the last step of the drive
+        "drive_wired",  # position feedback then, -1: step in any case
         "reset_ticks",
         "window_index",
         "window_count",
