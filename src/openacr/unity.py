@@ -38,6 +38,8 @@ ORDER = (
     "kernel/jog_cy.py",
     "kernel/curve_cy.py",
     "kernel/path_cy.py",
+    "kernel/lookahead_cy.py",
+    "kernel/plan_cy.py",
     "kernel/seek_cy.py",
     "kernel/interrupt_cy.py",
     "kernel/hsint_cy.py",

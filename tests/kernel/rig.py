@@ -13,7 +13,7 @@ from openacr.map import numbers as at
 from openacr.models import ACR8020
 from openacr.motion import attach, moves, rows
 from openacr.motion.card import Card
-from openacr.motion.moves import Target
+from openacr.motion.orders import Target
 from openacr.plant.apply import apply_world
 from openacr.plant.load import parse_world
 from openacr.plant.step_cy import plant_step

@@ -1,7 +1,9 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
 from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
-from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, master_word, move_record
+from openacr.kernel.lookahead_cy import look_active
+from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record
+from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import (
     DECELERATING,
     STOPPING,
@@ -53,6 +55,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
     MSI_SEEK_PHASE,
     MSI_SLAVE_AXIS,
+    MSI_STRETCH,
     MSI_STRIDE,
     MSI_TRIGGER,
     MSI_TRIGGER_AXIS,
@@ -84,6 +87,7 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     I[i + MSI_SEEK_PHASE] = SEEK_NONE
     I[i + MSI_HSINT_PHASE] = HSINT_NONE
     I[i + MSI_CUT] = 0
+    I[i + MSI_STRETCH] = 1
     I[i + MSI_TRIGGER] = 0
     I[i + MSI_TRIGGER_AXIS] = 0
     F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
@@ -141,7 +145,8 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
         rate = F[q + MQF_STP_UPS2]
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]
-    merged: bool = F[q + MQF_STP_UPS2] <= 0.0 and I[i + MSI_QUEUED] > 1
+    flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_active(I, m)
+    merged: bool = flows and I[i + MSI_QUEUED] > I[i + MSI_STRETCH]
     if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
         stp: float = F[q + MQF_STP_UPS2]
         if stp <= 0.0:

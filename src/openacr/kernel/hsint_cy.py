@@ -12,7 +12,8 @@ from openacr.cmath import fabs
 from openacr.kernel.axis_cy import axis_offsets, axis_scale, axis_word
 from openacr.kernel.capture_cy import capture_arm
 from openacr.kernel.interrupt_cy import flag_state, master_cut, response_period
-from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, move_geometry, move_record
+from openacr.kernel.path_cy import SLAVE_COUNT, move_geometry, move_record
+from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
 from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,

@@ -25,12 +25,14 @@ from openacr.kernel.interrupt_cy import cut_end, interrupt_step, move_barred, re
 from openacr.kernel.path_cy import (
     master_limit,
     master_place,
-    master_plan,
     master_word,
     master_word2,
     move_geometry,
+    move_place,
     move_record,
+    move_shape,
 )
+from openacr.kernel.plan_cy import look_refresh, master_plan
 from openacr.kernel.profile_cy import (
     ACCELERATING,
     DECELERATING,
@@ -47,6 +49,7 @@ from openacr.map.numbers import (
     MA_DISTANCE_SQUARED,
     MA_DISTANCE_TO_GO,
     MA_FRACTION_INTO_MOVE,
+    MA_LOOK_AHEAD_VECTOR_ANGLE,
     MA_MBUF_FILLED,
     MA_MOVE_COUNTER,
     MA_STRIDE,
@@ -86,6 +89,7 @@ from openacr.map.numbers import (
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TMOV_S,
+    MQF_TURN_DEG,
     MQI_BASE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
@@ -96,6 +100,7 @@ from openacr.map.numbers import (
     MSF_BASE,
     MSF_ENTRY_UPS,
     MSF_ENTRY_UPS2,
+    MSF_ORIGIN_U,
     MSF_PACE,
     MSF_STRETCH_U,
     MSF_STRIDE,
@@ -104,12 +109,14 @@ from openacr.map.numbers import (
     MSI_HEAD,
     MSI_HOLD,
     MSI_HSINT_PHASE,
+    MSI_LOOK_DIRTY,
     MSI_MOVING,
     MSI_PACED,
     MSI_QUEUED,
     MSI_RESPONSE,
     MSI_SEEK_PHASE,
     MSI_SIZE,
+    MSI_STRETCH,
     MSI_STRIDE,
     PRF_ACCEL,
     PRF_BASE,
@@ -139,6 +146,8 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     word2: int = master_word2(m)
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
+    turn: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TURN_DEG]
+    S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_VECTOR_ANGLE] = turn
     I[i + MSI_MOVING] = 1
     I[i + MSI_CUT] = 0
     I[i + MSI_RESPONSE] = response_period(I, m)
@@ -215,13 +224,37 @@ def move_end(F: F64, I: I32, S: F32, m: int) -> None:
     move_pop(I, m)
 
 
+def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
+    """The plan runs on into the next moves: remove those that are behind."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    f: int = MSF_BASE + m * MSF_STRIDE
+    while I[i + MSI_STRETCH] > 1:
+        record: int = move_record(I, m)
+        length: float = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
+        if F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE] < F[f + MSF_ORIGIN_U] + length:
+            return
+        move_place(F, I, m, record, 0.0)
+        move_end(F, I, S, m)
+        I[i + MSI_MOVING] = 1
+        I[i + MSI_STRETCH] -= 1
+        F[f + MSF_ORIGIN_U] += length
+        record = move_record(I, m)
+        move_flags(I, S, m, record)
+        length = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
+        move_shape(F, I, S, m, record, False)
+        if F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U] != length:
+            I[i + MSI_LOOK_DIRTY] = 1  # somebody has moved its start
+        turn: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TURN_DEG]
+        S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_VECTOR_ANGLE] = turn
+
+
 def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     """Publish the state of the path in the parameters and flags of the master."""
     f: int = PRF_BASE + m * PRF_STRIDE
     p: int = MA_BASE + m * MA_STRIDE
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
     length: float = F[q + MQF_LENGTH_U]
-    distance: float = F[f + PRF_DISTANCE]
+    distance: float = F[f + PRF_DISTANCE] - F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]
     pace: float = 1.0
     if I[MSI_BASE + m * MSI_STRIDE + MSI_PACED]:
         pace = F[MSF_BASE + m * MSF_STRIDE + MSF_PACE]
@@ -306,6 +339,8 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         elif I[i + MSI_HOLD] == NOT_HELD:
             master_follow(F, I, S, m)
         left = path_advance(F, I, m, left)
+        if I[i + MSI_STRETCH] > 1:
+            moves_pass(F, I, S, m)
         master_place(F, I, m)
         if left < 0.0:
             break
@@ -320,6 +355,9 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
             continue
         if I[i + MSI_CUT]:
             cut_end(F, I, m)
+            while I[i + MSI_STRETCH] > 1:  # what the path was planned through goes with it
+                move_end(F, I, S, m)
+                I[i + MSI_STRETCH] -= 1
         move_end(F, I, S, m)
         if not I[i + MSI_QUEUED]:
             break
@@ -350,6 +388,9 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         hsint_step(F, I, S, m)
     if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_INTERRUPT]:
         interrupt_step(F, I, S, m)
+    dirty: bool = I[MSI_BASE + m * MSI_STRIDE + MSI_LOOK_DIRTY] != 0
+    if dirty and not I[MSI_BASE + m * MSI_STRIDE + MSI_CUT]:
+        look_refresh(F, I, S, m)
     if (
         not master_stopping(I, m)
         and I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] != SEEK_STOPPING

@@ -8,16 +8,16 @@ takes part stands at
 which is exactly the target at s = L; those on a curve where curve_cy says.
 """
 
-from openacr.cmath import fabs, sqrt
+from openacr.cmath import atan2, fabs, sqrt
 from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.curve_cy import (
+    DEGREES,
     curve_longest_deg,
     curve_position,
     curve_shape,
     curve_slope,
     curve_steepest,
 )
-from openacr.kernel.profile_cy import profile_plan
 from openacr.map.numbers import (
     AX_BASE,
     AX_COUNT,
@@ -35,21 +35,17 @@ from openacr.map.numbers import (
     MA_USER_VELOCITY,
     MA_VEL_LIMIT,
     MF1_FOV_ROV_LOCK_ACTIVE,
-    MF1_FVEL_ZERO_ACTIVE,
     MF1_WORD,
     MF1_WORD_HIGH,
     MF2_SLAVEMAXVEL,
     MF2_WORD,
     MF2_WORD_HIGH,
-    MQF_ACC_UPS2,
     MQF_BASE,
-    MQF_DEC_UPS2,
     MQF_DELTA_CNT,
-    MQF_FVEL_UPS,
-    MQF_JRK_UPS3,
+    MQF_ENTER,
+    MQF_LEAVE,
     MQF_LENGTH_U,
     MQF_MAXVEL_UPS,
-    MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQF_VEL_UPS,
@@ -62,6 +58,7 @@ from openacr.map.numbers import (
     MQI_SLAVES,
     MQI_STRIDE,
     MSF_BASE,
+    MSF_LOOK_CAP_UPS,
     MSF_ORIGIN_U,
     MSF_STRETCH_U,
     MSF_STRIDE,
@@ -78,7 +75,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["move_shape", "path_slope"]
+__all__ = ["move_directions", "move_shape", "path_slope", "path_turn_deg"]
 
 SLAVE_COUNT = 16
 FAR_U = 1e30
@@ -101,48 +98,40 @@ def move_record(I: I32, m: int) -> int:
 
 
 def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
-    """Cruising speed wanted now [units/s]: the move's own under override and limits.
+    """Cruising speed wanted now [units/s]: the move's own under override and limits."""
+    record: int = move_record(I, m)
+    velocity: float = F[MQF_BASE + record * MQF_STRIDE + MQF_VEL_UPS]
+    if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
+        velocity = S[MA_BASE + m * MA_STRIDE + MA_USER_VELOCITY]
+        F[MQF_BASE + record * MQF_STRIDE + MQF_VEL_UPS] = velocity
+    velocity = move_limit(F, S, m, record, move_override(I, S, m, record))
+    cap: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_CAP_UPS]
+    return min(velocity, cap) if cap > 0.0 else velocity
+
+
+def move_override(I: I32, S: F32, m: int, record: int) -> float:
+    """FOV, or ROV of a rapid move; 1 while they are locked."""
+    p: int = MA_BASE + m * MA_STRIDE
+    if I[master_word(m)] & MF1_FOV_ROV_LOCK_ACTIVE:
+        return 1.0
+    if I[MQI_BASE + record * MQI_STRIDE + MQI_RAPID]:
+        return S[p + MA_RAPID_FEEDRATE_OVERRIDE]
+    return S[p + MA_FEEDRATE_OVERRIDE]
+
+
+def move_limit(F: F64, S: F32, m: int, record: int, override: float) -> float:
+    """Cruising speed of a move [units/s] with an override.
 
     The comparisons are written so that what is no number counts as 0 or as no limit.
     """
-    record: int = move_record(I, m)
     q: int = MQF_BASE + record * MQF_STRIDE
-    p: int = MA_BASE + m * MA_STRIDE
-    velocity: float = F[q + MQF_VEL_UPS]
-    if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
-        velocity = S[p + MA_USER_VELOCITY]
-        F[q + MQF_VEL_UPS] = velocity
-    if not I[master_word(m)] & MF1_FOV_ROV_LOCK_ACTIVE:
-        if I[MQI_BASE + record * MQI_STRIDE + MQI_RAPID]:
-            velocity *= S[p + MA_RAPID_FEEDRATE_OVERRIDE]
-        else:
-            velocity *= S[p + MA_FEEDRATE_OVERRIDE]
-    if S[p + MA_VEL_LIMIT] > 0.0:
-        velocity = min(velocity, S[p + MA_VEL_LIMIT])
+    velocity: float = F[q + MQF_VEL_UPS] * override
+    limit: float = S[MA_BASE + m * MA_STRIDE + MA_VEL_LIMIT]
+    if limit > 0.0:
+        velocity = min(velocity, limit)
     if F[q + MQF_MAXVEL_UPS] > 0.0:
         velocity = min(velocity, F[q + MQF_MAXVEL_UPS])
     return velocity if velocity > 0.0 else 0.0
-
-
-def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
-    """Plan the present move of master m from where it is."""
-    record: int = move_record(I, m)
-    q: int = MQF_BASE + record * MQF_STRIDE
-    final: float = F[q + MQF_FVEL_UPS]
-    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
-        final = 0.0
-    profile_plan(
-        F,
-        I,
-        m,
-        F[q + MQF_LENGTH_U],
-        master_limit(F, I, S, m),
-        final,
-        F[q + MQF_ACC_UPS2],
-        F[q + MQF_DEC_UPS2],
-        F[q + MQF_STP_UPS2],
-        F[q + MQF_JRK_UPS3],
-    )
 
 
 def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
@@ -152,6 +141,7 @@ def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U] = 0.0
     length: float = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
     F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U] = length
+    F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_CAP_UPS] = 0.0
     I[MSI_BASE + m * MSI_STRIDE + MSI_STRETCH] = 1
 
 
@@ -234,14 +224,47 @@ def path_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     return F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
 
 
+def move_directions(F: F64, I: I32, S: F32, m: int, record: int) -> None:
+    """Note where the path of a move heads at its beginning and end, as unit vectors."""
+    path_direction(F, I, S, m, record, 0.0, MQF_ENTER)
+    path_direction(F, I, S, m, record, 1.0, MQF_LEAVE)
+
+
+def path_direction(F: F64, I: I32, S: F32, m: int, record: int, part: float, row: int) -> None:
+    """Write the direction of the first three slaves at a part of a move; 0 without any."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    square: float = 0.0
+    for s in range(3):
+        axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+        slope: float = 0.0
+        if axis >= 0:
+            slope = path_slope(F, I, record, s, part) / axis_scale(S, axis)
+        F[q + row + s] = slope
+        square += slope * slope
+    if square > 0.0:
+        for s in range(3):
+            F[q + row + s] = F[q + row + s] / sqrt(square)
+
+
+def path_turn_deg(F: F64, before: int, after: int) -> float:
+    """Angle between the end of one move and the beginning of the next."""
+    a: int = MQF_BASE + before * MQF_STRIDE + MQF_LEAVE
+    b: int = MQF_BASE + after * MQF_STRIDE + MQF_ENTER
+    x: float = F[a + 1] * F[b + 2] - F[a + 2] * F[b + 1]
+    y: float = F[a + 2] * F[b] - F[a] * F[b + 2]
+    z: float = F[a] * F[b + 1] - F[a + 1] * F[b]
+    along: float = F[a] * F[b] + F[a + 1] * F[b + 1] + F[a + 2] * F[b + 2]
+    return atan2(sqrt(x * x + y * y + z * z), along) * DEGREES
+
+
 def master_place(F: F64, I: I32, m: int) -> None:
     """Put the slaves of the present move where the path is."""
     record: int = move_record(I, m)
     q: int = MQF_BASE + record * MQF_STRIDE
     length: float = F[q + MQF_LENGTH_U]
     rest: float = 0.0
-    if length > 0.0:
-        gone: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE]
+    gone: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE]
+    if gone < F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]:
         rest = 1.0 - (gone - F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]) / length
     move_place(F, I, m, record, rest)
 

@@ -5,7 +5,8 @@ The captured position becomes 0.
 
 from openacr.kernel.axis_cy import axis_offsets, axis_preload, axis_word
 from openacr.kernel.capture_cy import capture_arm, encoder_shift
-from openacr.kernel.path_cy import SLAVE_COUNT, master_plan, move_geometry, move_record
+from openacr.kernel.path_cy import SLAVE_COUNT, move_geometry, move_record
+from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
 from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,

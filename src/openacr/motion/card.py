@@ -37,6 +37,7 @@ from openacr.map.numbers import (
     MSF_ACC_UPS2,
     MSF_BASE,
     MSF_DEC_UPS2,
+    MSF_LOOK_TO_DEG,
     MSF_STP_UPS2,
     MSF_STRIDE,
     MSF_VECDEF,
@@ -66,6 +67,7 @@ SLOW_SCAN_S = 0.05
 SCANNED_ADCS = 8
 DEFAULT_RAMP_UPS2 = 20000.0
 DEFAULT_VEL_UPS = 10000.0
+DEFAULT_LOOK_TO_DEG = 90.0
 
 _axis_show = pick(axis_cy.axis_show)
 _axis_take_written = pick(axis_cy.axis_take_written)
@@ -139,6 +141,7 @@ class Card:
         reals = MSF_BASE + master * MSF_STRIDE
         for row in (MSF_ACC_UPS2, MSF_DEC_UPS2, MSF_STP_UPS2):
             self.memory.F[reals + row] = DEFAULT_RAMP_UPS2
+        self.memory.F[reals + MSF_LOOK_TO_DEG] = DEFAULT_LOOK_TO_DEG
         self.memory.S[MA_BASE + master * MA_STRIDE + MA_USER_VELOCITY] = DEFAULT_VEL_UPS
         rows = MSI_BASE + master * MSI_STRIDE
         self.memory.I[rows + MSI_PROGRAM] = -1

@@ -25,6 +25,7 @@ from openacr.map.numbers import (
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQF_TMOV_S,
+    MQF_TURN_DEG,
     MQF_VEL_UPS,
     MQF_WEIGHT,
     MQI_BASE,
@@ -48,6 +49,7 @@ from openacr.map.numbers import (
     MSF_VECDEF,
     MSI_FIRST,
     MSI_HEAD,
+    MSI_LOOK_DIRTY,
     MSI_QUEUED,
     MSI_SIZE,
     MSI_TRIGGER,
@@ -76,6 +78,8 @@ _COPIED = (
 )
 _CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS)
 _move_shape = pick(path_cy.move_shape)
+_move_directions = pick(path_cy.move_directions)
+_path_turn_deg = pick(path_cy.path_turn_deg)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +107,7 @@ def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequen
     curves.write(card, program, record, parts)
     _lay_out(card, master, record, ways)
     _take_trigger(card, master, record)
+    _look_back(card, master, record, queued)
     for way in ways:
         memory.F[master_reals(master) + MSF_TARGET_CNT + way.slave] = way.target_cnt
         if not queued:
@@ -152,6 +157,19 @@ def _lay_out(card: Card, master: int, record: int, ways: list[Way]) -> None:
     if memory.I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE]:
         if not 0.0 < memory.F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]:
             raise CardError(INVALID_ARC)
+
+
+def _look_back(card: Card, master: int, record: int, queued: int) -> None:
+    """Note where the path heads, and by how much it turns behind the move before."""
+    memory, rows = card.memory, master_ints(master)
+    _move_directions(memory.F, memory.I, memory.S, master, record)
+    memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TURN_DEG] = 0.0
+    memory.I[rows + MSI_LOOK_DIRTY] = 1
+    if queued:
+        ring = (memory.I[rows + MSI_HEAD] + queued - 1) % memory.I[rows + MSI_SIZE]
+        before = memory.I[rows + MSI_FIRST] + ring
+        turn = _path_turn_deg(memory.F, before, record)
+        memory.F[MQF_BASE + before * MQF_STRIDE + MQF_TURN_DEG] = turn
 
 
 def _take_trigger(card: Card, master: int, record: int) -> None:

@@ -15,6 +15,7 @@ from openacr.map.numbers import (
     MSI_MOVING,
     MSI_QUEUED,
     MSI_SEEK_PHASE,
+    MSI_STRETCH,
     PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
@@ -40,7 +41,7 @@ def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
     if not memory.I[rows + MSI_QUEUED]:
         return
     if memory.I[rows + MSI_MOVING] and _turns_back(card, master, ways):
-        memory.I[rows + MSI_QUEUED] = 1
+        memory.I[rows + MSI_QUEUED] = memory.I[rows + MSI_STRETCH]  # it may stop in the next
         _master_cut(memory.F, memory.I, memory.S, master)
         return
     if memory.I[rows + MSI_MOVING]:

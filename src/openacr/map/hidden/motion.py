@@ -122,6 +122,8 @@ MASTER = HiddenBlock(
         "entry_ups2",
         "look_from_deg",  # LOOK ANG
         "look_to_deg",
+        "look_cap_ups",  # highest speed that suits all junctions of the present plan, 0 none
+        "look_exit_ups",  # speed at its end
         "source_old",
         "pace",  # path time per time in the last tick
     ),

@@ -1,0 +1,85 @@
+"""Buffered moves and looking ahead over them: MBUF, LOOK."""
+
+from __future__ import annotations
+
+from openacr.basic.commands.velocity_profile import GROUP, REF
+from openacr.basic.grammar import Group, Word
+from openacr.basic.number_format import number_text
+from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.basic.value_commands import Value, master_values
+from openacr.map.numbers import (
+    MA_LOOK_AHEAD_MIN_VEL,
+    MSI_QUEUED,
+    STI_MBUF_COUNT,
+)
+from openacr.motion import buffer
+from openacr.motion.rows import master_ints
+from openacr.motion.settings import of_master
+
+
+@command(
+    "MBUF", group=GROUP, levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),), ref=REF
+)
+def mbuf(run: Run, word: str | None) -> Wait | None:
+    """Let several moves wait in the buffer, as many as DIM MBUF says or 10; alone, count them."""
+    master = run.master()
+    if word is None:
+        run.print(str(buffer.waiting(run.card, master)))
+        return None
+    program = run.card.attachments.program(master)
+    heap = run.system.storage.heap
+    count = 0 if program is None else heap.row(program, STI_MBUF_COUNT)
+    moves_ring = word == "OFF" or not buffer.fits(run.card, master, count)
+    if moves_ring and not buffer.is_empty(run.card, master):
+        row = master_ints(master) + MSI_QUEUED
+        return Wait(WaitKind.ROW_BELOW, row, 1, retry=True, show=Show.MOVE_PENDING)
+    if word == "ON":
+        buffer.switch_on(run.card, master, count)
+    else:
+        buffer.switch_off(run.card, master)
+        if program is not None:
+            heap.set_row(program, STI_MBUF_COUNT, 0)
+    return None
+
+
+@command(
+    "LOOK", group=GROUP, levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),), ref=REF,
+    default="OFF", saved=True,
+)  # fmt: skip
+def look(run: Run, word: str | None) -> None:
+    """Look ahead over the buffered moves: merge them, and slow down before corners."""
+    master = run.master()
+    if word is None:
+        run.print("ON" if buffer.looks(run.card, master) else "OFF")
+    else:
+        buffer.switch_look(run.card, master, on=word == "ON")
+
+
+@command(
+    "LOOK ANG",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Group("from", "to", optional=True),),
+    ref=REF,
+    units="degrees",
+    default="0,90",
+    saved=True,
+)
+def look_ang(run: Run, angles: tuple[float, ...] | None) -> None:
+    """Set the turns up to which corners are free, and from which on they are slowest."""
+    master = run.master()
+    if angles is None:
+        run.print(",".join(map(number_text, buffer.look_angles(run.card, master))))
+    else:
+        buffer.set_look_angles(run.card, master, *angles)
+
+
+master_values(
+    (
+        Value("LOOK MINVEL", of_master(MA_LOOK_AHEAD_MIN_VEL),
+              "Set the speed of the sharpest corners with look-ahead.", "units/s"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip

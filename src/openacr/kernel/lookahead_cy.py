@@ -1,0 +1,246 @@
+"""Look-ahead: how fast the path may be at the junctions of the moves that wait.
+
+At a junction with turn angle q the speed is bounded by the law
+
+    q <= a1          both moves' own speed (no slow-down)
+    q >= a2          Look Ahead Min Vel
+    between          linear from the one to the other
+
+A plan runs through a *stretch*: the present move and those behind it up to the first
+junction that slows the path down, a change of speed or ramps, or the end of the buffer.
+Inside a stretch a ramp takes no notice of junctions, so that short moves lose nothing, with
+jerk or without. With jerk, junctions that slow down little do not end a stretch either:
+it runs at the lowest of their speeds throughout, instead of dipping at each.
+
+    speed  ___________
+          /           \\____            The backward pass: from the last move on, what a
+         /                 \\__ c2      ramp over each stretch can still slow down from
+    ____/                     \\        bounds the junction in front of it.
+        | move | move | move | m |     The first stretch is planned to the smaller of
+        '-- stretch --'               that and of its law.
+
+Moves with a time, a capture or a trigger of their own are entered and left at rest.
+"""
+
+from openacr.cmath import sqrt
+from openacr.kernel.path_cy import master_word, move_limit, move_override
+from openacr.map.numbers import (
+    MA_BASE,
+    MA_LOOK_AHEAD_MIN_VEL,
+    MA_STRIDE,
+    MF1_FVEL_ZERO_ACTIVE,
+    MF4_LOOK_AHEAD_MODE,
+    MF4_LOOK_AHEAD_NEGLECT,
+    MF4_WORD,
+    MQF_ACC_UPS2,
+    MQF_BASE,
+    MQF_DEC_UPS2,
+    MQF_FVEL_UPS,
+    MQF_JRK_UPS3,
+    MQF_LENGTH_U,
+    MQF_STP_UPS2,
+    MQF_STRIDE,
+    MQF_TMOV_S,
+    MQF_TURN_DEG,
+    MQI_BASE,
+    MQI_HSINT_AXIS,
+    MQI_INTERRUPT,
+    MQI_RAPID,
+    MQI_SEEK_AXIS,
+    MQI_STRIDE,
+    MQI_TRIGGER,
+    MQI_TRIGGER_AXIS,
+    MSF_BASE,
+    MSF_LOOK_CAP_UPS,
+    MSF_LOOK_EXIT_UPS,
+    MSF_LOOK_FROM_DEG,
+    MSF_LOOK_TO_DEG,
+    MSF_ORIGIN_U,
+    MSF_STRETCH_U,
+    MSF_STRIDE,
+    MSI_BASE,
+    MSI_FIRST,
+    MSI_HEAD,
+    MSI_QUEUED,
+    MSI_SIZE,
+    MSI_STRETCH,
+    MSI_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["ramp_start"]
+
+FREE = 1.0 - 1e-6  # of the speed: what rounding makes of a straight junction
+SLIGHT = 0.8  # of the speed: with jerk, slow-downs down to here do not end a stretch
+BISECTIONS = 50
+ENDLESS_UPS = 1e30
+
+
+def look_active(I: I32, m: int) -> bool:
+    """Whether master m looks ahead."""
+    flags: int = I[MF4_WORD + m]
+    return flags & MF4_LOOK_AHEAD_MODE != 0 and not flags & MF4_LOOK_AHEAD_NEGLECT
+
+
+def look_record(I: I32, m: int, k: int) -> int:
+    """Record of the move `k` places behind the present one."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    place: int = I[i + MSI_HEAD] + k
+    if place >= I[i + MSI_SIZE]:
+        place -= I[i + MSI_SIZE]
+    return I[i + MSI_FIRST] + place
+
+
+def look_plain(F: F64, I: I32, record: int) -> bool:
+    """Whether a move may merge: it has no time, flag, capture or trigger of its own."""
+    q: int = MQI_BASE + record * MQI_STRIDE
+    special: int = I[q + MQI_SEEK_AXIS] | I[q + MQI_HSINT_AXIS] | I[q + MQI_INTERRUPT]
+    special = special | I[q + MQI_TRIGGER] | I[q + MQI_TRIGGER_AXIS]
+    return special == 0 and F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] <= 0.0
+
+
+def look_speed(F: F64, I: I32, S: F32, m: int, record: int) -> float:
+    """Speed of a move the junctions are laid out for; overrides below 1 come on top."""
+    override: float = move_override(I, S, m, record)
+    return move_limit(F, S, m, record, override if override > 1.0 else 1.0)
+
+
+def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
+    """Speed the law allows between two moves."""
+    if not (look_plain(F, I, a) and look_plain(F, I, b)):
+        return 0.0
+    velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+    turn: float = F[MQF_BASE + a * MQF_STRIDE + MQF_TURN_DEG]
+    begin: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_FROM_DEG]
+    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_TO_DEG]
+    lowest: float = S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_MIN_VEL]
+    lowest = lowest if lowest > 0.0 else 0.0
+    lowest = min(lowest, velocity)
+    if turn <= begin:
+        return velocity
+    if turn >= end:
+        return lowest
+    return velocity - (velocity - lowest) * (turn - begin) / (end - begin)
+
+
+def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -> bool:
+    """Whether one plan may run through the junction of two moves."""
+    p: int = MQF_BASE + a * MQF_STRIDE
+    q: int = MQF_BASE + b * MQF_STRIDE
+    velocity: float = look_speed(F, I, S, m, a)
+    if velocity != look_speed(F, I, S, m, b) or not velocity > 0.0:
+        return False
+    if F[p + MQF_ACC_UPS2] != F[q + MQF_ACC_UPS2] or F[p + MQF_DEC_UPS2] != F[q + MQF_DEC_UPS2]:
+        return False
+    if F[p + MQF_JRK_UPS3] != F[q + MQF_JRK_UPS3]:
+        return False
+    rapid: int = I[MQI_BASE + a * MQI_STRIDE + MQI_RAPID]
+    if rapid != I[MQI_BASE + b * MQI_STRIDE + MQI_RAPID]:
+        return False
+    return corner >= velocity * (SLIGHT if F[p + MQF_JRK_UPS3] > 0.0 else FREE)
+
+
+def ramp_start(length: float, end: float, rate: float, jerk: float) -> float:
+    """The highest speed from which a ramp down to `end` fits into `length`.
+
+    Its length is (v + e)/2 times its time. With h = rate^2/(2 J) a ramp that reaches its
+    rate takes (v - e)/rate + rate/J, so (v + h)^2 = (e - h)^2 + 2 rate length; one that
+    does not takes 2 sqrt((v - e)/J), found by bisection.
+    """
+    if rate <= 0.0:
+        return ENDLESS_UPS
+    if jerk <= 0.0:
+        return sqrt(end * end + 2.0 * rate * length)
+    half: float = rate * rate / (2.0 * jerk)
+    start: float = sqrt((end - half) * (end - half) + 2.0 * rate * length) - half
+    if start - end >= 2.0 * half:
+        return start
+    low: float = 0.0
+    high: float = 2.0 * half
+    for _ in range(BISECTIONS):
+        middle: float = (low + high) / 2.0
+        if (2.0 * end + middle) * sqrt(middle / jerk) > length:
+            high = middle
+        else:
+            low = middle
+    return end + low
+
+
+def look_final(F: F64, I: I32, S: F32, m: int, record: int) -> float:
+    """Speed at which the last move of the buffer ends."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    if F[q + MQF_STP_UPS2] <= 0.0:
+        return look_speed(F, I, S, m, record)
+    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
+        return 0.0
+    return F[q + MQF_FVEL_UPS]
+
+
+def look_rate(F: F64, record: int) -> float:
+    """The ramp for slowing down inside a path: DEC, or STP if that is 0."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    return F[q + MQF_DEC_UPS2] if F[q + MQF_DEC_UPS2] > 0.0 else F[q + MQF_STP_UPS2]
+
+
+def look_jerk(F: F64, record: int) -> float:
+    """The jerk of a move."""
+    return F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3]
+
+
+def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
+    """Backward pass: the speed at which the move `first` places behind may be entered."""
+    k: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
+    b: int = look_record(I, m, k)
+    end: float = look_final(F, I, S, m, b)
+    rate: float = F[MQF_BASE + b * MQF_STRIDE + MQF_STP_UPS2]
+    length: float = F[MQF_BASE + b * MQF_STRIDE + MQF_LENGTH_U]
+    cap: float = look_speed(F, I, S, m, b)
+    while k > first:
+        a: int = look_record(I, m, k - 1)
+        corner: float = look_corner(F, I, S, m, a, b)
+        if look_merges(F, I, S, m, a, b, corner):
+            length += F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+            cap = min(cap, corner)
+        else:
+            entry: float = ramp_start(
+                length, end, rate, F[MQF_BASE + b * MQF_STRIDE + MQF_JRK_UPS3]
+            )
+            end = min(corner, min(entry, cap))
+            rate = look_rate(F, a)
+            length = F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+            cap = look_speed(F, I, S, m, a)
+        b = a
+        k -= 1
+    return min(cap, ramp_start(length, end, rate, look_jerk(F, b)))
+
+
+def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
+    """Find the stretch of the present move: its end, its cap and the speed at its end."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    f: int = MSF_BASE + m * MSF_STRIDE
+    queued: int = I[i + MSI_QUEUED]
+    a: int = look_record(I, m, 0)
+    end: float = F[f + MSF_ORIGIN_U] + F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+    cap: float = 0.0
+    velocity: float = look_speed(F, I, S, m, a)
+    k: int = 1
+    corner: float = 0.0
+    while k < queued:
+        b: int = look_record(I, m, k)
+        corner = look_corner(F, I, S, m, a, b)
+        if not look_merges(F, I, S, m, a, b, corner):
+            break
+        if corner < velocity * FREE and (cap <= 0.0 or corner < cap):
+            cap = corner
+        end += F[MQF_BASE + b * MQF_STRIDE + MQF_LENGTH_U]
+        a = b
+        k += 1
+    exit_speed: float = 0.0
+    if k < queued:
+        exit_speed = min(corner, look_entry(F, I, S, m, k))
+    else:
+        exit_speed = look_final(F, I, S, m, a)
+    I[i + MSI_STRETCH] = k
+    F[f + MSF_STRETCH_U] = end
+    F[f + MSF_LOOK_CAP_UPS] = cap
+    F[f + MSF_LOOK_EXIT_UPS] = exit_speed
