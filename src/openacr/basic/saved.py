@@ -18,7 +18,7 @@ from openacr.map import numbers as at
 from openacr.map.block import Access
 from openacr.map.lookup import parameters
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import attach, filters, settings, sources, time_base
+from openacr.motion import attach, buffer, filters, settings, sources, time_base
 from openacr.motion.card import SLAVES, Card
 from openacr.motion.rows import axis_ints, master_parameter, master_reals, master_word2
 
@@ -132,6 +132,14 @@ def _write_move_time(card: Card, master: int, value: list[float]) -> None:
     time_s, is_on = value
     time_base.set_move_time(card, master, time_s)
     time_base.switch_move_time(card, master, on=bool(is_on))
+
+
+def _read_angles(card: Card, master: int) -> list[float]:
+    return list(buffer.look_angles(card, master))
+
+
+def _write_angles(card: Card, master: int, angles: list[float]) -> None:
+    buffer.set_look_angles(card, master, *angles)
 
 
 def _write_source(card: Card, master: int, text: str) -> None:
@@ -254,6 +262,8 @@ _TABLE = (
     _per_axis("MAXVEL", settings.MAX_VELOCITY.read, settings.set_max_velocity),
     Saved("VECDEF", _take_weights, _put_weights),
     _per_master("TMOV", _read_move_time, _write_move_time),
+    _per_master("LOOK", buffer.looks, lambda card, m, on: buffer.switch_look(card, m, on=on)),
+    _per_master("LOOK ANG", _read_angles, _write_angles),
     _per_master("SRC", time_base.source_text, _write_source),
     _per_axis("AXIS # ON", settings.is_axis_on, _write_axis_on),
     _row("ADC MODE", at.KRI_ADC_MODE, lambda card: 1),

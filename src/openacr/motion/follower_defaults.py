@@ -5,6 +5,7 @@ from openacr.kernel.source_cy import (
     FROM_COUNTER,
     FROM_SELF,
     OUTPUT_TAPS,
+    TIME_TAPS,
     USE_BALLSCREW,
     USE_CAM,
     USE_JOG,
@@ -34,6 +35,8 @@ def set_follower_defaults(memory: Memory) -> None:
         set_source(memory, axis * USES + USE_CAM, FROM_CLOCK)
         set_source(memory, axis * USES + USE_JOG, FROM_CLOCK)
         set_source(memory, axis * USES + USE_BALLSCREW, FROM_SELF)
+    for master in range(at.MS_COUNT):
+        set_source(memory, TIME_TAPS + master, FROM_CLOCK)
     for number in range(at.LT_COUNT):
         memory.F[at.LTF_BASE + number * at.LTF_STRIDE + at.LTF_MULT] = 1.0
         memory.F[at.PSF_BASE + number * at.PSF_STRIDE + at.PSF_RATIO] = 1.0

@@ -1,48 +1,21 @@
 """What paces a master: time of moves (TMOV), factor (TOV) and source (SRC) of its time base."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
-
-from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import timebase_cy
-from openacr.map.kinds_cy import kind_of
+from openacr.kernel import source_cy
 from openacr.map.numbers import (
-    ADC_ADC_INPUT,
-    ADC_BASE,
-    ADC_COUNT,
-    ADC_STRIDE,
-    AX_BASE,
-    AX_COUNT,
-    AX_PRIMARY_SETPOINT,
-    AX_STRIDE,
-    ENC_BASE,
-    ENC_COUNT,
-    ENC_ENCODER_POSITION,
-    ENC_HIGH_BASE,
-    ENC_STRIDE,
-    KIND_FP32,
-    KIND_LONG,
     MA_MOVE_TIME,
     MA_TIME_OVER_VELOCITY,
     MF2_MASTER_IN_TMOV,
     MF2_MASTER_TOV,
     MSI_PACED,
-    MSI_SOURCE_INDEX,
-    MSI_SOURCE_KIND,
-    STPR_BASE,
-    STPR_STEPPER_COUNT,
-    STPR_STRIDE,
-    USER_BASE,
-    USER_COUNT,
 )
-from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import sources
 from openacr.motion.card import Card
 from openacr.motion.rows import master_ints, master_parameter, master_word2
 
 FASTEST = 2.0
-_source_reset = pick(timebase_cy.source_reset)
+_OBJECTS = frozenset(("RATCH", "LIMIT"))
 
 
 # TMOV
@@ -87,76 +60,19 @@ def _switch(card: Card, master: int, flag: int, *, on: bool) -> None:
 # SRC
 
 
-@dataclass(frozen=True, slots=True)
-class _Pulses:
-    """Parameters that count pulses, known by a word and a number."""
-
-    word: str
-    first: int
-    stride: int
-    numbers: range
-    kind: int = timebase_cy.FROM_LONG
-
-    def row(self, number: int) -> int:
-        return self.first + (number - self.numbers[0]) * self.stride
-
-
-_PULSES = (
-    _Pulses("ENC", ENC_BASE + ENC_ENCODER_POSITION, ENC_STRIDE, range(16)),
-    _Pulses("ENC", ENC_HIGH_BASE + ENC_ENCODER_POSITION, ENC_STRIDE, range(16, ENC_COUNT)),
-    _Pulses("STEPPER", STPR_BASE + STPR_STEPPER_COUNT, STPR_STRIDE, range(16)),
-    _Pulses("AXIS", AX_BASE + AX_PRIMARY_SETPOINT, AX_STRIDE, range(AX_COUNT)),
-    _Pulses("ADC", ADC_BASE + ADC_ADC_INPUT, ADC_STRIDE, range(ADC_COUNT), timebase_cy.FROM_VOLTS),
-)
-_SINGLES = {
-    "CLK": timebase_cy.FROM_CLOCK,
-    "CLOCK": timebase_cy.FROM_CLOCK,
-    "NONE": timebase_cy.FROM_NOTHING,
-}
+def _tap(master: int) -> int:
+    return source_cy.TIME_TAPS + master
 
 
 def set_source(card: Card, master: int, word: str, number: int) -> None:
     """Count the time of a master by a source: 1000 of its pulses are one second."""
-    kind, row = _place(card, word, number)
-    rows = master_ints(master)
-    card.memory.I[rows + MSI_SOURCE_KIND] = kind
-    card.memory.I[rows + MSI_SOURCE_INDEX] = row
-    card.memory.I[rows + MSI_PACED] = 1
-    _source_reset(card.memory.F, card.memory.I, card.memory.S, master)
-
-
-def _place(card: Card, word: str, number: int) -> tuple[int, int]:
-    """Kind and row of a source; `Invalid source` if there is none."""
-    if word in _SINGLES:
-        return _SINGLES[word], 0
-    if word == "P":
-        return _parameter(card, number)
-    for pulses in _PULSES:
-        if pulses.word == word and number in pulses.numbers:
-            return pulses.kind, pulses.row(number)
-    raise CardError(INVALID_SOURCE)
-
-
-def _parameter(card: Card, number: int) -> tuple[int, int]:
-    kind = kind_of(card.memory.I, number)
-    if 0 <= number < USER_COUNT:
-        return timebase_cy.FROM_DOUBLE, USER_BASE + number
-    if kind == KIND_LONG:
-        return timebase_cy.FROM_LONG, number
-    if kind == KIND_FP32:
-        return timebase_cy.FROM_SINGLE, number
-    raise CardError(INVALID_SOURCE)
+    sources.check(card, word, number)
+    if word in _OBJECTS:
+        sources.objects_go_live(card)
+    sources.choose(card, _tap(master), word, number)
+    card.memory.I[master_ints(master) + MSI_PACED] = 1
 
 
 def source_text(card: Card, master: int) -> str:
     """The source of a master as it is written."""
-    rows = master_ints(master)
-    kind, row = card.memory.I[rows + MSI_SOURCE_KIND], card.memory.I[rows + MSI_SOURCE_INDEX]
-    for word, single in _SINGLES.items():
-        if single == kind:
-            return word
-    for pulses in _PULSES:
-        for number in pulses.numbers:
-            if (kind, row) == (pulses.kind, pulses.row(number)):
-                return f"{pulses.word}{number}"
-    return f"P{row - USER_BASE if kind == timebase_cy.FROM_DOUBLE else row}"
+    return sources.text(card, _tap(master))

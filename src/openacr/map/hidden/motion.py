@@ -124,7 +124,6 @@ MASTER = HiddenBlock(
         "look_to_deg",
         "look_cap_ups",  # highest speed that suits all junctions of the present plan, 0 none
         "look_exit_ups",  # speed at its end
-        "source_old",
         "pace",  # path time per time in the last tick
     ),
     ints=(
@@ -146,8 +145,6 @@ MASTER = HiddenBlock(
         "look_dirty",  # the buffer has changed: look ahead again
         "trigger",  # TRG for the next move to be issued, as in the move
         "trigger_axis",
-        "source_kind",  # of the time base, see kernel/timebase_cy.py
-        "source_index",
         "paced",  # path time is not simply time: another source, or TOV
     ),
 )

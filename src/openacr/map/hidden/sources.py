@@ -6,7 +6,7 @@ from openacr.map.hidden.block import HiddenBlock
 # limiter, limit switch and output object.
 SOURCE = HiddenBlock(
     prefix="SR",
-    count=128,
+    count=144,
     doubles=(
         "old",  # value of the last tick
         "delta",  # change of this tick
