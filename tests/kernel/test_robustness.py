@@ -17,6 +17,7 @@ from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.image import KINDS
 from openacr.motion import jog, moves
+from openacr.motion.orders import Target
 from openacr.plant.step_cy import plant_step
 
 WORLD = """
@@ -67,7 +68,7 @@ def command(rig: Rig, random_: random.Random) -> None:
     what = random_.randrange(7)
     try:
         if what == 0:
-            moves.issue(rig.card, 0, [moves.Target(axis, value, random_.random() < 0.5)])
+            moves.issue(rig.card, 0, [Target(axis, value, random_.random() < 0.5)])
         elif what == 1:
             jog.absolute(rig.card, axis, value)
         elif what == 2:
