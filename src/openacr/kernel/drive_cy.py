@@ -89,10 +89,12 @@ def drive_resting(I: I32, n: int) -> bool:
     k: int = I[i + AXI_POSITION_INDEX]
     if flags != I[i + AXI_DRIVE_SEEN] or I[i + AXI_ENABLE_TICKS] or k != I[i + AXI_DRIVE_WIRED]:
         return False
-    if not 0 <= k < MODELLED or not I[PLI_BASE + k * PLI_STRIDE + PLI_FAULT_MASK]:
+    if not 0 <= k < MODELLED:
         return True
-    fault: bool = I[PLI_BASE + k * PLI_STRIDE + PLI_DRIVE_FAULT] != 0
-    return fault == (flags & AF4_DRIVE_FAULT_INPUT != 0)
+    shown: bool = flags & AF4_DRIVE_FAULT_INPUT != 0
+    if I[PLI_BASE + k * PLI_STRIDE + PLI_DRIVE_FAULT]:
+        return shown
+    return not shown or not I[PLI_BASE + k * PLI_STRIDE + PLI_FAULT_MASK]
 
 
 def drive_step(I: I32, n: int, period_s: float) -> None:
