@@ -1,0 +1,188 @@
+"""What the machine does between moves: spindle, coolant, tool change, waits.
+
+An action is a generator. It switches something, then yields the condition that has to be
+met before it goes on; the runner looks at the card, shows the reason, counts the time-out
+and closes the action when the program is aborted (`finally` then puts things back).
+"""
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from math import inf
+from typing import TypeAlias
+
+from openacr.mill import alarms
+from openacr.mill.alarms import Kind
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+from openacr.mill.settings import NONE
+
+CW, CCW, OFF = 3, 4, 5
+FULL_VOLTS = 10.0
+DAC_VALUE, DAC_STRIDE = 6400, 16
+DROP_S = 2.0  # longest wait for the tool-changed input to go off again
+TOOL_REQUESTED, TOOL_IN_SPINDLE = 90, 91  # card variables
+
+# Bits of the spindle code.
+BIPOLAR, WAITS_FOR_SPEED, SPEED_LEVEL, WAITS_FOR_ZERO, ZERO_LEVEL = 1, 2, 4, 8, 16
+
+
+@dataclass(frozen=True, slots=True)
+class Until:
+    """A condition the program waits for, and what happens when it does not come."""
+
+    reason: str
+    is_met: Callable[[Look], bool]
+    limit_s: float = inf
+    alarm: Kind | None = None  # None: go on after the limit
+
+
+Steps: TypeAlias = Generator[Until, None, None]
+
+
+def pause(seconds: float, reason: str) -> Until:
+    """Let time pass."""
+    return Until(reason, lambda _look: False, seconds)
+
+
+class Spindle:
+    """The spindle and its handshake."""
+
+    def __init__(self, panel: Panel) -> None:
+        self._panel = panel
+        self._row = panel.settings.spindle
+        self.state = OFF
+        self.rpm = 0.0
+        self.override = 1.0
+
+    def volts(self) -> float:
+        """What the DAC is at, from the speed, the scaling and the override."""
+        if self.state == OFF:
+            return 0.0
+        volts = min(self.rpm * self._row.volts_per_rpm * self.override, FULL_VOLTS)
+        return -volts if self.state == CCW and self._row.code & BIPOLAR else volts
+
+    def write(self) -> None:
+        """Put the voltage on the DAC."""
+        if self._row.dac != NONE:
+            self._panel.machine.write(DAC_VALUE + DAC_STRIDE * self._row.dac, self.volts())
+
+    def set_speed(self, rpm: float) -> None:
+        """A new S word; a running spindle follows at once, without handshake."""
+        self.rpm = rpm
+        if self.state != OFF:
+            self.write()
+
+    def set_override(self, factor: float) -> None:
+        """A new spindle override."""
+        if factor != self.override:
+            self.override = factor
+            self.set_speed(self.rpm)
+
+    def start(self, direction: int, rpm: float) -> Steps:
+        """M3 or M4."""
+        row, panel = self._row, self._panel
+        if self.state not in (OFF, direction):
+            yield from self.stop()
+        panel.output(row.off, False)
+        panel.output(row.ccw if direction == CW else row.cw, False)
+        self.state, self.rpm = direction, rpm
+        self.write()
+        panel.output(row.cw if direction == CW else row.ccw, True)
+        if row.code & WAITS_FOR_SPEED:
+            yield from self._level(row.at_speed, bool(row.code & SPEED_LEVEL), "spindle at speed")
+
+    def stop(self, *, always_waits: bool = False) -> Steps:
+        """M5; a tool change waits for the stop in any case."""
+        self.switch_off()
+        row = self._row
+        if row.code & WAITS_FOR_ZERO or always_waits:
+            yield from self._level(row.at_zero, bool(row.code & ZERO_LEVEL), "spindle at rest")
+
+    def switch_off(self) -> None:
+        """Off at once, as ABORT and E-stop do it."""
+        row, panel = self._row, self._panel
+        self.state = OFF
+        self.write()
+        panel.output(row.cw, False)
+        panel.output(row.ccw, False)
+        panel.output(row.off, True)
+
+    def _level(self, number: int, level: bool, reason: str) -> Steps:
+        panel = self._panel
+        if panel.has_input(number):
+            limit_s = self._row.time_out_s or inf
+            is_met = lambda look: panel.is_in(look, number) == level  # noqa: E731
+            yield Until(reason, is_met, limit_s, alarms.SPINDLE_TIME_OUT)
+
+    def orient(self) -> Steps:
+        """Turn to the fixed angle of fine boring and hold it there."""
+        row, panel = self._row, self._panel
+        self.state = OFF
+        self.write()
+        panel.output(row.cw, False)
+        panel.output(row.ccw, False)
+        panel.output(row.orient, True)
+        if panel.has_input(row.oriented):
+            limit_s = row.time_out_s or inf
+            is_met = lambda look: panel.is_in(look, row.oriented)  # noqa: E731
+            yield Until("spindle oriented", is_met, limit_s, alarms.SPINDLE_TIME_OUT)
+        else:
+            yield pause(row.orient_s, "spindle orients")
+
+    def release(self) -> None:
+        """End the orientation."""
+        self._panel.output(self._row.orient, False)
+
+
+class Coolant:
+    """M7, M8, M9."""
+
+    def __init__(self, panel: Panel) -> None:
+        self._panel = panel
+        self.has_mist = self.has_flood = False
+
+    def set(self, mist: bool, flood: bool) -> None:
+        """Switch both; the off output is on while neither runs after an M9."""
+        row = self._panel.settings.spindle
+        self._panel.output(row.mist, mist)
+        self._panel.output(row.flood, flood)
+        self._panel.output(row.coolant_off, not mist and not flood)
+        self.has_mist, self.has_flood = mist, flood
+
+
+class ToolChanger:
+    """M6: ask for a tool and wait until it is there."""
+
+    def __init__(self, panel: Panel, spindle: Spindle) -> None:
+        self._panel = panel
+        self._spindle = spindle
+        self.is_confirmed = False  # the confirmation key
+
+    def change(self, tool: int, old: int) -> Steps:
+        """Load a tool. The old one stays if the action is closed on the way."""
+        wiring, panel = self._panel.settings.wiring, self._panel
+        yield from self._spindle.stop(always_waits=True)
+        panel.machine.write(TOOL_REQUESTED, tool)
+        panel.machine.write(TOOL_IN_SPINDLE, old)
+        panel.output(wiring.tool_change, True)
+        try:
+            yield from self._wait(tool)
+        finally:
+            panel.output(wiring.tool_change, False)
+        if panel.has_input(wiring.tool_changed):
+            is_off = lambda look: not panel.is_in(look, wiring.tool_changed)  # noqa: E731
+            yield Until("tool-changed signal off", is_off, DROP_S)
+        panel.machine.write(TOOL_IN_SPINDLE, tool)
+
+    def _wait(self, tool: int) -> Steps:
+        wiring, panel = self._panel.settings.wiring, self._panel
+        limit_s = wiring.tool_time_out_s or inf
+        reason = f"load tool {tool}" if wiring.is_manual_change else f"tool {tool} is changed"
+        if not panel.has_input(wiring.tool_changed):
+            self.is_confirmed = False
+            yield Until(reason, lambda _: self.is_confirmed, limit_s, alarms.TOOL_TIME_OUT)
+            return
+        is_off = lambda look: not panel.is_in(look, wiring.tool_changed)  # noqa: E731
+        is_on = lambda look: panel.is_in(look, wiring.tool_changed)  # noqa: E731
+        yield Until(reason, is_off, limit_s, alarms.TOOL_TIME_OUT)
+        yield Until(reason, is_on, limit_s, alarms.TOOL_TIME_OUT)

@@ -1,0 +1,149 @@
+"""The alarms of the machine: what can go wrong in a run, what it does, when it may be cleared.
+
+An alarm stays until its cause is gone and somebody has acknowledged it; one that is active
+bars START. The text, the effect and the number of each stand in one row here.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from openacr.errors import UserError
+
+NO_ALARM = 0
+
+
+class Effect(Enum):
+    """What an alarm does to the machine."""
+
+    HOLD = "feed hold, the program is paused"
+    ABORT = "the program ends as by ABORT"
+    KILL = "all motion is killed, drives go off, the program ends"
+    REFUSE = "the start is refused"
+    NONE = "nothing but the message"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """One row of the table."""
+
+    code: int
+    text: str  # {} stands for the axis, message or detail
+    effect: Effect
+
+
+_KINDS: dict[int, Kind] = {}
+
+
+def _alarm(code: int, text: str, effect: Effect) -> Kind:
+    if code in _KINDS:
+        raise ValueError(f"alarm {code} is defined twice")
+    _KINDS[code] = Kind(code, text, effect)
+    return _KINDS[code]
+
+
+NO_CARD = _alarm(1, "NO CARD FOUND", Effect.REFUSE)
+OLD_FIRMWARE = _alarm(2, "Firmware older than 1.18: {}", Effect.REFUSE)
+LINK_LOST = _alarm(3, "Link lost", Effect.ABORT)
+LACKS_FUNCTION = _alarm(4, "Card model lacks function {}", Effect.REFUSE)
+EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.KILL)
+EXCESS_ERROR = _alarm(11, "Excess following error axis {}", Effect.KILL)
+DRIVE_FAULT = _alarm(12, "Drive fault axis {}", Effect.KILL)
+HARDWARE_LIMIT = _alarm(13, "Hardware limit axis {}", Effect.KILL)
+MOVES_KILLED = _alarm(14, "Card killed moves", Effect.ABORT)
+SOFT_LIMIT = _alarm(20, "Soft limit axis {}", Effect.HOLD)
+TARGET_BEYOND = _alarm(21, "Target beyond soft limit: {}", Effect.ABORT)
+NOT_IN_POSITION = _alarm(24, "In-position time-out", Effect.ABORT)
+NOT_CONFIRMED = _alarm(31, "Reference point not confirmed", Effect.ABORT)
+POINT_MISSED = _alarm(32, "Reference point missed: {}", Effect.ABORT)
+NOT_HOMED = _alarm(33, "Axis {} not homed", Effect.ABORT)
+HOMING_FAILED = _alarm(34, "Homing failed axis {}", Effect.ABORT)
+PROBE_ACTIVE = _alarm(35, "Probe already active", Effect.ABORT)
+PROBE_MISSED = _alarm(36, "Probe captured nothing but its input changed", Effect.ABORT)
+SPINDLE_EXCEPTION = _alarm(41, "Spindle exception", Effect.ABORT)
+SPINDLE_TIME_OUT = _alarm(42, "Spindle time-out", Effect.ABORT)
+LUBRICATION = _alarm(43, "Lubrication error", Effect.HOLD)
+USER_MESSAGE = _alarm(50, "User message {}", Effect.NONE)
+TOOL_TIME_OUT = _alarm(51, "Tool change time-out", Effect.ABORT)
+PROGRAM_ERROR = _alarm(60, "Program error: {}", Effect.ABORT)
+ANSWER_MISSING = _alarm(61, "Answer missing: {}", Effect.ABORT)
+ENDLESS_LOOP = _alarm(62, "Endless loop", Effect.ABORT)
+STORE_FAILED = _alarm(63, "Store not writable: {}", Effect.HOLD)
+
+
+def kind(code: int) -> Kind:
+    """The row of an alarm code."""
+    return _KINDS[code]
+
+
+def kinds() -> list[Kind]:
+    """All rows in the order of their codes."""
+    return [_KINDS[code] for code in sorted(_KINDS)]
+
+
+class AlarmError(UserError):
+    """An action cannot go on; the runner raises the alarm and takes its effect."""
+
+    def __init__(self, what: Kind, detail: object = "") -> None:
+        super().__init__(f"alarm {what.code}: {what.text.format(detail)}")
+        self.kind = what
+        self.detail = str(detail)
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """One alarm as it happened."""
+
+    kind: Kind
+    detail: str
+    at_s: float  # card time
+
+    @property
+    def text(self) -> str:
+        """What the operator reads."""
+        return self.kind.text.format(self.detail)
+
+
+class Alarms:
+    """The alarms that are active, the last code, and the log of all of them."""
+
+    def __init__(self, log: Path | None = None) -> None:
+        self.history: list[Alarm] = []
+        self._active: dict[tuple[int, str], Alarm] = {}
+        self._log = log
+
+    def give(self, what: Kind, detail: object, at_s: float) -> Alarm:
+        """An alarm comes up; one that is up already stays as it is."""
+        key = (what.code, str(detail))
+        if key not in self._active:
+            alarm = self._active[key] = Alarm(what, str(detail), at_s)
+            self.history.append(alarm)
+            self._note(alarm)
+        return self._active[key]
+
+    @property
+    def active(self) -> list[Alarm]:
+        """What is up, oldest first."""
+        return list(self._active.values())
+
+    @property
+    def last_code(self) -> int:
+        """The code of the youngest alarm ever given, 0 before the first."""
+        return self.history[-1].kind.code if self.history else NO_ALARM
+
+    @property
+    def bars_start(self) -> bool:
+        """Whether an alarm is up that a start has to wait for."""
+        return any(alarm.kind.effect is not Effect.NONE for alarm in self._active.values())
+
+    def acknowledge(self, is_gone: Callable[[Alarm], bool]) -> list[Alarm]:
+        """Clear every alarm whose cause is gone; those that stay."""
+        self._active = {key: one for key, one in self._active.items() if not is_gone(one)}
+        return self.active
+
+    def _note(self, alarm: Alarm) -> None:
+        if self._log is None:
+            return
+        with self._log.open("a", encoding="utf-8") as log:
+            log.write(f"{alarm.at_s:.3f} s  alarm {alarm.kind.code}  {alarm.text}\n")

@@ -1,0 +1,186 @@
+"""Finding the reference point of axes: switch, release, marker, back to the marker.
+
+Every axis goes its own way through the same steps; those of one priority go together. An
+axis that does not get there stays un-homed and gives alarm 34.
+
+The axis moves as a jog, whose ramps and speeds belong to homing for that time only. At the
+end the jog offset is folded into the position and the position is set to Home Preset.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
+from math import inf
+from typing import TypeAlias
+
+from openacr.client.values import number_text
+from openacr.map import numbers as n
+from openacr.mill import alarms
+from openacr.mill.actions import Steps, Until
+from openacr.mill.alarms import AlarmError
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+from openacr.mill.settings import AxisSettings, HomeSettings
+
+FIRST_MARKER = 0  # INTCAP mode: rising edge of the marker of the axis' own encoder
+TRAVEL_SHARE, TRAVEL_U = 1.1, 1000.0
+
+Condition: TypeAlias = Callable[[Look], bool]
+
+
+def groups(panel: Panel, axes: Iterable[int]) -> Iterator[list[int]]:
+    """The chosen axes by ascending priority; priority 0 is left out."""
+    priority = {axis: panel.settings.home(axis).priority for axis in axes}
+    chosen = sorted((axis for axis in priority if priority[axis] > 0), key=priority.__getitem__)
+    for _, group in groupby(chosen, priority.__getitem__):
+        yield list(group)
+
+
+def together(ways: Iterable[Steps], reason: str) -> Steps:
+    """Several actions side by side, done when all of them are."""
+    going = [(way, until) for way in ways if (until := next(way, None)) is not None]
+    try:
+        while going:
+            met: list[Look] = []
+
+            def is_any_met(look: Look) -> bool:
+                met[:] = [look]
+                return any(until.is_met(look) for _, until in going)  # noqa: B023
+
+            yield Until(reason, is_any_met)
+            going = _advanced(going, met[0])
+    finally:
+        for way, _ in going:
+            way.close()
+
+
+def _advanced(going: list[tuple[Steps, Until]], look: Look) -> list[tuple[Steps, Until]]:
+    """Let those go on whose condition is met."""
+    still = []
+    for way, until in going:
+        following = next(way, None) if until.is_met(look) else until
+        if following is not None:
+            still.append((way, following))
+    return still
+
+
+class Axis:
+    """One axis on its way to the reference point."""
+
+    def __init__(self, panel: Panel, axis: AxisSettings) -> None:
+        self._machine = panel.machine
+        self._panel = panel
+        self._axis = axis
+        self._row: HomeSettings = panel.settings.home(axis.index)
+
+    def home(self) -> Steps:
+        """All steps; the axis is at rest and its position is known at the end."""
+        if not self._panel.has_input(self._row.switch_input):
+            raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no switch input")
+        self._ramps(self._row.acc_ups2, self._row.dec_ups2)
+        try:
+            yield from self._switch()
+            yield from self._marker()
+        finally:
+            self._jog(0.0)
+            self._ramps(self._axis.jog_acc_ups2, self._axis.jog_dec_ups2)
+        self._type(f"JOG RES {self._axis.name}0")
+        self._type(f"RES {self._axis.name}{number_text(self._row.preset_u)}")
+
+    def _switch(self) -> Steps:
+        row = self._row
+        to_switch = -1.0 if row.is_negative else 1.0
+        if not self._panel.is_in(self._machine.look(), row.switch_input):
+            self._jog(to_switch * row.fast_ups)
+            yield self._until("switch", is_on=True)
+        self._jog(0.0)
+        yield self._rest()
+        self._jog(-to_switch * row.slow_ups)
+        yield self._until("release of the switch", is_on=False)
+
+    def _marker(self) -> Steps:
+        row = self._row
+        away = 1.0 if row.is_negative else -1.0
+        self._type(f"INTCAP {self._axis.name} {FIRST_MARKER}")
+        self._jog(away * row.marker_ups)
+        captured = self._flag(n.AF1_WORD, n.AF1_CAPTURE_COMPLETE)
+        yield self._supervised("marker", lambda _look: self._is_set(captured))
+        self._jog(0.0)
+        yield self._rest()
+        point = self._machine.read(self._parameter(n.AX_HARDWARE_CAPTURE))
+        actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        back_u = (point - actual) / self._axis.pulses_per_unit
+        self._type(f"JOG VEL {self._axis.name}{number_text(row.marker_ups)}")
+        self._type(f"JOG INC {self._axis.name}{number_text(back_u)}")
+        yield self._rest()
+
+    # --- pieces -----------------------------------------------------------------------
+
+    def _until(self, what: str, *, is_on: bool) -> Until:
+        number = self._row.switch_input
+        return self._supervised(what, lambda look: self._panel.is_in(look, number) == is_on)
+
+    def _supervised(self, what: str, is_met: Condition) -> Until:
+        """A condition that has to come within the longest travel."""
+        start = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        longest = self._longest_u() * self._axis.pulses_per_unit
+
+        def check(look: Look) -> bool:
+            if is_met(look):
+                return True
+            actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+            if abs(actual - start) > abs(longest) or self._is_barred(look):
+                raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no {what}")
+            return False
+
+        return Until(f"homing {self._axis.name}: {what}", check, inf)
+
+    def _is_barred(self, look: Look) -> bool:
+        """The card has stopped the axis, at a limit or by a kill."""
+        word = look.drives[self._machine.axes.index(self._axis.index)]
+        return bool(word & n.AF4_KILL_ALL_MOTION_REQUEST)
+
+    def _longest_u(self) -> float:
+        limits = self._axis.soft_limits
+        return TRAVEL_SHARE * (limits[0] - limits[1]) if limits else TRAVEL_U
+
+    def _rest(self) -> Until:
+        active = self._flag(n.AF1_WORD, n.AF1_JOG_ACTIVE)
+        reason = f"homing {self._axis.name}: rest"
+        return Until(reason, lambda _look: not self._is_set(active))
+
+    def _ramps(self, acc_ups2: float, dec_ups2: float) -> None:
+        self._type(f"JOG ACC {self._axis.name}{number_text(acc_ups2)}")
+        self._type(f"JOG DEC {self._axis.name}{number_text(dec_ups2)}")
+
+    def _jog(self, speed_ups: float) -> None:
+        """Jog at a signed speed; 0 ramps down."""
+        name = self._axis.name
+        if speed_ups == 0.0:
+            self._type(f"JOG OFF {name}")
+            return
+        self._type(f"JOG VEL {name}{number_text(abs(speed_ups))}")
+        self._type(f"JOG {'FWD' if speed_ups > 0 else 'REV'} {name}")
+
+    def _type(self, line: str) -> None:
+        self._machine.type([line])
+
+    def _parameter(self, row: int) -> int:
+        return n.AX_BASE + self._axis.index * n.AX_STRIDE + row
+
+    def _flag(self, word: int, mask: int) -> int:
+        return (word + self._axis.index - 4096) * 32 + mask.bit_length() - 1
+
+    def _is_set(self, flag: int) -> bool:
+        return self._machine.card.read_bit(flag)
+
+
+def home(panel: Panel, axes: Iterable[int]) -> Steps:
+    """Home the chosen axes, priority after priority; the store learns which are homed."""
+    for group in groups(panel, axes):
+        ways = [Axis(panel, panel.settings.axis(axis)).home() for axis in group]
+        for axis in group:
+            panel.settings.mark_homed(axis, False)
+        names = " ".join(panel.settings.axis(axis).name for axis in group)
+        yield from together(ways, f"homing {names}")
+        for axis in group:
+            panel.settings.mark_homed(axis, True)

@@ -1,0 +1,159 @@
+"""The card as a run sees it: one look at a time, and the few things it is told.
+
+Everything goes through the host interface - packets, flags, lines of text - so that the
+same run drives the virtual card and a real one.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from openacr.client import Card
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.protocol.bits import ClearBit, SetBit
+from openacr.protocol.move import Move
+from openacr.protocol.override import FeedrateOverride, RapidOverride
+
+CLOCK_PERIOD_MS = 1 << 31
+BITS_PER_WORD = 32
+FIRST_FLAG_WORD = 4096
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """The state of the card at one moment."""
+
+    clock_ms: int
+    master: int  # flag word of the master
+    counter: int  # packets that have started
+    inputs: int
+    drives: tuple[int, ...]  # quaternary flag words of the axes in use
+
+    @property
+    def is_moving(self) -> bool:
+        """A move is active or waits, also while held."""
+        return bool(self.master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED))
+
+    @property
+    def is_held(self) -> bool:
+        """The feed hold has come to rest."""
+        return bool(self.master & n.MF1_IN_FEEDHOLD)
+
+    @property
+    def is_in_position(self) -> bool:
+        """All axes of the master are inside their in-position band."""
+        return not self.master & n.MF1_NOT_IN_POSITION
+
+    @property
+    def is_killed(self) -> bool:
+        """Moves were killed and are barred until that is cleared."""
+        return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST)
+
+    def input(self, number: int) -> bool:
+        """The state of an input 0..31."""
+        return bool(self.inputs >> number & 1)
+
+
+class Machine:
+    """The axes of one master of a card."""
+
+    def __init__(self, card: Card, axes: Sequence[int], master: int = 0) -> None:
+        if not 0 <= master < 8:
+            raise UserError(f"master {master}: a machine runs on master 0 to 7")
+        self.card = card
+        self.axes = tuple(axes)
+        self.master = master
+        self._passed_ms = 0
+        self._clock_ms: int | None = None
+
+    # --- seeing -----------------------------------------------------------------------
+
+    @cached_property
+    def _watched(self) -> list[int]:
+        drives = [n.AF4_WORD + axis for axis in self.axes]
+        counter = n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
+        head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, counter, n.W_INPUTS]
+        return head + drives
+
+    def look(self) -> Look:
+        """Ask the card how it stands."""
+        clock, master, counter, inputs, *drives = map(int, self.card.read_many(self._watched))
+        if self._clock_ms is not None:
+            self._passed_ms += (clock - self._clock_ms) % CLOCK_PERIOD_MS
+        self._clock_ms = clock
+        return Look(clock, master, counter, inputs, tuple(drives))
+
+    @property
+    def now_s(self) -> float:
+        """Card time since the first look, as of the last one."""
+        return self._passed_ms / 1000.0
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        self.card.pause(seconds)
+
+    def read(self, parameter: int) -> float:
+        """A parameter of the card."""
+        return float(self.card.read(parameter))
+
+    def axis_values(self, offset: int) -> list[int]:
+        """One row of all axes in use, e.g. `AX_ACTUAL_POSITION`."""
+        rows = [n.AX_BASE + axis * n.AX_STRIDE + offset for axis in self.axes]
+        return [int(value) for value in self.card.read_many(rows)]
+
+    # --- telling ----------------------------------------------------------------------
+
+    def send(self, moves: Iterable[Move]) -> None:
+        """Moves for the buffer of the master."""
+        for move in moves:
+            self.card.tell(move)
+
+    def write(self, parameter: int, value: float) -> None:
+        """Set a parameter of the card."""
+        self.card.write(parameter, value)
+
+    def set_flag(self, number: int, on: bool) -> None:
+        """Set or clear a flag."""
+        self.card.tell(SetBit(number) if on else ClearBit(number))
+
+    def _request(self, mask: int, on: bool = True) -> None:
+        bit = mask.bit_length() - 1
+        word = n.MF1_WORD + self.master - FIRST_FLAG_WORD
+        self.set_flag(word * BITS_PER_WORD + bit, on)
+
+    def hold(self) -> None:
+        """Feed hold."""
+        self._request(n.MF1_FEEDHOLD_REQUEST)
+
+    def go_on(self) -> None:
+        """Cycle start."""
+        self._request(n.MF1_CYCLE_START_REQUEST)
+
+    def stop(self) -> None:
+        """Feed hold, then drop all moves."""
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
+
+    def clear_kill(self) -> None:
+        """Let the master move again."""
+        self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
+
+    def kill(self) -> None:
+        """Kill the motion of every axis in use."""
+        bit = n.AF4_KILL_ALL_MOTION_REQUEST.bit_length() - 1
+        for axis in self.axes:
+            self.set_flag((n.AF4_WORD + axis - FIRST_FLAG_WORD) * BITS_PER_WORD + bit, True)
+
+    def override(self, feed: float, rapid: float) -> None:
+        """Feed and rapid override, 1 = as programmed."""
+        self.card.tell(FeedrateOverride.of([self.master], feed))
+        self.card.tell(RapidOverride.of([self.master], rapid))
+
+    def reset_counter(self) -> None:
+        """Count the packets from zero again."""
+        self.card.write(self._watched[2], 0)
+
+    def type(self, lines: Iterable[str]) -> None:
+        """Lines of text at the program of the master."""
+        for line in lines:
+            self.card.command(line, program=self.master)

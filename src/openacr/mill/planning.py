@@ -1,0 +1,159 @@
+r"""How fast the tool may pass from one move to the next.
+
+The card plans inside a move; what it cannot see is the corner behind the last move it was
+given. So every move is sent with the speed it has to end with (FVEL), and that speed is
+planned here over the moves that are known:
+
+    corner     the lower feed, slowed by the angle between the tangents (G62), by the
+               velocity step an axis would make there (Corner Step), 0 for exact stops
+    backward   v_end(i)^2 <= v_end(i+1)^2 + 2 A L(i+1), the last known move ends at rest
+
+The backward pass makes each speed one the moves behind it can brake from. It only rises
+when more moves become known, so a move that was sent stays right.
+"""
+
+import math
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from openacr.errors import UserError
+
+Direction = tuple[float, ...]  # unit vector over the linear axes
+MOST_AHEAD = 4000  # moves held back at most, however short they are
+
+
+class PathMode(Enum):
+    """How a move meets the one behind it."""
+
+    EXACT = "G61"
+    CORNER = "G62"
+    LOCKED = "G63"
+    FREE = "G64"
+
+
+@dataclass(frozen=True, slots=True)
+class CornerRules:
+    """What the CONTROL and SPEEDS tabs say about corners; speeds in units/s."""
+
+    angle1_deg: float = 0.0
+    angle2_deg: float = 0.0
+    slowest_ups: float = 0.0
+    step_ups: float = 0.0  # largest velocity step of one axis, 0 = any
+
+    def __post_init__(self) -> None:
+        if self.angle2_deg and self.angle2_deg < self.angle1_deg:
+            raise UserError(
+                f"Acute Angle2 {self.angle2_deg} is below Acute Angle1 {self.angle1_deg}"
+            )
+
+
+@dataclass(slots=True, kw_only=True)
+class Stretch:
+    """One move as the planner sees it; `start`/`end` are None where no linear axis moves."""
+
+    length_u: float
+    feed_ups: float
+    ramp_ups2: float
+    start: Direction | None
+    end: Direction | None
+    mode: PathMode = PathMode.FREE
+    is_rapid: bool = False
+    corner_ups: float = 0.0  # highest speed at its end, whatever comes later
+    exit_ups: float = 0.0  # speed at its end
+
+
+def turn_deg(before: Direction, after: Direction) -> float:
+    """The angle between two unit tangents, 0 straight on, 180 reversal.
+
+    atan2 of the half-angle chords keeps full accuracy near 0 and 180, where acos of the
+    dot product loses half the digits.
+    """
+    apart = math.sqrt(sum((a - b) ** 2 for a, b in zip(before, after, strict=True)))
+    along = math.sqrt(sum((a + b) ** 2 for a, b in zip(before, after, strict=True)))
+    return math.degrees(2.0 * math.atan2(apart, along))
+
+
+def _by_angle(turn: float, feed_ups: float, rules: CornerRules) -> float:
+    """G62: full feed up to angle 1, then linearly down to the slowest speed, 0 from angle 2."""
+    first, second = rules.angle1_deg, rules.angle2_deg
+    if (first == 0.0 and second == 0.0) or turn <= first:
+        return feed_ups
+    if second > 0.0 and turn >= second:
+        return 0.0
+    slowest = min(rules.slowest_ups, feed_ups)
+    return feed_ups - (feed_ups - slowest) * (turn - first) / ((second or 180.0) - first)
+
+
+def _by_step(before: Direction, after: Direction, rules: CornerRules) -> float:
+    """The speed at which no axis jumps by more than Corner Step."""
+    if rules.step_ups <= 0.0:
+        return math.inf
+    jump = max(abs(a - b) for a, b in zip(before, after, strict=True))
+    return rules.step_ups / jump if jump > 0.0 else math.inf
+
+
+def corner_speed(before: Stretch, after: Stretch, rules: CornerRules) -> float:
+    """The highest speed at which one move may pass into the next, units/s."""
+    if before.is_rapid or after.is_rapid or before.mode is PathMode.EXACT:
+        return 0.0
+    if before.end is None or after.start is None:
+        return 0.0
+    feed_ups = min(before.feed_ups, after.feed_ups)
+    if before.mode is PathMode.CORNER:
+        feed_ups = _by_angle(turn_deg(before.end, after.start), feed_ups, rules)
+    return min(feed_ups, _by_step(before.end, after.start, rules))
+
+
+class Planner:
+    """A queue of moves; they leave it with the speed they end with."""
+
+    def __init__(self, rules: CornerRules, least_ahead: int = 0) -> None:
+        self._rules = rules
+        self._least_ahead = least_ahead
+        self._moves: deque[Stretch] = deque()
+
+    def __len__(self) -> int:
+        return len(self._moves)
+
+    def add(self, move: Stretch) -> None:
+        """One more move behind the last one."""
+        if self._moves:
+            self._moves[-1].corner_ups = corner_speed(self._moves[-1], move, self._rules)
+        self._moves.append(move)
+
+    def take(self, *, is_complete: bool) -> Iterator[Stretch]:
+        """The moves that may be sent now; all of them when no more will come for the moment."""
+        if not self._moves:
+            return
+        self._plan()
+        keep = 0 if is_complete else self._ahead()
+        while len(self._moves) > keep:
+            yield self._moves.popleft()
+
+    def _plan(self) -> None:
+        """The backward pass over all moves that are still here."""
+        after: Stretch | None = None
+        for move in reversed(self._moves):
+            reach = 0.0
+            if after is not None:
+                reach = math.sqrt(after.exit_ups**2 + 2.0 * after.ramp_ups2 * after.length_u)
+            move.exit_ups = min(move.corner_ups, reach) if after is not None else 0.0
+            after = move
+
+    def _ahead(self) -> int:
+        """How many of the last moves have to wait for what comes behind them.
+
+        As many as it takes to brake from the feed of the last one, so that their end
+        speeds do not suffer from the unknown; never fewer than asked for.
+        """
+        brake_u = max(move.feed_ups**2 / (2.0 * move.ramp_ups2) for move in self._moves)
+        way_u = 0.0
+        for count, move in enumerate(reversed(self._moves), start=1):
+            way_u += move.length_u
+            if way_u >= brake_u and count >= self._least_ahead:
+                return count
+            if count >= MOST_AHEAD:
+                return count
+        return len(self._moves)

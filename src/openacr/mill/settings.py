@@ -1,0 +1,328 @@
+"""What the system parameters of the store say about the machine, as the runner needs it.
+
+The store knows numbers; `cell(tab, k, axis)` is their one rule. Feeds are per minute in the
+store and per second here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from openacr.errors import UserError
+
+FIRST_CELL, TAB_CELLS, AXIS_CELLS = 100_000, 50_000, 1_000
+AXES = 8
+NONE = -1
+S_PER_MIN = 60.0
+CLICKS = 16
+HOMED = 271  # cell with the mask of homed axes
+
+GENERAL, SERVO, AXIS, CONTROL, HOME, JOG, IO, FOV, ROV, SOV, PROBE, SPEEDS, COMPATIBILITY = range(
+    13
+)
+SPINDLE, TOOL, OFFSETS = 14, 16, 17
+
+
+class Store(Protocol):
+    """The cells of the SYSVAR store."""
+
+    def read(self, n: int) -> float:
+        """The number in a cell."""
+
+    def write(self, n: int, value: float) -> None:
+        """Set a cell."""
+
+    def read_text(self, n: int) -> str:
+        """The text in a cell."""
+
+
+def cell(tab: int, k: int, axis: int = 0) -> int:
+    """The number of a system parameter."""
+    return FIRST_CELL + TAB_CELLS * tab + AXIS_CELLS * axis + k
+
+
+@dataclass(frozen=True, slots=True)
+class AxisSettings:
+    """One axis: SERVO, AXES, HOME and JOG tabs."""
+
+    index: int
+    name: str
+    pulses_per_unit: float
+    encoder: int
+    dac: int
+    multiplier: int
+    is_inverted: bool
+    gains: tuple[float, ...]  # P I IDELAY ILIMIT D DWIDTH FFACC FFVEL TLM FBVEL
+    soft_limits: tuple[float, float] | None
+    in_position_u: float
+    excess_error_u: float
+    is_home_required: bool
+    max_speed_ups: float
+    max_acceleration_ups2: float
+    backlash_u: float
+    jog_ups: float
+    jog_rapid_ups: float
+    jog_acc_ups2: float
+    jog_dec_ups2: float
+    jog_stp_ups2: float
+
+
+@dataclass(frozen=True, slots=True)
+class HomeSettings:
+    """How one axis finds its reference point."""
+
+    is_negative: bool
+    preset_u: float
+    switch_input: int
+    fast_ups: float
+    slow_ups: float
+    marker_ups: float
+    acc_ups2: float
+    dec_ups2: float
+    stp_ups2: float
+    priority: int
+
+
+@dataclass(frozen=True, slots=True)
+class Speeds:
+    """The SPEEDS tab and what CONTROL says about corners."""
+
+    max_ups: float
+    trial_ups: float
+    rapid_ups: float
+    rapid_acc_ups2: float
+    feed_acc_ups2: float
+    arc_acc_ups2: float
+    corner_ups: float
+    corner_step_ups: float
+    angle1_deg: float
+    angle2_deg: float
+    rotary_max: float  # degrees/s, 0 = any
+    in_position_s: float
+    jerk_ups3: float
+    chord_u: float
+
+
+@dataclass(frozen=True, slots=True)
+class SpindleSettings:
+    """The SPINDLE tab; inputs, outputs and the DAC are -1 where there is none."""
+
+    code: int
+    volts_per_rpm: float
+    dac: int
+    at_zero: int
+    at_speed: int
+    cw: int
+    ccw: int
+    off: int
+    exception: int
+    mist: int
+    flood: int
+    coolant_off: int
+    orient: int
+    oriented: int
+    orient_s: float
+    time_out_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """The I/O, PROBE and TOOL tabs."""
+
+    block_skip: int
+    optional_stop: int
+    feed_hold: int
+    cycle_start: int
+    emergency_stop: int
+    g27_input: int
+    g27_output: int
+    lubrication: int
+    drive_enable: int
+    g28_error: int
+    probe: int
+    is_probe_trailing: bool
+    is_probe_software: bool
+    probe_back_ups: float
+    is_probe_checked: bool
+    reference_s: float
+    tool_changed: int
+    tool_change: int
+    is_manual_change: bool
+    tool_time_out_s: float
+
+
+class Settings:
+    """The settings of one run, read once when it starts."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self.master = self._int(GENERAL, 5)
+        self.axes = tuple(self._axis(a) for a in range(AXES) if self._is_configured(a))
+        if not self.axes:
+            raise UserError("no axis is configured: set P200012 and up")
+        self.speeds = self._speeds()
+        self.spindle = self._spindle()
+        self.wiring = self._wiring()
+        self.drip_threshold = self._int(CONTROL, 116)
+        self.forward_threshold = self._int(CONTROL, 117)
+        self.repeats = bool(self._int(CONTROL, 13))
+        self.returns_to_start = bool(self._int(CONTROL, 6))
+        self.lead_in_u = self._real(CONTROL, 5)
+        self.on_the_fly = bool(self._int(COMPATIBILITY, 4))
+        self.is_metric = bool(self._int(CONTROL, 1))
+
+    def _real(self, tab: int, k: int, axis: int = 0) -> float:
+        return self._store.read(cell(tab, k, axis))
+
+    def _int(self, tab: int, k: int, axis: int = 0) -> int:
+        return int(self._store.read(cell(tab, k, axis)))
+
+    def _per_s(self, tab: int, k: int, axis: int = 0) -> float:
+        return self._real(tab, k, axis) / S_PER_MIN
+
+    def _is_configured(self, axis: int) -> bool:
+        return bool(self._int(AXIS, 12, axis))
+
+    def _axis(self, a: int) -> AxisSettings:
+        high, low = self._real(AXIS, 0, a), self._real(AXIS, 1, a)
+        return AxisSettings(
+            index=a,
+            name=self._store.read_text(cell(AXIS, 8, a)),
+            pulses_per_unit=self._real(AXIS, 6, a),
+            encoder=self._int(AXIS, 13, a),
+            dac=self._int(AXIS, 14, a),
+            multiplier=self._int(AXIS, 11, a),
+            is_inverted=bool(self._int(AXIS, 5, a)),
+            gains=tuple(self._real(SERVO, k, a) for k in range(10)),
+            soft_limits=None if self._int(AXIS, 2, a) else (high, low),
+            in_position_u=self._real(AXIS, 3, a),
+            excess_error_u=self._real(AXIS, 4, a),
+            is_home_required=bool(self._int(AXIS, 7, a)),
+            max_speed_ups=self._per_s(AXIS, 15, a),
+            max_acceleration_ups2=self._real(AXIS, 16, a),
+            backlash_u=self._real(OFFSETS, a),
+            jog_ups=self._per_s(JOG, 0, a),
+            jog_rapid_ups=self._per_s(JOG, 1, a),
+            jog_acc_ups2=self._real(JOG, 2, a),
+            jog_dec_ups2=self._real(JOG, 3, a),
+            jog_stp_ups2=self._real(JOG, 4, a),
+        )
+
+    def home(self, a: int) -> HomeSettings:
+        """How axis `a` is homed."""
+        return HomeSettings(
+            is_negative=bool(self._int(HOME, 0, a)),
+            preset_u=self._real(HOME, 1, a),
+            switch_input=self._int(HOME, 2, a),
+            fast_ups=self._per_s(HOME, 3, a),
+            slow_ups=self._per_s(HOME, 4, a),
+            marker_ups=self._per_s(HOME, 5, a),
+            acc_ups2=self._real(HOME, 6, a),
+            dec_ups2=self._real(HOME, 7, a),
+            stp_ups2=self._real(HOME, 8, a),
+            priority=self._int(HOME, 9, a),
+        )
+
+    def _speeds(self) -> Speeds:
+        feed_acc = self._real(SPEEDS, 8)
+        most = self._per_s(SPEEDS, 0)
+        return Speeds(
+            max_ups=most,
+            trial_ups=self._per_s(SPEEDS, 1),
+            rapid_ups=min(self._per_s(SPEEDS, 11) or most, most),
+            rapid_acc_ups2=self._real(SPEEDS, 7),
+            feed_acc_ups2=feed_acc,
+            arc_acc_ups2=self._real(SPEEDS, 13) or feed_acc,
+            corner_ups=self._per_s(SPEEDS, 3),
+            corner_step_ups=self._real(SPEEDS, 12),
+            angle1_deg=self._real(CONTROL, 10),
+            angle2_deg=self._real(CONTROL, 11),
+            rotary_max=self._per_s(SPEEDS, 10),
+            in_position_s=self._real(SPEEDS, 14),
+            jerk_ups3=self._real(SPEEDS, 15),
+            chord_u=self._real(SPEEDS, 16),
+        )
+
+    def _spindle(self) -> SpindleSettings:
+        return SpindleSettings(
+            code=self._int(SPINDLE, 0),
+            volts_per_rpm=self._real(SPINDLE, 1),
+            dac=self._int(SPINDLE, 2),
+            at_zero=self._int(SPINDLE, 3),
+            at_speed=self._int(SPINDLE, 4),
+            cw=self._int(SPINDLE, 5),
+            ccw=self._int(SPINDLE, 6),
+            off=self._int(SPINDLE, 7),
+            exception=self._int(SPINDLE, 8),
+            mist=self._int(SPINDLE, 9),
+            flood=self._int(SPINDLE, 10),
+            coolant_off=self._int(SPINDLE, 11),
+            orient=self._int(SPINDLE, 12),
+            oriented=self._int(SPINDLE, 13),
+            orient_s=self._real(SPINDLE, 14),
+            time_out_s=self._real(SPINDLE, 15),
+        )
+
+    def _wiring(self) -> Wiring:
+        return Wiring(
+            block_skip=self._int(IO, 0),
+            optional_stop=self._int(IO, 1),
+            feed_hold=self._int(IO, 2),
+            cycle_start=self._int(IO, 3),
+            emergency_stop=self._int(IO, 4),
+            g27_input=self._int(IO, 10),
+            g27_output=self._int(IO, 11),
+            lubrication=self._int(IO, 12),
+            drive_enable=self._int(IO, 13),
+            g28_error=self._int(IO, 19),
+            probe=self._int(PROBE, 0),
+            is_probe_trailing=bool(self._int(PROBE, 1)),
+            is_probe_software=bool(self._int(PROBE, 2)),
+            probe_back_ups=self._per_s(PROBE, 3),
+            is_probe_checked=bool(self._int(PROBE, 4)),
+            reference_s=self._real(PROBE, 5),
+            tool_changed=self._int(TOOL, 0),
+            tool_change=self._int(TOOL, 1),
+            is_manual_change=bool(self._int(TOOL, 2)),
+            tool_time_out_s=self._real(TOOL, 3),
+        )
+
+    def table(self, tab: int) -> tuple[float, ...]:
+        """The percentages of the clicks of an override switch (FOV, ROV or SOV)."""
+        return tuple(self._real(tab, k) for k in range(CLICKS))
+
+    def click(self, tab: int) -> int:
+        """The click an override stands at without a switch."""
+        return self._int(tab, 17)
+
+    def switch(self, tab: int) -> int:
+        """The first of the four inputs of an override switch, -1 for none."""
+        return self._int(tab, 16)
+
+    def is_input_inverted(self, number: int) -> bool:
+        """Whether an input counts as active when it is off."""
+        return bool(self._int(CONTROL, 1000 + number))
+
+    def is_output_inverted(self, number: int) -> bool:
+        """Whether an output is switched off to act."""
+        return bool(self._int(CONTROL, 2000 + number))
+
+    def axis(self, index: int) -> AxisSettings:
+        """The settings of a configured axis."""
+        for one in self.axes:
+            if one.index == index:
+                return one
+        raise UserError(f"axis {index} is not configured (P{cell(AXIS, 12, index)})")
+
+    def is_homed(self, axis: int) -> bool:
+        """Whether the reference point of an axis is known."""
+        return bool(int(self._store.read(HOMED)) >> axis & 1)
+
+    def mark_homed(self, axis: int, homed: bool) -> None:
+        """Note that the reference point of an axis is known, or not any more."""
+        mask = int(self._store.read(HOMED))
+        self._store.write(HOMED, mask | 1 << axis if homed else mask & ~(1 << axis))
+
+    def names(self) -> Iterator[str]:
+        """The names of the configured axes."""
+        return (one.name for one in self.axes)

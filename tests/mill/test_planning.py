@@ -1,0 +1,136 @@
+"""How fast moves may follow each other."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from openacr.errors import UserError
+from openacr.mill.planning import (
+    CornerRules,
+    PathMode,
+    Planner,
+    Stretch,
+    corner_speed,
+    turn_deg,
+)
+
+FEED = 4.0
+RAMP = 100.0
+
+
+def line(
+    direction: float, length: float = 1.0, feed: float = FEED, mode: PathMode = PathMode.CORNER
+) -> Stretch:
+    """A straight move in the plane, its direction in degrees."""
+    way = (math.cos(math.radians(direction)), math.sin(math.radians(direction)), 0.0)
+    return Stretch(length_u=length, feed_ups=feed, ramp_ups2=RAMP, start=way, end=way, mode=mode)
+
+
+@given(st.floats(-180.0, 180.0), st.floats(0.0, 180.0))
+def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first, turn):
+    before, after = line(first), line(first + turn)
+    assert turn_deg(before.end, after.start) == pytest.approx(turn, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("turn", "angle1", "angle2", "speed"),
+    [
+        (90.0, 0.0, 0.0, FEED),  # rule off
+        (30.0, 30.0, 90.0, FEED),
+        (60.0, 30.0, 90.0, FEED - (FEED - 1.0) / 2),
+        (90.0, 30.0, 90.0, 0.0),
+        (120.0, 30.0, 90.0, 0.0),
+        (105.0, 30.0, 0.0, FEED - (FEED - 1.0) / 2),
+        (180.0, 30.0, 0.0, 1.0),
+    ],
+)
+@pytest.mark.req("MILL-LOOK-CORNER")
+def test_g62_slows_from_the_first_angle_and_stops_from_the_second(turn, angle1, angle2, speed):
+    rules = CornerRules(angle1_deg=angle1, angle2_deg=angle2, slowest_ups=1.0)
+    assert corner_speed(line(0.0), line(turn), rules) == pytest.approx(speed)
+
+
+def test_the_slowest_corner_speed_never_raises_the_feed():
+    rules = CornerRules(angle1_deg=10.0, slowest_ups=100.0)
+    assert corner_speed(line(0.0), line(90.0, feed=1.0), rules) == 1.0
+
+
+def test_g64_passes_every_corner_at_the_lower_feed():
+    rules = CornerRules(angle1_deg=10.0, angle2_deg=20.0)
+    before = line(0.0, mode=PathMode.FREE)
+    assert corner_speed(before, line(170.0, feed=2.0), rules) == 2.0
+
+
+def test_corner_step_bounds_the_jump_of_every_single_axis():
+    rules = CornerRules(step_ups=0.5)
+    before, after = line(0.0, mode=PathMode.FREE), line(90.0)
+    assert corner_speed(before, after, rules) == pytest.approx(0.5)
+
+
+def test_exact_stops_and_rapids_end_at_rest():
+    rules = CornerRules()
+    rapid = line(0.0)
+    rapid.is_rapid = True
+    assert corner_speed(line(0.0, mode=PathMode.EXACT), line(0.0), rules) == 0.0
+    assert corner_speed(rapid, line(0.0), rules) == 0.0
+    assert corner_speed(line(0.0), rapid, rules) == 0.0
+
+
+def test_angles_in_the_wrong_order_are_refused_by_name():
+    with pytest.raises(UserError, match="Acute Angle2"):
+        CornerRules(angle1_deg=90.0, angle2_deg=30.0)
+
+
+moves = st.lists(
+    st.tuples(st.floats(-180, 180), st.floats(1e-4, 2.0), st.floats(0.1, 10.0)),
+    min_size=1,
+    max_size=60,
+)
+
+
+def planned(chosen, takes: int, rules: CornerRules = CornerRules(30.0, 120.0, 0.5)):
+    """The moves with their end speeds, taken out in pieces of a few moves."""
+    planner, out = Planner(rules), []
+    for at, (direction, length, feed) in enumerate(chosen, start=1):
+        planner.add(line(direction, length, feed))
+        if at % takes == 0:
+            out += planner.take(is_complete=False)
+    out += planner.take(is_complete=True)
+    return out
+
+
+@given(moves, st.integers(1, 20))
+def test_every_end_speed_can_be_braked_away_in_time(chosen, takes):
+    out = planned(chosen, takes)
+    assert len(out) == len(chosen)
+    assert out[-1].exit_ups == 0.0
+    for move, after in zip(out, out[1:], strict=False):
+        reach2 = after.exit_ups**2 + 2.0 * after.ramp_ups2 * after.length_u
+        assert move.exit_ups**2 <= reach2 * (1 + 1e-12)
+        assert move.exit_ups <= corner_speed(move, after, CornerRules(30.0, 120.0, 0.5))
+
+
+@given(moves)
+def test_nothing_is_lost_by_sending_before_all_is_known(chosen):
+    """Moves held back long enough end as fast as with the whole program known."""
+    whole = [move.exit_ups for move in planned(chosen, len(chosen) + 1)]
+    pieces = [move.exit_ups for move in planned(chosen, 1)]
+    assert np.allclose(whole, pieces, rtol=0, atol=1e-12)
+
+
+def test_a_chain_of_short_tangent_moves_keeps_the_feed():
+    out = planned([(0.0, 0.01, FEED)] * 400, 10)
+    brake = FEED**2 / (2 * RAMP)
+    kept = [move.exit_ups for move in out[: -math.ceil(brake / 0.01) - 1]]
+    assert kept == [FEED] * len(kept)
+
+
+def test_as_many_moves_wait_as_were_asked_for():
+    planner = Planner(CornerRules(), least_ahead=10)
+    for _ in range(25):
+        planner.add(line(0.0, length=100.0))
+    assert len(list(planner.take(is_complete=False))) == 15
+    assert len(planner) == 10
