@@ -8,6 +8,7 @@ from openacr.client import Card, Level, NoReplyError, Options, RefusedError
 from openacr.controller import Controller
 from openacr.errors import MapError, UserError
 from openacr.messages import UNKNOWN_COMMAND
+from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.stream import EchoMode
 
 
@@ -206,3 +207,10 @@ def test_watching_reads_again_and_again() -> None:
     samples = card.watch([6916], every_s=0.1)
     times = [next(samples)[0] for _ in range(4)]
     assert [b - a for a, b in pairwise(times)] == [100, 100, 100]
+
+
+def test_packets_without_an_answer_are_told(card: Card) -> None:
+    card.tell(SetBit(40))
+    assert card.read_bit(40)
+    card.tell(ClearBit(40))
+    assert not card.read_bit(40)

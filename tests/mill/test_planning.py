@@ -1,6 +1,7 @@
 """How fast moves may follow each other."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -30,8 +31,10 @@ def line(
 
 
 @given(st.floats(-180.0, 180.0), st.floats(0.0, 180.0))
-def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first, turn):
+def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first: float, turn: float) -> None:
     before, after = line(first), line(first + turn)
+    assert before.end is not None
+    assert after.start is not None
     assert turn_deg(before.end, after.start) == pytest.approx(turn, abs=1e-9)
 
 
@@ -48,29 +51,31 @@ def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first, turn):
     ],
 )
 @pytest.mark.req("MILL-LOOK-CORNER")
-def test_g62_slows_from_the_first_angle_and_stops_from_the_second(turn, angle1, angle2, speed):
+def test_g62_slows_from_the_first_angle_and_stops_from_the_second(
+    turn: float, angle1: float, angle2: float, speed: float
+) -> None:
     rules = CornerRules(angle1_deg=angle1, angle2_deg=angle2, slowest_ups=1.0)
     assert corner_speed(line(0.0), line(turn), rules) == pytest.approx(speed)
 
 
-def test_the_slowest_corner_speed_never_raises_the_feed():
+def test_the_slowest_corner_speed_never_raises_the_feed() -> None:
     rules = CornerRules(angle1_deg=10.0, slowest_ups=100.0)
     assert corner_speed(line(0.0), line(90.0, feed=1.0), rules) == 1.0
 
 
-def test_g64_passes_every_corner_at_the_lower_feed():
+def test_g64_passes_every_corner_at_the_lower_feed() -> None:
     rules = CornerRules(angle1_deg=10.0, angle2_deg=20.0)
     before = line(0.0, mode=PathMode.FREE)
     assert corner_speed(before, line(170.0, feed=2.0), rules) == 2.0
 
 
-def test_corner_step_bounds_the_jump_of_every_single_axis():
+def test_corner_step_bounds_the_jump_of_every_single_axis() -> None:
     rules = CornerRules(step_ups=0.5)
     before, after = line(0.0, mode=PathMode.FREE), line(90.0)
     assert corner_speed(before, after, rules) == pytest.approx(0.5)
 
 
-def test_exact_stops_and_rapids_end_at_rest():
+def test_exact_stops_and_rapids_end_at_rest() -> None:
     rules = CornerRules()
     rapid = line(0.0)
     rapid.is_rapid = True
@@ -79,11 +84,12 @@ def test_exact_stops_and_rapids_end_at_rest():
     assert corner_speed(line(0.0), rapid, rules) == 0.0
 
 
-def test_angles_in_the_wrong_order_are_refused_by_name():
+def test_angles_in_the_wrong_order_are_refused_by_name() -> None:
     with pytest.raises(UserError, match="Acute Angle2"):
         CornerRules(angle1_deg=90.0, angle2_deg=30.0)
 
 
+Chosen = list[tuple[float, float, float]]
 moves = st.lists(
     st.tuples(st.floats(-180, 180), st.floats(1e-4, 2.0), st.floats(0.1, 10.0)),
     min_size=1,
@@ -91,9 +97,13 @@ moves = st.lists(
 )
 
 
-def planned(chosen, takes: int, rules: CornerRules = CornerRules(30.0, 120.0, 0.5)):
+RULES = CornerRules(30.0, 120.0, 0.5)
+
+
+def planned(chosen: Chosen, takes: int) -> list[Stretch]:
     """The moves with their end speeds, taken out in pieces of a few moves."""
-    planner, out = Planner(rules), []
+    planner = Planner(RULES)
+    out: list[Stretch] = []
     for at, (direction, length, feed) in enumerate(chosen, start=1):
         planner.add(line(direction, length, feed))
         if at % takes == 0:
@@ -103,32 +113,32 @@ def planned(chosen, takes: int, rules: CornerRules = CornerRules(30.0, 120.0, 0.
 
 
 @given(moves, st.integers(1, 20))
-def test_every_end_speed_can_be_braked_away_in_time(chosen, takes):
+def test_every_end_speed_can_be_braked_away_in_time(chosen: Chosen, takes: int) -> None:
     out = planned(chosen, takes)
     assert len(out) == len(chosen)
     assert out[-1].exit_ups == 0.0
-    for move, after in zip(out, out[1:], strict=False):
+    for move, after in pairwise(out):
         reach2 = after.exit_ups**2 + 2.0 * after.ramp_ups2 * after.length_u
         assert move.exit_ups**2 <= reach2 * (1 + 1e-12)
-        assert move.exit_ups <= corner_speed(move, after, CornerRules(30.0, 120.0, 0.5))
+        assert move.exit_ups <= corner_speed(move, after, RULES)
 
 
 @given(moves)
-def test_nothing_is_lost_by_sending_before_all_is_known(chosen):
+def test_nothing_is_lost_by_sending_before_all_is_known(chosen: Chosen) -> None:
     """Moves held back long enough end as fast as with the whole program known."""
     whole = [move.exit_ups for move in planned(chosen, len(chosen) + 1)]
     pieces = [move.exit_ups for move in planned(chosen, 1)]
     assert np.allclose(whole, pieces, rtol=0, atol=1e-12)
 
 
-def test_a_chain_of_short_tangent_moves_keeps_the_feed():
+def test_a_chain_of_short_tangent_moves_keeps_the_feed() -> None:
     out = planned([(0.0, 0.01, FEED)] * 400, 10)
     brake = FEED**2 / (2 * RAMP)
     kept = [move.exit_ups for move in out[: -math.ceil(brake / 0.01) - 1]]
     assert kept == [FEED] * len(kept)
 
 
-def test_as_many_moves_wait_as_were_asked_for():
+def test_as_many_moves_wait_as_were_asked_for() -> None:
     planner = Planner(CornerRules(), least_ahead=10)
     for _ in range(25):
         planner.add(line(0.0, length=100.0))

@@ -14,10 +14,11 @@ from openacr.client.errors import ConnectionLostError
 from openacr.client.links import DEFAULT_BAUD, Host, link_to
 from openacr.client.names import What
 from openacr.client.objects import Axis, Master
-from openacr.client.requests import Follow, Level, Press
+from openacr.client.requests import Follow, Level, Press, Tell
 from openacr.client.talk import Op, Options, Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number
+from openacr.protocol.packets import Packet
 from openacr.protocol.terminal import ControlKey
 
 T = TypeVar("T")
@@ -232,3 +233,9 @@ class AsyncCard:
     async def clear_kills(self) -> None:
         """Let the axes move again (Ctrl-Y)."""
         await self._do(self._talk.send(Press(ControlKey.CTRL_Y)))
+
+    # --- packets ----------------------------------------------------------------------
+
+    async def tell(self, packet: Packet) -> None:
+        """Send a packet that the card does not answer: flags, overrides, moves."""
+        await self._do(self._talk.send(Tell(packet)))

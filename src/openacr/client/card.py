@@ -13,10 +13,11 @@ from openacr.client.errors import ConnectionLostError
 from openacr.client.links import DEFAULT_BAUD, Host, Link, link_to
 from openacr.client.names import What
 from openacr.client.objects import Axis, Master
-from openacr.client.requests import Follow, Level, Press
+from openacr.client.requests import Follow, Level, Press, Tell
 from openacr.client.talk import Op, Options, Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number
+from openacr.protocol.packets import Packet
 from openacr.protocol.terminal import ControlKey
 
 T = TypeVar("T")
@@ -259,3 +260,9 @@ class Card:
     def clear_kills(self) -> None:
         """Let the axes move again (Ctrl-Y)."""
         self._do(self._talk.send(Press(ControlKey.CTRL_Y)))
+
+    # --- packets ----------------------------------------------------------------------
+
+    def tell(self, packet: Packet) -> None:
+        """Send a packet that the card does not answer: flags, overrides, moves."""
+        self._do(self._talk.send(Tell(packet)))

@@ -35,32 +35,28 @@ def groups(panel: Panel, axes: Iterable[int]) -> Iterator[list[int]]:
         yield list(group)
 
 
+class _Side:
+    """One of several actions that go on side by side."""
+
+    def __init__(self, way: Steps) -> None:
+        self.way = way
+        self.until = next(way, None)
+
+    def advance(self, look: Look) -> bool:
+        """Go on as far as the card lets it; whether it is done."""
+        while self.until is not None and self.until.is_met(look):
+            self.until = next(self.way, None)
+        return self.until is None
+
+
 def together(ways: Iterable[Steps], reason: str) -> Steps:
     """Several actions side by side, done when all of them are."""
-    going = [(way, until) for way in ways if (until := next(way, None)) is not None]
+    sides = [_Side(way) for way in ways]
     try:
-        while going:
-            met: list[Look] = []
-
-            def is_any_met(look: Look) -> bool:
-                met[:] = [look]
-                return any(until.is_met(look) for _, until in going)  # noqa: B023
-
-            yield Until(reason, is_any_met)
-            going = _advanced(going, met[0])
+        yield Until(reason, lambda look: not sum(not side.advance(look) for side in sides))
     finally:
-        for way, _ in going:
-            way.close()
-
-
-def _advanced(going: list[tuple[Steps, Until]], look: Look) -> list[tuple[Steps, Until]]:
-    """Let those go on whose condition is met."""
-    still = []
-    for way, until in going:
-        following = next(way, None) if until.is_met(look) else until
-        if following is not None:
-            still.append((way, following))
-    return still
+        for side in sides:
+            side.way.close()
 
 
 class Axis:
