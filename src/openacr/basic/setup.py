@@ -6,7 +6,7 @@ from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 
 DEFAULT_CONFIG = ("ENC8", "DAC4", "DAC4", "ADC8")
-_ENCODERS = ("NONE", *(f"ENC{count}" for count in range(2, 11)))
+_ENCODERS = ("NONE", *(f"ENC{count}" for count in (2, 3, 4, 6, 8, 10)))
 _OUTPUTS = ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4")
 _MODULES = (_ENCODERS, (*_OUTPUTS, "DACSTEP2", "DACSTEP4"), _OUTPUTS, ("NONE", "ADC8"))
 

@@ -1,0 +1,106 @@
+"""Objects addressed by name and number: axes, encoders, DACs, ADCs, masters, drives."""
+
+import pytest
+from tests.system.terminal import Console
+
+
+@pytest.fixture
+def card() -> Console:
+    return Console()
+
+
+@pytest.mark.req("ACR-CMD-AXIS")
+def test_axis_commands_work_at_any_level_by_axis_number(card: Console) -> None:
+    assert card.type("AXIS0 PPU 4000", "AXIS0 PPU", "AXIS3 OFF", "AXIS3") == "4000|OFF"
+    assert card.type("AXIS3 ON", "AXIS3", "PLC0", "AXIS0 PPU 500", "AXIS0 PPU") == "ON|500"
+
+
+@pytest.mark.req("ACR-CMD-ENC")
+def test_an_encoder_has_source_multiplier_and_preset(card: Console) -> None:
+    assert card.type("ENC0 SRC 0", "ENC0 SRC", "ENC0 MULT 4", "ENC0 MULT") == "0|4"
+    assert card.type("ENC8 RES 1234", "ENC8", "ENC8 RES", "ENC8") == "1234|0"
+    assert card.type("ENC0 MULT -2", "ENC0 MULT", "ENC0 MULT 3") == "-2|Invalid argument"
+
+
+@pytest.mark.req("ACR-CMD-DAC")
+def test_a_dac_has_a_gain_and_its_output_a_parameter(card: Console) -> None:
+    assert card.type("DAC0 GAIN 3276.8", "DAC0 GAIN", "DAC0 GAIN -3276.8", "DAC0 GAIN") == (
+        "3276.8|-3276.8"
+    )
+    card.type("AXIS3 OFF", "P6448=5")
+    card.card.advance(seconds=0.01)
+    assert card.type("DAC3", "?P6448") == "5|5"
+
+
+@pytest.mark.req("ACR-CMD-ADC")
+def test_analog_inputs_have_a_mode_and_read_in_volts() -> None:
+    card = Console("ACR8020")
+    assert card.type("ADC MODE 0", "ADC MODE", "ADC MODE 1", "ADC MODE") == "0|1"
+    card.card.p[6408 + 16] = 2.5
+    assert card.type("ADC1", "?P6424") == "2.5|2.5"
+
+
+@pytest.mark.req("ACR-CMD-MASTER")
+def test_a_master_is_addressed_from_another_program(card: Console) -> None:
+    card.type("PROG0", "ATTACH MASTER0", "VEL 10", "PROG1")
+    assert card.type("MASTER0 VEL500", "PROG0", "VEL") == "500"
+
+
+@pytest.mark.req("ACR-CMD-CIP")
+def test_cip_reports_that_no_connection_is_there(card: Console) -> None:
+    assert card.type("CIP") == "CIP INACTIVE"
+
+
+@pytest.mark.req("ACR-CMD-PERIOD", "ACR-PAR-08")
+def test_the_servo_period_is_shown_and_scales_the_updates_per_second(card: Console) -> None:
+    assert card.type("PERIOD") == "0.0005"
+    before = card.card.tick
+    card.card.advance(seconds=0.1)
+    assert card.card.tick - before == 200
+    assert card.type("PERIOD 0.001", "PERIOD") == "0.001"
+    before = card.card.tick
+    card.card.advance(seconds=0.1)
+    assert card.card.tick - before == 100
+
+
+@pytest.mark.req("ACR-CMD-DRIVE", "ACR-TRB-21")
+def test_a_drive_is_switched_and_reported_but_not_in_motion(card: Console) -> None:
+    card.type("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE1 AXIS1 "Y"')
+    card.type("PPU X1000 Y1000", "SET 8468", "SET 8500", "VEL 1")
+    card.card.advance(seconds=0.1)
+    assert card.type("DRIVE ON X Y") == ""
+    card.card.advance(seconds=0.1)
+    assert card.type("DRIVE X", "DRIVE Y") == "DRIVE ON X|DRIVE ON Y"
+    assert card.type("DRIVE OFF X", "DRIVE X", "DRIVE RES X", "DRIVE ON X") == "DRIVE OFF X"
+    card.card.advance(seconds=0.1)
+    card.type("X5")
+    card.card.advance(seconds=0.1)
+    assert card.type("DRIVE OFF X") == "Not valid while in motion"
+    assert card.type("JOG VEL Y1", "JOG FWD Y", "DRIVE OFF Y") == "Not valid while in motion"
+
+
+@pytest.mark.req("ACR-RST-05")
+def test_what_a_model_does_not_have_is_refused_by_name() -> None:
+    assert Console("ACR9000").type("SYS", "CLEAR FIFO") == "Invalid device"
+    assert Console("ACR9000").type("SYS", "CLEAR DPCB") == "Invalid device"
+    assert Console("ACR8020").type("SYS", "CLEAR DPCB") == ""
+    assert Console("ACR8020").type("SYS", "CLEAR FIFO") == ""
+
+
+@pytest.mark.req("ACR-ERR-16")
+def test_the_system_clock_counts_milliseconds_and_wraps_at_2_to_the_31(card: Console) -> None:
+    first = int(card.type("?P6916"))
+    card.card.advance(seconds=1)
+    assert int(card.type("?P6916")) - first == 1000
+    card.type("P6916=2147483647")
+    card.card.advance(seconds=0.002)
+    assert 0 <= int(card.type("?P6916")) <= 2
+
+
+@pytest.mark.req("ACR-EVAL-14")
+def test_random_numbers_make_patterns_of_the_outputs(card: Console) -> None:
+    seen = {card.type("P4097=RND(4294967295)", "?P4097") for _ in range(20)}
+    assert len(seen) == 20
+    bits = [int(value) for value in seen]
+    assert any(value < 0 for value in bits)  # bit 31 too
+    assert all(-(1 << 31) <= value < 1 << 31 for value in bits)

@@ -1,0 +1,119 @@
+"""CONFIG and the set-up of servo, stepper and commutated axes in the guide's examples."""
+
+import pytest
+from tests.system.terminal import Console
+
+from openacr import Controller
+
+DEFAULT = "CONFIG ENC8 DAC4 DAC4 ADC8"
+
+
+@pytest.fixture
+def card() -> Console:
+    return Console()
+
+
+def accepts(card: Console, modules: str) -> bool:
+    """Whether CONFIG takes these modules and shows them afterwards."""
+    said = card.type(f"CONFIG {modules}")
+    shown = card.type("CONFIG")
+    assert (said == "") == (shown == f"CONFIG {modules}"), (said, shown)
+    return said == ""
+
+
+@pytest.mark.req("ACR-CFG-01", "ACR-CFG-02", "ACR-CFG-08")
+@pytest.mark.parametrize("model", ["ACR9000", "ACR8020", "ACR1505"])
+def test_a_new_card_has_a_configuration(model: str) -> None:
+    assert Console(model).type("CONFIG") == DEFAULT
+
+
+@pytest.mark.req("ACR-CFG-03")
+def test_a_new_configuration_is_reported_and_clear_brings_the_old_one_back(card: Console) -> None:
+    assert accepts(card, "ENC4 DAC4 STEPPER4 NONE")
+    assert card.type("CONFIG CLEAR", "CONFIG") == DEFAULT
+    assert card.type("CONFIG ENC8 DAC4") == "Syntax error"
+
+
+@pytest.mark.req("ACR-CFG-04")
+def test_the_encoder_argument_has_seven_words(card: Console) -> None:
+    for word in ("NONE", "ENC2", "ENC3", "ENC4", "ENC6", "ENC8", "ENC10"):
+        assert accepts(card, f"{word} DAC4 DAC4 ADC8"), word
+    for word in ("ENC1", "ENC5", "ENC7", "ENC9", "ENC11", "DAC4"):
+        assert not accepts(card, f"{word} DAC2 DAC4 ADC8"), word
+
+
+@pytest.mark.req("ACR-CFG-05")
+def test_module_0_takes_dacs_steppers_or_both(card: Console) -> None:
+    for word in ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4", "DACSTEP2", "DACSTEP4"):
+        assert accepts(card, f"ENC8 {word} DAC4 ADC8"), word
+    for word in ("DAC3", "ADC8", "ENC8", "STEPPER8"):
+        assert not accepts(card, f"ENC8 {word} DAC2 ADC8"), word
+
+
+@pytest.mark.req("ACR-CFG-06")
+def test_module_1_takes_dacs_or_steppers(card: Console) -> None:
+    for word in ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4"):
+        assert accepts(card, f"ENC8 DAC4 {word} ADC8"), word
+    for word in ("DACSTEP2", "DACSTEP4", "ADC8"):
+        assert not accepts(card, f"ENC8 DAC2 {word} ADC8"), word
+
+
+@pytest.mark.req("ACR-CFG-07")
+def test_module_2_takes_analog_inputs_or_nothing(card: Console) -> None:
+    assert accepts(card, "ENC8 DAC4 DAC4 NONE")
+    assert accepts(card, "ENC8 DAC4 DAC4 ADC8")
+    for word in ("DAC4", "ADC4", "STEPPER2"):
+        assert not accepts(card, f"ENC8 DAC2 DAC4 {word}"), word
+
+
+def set_up(card: Console, *lines: str) -> None:
+    """Lines that the card takes without a word."""
+    assert card.type(*lines) == ""
+
+
+def attached(card: Console, axis: int) -> str:
+    """How an axis is attached."""
+    return card.type("ATTACH").split("|")[axis]
+
+
+@pytest.mark.req("ACR-OUTMOD-02")
+def test_four_servo_and_four_stepper_axes(card: Console) -> None:
+    set_up(card, "CONFIG ENC4 DAC4 STEPPER4 NONE")
+    set_up(card, *(f"ATTACH AXIS{n} ENC{n} DAC{n}" for n in range(4)))
+    set_up(card, *(f"ATTACH AXIS{n + 4} STEPPER{n} STEPPER{n}" for n in range(4)))
+    assert attached(card, 1) == "ATTACH AXIS1 ENC1 DAC1 ENC1"
+    assert attached(card, 5) == "ATTACH AXIS5 STEPPER1 STEPPER1 STEPPER1"
+
+
+@pytest.mark.req("ACR-OUTMOD-04")
+def test_steppers_on_module_0_leave_the_other_axes_as_they_were(card: Console) -> None:
+    before = [attached(card, n) for n in range(4, 8)]
+    set_up(card, "CONFIG NONE STEPPER4 NONE ADC8")
+    set_up(card, *(f"ATTACH AXIS{n} STEPPER{n} STEPPER{n}" for n in range(4)))
+    assert [attached(card, n) for n in range(4, 8)] == before
+    assert attached(card, 0) == "ATTACH AXIS0 STEPPER0 STEPPER0 STEPPER0"
+
+
+@pytest.mark.req("ACR-OUTMOD-06", "ACR-OUTMOD-07")
+def test_small_controllers_mix_servo_and_stepper_on_one_module(card: Console) -> None:
+    set_up(card, "CONFIG ENC3 DAC2 NONE ADC8", "ATTACH AXIS0 ENC0 DAC0", "ATTACH AXIS1 ENC1 DAC1")
+    set_up(card, "CONFIG ENC3 DACSTEP2 NONE ADC8", "ATTACH AXIS1 STEPPER0 STEPPER0")
+    assert card.type("CONFIG") == "CONFIG ENC3 DACSTEP2 NONE ADC8"
+    assert attached(card, 0) == "ATTACH AXIS0 ENC0 DAC0 ENC0"
+    assert attached(card, 1) == "ATTACH AXIS1 STEPPER0 STEPPER0 STEPPER0"
+
+
+@pytest.mark.req("ACR-OUTMOD-08")
+def test_two_arguments_take_the_position_source_for_the_velocity_too(card: Console) -> None:
+    set_up(card, "ATTACH AXIS2 ENC5 DAC2")
+    assert attached(card, 2) == "ATTACH AXIS2 ENC5 DAC2 ENC5"
+
+
+@pytest.mark.req("ACR-OUTMOD-09")
+def test_a_stepper_axis_counts_its_own_steps() -> None:
+    card = Controller()
+    lines = ("ATTACH AXIS0 STEPPER0 STEPPER0", "PROG0", "ATTACH MASTER0")
+    card.send("\r".join((*lines, 'ATTACH SLAVE0 AXIS0 "X"', "PPU X100", "VEL 10", "X5", "")))
+    card.advance(seconds=2)
+    assert card.p[12290] == 500  # actual position
+    assert card.axis(0).following_error == 0
