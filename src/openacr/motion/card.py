@@ -13,6 +13,9 @@ from openacr.map.numbers import (
     AX_FILTER0_A0,
     AX_FILTER1_A0,
     AX_STRIDE,
+    AXF_BASE,
+    AXF_SCALE,
+    AXF_STRIDE,
     AXI_BASE,
     AXI_CAPTURE_MODE,
     AXI_DRIVE_WIRED,
@@ -45,6 +48,7 @@ from openacr.map.numbers import (
     MSI_DEPTH,
     MSI_FIRST,
     MSI_PROGRAM,
+    MSI_ROTATE_SLAVE,
     MSI_SIZE,
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
@@ -136,6 +140,7 @@ class Card:
         rows[row + AXI_DRIVE_WIRED] = -1
         for bypass in (AX_FILTER0_A0, AX_FILTER1_A0):
             self.memory.S[AX_BASE + axis * AX_STRIDE + bypass] = 1.0
+        self.memory.F[AXF_BASE + axis * AXF_STRIDE + AXF_SCALE] = 1.0
 
     def _default_master(self, master: int) -> None:
         reals = MSF_BASE + master * MSF_STRIDE
@@ -151,6 +156,7 @@ class Card:
         for slave in range(SLAVES):
             self.memory.F[reals + MSF_VECDEF + slave] = 1.0
             self.memory.I[rows + MSI_SLAVE_AXIS + slave] = -1
+        self.memory.I[rows + MSI_ROTATE_SLAVE + 1] = 1
 
     def take_written(self, axis: int) -> None:
         """Take over what was written into the shown positions of an axis."""

@@ -158,7 +158,7 @@ def _way(card: Card, program: int, master: int, target: Target, *, here: bool) -
     if not abs(target.value_u) < FARTHEST_U:
         raise CardError(INVALID_ARGUMENT)
     scale = scale_of(card, target.axis)
-    start = _start(card, master, slave, target.axis, here=here)
+    start = start_cnt(card, master, slave, target.axis, here=here)
     if target.incremental:
         delta = target.value_u * scale
         return Way(slave, target.axis, start, start + delta, delta, relative=True)
@@ -175,7 +175,7 @@ def shortest_way(delta: float, length: float) -> float:
     return delta - length * -((0.5 - delta / length) // 1.0)
 
 
-def _start(card: Card, master: int, slave: int, axis: int, *, here: bool) -> float:
+def start_cnt(card: Card, master: int, slave: int, axis: int, *, here: bool) -> float:
     """Where a slave is, or where its last queued move ends."""
     if not here:
         return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]

@@ -9,7 +9,7 @@ from openacr.basic import registry
 from openacr.basic.grammar import AxisTarget, AxisTargets, Bit, BitState
 from openacr.basic.registry import PROG, command
 from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.motion import moves
+from openacr.motion import moves, transform
 from openacr.motion.orders import Circle, FlagState, Part, Sine, SpaceArc, Target
 
 GROUP = "Interpolation"
@@ -60,7 +60,8 @@ def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
     manner = _manner(given)
     if not manner.replace and not moves.has_room(run.card, master):
         return room(run, master)
-    parts = [_part(item) for item in given if not isinstance(item, Manner)]
+    programmed = [_part(item) for item in given if not isinstance(item, Manner)]
+    parts = transform.apply(run.card, program, programmed)
     moves.issue(run.card, program, parts, interrupt=manner.interrupt, replace=manner.replace)
     return None
 

@@ -125,6 +125,8 @@ MASTER = HiddenBlock(
         "look_cap_ups",  # highest speed that suits all junctions of the present plan, 0 none
         "look_exit_ups",  # speed at its end
         "pace",  # path time per time in the last tick
+        "rotate_deg",  # ROTATE of programmed paths (motion/transform.py)
+        ("rotate_center_u", 2),
     ),
     ints=(
         "program",  # program that owns the master, -1 none
@@ -146,6 +148,7 @@ MASTER = HiddenBlock(
         "trigger",  # TRG for the next move to be issued, as in the move
         "trigger_axis",
         "paced",  # path time is not simply time: another source, or TOV
+        ("rotate_slave", 2),  # the plane of ROTATE
     ),
 )
 
@@ -192,6 +195,10 @@ AXIS = HiddenBlock(
         "velocity_sum_cnt",
         ("velocity_window_cnt", 64),
         "cam_smoothing_cps",  # smoothed minus actual speed of the cam, for the feed-forward
+        "offset_u",  # OFFSET, FLZ and SCALE of programmed paths (motion/transform.py)
+        "flz_u",
+        "scale",
+        "scale_center_u",
     ),
     ints=(
         "on",

@@ -1,0 +1,98 @@
+"""Transformation: the programmed path shifted, turned and scaled."""
+
+from __future__ import annotations
+
+from openacr.basic.grammar import AxisGroups, AxisList, AxisValue, AxisValues, Num
+from openacr.basic.registry import BY_OBJECT, PROG, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values, check_all, value_text
+from openacr.errors import CardError
+from openacr.map.numbers import AXF_FLZ_U, AXF_OFFSET_U, AXF_SCALE, AXF_SCALE_CENTER_U
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import transform
+from openacr.motion.settings import not_zero, of_axis_real
+
+GROUP = "Transformation"
+REF = "PG Transformation"
+SHIFT = of_axis_real(AXF_FLZ_U)
+FACTOR = of_axis_real(AXF_SCALE, not_zero)
+CENTER = of_axis_real(AXF_SCALE_CENTER_U)
+PLANE_AXES = 2
+
+axis_values(
+    (
+        Value("OFFSET", of_axis_real(AXF_OFFSET_U),
+              "Shift the programmed path of axes from the machine's zero.",
+              "units", saved=False),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@command("FLZ", group=GROUP, levels=PROG, grammar=(AxisValues(),), ref=REF, units="units")
+def flz(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Let the present target positions of axes have programmed values, or show the shifts."""
+    check_all(axes, SHIFT)
+    program = run.needed_program()
+    for item in axes:
+        if item.is_query:
+            run.print(value_text(SHIFT, SHIFT.read(run.card, item.axis.number)))
+        else:
+            transform.float_zero(run.card, program, item.axis.number, item.value)
+
+
+@command("FLZ OFF", group=GROUP, levels=PROG, ref=REF)
+def flz_off(run: Run) -> None:
+    """Clear the shifts that FLZ has made for the axes of the program."""
+    for axis in run.axes():
+        transform.clear_float_zero(run.card, axis.number)
+
+
+@command(
+    "ROTATE",
+    group=GROUP,
+    levels=PROG,
+    grammar=(Num("degrees", optional=True), AxisList(Num("center"), optional=True)),
+    ref=REF,
+    units="degrees",
+    default="0",
+)
+def rotate(run: Run, degrees: float | None, axes: tuple[AxisValue, ...] | None) -> None:
+    """Turn the programmed path counter-clockwise in the plane of two axes about a centre."""
+    program = run.needed_program()
+    if degrees is None:
+        run.print(value_text(SHIFT, transform.angle_deg(run.card, program)))
+        return
+    SHIFT.check(degrees)
+    if axes is not None:
+        if len(axes) != PLANE_AXES:
+            raise CardError(INVALID_ARGUMENT)
+        check_all(axes, SHIFT)
+        first, second = axes
+        plane = first.axis.number, second.axis.number
+        transform.rotate_about(run.card, program, plane, (first.value, second.value))
+    transform.rotate(run.card, program, degrees)
+
+
+@command(
+    "SCALE",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(AxisGroups("factor", "center", fewest=1, single=True, values_optional=True),),
+    ref=REF,
+    default="1",
+)
+def scale(run: Run, axes: tuple[AxisValue, ...]) -> None:
+    """Multiply the programmed path of axes about a centre; a negative factor mirrors it."""
+    for item in axes:
+        for setting, value in zip((FACTOR, CENTER), item.values, strict=False):
+            setting.check(value)
+    for item in axes:
+        number = item.axis.number
+        if item.is_query:
+            run.print(value_text(FACTOR, FACTOR.read(run.card, number)))
+            continue
+        FACTOR.write(run.card, number, item.values[0])
+        if len(item.values) > 1:
+            CENTER.write(run.card, number, item.values[1])
