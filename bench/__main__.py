@@ -11,6 +11,7 @@ ORDER = (
     "kernel_tick",
     "statements",
     "lexer",
+    "check",
     "state",
     "startup",
     "terminal_latency",

@@ -4,7 +4,8 @@ import pytest
 from tests.basic.rig import Rig
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
-from openacr.basic.compiler import CompileError, compile_program
+from openacr.basic.compiler import compile_program
+from openacr.basic.levels import CompileError
 from openacr.basic.parser import Scope, parse_line
 
 STORED = Scope(stored=True)

@@ -108,3 +108,9 @@ def test_an_own_endp_closes_wrapped_text() -> None:
 def test_lines_with_numbers_are_stored_as_they_are_without_program_around_them() -> None:
     text = "PROG0\n10 _LOOP\n20 PRINT 1 : GOTO LOOP\n30 X10\n"
     assert [line.text for line in file_lines(text)] == text.splitlines()
+
+
+def test_only_a_prompt_in_front_is_taken_away() -> None:
+    assert file_lines('P00> PRINT "P01>" : REM SYS> here') == [
+        FileLine(1, 'PRINT "P01>" : REM SYS> here')
+    ]

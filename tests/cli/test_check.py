@@ -112,6 +112,7 @@ def test_json_names_everything(tmp_path: Path) -> None:
             "message": "Unknown command",
             "hint": "did you mean PRINT?",
             "text": "PRNT 5",
+            "severity": "error",
         }
     ]
     assert json.loads(check(write(tmp_path, "good.8k", GOOD), "--json").stdout) == []

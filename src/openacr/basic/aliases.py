@@ -14,7 +14,8 @@ class Aliases:
     """All aliases of the card, valid in every program and on every channel.
 
     `capacity()` is the number DIM DEF has reserved. Names are case-sensitive, but none may
-    spell like a keyword. `nodes` is what a line is parsed with.
+    spell like a keyword. `nodes` is what a line is parsed with; a mapping handed out never
+    changes, so whoever keeps one keeps the meaning of that moment.
     """
 
     def __init__(self, capacity: Callable[[], int]) -> None:
@@ -32,12 +33,12 @@ class Aliases:
         check_name(name)
         if name not in self._nodes and len(self._nodes) >= self._capacity():
             raise CardError(OUT_OF_DEFINE_SPACE)
-        self._nodes[name] = target
+        self._nodes = self._nodes | {name: target}
         self._texts[name] = text
 
     def clear(self) -> None:
         """DEF CLEAR: forget all."""
-        self._nodes.clear()
+        self._nodes = {}
         self._texts.clear()
 
     def line(self, name: str) -> str | None:

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from openacr.basic import flow_cy as flow
 from openacr.basic import opcodes_cy as vm
 from openacr.basic.arith_cy import (
     FN_NEGATE,
@@ -38,6 +37,7 @@ from openacr.basic.arith_cy import (
     OP_XOR,
 )
 from openacr.basic.code import Chunk
+from openacr.basic.levels import CompileError, Level, Levels, unclosed
 from openacr.basic.nodes import (
     Alias,
     Apply,
@@ -58,20 +58,16 @@ from openacr.basic.nodes import (
     is_text,
     resolved,
 )
-from openacr.errors import CardError
 from openacr.map.memory import kind_table
 from openacr.map.numbers import FLAG_LAST, KIND_FP32, KIND_LONG, KIND_NONE, PUBLIC_COUNT
 from openacr.messages import (
     DUPLICATE_LABEL,
-    FOR_WITHOUT_NEXT,
-    IF_WITHOUT_ENDIF,
     INVALID_BIT,
     INVALID_PARAMETER,
     LABEL_NOT_FOUND,
     LINE_NOT_FOUND,
     STACK_OVERFLOW,
     TYPE_MISMATCH,
-    WHILE_WITHOUT_WEND,
     Message,
 )
 
@@ -87,11 +83,6 @@ OPERATORS = {
     Op.AND: OP_AND, Op.NAND: OP_NAND, Op.OR: OP_OR, Op.NOR: OP_NOR, Op.XOR: OP_XOR,
     Op.XNOR: OP_XNOR, Op.LEFT: OP_SHIFT_LEFT, Op.RIGHT: OP_SHIFT_RIGHT,
 }  # fmt: skip
-UNCLOSED = {
-    flow.FLOW_IF: IF_WITHOUT_ENDIF,
-    flow.FLOW_FOR: FOR_WITHOUT_NEXT,
-    flow.FLOW_WHILE: WHILE_WITHOUT_WEND,
-}
 _KINDS = kind_table()
 
 
@@ -106,24 +97,14 @@ class Place:
 Word: TypeAlias = int | Place
 
 
-@dataclass(slots=True)
-class Level:
-    """An IF, FOR or WHILE whose end has not been met yet."""
+@dataclass(slots=True, eq=False)
+class CodeLevel(Level):
+    """A level with the places of its code."""
 
-    kind: int
-    line: int
-    start: Place
-    stop: Place
+    start: Place = field(default_factory=Place)
+    stop: Place = field(default_factory=Place)
     next_branch: Place | None = None
     data: Expr | None = None  # the variable of a FOR
-
-
-class CompileError(CardError):
-    """A structure error, with the number of the line it was found in."""
-
-    def __init__(self, message: Message, line: int, detail: object = "") -> None:
-        super().__init__(message, detail)
-        self.line = line
 
 
 def compile_program(lines: Iterable[tuple[int, Line]]) -> Chunk:
@@ -147,7 +128,7 @@ class Emitter:
     def __init__(self, chunk: Chunk | None = None) -> None:
         self.chunk = chunk or Chunk()
         self.line_number = 0
-        self.levels: list[Level] = []
+        self.levels = Levels[CodeLevel]()
         self._labels: dict[str, Place] = {}
         self._lines: dict[int, Place] = {}
         self._is_first = True
@@ -194,8 +175,8 @@ class Emitter:
 
     def finish(self) -> Chunk:
         """Tie up all loose ends; CompileError if a level is still open."""
-        if self.levels:
-            raise self.unclosed(self.levels[-1])
+        if self.levels.innermost is not None:
+            raise unclosed(self.levels.innermost)
         self.op(vm.DO_END)
         for label, place in self._labels.items():
             if place.at < 0:
@@ -221,10 +202,6 @@ class Emitter:
         """The error to raise for the present line."""
         return CompileError(message, self.line_number, detail)
 
-    def unclosed(self, level: Level) -> CompileError:
-        """The error to raise for a level whose end is missing."""
-        return CompileError(UNCLOSED[level.kind], level.line)
-
     # code
 
     def op(self, *words: Word) -> None:
@@ -246,10 +223,10 @@ class Emitter:
         """A place that is not known yet."""
         return Place()
 
-    def open(self, kind: int) -> Level:
+    def open(self, kind: int) -> CodeLevel:
         """Begin a level of IF, FOR or WHILE."""
-        level = Level(kind, self.line_number, Place(), Place())
-        self.levels.append(level)
+        level = CodeLevel(kind, self.line_number)
+        self.levels.enter(level)
         return level
 
     def label(self, name: str) -> Place:

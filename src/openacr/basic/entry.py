@@ -6,9 +6,12 @@ import re
 from typing import TYPE_CHECKING
 
 from openacr.basic.parser import Parser
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine, opens_capture
+from openacr.basic.registry import Level
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.shape import shape
 from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
 
 if TYPE_CHECKING:
@@ -27,20 +30,19 @@ class Entry:
         self.session = session
         self.store = system.programs
 
-    def take(self, text: str) -> bool:
-        """Store the line if it is one to be stored; False if it is to be executed."""
+    def take(self, text: str) -> list[Token] | None:
+        """Store the line if it is one to be stored; else its tokens, to be executed."""
         owner = self.session.capture
         if owner is not None:
             return self._captured(owner, text)
         found = tokens(text)
         if found[0].kind is Kind.NUMBER:
             self._numbered(self._level_owner(), found)
-            return True
-        behind = opens_capture(text)
-        if behind is not None:
+        elif (behind := opens_capture(text)) is not None:
             self._open(self._level_owner(), behind)
-            return True
-        return False
+        else:
+            return found
+        return None
 
     def _level_owner(self) -> int:
         owner = self.session.owner
@@ -71,26 +73,49 @@ class Entry:
         if has_label:
             self._append(owner, tokens(behind))
 
-    def _captured(self, owner: int, text: str) -> bool:
-        """A line between PROGRAM and ENDP."""
+    def _captured(self, owner: int, text: str) -> list[Token] | None:
+        """A line between PROGRAM and ENDP: stored, unless it ends the capture."""
+        kind = shape(text)
+        if owner < PROGRAMS and self._store_known(owner, text, kind):
+            return None
         found = tokens(text)
         first = next((token for token in found if token.value != ":"), found[-1])
-        if first.kind is Kind.WORD and first.value in _LEVEL_WORDS:
+        word = first.value if first.kind is Kind.WORD else ""
+        if word in _LEVEL_WORDS:
             self.session.capture = None
             self._append(owner, tokens("ENDP"))
-            return False
-        if first.kind is Kind.WORD and first.value == "ENDP":
+            return found
+        if word == "ENDP":
             self.session.capture = None  # also where no room is left to store it
         if found[0].kind is Kind.NUMBER:
             self._numbered(owner, found)
-        elif found[0].kind is not Kind.END:
-            self._append(owner, found)
+        elif found[0].kind is not Kind.END and self._append(owner, found):
+            self._learn(owner, kind, found, word)
+        return None
+
+    def _store_known(self, owner: int, text: str, kind: str) -> bool:
+        """Store a line whose shape has been accepted before."""
+        scope = self.system.scope(Level.PROG, owner, stored=True)
+        cost_bytes = self.system.known_lines.cost(scope, kind, text)
+        if cost_bytes is None:
+            return False
+        number = self.store.next_number(owner)
+        self.store.put(owner, StoredLine.unread(number, text, scope, cost_bytes))
         return True
 
-    def _append(self, owner: int, found: list[Token]) -> None:
-        self._store(owner, self.store.next_number(owner), found)
+    def _learn(self, owner: int, kind: str, found: list[Token], word: object) -> None:
+        """Remember a shape; labels are left out, their length is limited."""
+        if owner < PROGRAMS and word != "ENDP" and found[0].kind is not Kind.LABEL:
+            scope = self.system.scope(Level.PROG, owner, stored=True)
+            self.system.known_lines.learn(scope, kind, found)
 
-    def _store(self, owner: int, number: int, found: list[Token]) -> None:
+    def _append(self, owner: int, found: list[Token]) -> bool:
+        return self._store(owner, self.store.next_number(owner), found)
+
+    def _store(self, owner: int, number: int, found: list[Token]) -> bool:
+        """Store a line; False if there was nothing to store."""
         tree, cost_bytes = self.system.read_stored(owner, found)
-        if tree is not None:
-            self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
+        if tree is None:
+            return False
+        self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
+        return True

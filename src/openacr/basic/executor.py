@@ -18,8 +18,9 @@ from openacr.basic import opcodes_cy as vm
 from openacr.basic import registry
 from openacr.basic import scheduler_cy as scheduler
 from openacr.basic.code import Chunk, CodeSpace
-from openacr.basic.compiler import CompileError, Emitter, compile_line, compile_program
+from openacr.basic.compiler import Emitter, compile_line, compile_program
 from openacr.basic.evaluate import Blocked, Operands
+from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Expr, Line, Move, Statement, is_text, resolved
 from openacr.basic.registry import Level
 from openacr.basic.run import Run, Show, Wait, WaitKind

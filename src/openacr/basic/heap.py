@@ -79,6 +79,11 @@ class Heap:
         """One storage row of a program."""
         return self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset]
 
+    def rows(self, program: int) -> list[int]:
+        """All storage rows of a program."""
+        first = at.STI_BASE + program * at.STI_STRIDE
+        return self.memory.I[first : first + at.STI_STRIDE].tolist()
+
     def set_row(self, program: int, offset: int, value: int) -> None:
         """Write one storage row of a program."""
         self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset] = value

@@ -8,6 +8,7 @@ keep their value, remarks and strings stay as they were typed.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -43,7 +44,7 @@ class Lister:
 
     def __init__(self, aliases: Collection[str] = ()) -> None:
         self.aliases = aliases
-        self.known, self.objects = _vocabulary()
+        self.known, self.objects = _vocabulary_of(registry.count())
 
     def program(self, lines: Iterable[StoredLine], *, numbers: bool = False) -> Iterator[str]:
         """The whole text; line numbers are hidden in free-form programs unless wanted."""
@@ -151,6 +152,12 @@ def _depth_change(tokens: Iterable[Token]) -> int:
     if "ELSE" in words:
         opened -= words.count("IF")  # ELSE IF is ELSEIF
     return opened - sum(word in _CLOSING for word in words)
+
+
+@lru_cache(maxsize=1)
+def _vocabulary_of(commands: int) -> tuple[frozenset[str], frozenset[str]]:
+    """The vocabulary while there are so many commands."""
+    return _vocabulary()
 
 
 def _vocabulary() -> tuple[frozenset[str], frozenset[str]]:

@@ -4,9 +4,14 @@ Published listings wrap lines at the page width, keep prompts in front of comman
 leave PROGRAM or ENDP out. A terminal shows none of this tolerance; it belongs to files.
 """
 
+import gc
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from openacr.lang.shape import shape, shapes
 
 LONGEST_LINE = 255
 
@@ -35,17 +40,21 @@ _MOVE = re.compile(r"\s*([A-Za-z]{1,4})\s*[-+/(\d.\u2013\u2014\u2212]")
 _DEFAULT_AXIS_NAMES = frozenset("XYZABCUVW")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)  # files have many lines: a frozen one takes three times as long
 class FileLine:
-    """One line to send, and the line of the file where it begins."""
+    """One line to send, the line of the file where it begins, and its shape."""
 
     number: int
     text: str
+    shape: str = field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
 class _Scan:
-    """One line without its remark, its strings blanked, and what it leaves open."""
+    """What a reader of files needs to know about a line; lines of one shape are alike.
+
+    `code` is the line without its remark, its strings blanked.
+    """
 
     code: str
     is_string_open: bool
@@ -58,51 +67,92 @@ class _Scan:
     def blocks(self) -> list[str]:
         return self.code.split(":")
 
+    @property
+    def is_open(self) -> bool:
+        """Whether the next line may be the rest of this one."""
+        is_input = _OPEN_INPUT.fullmatch(self.blocks[-1]) is not None
+        return self.is_string_open or self.open_parentheses > 0 or is_input
+
+
+@dataclass(frozen=True, slots=True)
+class _Role:
+    """What a line is for; lines of one shape have the same role."""
+
+    is_open: bool
+    is_program: bool
+    is_endp: bool
+    is_level: bool
+    is_program_text: bool
+
+
+@contextmanager
+def long_lived_objects() -> Iterator[None]:
+    """Create many objects that all stay: looking for garbage among them is wasted time."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
 
 def file_lines(text: str) -> list[FileLine]:
     """The lines to send to the card for a file, tolerances of published text applied."""
-    joined = list(_joined(_numbered(text)))
-    if any(_PROGRAM.match(_scan(line.text).code) for line in joined):
-        return list(_closed(joined))
-    if any(_is_program_text(line.text) for line in joined):
+    joined = _joined(_numbered(text))
+    roles = [_role(line.shape) for line in joined]
+    if any(role.is_program for role in roles):
+        return list(_closed(joined, roles))
+    if any(role.is_program_text for role in roles):
         return list(_opened(joined))
     return joined
 
 
-def _numbered(text: str) -> Iterator[FileLine]:
+def _numbered(text: str) -> list[FileLine]:
     """Non-empty lines without prompts."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    for number, line in enumerate(lines, start=1):
-        rest = _PROMPT.sub("", line, count=1) if _PROMPT.match(line) else line
-        if rest.strip():
-            yield FileLine(number, rest.rstrip())
+    if ">" in text:
+        lines = [
+            line[prompt.end() :] if (prompt := _PROMPT.match(line)) else line for line in lines
+        ]
+    lines = [line.rstrip() for line in lines]
+    numbered = zip(range(1, len(lines) + 1), lines, shapes(lines), strict=True)
+    return [FileLine(number, line, kind) for number, line, kind in numbered if line]
 
 
-def _joined(lines: Iterable[FileLine]) -> Iterator[FileLine]:
+def _joined(lines: list[FileLine]) -> list[FileLine]:
     """Lines that a page width has broken, put together again."""
-    held: FileLine | None = None
+    joined: list[FileLine] = []
     for line in lines:
-        if held is None:
-            held = line
-        elif _continues(held.text, line.text):
-            held = FileLine(held.number, f"{held.text} {line.text.lstrip()}")
+        held = joined[-1] if joined else None
+        if held and _role(held.shape).is_open and _continues(held.text, line.text):
+            text = f"{held.text} {line.text.lstrip()}"
+            joined[-1] = FileLine(held.number, text, shape(text))
         else:
-            yield held
-            held = line
-    if held is not None:
-        yield held
+            joined.append(line)
+    return joined
 
 
 def _continues(text: str, following: str) -> bool:
-    """Whether `following` is the rest of `text`."""
+    """Whether `following` is the rest of `text`, which leaves something open."""
     if len(text) + 1 + len(following) > LONGEST_LINE:
         return False
-    scan = _scan(text)
-    if scan.is_string_open:
+    if _scan(text).is_string_open:
         return sum(following.count(quote) for quote in _QUOTES) % 2 == 1
-    if scan.open_parentheses > 0:
-        return True
-    return _OPEN_INPUT.fullmatch(scan.blocks[-1]) is not None
+    return True
+
+
+@lru_cache(maxsize=4096)
+def _role(line: str) -> _Role:
+    """The role of all lines of one shape."""
+    scan = _scan(line)
+    return _Role(
+        is_open=scan.is_open,
+        is_program=_PROGRAM.match(scan.code) is not None,
+        is_endp=_ENDP.match(scan.code) is not None,
+        is_level=_LEVEL.match(scan.code) is not None,
+        is_program_text=_is_program_text(scan.code),
+    )
 
 
 def _scan(text: str) -> _Scan:
@@ -122,9 +172,8 @@ def _scan(text: str) -> _Scan:
     return _Scan("".join(code), in_string)
 
 
-def _is_program_text(text: str) -> bool:
+def _is_program_text(code: str) -> bool:
     """Whether a line can stand in a program only: label, ENDP, flow but the one-line IF."""
-    code = _scan(text).code
     if _LINE_NUMBER.match(code):
         return False  # the card stores it by its number
     if _LABEL.match(code) or _ENDP.match(code):
@@ -173,20 +222,17 @@ def _needs_program(code: str, names: frozenset[str]) -> bool:
     return False
 
 
-def _closed(lines: list[FileLine]) -> Iterator[FileLine]:
+def _closed(lines: list[FileLine], roles: list[_Role]) -> Iterator[FileLine]:
     """ENDP supplied where a program ends without one."""
     is_open = False
-    last = 0
-    for line in lines:
-        code = _scan(line.text).code
-        if is_open and _LEVEL.match(code):
+    for line, role in zip(lines, roles, strict=True):
+        if is_open and role.is_level:
             yield FileLine(line.number, "ENDP")
             is_open = False
         yield line
-        if _PROGRAM.match(code):
+        if role.is_program:
             is_open = True
-        elif _ENDP.match(code):
+        elif role.is_endp:
             is_open = False
-        last = line.number
     if is_open:
-        yield FileLine(last, "ENDP")
+        yield FileLine(lines[-1].number, "ENDP")

@@ -127,10 +127,14 @@ class Locals:
 
     def bytes(self, program: int) -> int:
         """User memory taken by the locals of a program."""
-        used = BUFFERED_MOVE.bytes(self.heap.row(program, at.STI_MBUF_COUNT))
+        rows = self.heap.rows(program)
+        used = BUFFERED_MOVE.bytes(rows[at.STI_MBUF_COUNT])
         for scalar in SCALARS:
-            used += scalar.cost.bytes(self.heap.row(program, scalar.count_row))
-        used += sum(self._array_bytes(program, kind) for kind in ARRAYS)
+            if count := rows[scalar.count_row]:
+                used += scalar.cost.bytes(count)
+        for kind in ARRAYS:
+            if count := rows[kind.count_row]:
+                used += self._array_bytes(program, kind, count)
         return used + self.strings[program].bytes
 
     def forget(self) -> None:
@@ -146,8 +150,7 @@ class Locals:
         """Take over what `strings_state` returned."""
         self.strings = [ProgramStrings.from_state(program) for program in state]
 
-    def _array_bytes(self, program: int, kind: ArrayType) -> int:
-        count = self.heap.row(program, kind.count_row)
+    def _array_bytes(self, program: int, kind: ArrayType, count: int) -> int:
         arrays = (self.heap.array_count(program, kind, index) for index in range(count))
         return ARRAY_REFERENCES.bytes(count) + sum(map(kind.cost.bytes, arrays))
 

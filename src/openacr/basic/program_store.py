@@ -6,10 +6,11 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
+from openacr.basic.parser import Parser, Scope
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Kind, Token, tokens
 from openacr.map import numbers as at
 from openacr.messages import INVALID_PASSWORD, OUT_OF_MEMORY, PROGRAM_IS_PROTECTED
 
@@ -21,17 +22,49 @@ HIDDEN_STEP = 10
 _PROGRAM = re.compile(r"[\s:]*PROGRAM(?![A-Za-z])\s*\d*\s*(.*)", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
 class StoredLine:
     """One line of a program: its number, its tokens (without the number) and its meaning.
 
-    `tree` is what the reader of the line made of it: a `Line`, or PLC instructions.
+    `tree` is what the reader of the line made of it: a `Line`, or PLC instructions. A line
+    whose shape is known to be right is stored as text and read when somebody needs it.
     """
 
-    number: int
-    tokens: tuple[Token, ...]
-    tree: Any
-    cost_bytes: int
+    __slots__ = ("_read", "_unread", "cost_bytes", "number")
+
+    def __init__(
+        self,
+        number: int,
+        found: tuple[Token, ...],
+        tree: Any,
+        cost_bytes: int,
+        unread: tuple[str, Scope] | None = None,
+    ) -> None:
+        self.number, self.cost_bytes = number, cost_bytes
+        self._read = (found, tree) if unread is None else None
+        self._unread = unread
+
+    @classmethod
+    def unread(cls, number: int, text: str, scope: Scope, cost_bytes: int) -> StoredLine:
+        """A line without number in front that `scope` is known to accept."""
+        return cls(number, (), None, cost_bytes, (text, scope))
+
+    @property
+    def tokens(self) -> tuple[Token, ...]:
+        """The line without its number."""
+        return self._parts[0]
+
+    @property
+    def tree(self) -> Any:
+        """What the line means."""
+        return self._parts[1]
+
+    @property
+    def _parts(self) -> tuple[tuple[Token, ...], Any]:
+        if self._read is None:
+            text, scope = self._unread or ("", Scope())
+            found = tokens(text)
+            self._read, self._unread = (tuple(found), Parser(found, scope).line()), None
+        return self._read
 
     @property
     def first_word(self) -> str:
@@ -40,6 +73,17 @@ class StoredLine:
             if token.value != ":":
                 return str(token.value) if token.kind is Kind.WORD else ""
         return ""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, StoredLine):
+            return NotImplemented
+        return self.__reduce__() == other.__reduce__()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[type[StoredLine], tuple[int, tuple[Token, ...], Any, int]]:
+        """Pickle what was read: texts depend on what was attached and defined at the time."""
+        return StoredLine, (self.number, *self._parts, self.cost_bytes)
 
 
 @dataclass(slots=True)
@@ -50,6 +94,7 @@ class ProgramStore:
     texts: list[dict[int, StoredLine]] = field(default_factory=lambda: [{} for _ in range(OWNERS)])
     password: str | None = None
     changed: set[int] = field(default_factory=set)  # owners, for who stores their text
+    _last: list[int] = field(default_factory=lambda: [0] * OWNERS)  # no line has a higher number
 
     def lines(self, owner: int) -> list[StoredLine]:
         """The lines of a program in the order of their numbers."""
@@ -67,6 +112,7 @@ class ProgramStore:
         old = self.texts[owner].get(line.number)
         self._account(owner, line.cost_bytes - (old.cost_bytes if old else 0))
         self.texts[owner][line.number] = line
+        self._last[owner] = max(self._last[owner], line.number)
         self._mark_modified(owner)
 
     def delete(self, owner: int, number: int) -> None:
@@ -74,22 +120,27 @@ class ProgramStore:
         old = self.texts[owner].pop(number, None)
         if old is not None:
             self._account(owner, -old.cost_bytes)
+            self._last[owner] = max(self.texts[owner], default=0)
         self._mark_modified(owner)
 
     def erase(self, owner: int) -> None:
         """NEW: remove all lines."""
-        self.texts[owner].clear()
+        self._clear(owner)
         self.storage.set_code_bytes(owner, 0)
         self._mark_modified(owner)
 
     def forget(self, owner: int) -> None:
         """Remove all lines, as a loss of memory does: nothing is accounted or marked."""
-        self.texts[owner].clear()
+        self._clear(owner)
         self.changed.add(owner)
+
+    def _clear(self, owner: int) -> None:
+        self.texts[owner].clear()
+        self._last[owner] = 0
 
     def next_number(self, owner: int) -> int:
         """The hidden number of the next line of free-form text."""
-        last = max(self.texts[owner], default=0)
+        last = self._last[owner]
         return last - last % HIDDEN_STEP + HIDDEN_STEP
 
     def starts_by_itself(self, owner: int) -> bool:
@@ -122,6 +173,7 @@ class ProgramStore:
         """Take over what `state` returned."""
         texts, self.password = state
         self.texts = [{line.number: line for line in text} for text in texts]
+        self._last = [max(text, default=0) for text in self.texts]
         self.changed.update(range(OWNERS))
 
     def _account(self, owner: int, growth: int) -> None:

@@ -234,6 +234,11 @@ def commands() -> Iterator[Command]:
         yield _commands[name]
 
 
+def count() -> int:
+    """How many commands there are."""
+    return len(_commands)
+
+
 def keywords() -> frozenset[str]:
     """Words that no alias and no axis may be named."""
     return _keywords(len(root.children), len(functions))

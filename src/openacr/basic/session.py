@@ -15,7 +15,6 @@ from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.registry import Level
 from openacr.errors import CardError
-from openacr.lang.lexer import tokens
 from openacr.messages import LINE_TOO_LONG
 
 if TYPE_CHECKING:
@@ -202,10 +201,10 @@ class Session:
 
     def _take(self, text: str) -> bool:
         """Store or start a line; True when nothing of it is left to be done."""
-        entry = Entry(self.system, self)
-        if entry.take(text):
+        found = Entry(self.system, self).take(text)
+        if found is None:
             return True
-        line = Parser(tokens(text), self.scope).line()
+        line = Parser(found, self.scope).line()
         if line.is_empty:
             return True
         self.system.runner.start(self, line)

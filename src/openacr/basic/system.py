@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from openacr.basic import retained
 from openacr.basic.aliases import Aliases
 from openacr.basic.devices import Devices
+from openacr.basic.known_lines import KnownLines
 from openacr.basic.listeners import Listeners
 from openacr.basic.memory_cost import PLC_INSTRUCTION, line_bytes
 from openacr.basic.parser import Parser, Scope
@@ -113,6 +114,8 @@ class System:
         self.storage = Storage(card.memory, streams=streams)
         self.aliases = Aliases(lambda: self.storage.define_count)
         self.programs = ProgramStore(self.storage)
+        self.known_lines = KnownLines()
+        self._last_scope = Scope()
         self.sessions = {
             name: Session(name, index, self)
             for index, name in enumerate(STREAMS)
@@ -127,9 +130,13 @@ class System:
 
     def scope(self, level: Level, program: int | None, *, stored: bool) -> Scope:
         """What a line of a program, or one typed at its prompt, may refer to."""
-        named = () if program is None else self.card.attachments.axes(program)
-        axes = frozenset(name.upper() for name, _ in named)
-        return Scope(level, stored, axes, self.aliases.nodes)
+        axes = frozenset[str]() if program is None else self.card.attachments.names(program)
+        last, nodes = self._last_scope, self.aliases.nodes
+        is_level = last.level is level and last.stored is stored
+        if is_level and last.aliases is nodes and last.axes is axes:
+            return last  # line after line
+        self._last_scope = Scope(level, stored, axes, nodes)
+        return self._last_scope
 
     def read_stored(
         self, owner: int, found: list[Token], names: frozenset[str] = frozenset()
@@ -142,7 +149,8 @@ class System:
             tree, count = self.read_plc(found)
             return tree, count * PLC_INSTRUCTION.each
         scope = self.scope(Level.PROG, owner, stored=True)
-        scope = replace(scope, axes=scope.axes | names)
+        if names:
+            scope = replace(scope, axes=scope.axes | names)
         line = Parser(found, scope).line()
         return (None, 0) if line.is_empty else (line, line_bytes(found))
 

@@ -12,7 +12,8 @@ from openacr.errors import SourceError
 from openacr.project import Place, Project, find_project, place_of, read_source
 
 if TYPE_CHECKING:
-    from openacr.cli.source import Fault, Reader
+    from openacr.cli.faults import Fault
+    from openacr.cli.source import Reader
 
 HAS_ERRORS = 1
 
@@ -45,7 +46,7 @@ def check_file(
     """Find every error in a controller file.
 
     A project folder is checked as a whole: machine file, scenario and all controller files.
-    Exit code 1: there are errors; 2: the input cannot be read at all.
+    Exit code 1: there are errors; 2: the input cannot be read at all. Warnings leave it 0.
     """
     project = find_project(file)
     faults = [*_table_faults(project), *read(file, project).faults]
@@ -56,7 +57,7 @@ def check_file(
         _show(faults, on_stderr=False)
     else:
         typer.echo(f"{file}: no errors")
-    if faults:
+    if not all(fault.is_warning for fault in faults):
         raise typer.Exit(HAS_ERRORS)
 
 
@@ -67,6 +68,7 @@ def read(file: Path, project: Project) -> "Reader":
     reader = Reader()
     place, number = place_of(file)
     if file.is_dir() or place is Place.SETUP:
+        reader.sizes.is_complete = file.is_dir()
         for source in project.sources:
             reader.read(source)
         return reader
@@ -81,7 +83,7 @@ def read(file: Path, project: Project) -> "Reader":
 
 def _table_faults(project: Project) -> Iterator["Fault"]:
     """What is wrong in the machine and scenario files of a project."""
-    from openacr.cli.source import Fault
+    from openacr.cli.faults import Fault
     from openacr.plant.load import load_world
     from openacr.scenario import load_scenario
 
@@ -101,5 +103,7 @@ def _show(faults: list["Fault"], *, on_stderr: bool) -> None:
         typer.echo(str(fault), err=on_stderr)
         for line in fault.marker.split("\n") if fault.text else ():
             typer.echo(f"    {line}", err=on_stderr)
-    count = len(faults)
-    typer.echo(f"{count} error{'s' if count != 1 else ''}", err=True)
+    warnings = sum(fault.is_warning for fault in faults)
+    counts = ((len(faults) - warnings, "error"), (warnings, "warning"))
+    found = [f"{count} {kind}{'s' if count != 1 else ''}" for count, kind in counts if count]
+    typer.echo(", ".join(found), err=True)

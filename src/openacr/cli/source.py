@@ -12,22 +12,23 @@ from difflib import get_close_matches
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic import registry
 from openacr.basic.commands.operating_system import Definition
-from openacr.basic.compiler import CompileError, compile_program
 from openacr.basic.expressions import StatementError
 from openacr.basic.lister import Lister
-from openacr.basic.loader import FileLine, file_lines
-from openacr.basic.memory_cost import line_bytes
-from openacr.basic.nodes import Expr, Line, Move, Number, Statement, String
-from openacr.basic.parser import Parser, Scope
+from openacr.basic.loader import FileLine, file_lines, long_lived_objects
+from openacr.basic.nodes import Expr, Move, Number, Statement, String
+from openacr.basic.outline import Outline, outline
+from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope
 from openacr.basic.plc_names import PlcNames
-from openacr.basic.program_store import StoredLine, opens_capture
+from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
+from openacr.cli.faults import Fault
+from openacr.cli.sizes import Sizes, undimensioned, variable
+from openacr.cli.structure import Structure
+from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.source import Span
 from openacr.messages import (
-    LABEL_NOT_FOUND,
-    LINE_NOT_FOUND,
     SYNTAX_ERROR,
     UNDEFINED_SYMBOL,
     UNDEFINED_VARIABLE,
@@ -36,59 +37,10 @@ from openacr.messages import (
 )
 from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.ladder import draw
-from openacr.plc.reader import PlcLine, read_line
+from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 
-HIDDEN_STEP = 10
-_JUMPS = frozenset(("GOTO", "GOSUB"))
-_LEVELS = frozenset("IF ELSE ELSEIF ENDIF FOR NEXT WHILE WEND".split())
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """One error of a file: where, what the card would say, and what may help."""
-
-    path: str
-    line: int
-    column: int
-    length: int
-    message: str
-    hint: str
-    text: str
-
-    def __str__(self) -> str:
-        hint = f" ({self.hint})" if self.hint else ""
-        return f"{self.path}:{self.line}:{self.column}: {self.message}{hint}"
-
-    @property
-    def marker(self) -> str:
-        """The line with carets below the place."""
-        width = max(1, min(self.length, len(self.text) - self.column + 1))
-        blanks = "".join("\t" if c == "\t" else " " for c in self.text[: self.column - 1])
-        return f"{self.text}\n{blanks}{'^' * width}"
-
-
-@dataclass(slots=True)
-class Text:
-    """The text of one program or PLC as it is stored, and where its lines stand."""
-
-    lines: dict[int, StoredLine] = field(default_factory=dict)
-    places: dict[int, FileLine] = field(default_factory=dict)
-    lost: set[str] = field(default_factory=set)  # the words of lines that could not be read
-
-    def next_number(self) -> int:
-        """The hidden number of the next line of free-form text."""
-        last = max(self.lines, default=0)
-        return last - last % HIDDEN_STEP + HIDDEN_STEP
-
-    def in_order(self) -> list[StoredLine]:
-        """The lines by their numbers."""
-        return [self.lines[number] for number in sorted(self.lines)]
-
-    def rungs(self) -> list[tuple[int, PlcLine]]:
-        """The lines of a PLC with their numbers."""
-        return [(line.number, line.tree) for line in self.in_order()]
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +58,7 @@ class Reader:
     faults: list[Fault] = field(default_factory=list)
     aliases: dict[str, Expr] = field(default_factory=dict)
     axes: dict[int, set[str]] = field(default_factory=dict)
+    sizes: Sizes = field(default_factory=Sizes)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
     parts: list[Part] = field(default_factory=list)
     level: Level = Level.SYS
@@ -113,6 +66,10 @@ class Reader:
     is_capturing: bool = False
     _path: str = ""
     _originals: list[str] = field(default_factory=list)
+    _captured: Text = field(default_factory=Text)
+    _known: dict[str, Outline] = field(default_factory=dict)  # by shape, what may be captured
+    _stored_scope: Scope = field(default_factory=Scope)
+    _kinds: dict[str, str] = field(default_factory=dict)  # of the variables that have aliases
 
     def read(self, source: SourceFile) -> None:
         """Read one file; program and PLC files begin at the level their name says."""
@@ -121,18 +78,26 @@ class Reader:
         levels = {Place.SETUP: Level.SYS, Place.PROGRAM: Level.PROG, Place.PLC: Level.PLC}
         self.level, self.number = levels[source.place], source.number
         self.is_capturing = False
+        self._scope_changed()
         read_before, known_faults = set(self.texts), len(self.faults)
-        for line in file_lines(source.text):
-            self._take(line)
-        for key in [key for key in self.texts if key not in read_before]:
-            if key[0] is Level.PROG:
-                self._check_structure(self.texts[key])
-                self._check_jumps(self.texts[key])
-            elif not self.texts[key].lost:
-                self._check_rungs(self.texts[key])
+        with long_lived_objects():
+            for line in file_lines(source.text):
+                known = self._known.get(line.shape)
+                if known is None or not self._put_known(line, known):
+                    self._take(line)
+            for key in [key for key in self.texts if key not in read_before]:
+                self._check(*key)
         self.faults[known_faults:] = sorted(
             self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
         )
+
+    def _put_known(self, line: FileLine, known: Outline) -> bool:
+        """Store a captured line of a shape that was accepted before."""
+        if known.has_label and label_of(line.text) is None:
+            return False
+        text = self._captured
+        text.put(TextLine(text.next_number(), line, known, self._stored_scope))
+        return True
 
     def _take(self, line: FileLine) -> None:
         try:
@@ -143,12 +108,20 @@ class Reader:
             if self.is_capturing or is_numbered or self.level is Level.PLC:
                 self._text().lost.update(_words(line.text))
 
+    def _scope_changed(self) -> None:
+        """Begin anew with known lines: level, axes or aliases may have changed."""
+        self._known = {}
+        self._stored_scope = self._scope(stored=True)
+        named = ((name, variable(node)) for name, node in self.aliases.items())
+        self._kinds = {name: item[0] for name, item in named if item}
+
     def _line(self, line: FileLine) -> None:
         found = tokens(line.text, 1)
         word = next((t.text.upper() for t in found if t.value != ":"), "")
         if self.is_capturing and word not in _LEVEL_WORDS:
             self._store(line, found)
-            self.is_capturing = word != "ENDP"
+            if word == "ENDP":
+                self.is_capturing, self._known = False, {}
         elif found[0].kind is Kind.NUMBER:
             self._store(line, found)
         elif (behind := opens_capture(line.text)) is not None:
@@ -159,8 +132,8 @@ class Reader:
 
     def _open(self, line: FileLine, behind: str) -> None:
         """PROGRAM: everything up to ENDP is stored."""
-        text = self._text()
-        text.lines.clear()
+        self._captured = self._text()
+        self._captured.clear()
         self.is_capturing = True
         self._store(line, tokens("PROGRAM", 1))
         if behind.startswith("_"):
@@ -182,29 +155,36 @@ class Reader:
 
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
-        number = text.next_number()
+        number, start = text.next_number(), 0
         if found[0].kind is Kind.NUMBER:
-            number, found = int(found[0].value), found[1:]
+            number, start = line_number(found[0]), found[0].column + len(found[0].text) - 1
+            found = found[1:]
         if found[0].kind is Kind.END:
             text.lines.pop(number, None)
             return
-        tree: Line | PlcLine | None
-        if self.level is Level.PROG:
-            tree = Parser(found, self._scope(stored=True)).line()
-        else:
-            tree = read_line(found, PlcNames(self.aliases))
-        text.lines[number] = StoredLine(number, tuple(found), tree, line_bytes(found))
-        text.places[number] = line
+        if self.level is Level.PLC:
+            rung = read_line(found, PlcNames(self.aliases))
+            text.put(TextLine(number, line, Outline(), self._stored_scope, start, rung))
+            return
+        tree = Parser(found, self._stored_scope).line()
+        known = outline(found, tree, self._kinds)
+        text.put(TextLine(number, line, known, self._stored_scope, start))
+        if self.is_capturing and not start and line.shape:
+            self._known[line.shape] = known
+        if known.dimensions:
+            self.sizes.note(self.number, tree.blocks)
 
     def _immediate(self, line: FileLine, found: list[Token]) -> None:
         """A line that is executed at once: take note of what later lines depend on."""
         tree = Parser(found, self._scope(stored=False)).line()
         if not tree.is_empty:
             self.parts.append(Part(tokens=tuple(found)))
+        self.sizes.note(self.number, tree.blocks)
         for block in tree.blocks:
             for statement in block:
                 if not isinstance(statement, Move):
                     self._note(statement)
+        self._scope_changed()
 
     def _note(self, statement: Statement) -> None:
         words, arguments = statement.command.words, statement.arguments
@@ -216,53 +196,56 @@ class Reader:
             self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
         for item in arguments:
             if isinstance(item, Definition) and item.target is not None:
-                self.aliases[item.name] = item.target
+                self.aliases = self.aliases | {item.name: item.target}
 
-    def _check_structure(self, text: Text) -> None:
-        """Tie levels together as RUN would, unless a line that could belong to one is lost."""
-        if text.lost & _LEVELS:
-            return
-        try:
-            compile_program((line.number, line.tree) for line in text.in_order())
-        except CompileError as error:
-            self._fault(text.places[error.line], error)
-
-    def _check_jumps(self, text: Text) -> None:
-        """Find jumps to labels and lines that are not there, not even in a lost line."""
-        labels = {line.tree.label for line in text.lines.values()}
-        for line in text.in_order():
-            for target in _jumps(line.tokens):
-                is_label = target.kind is Kind.LABEL
-                lost = f"_{target.value}".upper() if is_label else str(target.value)
-                known = labels if is_label else text.lines
-                if target.value not in known and lost not in text.lost:
-                    message = LABEL_NOT_FOUND if target.kind is Kind.LABEL else LINE_NOT_FOUND
-                    error_here = StatementError(message, target.span, target.value)
-                    self._fault(text.places[line.number], error_here)
+    def _check(self, level: Level, number: int) -> None:
+        """Tie the lines of a program or PLC together."""
+        text = self.texts[level, number]
+        if level is Level.PROG:
+            for finding in Structure(text).check():
+                self._report(finding)
+            for finding in undimensioned(text, number, self.sizes, self.aliases):
+                self._report(finding)
+        elif not text.lost:
+            self._check_rungs(text)
 
     def _check_rungs(self, text: Text) -> None:
         """Check a PLC as RUN would."""
         try:
             compile_plc(text.rungs())
         except PlcCompileError as error:
-            self._fault(text.places[error.line], error)
+            self._fault(text.lines[error.line].place, error)
         except CardError as error:
-            self._fault(text.places[max(text.places)], error)
+            self._fault(text.lines[max(text.lines)].place, error)
 
-    def _fault(self, line: FileLine, error: CardError) -> None:
-        original = self._originals[line.number - 1].rstrip()
+    def _report(self, finding: Finding) -> None:
+        if finding.error is not None:
+            self._fault(finding.line, finding.error, finding.hint)
+        else:
+            place = self._place(finding.line, finding.span)
+            self._add(place, finding.warning, finding.hint, "warning")
+
+    def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
         span: Span | None = getattr(error, "span", None)
+        words = line.text.split()
+        word = line.text[span.column - 1 :][: span.length] if span else words[0]
+        hint = hint or self._hint(error.message, word, words[0])
+        self._add(self._place(line, span), error.text, hint, "error")
+
+    def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
+        original = self._originals[place[0] - 1].rstrip()
+        self.faults.append(Fault(self._path, *place, text, hint, original, severity))
+
+    def _place(self, line: FileLine, span: Span | None) -> tuple[int, int, int]:
+        """Line, column and length in the file as it is."""
+        original = self._originals[line.number - 1].rstrip()
         begin = len(original) - len(original.lstrip()) + 1
         # A prompt in front of the line was taken away before it was read.
         shift = len(original) - len(line.text) if original.endswith(line.text) else 0
         column = max(begin, span.column + shift) if span else begin
         length = span.length if span else len(original)
-        words = line.text.split()
-        word = line.text[span.column - 1 :][: span.length] if span else words[0]
-        hint = self._hint(error.message, word, words[0])
         # Behind the end of the line stands what was joined to it.
-        place = (line.number, min(column, len(original) + 1), length)
-        self.faults.append(Fault(self._path, *place, error.text, hint, original))
+        return line.number, min(column, len(original) + 1), length
 
     def _hint(self, message: Message, word: str, first: str) -> str:
         is_word_of_language = {word.upper(), first.upper()} & {*registry.keywords(), "PROGRAM"}
@@ -284,7 +267,7 @@ def listing(reader: Reader) -> Iterator[str]:
     lister = Lister(reader.aliases)
     for part in reader.parts:
         if part.text is not None:
-            yield from lister.program(part.text.in_order())
+            yield from lister.program(part.text.stored())
         else:
             yield lister.line(part.tokens)
 
@@ -302,13 +285,11 @@ def _words(text: str) -> set[str]:
     return {word.upper() for word in re.findall(r"\w+", text)}
 
 
-def _jumps(found: tuple[Token, ...]) -> Iterator[Token]:
-    """Find what stands behind GOTO and GOSUB, computed jumps left out."""
-    for word, target, behind in zip(found, found[1:], (*found[2:], found[-1]), strict=False):
-        if word.kind is Kind.WORD and word.value in _JUMPS:
-            is_whole = behind.kind in (Kind.END, Kind.REMARK) or behind.value == ":"
-            if target.kind is Kind.LABEL or (target.kind is Kind.NUMBER and is_whole):
-                yield target
+def line_number(token: Token) -> int:
+    """The number in front of a stored line; others than whole ones up to 999999 are refused."""
+    if not token.text.isdigit() or not 1 <= int(token.text) <= HIGHEST_LINE_NUMBER:
+        raise StatementError(SYNTAX_ERROR, token.span)
+    return int(token.text)
 
 
 def _integer(argument: object) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from openacr.basic.loader import file_lines
+from openacr.basic.loader import file_lines, long_lived_objects
 from openacr.basic.registry import Level
 from openacr.basic.session import Session
 from openacr.errors import CardError, SourceError
@@ -46,10 +46,11 @@ class Loader:
             level = Level.PROG if source.place is Place.PROGRAM else Level.PLC
             self.session.go(level, source.number)
         errors = []
-        for line in file_lines(source.text):
-            problem = self._feed(line.text)
-            if problem:
-                errors.append(SourceError(problem, path=str(source.path), line=line.number))
+        with long_lived_objects():
+            for line in file_lines(source.text):
+                problem = self._feed(line.text)
+                if problem:
+                    errors.append(SourceError(problem, path=str(source.path), line=line.number))
         if self.session.capture is not None:
             self._feed("ENDP")
         return errors

@@ -22,6 +22,7 @@ class Attachments:
 
     _masters: dict[int, int] = field(default_factory=dict)
     _slaves: dict[int, dict[int, Slave]] = field(default_factory=dict)
+    _names: dict[int, frozenset[str]] = field(default_factory=dict, compare=False, repr=False)
 
     def master(self, program: int) -> int | None:
         """The master of a program, if it has one."""
@@ -39,6 +40,14 @@ class Attachments:
     def axes(self, program: int) -> tuple[tuple[str, int], ...]:
         """Name and number of every axis of a program in slave order."""
         return tuple((slave.name, slave.axis) for slave in self.slaves(program))
+
+    def names(self, program: int) -> frozenset[str]:
+        """The names of the axes of a program in upper case; asked for with every line."""
+        known = self._names.get(program)
+        if known is None:
+            known = frozenset(name.upper() for name, _ in self.axes(program))
+            self._names[program] = known
+        return known
 
     def axis(self, program: int, name: str) -> int | None:
         """The axis a program calls by `name` (any case)."""
@@ -70,20 +79,24 @@ class Attachments:
     def put_slave(self, program: int, slave: Slave) -> None:
         """Record a slave."""
         self._slaves.setdefault(program, {})[slave.number] = slave
+        self._names.clear()
 
     def drop_slave(self, program: int, number: int) -> None:
         """Forget a slave."""
         self._slaves.get(program, {}).pop(number, None)
+        self._names.clear()
 
     def drop_program(self, program: int) -> None:
         """Forget master and slaves of a program."""
         self._masters.pop(program, None)
         self._slaves.pop(program, None)
+        self._names.clear()
 
     def clear(self) -> None:
         """Forget everything."""
         self._masters.clear()
         self._slaves.clear()
+        self._names.clear()
 
     def copy(self) -> "Attachments":
         """An independent copy, for snapshots."""

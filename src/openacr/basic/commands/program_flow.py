@@ -14,20 +14,13 @@ from openacr.basic.registry import ANY, BOTH, PLC, PROG, PROGRAM, Level, command
 from openacr.basic.run import Run
 from openacr.lang.lexer import Kind
 from openacr.messages import (
-    BREAK_WITHOUT_LOOP,
-    ELSE_WITHOUT_IF,
-    ENDIF_WITHOUT_IF,
-    NEXT_WITHOUT_FOR,
     NOT_VALID_AT_THIS_LEVEL,
     SYNTAX_ERROR,
     UNKNOWN_COMMAND,
-    WEND_WITHOUT_WHILE,
-    Message,
 )
 
 if TYPE_CHECKING:
-    from openacr.basic.compiler import Emitter
-    from openacr.basic.compiler import Level as OpenLevel
+    from openacr.basic.compiler import CodeLevel, Emitter
     from openacr.basic.parser import Parser
 
 GROUP = "Program Flow"
@@ -119,15 +112,6 @@ class Step(Form):
 # code
 
 
-def _innermost(e: Emitter, kind: int, message: Message) -> OpenLevel:
-    """The level that a closing word belongs to; what is open inside of it lacks its end."""
-    if not any(level.kind == kind for level in e.levels):
-        raise e.error(message)
-    if e.levels[-1].kind != kind:
-        raise e.unclosed(e.levels[-1])
-    return e.levels[-1]
-
-
 def emit_if(e: Emitter, statement: Statement) -> None:
     """IF: with THEN a conditional rest of the line, else the beginning of a level."""
     condition, then = statement.arguments
@@ -150,20 +134,19 @@ def _condition(e: Emitter, condition: Any, otherwise: Any) -> None:
     e.drop(1)
 
 
-def _next_branch(e: Emitter) -> OpenLevel:
+def _next_branch(e: Emitter, *, is_last: bool) -> CodeLevel:
     """End one branch of an IF: jump behind the level, and begin the next branch."""
-    level = _innermost(e, flow.FLOW_IF, ELSE_WITHOUT_IF)
-    if level.next_branch is None:
-        raise e.error(ELSE_WITHOUT_IF)
+    level = e.levels.branch(e.line_number, is_last=is_last)
     e.op(vm.DO_JUMP, level.stop)
-    e.put(level.next_branch)
+    if level.next_branch is not None:
+        e.put(level.next_branch)
     return level
 
 
 def emit_elseif(e: Emitter, statement: Statement) -> None:
     """ELSEIF."""
     (condition,) = statement.arguments
-    level = _next_branch(e)
+    level = _next_branch(e, is_last=False)
     e.begin_statement()
     level.next_branch = e.place()
     _condition(e, condition, level.next_branch)
@@ -171,13 +154,12 @@ def emit_elseif(e: Emitter, statement: Statement) -> None:
 
 def emit_else(e: Emitter, statement: Statement) -> None:
     """ELSE: the last branch."""
-    _next_branch(e).next_branch = None
+    _next_branch(e, is_last=True).next_branch = None
 
 
 def emit_endif(e: Emitter, statement: Statement) -> None:
     """ENDIF."""
-    level = _innermost(e, flow.FLOW_IF, ENDIF_WITHOUT_IF)
-    e.levels.pop()
+    level = e.levels.leave(flow.FLOW_IF, e.line_number)
     if level.next_branch is not None:
         e.put(level.next_branch)
     e.put(level.stop)
@@ -199,8 +181,7 @@ def emit_while(e: Emitter, statement: Statement) -> None:
 
 def emit_wend(e: Emitter, statement: Statement) -> None:
     """WEND."""
-    level = _innermost(e, flow.FLOW_WHILE, WEND_WITHOUT_WHILE)
-    e.levels.pop()
+    level = e.levels.leave(flow.FLOW_WHILE, e.line_number)
     e.op(vm.DO_WEND, level.start, level.start)
     e.put(level.stop)
     e.op(vm.DO_LEAVE, level.start)
@@ -226,8 +207,7 @@ def emit_for(e: Emitter, statement: Statement) -> None:
 
 def emit_next(e: Emitter, statement: Statement) -> None:
     """NEXT: step the variable and test again."""
-    level = _innermost(e, flow.FLOW_FOR, NEXT_WITHOUT_FOR)
-    e.levels.pop()
+    level = e.levels.leave(flow.FLOW_FOR, e.line_number)
     variable = level.data
     if variable is None:
         raise TypeError(statement)
@@ -243,11 +223,8 @@ def emit_next(e: Emitter, statement: Statement) -> None:
 
 def emit_break(e: Emitter, statement: Statement) -> None:
     """BREAK: leave the innermost loop."""
-    for level in reversed(e.levels):
-        if level.kind != flow.FLOW_IF:
-            e.op(vm.DO_BREAK, level.start, level.stop)
-            return
-    raise e.error(BREAK_WITHOUT_LOOP)
+    level = e.levels.loop(e.line_number)
+    e.op(vm.DO_BREAK, level.start, level.stop)
 
 
 def emit_jump(direct: int, computed: int) -> Any:

@@ -1,0 +1,160 @@
+"""`openacr check`: what only shows when a program is looked at as a whole."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from openacr.cli.main import app
+
+SETUP = """\
+DIM P(10)
+DIM DEF(5)
+#DEFINE Count P9
+#DEFINE Beyond P10
+PROG0
+ATTACH MASTER0
+ATTACH SLAVE0 AXIS0 "X"
+DIM LV(5)
+DIM $V(2,10)
+DIM LA(1)
+DIM LA0(10)
+"""
+
+
+def check(path: Path, *options: str) -> Result:
+    return CliRunner().invoke(app, ["check", str(path), *options])
+
+
+def faults(folder: Path, *lines: str, setup: str = SETUP) -> list[str]:
+    """What is said about a program behind the set-up, one text per fault."""
+    (folder / "setup.8k").write_text(setup)
+    path = folder / "prog0.8k"
+    path.write_text("\n".join(["PROGRAM", *lines, "ENDP", ""]))
+    shown = check(path).stdout.splitlines()
+    return [
+        line.split("prog0.8k:")[1]
+        for line in shown
+        if "prog0.8k:" in line and "no errors" not in line
+    ]
+
+
+@pytest.mark.parametrize(
+    ("lines", "found"),
+    [
+        (("IF (P0)", "SET 32", "ELSE", "ELSE", "ENDIF"), ["5:1: ELSE without IF"]),
+        (("ENDIF", "WEND", "BREAK"), ["2:1: ENDIF without IF", "3:1: WEND without WHILE",
+                                      "4:1: BREAK without loop"]),
+        (("WHILE (P0)", "IF (P1)", "WEND"), ["3:1: IF without ENDIF"]),
+        (("FOR P0 = 1 TO 3 : IF (P1)", "NEXT", "NEXT"), ["2:19: IF without ENDIF",
+                                                         "4:1: NEXT without FOR"]),
+        (("FOR P0 = 1 TO 3", "WHILE (P1)"), ["2:1: FOR without NEXT", "3:1: WHILE without WEND"]),
+    ],
+)  # fmt: skip
+def test_each_level_that_does_not_fit_is_found(
+    tmp_path: Path, lines: tuple[str, ...], found: list[str]
+) -> None:
+    shown = [text.split(" (")[0].lower() for text in faults(tmp_path, *lines)]
+    assert shown == [text.lower() for text in found]
+
+
+def test_a_one_line_if_opens_no_level(tmp_path: Path) -> None:
+    assert faults(tmp_path, "IF (P0) THEN SET 32", "IF (P1) THEN P0 = 1 : P1 = 2") == []
+
+
+def test_jumps_to_line_numbers_are_followed(tmp_path: Path) -> None:
+    lines = ("100 P0 = 1", "110 GOTO 100", "120 GOSUB 130")
+    (tmp_path / "prog0.8k").write_text("\n".join([*lines, ""]))
+    assert "prog0.8k:3:11: Line not found: 130" in check(tmp_path / "prog0.8k").stdout
+
+
+def test_a_line_number_out_of_range_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "prog0.8k").write_text("1000000 P0 = 1\n0 P0 = 2\n")
+    assert "2 errors" in check(tmp_path / "prog0.8k").stderr
+
+
+def test_a_goto_out_of_a_block_is_a_warning(tmp_path: Path) -> None:
+    lines = ("_Top", "WHILE (P0)", "IF (P1)", "GOTO Inner", "GOTO Top", "ENDIF", "_Inner", "WEND")
+    assert faults(tmp_path, *lines) == [
+        "5:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump behind it)",
+        "6:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump behind it)",
+    ]
+
+
+def test_a_goto_within_its_block_is_fine(tmp_path: Path) -> None:
+    assert faults(tmp_path, "WHILE (P0)", "_In", "IF (P1) THEN GOTO In", "WEND", "GOTO In") == []
+
+
+def test_warnings_alone_are_no_failure(tmp_path: Path) -> None:
+    path = tmp_path / "prog0.8k"
+    path.write_text("PROGRAM\nFOR P0 = 1 TO 2\nGOTO Out\nNEXT\n_Out\nENDP\n")
+    result = check(path)
+    assert (result.exit_code, result.stderr) == (0, "1 warning\n")
+    (fault,) = json.loads(check(path, "--json").stdout)
+    assert (fault["severity"], fault["line"], fault["column"]) == ("warning", 3, 6)
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("P10 = 1", ["2:1: Undefined variable (DIM P makes P0 to P9)"]),
+        ("P9 = 1 : P12288 = 4096", []),
+        ("P0 = LV4 + LV5", ["2:12: Undefined variable (DIM LV makes LV0 to LV4)"]),
+        ("SV0 = 1", ["2:1: Undefined variable (no DIM SV was read)"]),
+        ("DV(P0) = 1", ["2:1: Undefined variable (no DIM DV was read)"]),
+        ("PRINT $V1; $V2", ["2:12: Undefined variable (DIM $V makes $V0 to $V1)"]),
+        ("LA1(3) = 1 : LA0(3) = 2", ["2:1: Undefined variable (DIM LA makes LA0 to LA0)"]),
+        ("Count = 1", []),
+        ("Beyond = 1", ["2:1: Undefined variable (DIM P makes P0 to P9)"]),
+        ('PRINT "LV99" : REM SV3', []),
+        ("P(P0+500) = 1", []),
+    ],
+)
+def test_variables_nobody_dimensioned_are_found(
+    tmp_path: Path, line: str, found: list[str]
+) -> None:
+    assert faults(tmp_path, line) == found
+
+
+def test_a_program_may_dimension_its_own_variables(tmp_path: Path) -> None:
+    assert faults(tmp_path, "DIM SV(3)", "SV2 = 1") == []
+    assert faults(tmp_path, "DIM SV(P0)", "SV200 = 1") == []
+
+
+def test_each_missing_variable_is_reported_once(tmp_path: Path) -> None:
+    assert len(faults(tmp_path, "SV0 = 1", "SV0 = 2", "SV1 = SV0")) == 2
+
+
+def test_without_any_dim_sizes_are_not_judged(tmp_path: Path) -> None:
+    path = tmp_path / "prog0.8k"
+    path.write_text("PROGRAM\nLV0 = 1\nENDP\n")
+    assert check(path).exit_code == 0
+    assert "Undefined variable" in check(tmp_path).stdout  # a project is all there is
+
+
+@pytest.mark.parametrize(
+    "line", ["SIN X(1,2,3,4,5,6,7,8)", "P0 = SIN(1,2)", "P0 = RND()", "EXC X(1,2,3)", "ACC"]
+)
+def test_wrong_argument_counts_are_found(tmp_path: Path, line: str) -> None:
+    found = faults(tmp_path, line)
+    assert len(found) == (line != "ACC")
+
+
+def test_lines_of_a_known_shape_are_judged_by_their_values(tmp_path: Path) -> None:
+    found = faults(
+        tmp_path,
+        "LV0 = 1", "LV9 = 1", "GOTO a1", "GOTO a2", "_a1", f"_{'b' * 32}", f"_{'c' * 33}",
+        "PRINT #1, 5", "PRINT #9, 5",
+    )  # fmt: skip
+    assert [text.split(" (")[0] for text in found] == [
+        "3:1: Undefined variable",
+        "5:6: Label not found: a2",
+        "8:35: Syntax error",
+        "10:9: Syntax error",
+    ]
+
+
+def test_an_axis_that_is_not_attached_is_named(tmp_path: Path) -> None:
+    (found,) = faults(tmp_path, "X10", "Y10")
+    assert found.startswith("3:1: Unknown command")
