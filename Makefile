@@ -5,6 +5,7 @@
 #   make lint    the checks alone
 #   make bench   how many simulated seconds per second this machine reaches
 #   make soak    the long-running tests
+#   make docs    write the reference pages anew
 #   make clean   remove everything that can be made again (also .venv)
 #
 # A C compiler makes the card many times faster; without one the same sources run as
@@ -13,7 +14,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak clean
+.PHONY: help setup demo test lint bench soak docs clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -33,7 +34,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,8s/^# *//p' Makefile
+	@sed -n '3,9s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -83,6 +84,9 @@ bench: $(BUILT)
 
 soak: $(BUILT)
 	$(PY) -m pytest -n 0 -m soak --timeout 0
+
+docs: $(BUILT)
+	$(PY) -m openacr.basic.reference docs/reference examples
 
 clean:
 	rm -rf $(VENV) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \

@@ -134,11 +134,18 @@ def test_without_any_dim_sizes_are_not_judged(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["SIN X(1,2,3,4,5,6,7,8)", "P0 = SIN(1,2)", "P0 = RND()", "EXC X(1,2,3)", "ACC"]
+    ("line", "found"),
+    [
+        ("EXC X(1,2,3)", "2:13: Syntax error (written: EXC axis {value|(plus,minus)} ...)"),
+        ("CIRCW X(1)", "2:11: Syntax error (written: CIRCW axis(target,center) ...)"),
+        ("P0 = SIN(1,2)", "2:14: Syntax error"),
+        ("MASK P4096 (1)", "2:15: Syntax error (written: MASK Pn (nandmask,ormask))"),
+        ("ACC 5 5", "2:7: Syntax error (written: ACC {value})"),
+        ("VEL", None),
+    ],
 )
-def test_wrong_argument_counts_are_found(tmp_path: Path, line: str) -> None:
-    found = faults(tmp_path, line)
-    assert len(found) == (line != "ACC")
+def test_wrong_argument_counts_are_found(tmp_path: Path, line: str, found: str | None) -> None:
+    assert faults(tmp_path, line) == ([found] if found else [])
 
 
 def test_lines_of_a_known_shape_are_judged_by_their_values(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
+from openacr.basic.written import command_before, syntax
 from openacr.cli.faults import Fault
 from openacr.cli.sizes import Sizes, undimensioned, variable
 from openacr.cli.structure import Structure
@@ -230,6 +231,8 @@ class Reader:
         words = line.text.split()
         word = line.text[span.column - 1 :][: span.length] if span else words[0]
         hint = hint or self._hint(error.message, word, words[0])
+        if not hint and error.message is SYNTAX_ERROR and span:
+            hint = _usage(line.text, span.column)
         self._add(self._place(line, span), error.text, hint, "error")
 
     def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
@@ -278,6 +281,15 @@ def ladders(reader: Reader) -> Iterator[str]:
         if level is Level.PLC:
             yield f"PLC{number}"
             yield from draw(text.rungs())
+
+
+def _usage(text: str, column: int) -> str:
+    """How the command is written that a line fails to be."""
+    try:
+        row = command_before(tokens(text), column)
+    except CardError:
+        return ""
+    return f"written: {syntax(row)}" if row else ""
 
 
 def _words(text: str) -> set[str]:

@@ -242,11 +242,16 @@ def def_clear(run: Run) -> None:
 @command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
 def help_(run: Run) -> None:
     """List all command words."""
-    words = sorted({row.words[0] for row in registry.commands()} - {"LET"} | {"REM"})
+    words = help_words()
     width = max(map(len, words)) + 1
     for start in range(0, len(words), HELP_COLUMNS):
         columns = words[start : start + HELP_COLUMNS]
         run.print("".join(word.ljust(width) for word in columns).rstrip())
+
+
+def help_words() -> list[str]:
+    """The first word of every command; assignments have none."""
+    return sorted({row.words[0] for row in registry.commands()} - {"LET"} | {"REM"})
 
 
 @command("VER", group=GROUP, levels=ANY, ref=REF)

@@ -308,7 +308,7 @@ def wend(run: Run) -> None:
     group=GROUP,
     levels=PROG,
     use=PROGRAM,
-    grammar=(Lvalue(), Mark("="), Value(), Mark("TO"), Value(), Step()),
+    grammar=(Lvalue(), Mark("="), Value("first"), Mark("TO"), Value("last"), Step()),
     ref=REF,
     emit=emit_for,
 )
