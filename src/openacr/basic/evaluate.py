@@ -23,7 +23,7 @@ from openacr.basic.run import Wait
 from openacr.basic.string_storage import ProgramStrings
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.messages import NOT_VALID_AT_THIS_LEVEL, TYPE_MISMATCH
+from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TYPE_MISMATCH
 
 if TYPE_CHECKING:
     from openacr.basic.executor import Executor
@@ -114,7 +114,10 @@ class Operands:
         return node.value if isinstance(node, Number) else self._executor.value(thread, node)
 
     def _index(self, thread: int, node: Expr) -> int:
-        return int(self._value(thread, node))
+        value = self._value(thread, node)
+        if not -(2.0**63) < value < 2.0**63:
+            raise CardError(SUBSCRIPT_OUT_OF_RANGE)
+        return int(value)
 
     def _strings(self, thread: int) -> ProgramStrings:
         memory = self._executor.memory

@@ -110,10 +110,7 @@ class Run:
 
     def integer(self, node: Expr) -> int:
         """The number of an expression truncated toward zero; `Invalid argument` beyond 64 bits."""
-        value = self.value(node)
-        if not -(2.0**63) < value < 2.0**63:
-            raise CardError(INVALID_ARGUMENT)
-        return int(value)
+        return whole(self.value(node))
 
     def text(self, node: Expr) -> str:
         """The string of an expression."""
@@ -165,3 +162,10 @@ class Run:
         if self.program is None:
             raise CardError(NOT_VALID_AT_THIS_LEVEL)
         return self.program
+
+
+def whole(value: float) -> int:
+    """The value truncated toward zero; `Invalid argument` beyond 64 bits."""
+    if not -(2.0**63) < value < 2.0**63:
+        raise CardError(INVALID_ARGUMENT)
+    return int(value)

@@ -138,7 +138,7 @@ def set_windows(
     card: Card, number: int, start: float, pitch: float, width: float, count: int
 ) -> None:
     """OOP INC: windows of a width, `count` of them (0: endless)."""
-    if not (pitch > 0.0 and width > 0.0 and count >= 0):
+    if not (pitch > 0.0 and width > 0.0 and 0 <= count < 1 << 31):
         raise CardError(INVALID_ARGUMENT)
     row = at.OOF_BASE + number * at.OOF_STRIDE
     card.memory.F[row + at.OOF_START_CNT] = start

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from openacr.basic.grammar import Axis, AxisList, AxisValue, AxisValues, Either, Int, Word
 from openacr.basic.nodes import AxisRef
 from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import Band, Value, axis_bands, axis_values, check_all, value_text
 from openacr.map.numbers import (
     AX_MINUS_A_LIMIT,
@@ -95,7 +95,7 @@ def limit_mode(words: str, enables: LimitEnables, doc: str) -> None:
             if item.is_query:
                 run.print(str(enables.read(run.card, item.axis.number)))
             else:
-                enables.write(run.card, item.axis.number, int(item.value))
+                enables.write(run.card, item.axis.number, whole(item.value))
 
     handler.__doc__ = doc
     grammar = (AxisList(Int("mode", 0, 3, optional=True)),)

@@ -17,7 +17,7 @@ from openacr.basic.follower_forms import (
 from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Num, ObjectRef
 from openacr.basic.number_format import Kind, number_text
 from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import Value, axis_values
 from openacr.kernel.source_cy import USE_CAM
 from openacr.map import block
@@ -96,7 +96,7 @@ def dimension(run: Run, axes: tuple[AxisValue, ...], table: Callable[[int], int]
         if item.is_query:
             run.print(str(cam.segments(run.card, number)))
         else:
-            cam.dimension(run.card, number, int(item.value))
+            cam.dimension(run.card, number, whole(item.value))
 
 
 @command("CAM SEG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(SegmentForm()),), ref=REF)

@@ -21,7 +21,7 @@ from openacr.basic.grammar import (
 )
 from openacr.basic.nodes import Expr
 from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run, Wait
+from openacr.basic.run import Run, Wait, whole
 from openacr.basic.value_commands import Value, axis_values, check_all, report_all, value_text
 from openacr.errors import CardError
 from openacr.map.kinds_cy import kind_of
@@ -199,5 +199,5 @@ def mseek(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
         return room(run, master, len(axes))
     for item in axes:
         distance_u, mode = item.values
-        moves.seek(run.card, program, item.axis.number, distance_u, int(mode))
+        moves.seek(run.card, program, item.axis.number, distance_u, whole(mode))
     return None

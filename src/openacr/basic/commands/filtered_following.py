@@ -14,7 +14,7 @@ from openacr.basic.grammar import (
     SignedParameter,
 )
 from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.kernel.source_cy import USE_FILTER
 from openacr.map.numbers import FLF_WINDOW_CNT_SIZE, FLI_BASE, FLI_SIZE, FLI_STRIDE
 from openacr.motion import gear, objects
@@ -52,7 +52,7 @@ def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
             size = run.card.memory.I[FLI_BASE + item.axis.number * FLI_STRIDE + FLI_SIZE]
             run.print(str(size))
         else:
-            objects.set_filter_size(run.card, item.axis.number, int(item.value))
+            objects.set_filter_size(run.card, item.axis.number, whole(item.value))
 
 
 @command("FLT ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)

@@ -17,7 +17,7 @@ from openacr.basic.grammar import (
 )
 from openacr.basic.number_format import Kind, number_text
 from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import ObjectValue, check_number, object_values
 from openacr.errors import CardError
 from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
@@ -43,7 +43,7 @@ def eight(card: Card) -> int:
 
 def mode(value: float) -> bool:
     """A ratchet mode: 4 * treatment of positive + treatment of negative counts."""
-    return value == int(value) and 0 <= value <= HIGHEST_MODE
+    return 0 <= value <= HIGHEST_MODE and value == int(value)
 
 
 def real(first: int, stride: int, allows: Callable[[float], bool] = anything) -> Setting:
@@ -241,7 +241,7 @@ def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
     """Set repeating windows of an output object; without a count they are endless."""
     check_number(number, at.OO_COUNT)
     start, pitch, width = windows[:3]
-    objects.set_windows(run.card, number, start, pitch, width, int((*windows, 0)[3]))
+    objects.set_windows(run.card, number, start, pitch, width, whole((*windows, 0.0)[3]))
 
 
 @command("OOP # ON", group=GROUP, levels=ANY, ref=REF)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Int, Num
 from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import Value, axis_values
 from openacr.errors import CardError
 from openacr.map.numbers import (
@@ -106,7 +106,7 @@ def jog_inc(run: Run, axes: tuple[AxisValue, ...]) -> None:
 )
 def jog_home(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Look for the home input of axes, in the direction 1 (as without) or -1."""
-    found = [(item.axis.number, 1 if item.is_query else int(item.value)) for item in axes]
+    found = [(item.axis.number, 1 if item.is_query else whole(item.value)) for item in axes]
     for axis, direction in found:
         if direction == 0:
             raise CardError(INVALID_ARGUMENT)

@@ -6,7 +6,7 @@ from openacr.basic.commands.feedback_control import LAST_MODE, check_copy
 from openacr.basic.commands.interpolation import flag_state, room
 from openacr.basic.grammar import AxisGroups, AxisValue, Bit, BitState, Either
 from openacr.basic.registry import PROG, command
-from openacr.basic.run import Run, Wait
+from openacr.basic.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import moves, triggers
@@ -32,8 +32,8 @@ def trg(run: Run, given: BitState | tuple[AxisValue, ...]) -> None:
     mode, copy = (*item.values, 0.0)[:2]
     if not 0 <= mode <= LAST_MODE:
         raise CardError(INVALID_ARGUMENT)
-    check_copy(run, int(copy) or None)
-    triggers.on_capture(run.card, master, item.axis.number, int(mode), int(copy))
+    check_copy(run, whole(copy) or None)
+    triggers.on_capture(run.card, master, item.axis.number, int(mode), whole(copy))
 
 
 def _refused() -> tuple[AxisValue, ...]:
@@ -72,6 +72,6 @@ def hsint(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
         int(mode),
         way,
         (window, start),
-        None if abort == NO_FLAG else flag_state(run, BitState(int(abort))),
+        None if abort == NO_FLAG else flag_state(run, BitState(whole(abort))),
     )
     return None
