@@ -1,0 +1,85 @@
+"""What the interpreter needs from the world: cells, card and machine.
+
+`Cells` is the SYSVAR store (P100..P4095, P100000..P1003424), `Machine` everything that
+only a machine knows. `VirtualMachine` answers for checks and previews, where nothing moves.
+"""
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from openacr.cnc.canonical import Point
+
+
+class Cells(Protocol):
+    """Numbered cells that outlive the run."""
+
+    def read(self, n: int) -> float:
+        """The number in a cell."""
+
+    def write(self, n: int, value: float) -> None:
+        """Set a cell."""
+
+    def read_text(self, n: int) -> str:
+        """The text in a cell."""
+
+
+class Machine(Protocol):
+    """The card and what is wired to it; asked only behind a Sync."""
+
+    def read_parameter(self, n: int) -> float:
+        """A card parameter (P0..P99, P4096..P20487)."""
+
+    def write_parameter(self, n: int, value: float) -> None:
+        """Set a card parameter."""
+
+    def read_bit(self, n: int) -> bool:
+        """A card flag; inputs are flags 0..31, outputs 32..63."""
+
+    def position(self) -> Point | None:
+        """Where the axes stand (machine coordinates, default units); None: as programmed."""
+
+    def tripped(self) -> Point | None:
+        """Where the probe tripped in the last Probe, None when it did not."""
+
+    def answer(self, parameter: int) -> float | None:
+        """What the operator answered to the last Ask."""
+
+    def is_block_skip_on(self) -> bool:
+        """Whether blocks with a slash are left out."""
+
+
+@dataclass
+class VirtualMachine:
+    """A machine for reading programs: cells of its own, nothing trips, nobody answers."""
+
+    is_skipping: bool = False
+    parameters: dict[int, float] = field(default_factory=dict)
+    bits: set[int] = field(default_factory=set)
+
+    def read_parameter(self, n: int) -> float:
+        """A value that was written before, or 0."""
+        return self.parameters.get(n, 0.0)
+
+    def write_parameter(self, n: int, value: float) -> None:
+        """Keep a value."""
+        self.parameters[n] = value
+
+    def read_bit(self, n: int) -> bool:
+        """Off unless listed."""
+        return n in self.bits
+
+    def position(self) -> Point | None:
+        """Where the program has brought it."""
+        return None
+
+    def tripped(self) -> Point | None:
+        """Nothing ever trips."""
+        return None
+
+    def answer(self, parameter: int) -> float | None:
+        """Nobody answers."""
+        return None
+
+    def is_block_skip_on(self) -> bool:
+        """As set."""
+        return self.is_skipping

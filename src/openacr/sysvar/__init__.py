@@ -1,0 +1,1 @@
+"""The SYSVAR store: system parameters, offsets and variables that outlive every run."""
