@@ -16,12 +16,11 @@ from openacr.client.requests import (
     Line,
     Press,
     Request,
-    Tell,
 )
 from openacr.client.session import Session
 from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode
-from openacr.protocol.parameter import GetLong, SetLong
+from openacr.protocol.parameter import GetLong
 from openacr.protocol.stream import EchoMode
 from openacr.protocol.terminal import NEED_DATA, ControlKey
 
@@ -176,8 +175,6 @@ def test_packets_travel_in_the_mode_of_a_serial_line() -> None:
 
 def test_what_the_card_does_not_answer_is_done_at_once() -> None:
     session = Session()
-    assert session.begin(Tell(SetLong(4097, 1))) == bytes.fromhex("00 89 01 10 01 00 00 00")
-    assert session.next_event() == Answer()
     assert session.begin(Press(ControlKey.CTRL_X)) == b"\x18"
     assert session.next_event() == Answer()
 

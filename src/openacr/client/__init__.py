@@ -19,6 +19,7 @@ from openacr.client.errors import (
     RefusedError,
     VerificationError,
 )
+from openacr.client.moves import MoveStream
 from openacr.client.objects import Axis, Master
 from openacr.client.requests import Level
 from openacr.client.talk import Options
@@ -34,6 +35,7 @@ __all__ = [
     "GarbledError",
     "Level",
     "Master",
+    "MoveStream",
     "NoReplyError",
     "Options",
     "RefusedError",

@@ -12,12 +12,14 @@ from openacr.client.async_links import AsyncLink, for_asyncio
 from openacr.client.drive import carry_out_async
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import DEFAULT_BAUD, Host, link_to
+from openacr.client.moves import MoveStream
 from openacr.client.names import What
 from openacr.client.objects import Axis, Master
-from openacr.client.requests import Follow, Level, Press, Tell
+from openacr.client.requests import Follow, Level, Press
 from openacr.client.talk import Op, Options, Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number
+from openacr.protocol.move import Move
 from openacr.protocol.packets import Packet
 from openacr.protocol.terminal import ControlKey
 
@@ -236,6 +238,17 @@ class AsyncCard:
 
     # --- packets ----------------------------------------------------------------------
 
-    async def tell(self, packet: Packet) -> None:
-        """Send a packet that the card does not answer: flags, overrides, moves."""
-        await self._do(self._talk.send(Tell(packet)))
+    async def tell(self, *packets: Packet) -> None:
+        """Send packets that the card does not answer: flags, overrides, moves."""
+        await self._do(self._talk.tell(packets))
+
+    async def send_moves(self, moves: Iterable[Move], stream: MoveStream | None = None) -> int:
+        """Send binary moves as fast as the buffer of the card takes them; how many.
+
+        A `MoveStream` goes on where its last moves ended and knows which have started.
+        """
+        return await self._do((stream or MoveStream()).send(self._talk, moves))
+
+    async def moves_started(self, stream: MoveStream) -> int:
+        """How many moves of a stream have started."""
+        return await self._do(stream.update(self._talk))

@@ -40,6 +40,9 @@ class Host(Protocol):
     def receive(self, stream: int, data: bytes) -> None:
         """Bytes that arrived together."""
 
+    def accepts_input(self, stream: int) -> bool:
+        """False while the sender should be held back."""
+
     def take_output(self, stream: int) -> bytes:
         """The bytes of the next write, none when there is nothing to send."""
 
@@ -222,8 +225,13 @@ class ProcessLink:
         return data
 
     def write(self, data: bytes) -> None:
-        """Give the card bytes."""
-        self._card.receive(self._connected(), data)
+        """Give the card bytes; as on a wire, time passes while it takes no more."""
+        stream = self._connected()
+        for _ in range(self._ticks(CONNECT_S)):
+            if self._card.accepts_input(stream):
+                break
+            self._advance(1)
+        self._card.receive(stream, data)
 
     def _connected(self) -> int:
         if self._stream is None:

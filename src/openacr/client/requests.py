@@ -72,17 +72,6 @@ class Ask:
 
 
 @dataclass(frozen=True, slots=True)
-class Tell:
-    """A packet the card says nothing about."""
-
-    packet: Packet
-    is_query: bool = False
-
-    def __str__(self) -> str:
-        return str(self.packet)
-
-
-@dataclass(frozen=True, slots=True)
 class Press:
     """Ctrl-X, Ctrl-Y or Ctrl-Z: acts at once and is not answered."""
 
@@ -124,7 +113,7 @@ class Align:
         return "the greeting of the client"
 
 
-Request: TypeAlias = Line | Ask | Tell | Press | Follow | Leave | Align
+Request: TypeAlias = Line | Ask | Press | Follow | Leave | Align
 
 
 @dataclass(frozen=True, slots=True)

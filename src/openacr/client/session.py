@@ -30,7 +30,6 @@ from openacr.client.requests import (
     Line,
     Press,
     Request,
-    Tell,
 )
 from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode, Decoder, encode_packet
@@ -109,7 +108,7 @@ class Session:
 
     def begin(self, request: Request) -> bytes:
         """The bytes to send; what was received for the request before is forgotten."""
-        if not isinstance(request, Ask | Tell | Press | Leave):
+        if not isinstance(request, Ask | Press | Leave):
             self.forget()
         self._request = request
         if isinstance(request, Line):
@@ -120,7 +119,7 @@ class Session:
         if isinstance(request, Align):
             echo = self._typed(f"ECHO {int(self.echo)}")
             return ESC + CR + self._typed("SYS") + echo + self._mark_line()
-        if isinstance(request, Ask | Tell):
+        if isinstance(request, Ask):
             return encode_packet(request.packet.encode(), self.mode)
         return ESC if isinstance(request, Leave) else bytes((request.key,))
 
@@ -161,7 +160,7 @@ class Session:
         request = self._request
         if request is None:
             return self._followed(is_silent) if self.is_listening else NEED_DATA
-        if isinstance(request, Tell | Press):
+        if isinstance(request, Press):
             return self._done(Answer())
         return self._readers[type(request)](is_silent)
 

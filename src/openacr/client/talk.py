@@ -5,7 +5,7 @@ bytes, wait for bytes, pause - and is resumed with the result. A blocking and an
 shell drive the same generators (`card`, `async_card`); tests can drive them with neither.
 """
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
@@ -27,11 +27,11 @@ from openacr.client.requests import (
     Line,
     Press,
     Request,
-    Tell,
 )
 from openacr.client.session import Event, Session
 from openacr.errors import UserError
-from openacr.protocol.escape import BinaryMode
+from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.packets import Packet
 from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.terminal import NEED_DATA
 
@@ -288,9 +288,19 @@ class Talk:
         if self.level != level or not self._is_open:
             yield from self.order(str(level))
 
-    def send(self, request: Tell | Press) -> Op[None]:
+    def send(self, request: Press) -> Op[None]:
         """Send something the card does not answer."""
         yield from self.exchange(request)
+
+    def tell(self, packets: Iterable[Packet]) -> Op[None]:
+        """Send packets the card does not answer, in one write."""
+        try:
+            yield from self._be_ready()
+            mode = self.session.mode
+            yield Send(b"".join(encode_packet(packet.encode(), mode) for packet in packets))
+        except ConnectionLostError:
+            yield from self._drop()
+            raise
 
     def leave(self) -> Op[None]:
         """End following a program; it runs on."""

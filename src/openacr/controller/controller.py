@@ -255,6 +255,8 @@ class Controller:
         """Do what the engine leaves to Python."""
         if reason == loop_cy.REQUESTS:
             self.control.scan()
+        elif reason == loop_cy.ROOM:
+            self.streams.moves.drain()
         else:
             self.executor.attend(reason - loop_cy.THREAD)
             self.streams.settle()
@@ -497,6 +499,7 @@ class Controller:
         apply.put_state(self.memory, outside)
         give_orders(self.memory, orders)
         self.nonvolatile.restart()
+        self.streams.moves.clear()
         self.streams.disconnect_all()
         self._start_boot_programs()
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from openacr.errors import CardError
+from openacr.controller.move_queue import MoveQueue
 from openacr.map.numbers import (
     MA_FEEDRATE_OVERRIDE,
     MA_RAPID_FEEDRATE_OVERRIDE,
@@ -11,7 +11,6 @@ from openacr.map.numbers import (
     P_DPCB_COMMUNICATION_TIMEOUT,
     P_FIFO_COMMUNICATION_TIMEOUT,
 )
-from openacr.messages import NOT_SUPPORTED
 from openacr.motion.card import Card
 from openacr.motion.rows import master_parameter
 from openacr.protocol.addresses import AddressSpace
@@ -32,6 +31,7 @@ class PacketHost:
     def __init__(self, card: Card) -> None:
         self._card = card
         self._space = AddressSpace(card.memory)
+        self.moves = MoveQueue(card)
         self.read_parameter = card.memory.read
         self.write_parameter = card.memory.write
         self.write_bit = card.memory.set_bit
@@ -53,5 +53,5 @@ class PacketHost:
             self._card.memory.S[master_parameter(master) + row] = max(value, 0.0)
 
     def issue_move(self, move: Move) -> None:
-        """Binary moves need the move queue of the host interface, which is not there yet."""
-        raise CardError(NOT_SUPPORTED)
+        """Issue a move, or let it wait for room in the buffer of its master."""
+        self.moves.add(move)

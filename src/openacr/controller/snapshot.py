@@ -46,6 +46,7 @@ class Snapshot:
     execution: bytes
     stored: dict[str, bytes]
     streams: bytes
+    moves: list[bytes]
     lived_before_tk: int
 
 
@@ -58,6 +59,7 @@ def take(card: Controller) -> Snapshot:
         card.executor.state(),
         card.nonvolatile.state(),
         pickle.dumps(card.streams.state()),
+        card.streams.moves.state(),
         card.lived_tk - card.tick,
     )
 
@@ -69,6 +71,7 @@ def put_back(card: Controller, snapshot: Snapshot) -> None:
     card.system.restore(language)
     card.executor.restore(snapshot.execution)
     card.nonvolatile.restore(snapshot.stored)
+    card.streams.moves.restore(snapshot.moves)
 
 
 def put_back_streams(card: Controller, snapshot: Snapshot) -> None:

@@ -53,6 +53,7 @@ class Streams:
     ) -> None:
         self._sessions = sessions
         self._host = host
+        self.moves = host.moves
         self._press = press
         self._open: dict[int, Stream] = {}
         self._next = 1
@@ -102,7 +103,7 @@ class Streams:
 
     def accepts_input(self, number: int) -> bool:
         """False while the sender should be held back."""
-        return self._open[number].terminal.accepts_input
+        return self._open[number].terminal.accepts_input and not self.moves.is_full
 
     def is_busy(self, number: int) -> bool:
         """Whether a line of the stream is still being executed."""

@@ -32,6 +32,11 @@ from openacr.map.numbers import (
     ENGI_WATCH_COUNT,
     KRI_AXES,
     KRI_BASE,
+    KRI_MOVES_WAITING,
+    MSI_BASE,
+    MSI_DEPTH,
+    MSI_QUEUED,
+    MSI_STRIDE,
     PF_BLOCK_CONTROL,
     PF_BLOCK_MODE,
     PF_HALT_REQUEST_FLAG,
@@ -79,6 +84,7 @@ TRACE_FULL = 2
 REQUESTS = 3  # control flags of a program or PLC want something
 STOPPED = 4  # the tick is over at whose end somebody wanted to look
 WATCH = 5  # something watched has changed in the tick that is over
+ROOM = 6  # binary moves wait, and the buffer of their master has room
 THREAD = 16
 
 # How far the present tick has got (row in_tick); 0: not begun.
@@ -239,6 +245,20 @@ def requests_pending(I: I32) -> bool:
     return False
 
 
+def room_made(I: I32) -> bool:
+    """Whether a master for which binary moves wait has room in its buffer."""
+    waiting: int = I[KRI_BASE + KRI_MOVES_WAITING]
+    m: int = 0
+    while waiting:
+        if waiting & 1:
+            i: int = MSI_BASE + m * MSI_STRIDE
+            if I[i + MSI_QUEUED] <= I[i + MSI_DEPTH]:
+                return True
+        waiting = waiting >> 1
+        m += 1
+    return False
+
+
 def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
     """Run until the ticks asked for are done or somebody is needed; return the reason."""
     e: int = ENGI_BASE
@@ -248,6 +268,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
             I[e + ENGI_IN_TICK] = REQUESTS_DONE
             if requests_pending(I):
                 return REQUESTS
+        if I[e + ENGI_IN_TICK] and I[KRI_BASE + KRI_MOVES_WAITING] and room_made(I):
+            return ROOM
         if I[e + ENGI_IN_TICK]:
             number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
             thread: int = scheduler_step(F, I, S, code, nums, number)

@@ -45,6 +45,7 @@ from openacr.map.numbers import (
     MWF_GROWTH_CNT,
     MWF_PHASE_RAD,
     MWF_POINT_CNT,
+    MWF_RADIUS_SCALE,
     MWF_SLOPE_CNT,
     MWF_STRIDE,
     MWF_SWEEP_RAD,
@@ -169,11 +170,12 @@ def curve_longest_deg(F: F64, I: I32, record: int) -> float:
     return longest
 
 
-def curve_scale(I: I32, S: F32, m: int, record: int, place: int) -> float:
-    """Pulses per unit of axis `place` of the plane of a curve."""
+def curve_scale(F: F64, I: I32, S: F32, m: int, record: int, place: int) -> float:
+    """Pulses per unit of axis `place` of the plane of a curve; an ellipse stretches its unit."""
     s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
     axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
-    return axis_scale(S, axis) if axis >= 0 else 1.0
+    stretch: float = F[MWF_BASE + record * MWF_STRIDE + MWF_RADIUS_SCALE + place]
+    return axis_scale(S, axis) * stretch if axis >= 0 else stretch
 
 
 def curve_start(F: F64, I: I32, record: int, place: int) -> float:
@@ -193,8 +195,8 @@ def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, show
     q: int = MQF_BASE + record * MQF_STRIDE
     a: int = I[i + MQI_PLANE]
     b: int = I[i + MQI_PLANE + 1]
-    scale_a: float = curve_scale(I, S, m, record, 0)
-    scale_b: float = curve_scale(I, S, m, record, 1)
+    scale_a: float = curve_scale(F, I, S, m, record, 0)
+    scale_b: float = curve_scale(F, I, S, m, record, 1)
     x0: float = curve_start(F, I, record, 0) / scale_a
     y0: float = curve_start(F, I, record, 1) / scale_b
     x1: float = x0 + F[q + MQF_DELTA_CNT + a] / scale_a
@@ -237,9 +239,9 @@ def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     """
     i: int = MQI_BASE + record * MQI_STRIDE
     q: int = MQF_BASE + record * MQF_STRIDE
-    scale_x: float = curve_scale(I, S, m, record, 0)
-    scale_y: float = curve_scale(I, S, m, record, 1)
-    scale_z: float = curve_scale(I, S, m, record, 2)
+    scale_x: float = curve_scale(F, I, S, m, record, 0)
+    scale_y: float = curve_scale(F, I, S, m, record, 1)
+    scale_z: float = curve_scale(F, I, S, m, record, 2)
     ax: float = -curve_start(F, I, record, 0) / scale_x
     ay: float = -curve_start(F, I, record, 1) / scale_y
     az: float = -curve_start(F, I, record, 2) / scale_z

@@ -23,6 +23,11 @@ from openacr.kernel.hold_cy import (
 from openacr.kernel.hsint_cy import HSINT_NONE, hsint_begin, hsint_end, hsint_step
 from openacr.kernel.interrupt_cy import cut_end, interrupt_step, move_barred, response_period
 from openacr.kernel.path_cy import (
+    MARK_BLOCK_SKIP,
+    MARK_COUNT_DOWN,
+    MARK_COUNT_UP,
+    MARK_INTERRUPT,
+    MARK_OVERRIDE_LOCKED,
     master_limit,
     master_place,
     master_word,
@@ -70,6 +75,7 @@ from openacr.map.numbers import (
     MF1_FVEL_ZERO_PENDING,
     MF1_IN_MOTION,
     MF1_INCREMENT_COUNT,
+    MF1_INTERRUPT_ON_MOVE,
     MF1_JERKING,
     MF1_KILL_ALL_MOVES_REQUEST,
     MF1_MOVE_BUFFERED,
@@ -93,6 +99,7 @@ from openacr.map.numbers import (
     MQI_BASE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
+    MQI_MARKS,
     MQI_RAPID,
     MQI_SEEK_AXIS,
     MQI_SEEK_MODE,
@@ -184,22 +191,40 @@ def move_flags(I: I32, S: F32, m: int, record: int) -> None:
     flags: int = I[word] & ~(MF1_FVEL_ZERO_ACTIVE | MF1_FOV_ROV_LOCK_ACTIVE)
     if flags & MF1_FVEL_ZERO_PENDING:
         flags |= MF1_FVEL_ZERO_ACTIVE
-    if flags & MF1_FOV_ROV_LOCK_PENDING:
+    marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
+    if flags & MF1_FOV_ROV_LOCK_PENDING or marks & MARK_OVERRIDE_LOCKED:
         flags |= MF1_FOV_ROV_LOCK_ACTIVE
+    if marks & MARK_INTERRUPT:
+        flags |= MF1_INTERRUPT_ON_MOVE
     I[word] = flags
     if I[word2] & MF2_RAPID_PENDING:
         I[MQI_BASE + record * MQI_STRIDE + MQI_RAPID] = 1
     counter: int = MA_BASE + m * MA_STRIDE + MA_MOVE_COUNTER
-    if flags & MF1_INCREMENT_COUNT and I[counter] < 2147483647:
-        I[counter] += 1
-    if flags & MF1_DECREMENT_COUNT and I[counter] > -2147483647:
-        I[counter] -= 1
+    counted: int = I[counter] + move_count(flags, marks)
+    if -2147483647 <= counted and counted <= 2147483647:
+        I[counter] = counted
+
+
+def move_count(flags: int, marks: int) -> int:
+    """What a move adds to the counter: as its packet says, else as the flags do."""
+    if marks & MARK_COUNT_UP:
+        return 1
+    if marks & MARK_COUNT_DOWN:
+        return -1
+    step: int = 0
+    if flags & MF1_INCREMENT_COUNT:
+        step += 1
+    if flags & MF1_DECREMENT_COUNT:
+        step -= 1
+    return step
 
 
 def move_skipped(I: I32, m: int) -> bool:
     """Block skip: with Check and Input set the next move is dropped; Check clears."""
     word2: int = master_word2(m)
     flags: int = I[word2]
+    if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_MARKS] & MARK_BLOCK_SKIP:
+        flags |= MF2_BLOCK_SKIP_CHECK
     if not flags & MF2_BLOCK_SKIP_CHECK:
         return False
     I[word2] = flags & ~MF2_BLOCK_SKIP_CHECK

@@ -53,6 +53,7 @@ from openacr.map.numbers import (
     MQI_BASE,
     MQI_CURVE,
     MQI_CURVED,
+    MQI_MARKS,
     MQI_RAPID,
     MQI_RELATIVE,
     MQI_SLAVES,
@@ -78,6 +79,12 @@ from openacr.views import F32, F64, I32
 __all__ = ["move_directions", "move_shape", "path_slope", "path_turn_deg"]
 
 SLAVE_COUNT = 16
+# What a binary move brings along for its own time (row marks).
+MARK_OVERRIDE_LOCKED = 1
+MARK_COUNT_UP = 2
+MARK_COUNT_DOWN = 4
+MARK_INTERRUPT = 8
+MARK_BLOCK_SKIP = 16
 FAR_U = 1e30
 
 
@@ -113,6 +120,8 @@ def move_override(I: I32, S: F32, m: int, record: int) -> float:
     """FOV, or ROV of a rapid move; 1 while they are locked."""
     p: int = MA_BASE + m * MA_STRIDE
     if I[master_word(m)] & MF1_FOV_ROV_LOCK_ACTIVE:
+        return 1.0
+    if I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] & MARK_OVERRIDE_LOCKED:
         return 1.0
     if I[MQI_BASE + record * MQI_STRIDE + MQI_RAPID]:
         return S[p + MA_RAPID_FEEDRATE_OVERRIDE]

@@ -17,6 +17,7 @@ from openacr.map.numbers import (
     MWF_BASE,
     MWF_PHASE_RAD,
     MWF_POINT_CNT,
+    MWF_RADIUS_SCALE,
     MWF_STRIDE,
     MWF_SWEEP_RAD,
 )
@@ -42,8 +43,8 @@ def write(card: Card, program: int, record: int, parts: Sequence[Part]) -> None:
             case Sine(axis):
                 _mark(card, program, record, axis, MQI_CURVED)
                 _write_sine(card, program, record, part)
-            case Circle(axes, _, center, direction):
-                _write_plane(card, program, record, axes, center, direction)
+            case Circle(axes, _, center, direction, stretch):
+                _write_plane(card, program, record, axes, center, direction, stretch)
             case SpaceArc(axes, _, mid):
                 _write_plane(card, program, record, axes, mid, curve_cy.CURVE_SPACE)
 
@@ -77,12 +78,15 @@ def _write_plane(
     axes: Sequence[int],
     point_u: Sequence[float],
     curve: int,
+    stretch: Sequence[float] = (1.0, 1.0, 1.0),
 ) -> None:
     rows = MQI_BASE + record * MQI_STRIDE
     if card.memory.I[rows + MQI_CURVE] or len(set(axes)) < len(axes):
         raise CardError(INVALID_ARC)
     card.memory.I[rows + MQI_CURVE] = curve
     for place, (axis, value) in enumerate(zip(axes, point_u, strict=True)):
+        scaling = MWF_BASE + record * MWF_STRIDE + MWF_RADIUS_SCALE + place
+        card.memory.F[scaling] = stretch[place]
         _mark(card, program, record, axis, MQI_CURVED)
         card.memory.I[rows + MQI_PLANE + place] = slave_of(card, program, axis)
         point = MWF_BASE + record * MWF_STRIDE + MWF_POINT_CNT + place

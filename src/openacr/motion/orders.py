@@ -43,6 +43,7 @@ class Circle:
     target_u: tuple[float, float]
     center_u: tuple[float, float]
     direction: Direction
+    radius_scale: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,6 +32,7 @@ from openacr.map.numbers import (
     MQI_CURVE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
+    MQI_MARKS,
     MQI_RAPID,
     MQI_RELATIVE,
     MQI_SEEK_AXIS,
@@ -76,7 +77,7 @@ _COPIED = (
     (MSF_FVEL_UPS, MQF_FVEL_UPS),
     (MSF_IVEL_UPS, MQF_IVEL_UPS),
 )
-_CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS)
+_CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS, MQI_MARKS)
 _move_shape = pick(path_cy.move_shape)
 _move_directions = pick(path_cy.move_directions)
 _path_turn_deg = pick(path_cy.path_turn_deg)

@@ -141,6 +141,7 @@ def _scaled_circle(card: Card, circle: Circle) -> Circle:
         (_scale(card, first, target[0]), _scale(card, second, target[1])),
         (_scale(card, first, center[0]), _scale(card, second, center[1])),
         _other_way(circle.direction) if is_mirrored else circle.direction,
+        circle.radius_scale,
     )
 
 

@@ -86,6 +86,7 @@ MOVE = HiddenBlock(
         "hsint_axis",  # HSINT: axis + 1
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
+        "marks",  # of a binary move: override lock, counter, interrupt, block skip
     ),
 )
 
@@ -101,6 +102,7 @@ CURVE = HiddenBlock(
         ("end_cnt", SLAVES),  # value of the wave at its end
         ("slope_cnt", SLAVES),  # of the base, over the whole move
         ("point_cnt", 3),  # centre of CIRCW and CIRCCW, mid point of TARC
+        ("radius_scale", 3),  # of the axes of a circle: an ellipse
     ),
 )
 
@@ -264,5 +266,13 @@ KERNEL = HiddenBlock(
     prefix="KR",
     count=1,
     doubles=("millisecond_phase",),
-    ints=("inputs_old", "slow_ticks", "axes", "masters", "adc_mode", "adc_channels"),
+    ints=(
+        "inputs_old",
+        "slow_ticks",
+        "axes",
+        "masters",
+        "adc_mode",
+        "adc_channels",
+        "moves_waiting",
+    ),
 )

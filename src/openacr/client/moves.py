@@ -1,0 +1,77 @@
+"""Binary moves, sent ahead of the motion as far as the buffer of the card reaches.
+
+Every packet makes the move counter of the master count up when its move starts, so
+
+    waiting = sent - started
+
+is known without an answer to each move. While it is below the depth of the buffer the card
+takes moves at once, and other requests on the same connection are never held up by them.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+
+from openacr.client import values
+from openacr.client.talk import Op, Pause, Talk
+from openacr.errors import UserError
+from openacr.map.numbers import MA_BASE, MA_MOVE_COUNTER, MA_STRIDE
+from openacr.protocol.move import Code0, Move
+
+DEPTH = 10  # moves that wait on a card with MBUF ON and no DIM MBUF
+POLL_S = 0.002
+
+
+@dataclass(slots=True)
+class MoveStream:
+    """The moves of one master on their way to a card with a buffer of `depth` moves."""
+
+    master: int = 0
+    depth: int = DEPTH
+    sent: int = 0
+    started: int = 0
+    origin: int | None = None  # of the move counter
+
+    @property
+    def waiting(self) -> int:
+        """Moves that have been sent and have not started."""
+        return self.sent - self.started
+
+    @property
+    def counter(self) -> int:
+        """The parameter that counts."""
+        return MA_BASE + self.master * MA_STRIDE + MA_MOVE_COUNTER
+
+    def update(self, talk: Talk) -> Op[int]:
+        """Ask how many moves have started."""
+        count = int((yield from values.read(talk, self.counter)))
+        if self.origin is None:
+            self.origin = count
+        self.started = count - self.origin
+        return self.started
+
+    def send(self, talk: Talk, moves: Iterable[Move]) -> Op[int]:
+        """Send moves, each when there is room for it; how many they were."""
+        source = iter(moves)
+        if self.origin is None:
+            yield from self.update(talk)
+        before = self.sent
+        while batch := list(islice(source, max(self.depth - self.waiting, 1))):
+            while self.waiting >= self.depth:
+                yield from self._make_room(talk)
+            yield from talk.tell(self._counted(batch))
+            self.sent += len(batch)
+        return self.sent - before
+
+    def _make_room(self, talk: Talk) -> Op[None]:
+        before = self.started
+        if (yield from self.update(talk)) == before:
+            yield Pause(POLL_S)
+
+    def _counted(self, moves: Iterable[Move]) -> Iterator[Move]:
+        """The moves for this master, counting up."""
+        for move in moves:
+            if move.master != self.master:
+                raise UserError(f"a move of master {move.master} on the stream of {self.master}")
+            codes = bytes((move.codes[0] & ~Code0.COUNT_DOWN | Code0.COUNTER, *move.codes[1:]))
+            yield replace(move, codes=codes)

@@ -1,0 +1,133 @@
+"""Binary moves that have arrived and wait for room in the buffer of their master.
+
+A packet is not answered, so nothing may be lost: what does not fit waits here in the order
+of arrival, and the engine comes back in the tick in which a buffer has room again. While
+MOST moves of a master wait, the streams read nothing more; the sender is held back by its
+transport. A refused move (killed, at a limit) takes those behind it along, since they would
+lead from the wrong place.
+"""
+
+import logging
+from collections import deque
+from collections.abc import Iterator
+
+from openacr.errors import CardError
+from openacr.map.numbers import KRI_BASE, KRI_MOVES_WAITING
+from openacr.motion import host_moves, moves
+from openacr.motion.card import Card
+from openacr.motion.host_moves import Arc, HostMove
+from openacr.motion.orders import Direction
+from openacr.motion.permits import scale_of
+from openacr.protocol.move import Code1, Code3, Curve, Move
+from openacr.protocol.packet import PacketError
+
+log = logging.getLogger(__name__)
+MOST = 64
+_WAITING = KRI_BASE + KRI_MOVES_WAITING
+
+
+class MoveQueue:
+    """The waiting moves of all masters."""
+
+    def __init__(self, card: Card) -> None:
+        self._card = card
+        self._waiting: dict[int, deque[Move]] = {}
+
+    @property
+    def is_full(self) -> bool:
+        """Whether the senders have to be held back."""
+        return any(len(waiting) >= MOST for waiting in self._waiting.values())
+
+    def add(self, move: Move) -> None:
+        """Issue a move, behind those that wait already."""
+        self._waiting.setdefault(move.master, deque()).append(move)
+        self._issue(move.master)
+
+    def drain(self) -> None:
+        """Issue what has found room."""
+        for master in list(self._waiting):
+            self._issue(master)
+
+    def _issue(self, master: int) -> None:
+        waiting = self._waiting[master]
+        try:
+            while waiting and self._has_room(master):
+                host_moves.issue(self._card, _host_move(self._card, waiting.popleft()))
+        except (CardError, PacketError) as refused:
+            log.debug("master %d: %s; %d moves behind it dropped", master, refused, len(waiting))
+            waiting.clear()
+        if not waiting:
+            del self._waiting[master]
+        self._note()
+
+    def _has_room(self, master: int) -> bool:
+        return master >= self._card.model.masters or moves.has_room(self._card, master)
+
+    def _note(self) -> None:
+        """Tell the engine which masters are waited for."""
+        self._card.memory.I[_WAITING] = sum(1 << master for master in self._waiting)
+
+    def clear(self) -> None:
+        """Forget all waiting moves, as at power-up."""
+        self._waiting.clear()
+        self._note()
+
+    def state(self) -> list[bytes]:
+        """The waiting moves, for a snapshot."""
+        return [move.encode() for waiting in self._waiting.values() for move in waiting]
+
+    def restore(self, state: list[bytes]) -> None:
+        """Take over what `state` returned."""
+        self._waiting.clear()
+        for data in state:
+            move = Move.decode(data)
+            self._waiting.setdefault(move.master, deque()).append(move)
+        self._note()
+
+
+def _host_move(card: Card, move: Move) -> HostMove:
+    """What a packet asks of a card in its present mode."""
+    if move.curve in (Curve.NURB, Curve.SPLINE):
+        raise PacketError(f"{move.curve.name} moves are not there")
+    profile = move.profile(host_moves.has_rapid_modes(card, move.master))
+    return HostMove(
+        master=move.master,
+        targets_cnt=dict(_pulses(card, move, move.targets)),
+        relative=bool(move.code3 & Code3.INCREMENTAL_TARGET),
+        arc=_arc(card, move) if move.curve is Curve.ARC else None,
+        vel_ups=move.vel,
+        acc_ups2=move.acc,
+        fvel_ups=move.fvel,
+        stop_ramp=profile.stop_ramp,
+        final_velocity_zero=profile.final_velocity_zero,
+        rapid=profile.rapid,
+        override_locked=profile.override_locked,
+        count=move.counter_step,
+        interrupt=bool(move.code1 & Code1.INTERRUPT),
+        block_skip=bool(move.code3 & Code3.BLOCK_SKIP),
+    )
+
+
+def _pulses(
+    card: Card, move: Move, values: tuple[tuple[int, int | float], ...]
+) -> Iterator[tuple[int, float]]:
+    """Integers are pulses, floats units of the axis of the slave."""
+    for slave, value in values:
+        axis = host_moves.slave_axis(card, move.master, slave)
+        yield slave, value * (scale_of(card, axis) if isinstance(value, float) else 1.0)
+
+
+def _arc(card: Card, move: Move) -> Arc:
+    if move.centers is None:
+        raise PacketError("an arc without centers")
+    slaves = move.arc_slaves
+    pair = ((slaves[0], move.centers[0]), (slaves[1], move.centers[1]))
+    center = [value for _, value in _pulses(card, move, pair)]
+    is_ccw = bool(move.code1 & Code1.COUNTERCLOCKWISE)
+    return Arc(
+        slaves,
+        (center[0], center[1]),
+        Direction.COUNTER_CLOCKWISE if is_ccw else Direction.CLOCKWISE,
+        relative_center=bool(move.code3 & Code3.INCREMENTAL_CENTER),
+        radius_scale=move.scaling or (1.0, 1.0),
+    )

@@ -1,0 +1,196 @@
+"""Moves that a host sends as packets: into the same buffer, but past the language.
+
+Targets are pulses of slaves; ROTARY, Sinusoidal Mode and the transformations of programmed
+paths do not act on them. A velocity or ramp that comes with a move stays for the later
+ones, ramps at the end and marks are the move's own.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from openacr.errors import CardError
+from openacr.kernel.path_cy import (
+    MARK_BLOCK_SKIP,
+    MARK_COUNT_DOWN,
+    MARK_COUNT_UP,
+    MARK_INTERRUPT,
+    MARK_OVERRIDE_LOCKED,
+)
+from openacr.map.numbers import (
+    MA_MOVE_COUNTER,
+    MA_USER_VELOCITY,
+    MF2_ENABLE_RAPID_MOVE_MODES,
+    MQF_BASE,
+    MQF_DEC_UPS2,
+    MQF_FVEL_UPS,
+    MQF_STP_UPS2,
+    MQF_STRIDE,
+    MQI_BASE,
+    MQI_MARKS,
+    MQI_RAPID,
+    MQI_STRIDE,
+    MSF_ACC_UPS2,
+    MSF_DEC_UPS2,
+    MSF_FVEL_UPS,
+)
+from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
+from openacr.motion.card import Card
+from openacr.motion.moves import start_cnt
+from openacr.motion.orders import Circle, Direction, Part
+from openacr.motion.permits import (
+    master_moving,
+    needs_free_way,
+    needs_moves,
+    needs_on,
+    scale_of,
+)
+from openacr.motion.records import Way, append
+from openacr.motion.rows import master_parameter, master_reals, master_word2
+
+LONGEST_COUNT = 2**31 - 1
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A circle of two slaves round a centre in pulses, stretched along its axes."""
+
+    slaves: tuple[int, int]
+    center_cnt: tuple[float, float]
+    direction: Direction
+    relative_center: bool = False
+    radius_scale: tuple[float, float] = (1.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HostMove:
+    """One move of a master as a packet describes it."""
+
+    master: int
+    targets_cnt: Mapping[int, float] = field(default_factory=dict)  # by slave
+    relative: bool = False
+    arc: Arc | None = None
+    vel_ups: float | None = None
+    acc_ups2: float | None = None
+    fvel_ups: float | None = None
+    stop_ramp: bool = False
+    final_velocity_zero: bool = False
+    rapid: bool = False
+    override_locked: bool = False
+    count: int = 0
+    interrupt: bool = False
+    block_skip: bool = False
+
+    @property
+    def marks(self) -> int:
+        """What the kernel keeps with the move."""
+        counts = MARK_COUNT_UP if self.count > 0 else MARK_COUNT_DOWN if self.count < 0 else 0
+        return (
+            counts
+            | (MARK_OVERRIDE_LOCKED if self.override_locked else 0)
+            | (MARK_INTERRUPT if self.interrupt else 0)
+            | (MARK_BLOCK_SKIP if self.block_skip else 0)
+        )
+
+
+def has_rapid_modes(card: Card, master: int) -> bool:
+    """Whether move packets of a master carry rapid modes (Enable Rapid Move Modes)."""
+    return bool(card.memory.I[master_word2(master)] & MF2_ENABLE_RAPID_MOVE_MODES)
+
+
+def slave_axis(card: Card, master: int, slave: int) -> int:
+    """The axis of a slave; `Undefined symbol` if nothing is attached there."""
+    for one in card.attachments.slaves(_program(card, master)):
+        if one.number == slave:
+            return one.axis
+    raise CardError(UNDEFINED_SYMBOL)
+
+
+def _program(card: Card, master: int) -> int:
+    program = card.attachments.program(master) if master < card.model.masters else None
+    if program is None:
+        raise CardError(NO_MASTER_ATTACHED)
+    return program
+
+
+def issue(card: Card, move: HostMove) -> None:
+    """Start or buffer the move; the caller has made sure that there is room."""
+    program = _program(card, move.master)
+    needs_moves(card, move.master)
+    ways = _ways(card, move)
+    for way in ways:
+        needs_on(card, way.axis)
+        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    _take_profile(card, move)
+    if move.arc is None and not any(way.delta_cnt for way in ways):
+        if not master_moving(card, move.master):
+            _count_at_once(card, move)
+            return
+    parts: list[Part] = [_circle(card, move, ways)] if move.arc else []
+    record = append(card, program, move.master, ways, parts)
+    reals, ints = MQF_BASE + record * MQF_STRIDE, MQI_BASE + record * MQI_STRIDE
+    ramp = card.memory.F[reals + MQF_DEC_UPS2]
+    card.memory.F[reals + MQF_STP_UPS2] = ramp if move.stop_ramp else 0.0
+    if move.final_velocity_zero:
+        card.memory.F[reals + MQF_FVEL_UPS] = 0.0
+    card.memory.I[ints + MQI_RAPID] = int(move.rapid)
+    card.memory.I[ints + MQI_MARKS] = move.marks
+
+
+def _count_at_once(card: Card, move: HostMove) -> None:
+    """A move that leads nowhere is over when it comes."""
+    row = master_parameter(move.master) + MA_MOVE_COUNTER
+    counted = card.memory.I[row] + move.count
+    if abs(counted) <= LONGEST_COUNT:
+        card.memory.I[row] = counted
+
+
+def _take_profile(card: Card, move: HostMove) -> None:
+    """Velocity, ramps and final velocity are those of the master from now on."""
+    given = (move.vel_ups, move.acc_ups2, move.fvel_ups)
+    if any(value is not None and value < 0.0 for value in given):
+        raise CardError(INVALID_ARGUMENT)
+    reals = master_reals(move.master)
+    if move.vel_ups is not None:
+        card.memory.S[master_parameter(move.master) + MA_USER_VELOCITY] = move.vel_ups
+    if move.acc_ups2 is not None:
+        card.memory.F[reals + MSF_ACC_UPS2] = move.acc_ups2
+        card.memory.F[reals + MSF_DEC_UPS2] = move.acc_ups2
+    if move.fvel_ups is not None:
+        card.memory.F[reals + MSF_FVEL_UPS] = move.fvel_ups
+
+
+def _ways(card: Card, move: HostMove) -> list[Way]:
+    here = not master_moving(card, move.master)
+    targets = dict(move.targets_cnt)
+    for slave in move.arc.slaves if move.arc else ():
+        if slave not in targets:  # stays where it is: half of a circle's target is enough
+            axis = slave_axis(card, move.master, slave)
+            start = start_cnt(card, move.master, slave, axis, here=here)
+            targets[slave] = 0.0 if move.relative else start
+    found = []
+    for slave, value in sorted(targets.items()):
+        axis = slave_axis(card, move.master, slave)
+        start = start_cnt(card, move.master, slave, axis, here=here)
+        delta = value if move.relative else value - start
+        found.append(Way(slave, axis, start, start + delta, delta, relative=move.relative))
+    return found
+
+
+def _circle(card: Card, move: HostMove, ways: list[Way]) -> Circle:
+    arc = move.arc
+    if arc is None:
+        raise TypeError(move)
+    by_slave = {way.slave: way for way in ways}
+    pair = [by_slave[slave] for slave in arc.slaves]
+    scales = [scale_of(card, way.axis) for way in pair]
+    center = [
+        (value + (way.start_cnt if arc.relative_center else 0.0)) / scale
+        for way, value, scale in zip(pair, arc.center_cnt, scales, strict=True)
+    ]
+    return Circle(
+        (pair[0].axis, pair[1].axis),
+        (pair[0].target_cnt / scales[0], pair[1].target_cnt / scales[1]),
+        (center[0], center[1]),
+        arc.direction,
+        arc.radius_scale,
+    )

@@ -1,0 +1,302 @@
+"""Moves sent as packets, from the bytes to the encoder."""
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from tests.controller.hosts import Host
+
+from openacr.controller import Controller
+from openacr.map import numbers as at
+from openacr.protocol.bits import SetBit
+from openacr.protocol.move import Code0, Code1, Code3, Move
+from openacr.protocol.override import FeedrateOverride
+from openacr.protocol.stream import StreamKind
+from openacr.protocol.terminal import ControlKey
+
+IN_MOTION, RAPID_MODES, SPIRAL, BLOCK_SKIP_CHECK, BLOCK_SKIP_INPUT = 516, 2053, 2072, 2048, 2049
+VELOCITY, COUNTER = 8193, 8208
+SET_UP = (
+    "PROG0",
+    "ATTACH MASTER0",
+    'ATTACH SLAVE0 AXIS0 "X"',
+    'ATTACH SLAVE1 AXIS1 "Y"',
+    'ATTACH SLAVE2 AXIS2 "Z"',
+    "PPU X1000 Y1000 Z1000",
+    "ACC 0 DEC 0 STP 0 VEL 100 MBUF ON",
+)
+
+
+class Sender:
+    """A host that sends moves over the binary port."""
+
+    def __init__(self, *lines: str) -> None:
+        self.card = Controller()
+        console = Host(self.card)
+        console.type(*SET_UP, *lines)
+        self.host = Host(self.card, StreamKind.PACKETS)
+
+    def move(self, targets: Mapping[int, int | float], **fields: Any) -> "Sender":
+        assert self.host.send(Move.of(targets, **fields).encode()) == ""
+        return self
+
+    def rest(self, limit_s: float = 20.0) -> "Sender":
+        """Let all moves end."""
+        assert self.card.until(IN_MOTION, False, timeout_s=limit_s)
+        return self
+
+    def ticks(self, count: int) -> "Sender":
+        self.card.advance(count)
+        return self
+
+    @property
+    def at(self) -> tuple[float, ...]:
+        """Commanded positions of X, Y, Z in pulses, not rounded."""
+        rows = (at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_POSITION_CNT for axis in range(3))
+        return tuple(self.card.memory.F[row] for row in rows)
+
+    def peak(self, ticks: int) -> float:
+        """The highest vector velocity of the next ticks."""
+        found = 0.0
+        for _ in range(ticks):
+            self.card.advance(1)
+            found = max(found, self.card.p[VELOCITY])
+        return found
+
+
+def test_integers_are_pulses_and_floats_units() -> None:
+    sender = Sender()
+    assert sender.move({0: 1500, 1: -700}).rest().at == (1500, -700, 0)
+    assert sender.move({0: 2.5, 2: 1.0}).rest().at == (2500, -700, 1000)
+
+
+def test_relative_targets_count_from_the_end_of_the_move_before() -> None:
+    sender = Sender()
+    sender.move({0: 1000}).move({0: 500, 1: 250}, code3=Code3.INCREMENTAL_TARGET)
+    assert sender.rest().at == (1500, 250, 0)
+
+
+def test_velocity_and_ramps_of_a_packet_stay_for_later_moves() -> None:
+    sender = Sender()
+    sender.move({0: 1000}, vel=5.0, acc=200.0)
+    assert sender.peak(300) == 5.0
+    assert sender.card.p[8192 + at.MA_USER_VELOCITY] == 5.0
+    sender.rest().move({0: 0})
+    assert sender.peak(300) == 5.0
+
+
+@pytest.mark.req("BIN-117", "BIN-119")
+def test_the_stop_bit_ramps_to_the_final_velocity_or_to_zero() -> None:
+    sender = Sender("DEC 100", "FVEL 2")
+    sender.move({0: 1000}, vel=5.0, code0=Code0.STP_RAMP)
+    while sender.card.bit[IN_MOTION]:
+        last = sender.card.p[VELOCITY]
+        sender.ticks(1)
+    assert last == pytest.approx(2.0, abs=0.06)
+    sender.move({0: 0}, code0=Code0.STP_RAMP | Code0.FVEL_LOCKOUT)
+    while sender.card.bit[IN_MOTION]:
+        last = sender.card.p[VELOCITY]
+        sender.ticks(1)
+    assert last < 0.06
+
+
+@pytest.mark.req("BIN-118")
+def test_a_locked_move_is_not_overridden_and_the_next_one_is() -> None:
+    sender = Sender()
+    sender.host.send(FeedrateOverride.of([0], 0.5).encode())
+    sender.move({0: 500}, vel=4.0, code0=Code0.OVERRIDE_LOCKOUT)
+    assert sender.peak(200) == 4.0
+    sender.rest().move({0: 0})
+    assert sender.peak(200) == 2.0
+
+
+@pytest.mark.req("BIN-116", "BIN-142")
+def test_rapid_modes_are_read_only_with_their_flag_set() -> None:
+    sender = Sender("ROV 0.25")
+    both = Code0.MOVE_MODE_BIT_0 | Code0.MOVE_MODE_BIT_1
+    sender.move({0: 500}, vel=4.0, code0=both)
+    assert sender.peak(200) == 4.0
+    sender.rest()
+    sender.host.send(SetBit(RAPID_MODES).encode())
+    sender.move({0: 0}, code0=both)
+    assert sender.peak(200) == 1.0
+
+
+@pytest.mark.req("BIN-124")
+def test_the_counter_counts_moves_that_have_started() -> None:
+    sender = Sender("P8208=0")
+    up, down = Code0.COUNTER, Code0.COUNTER | Code0.COUNT_DOWN
+    sender.move({0: 1000}, vel=10.0, code0=up).move({0: 2000}, code0=up).move({0: 0}, code0=0)
+    sender.ticks(2)
+    assert sender.card.p[COUNTER] == 1
+    sender.rest()
+    assert sender.card.p[COUNTER] == 2
+    sender.move({0: 100}, code0=down).rest()
+    assert sender.card.p[COUNTER] == 1
+    sender.move({0: 100}, code0=up)  # leads nowhere and is over at once
+    assert sender.card.p[COUNTER] == 2
+
+
+@pytest.mark.req("BIN-135")
+def test_a_move_with_block_skip_is_skipped_while_the_input_is_set() -> None:
+    sender = Sender()
+    sender.host.send(SetBit(BLOCK_SKIP_INPUT).encode())
+    sender.move({0: 100}, code3=Code3.BLOCK_SKIP).move({1: 100}).rest()
+    assert sender.at == (0, 100, 0)
+    assert not sender.card.bit[BLOCK_SKIP_CHECK]
+
+
+@pytest.mark.req("BIN-126")
+def test_a_move_can_interrupt_the_host_when_it_starts() -> None:
+    sender = Sender()
+    sender.move({0: 1000}, vel=10.0).move({0: 2000}, code1=Code1.INTERRUPT)
+    sender.ticks(10)
+    assert not sender.card.bit[538]
+    sender.rest()
+    assert sender.card.bit[538]
+
+
+def track(sender: Sender) -> list[tuple[float, ...]]:
+    """Positions of every tick until the rest."""
+    found = [sender.at]
+    while sender.card.bit[IN_MOTION]:
+        sender.ticks(1)
+        found.append(sender.at)
+    return found
+
+
+@pytest.mark.req("BIN-143", "BIN-149", "BIN-150")
+@pytest.mark.parametrize(("plane", "axes"), [(0, (0, 1)), (1, (1, 2)), (2, (2, 0))])
+def test_an_arc_goes_round_its_centre_in_its_plane(plane: int, axes: tuple[int, int]) -> None:
+    sender = Sender()
+    sender.move({axes[0]: 1000}).rest()
+    sender.move(
+        {axes[0]: 0, axes[1]: 1000},
+        vel=5.0,
+        centers=(0, 0),
+        code1=plane << 6 | Code1.COUNTERCLOCKWISE,
+    )
+    points = track(sender)
+    for point in points:
+        assert math.hypot(point[axes[0]], point[axes[1]]) == pytest.approx(1000, abs=1e-6)
+        assert point[axes[1]] >= -1e-6  # a quarter, not three
+    assert (points[-1][axes[0]], points[-1][axes[1]]) == (0, 1000)
+    assert len(points) == pytest.approx(math.pi / 2 / 5.0 / 0.0005, abs=2)
+
+
+@pytest.mark.req("BIN-144", "BIN-151")
+def test_equal_ends_make_a_full_circle_and_other_slaves_a_helix() -> None:
+    sender = Sender()
+    sender.move({0: 1000}).rest()
+    sender.move({0: 1000, 1: 0, 2: 600}, vel=20.0, centers=(0, 0))
+    points = track(sender)
+    assert min(point[0] for point in points) == pytest.approx(-1000, abs=1)
+    assert min(point[1] for point in points[: len(points) // 3]) < -500  # clockwise
+    turned = [math.atan2(-y, x) % (2 * math.pi) for x, y, _ in points[1:-1]]
+    assert all(
+        z == pytest.approx(600 * angle / (2 * math.pi), abs=0.5)
+        for angle, (_, _, z) in zip(turned, points[1:-1], strict=True)
+    )
+    assert points[-1] == (1000, 0, 600)
+
+
+@pytest.mark.req("BIN-152")
+def test_a_start_beside_the_arc_jumps_onto_it_or_spirals_in_spiral_mode() -> None:
+    arc = {"vel": 5.0, "centers": (0, 0), "code1": Code1.COUNTERCLOCKWISE}
+    sender = Sender()
+    sender.move({0: 1200}).rest().move({0: 0, 1: 1000}, **arc)
+    assert {round(math.hypot(x, y)) for x, y, _ in track(sender)[1:]} == {1000}
+    sender = Sender()
+    sender.host.send(SetBit(SPIRAL).encode())
+    sender.move({0: 1200}).rest().move({0: 0, 1: 1000}, **arc)
+    radii = [math.hypot(x, y) for x, y, _ in track(sender)]
+    assert radii == sorted(radii, reverse=True)
+    assert max(a - b for a, b in pairwise(radii)) < 1
+
+
+@pytest.mark.req("BIN-153")
+def test_scaled_radii_make_an_ellipse() -> None:
+    sender = Sender()
+    sender.move({0: 2000}).rest()
+    sender.move(
+        {0: 2000, 1: 0}, vel=20.0, centers=(0, 0), scaling=(2.0, 0.5), code1=Code1.COUNTERCLOCKWISE
+    )
+    points = track(sender)
+    for x, y, _ in points:
+        assert (x / 2000) ** 2 + (y / 500) ** 2 == pytest.approx(1.0, abs=1e-9)
+    assert max(y for _, y, _ in points) == pytest.approx(500, abs=0.1)
+
+
+def test_relative_centres_count_from_where_the_arc_starts() -> None:
+    sender = Sender()
+    sender.move({0: 1000}).rest()
+    codes = {"code1": Code1.COUNTERCLOCKWISE, "code3": Code3.INCREMENTAL_CENTER}
+    sender.move({0: 0, 1: 1000}, vel=5.0, centers=(-1000, 0), **codes)
+    assert all(math.hypot(x, y) == pytest.approx(1000, abs=1e-6) for x, y, _ in track(sender))
+
+
+def test_nothing_is_lost_and_nothing_waits_when_a_host_sends_as_fast_as_it_can() -> None:
+    sender = Sender("P8208=0")
+    for step in range(1, 501):
+        while not sender.card.accepts_input(sender.host.stream):
+            sender.ticks(1)
+        sender.move({0: 10 * step}, vel=10.0, code0=Code0.COUNTER)
+    assert sender.rest().at == (5000, 0, 0)
+    assert sender.card.p[COUNTER] == 500
+
+
+def test_a_chain_of_waiting_moves_runs_without_a_gap() -> None:
+    sender = Sender()
+    for step in range(1, 61):
+        sender.move({0: 10 * step}, vel=10.0)
+    start = sender.card.tick
+    sender.rest()
+    assert sender.card.tick - start == pytest.approx(600 / 10 / 1000 / 0.0005, abs=2)
+
+
+@pytest.mark.parametrize("flag", [522, 8467])
+def test_a_kill_drops_the_moves_that_wait(flag: int) -> None:
+    sender = Sender()
+    for step in range(1, 61):
+        sender.move({0: 1000 * step}, vel=10.0)
+    sender.ticks(100)
+    sender.host.send(SetBit(flag).encode())
+    sender.ticks(200)
+    assert not sender.card.bit[IN_MOTION]
+    stopped = sender.at
+    sender.card.press(ControlKey.CTRL_Y)
+    sender.ticks(500)
+    assert sender.at == stopped
+    assert sender.move({0: 0}).rest().at == (0, 0, 0)
+
+
+def test_waiting_moves_are_part_of_a_snapshot() -> None:
+    sender = Sender()
+    for step in range(1, 41):
+        sender.move({0: 100 * step}, vel=10.0)
+    sender.ticks(20)
+    kept = sender.card.snapshot()
+    first = sender.rest().card.digest()
+    sender.card.restore(kept)
+    assert sender.rest().card.digest() == first
+    assert sender.at == (4000, 0, 0)
+
+
+@pytest.mark.parametrize(
+    "refused",
+    [
+        Move.of({0: 1}, master=5),
+        Move.of({7: 1}),
+        Move.of({0: 1, 1: 1}, centers=(5, 5), code1=3 << 6),
+        Move.of({0: 1000}, vel=-1.0),
+        Move.of({0: 1}, code1=Code1.NURB, code3=Code3.CURVE),
+    ],
+    ids=str,
+)
+def test_a_move_that_nobody_can_make_changes_nothing(refused: Move) -> None:
+    sender = Sender()
+    before = sender.card.digest()
+    assert sender.host.send(refused.encode()) == ""
+    assert sender.card.digest() == before
