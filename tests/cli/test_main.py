@@ -9,15 +9,25 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from openacr.cli.main import COMMANDS, app
+from openacr.cli.main import COMMANDS, Entry, Family, app
 
 
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_help_of_every_command_begins_with_its_summary(name: str) -> None:
-    entry = COMMANDS[name]
+def all_entries() -> list[tuple[str, Entry]]:
+    """The words of every command with its entry."""
+    found = []
+    for name, entry in COMMANDS.items():
+        if isinstance(entry, Family):
+            found += [(f"{name} {member}", each) for member, each in entry.entries.items()]
+        else:
+            found.append((name, entry))
+    return found
+
+
+@pytest.mark.parametrize(("words", "entry"), all_entries())
+def test_the_help_of_every_command_begins_with_its_summary(words: str, entry: Entry) -> None:
     function = getattr(import_module(f"openacr.cli.{entry.module}"), entry.function)
     assert function.__doc__.splitlines()[0] == entry.summary
-    result = CliRunner().invoke(app, [name, "--help"])
+    result = CliRunner().invoke(app, [*words.split(), "--help"])
     assert result.exit_code == 0
     assert " ".join(entry.summary.split()) in " ".join(result.stdout.split())
 

@@ -6,7 +6,7 @@ answer at once.
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from importlib.metadata import version
 from typing import Annotated, Any, NamedTuple, TextIO
@@ -28,7 +28,14 @@ class Entry(NamedTuple):
     summary: str
 
 
-COMMANDS = {
+class Family(NamedTuple):
+    """Sub-commands under one name: `openacr mill run`."""
+
+    summary: str
+    entries: dict[str, Entry]
+
+
+COMMANDS: dict[str, Entry | Family] = {
     "run": Entry("run", "run", "Run a project: as fast as possible, or paced by the wall clock."),
     "serve": Entry(
         "serve",
@@ -58,6 +65,9 @@ COMMANDS = {
     "restore": Entry("backup", "restore", "Stop a card, clear it and put a backup back."),
     "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
     "check": Entry("check", "check_file", "Find every error in a controller file."),
+    "packet": Entry(
+        "packet", "explain_packet", "Take binary packets apart: every field with its meaning."
+    ),
     "param": Entry(
         "lookup",
         "show_parameter",
@@ -71,23 +81,27 @@ COMMANDS = {
 }
 
 
-class Commands(TyperGroup):
-    """The sub-commands by name; turns errors a user can cause into one line and exit code 2."""
+class LazyGroup(TyperGroup):
+    """Sub-commands by name, imported when they are used."""
+
+    table: Mapping[str, Entry | Family] = {}
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
-        names: dict[str, Any] = dict.fromkeys(COMMANDS)
+        names: dict[str, Any] = dict.fromkeys(self.table)
         self.commands.update(names)  # for suggestions after a slip
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""
-        return list(COMMANDS)
+        return list(self.table)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Import a sub-command."""
-        if cmd_name not in COMMANDS:
+        """Import a sub-command, or make the group of a family."""
+        entry = self.table.get(cmd_name)
+        if entry is None:
             return None
-        entry = COMMANDS[cmd_name]
+        if isinstance(entry, Family):
+            return _group(cmd_name, entry)
         single = typer.Typer(add_completion=False, rich_markup_mode=None)
         module = import_module(f"openacr.cli.{entry.module}")
         single.command(cmd_name)(getattr(module, entry.function))
@@ -96,7 +110,27 @@ class Commands(TyperGroup):
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """List the sub-commands without importing them."""
         with formatter.section("Commands"):
-            formatter.write_dl([(name, entry.summary) for name, entry in COMMANDS.items()])
+            formatter.write_dl([(name, entry.summary) for name, entry in self.table.items()])
+
+
+def _group(name: str, family: Family) -> Any:
+    """The click group of a family."""
+    members = type("Members", (LazyGroup,), {"table": family.entries})
+    single = typer.Typer(cls=members, no_args_is_help=True, rich_markup_mode=None)
+    single.callback(help=family.summary)(_nothing)
+    made = typer.main.get_command(single)
+    made.name = name
+    return made
+
+
+def _nothing() -> None:
+    """A family does nothing by itself."""
+
+
+class Commands(LazyGroup):
+    """All sub-commands; turns errors a user can cause into one line and exit code 2."""
+
+    table = COMMANDS
 
     def invoke(self, ctx: Any) -> Any:
         """Run a sub-command; what the user got wrong is said in one line."""
