@@ -12,9 +12,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PROGRAM = """
 import asyncio
-from openacr.cli.serve import serve_card
+from openacr.cli.serve import Ports, serve_card
 from tests.io.fake_card import FakeCard
-asyncio.run(serve_card(FakeCard(), {host!r}, 0, 0, None, 38400, 1.0))
+asyncio.run(serve_card(FakeCard(), Ports({host!r})))
 """
 
 

@@ -193,10 +193,24 @@ def test_a_project_is_loaded_and_its_boot_programs_run(tmp_path: Path) -> None:
 
 
 def test_it_warns_when_other_machines_can_reach_it() -> None:
-    with serving("--host", "0.0.0.0") as served:
+    with serving("--host", "0.0.0.0", "--insecure") as served:
         code, error = served.end()
         assert code == 0
         assert "WARNING" in error
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--host", "0.0.0.0"), "--allow 192.168.10.0/24, or --insecure"),
+        (("--host", "0.0.0.0", "--allow", "10.0.0.0/8", "--insecure"), "exclude each other"),
+        (("--allow", "10.0.0.0/99"), "write networks like"),
+    ],
+)
+def test_who_may_connect_has_to_be_said_and_said_right(options: tuple[str, ...], said: str) -> None:
+    ended = openacr("serve", *options)
+    assert ended.returncode == 2
+    assert said in ended.stderr
 
 
 def test_the_terminal_command_talks_to_it(card: Served) -> None:

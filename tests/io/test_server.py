@@ -3,13 +3,13 @@
 import asyncio
 import socket
 from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 
 import pytest
 from tests.io.fake_card import FakeCard
 
 from openacr.errors import UserError
-from openacr.io.server import LOOPBACK, Address, CardServer
+from openacr.io.server import LOOPBACK, Address, CardServer, Guests
 from openacr.protocol.stream import StreamKind
 
 GET = bytes.fromhex("00 30 02 01")
@@ -50,9 +50,11 @@ class Bench:
 
 
 @asynccontextmanager
-async def serving(streams: int = 16, speed: float = 1.0) -> AsyncIterator[Bench]:
+async def serving(
+    streams: int = 16, speed: float = 1.0, allowed: Guests | None = None
+) -> AsyncIterator[Bench]:
     card = FakeCard(streams)
-    server = CardServer(card, speed=speed)
+    server = CardServer(card, speed=speed, allowed=allowed)
     ascii_at = await server.listen(StreamKind.TERMINAL, LOOPBACK, 0)
     binary_at = await server.listen(StreamKind.PACKETS, LOOPBACK, 0)
     stop = asyncio.Event()
@@ -67,9 +69,9 @@ async def serving(streams: int = 16, speed: float = 1.0) -> AsyncIterator[Bench]
             host.writer.close()
 
 
-def serve(test: Callable[[Bench], Awaitable[None]], **options: int) -> None:
+def serve(test: Callable[[Bench], Awaitable[None]], streams: int = 16) -> None:
     async def body() -> None:
-        async with serving(**options) as bench:
+        async with serving(streams) as bench:
             await test(bench)
 
     asyncio.run(body())
@@ -277,3 +279,35 @@ def test_addresses_know_whether_others_can_reach_them() -> None:
     assert str(Address("127.0.0.1", 5002)) == "127.0.0.1:5002"
     assert not Address("0.0.0.0", 5002).is_loopback
     assert str(Address("::1", 5002)) == "[::1]:5002"
+
+
+@pytest.mark.parametrize(
+    ("networks", "host", "is_admitted"),
+    [
+        ("192.168.10.0/24", "192.168.10.7", True),
+        ("192.168.10.0/24", "192.168.11.7", False),
+        ("192.168.10.0/24", "127.0.0.1", True),
+        ("192.168.10.0/24", "::1", True),
+        ("192.168.10.0/24", "::ffff:192.168.10.9", True),
+        ("10.0.0.7,fd00::/8", "10.0.0.7", True),
+        ("10.0.0.7,fd00::/8", "10.0.0.8", False),
+        ("10.0.0.7,fd00::/8", "fd00::5%eth0", True),
+    ],
+)
+def test_guests_come_from_the_networks_named(networks: str, host: str, is_admitted: bool) -> None:
+    assert Guests.of(networks).admits(host) is is_admitted
+
+
+def test_a_stranger_is_turned_away_before_the_card_hears_of_it() -> None:
+    class Nobody(Guests):
+        def admits(self, host: str) -> bool:
+            return False
+
+    async def body() -> None:
+        async with serving(allowed=Nobody()) as bench:
+            stranger = await bench.connect()
+            with suppress(ConnectionResetError):
+                assert await asyncio.wait_for(stranger.reader.read(), WAIT_S) == b""
+            assert bench.card.next_id == 0
+
+    asyncio.run(body())

@@ -4,15 +4,18 @@ import asyncio
 import gc
 import logging
 import signal
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.errors import UserError
+
 if TYPE_CHECKING:
     from openacr.controller import Controller
     from openacr.io.host import CardHost
-    from openacr.io.server import Address
+    from openacr.io.server import Address, Guests
 
 log = logging.getLogger(__name__)
 BAD_INPUT = 2
@@ -24,6 +27,13 @@ def serve(
         typer.Argument(metavar="PROJECT", help="Project folder or .8k file; default: eight axes."),
     ] = None,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    allow: Annotated[
+        str | None,
+        typer.Option(metavar="CIDR,...", help="Networks that may connect: 192.168.10.0/24"),
+    ] = None,
+    insecure: Annotated[
+        bool, typer.Option("--insecure", help="Let every machine that reaches the port connect.")
+    ] = False,
     ascii_port: Annotated[int, typer.Option(help="Terminal and packets; 0: any free.")] = 5002,
     binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = 5006,
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
@@ -42,12 +52,41 @@ def serve(
     With --data saved parameters, user flash and battery-backed memory outlast the process,
     and the journal of the last minutes can be replayed with `openacr replay`.
     """
+    guests = _guests(host, allow, is_open=insecure)
     card = _load(project, data)
     try:
         _keep_journal(card, journal or (data / "journal" if data else None))
-        asyncio.run(serve_card(card, host, ascii_port, binary_port, serial, baud, speed))
+        ports = Ports(host, ascii_port, binary_port, serial, baud)
+        asyncio.run(serve_card(card, ports, speed, guests))
     finally:
         card.close()
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """Where a card can be reached."""
+
+    host: str = "127.0.0.1"
+    ascii: int = 0
+    binary: int = 0
+    serial: str | None = None
+    baud: int = 38400
+
+
+def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
+    """Who may connect; an address that others reach wants a word about them."""
+    from openacr.io.server import Guests, is_loopback
+
+    if allow is not None:
+        if is_open:
+            raise UserError("--allow and --insecure exclude each other")
+        return Guests.of(allow)
+    if not is_open and not is_loopback(host):
+        raise UserError(
+            f"other machines reach {host}, and the card's protocols have no passwords: say who"
+            " may connect with --allow 192.168.10.0/24, or --insecure for everybody"
+        )
+    return Guests()
 
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
@@ -79,13 +118,7 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
 
 
 async def serve_card(
-    card: "CardHost",
-    host: str,
-    ascii_port: int,
-    binary_port: int,
-    serial: str | None,
-    baud: int,
-    speed: float,
+    card: "CardHost", ports: Ports, speed: float = 1.0, guests: "Guests | None" = None
 ) -> None:
     """Serve until SIGTERM or Ctrl-C; prints one line when everything listens."""
     from openacr.io.server import CardServer
@@ -93,12 +126,12 @@ async def serve_card(
 
     stop = asyncio.Event()
     _stop_on_signals(stop)
-    server = CardServer(card, speed=speed)
+    server = CardServer(card, speed=speed, allowed=guests)
     try:
-        terminal = await server.listen(StreamKind.TERMINAL, host, ascii_port)
-        packets = await server.listen(StreamKind.PACKETS, host, binary_port)
-        if serial is not None:
-            server.open_serial(serial, baud)
+        terminal = await server.listen(StreamKind.TERMINAL, ports.host, ports.ascii)
+        packets = await server.listen(StreamKind.PACKETS, ports.host, ports.binary)
+        if ports.serial is not None:
+            server.open_serial(ports.serial, ports.baud)
     except BaseException:
         await server.close()
         raise

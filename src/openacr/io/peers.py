@@ -18,6 +18,7 @@ log = logging.getLogger(__name__)
 
 SEND_LIMIT_BYTES = 1 << 18
 READ_BYTES = 1024
+UNKNOWN_HOST = "0.0.0.0"  # of a connection that is gone already
 KEEPALIVE_IDLE_S, KEEPALIVE_INTERVAL_S, KEEPALIVE_PROBES = 30, 10, 3
 
 
@@ -39,6 +40,9 @@ class Peer(Protocol):
 
 class Switchboard(Protocol):
     """What a peer reports to."""
+
+    def admits(self, host: str) -> bool:
+        """Whether a host may connect at all."""
 
     def joined(self, peer: Peer) -> bool:
         """Give the peer a stream; False when there is none left."""
@@ -68,12 +72,16 @@ class TcpPeer(asyncio.BufferedProtocol):
         if not isinstance(transport, asyncio.Transport):
             return
         self._transport = transport
-        host, port, *_ = transport.get_extra_info("peername") or ("?", 0)
+        host, port, *_ = transport.get_extra_info("peername") or (UNKNOWN_HOST, 0)
         self._name = f"{host}:{port}"
         _set_options(transport.get_extra_info("socket"))
-        self._joined = self._board.joined(self)
+        is_welcome = self._board.admits(host)
+        self._joined = is_welcome and self._board.joined(self)
         if self._joined:
             log.info("%s connected (%s)", self._name, self.kind.value)
+        elif not is_welcome:
+            log.warning("%s refused: not in the allowed networks", self._name)
+            transport.abort()
         else:
             log.warning("%s refused: all streams are taken", self._name)
             transport.abort()

@@ -38,14 +38,52 @@ class Address:
     @property
     def is_loopback(self) -> bool:
         """Only programs on this machine reach it."""
-        return ipaddress.ip_address(self.host.partition("%")[0]).is_loopback
+        return is_loopback(self.host)
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only programs on this machine reach an address or name."""
+    try:
+        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+    except OSError:
+        return True  # listening there will fail and say why
+    return all(
+        ipaddress.ip_address(str(address[0]).partition("%")[0]).is_loopback for *_, address in found
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Guests:
+    """The networks hosts may connect from; none named: any that reaches the port."""
+
+    networks: tuple[ipaddress.IPv4Network | ipaddress.IPv6Network, ...] = ()
+
+    @classmethod
+    def of(cls, text: str) -> "Guests":
+        """Networks as `192.168.10.0/24,10.0.0.7`; this machine is always among them."""
+        try:
+            named = [ipaddress.ip_network(each.strip()) for each in text.split(",")]
+        except ValueError as wrong:
+            raise UserError(f"{wrong}; write networks like 192.168.10.0/24,10.0.0.7") from None
+        return cls((*named, ipaddress.ip_network("127.0.0.0/8"), ipaddress.ip_network("::1")))
+
+    def admits(self, host: str) -> bool:
+        """Whether an address belongs to one of the networks."""
+        if not self.networks:
+            return True
+        address = ipaddress.ip_address(host.partition("%")[0])
+        mapped = getattr(address, "ipv4_mapped", None)  # ::ffff:10.0.0.7 of a dual socket
+        return any((mapped or address) in network for network in self.networks)
 
 
 class CardServer:
     """One card, its listening ports and its peers."""
 
-    def __init__(self, card: CardHost, *, speed: float = 1.0) -> None:
+    def __init__(
+        self, card: CardHost, *, speed: float = 1.0, allowed: Guests | None = None
+    ) -> None:
         self._card = card
+        self._allowed = allowed or Guests()
         self._pacer = Pacer(card.period_s, speed)
         self._peers: list[Peer] = []
         self._listeners: list[asyncio.Server] = []
@@ -110,6 +148,10 @@ class CardServer:
             peer.send(data)
 
     # --- peers ------------------------------------------------------------------------
+
+    def admits(self, host: str) -> bool:
+        """Whether a host may connect at all."""
+        return self._allowed.admits(host)
 
     def joined(self, peer: Peer) -> bool:
         """Give a new peer a stream of the card."""
