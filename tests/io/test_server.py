@@ -69,9 +69,9 @@ async def serving(
             host.writer.close()
 
 
-def serve(test: Callable[[Bench], Awaitable[None]], streams: int = 16) -> None:
+def serve(test: Callable[[Bench], Awaitable[None]], streams: int = 16, speed: float = 1.0) -> None:
     async def body() -> None:
-        async with serving(streams) as bench:
+        async with serving(streams, speed) as bench:
             await test(bench)
 
     asyncio.run(body())
