@@ -171,3 +171,20 @@ def test_every_model_can_be_talked_to(model: str) -> None:
     card = Controller(model)
     assert card.send("?1\r") == "?1\r\n1\r\nSYS>"
     assert [Host(card).ask("?2") for _ in range(4)] == ["2"] * 4
+
+
+def test_a_serial_line_counts_what_waits_and_what_was_executed() -> None:
+    card = Controller()
+    serial = Host(card, StreamKind.SERIAL)
+    assert [card.p[n] for n in (7008, 7009, 7010, 7011)] == [0, 0, 256, 0]
+    serial.send("DWL 1\r?1\r?2\rVEL")
+    assert [card.p[n] for n in (7008, 7009, 7010, 7011)] == [9, 2, 247, 1]
+    card.advance(seconds=1.1)
+    assert [card.p[n] for n in (7008, 7009, 7010, 7011)] == [3, 0, 253, 3]
+    assert [card.p[n] for n in (7024, 7025, 7027)] == [0, 0, 0]
+
+
+def test_the_free_space_of_a_line_is_that_of_its_dimension(host: Host) -> None:
+    host.type("DIM COM1(1000)")
+    Host(host.card, StreamKind.SERIAL).send("VE")
+    assert host.ask("?P7010") == "998"

@@ -10,6 +10,7 @@ import pytest
 from tests.io.fake_card import FakeCard
 
 from openacr.errors import UserError
+from openacr.io.serial_port import LineSettings
 from openacr.io.server import CardServer
 
 if sys.platform == "win32":
@@ -32,7 +33,7 @@ def test_a_serial_line_is_a_stream_like_any_other() -> None:
         ours, theirs = pty.openpty()
         tty.setraw(theirs)
         server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), 38400)
+        server.open_serial(os.ttyname(theirs), LineSettings())
         running = asyncio.create_task(server.run(stop))
         os.write(ours, b"LEN 12\r")
         answer = await asyncio.to_thread(read_until, ours, b"SYS>")
@@ -54,7 +55,7 @@ def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
         ours, theirs = pty.openpty()
         tty.setraw(theirs)
         server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), 38400)
+        server.open_serial(os.ttyname(theirs), LineSettings())
         running = asyncio.create_task(server.run(stop))
         os.close(theirs)
         os.close(ours)
@@ -74,6 +75,22 @@ def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
 def test_a_port_that_is_not_there_is_a_user_error() -> None:
     async def body() -> None:
         with pytest.raises(UserError, match="no-such-port"):
-            CardServer(FakeCard()).open_serial("/dev/no-such-port", 9600)
+            CardServer(FakeCard()).open_serial("/dev/no-such-port", LineSettings())
 
     asyncio.run(body())
+
+
+@pytest.mark.parametrize(
+    ("word", "line"),
+    [
+        (0x8320, LineSettings(9600, 8, "N", 1)),
+        (0x8000 | 3 << 11 | 1 << 10 | 2 << 8 | 64, LineSettings(19200, 7, "E", 2)),
+        (0x8000 | 1 << 11 | 3 << 8 | 128, LineSettings(38400, 8, "O", 1)),
+        (0x0320, None),
+        (0x8300, None),
+    ],
+)
+def test_the_startup_mode_of_a_port_says_how_its_line_is_set(
+    word: int, line: LineSettings | None
+) -> None:
+    assert LineSettings.of(word) == line

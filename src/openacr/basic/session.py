@@ -15,6 +15,12 @@ from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.registry import Level
 from openacr.errors import CardError
+from openacr.map.numbers import (
+    P_COM1_CHARACTER_BUFFER_COUNT,
+    P_COM2_CHARACTER_BUFFER_COUNT,
+    P_DPCB_CHARACTER_BUFFER_COUNT,
+    P_FIFO_CHARACTER_BUFFER_COUNT,
+)
 from openacr.messages import LINE_TOO_LONG
 
 if TYPE_CHECKING:
@@ -24,7 +30,14 @@ LINE_END = "\r\n"
 FIRST_CHANNEL_THREAD = 16
 PROGRAMS = 16
 ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
+LARGEST = 0x7FFFFFFF
 MODE_SHIFT = 20  # of the two flags Control Prefixing and High Bit Stripping
+COUNTS = {  # characters and lines waiting, free space, lines executed
+    "FIFO": P_FIFO_CHARACTER_BUFFER_COUNT,
+    "COM1": P_COM1_CHARACTER_BUFFER_COUNT,
+    "COM2": P_COM2_CHARACTER_BUFFER_COUNT,
+    "DPCB": P_DPCB_CHARACTER_BUFFER_COUNT,
+}
 FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
 
 
@@ -153,6 +166,7 @@ class Session:
         """The state after power-up: SYS level, echo on, control prefixing on serial lines."""
         self.level, self.number = Level.SYS, 0
         self.echo, self.mode = ECHO_CHARACTERS, int(self.name.startswith("COM"))
+        self.show_waiting(0, 0)
         self._output.clear()
 
     def disconnect(self) -> None:
@@ -170,6 +184,9 @@ class Session:
     def feed_line(self, text: str) -> None:
         """Deal with one line; it is answered here, or by `finished` when it takes longer."""
         self.busy = True
+        if (row := COUNTS.get(self.name)) is not None:
+            memory = self.system.card.memory.I
+            memory[row + 3] = (memory[row + 3] + 1) & LARGEST
         try:
             is_done = self._take(text)
         except CardError as error:
@@ -177,6 +194,13 @@ class Session:
         else:
             if is_done:
                 self.finished()
+
+    def show_waiting(self, characters: int, lines: int) -> None:
+        """Put what waits in the buffer of the channel into its parameters."""
+        if (row := COUNTS.get(self.name)) is not None:
+            memory = self.system.card.memory.I
+            memory[row], memory[row + 1] = characters, lines
+            memory[row + 2] = max(self.system.storage.stream_size(self.name) - characters, 0)
 
     def line_too_long(self) -> None:
         """Answer a line that was discarded for its length."""

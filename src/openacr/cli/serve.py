@@ -15,6 +15,7 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from openacr.controller import Controller
     from openacr.io.host import CardHost
+    from openacr.io.serial_port import LineSettings
     from openacr.io.server import Address, Guests
 
 log = logging.getLogger(__name__)
@@ -37,7 +38,10 @@ def serve(
     ascii_port: Annotated[int, typer.Option(help="Terminal and packets; 0: any free.")] = 5002,
     binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = 5006,
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
-    baud: Annotated[int, typer.Option(help="Speed of the serial port.")] = 38400,
+    baud: Annotated[
+        int | None,
+        typer.Option(help="Speed of the serial port; default: as P7013 says, else 38400."),
+    ] = None,
     speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
     data: Annotated[
         Path | None, typer.Option(help="Folder for what the card keeps without power.")
@@ -56,7 +60,7 @@ def serve(
     card = _load(project, data)
     try:
         _keep_journal(card, journal or (data / "journal" if data else None))
-        ports = Ports(host, ascii_port, binary_port, serial, baud)
+        ports = Ports(host, ascii_port, binary_port, serial, _line(card, baud))
         asyncio.run(serve_card(card, ports, speed, guests))
     finally:
         card.close()
@@ -70,7 +74,17 @@ class Ports:
     ascii: int = 0
     binary: int = 0
     serial: str | None = None
-    baud: int = 38400
+    line: "LineSettings | None" = None
+
+
+def _line(card: "Controller", baud: int | None) -> "LineSettings":
+    """The settings of the serial port: an option, else what the card has for COM1."""
+    from openacr.io.serial_port import LineSettings
+    from openacr.map.numbers import P_COM1_STARTUP_MODE
+
+    if baud is not None:
+        return LineSettings(baud=baud)
+    return LineSettings.of(int(card.p[P_COM1_STARTUP_MODE])) or LineSettings()
 
 
 def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
@@ -121,6 +135,7 @@ async def serve_card(
     card: "CardHost", ports: Ports, speed: float = 1.0, guests: "Guests | None" = None
 ) -> None:
     """Serve until SIGTERM or Ctrl-C; prints one line when everything listens."""
+    from openacr.io.serial_port import LineSettings
     from openacr.io.server import CardServer
     from openacr.protocol.stream import StreamKind
 
@@ -131,7 +146,7 @@ async def serve_card(
         terminal = await server.listen(StreamKind.TERMINAL, ports.host, ports.ascii)
         packets = await server.listen(StreamKind.PACKETS, ports.host, ports.binary)
         if ports.serial is not None:
-            server.open_serial(ports.serial, ports.baud)
+            server.open_serial(ports.serial, ports.line or LineSettings())
     except BaseException:
         await server.close()
         raise

@@ -159,6 +159,9 @@ class Streams:
         while (event := stream.terminal.next_event()) is not NEED_DATA:
             self._deal(stream, event)
             self._settle(stream)
+        if stream.session is not None:
+            terminal = stream.terminal
+            stream.session.show_waiting(terminal.waiting_characters, terminal.waiting_lines)
 
     def _deal(self, stream: Stream, event: Event) -> None:
         session = stream.session

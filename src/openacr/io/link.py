@@ -8,7 +8,7 @@ from typing import Protocol
 import serial
 
 from openacr.errors import UserError
-from openacr.io.serial_port import open_port
+from openacr.io.serial_port import LineSettings, open_port
 
 ASCII_PORT = 5002
 CONNECT_S = 5.0
@@ -83,7 +83,7 @@ class SerialLink:
 
     def __init__(self, path: str, baud: int) -> None:
         self.name = path
-        self._port = open_port(path, baud)
+        self._port = open_port(path, LineSettings(baud=baud))
 
     def fileno(self) -> int:
         """The device."""

@@ -8,6 +8,7 @@ import asyncio
 import logging
 import queue
 import threading
+from dataclasses import dataclass
 
 import serial
 
@@ -21,10 +22,49 @@ READ_WAIT_S = 0.1
 HELD_WAIT_S = 0.01
 
 
-def open_port(path: str, baud: int) -> serial.Serial:
-    """Open a serial port for 8 data bits without parity; UserError when it fails."""
+_PARITIES = (serial.PARITY_NONE, serial.PARITY_ODD, serial.PARITY_NONE, serial.PARITY_EVEN)
+BAUD_UNIT = 300
+IS_MANUAL = 1 << 15
+
+
+@dataclass(frozen=True, slots=True)
+class LineSettings:
+    """How characters travel on a serial line."""
+
+    baud: int = 38400
+    data_bits: int = 8
+    parity: str = serial.PARITY_NONE
+    stop_bits: int = 1
+
+    @classmethod
+    def of(cls, startup_mode: int) -> "LineSettings | None":
+        """What COM1/COM2 Startup Mode (P7013, P7029) says; None: detect the speed.
+
+        Baud rate / 300 in bits 0 to 7, data bits less 5 in 8 and 9, a second stop bit in
+        10, parity in 11 and 12, settings valid at all in 15 (UG2, Appendix A).
+        """
+        baud = BAUD_UNIT * (startup_mode & 0xFF)
+        if not startup_mode & IS_MANUAL or not baud:
+            return None
+        return cls(
+            baud=baud,
+            data_bits=5 + (startup_mode >> 8 & 3),
+            parity=_PARITIES[startup_mode >> 11 & 3],
+            stop_bits=1 + (startup_mode >> 10 & 1),
+        )
+
+
+def open_port(path: str, line: LineSettings) -> serial.Serial:
+    """Open a serial port; UserError when it fails."""
     try:
-        return serial.serial_for_url(path, baudrate=baud, timeout=READ_WAIT_S)
+        return serial.serial_for_url(
+            path,
+            baudrate=line.baud,
+            bytesize=line.data_bits,
+            parity=line.parity,
+            stopbits=line.stop_bits,
+            timeout=READ_WAIT_S,
+        )
     except (serial.SerialException, OSError, ValueError) as failure:
         raise UserError(f"cannot open serial port {path}: {failure}") from None
 
@@ -35,13 +75,13 @@ class SerialPeer:
     kind = StreamKind.SERIAL
 
     def __init__(
-        self, path: str, baud: int, board: Switchboard, loop: asyncio.AbstractEventLoop
+        self, path: str, line: LineSettings, board: Switchboard, loop: asyncio.AbstractEventLoop
     ) -> None:
         self.stream = -1
         self._path = path
         self._board = board
         self._loop = loop
-        self._port = open_port(path, baud)
+        self._port = open_port(path, line)
         self._outgoing: queue.Queue[bytes] = queue.Queue()
         self._queued = self._sent = 0  # bytes; one counter per thread, so no lock
         self._unheld = threading.Event()

@@ -16,7 +16,7 @@ from openacr.errors import UserError
 from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
-from openacr.io.serial_port import SerialPeer
+from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 ASCII_PORT, BINARY_PORT = 5002, 5006
@@ -100,9 +100,9 @@ class CardServer:
         name = sock.getsockname()
         return Address(name[0], name[1])
 
-    def open_serial(self, path: str, baud: int) -> None:
+    def open_serial(self, path: str, line: LineSettings) -> None:
         """Serve a serial port as well; UserError when it cannot be opened."""
-        SerialPeer(path, baud, self, asyncio.get_running_loop()).start()
+        SerialPeer(path, line, self, asyncio.get_running_loop()).start()
 
     async def run(self, stop: asyncio.Event) -> None:
         """Keep card time with the wall clock until `stop` is set; then close everything."""
