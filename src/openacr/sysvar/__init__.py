@@ -1,1 +1,21 @@
 """The SYSVAR store: system parameters, offsets and variables that outlive every run."""
+
+from openacr.sysvar.homes import Home, Host, Writer, home_of
+from openacr.sysvar.lookup import find, parameter
+from openacr.sysvar.schema import Kind, Parameter
+from openacr.sysvar.store import Changes, Store
+from openacr.sysvar.values import SettingError
+
+__all__ = [
+    "Changes",
+    "Home",
+    "Host",
+    "Kind",
+    "Parameter",
+    "SettingError",
+    "Store",
+    "Writer",
+    "find",
+    "home_of",
+    "parameter",
+]

@@ -1,0 +1,128 @@
+"""Find parameters of the store by number or by words of their name."""
+
+import re
+from collections.abc import Iterator
+from functools import lru_cache
+
+from openacr.errors import MapError
+from openacr.sysvar.schema import Parameter, Tab
+from openacr.sysvar.tabs import CELLS, FIRST_CELL, TAB_CELLS, TABS
+
+_NUMBER = re.compile(r"[Pp]?\s*(\d+)")
+_WORD = re.compile(r"[a-z0-9]+|[+%-]")
+AXIS_LETTERS = "XYZABCUV"
+LISTED = 5
+_LAST_TAB = len(TABS) - 1
+
+
+def _tab_of(number: int) -> Tab:
+    if number < FIRST_CELL:
+        return CELLS
+    return TABS[min((number - FIRST_CELL) // TAB_CELLS, _LAST_TAB)]
+
+
+@lru_cache(maxsize=4096)
+def parameter(number: int) -> Parameter | None:
+    """What a number stands for in the store; None if there is no such cell."""
+    return _tab_of(number).parameter(number)
+
+
+def known(number: int) -> Parameter:
+    """What a number stands for in the store; MapError if there is no such cell."""
+    found = parameter(number)
+    if found is None:
+        raise MapError(f"P{number} is not in the store{_where(number)}")
+    return found
+
+
+def _where(number: int) -> str:
+    if 0 <= number < 100:
+        return ": it is a variable of the card"
+    if 4096 <= number <= 20_487:
+        return ": it is a parameter of the card"
+    return ""
+
+
+def parameters() -> Iterator[Parameter]:
+    """All cells of the store in the order of their numbers."""
+    for tab in (CELLS, *TABS):
+        for offset in sorted(tab.cells):
+            yield known(tab.base + offset)
+
+
+def tab_named(text: str) -> Tab | None:
+    """The tab of that name, whatever its case."""
+    wanted = text.strip().upper()
+    return next((tab for tab in (*TABS, CELLS) if tab.name == wanted), None)
+
+
+def in_tab(tab: Tab) -> list[Parameter]:
+    """The parameters of a tab in the order of their numbers."""
+    return [known(tab.base + offset) for offset in sorted(tab.cells)]
+
+
+def find(text: str) -> list[Parameter]:
+    """The parameters a number, a tab or words of names mean; MapError if there are none."""
+    number = _NUMBER.fullmatch(text.strip())
+    if number:
+        return [known(int(number[1]))]
+    tab = tab_named(text)
+    found = in_tab(tab) if tab else _named(_words(text))
+    if not found:
+        raise MapError(f"no parameter of the store is called {text.strip()!r}")
+    return found
+
+
+def one(text: str) -> Parameter:
+    """The one parameter that is meant; MapError if there are several."""
+    found = find(text)
+    if len(found) > 1:
+        several = ", ".join(str(parameter) for parameter in found[:LISTED])
+        more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
+        raise MapError(f"{text.strip()!r} can be {several}{more}: say its number, or its axis")
+    return found[0]
+
+
+def _words(text: str) -> list[str]:
+    return _WORD.findall(text.lower())
+
+
+def _named(words: list[str]) -> list[Parameter]:
+    """Those with exactly these words as their name, else those that have all of them."""
+    partly = []
+    exactly = []
+    for found in parameters():
+        own = _words(found.name)
+        rest = _without(words, own)
+        if rest is not None and (not rest or _names_axis(rest, found)):
+            exactly.append(found)
+        elif _has_all(words, found, own):
+            partly.append(found)
+    return exactly or partly
+
+
+def _without(words: list[str], own: list[str]) -> list[str] | None:
+    """What is left of `words` when the whole name is taken out of it, in its order."""
+    size = len(own)
+    for start in range(len(words) - size + 1):
+        if words[start : start + size] == own:
+            return words[:start] + words[start + size :]
+    return None
+
+
+def _names_axis(words: list[str], found: Parameter) -> bool:
+    """Whether the words left say the axis (X, axis X, axis 0), the tab, or both."""
+    tab = _words(found.tab)
+    rest = [word for word in words if word != "axis" and word not in tab]
+    axis = [] if found.axis is None else [str(found.axis), AXIS_LETTERS[found.axis].lower()]
+    return all(word in axis for word in rest)
+
+
+def _has_all(words: list[str], found: Parameter, own: list[str]) -> bool:
+    axis = [] if found.axis is None else ["axis", str(found.axis), AXIS_LETTERS[found.axis].lower()]
+    beside = {*_words(found.tab), *axis}
+    return all(word in beside or any(_begins(part, word) for part in own) for word in words)
+
+
+def _begins(part: str, word: str) -> bool:
+    return part == word if word.isdigit() else part.startswith(word)

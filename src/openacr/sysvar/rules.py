@@ -1,0 +1,119 @@
+"""What holds between settings: checked when a change is stored, for the cells it touched."""
+
+import re
+from collections.abc import Callable, Collection, Iterable
+from typing import Protocol
+
+from openacr.models import MODELS
+from openacr.sysvar.lookup import AXIS_LETTERS, known
+from openacr.sysvar.schema import AXES, AXIS_CELLS
+from openacr.sysvar.values import SettingError
+
+GUIDE_MODELS = ("ACR1200", "ACR1500", "ACR2000", "ACR8010", "ACR8020")
+CARD_MODELS = tuple(sorted({*GUIDE_MODELS, *MODELS}))
+MODEL, RUN_STATE = 100_002, 244
+RUNNING = frozenset((1, 2, 3, 4))  # run, paused, wait, stop
+ANGLE1, ANGLE2 = 250_010, 250_011
+FIRST_AXIS, PLUS, MINUS, IS_OFF, NAME = 200_000, 0, 1, 2, 8
+TABLES, CLICKS = (450_000, 500_000, 550_000), 16
+DISPLAY, DISPLAY_FORMATS = 850_000, 2
+FIRST_SYSTEM = 100_000
+
+
+class Reader(Protocol):
+    """The cells as they will be."""
+
+    def read(self, n: int) -> float:
+        """A number."""
+
+    def read_text(self, n: int) -> str:
+        """A text."""
+
+
+def check(cells: Reader, changed: Collection[int], was_running: bool) -> None:
+    """Refuse a group of changes that cannot stand; SettingError names one cell of it."""
+    system = sorted(n for n in changed if n >= FIRST_SYSTEM)
+    for n in system:
+        if was_running and known(n).row.is_motion:
+            raise SettingError(known(n), "changed", "a program runs", "stop it first")
+    for rule in _RULES:
+        rule(cells, system)
+
+
+def _soft_limits(cells: Reader, changed: Iterable[int]) -> None:
+    for n in changed:
+        axis, k = divmod(n - FIRST_AXIS, AXIS_CELLS)
+        if not 0 <= axis < AXES or k not in (PLUS, MINUS, IS_OFF):
+            continue
+        base = FIRST_AXIS + AXIS_CELLS * axis
+        plus, minus, is_off = (cells.read(base + k) for k in (PLUS, MINUS, IS_OFF))
+        if not is_off and plus <= minus:
+            raise SettingError(
+                known(base + PLUS),
+                plus,
+                f"it must be above the -Soft Limit, {minus:g}",
+                f"or set P{base + IS_OFF} Disable Limit",
+            )
+
+
+def _axis_names(cells: Reader, changed: Iterable[int]) -> None:
+    numbers = [FIRST_AXIS + AXIS_CELLS * axis + NAME for axis in range(AXES)]
+    if not set(numbers) & set(changed):
+        return
+    names: dict[str, int] = {}
+    for n in numbers:
+        name = cells.read_text(n)
+        if name not in AXIS_LETTERS or len(name) != 1:
+            raise SettingError(known(n), name, "one of " + ", ".join(AXIS_LETTERS))
+        if name in names:
+            raise SettingError(known(n), name, f"P{names[name]} has that name already")
+        names[name] = n
+
+
+def _angles(cells: Reader, changed: Iterable[int]) -> None:
+    if {ANGLE1, ANGLE2} & set(changed):
+        first, second = cells.read(ANGLE1), cells.read(ANGLE2)
+        if second and second < first:
+            raise SettingError(known(ANGLE2), second, f"0, or not below Acute Angle1, {first:g}")
+
+
+def _override_tables(cells: Reader, changed: Iterable[int]) -> None:
+    for base in TABLES:
+        if not any(base <= n < base + CLICKS for n in changed):
+            continue
+        before = 0.0
+        for click in range(CLICKS):
+            percent = cells.read(base + click)
+            if percent < before:
+                raise SettingError(
+                    known(base + click),
+                    percent,
+                    f"click {click - 1} has {before:g}",
+                    "percentages rise from click to click",
+                )
+            before = percent
+
+
+def _card_model(cells: Reader, changed: Iterable[int]) -> None:
+    if MODEL in changed and cells.read_text(MODEL) not in CARD_MODELS:
+        raise SettingError(known(MODEL), cells.read_text(MODEL), "one of " + ", ".join(CARD_MODELS))
+
+
+def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
+    for n in changed:
+        axis, k = divmod(n - DISPLAY, AXIS_CELLS)
+        if not (0 <= axis < AXES and k < DISPLAY_FORMATS):
+            continue
+        value = cells.read(n)
+        if not re.fullmatch(r"[0-9]\.[0-9]", f"{value!r}"):
+            raise SettingError(known(n), value, "one digit, a point, one digit", "3.4 is ###.####")
+
+
+_RULES: tuple[Callable[[Reader, Collection[int]], None], ...] = (
+    _soft_limits,
+    _axis_names,
+    _angles,
+    _override_tables,
+    _card_model,
+    _display_formats,
+)

@@ -1,0 +1,186 @@
+"""Rows of the SYSVAR store: what a cell means, what it may hold, what it holds at first.
+
+A tab is a range of numbers: parameter `k` of axis `a` is cell `base + 1000 a + k`. A row can
+stand for a series of like cells, `step` apart. Lengths are declared in inches.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cached_property
+
+from openacr.errors import MapError
+
+AXES = 8
+AXIS_CELLS = 1_000
+ANY = math.inf
+
+
+class Kind(Enum):
+    """What a cell holds."""
+
+    REAL = "R"
+    INTEGER = "I"
+    BOOLEAN = "B"
+    CHOICE = "E"
+    TEXT = "S"
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """The place a default is asked for: axis, place in the series, and the other cells."""
+
+    axis: int
+    index: int
+    read: Callable[[int], float]
+
+
+Default = float | str | Callable[[At], float | str]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of a tab: a parameter, or a series of `count` of them."""
+
+    k: int
+    name: str  # with {} where the number in the series stands
+    kind: Kind
+    unit: str = ""  # u = default unit, u/m, u/s, u/s2 ... as the reference writes them
+    default: Default = 0.0
+    typical: str = ""
+    low: float = -ANY
+    high: float = ANY
+    is_low_open: bool = False  # the lowest value itself is refused
+    words: Mapping[int, str] = field(default_factory=dict)  # values with a name
+    doc: str = ""
+    count: int = 1
+    step: int = 1
+    first: int = 0  # number of the first one of the series
+    axis: int | None = None
+    is_by_axis: bool = False  # the place in the series is the axis
+    is_per_axis: bool = False
+    is_motion: bool = False  # must not change while a program runs
+    is_fixed: bool = False  # nobody writes it
+
+    @property
+    def is_series(self) -> bool:
+        """Whether the name takes a number."""
+        return "{}" in self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One cell: its number, where it belongs, and its row."""
+
+    number: int
+    tab: str
+    row: Row
+    axis: int | None
+    index: int
+
+    @property
+    def name(self) -> str:
+        """The name as the guide prints it, with its number in the series."""
+        return self.row.name.format(self.index) if self.row.is_series else self.row.name
+
+    @property
+    def kind(self) -> Kind:
+        """What the cell holds."""
+        return self.row.kind
+
+    @property
+    def is_text(self) -> bool:
+        """Whether the cell holds words instead of a number."""
+        return self.row.kind is Kind.TEXT
+
+    @property
+    def is_length(self) -> bool:
+        """Whether the value grows by 25.4 from inches to millimetres."""
+        return self.row.unit.split("/")[0].split(" ")[0] == "u"
+
+    @property
+    def is_per_length(self) -> bool:
+        """Whether the value shrinks by 25.4 from inches to millimetres."""
+        return self.row.unit.endswith("/u")
+
+    def __str__(self) -> str:
+        axis = "" if self.axis is None else f" (axis {self.axis})"
+        return f"P{self.number} {self.name}{axis}"
+
+
+class Tab:
+    """A tab of the system parameters, or the cells of programs."""
+
+    def __init__(self, name: str, base: int, *, per_axis: bool = False) -> None:
+        self.name, self.base, self.is_per_axis = name, base, per_axis
+        self.rows: list[Row] = []
+        self._is_motion = False
+
+    def motion(self) -> None:
+        """Rows from here on must not change while a program runs."""
+        self._is_motion = True
+
+    def still(self) -> None:
+        """Rows from here on may change at any time."""
+        self._is_motion = False
+
+    def add(self, row: Row) -> None:
+        """Take a row in; two rows for one cell are a slip in the tables."""
+        self.rows.append(row)
+
+    def real(self, k: int, name: str, unit: str, default: Default = 0.0, **more: object) -> None:
+        """A number."""
+        self._row(k, name, Kind.REAL, unit=unit, default=default, **more)
+
+    def integer(self, k: int, name: str, default: Default = 0, **more: object) -> None:
+        """A whole number."""
+        self._row(k, name, Kind.INTEGER, default=default, **more)
+
+    def boolean(self, k: int, name: str, default: Default = 0, **more: object) -> None:
+        """False or true."""
+        self._row(k, name, Kind.BOOLEAN, default=default, words=FALSE_TRUE, low=0, high=1, **more)
+
+    def choice(
+        self, k: int, name: str, words: Mapping[int, str], default: Default = 0, **more: object
+    ) -> None:
+        """One of some values, each with a word for it."""
+        self._row(k, name, Kind.CHOICE, words=words, default=default, **more)
+
+    def text(self, k: int, name: str, default: Default = "", **more: object) -> None:
+        """Words."""
+        self._row(k, name, Kind.TEXT, default=default, **more)
+
+    def _row(self, k: int, name: str, kind: Kind, **more: object) -> None:
+        marks = {"is_motion": self._is_motion, "is_per_axis": self.is_per_axis}
+        self.add(Row(k, name, kind, **{**marks, **more}))  # type: ignore[arg-type]
+
+    @cached_property
+    def cells(self) -> dict[int, tuple[Row, int | None, int]]:
+        """Row, axis and place in the series of every cell, by its distance from the base."""
+        found: dict[int, tuple[Row, int | None, int]] = {}
+        for row in self.rows:
+            for offset, axis, index in _places(row):
+                if offset in found:
+                    raise MapError(f"{self.name}: two rows for P{self.base + offset}")
+                found[offset] = (row, axis, index)
+        return found
+
+    def parameter(self, number: int) -> Parameter | None:
+        """What a number means, None if it stands for nothing here."""
+        found = self.cells.get(number - self.base)
+        if found is None:
+            return None
+        row, axis, index = found
+        return Parameter(number, self.name, row, axis, index)
+
+
+FALSE_TRUE = {0: "false", 1: "true"}
+
+
+def _places(row: Row) -> Iterator[tuple[int, int | None, int]]:
+    for axis in range(AXES) if row.is_per_axis else (row.axis,):
+        for place in range(row.count):
+            index = row.first + place
+            offset = row.k + place * row.step + (AXIS_CELLS * (axis or 0) if row.is_per_axis else 0)
+            yield offset, index if row.is_by_axis else axis, index

@@ -1,0 +1,394 @@
+"""The store as programs see it: numbered cells, read from memory, written through at once.
+
+    with Store(path) as store:
+        feed = store.read(650_002)
+        with store.transaction():          # all of it is stored, or nothing
+            store.write(2001, 1.5)
+            store.write(3001, 0.01)
+
+Reading costs a look into a dictionary: cells are kept in memory, and a counter all
+processes share says when they have to be read again. A value another process has written
+is seen at the next read.
+"""
+
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import RLock
+from types import TracebackType
+from typing import NamedTuple, Self
+
+from openacr.errors import MapError, StoreError
+from openacr.sysvar import lookup, rules, values
+from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
+from openacr.sysvar.database import Database
+from openacr.sysvar.schema import AXIS_CELLS, At, Parameter
+from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
+
+LOOK_S = 0.05  # the counter is not believed for longer
+NEVER = b""  # no counter ever reads like this
+UNITS = 250_001  # 0 inch, 1 mm
+AXIS_NAME = 200_008
+FIRST_SYSTEM = 100_000
+AT_START = {1998: 0.0, 1999: 0.0, 4000: 0.0, 4001: 0.0, 240: 5.0, 241: 0.0, 244: 0.0}
+
+Listener = Callable[[frozenset[int]], None]
+
+
+class Changes(NamedTuple):
+    """Cells that were written, and the token to ask for the next ones."""
+
+    numbers: frozenset[int]
+    token: int
+
+
+class Store:
+    """The SYSVAR store in a file, or in memory without a path.
+
+    A file that is not there is made; `is_metric` holds for a new one: all lengths of the
+    defaults are then millimetres.
+    """
+
+    def __init__(self, path: Path | str | None = None, *, is_metric: bool = False) -> None:
+        self.path = None if path is None else Path(path)
+        self._lock = RLock()
+        self._counter = Counter(self.path)
+        self._memory = self._counter.memory
+        self._seen = NEVER
+        self._until = 0.0
+        self._numbers: dict[int, float] = {}
+        self._texts: dict[int, str] = {}
+        self._stored: set[int] = set()
+        self._defaults: set[int] = set()
+        self._before: dict[int, Value | None] = {}  # values to go back to, in a transaction
+        self._depth = 0
+        self._token = 0
+        self._version = -1
+        self._factor = 1.0
+        self._listeners: list[Listener] = []
+        try:
+            self._database = Database(self.path, is_used=self._counter.has_counted)
+        except BaseException:
+            self._counter.close()
+            raise
+        self._look()
+        if is_metric and not self._token:
+            with self.transaction():
+                self._put(UNITS, 1.0)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file; everything written is in it."""
+        self._database.close()
+        self._counter.close()
+        self._memory = ASK
+
+    @property
+    def is_read_only(self) -> bool:
+        """Whether nothing can be written."""
+        return self._database.is_read_only
+
+    # --- reading ----------------------------------------------------------------------
+
+    def read(self, n: int) -> float:
+        """The number in a cell."""
+        if self._memory[:SIZE] != self._seen or time.monotonic() > self._until:
+            self._look()
+        try:
+            return self._numbers[n]
+        except KeyError:
+            return self._first_number(n)
+
+    def read_text(self, n: int) -> str:
+        """The text in a cell."""
+        self._refresh()
+        found = self._texts.get(n)
+        return self._first_text(n) if found is None else found
+
+    def value(self, n: int) -> Value:
+        """What is in a cell, number or text."""
+        return self.read_text(n) if self.parameter(n).is_text else self.read(n)
+
+    def default(self, n: int) -> Value:
+        """What a cell holds until something is written."""
+        parameter = self.parameter(n)
+        first = parameter.row.default
+        if callable(first):
+            return first(At(parameter.axis or 0, parameter.index, self.read))
+        if isinstance(first, str):
+            return first
+        if parameter.is_length:
+            return values.scaled(parameter, float(first), self._factor, self.letter_of(parameter))
+        return float(first)
+
+    def is_set(self, n: int) -> bool:
+        """Whether a value was written, be it that of the default."""
+        self._refresh()
+        return n in self._stored
+
+    def parameter(self, n: int) -> Parameter:
+        """What a cell means; MapError if there is none."""
+        return lookup.known(n)
+
+    def find(self, text: str) -> list[Parameter]:
+        """The cells a number, a tab or words of names mean; MapError if there are none."""
+        return lookup.find(text)
+
+    @property
+    def is_metric(self) -> bool:
+        """Whether lengths are millimetres."""
+        return self.read(UNITS) == 1.0
+
+    def letter_of(self, parameter: Parameter) -> str:
+        """The name of the axis a cell belongs to, empty for none."""
+        if parameter.axis is None or parameter.number == AXIS_NAME + AXIS_CELLS * parameter.axis:
+            return ""
+        return self.read_text(AXIS_NAME + AXIS_CELLS * parameter.axis)
+
+    def _first_number(self, n: int) -> float:
+        parameter = self.parameter(n)
+        if parameter.is_text:
+            raise MapError(f"{parameter} holds text")
+        found = self._numbers[n] = float(self.default(n))
+        self._defaults.add(n)
+        return found
+
+    def _first_text(self, n: int) -> str:
+        parameter = self.parameter(n)
+        if not parameter.is_text:
+            raise MapError(f"{parameter} holds a number")
+        return str(self.default(n))
+
+    # --- writing ----------------------------------------------------------------------
+
+    def write(self, n: int, value: float) -> None:
+        """Set a number: stored before this returns, as a group of its own if in none."""
+        self._set(n, value)
+
+    def write_text(self, n: int, value: str) -> None:
+        """Set a text."""
+        self._set(n, value)
+
+    def reset(self, n: int) -> None:
+        """Give a cell its default again."""
+        with self.transaction():
+            if n in self._stored:
+                self._keep(n)
+                self._forget(n)
+                self._forget_defaults(n)
+
+    @contextmanager
+    def transaction(self, *, is_durable: bool = True) -> Iterator[None]:
+        """A group of changes: all of them are stored, or none.
+
+        Inside it the new values are read. `is_durable` waits until they are on the disk:
+        without it the end of the process loses nothing, but a power cut may lose the last
+        changes.
+        """
+        with self._lock:
+            if self._depth:
+                yield
+                return
+            self._begin(is_durable)
+            try:
+                yield
+                self._commit()
+            except BaseException:
+                self._give_up()
+                raise
+            finally:
+                self._depth = 0
+                changed, self._before = frozenset(self._before), {}
+        self._tell(changed)
+
+    def start(self) -> None:
+        """The state at the start of the front end: no offset in use, spindle off, idle."""
+        with self.transaction():
+            for n, value in AT_START.items():
+                self.write(n, value)
+
+    def flush(self) -> None:
+        """Wait until everything written is on the disk."""
+        self._database.flush()
+
+    def _set(self, n: int, value: Value) -> None:
+        parameter = self.parameter(n)
+        if parameter.row.is_fixed:
+            raise SettingError(parameter, value, "it is fixed")
+        new = values.checked(parameter, value, self._factor)
+        with self.transaction(is_durable=n >= FIRST_SYSTEM):
+            if n == UNITS and new != self.read(UNITS):
+                self._convert(MM_PER_INCH if new else 1.0 / MM_PER_INCH)
+            self._put(n, new)
+
+    def _put(self, n: int, value: Value) -> None:
+        if n in self._stored and value == self._raw(n):
+            return
+        self._keep(n)
+        self._hold(n, value)
+        self._forget_defaults(n)
+
+    def _convert(self, factor: float) -> None:
+        """All stored lengths in the other unit; the machine stays the same."""
+        for parameter in lookup.parameters():
+            n = parameter.number
+            if parameter.is_per_length or (parameter.is_length and n in self._stored):
+                letter = self.letter_of(parameter)
+                self._put(n, values.scaled(parameter, self.read(n), factor, letter))
+
+    # --- transactions -----------------------------------------------------------------
+
+    def _begin(self, is_durable: bool) -> None:
+        self._database.begin(is_durable=is_durable)
+        try:
+            self._take(self._database.since(self._token))
+        except BaseException:
+            self._database.rollback()
+            raise
+        self._depth = 1
+        self._before = {}
+        self._was_running = self._numbers.get(rules.RUN_STATE, 0.0) in rules.RUNNING
+
+    def _commit(self) -> None:
+        if not self._before:
+            self._database.rollback()
+            return
+        rules.check(self, self._before, self._was_running)
+        token = self._database.newest() + 1
+        self._database.put((n, self._raw(n), token) for n in self._before)
+        self._counter.begin()
+        try:
+            self._database.commit()
+        finally:
+            self._counter.end()
+        self._token = token
+        self._seen = NEVER
+
+    def _give_up(self) -> None:
+        self._database.rollback()
+        for n, value in self._before.items():
+            self._forget(n) if value is None else self._hold(n, value)
+            self._forget_defaults(n)
+        self._before = {}
+
+    def _keep(self, n: int) -> None:
+        """Remember what a cell held before this transaction."""
+        if n not in self._before:
+            self._before[n] = self._raw(n)
+
+    # --- the cells in memory ----------------------------------------------------------
+
+    def _raw(self, n: int) -> Value | None:
+        """What was stored in a cell, None for its default."""
+        if n not in self._stored:
+            return None
+        return self._texts[n] if n in self._texts else self._numbers[n]
+
+    def _hold(self, n: int, value: Value) -> None:
+        self._stored.add(n)
+        self._defaults.discard(n)
+        if isinstance(value, str):
+            self._texts[n] = value
+        else:
+            self._numbers[n] = value
+        if n == UNITS:
+            self._factor = MM_PER_INCH if value else 1.0
+
+    def _forget(self, n: int) -> None:
+        self._stored.discard(n)
+        self._numbers.pop(n, None)
+        self._texts.pop(n, None)
+        if n == UNITS:
+            self._factor = 1.0
+
+    def _forget_defaults(self, n: int) -> None:
+        """Defaults may follow system parameters."""
+        if n >= FIRST_SYSTEM:
+            for known in self._defaults:
+                del self._numbers[known]
+            self._defaults.clear()
+
+    # --- other processes --------------------------------------------------------------
+
+    def _refresh(self) -> None:
+        if self._memory[:SIZE] != self._seen or time.monotonic() > self._until:
+            self._look()
+
+    def _look(self) -> None:
+        """Ask the database whether another process has written, and read what it wrote."""
+        with self._lock:
+            if self._depth:
+                return
+            stamp = self._memory[:SIZE]  # before the look: what comes in between is seen again
+            version = self._database.version()
+            changed: frozenset[int] = frozenset()
+            if version != self._version:
+                changed = self._take(self._database.since(self._token))
+                self._version = version
+            self._seen = stamp if is_settled(stamp) else NEVER
+            self._until = time.monotonic() + LOOK_S
+        self._tell(changed)
+
+    def _take(self, rows: Iterable[tuple[int, Value | None, int]]) -> frozenset[int]:
+        changed = set()
+        for n, value, token in rows:
+            self._forget(n) if value is None else self._hold(n, _of_the_kind(n, value))
+            self._token = max(self._token, token)
+            changed.add(n)
+        if changed:
+            self._forget_defaults(max(changed))
+        return frozenset(changed)
+
+    # --- news -------------------------------------------------------------------------
+
+    @property
+    def token(self) -> int:
+        """The state of the store now, for `changes_since`."""
+        self._refresh()
+        return self._token
+
+    def changes_since(self, token: int) -> Changes:
+        """The cells written by anybody behind `token`."""
+        self._refresh()
+        rows = self._database.since(token)
+        return Changes(
+            frozenset(n for n, _, _ in rows), max((row[2] for row in rows), default=token)
+        )
+
+    def subscribe(self, listener: Listener) -> Callable[[], None]:
+        """Have `listener` called with the numbers of changed cells; the result ends that.
+
+        Changes of other processes are noticed when a cell is read, or by `poll`.
+        """
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def poll(self) -> None:
+        """Look for changes of other processes."""
+        self._look()
+
+    def _tell(self, changed: frozenset[int]) -> None:
+        if changed:
+            for listener in tuple(self._listeners):
+                listener(changed)
+
+
+def _of_the_kind(n: int, value: Value) -> Value:
+    """A stored value; StoreError if it is none for its cell."""
+    parameter = lookup.parameter(n)
+    if isinstance(value, str) and (parameter is None or parameter.is_text):
+        return value
+    if isinstance(value, int | float) and (parameter is None or not parameter.is_text):
+        return float(value)
+    raise StoreError(f"the store holds {value!r} for {parameter}, which is of another kind")

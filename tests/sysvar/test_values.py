@@ -1,0 +1,125 @@
+"""What cells accept, how users write values, and what is refused with which words."""
+
+import pytest
+
+from openacr.errors import MapError
+from openacr.sysvar import SettingError, Store, find
+from openacr.sysvar.lookup import one
+from openacr.sysvar.values import parsed, shown, unit_of
+
+
+@pytest.mark.req("MILL-SYS-RANGE")
+@pytest.mark.parametrize(
+    ("n", "value", "words"),
+    [
+        (
+            650_000,
+            -5,
+            "P650000 Max Machine Speed cannot be -5: a number above 0 up to 1e+06 in/min",
+        ),
+        (650_000, float("nan"), "Max Machine Speed cannot be nan"),
+        (650_000, float("inf"), "Max Machine Speed cannot be inf"),
+        (100_001, 9, "P100001 Axis count cannot be 9: a whole number from 2 to 8"),
+        (100_001, 2.5, "Axis count cannot be 2.5"),
+        (201_006, 0, "P201006 Pulses/Unit (axis 1) cannot be 0: a number other than 0 pulse/in"),
+        (200_011, 3, "one of -4, -2, -1, 1, 2, 4"),
+        (250_001, 2, "one of 0 (inch), 1 (mm)"),
+        (250_103, 1, "Root Epsilon cannot be 1: a whole number from -12 to 0"),
+        (800_000, 32, "Spindle Code cannot be 32"),
+        (400_004, -2, "a whole number from -1 to 999; -1 = disable"),
+        (100_000, 2, "it is fixed"),
+        (1000, 1, "D radius 0 cannot be 1"),
+        (200_008, 1.0, "it takes text"),
+    ],
+)
+def test_a_value_out_of_range_is_refused_with_the_name_and_the_range(
+    n: int, value: float, words: str
+) -> None:
+    store = Store()
+    before = store.value(n)
+    with pytest.raises(SettingError) as refusal:
+        store.write(n, value)
+    assert words in str(refusal.value)
+    assert refusal.value.parameter.number == n
+    assert store.value(n) == before
+    assert not store.is_set(n)
+
+
+@pytest.mark.req("MILL-SYS-RANGE")
+def test_words_in_a_number_are_refused() -> None:
+    with pytest.raises(SettingError, match=r"P650002 Cut Speed cannot be 'fast': a number above 0"):
+        parsed(one("cut speed"), "fast")
+
+
+def test_ranges_of_lengths_follow_the_unit() -> None:
+    store = Store(is_metric=True)
+    store.write(650_000, 2e7)  # mm/min: more than the number would allow in inches
+    assert store.read(650_000) == 2e7
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("dac polarity x", "NEG", 1.0),
+        ("default units", "mm", 1.0),
+        ("block skip", "disable", -1.0),
+        ("spindle dac", "none", -1.0),
+        ("default graphics", "off", 0.0),
+        ("home reqd y", "yes", 1.0),
+        ("epsilon for compensation", "0.0254 mm", 0.001),
+        ("epsilon for compensation", ".003in", 0.003),
+        ("cut speed", "254mm", 10.0),
+        ("cut speed", " 12.5 ", 12.5),
+        ("pulses/unit x", "100mm", 2540.0),
+        ("machine type", "MILL 2", "MILL 2"),
+    ],
+)
+def test_users_write_words_and_units(name: str, text: str, value: float | str) -> None:
+    assert parsed(one(name), text) == value
+
+
+def test_lengths_are_converted_into_a_metric_store() -> None:
+    assert parsed(one("epsilon for compensation"), "0.001 in", is_metric=True) == 0.0254
+    assert parsed(one("epsilon for compensation"), "0.03 mm", is_metric=True) == 0.03
+
+
+def test_values_are_shown_with_their_words_and_units() -> None:
+    assert shown(one("P250003"), 2.0) == "2 (absolute)"
+    assert shown(one("P250101"), 0.002) == "0.002"
+    assert shown(one("P200011"), 4.0) == "4"
+    assert unit_of(one("P650000"), is_metric=True) == "mm/min"
+    assert unit_of(one("P203000"), is_metric=True, letter="A") == "deg"
+    assert unit_of(one("P200006"), is_metric=False) == "pulse/in"
+
+
+def test_parameters_are_found_by_number_name_axis_and_tab() -> None:
+    assert [found.number for found in find("P650000")] == [650_000]
+    assert [found.number for found in find("650000")] == [650_000]
+    assert one("MAX machine speed").number == 650_000
+    assert one("jog feedrate axis 2").number == 352_000
+    assert one("jog feedrate u").number == 356_000
+    assert one("+soft limit y").number == 201_000
+    assert one("h length 12").number == 2012
+    assert one("fov click 3").number == 450_003
+    assert one("fixture 99 x").number == 952_990
+    assert len(find("servo")) == 80
+    assert len(find("jog feedrate")) == 8
+
+
+def test_an_unclear_name_lists_what_it_can_mean() -> None:
+    with pytest.raises(MapError, match=r"'jog feedrate' can be P350000 .* and 3 more"):
+        one("jog feedrate")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("flux capacitor", "no parameter of the store is called 'flux capacitor'"),
+        ("P5", "variable of the card"),
+        ("P4096", "parameter of the card"),
+        ("P250015", "P250015 is not in the store"),
+    ],
+)
+def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:
+    with pytest.raises(MapError, match=words):
+        find(text)
