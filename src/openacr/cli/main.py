@@ -78,6 +78,33 @@ COMMANDS: dict[str, Entry | Family] = {
         "show_flag",
         "Explain a flag: meaning, access, update speed, parameter that holds it.",
     ),
+    "sysvar": Family(
+        "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
+        {
+            "get": Entry("sysvar", "get", "Show parameters with value, unit, default and range."),
+            "set": Entry(
+                "sysvar",
+                "set_values",
+                "Change parameters: all of them, or none when one is refused.",
+            ),
+            "list": Entry(
+                "sysvar", "list_values", "List what was changed, or all parameters of a tab."
+            ),
+            "export": Entry(
+                "sysvar", "export_values", "Write the settings that were changed as TOML."
+            ),
+            "import": Entry(
+                "sysvar",
+                "import_values",
+                "Read settings from TOML: all of them, or none when one is refused.",
+            ),
+            "password": Entry(
+                "sysvar",
+                "change_password",
+                "Guard the system parameters with a password, or guard them no more.",
+            ),
+        },
+    ),
 }
 
 

@@ -74,8 +74,7 @@ class Store:
             raise
         self._look()
         if is_metric and not self._token:
-            with self.transaction():
-                self._put(UNITS, 1.0)
+            self.begin_metric()
 
     def __enter__(self) -> Self:
         return self
@@ -217,6 +216,12 @@ class Store:
         with self.transaction():
             for n, value in AT_START.items():
                 self.write(n, value)
+
+    def begin_metric(self) -> None:
+        """Make a store that is still empty metric: its defaults are numbers of millimetres."""
+        with self.transaction():
+            if not self._token:
+                self._put(UNITS, 1.0)
 
     def flush(self) -> None:
         """Wait until everything written is on the disk."""

@@ -11,7 +11,8 @@ from openacr.errors import UserError
 from openacr.sysvar.schema import ANY, Kind, Parameter
 
 MM_PER_INCH = 25.4
-DIGITS = 12  # kept when lengths are converted: 0.002 inch is 0.0508 mm, not 0.05079999999999999
+DIGITS = 15  # kept when lengths are converted: 0.002 inch is 0.0508 mm, not 0.05079999999999999
+SHOWN_DIGITS = 12
 LONGEST_TEXT = 256
 ROTARY = frozenset("ABC")
 
@@ -30,9 +31,9 @@ class SettingError(UserError):
         super().__init__(f"{parameter} cannot be {shown}: {expected}{tail}")
 
 
-def rounded(value: float) -> float:
+def rounded(value: float, digits: int = DIGITS) -> float:
     """Without the noise of a conversion in its last digits."""
-    return float(f"{value:.{DIGITS}g}")
+    return float(f"{value:.{digits}g}")
 
 
 def scaled(parameter: Parameter, value: float, factor: float, letter: str = "") -> float:
@@ -164,7 +165,7 @@ def shown(parameter: Parameter, value: Value) -> str:
     """A value as a user reads it: `2 (absolute)`, `0.0508`."""
     if isinstance(value, str):
         return value
-    number = plain(value)
+    number = plain(rounded(value, SHOWN_DIGITS))
     word = parameter.row.words.get(int(value)) if value.is_integer() else None
     return number if word is None or word == number else f"{number} ({word})"
 

@@ -1,0 +1,131 @@
+"""Settings as a TOML file: written with names and units beside the numbers, read back.
+
+    layout = 1
+    unit = "inch"
+
+    [SPEEDS]
+    P650002 = 12.5  # Cut Speed [in/min]
+
+Keys are numbers or unique names; lengths are in the unit of the file.
+"""
+
+import json
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+from openacr.errors import MapError, UserError
+from openacr.sysvar import lookup, password, rules, values
+from openacr.sysvar.schema import Kind, Parameter
+from openacr.sysvar.store import AT_START, UNITS, Store
+from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
+
+LAYOUT = 1
+INCH, MM = "inch", "mm"
+_HEAD = ("layout", "unit")
+# What says how a run stands is no setting.
+_OF_A_RUN = frozenset({*range(234, 249), *AT_START, password.CELL, UNITS, rules.RUN_STATE})
+
+
+def exported(store: Store, *, everything: bool = False) -> str:
+    """The settings that are not as in a new store, or all of them."""
+    lines = [f"layout = {LAYOUT}", f'unit = "{MM if store.is_metric else INCH}"']
+    tab = ""
+    for parameter in lookup.parameters():
+        if not _belongs(store, parameter, everything):
+            continue
+        if parameter.tab != tab:
+            tab = parameter.tab
+            lines += ["", f"[{_key(tab)}]"]
+        lines.append(_line(store, parameter))
+    return "\n".join(lines) + "\n"
+
+
+def _belongs(store: Store, parameter: Parameter, everything: bool) -> bool:
+    n = parameter.number
+    if parameter.row.is_fixed or n in _OF_A_RUN:
+        return False
+    if parameter.is_per_length and (parameter.axis or 0) < store.read(100_001):
+        return True  # its default is a number per unit, whichever that is
+    return everything or store.value(n) != store.default(n)
+
+
+def _line(store: Store, parameter: Parameter) -> str:
+    value = store.value(parameter.number)
+    unit = values.unit_of(parameter, store.is_metric, store.letter_of(parameter))
+    axis = "" if parameter.axis is None else f", axis {parameter.axis}"
+    word = parameter.row.words.get(int(value), "") if isinstance(value, float) else ""
+    notes = f" = {word}" if word else (f" [{unit}]" if unit else "")
+    return f"P{parameter.number} = {_literal(parameter, value)}  # {parameter.name}{axis}{notes}"
+
+
+def _literal(parameter: Parameter, value: Value) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)  # a TOML string of printable characters
+    if parameter.kind is Kind.BOOLEAN:
+        return "true" if value else "false"
+    return values.plain(value) if parameter.kind is not Kind.REAL else repr(value)
+
+
+def _key(name: str) -> str:
+    return name if name.replace("-", "").isalnum() else json.dumps(name)
+
+
+def imported(store: Store, text: str, place: str = "") -> int:
+    """Store the settings of a file, all or none; the result counts them.
+
+    A store that is still empty takes the unit of the file, any other keeps its own.
+    """
+    try:
+        document = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise UserError(f"{place or 'the file'}: {error}") from None
+    is_metric = _checked_head(document, place)
+    try:
+        with store.transaction():
+            if is_metric:
+                store.begin_metric()
+            return _apply(store, list(_entries(document)), is_metric)
+    except (MapError, SettingError) as error:
+        raise UserError(f"{place}: {error}" if place else str(error)) from None
+
+
+def _checked_head(document: dict[str, Any], place: str) -> bool:
+    layout, unit = document.get("layout", LAYOUT), document.get("unit", INCH)
+    if layout != LAYOUT:
+        raise UserError(f"{place}: layout {layout} is not known here, only {LAYOUT}")
+    if unit not in (INCH, MM):
+        raise UserError(f'{place}: unit {unit!r} is neither "{INCH}" nor "{MM}"')
+    return bool(unit == MM)
+
+
+def _entries(document: dict[str, Any]) -> Iterator[tuple[Parameter, Value]]:
+    for key, value in document.items():
+        if isinstance(value, dict):
+            yield from _entries(value)
+        elif key not in _HEAD:
+            parameter = lookup.one(key)
+            yield parameter, _value(parameter, value)
+
+
+def _value(parameter: Parameter, value: object) -> Value:
+    if isinstance(value, bool | int | float):
+        return float(value)
+    if not isinstance(value, str):
+        raise SettingError(parameter, value, values.accepted(parameter))
+    return values.parsed(parameter, value)
+
+
+def _apply(store: Store, entries: list[tuple[Parameter, Value]], is_metric: bool) -> int:
+    for parameter, value in entries:
+        if isinstance(value, str):  # names of axes come first: rotary ones are not converted
+            store.write_text(parameter.number, value)
+    factor = 1.0
+    if is_metric != store.is_metric:
+        factor = 1.0 / MM_PER_INCH if is_metric else MM_PER_INCH
+    for parameter, value in entries:
+        if isinstance(value, float):
+            letter = store.letter_of(parameter)
+            number = values.scaled(parameter, value, factor, letter) if factor != 1.0 else value
+            store.write(parameter.number, number)
+    return len(entries)

@@ -1,0 +1,42 @@
+"""The password of the service: kept as a salted scrypt hash, compared in constant time."""
+
+import hashlib
+import hmac
+import os
+
+from openacr.errors import UserError
+from openacr.sysvar.store import Store
+
+CELL = 100_004
+_SALT_BYTES, _HASH_BYTES = 16, 32
+_COST = {"n": 1 << 14, "r": 8, "p": 1}  # 16 MB and some 50 ms for each try
+
+
+def is_asked(store: Store) -> bool:
+    """Whether system parameters are guarded by a password."""
+    return bool(store.read_text(CELL))
+
+
+def is_right(store: Store, password: str) -> bool:
+    """Whether this is the password; any will do where none is asked."""
+    kept = store.read_text(CELL)
+    if not kept:
+        return True
+    salt, _, digest = kept.partition("$")
+    try:
+        made = _hash(password, bytes.fromhex(salt))
+    except ValueError:
+        return False
+    return hmac.compare_digest(made, digest)
+
+
+def change(store: Store, password: str) -> None:
+    """Ask for this password from now on; for none when it is empty."""
+    if password != password.strip():
+        raise UserError("a password neither begins nor ends with a blank")
+    salt = os.urandom(_SALT_BYTES)
+    store.write_text(CELL, f"{salt.hex()}${_hash(password, salt)}" if password else "")
+
+
+def _hash(password: str, salt: bytes) -> str:
+    return hashlib.scrypt(password.encode(), salt=salt, dklen=_HASH_BYTES, **_COST).hex()
