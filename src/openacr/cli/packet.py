@@ -84,9 +84,9 @@ def _first(data: bytes, at: int, mode: BinaryMode) -> tuple[Packet, int]:
         raise UserError(f"byte {at + 1}: no packet starts with {data[at]:02X}; those: {HEADERS}")
     reader = PacketReader()
     reader.start(data[at], mode, 0)
-    for used, byte in enumerate(data[at + 1 :], start=2):
+    for used in range(2, len(data) - at + 1):
         try:
-            packet = reader.feed(byte, 0)
+            packet = reader.feed(data[at + used - 1 : at + used], 0)
         except PacketError as wrong:
             raise UserError(f"byte {at + used}: {wrong}") from None
         if packet is not None:

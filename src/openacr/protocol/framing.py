@@ -21,38 +21,51 @@ class PacketReader:
     _data: bytearray = field(default_factory=bytearray)
     _decoder: Decoder = field(default_factory=lambda: Decoder(BinaryMode.PLAIN))
     _tick: int = 0
+    _wanted: int = 0  # bytes, as far as those received tell
 
     @property
     def reading(self) -> bool:
         """A packet has started and is not complete."""
         return bool(self._data)
 
+    @property
+    def whole_bytes(self) -> int:
+        """How many bytes may be fed together: 1 where they have to be converted."""
+        return 1 if self._decoder.mode.prefixes else self._wanted - len(self._data)
+
     def start(self, header: int, mode: BinaryMode, tick: int) -> None:
         """Begin with a header byte; the data behind it travel in `mode`."""
         self._data = bytearray((header,))
         self._decoder = Decoder(mode)
         self._tick = tick
+        self._wanted = 2
 
     def expire(self, tick: int, timeout_tk: int) -> None:
         """Throw away what is there when the gap before a byte at `tick` is too long."""
         if self.reading and tick - self._tick > timeout_tk:
             self._data.clear()
 
-    def feed(self, byte: int, tick: int) -> Packet | None:
-        """The packet completed by this byte, if any; PacketError for a broken one."""
+    def feed(self, data: bytes, tick: int) -> Packet | None:
+        """The packet completed by at most `whole_bytes` bytes; PacketError for a broken one."""
         self._tick = tick
-        value = self._decoder.feed(byte)
-        if value is None:
-            return None
-        self._data.append(value)
+        if len(data) == 1:
+            value = self._decoder.feed(data[0])
+            if value is None:
+                return None
+            self._data.append(value)
+        else:
+            self._data += data
+        return self._complete() if len(self._data) >= self._wanted else None
+
+    def _complete(self) -> Packet | None:
         so_far = bytes(self._data)
         try:
             length = total_length(so_far)
         except PacketError:
             self._data.clear()
             raise
-        padded = self.dpcb and so_far[0] in DPCB_PADDED
-        if len(so_far) < length + padded:
+        self._wanted = length + (self.dpcb and so_far[0] in DPCB_PADDED)
+        if len(so_far) < self._wanted:
             return None
         self._data.clear()
         return decode(so_far[:length])

@@ -12,6 +12,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import IntEnum, IntFlag
+from functools import lru_cache
 from typing import ClassVar, Self
 
 from openacr.protocol.packet import WORD_BYTES, Packet, PacketError, Part, pack_word, register
@@ -59,6 +60,7 @@ class Code3(IntFlag):
 
 
 MASTER_BIT_3 = 0x08  # of header code 4
+CODE_3_PRESENT, EXTENDED = Code0.CODE_3_PRESENT.value, Code3.EXTENDED.value  # quick integers
 
 
 class Curve(IntEnum):
@@ -81,16 +83,20 @@ class Profile:
 
 
 @dataclass(frozen=True, slots=True)
-class _Layout:
-    """Which fields follow a header, and where the data start."""
+class _Header:
+    """What header codes say: which fields follow, and what kind of move it is."""
 
-    header: int
+    length: int
     slaves: tuple[int, ...]
     vel: bool
     fvel: bool
     acc: bool
     centers: bool
     scaling: bool
+    floating: bool
+    master: int
+    curve: Curve
+    counter_step: int
 
     @property
     def words(self) -> int:
@@ -99,28 +105,40 @@ class _Layout:
         return single + len(self.slaves) + 2 * self.centers + 2 * self.scaling
 
 
-def _layout(prefix: bytes) -> _Layout:
-    """The layout as far as the received header bytes tell (missing ones count as zero)."""
-    codes = _codes(prefix)
+@lru_cache(maxsize=1024)
+def _header(codes: bytes) -> _Header:
+    """What eight header codes say; hosts send few different ones, but thousands a second."""
     code0, code1, code3 = Code0(codes[0]), Code1(codes[1]), Code3(codes[3])
     present = codes[2] | codes[6] << 8
-    return _Layout(
-        header=_header_length(code0, code3),
+    curve = _curve(code1, code3)
+    step = -1 if code0 & Code0.COUNT_DOWN else 1
+    return _Header(
+        length=_header_length(code0, code3),
         slaves=tuple(slave for slave in range(SLAVES) if present >> slave & 1),
         vel=bool(code0 & Code0.VEL),
         fvel=bool(code3 & Code3.FVEL),
         acc=bool(code0 & Code0.ACC),
-        centers=bool(code1 & Code1.ARC) and not code3 & Code3.CURVE,
+        centers=curve is Curve.ARC,
         scaling=bool(code3 & Code3.SCALING),
+        floating=bool(code3 & Code3.FLOATING_POINT),
+        master=(8 if codes[4] & MASTER_BIT_3 else 0) | int(code1 & Code1.MASTER),
+        curve=curve,
+        counter_step=step if code0 & Code0.COUNTER else 0,
     )
+
+
+def _curve(code1: Code1, code3: Code3) -> Curve:
+    if code3 & Code3.CURVE:
+        return Curve.NURB if code1 & Code1.NURB else Curve.SPLINE
+    return Curve.ARC if code1 & Code1.ARC else Curve.LINE
 
 
 def _codes(prefix: bytes) -> bytes:
     """The eight header codes at the start of a packet; those not present are zero."""
     codes = prefix[1:LONG_HEADER]
-    if len(codes) > 0 and not codes[0] & Code0.CODE_3_PRESENT:
+    if len(codes) > 0 and not codes[0] & CODE_3_PRESENT:
         codes = codes[:3]
-    elif len(codes) > 3 and not codes[3] & Code3.EXTENDED:
+    elif len(codes) > 3 and not codes[3] & EXTENDED:
         codes = codes[:4]
     return codes.ljust(8, b"\0")
 
@@ -129,6 +147,15 @@ def _header_length(code0: int, code3: int) -> int:
     if not code0 & Code0.CODE_3_PRESENT:
         return SHORT_HEADER
     return LONG_HEADER if code3 & Code3.EXTENDED else MIDDLE_HEADER
+
+
+@lru_cache(maxsize=512)
+def _profile(code0: int, rapid_move_modes: bool) -> Profile:
+    low, ramp = bool(code0 & 1), bool(code0 & 4)
+    locked = bool(Code0(code0) & Code0.OVERRIDE_LOCKOUT)
+    if not rapid_move_modes:
+        return Profile(ramp, low, rapid=False, override_locked=locked)
+    return Profile(ramp or low, low, rapid=low and ramp, override_locked=locked)
 
 
 @register
@@ -189,38 +216,38 @@ class Move(Packet):
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
         """Header as far as it is known, then one word per announced field."""
-        layout = _layout(prefix)
-        if len(prefix) < layout.header:
-            return layout.header
-        return layout.header + WORD_BYTES * layout.words
+        header = _header(_codes(prefix))
+        if len(prefix) < header.length:
+            return header.length
+        return header.length + WORD_BYTES * header.words
 
     @classmethod
     def decode(cls, data: bytes) -> Self:
         """The move in exactly these bytes."""
-        layout = _layout(data)
-        if len(data) < layout.header or len(data) != cls.total_length(data):
+        codes = _codes(data)
+        header = _header(codes)
+        if len(data) < header.length or len(data) != cls.total_length(data):
             raise PacketError(f"Move: {len(data)} bytes do not fit the header codes")
-        words = iter([data[at : at + 4] for at in range(layout.header, len(data), WORD_BYTES)])
-        floating = bool(_codes(data)[3] & Code3.FLOATING_POINT)
-        vel = _single(words) if layout.vel else None
-        fvel = _single(words) if layout.fvel else None
-        acc = _single(words) if layout.acc else None
-        targets = tuple((slave, _position(words, floating)) for slave in layout.slaves)
+        words = iter([data[at : at + 4] for at in range(header.length, len(data), WORD_BYTES)])
+        vel = _single(words) if header.vel else None
+        fvel = _single(words) if header.fvel else None
+        acc = _single(words) if header.acc else None
+        targets = tuple((slave, _position(words, header.floating)) for slave in header.slaves)
         centers = scaling = None
-        if layout.centers:
-            centers = (_position(words, floating), _position(words, floating))
-        if layout.scaling:
+        if header.centers:
+            centers = (_position(words, header.floating), _position(words, header.floating))
+        if header.scaling:
             scaling = (_single(words), _single(words))
-        return cls(_codes(data), vel, fvel, acc, targets, centers, scaling)
+        return cls(codes, vel, fvel, acc, targets, centers, scaling)
 
     def encode(self) -> bytes:
         """Header as long as the codes announce, then the fields."""
         head = self.HEADER + self.codes
-        layout = _layout(head)
+        header = _header(self.codes)
         data = b"".join(pack_word(value) for _, value in self.numbers())
-        if len(data) != WORD_BYTES * layout.words:
+        if len(data) != WORD_BYTES * header.words:
             raise PacketError("Move: the fields are not those that the header codes announce")
-        return head[: layout.header] + data
+        return head[: header.length] + data
 
     def numbers(self) -> Iterator[tuple[str, int | float]]:
         """Name and value of every data field, in wire order and wire type."""
@@ -235,7 +262,7 @@ class Move(Packet):
             yield f"{name} scaling", float(scale)
 
     def _wire_position(self, value: int | float) -> int | float:
-        return float(value) if self.code3 & Code3.FLOATING_POINT else int(value)
+        return float(value) if _header(self.codes).floating else int(value)
 
     @property
     def code0(self) -> Code0:
@@ -255,15 +282,12 @@ class Move(Packet):
     @property
     def master(self) -> int:
         """The master this move is for, 0 to 15."""
-        high = 8 if self.codes[4] & MASTER_BIT_3 else 0
-        return high | int(self.code1 & Code1.MASTER)
+        return _header(self.codes).master
 
     @property
     def curve(self) -> Curve:
         """Line, arc, NURB or spline."""
-        if self.code3 & Code3.CURVE:
-            return Curve.NURB if self.code1 & Code1.NURB else Curve.SPLINE
-        return Curve.ARC if self.code1 & Code1.ARC else Curve.LINE
+        return _header(self.codes).curve
 
     @property
     def arc_slaves(self) -> tuple[int, int]:
@@ -276,22 +300,16 @@ class Move(Packet):
     @property
     def counter_step(self) -> int:
         """What this move adds to the master move counter: 0, 1 or -1."""
-        if not self.code0 & Code0.COUNTER:
-            return 0
-        return -1 if self.code0 & Code0.COUNT_DOWN else 1
+        return _header(self.codes).counter_step
 
     def profile(self, rapid_move_modes: bool) -> Profile:
         """Ramps and override, with Enable Rapid Move Modes of the master set or clear."""
-        low, ramp = bool(self.code0 & 1), bool(self.code0 & 4)
-        locked = bool(self.code0 & Code0.OVERRIDE_LOCKOUT)
-        if not rapid_move_modes:
-            return Profile(ramp, low, rapid=False, override_locked=locked)
-        return Profile(ramp or low, low, rapid=low and ramp, override_locked=locked)
+        return _profile(self.codes[0], rapid_move_modes)
 
     def explain(self) -> list[Part]:
         """Header codes and data fields, one line each."""
         data = self.encode()
-        start = _layout(data).header
+        start = _header(self.codes).length
         parts = [Part(data[:1], "header", "Move")]
         parts += [
             Part(data[at : at + 1], f"header code {at - 1}", _code_text(at - 1, data[at]))
@@ -327,9 +345,9 @@ def unpadded(segment: bytes) -> bytes | None:
     """
     if len(segment) < PADDED_HEADER or segment[5:PADDED_HEADER] != bytes(3):
         return None
-    layout = _layout(segment)
-    if layout.header != MIDDLE_HEADER:
+    header = _header(_codes(segment))
+    if header.length != MIDDLE_HEADER:
         return None
-    if len(segment) != PADDED_HEADER + WORD_BYTES * layout.words:
+    if len(segment) != PADDED_HEADER + WORD_BYTES * header.words:
         return None
     return segment[:MIDDLE_HEADER] + segment[PADDED_HEADER:]

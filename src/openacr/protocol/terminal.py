@@ -281,7 +281,7 @@ class Terminal:
         if self.mode.prefixes and self.kind is StreamKind.SERIAL and byte in (XON, XOFF):
             return self._keys[byte]()
         try:
-            packet = self._reader.feed(byte, segment.tick)
+            packet = self._reader.feed(self._together(segment), segment.tick)
         except PacketError:
             return None  # nobody could answer it
         if packet is None:
@@ -289,6 +289,13 @@ class Terminal:
         if packet.HEADER in (b"\x1c", b"\x1d") and segment.rest == b"\0":
             self._skip(segment, 1)  # padding of one host, see `bits`
         return Received(packet)
+
+    def _together(self, segment: _Segment) -> bytes:
+        """The byte just scanned and those behind it that surely belong to the packet."""
+        first = segment.at - 1
+        data = segment.data[first : first + self._reader.whole_bytes]
+        self._skip(segment, len(data) - 1)
+        return data
 
     def _skip(self, segment: _Segment, count: int) -> None:
         segment.at += count
