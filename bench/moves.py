@@ -4,7 +4,6 @@ import time
 
 from bench.figures import at_least
 from bench.served import Line, served_card
-
 from openacr.client import Card, MoveStream
 from openacr.protocol.move import Move
 
