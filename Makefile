@@ -49,7 +49,7 @@ $(INSTALLED): pyproject.toml $(MADE)
 	@echo "installing packages into $(VENV)"
 	@$(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
 		echo "pip and setuptools were not upgraded; carrying on with what is there"
-	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,plot]"
+	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,dxf,plot]"
 	@touch $@
 
 $(BUILT): $(CORE_SOURCES) $(INSTALLED)

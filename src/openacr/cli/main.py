@@ -78,6 +78,16 @@ COMMANDS: dict[str, Entry | Family] = {
         "show_flag",
         "Explain a flag: meaning, access, update speed, parameter that holds it.",
     ),
+    "mill": Family(
+        "Part programs (RS-274): the CNC side.",
+        {
+            "import": Entry(
+                "mill_import",
+                "import_drawing",
+                "Make a part program of a DXF drawing: a path, or holes to drill.",
+            ),
+        },
+    ),
     "sysvar": Family(
         "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
         {

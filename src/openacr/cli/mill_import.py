@@ -1,0 +1,118 @@
+"""`openacr mill import`: a DXF drawing as a part program."""
+
+import json as json_format
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.cnc.dxf import Conversion, Options
+    from openacr.sysvar import Store
+
+# Cells of the store that say how drawings are imported.
+EPSILON, SAFE_HEIGHT, DRILL_Z, DRILL_R, DRILL_F = 250_101, 250_120, 250_121, 250_122, 250_123
+
+
+class Direction(StrEnum):
+    """The way around closed chains, by name or as the guide numbers it."""
+
+    CW = "cw"
+    CCW = "ccw"
+    ZERO = "0"
+    ONE = "1"
+
+
+def import_drawing(
+    file: Annotated[Path, typer.Argument(metavar="FILE.dxf", help="Drawing, as DXF text.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE.TXT", help="Program; else beside the drawing."),
+    ] = None,
+    is_drill: Annotated[
+        bool, typer.Option("--drill", help="Drill points and circle centres; else cut the path.")
+    ] = False,
+    direction: Annotated[
+        Direction,
+        typer.Option("--direction", help="Of closed chains: 0 = cw, 1 = ccw.", show_choices=True),
+    ] = Direction.CW,
+    layer: Annotated[str, typer.Option("--layer", help="One layer alone; else all.")] = "",
+    epsilon: Annotated[
+        float | None, typer.Option("--epsilon", help="Ends closer than this are joined.")
+    ] = None,
+    safe_height: Annotated[
+        float | None, typer.Option("--safe-height", help="Z between chains and holes.")
+    ] = None,
+    drill_z: Annotated[float | None, typer.Option("--drill-z", help="Bottom of holes.")] = None,
+    drill_r: Annotated[float | None, typer.Option("--drill-r", help="R level of holes.")] = None,
+    feed: Annotated[
+        float | None, typer.Option("--feed", help="F of the path, or of the holes.")
+    ] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
+    ] = None,
+    is_forced: Annotated[
+        bool, typer.Option("--force", help="Overwrite a program that is there.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Say what was done as JSON.")] = False,
+) -> None:
+    """Make a part program of a DXF drawing: a path, or holes to drill."""
+    from openacr.cli.output import require_writable, write_whole
+    from openacr.cnc.dxf import Options, Pattern, convert
+    from openacr.sysvar import Store
+    from openacr.sysvar.location import default_path
+
+    target = out or file.with_suffix(".TXT")
+    if target.exists() and not is_forced:
+        raise UserError(f"{target} is there already (--force overwrites it, -o names another)")
+    require_writable(target)
+    with Store(store or default_path()) as cells:
+        options = Options(
+            pattern=Pattern.DRILL if is_drill else Pattern.PATH,
+            is_counter_clockwise=direction in (Direction.CCW, Direction.ONE),
+            layer=layer,
+            is_metric=cells.is_metric,
+            epsilon=_positive("--epsilon", _given(epsilon, cells, EPSILON)),
+            safe_height=_given(safe_height, cells, SAFE_HEIGHT),
+            drill_bottom=_given(drill_z, cells, DRILL_Z),
+            drill_level=_given(drill_r, cells, DRILL_R),
+            drill_feed=_positive("--feed", _given(feed, cells, DRILL_F)),
+            feed=None if feed is None else _positive("--feed", feed),
+        )
+    conversion = convert(file, options)
+    write_whole(target, lambda partial: _write(partial, conversion.text))
+    _report(conversion, options, target, as_json)
+
+
+def _given(value: float | None, cells: "Store", n: int) -> float:
+    return cells.read(n) if value is None else value
+
+
+def _positive(option: str, value: float) -> float:
+    if not 0.0 < value < float("inf"):
+        raise UserError(f"{option} {value:g}: it must be above 0")
+    return value
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8", newline="\n")
+
+
+def _report(conversion: "Conversion", options: "Options", target: Path, as_json: bool) -> None:
+    unit = "mm" if conversion.is_metric else "inch"
+    if as_json:
+        record = {
+            "program": str(target),
+            "pattern": options.pattern.value,
+            "unit": unit,
+            "summary": conversion.summary,
+            "notes": conversion.notes,
+        }
+        typer.echo(json_format.dumps(record, indent=2, ensure_ascii=False))
+        return
+    for note in conversion.notes:
+        typer.echo(f"note: {note}", err=True)
+    typer.echo(f"{target}: {conversion.summary}, in {unit}")

@@ -1,0 +1,135 @@
+"""Chains and holes as part programs, to be read by people and machines."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from openacr.cnc.dxf.chains import ORIGIN, Chain, Nearest
+from openacr.cnc.dxf.segments import Point, Segment
+
+DECIMALS = {False: 6, True: 5}  # inch, millimetres
+UNIT_CODES = {False: "G20", True: "G21"}
+
+
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """How numbers are written in one unit."""
+
+    is_metric: bool
+
+    def text(self, value: float) -> str:
+        """A number without needless zeros; never `-0`."""
+        text = f"{value:.{DECIMALS[self.is_metric]}f}".rstrip("0").rstrip(".")
+        return "0" if text == "-0" else text
+
+    def words(self, letters: str, values: Sequence[float]) -> str:
+        """Words like `X1 Y2.5`."""
+        pairs = zip(letters, values, strict=True)
+        return " ".join(f"{letter}{self.text(value)}" for letter, value in pairs)
+
+    def same(self, a: Point, b: Point) -> bool:
+        """Whether two points are written alike."""
+        return all(self.text(one) == self.text(other) for one, other in zip(a, b, strict=True))
+
+
+def path_program(
+    chains: Sequence[Chain],
+    numbers: Numbers,
+    *,
+    title: str,
+    safe_height: float,
+    feed: float | None,
+    straight: float,
+) -> str:
+    """The chains one after the other; arcs flatter than `straight` become lines."""
+    up = f"G0 {numbers.words('Z', [safe_height])}"
+    lines = [*_head(title, numbers), "G200 F2"]
+    if feed is not None:
+        lines.append(numbers.words("F", [feed]))
+    for number, chain in enumerate(chains, 1):
+        lines += [f"; chain {number}: {_described(chain, numbers)}", up]
+        lines += [f"G0 {numbers.words('XY', chain.start)}", "G1 Z0"]
+        lines += _moves(chain, numbers, straight)
+    return "\n".join([*lines, up, "M2", ""])
+
+
+def _head(title: str, numbers: Numbers) -> list[str]:
+    return [f"; {title}", "G90 G17", UNIT_CODES[numbers.is_metric]]
+
+
+def _described(chain: Chain, numbers: Numbers) -> str:
+    if chain.is_closed:
+        way = "closed, " + ("counter-clockwise" if chain.area > 0 else "clockwise")
+    else:
+        way = "open"
+    return f"{way}, length {numbers.text(chain.length)}"
+
+
+def _moves(chain: Chain, numbers: Numbers, straight: float) -> Iterator[str]:
+    here = chain.start
+    for segment in chain.segments:
+        block = _block(segment, here, numbers, straight)
+        if block:
+            yield block
+            here = segment.end
+
+
+def _block(segment: Segment, here: Point, numbers: Numbers, straight: float) -> str | None:
+    """The block of a segment; None when it is too short to be written."""
+    is_same = numbers.same(here, segment.end)
+    is_full = segment.centre is not None and abs(segment.sweep_rad) > math.pi
+    if is_same and not is_full:
+        return None  # an arc that ended where it starts would be a full circle
+    end = numbers.words("XY", segment.end)
+    if segment.centre is None or (segment.height < straight and not is_full):
+        return f"G1 {end}"
+    code = "G3" if segment.sweep_rad > 0 else "G2"
+    return f"{code} {end} {numbers.words('IJ', segment.centre)}"
+
+
+def drill_program(
+    holes: Sequence[Point],
+    numbers: Numbers,
+    *,
+    title: str,
+    safe_height: float,
+    levels: tuple[float, float],
+    feed: float,
+) -> str:
+    """The holes by G81; `levels` are bottom and R level."""
+    first, *rest = holes
+    drill = f"G81 {numbers.words('XY', first)} {numbers.words('ZRF', [*levels, feed])}"
+    lines = [*_head(title, numbers), f"G0 {numbers.words('Z', [safe_height])}", f"G98 {drill}"]
+    lines += [numbers.words("XY", hole) for hole in rest]
+    return "\n".join([*lines, "G80", "M2", "$I CYCLES.TXT", ""])
+
+
+def nearest_first(holes: Sequence[Point], epsilon: float) -> list[Point]:
+    """Each hole once, the nearest to the one before next, from the origin."""
+    unlike = _unlike(holes, epsilon)
+    left = Nearest(unlike)
+    ordered = []
+    here = ORIGIN
+    for _ in unlike:
+        number, _distance = left.to(here)
+        left.take(number)
+        here = unlike[number]
+        ordered.append(here)
+    return ordered
+
+
+def _unlike(holes: Sequence[Point], epsilon: float) -> list[Point]:
+    kept: list[Point] = []
+    cells: dict[tuple[int, int], list[Point]] = {}
+    for x, y in holes:
+        column, row = math.floor(x / epsilon), math.floor(y / epsilon)
+        near = [
+            other
+            for i in (-1, 0, 1)
+            for j in (-1, 0, 1)
+            for other in cells.get((column + i, row + j), ())
+        ]
+        if all(math.dist((x, y), other) > epsilon for other in near):
+            kept.append((x, y))
+            cells.setdefault((column, row), []).append((x, y))
+    return kept
