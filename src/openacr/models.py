@@ -28,6 +28,7 @@ class Model:
     streams: tuple[str, ...]
     has_drive_control: bool = True
     has_fixed_adc_mode: bool = False  # 16-bit analog inputs only
+    has_digits_in_names: bool = False  # of aliases
     has_battery: bool = False  # keeps programs and variables without power
     system_memory_bytes: int = SYSTEM_MEMORY_BYTES
 
@@ -57,5 +58,11 @@ ACR9000 = Model(
 ACR9030 = Model(name="ACR9030", card_type=9030, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
 ACR9040 = Model(name="ACR9040", card_type=9040, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
 
-MODELS = {model.name: model for model in (ACR1505, ACR8020, ACR9000, ACR9030, ACR9040)}
+ACR7000 = Model(
+    name="ACR7000", card_type=7000, axes=8, streams=_BOX_STREAMS, has_fixed_adc_mode=True,
+    has_digits_in_names=True,
+)  # fmt: skip
+
+_ALL = (ACR1505, ACR7000, ACR8020, ACR9000, ACR9030, ACR9040)
+MODELS = {model.name: model for model in _ALL}
 DEFAULT_MODEL = ACR9000

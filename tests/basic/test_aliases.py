@@ -1,11 +1,15 @@
 """Names given with #DEFINE."""
 
 import pytest
+from tests.basic.bench import Bench
 
 import openacr.basic.strings  # noqa: F401 - enters its functions
 from openacr.basic.aliases import Aliases
 from openacr.basic.nodes import Flag, Number, Parameter
+from openacr.basic.parser import join_names
 from openacr.errors import CardError
+from openacr.lang.lexer import tokens
+from openacr.models import ACR7000
 
 P0 = Parameter(Number(0))
 P1 = Parameter(Number(1))
@@ -62,3 +66,38 @@ def test_aliases_survive_a_snapshot(aliases: Aliases) -> None:
     other.restore(aliases.state())
     assert list(other.lines()) == ["#DEFINE Time P0"]
     assert other.nodes == {"Time": P0}
+
+
+@pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])
+def test_newer_models_allow_digits_behind_the_first_letter(name: str) -> None:
+    bench = Bench(ACR7000)
+    bench.type("DIM P(10)", "DIM DEF(5)")
+    assert bench.type(f"#DEFINE {name} P5") == "SYS>"
+    assert bench.type(f"#DEFINE {name}") == f"#DEFINE {name} P5|SYS>"
+
+
+@pytest.mark.parametrize("name", ["P12", "SET32", "LV0", "1st", "Len2", "a_1", "x" * 24 + "5"])
+def test_names_that_read_as_a_word_and_its_number_are_refused(name: str) -> None:
+    bench = Bench(ACR7000)
+    bench.type("DIM P(10)", "DIM DEF(5)")
+    assert bench.type(f"#DEFINE {name} P5") == "Illegal name|SYS>"
+
+
+def test_names_with_digits_are_used_listed_and_told_from_numbers() -> None:
+    rig = Bench(ACR7000)
+    rig.type("DIM PROG0(1000)", "DIM P(10)", "DIM DEF(5)", "PROG0")
+    rig.type("#DEFINE Part1 P1", "#DEFINE Part1b P2", "#DEFINE Part BIT33")
+    rig.type("10 Part1=5:Part1b=Part1*2", "20 SET Part 32", "30 PRINT Part1;Part1b")
+    assert rig.type("LIST").split("|")[:-1] == [
+        "10 Part1 = 5 : Part1b = Part1*2",
+        "20 SET Part 32",
+        "30 PRINT Part1;Part1b",
+    ]
+
+
+def test_the_longest_name_is_read() -> None:
+    found = tokens("Part1b=Part1+Part12+X1")
+    join_names(found, frozenset(("Part1", "Part1b")))
+    assert [token.text for token in found[:-1]] == [
+        *("Part1b", "=", "Part1", "+", "Part", "12", "+", "X", "1"),
+    ]  # fmt: skip

@@ -165,3 +165,13 @@ def test_lines_of_a_known_shape_are_judged_by_their_values(tmp_path: Path) -> No
 def test_an_axis_that_is_not_attached_is_named(tmp_path: Path) -> None:
     (found,) = faults(tmp_path, "X10", "Y10")
     assert found.startswith("3:1: Unknown command")
+
+
+def test_names_with_digits_are_fine_where_the_machine_has_a_card_for_them(tmp_path: Path) -> None:
+    setup = SETUP.replace("Count P9", "Count1 P9")
+    (tmp_path / "setup.8k").write_text(setup)
+    (tmp_path / "prog0.8k").write_text("PROGRAM\nCount1 = 5 : PRINT Count1\nENDP\n")
+    assert "setup.8k:3:1: Illegal name" in check(tmp_path).stdout
+    (tmp_path / "machine.toml").write_text('[card]\nmodel = "ACR7000"\n')
+    assert "no errors" in check(tmp_path).stdout
+    assert "no errors" in check(tmp_path / "prog0.8k").stdout

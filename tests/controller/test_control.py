@@ -174,3 +174,12 @@ def test_pboot_starts_a_program_at_power_up() -> None:
     host.heard()
     host.card.advance(200)
     assert host.asks("?BIT1024", "?BIT33") == ["-1", "-1"]
+
+
+def test_a_plc_reads_names_with_digits() -> None:
+    host = connected("DIM PLC0(500)", "DIM DEF(4)", "#DEFINE Valve1 BIT32", "PLC0", model="ACR7000")
+    host.type("#DEFINE Door2 BIT128", "10 LD Door2", "20 OUT Valve1")
+    assert host.type("LIST") == "10 LD Door2|20 OUT Valve1|PLC0>"
+    host.type("RUN", "SET 128")
+    host.card.advance(200)
+    assert host.ask("?BIT32") == "-1"

@@ -41,7 +41,9 @@ class KnownLines:
         return known.fixed + (string_bytes(len(remark(text))) if known.has_remark else 0)
 
     def learn(self, scope: Scope, shape: str, found: list[Token]) -> None:
-        """Remember a line that was accepted."""
+        """Remember a line that was accepted; digits in names would make shapes differ."""
+        if scope.numbered:
+            return
         if not self._is_same(scope) or len(self._costs) >= MOST_SHAPES:
             self._scope, self._costs = scope, {}
         varies = any(

@@ -110,6 +110,8 @@ class Lister:
             return False
         if _is_operator(token, {",", ";", ")"}):
             return False
+        if before.text in self.aliases and token.kind is Kind.NUMBER:
+            return True  # it would become part of the name
         if before.kind is Kind.WORD:
             return self._is_keyword(before) or token.kind in (Kind.WORD, Kind.STRING)
         if _is_operator(token, {"("}):

@@ -26,6 +26,7 @@ from openacr.messages import (
 
 LONGEST_LABEL = 32
 HIGHEST_LINE_NUMBER = 999999
+_NAME_PARTS = frozenset((Kind.WORD, Kind.NUMBER))
 PREFIXES = frozenset(("AXIS", "MASTER"))
 
 
@@ -40,6 +41,7 @@ class Scope:
     stored: bool = False
     axes: frozenset[str] = frozenset()
     aliases: Mapping[str, Expr] = field(default_factory=dict)
+    numbered: frozenset[str] = frozenset()  # the aliases that hold digits
 
 
 def parse_line(text: str | bytes, scope: Scope, line: int = 1) -> Line:
@@ -47,10 +49,28 @@ def parse_line(text: str | bytes, scope: Scope, line: int = 1) -> Line:
     return Parser(tokens(text, line), scope).line()
 
 
+def join_names(found: list[Token], names: frozenset[str]) -> None:
+    """Make one word of the words and numbers that spell one of these names without a gap."""
+    for at, first in enumerate(found):
+        if first.kind is not Kind.WORD:
+            continue
+        run, name, behind = "", "", at
+        for end in range(at, len(found)):
+            if found[end].kind not in _NAME_PARTS or found[end].column != first.column + len(run):
+                break
+            run += found[end].text
+            if run in names:  # the longest counts
+                name, behind = run, end + 1
+        if name:
+            found[at:behind] = [Token(Kind.WORD, name, name.upper(), first.line, first.column)]
+
+
 class Parser(ExpressionParser):
-    """A cursor over the tokens of one line."""
+    """A cursor over the tokens of one line; aliases with digits become one token there."""
 
     def __init__(self, found: list[Token], scope: Scope) -> None:
+        if scope.numbered:
+            join_names(found, scope.numbered)
         super().__init__(found, scope.aliases)
         self.scope = scope
         self.prefix: Prefix | None = None

@@ -112,7 +112,9 @@ class System:
         self.card = card
         streams = card.model.streams
         self.storage = Storage(card.memory, streams=streams)
-        self.aliases = Aliases(lambda: self.storage.define_count)
+        self.aliases = Aliases(
+            lambda: self.storage.define_count, has_digits=card.model.has_digits_in_names
+        )
         self.programs = ProgramStore(self.storage)
         self.known_lines = KnownLines()
         self._last_scope = Scope()
@@ -135,7 +137,7 @@ class System:
         is_level = last.level is level and last.stored is stored
         if is_level and last.aliases is nodes and last.axes is axes:
             return last  # line after line
-        self._last_scope = Scope(level, stored, axes, nodes)
+        self._last_scope = Scope(level, stored, axes, nodes, self.aliases.numbered)
         return self._last_scope
 
     def read_stored(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import SourceError
+from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.project import Place, Project, find_project, place_of, read_source
 
 if TYPE_CHECKING:
@@ -65,20 +66,33 @@ def read(file: Path, project: Project) -> "Reader":
     """Read all files; one of a project alone is read behind the set-up beside it."""
     from openacr.cli.source import Reader
 
-    reader = Reader()
     place, number = place_of(file)
-    if file.is_dir() or place is Place.SETUP:
+    is_whole = file.is_dir() or place is Place.SETUP
+    home = project if is_whole else find_project(file.parent)
+    reader = Reader(has_digits_in_names=_model(home).has_digits_in_names)
+    if is_whole:
         reader.sizes.is_complete = file.is_dir()
         for source in project.sources:
             reader.read(source)
         return reader
-    setup = find_project(file.parent).setup
-    if setup:
-        reader.read(setup)
+    if home.setup:
+        reader.read(home.setup)
         reader.faults.clear()
         reader.parts.clear()
     reader.read(read_source(file, place, number))
     return reader
+
+
+def _model(project: Project) -> Model:
+    """The model the files are for; the usual one unless a readable machine file says which."""
+    from openacr.plant.load import load_world
+
+    if project.machine is None:
+        return DEFAULT_MODEL
+    try:
+        return MODELS[load_world(project.machine).card.model]
+    except SourceError:
+        return DEFAULT_MODEL
 
 
 def _table_faults(project: Project) -> Iterator["Fault"]:

@@ -11,13 +11,14 @@ from difflib import get_close_matches
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic import registry
+from openacr.basic.aliases import check_name, numbered_names
 from openacr.basic.commands.operating_system import Definition
 from openacr.basic.expressions import StatementError
 from openacr.basic.lister import Lister
 from openacr.basic.loader import FileLine, file_lines, long_lived_objects
 from openacr.basic.nodes import Expr, Move, Number, Statement, String
 from openacr.basic.outline import Outline, outline
-from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope
+from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope, join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
@@ -65,6 +66,7 @@ class Reader:
     level: Level = Level.SYS
     number: int = 0
     is_capturing: bool = False
+    has_digits_in_names: bool = False  # of aliases, as the model has it
     _path: str = ""
     _originals: list[str] = field(default_factory=list)
     _captured: Text = field(default_factory=Text)
@@ -152,7 +154,7 @@ class Reader:
 
     def _scope(self, *, stored: bool) -> Scope:
         axes = frozenset(self.axes.get(self.number, ()) if self.level is Level.PROG else ())
-        return Scope(self.level, stored, axes, self.aliases)
+        return Scope(self.level, stored, axes, self.aliases, numbered_names(self.aliases))
 
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
@@ -164,13 +166,14 @@ class Reader:
             text.lines.pop(number, None)
             return
         if self.level is Level.PLC:
+            join_names(found, self._stored_scope.numbered)
             rung = read_line(found, PlcNames(self.aliases))
             text.put(TextLine(number, line, Outline(), self._stored_scope, start, rung))
             return
         tree = Parser(found, self._stored_scope).line()
         known = outline(found, tree, self._kinds)
         text.put(TextLine(number, line, known, self._stored_scope, start))
-        if self.is_capturing and not start and line.shape:
+        if self.is_capturing and not start and line.shape and not self._stored_scope.numbered:
             self._known[line.shape] = known
         if known.dimensions:
             self.sizes.note(self.number, tree.blocks)
@@ -197,6 +200,7 @@ class Reader:
             self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
         for item in arguments:
             if isinstance(item, Definition) and item.target is not None:
+                check_name(item.name, has_digits=self.has_digits_in_names)
                 self.aliases = self.aliases | {item.name: item.target}
 
     def _check(self, level: Level, number: int) -> None:

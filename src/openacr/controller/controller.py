@@ -18,6 +18,7 @@ import numpy as np
 
 from openacr.basic.control import ProgramControl
 from openacr.basic.executor import Executor
+from openacr.basic.parser import join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.system import System
@@ -514,6 +515,7 @@ class Controller:
             yield line.number, line.tree
 
     def _read_plc(self, found: list[Token]) -> tuple[PlcLine | None, int]:
+        join_names(found, self.system.aliases.numbered)
         line = read_line(found, PlcNames(self.system.aliases.nodes))
         return line, line.count if line else 0
 
