@@ -215,3 +215,17 @@ def test_a_password_keeps_program_text_from_being_listed(bench: Bench) -> None:
     assert bench.type("PROG 0", "LIST") == "P00>Program is protected|P00>"
     assert bench.type("SYS", 'PASSWORD OFF "other"') == "SYS>Invalid password|SYS>"
     assert bench.type('PASSWORD OFF "secret"', "PROG 0", "LIST") == "SYS>P00>10 DWL 1|P00>"
+
+
+def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:
+    assert bench.type("CONFIG XIO") == "CONFIG XIO 0|SYS>"
+    assert bench.type("CONFIG XIO 2", "CONFIG XIO") == "SYS>CONFIG XIO 2|SYS>"
+    assert [bench.card.memory.bit(flag) for flag in range(116, 120)] == [1, 1, 0, 0]
+    assert bench.type("CONFIG XIO 5") == "Invalid argument|SYS>"
+    assert bench.type("CONFIG IO INPUT 1 2", "CONFIG IO") == "Not supported|SYS>" * 2
+
+
+@pytest.mark.req("ACR-CMD-ADCX")
+def test_the_expansion_analog_board_is_missing(bench: Bench) -> None:
+    for line in ("ADCX", "ADCX ON", "ADCX OFF", "ADCX MODE 1", "ADCX MAX 8"):
+        assert bench.type(line) == "Not supported|SYS>"

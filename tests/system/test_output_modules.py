@@ -1,5 +1,7 @@
 """CONFIG and the set-up of servo, stepper and commutated axes in the guide's examples."""
 
+from pathlib import Path
+
 import pytest
 from tests.system.terminal import Console
 
@@ -109,11 +111,74 @@ def test_two_arguments_take_the_position_source_for_the_velocity_too(card: Conso
     assert attached(card, 2) == "ATTACH AXIS2 ENC5 DAC2 ENC5"
 
 
+@pytest.mark.req("ACR-OUTMOD-03", "ACR-OUTMOD-05")
+@pytest.mark.parametrize("model", ["ACR8020", "ACR1505"])
+def test_brushless_axes_put_out_through_commutators(model: str) -> None:
+    card = Console(model)
+    set_up(card, "CONFIG ENC4 DAC4 STEPPER4 NONE")
+    set_up(card, "ATTACH AXIS0 ENC0 CMT0 ENC0", "ATTACH AXIS1 ENC2 CMT1 ENC2")
+    set_up(card, "AXIS2 OFF", "AXIS3 OFF", "CMT0 ENC0 ENC1", "CMT0 DAC0 DAC1")
+    set_up(card, "CMT1 ENC2 ENC3", "CMT1 DAC2 DAC3")
+    assert attached(card, 1) == "ATTACH AXIS1 ENC2 CMT1 ENC2"
+    assert (card.type("CMT0 ENC"), card.type("CMT1 DAC")) == ("0,1", "2,3")
+    assert (card.type("AXIS2"), card.type("AXIS1")) == ("OFF", "ON")
+
+
+STEPPER_AXIS = (
+    *("ATTACH AXIS0 STEPPER0 STEPPER0", "PROG0", "ATTACH MASTER0"),
+    *('ATTACH SLAVE0 AXIS0 "X"', "PPU X100", "VEL 10"),
+)
+
+
+def restarted(modules: str) -> Controller:
+    """A card that has been configured and restarted."""
+    card = Controller()
+    card.send(f"CONFIG {modules}\rESAVE\rREBOOT\r")
+    card.advance(1)
+    return card
+
+
 @pytest.mark.req("ACR-OUTMOD-09")
 def test_a_stepper_axis_counts_its_own_steps() -> None:
-    card = Controller()
-    lines = ("ATTACH AXIS0 STEPPER0 STEPPER0", "PROG0", "ATTACH MASTER0")
-    card.send("\r".join((*lines, 'ATTACH SLAVE0 AXIS0 "X"', "PPU X100", "VEL 10", "X5", "")))
+    card = restarted("ENC4 DAC4 STEPPER4 NONE")
+    card.send("\r".join((*STEPPER_AXIS, "X5", "")))
     card.advance(seconds=2)
     assert card.p[12290] == 500  # actual position
     assert card.axis(0).following_error == 0
+
+
+@pytest.mark.req("ACR-TRB-13")
+def test_a_stepper_axis_moves_only_where_config_has_steppers() -> None:
+    card = Controller()
+    card.send("CONFIG ENC4 DAC4 STEPPER4 NONE\r")  # not yet restarted
+    card.send("\r".join((*STEPPER_AXIS, "X5", "")))
+    card.advance(seconds=2)
+    assert (card.p[6156], card.p[12290], card.p[12288]) == (0, 0, 500)
+    card = restarted("ENC4 DAC4 STEPPER4 NONE")
+    card.send("\r".join((*STEPPER_AXIS, "X5", "")))
+    card.advance(seconds=2)
+    assert (card.p[6156], card.p[12290]) == (500, 500)
+    assert card.p[12304] == pytest.approx(0.002441406)
+    assert not any(card.p[12304 + row] for row in range(1, 12))
+
+
+@pytest.mark.req("ACR-CFG-09")
+def test_hardware_that_config_does_not_name_reads_0_and_is_not_driven() -> None:
+    card = restarted("ENC4 DAC2 DAC2 NONE")
+    lines = [f'ATTACH SLAVE{n} AXIS{n + 3} "{name}"' for n, name in enumerate("XY")]
+    assert "not" not in card.send("\r".join(("PROG0", "ATTACH MASTER0", *lines, "")))
+    card.send("PPU X1000 Y1000\rVEL 10\rX1 Y1\rP6464=5\r")
+    card.advance(seconds=1)
+    assert (card.p[6192], card.p[12290 + 3 * 256]) == (1000, 1000)  # encoder 3, axis 3
+    assert (card.p[6208], card.p[12290 + 4 * 256]) == (0, 0)
+    assert card.p[12288 + 4 * 256] == 1000  # commanded all the same
+    assert card.p[6464] == 0  # analog output 4
+    assert card.p[12288 + 4 * 256 + 31] > 2  # the servo loop has its output
+
+
+def test_a_project_sets_its_card_up_and_restarts_it(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text("CONFIG NONE STEPPER4 STEPPER4 NONE\n")
+    card = Controller.from_project(tmp_path)
+    card.send("\r".join((*STEPPER_AXIS, "ATTACH AXIS0 STEPPER7 STEPPER7", "X5", "")))
+    card.advance(seconds=2)
+    assert card.p[6268] == 500

@@ -9,6 +9,7 @@ from openacr.basic.loader import file_lines, long_lived_objects
 from openacr.basic.registry import Level
 from openacr.basic.session import Session
 from openacr.errors import CardError, SourceError
+from openacr.motion import modules
 from openacr.project import Place, Project, SourceFile
 
 PATIENCE_S = 60.0  # a line of a set-up file that waits longer than this hangs
@@ -53,6 +54,9 @@ class Loader:
                     errors.append(SourceError(problem, path=str(source.path), line=line.number))
         if self.session.capture is not None:
             self._feed("ENDP")
+        if source.place is Place.SETUP:
+            # A machine is set up with its project and switched on again, once and for all.
+            modules.fit(self.session.system.card, self.session.system.setup.config)
         return errors
 
     def _feed(self, text: str) -> str | None:

@@ -27,6 +27,7 @@ from openacr.controller.shelf import Shelf
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.models import FIRMWARE
+from openacr.motion import modules
 
 CARD, FLASH, PARAMETERS, STREAM_MODES, BACKUP = "card", "flash", "parameters", "streams", "firmware"
 NO_BATTERY = "no battery"  # in snapshots: BRESET was given
@@ -94,6 +95,7 @@ class Persistence:
             saved.put_stream_modes(self._system, modes)
         if config is not None:
             self._system.setup.configure(config)
+        modules.fit(self._system.card, self._system.setup.config)
 
     def _put_user_memory(self, image: UserMemory) -> None:
         try:

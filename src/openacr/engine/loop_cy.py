@@ -7,6 +7,7 @@ the same place of the same tick.
 """
 
 from openacr.basic.scheduler_cy import scheduler_step
+from openacr.kernel.modules_cy import missing_outputs_step
 from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
@@ -32,6 +33,7 @@ from openacr.map.numbers import (
     ENGI_WATCH_COUNT,
     KRI_AXES,
     KRI_BASE,
+    KRI_MISSING_DACS,
     KRI_MOVES_WAITING,
     MSI_BASE,
     MSI_DEPTH,
@@ -294,6 +296,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
         ):
             return TRACE_FULL
         I[e + ENGI_TICKS_LEFT] -= 1
+        if I[KRI_BASE + KRI_MISSING_DACS]:
+            missing_outputs_step(I, S)  # programs may have written some
         plant_step(F, I, S, axes, F[SYSF_BASE + SYSF_PERIOD_S])
         tick(F, I, S)
         plc_step(F, I)

@@ -50,6 +50,8 @@ from openacr.map.numbers import (
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
+    KRI_BASE,
+    KRI_MISSING_ENCODERS,
     PLF_BASE,
     PLF_RAW_COUNT,
     PLF_STRIDE,
@@ -69,6 +71,7 @@ FROM_ADC = 1
 FROM_STEPPER = 2
 ENCODER_COUNT = 24
 MODELLED = 16  # encoders that can have a motor in the plant
+FITTED = 8  # encoders CONFIG can leave out
 ADC_COUNTS_PER_VOLT = 1000.0
 
 
@@ -138,6 +141,8 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
     source: int = I[i + AXI_POSITION_SOURCE]
     k: int = I[i + AXI_POSITION_INDEX]
     if source == FROM_ENCODER and 0 <= k < ENCODER_COUNT:
+        if k < FITTED and I[KRI_BASE + KRI_MISSING_ENCODERS] >> k & 1:
+            return 0
         modelled: bool = k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
         if not modelled:
             F[ENF_BASE + k * ENF_STRIDE + ENF_STEP_CNT] = 0.0

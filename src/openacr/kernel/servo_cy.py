@@ -10,11 +10,12 @@ feed-forward from the differences of the secondary setpoint; velocity feedback f
 encoder of the third ATTACH AXIS argument. With KVP > 0 a velocity loop takes the place of
 the PID sum:  vr = PGAIN e + KVF v_cmd,  ve = vr - FBVEL v_fb,  sum = KVP ve + KVI int(ve).
 
-A converter shows (out + OFFSET) GAIN counts, 3276.8 counts being one volt.
+The output goes to a converter, to a commutator or, as the setpoint, to a stepper output.
 """
 
 from openacr.cmath import fabs, rint
 from openacr.kernel.axis_cy import axis_word
+from openacr.kernel.commutator_cy import commutator_step, dac_put
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, encoder_row
 from openacr.kernel.words_cy import round32
 from openacr.map.numbers import (
@@ -95,15 +96,13 @@ from openacr.map.numbers import (
     AXI_VELOCITY_SOURCE,
     AXI_WINDOW_COUNT,
     AXI_WINDOW_INDEX,
-    DAC_BASE,
-    DAC_DAC_GAIN,
-    DAC_DAC_OFFSET,
-    DAC_DAC_OUTPUT,
-    DAC_STRIDE,
+    CMT_COUNT,
     ENC_ENCODER_VELOCITY,
     FOF_BASE,
     FOF_LOCK_V,
     FOF_STRIDE,
+    KRI_BASE,
+    KRI_MISSING_STEPPERS,
     STPR_BASE,
     STPR_STEPPER_COUNT,
     STPR_STEPPER_SIGNAL,
@@ -115,8 +114,7 @@ __all__ = ["servo_step"]
 
 TO_DAC = 0
 TO_STEPPER = 1
-VOLTS_PER_COUNT = 1.0 / 3276.8
-COUNTS_MAX = 32767.0
+TO_COMMUTATOR = 2
 TINY = 1e-30  # filter states below this are 0: denormal numbers are very slow
 
 
@@ -320,11 +318,10 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
         F[a + AXF_ERROR_OLD_CNT] = error
     S[p + AX_OUTPUT_SIGNAL] = output
     k: int = I[i + AXI_SIGNAL_INDEX]
-    if I[i + AXI_SIGNAL_SOURCE] == TO_DAC and 0 <= k < 16:
-        d: int = DAC_BASE + k * DAC_STRIDE
-        counts: float = (output + S[d + DAC_DAC_OFFSET]) * S[d + DAC_DAC_GAIN]
-        counts = max(-COUNTS_MAX, min(COUNTS_MAX, counts))
-        S[d + DAC_DAC_OUTPUT] = counts * VOLTS_PER_COUNT
+    if I[i + AXI_SIGNAL_SOURCE] == TO_DAC:
+        dac_put(S, k, output)
+    elif I[i + AXI_SIGNAL_SOURCE] == TO_COMMUTATOR and 0 <= k < CMT_COUNT:
+        commutator_step(I, S, n, k, output)
 
 
 def stepper_step(F: F64, I: I32, S: F32, n: int) -> None:
@@ -332,7 +329,7 @@ def stepper_step(F: F64, I: I32, S: F32, n: int) -> None:
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
     k: int = I[i + AXI_SIGNAL_INDEX]
-    if 0 <= k < 16:
+    if 0 <= k < 16 and not I[KRI_BASE + KRI_MISSING_STEPPERS] >> k & 1:
         row: int = STPR_BASE + k * STPR_STRIDE
         setpoint: float = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
         I[row + STPR_STEPPER_COUNT] = round32(setpoint)

@@ -8,10 +8,12 @@ from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written,
 from openacr.kernel.capture_cy import capture_step
 from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
+from openacr.kernel.fast_status_cy import fast_status_step
 from openacr.kernel.feedback_cy import encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
 from openacr.kernel.master_cy import master_step
+from openacr.kernel.modules_cy import missing_inputs_step, missing_outputs_step
 from openacr.kernel.object_cy import object_outputs_step, object_sources_step
 from openacr.kernel.offset_cy import (
     followers_step,
@@ -45,6 +47,10 @@ from openacr.map.numbers import (
     KRI_AXES,
     KRI_BASE,
     KRI_MASTERS,
+    KRI_MISSING_ADCS,
+    KRI_MISSING_DACS,
+    KRI_MISSING_ENCODERS,
+    KRI_MISSING_STEPPERS,
     KRI_SLOW_TICKS,
     MF1_IN_MOTION,
     MO_SAMPLE_TRIGGER_ARMED,
@@ -60,6 +66,7 @@ from openacr.map.numbers import (
     SYSF_PERIOD_S,
     SYSI_BASE,
     SYSI_SLOW_PHASE,
+    W_FSTAT,
     W_MISC_OUTPUTS,
 )
 from openacr.views import F32, F64, I32
@@ -115,6 +122,12 @@ def tick(F: F64, I: I32, S: F32) -> None:
     for e in range(MODELLED):
         if I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
             encoder_step(F, I, e, rate_hz)
+    if (
+        I[KRI_BASE + KRI_MISSING_ENCODERS]
+        | I[KRI_BASE + KRI_MISSING_ADCS]
+        | I[KRI_BASE + KRI_MISSING_STEPPERS]
+    ):
+        missing_inputs_step(I, S)
     for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
             written: bool = axis_take_written(F, I, n)
@@ -148,6 +161,10 @@ def tick(F: F64, I: I32, S: F32) -> None:
         object_outputs_step(F, I, S)
     if I[W_MISC_OUTPUTS] & MO_SAMPLE_TRIGGER_ARMED or I[SAI_BASE + SAI_ARMED_OLD]:
         sample_step(F, I, S, period_s)
+    if I[W_FSTAT]:
+        fast_status_step(F, I, S, period_s)
+    if I[KRI_BASE + KRI_MISSING_DACS]:
+        missing_outputs_step(I, S)
     slow: int = I[SYSI_BASE + SYSI_SLOW_PHASE] + 1
     if slow >= I[KRI_BASE + KRI_SLOW_TICKS]:
         slow = 0

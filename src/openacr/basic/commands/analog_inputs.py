@@ -1,15 +1,17 @@
 """Global objects: the analog input scanner as a whole (ADC MODE, MAX, ON, OFF).
 
+ADCX says the same of an expansion board, which no modelled card has.
+
 Bit 0 of the ADC state control parameter (P6917) is the scanner running. The resolution and
 the number of scanned channels are hidden rows.
 """
 
-from openacr.basic.grammar import Int
+from openacr.basic.grammar import Int, Word
 from openacr.basic.registry import ANY, command
 from openacr.basic.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import KRI_ADC_CHANNELS, KRI_ADC_MODE, KRI_BASE, P_ADC_STATE_CONTROL
-from openacr.messages import INVALID_ARGUMENT
+from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
@@ -66,3 +68,15 @@ def adc_on(run: Run) -> None:
 def adc_off(run: Run) -> None:
     """Stop scanning: the analog inputs keep their last values."""
     run.card.memory.I[P_ADC_STATE_CONTROL] &= ~SCANNING
+
+
+@command(
+    "ADCX",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Word("MODE", "MAX", "ON", "OFF", optional=True), Int("value", optional=True)),
+    ref=REF,
+)
+def adcx(run: Run, what: str | None, value: int | None) -> None:
+    """Set up the analog inputs of an expansion board; refused without one."""
+    raise CardError(NOT_SUPPORTED)

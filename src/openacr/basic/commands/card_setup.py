@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.basic.grammar import Form, Str, Word
+from openacr.basic.grammar import Form, Int, Repeat, Str, Word
 from openacr.basic.registry import ANY, IMMEDIATE, command
 from openacr.basic.run import Run
 from openacr.basic.setup import DEFAULT_CONFIG, Setup
+from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.map import numbers as at
-from openacr.messages import SYNTAX_ERROR
+from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
 from openacr.motion.card import Card
 from openacr.motion.rows import axis_ints
 
@@ -67,6 +68,37 @@ def config(run: Run, modules: tuple[str, ...] | None) -> None:
         run.print("CONFIG " + " ".join(setup.config))
     else:
         setup.configure(modules)
+
+
+@command(
+    "CONFIG IO",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Word("INPUT", "OUTPUT", optional=True), Repeat(Int("group"), optional=True)),
+    ref=REF,
+)
+def config_io(run: Run, direction: str | None, groups: tuple[int, ...] | None) -> None:
+    """Choose the direction of onboard contacts; refused where it is fixed, as here."""
+    raise CardError(NOT_SUPPORTED)
+
+
+@command(
+    "CONFIG XIO",
+    group=GROUP,
+    levels=ANY,
+    grammar=(Int("boards", 0, EXPANSION_BOARDS, optional=True),),
+    ref=REF,
+    default="0",
+)
+def config_xio(run: Run, boards: int | None) -> None:
+    """Set how many expansion I/O boards are enabled, or show it."""
+    flags = range(EXPANSION_ENABLE, EXPANSION_ENABLE + EXPANSION_BOARDS)
+    memory = run.card.memory
+    if boards is None:
+        run.print(f"CONFIG XIO {sum(map(memory.bit, flags))}")
+        return
+    for board, flag in enumerate(flags):
+        memory.set_bit(flag, board < boards)
 
 
 @command(

@@ -274,5 +274,9 @@ KERNEL = HiddenBlock(
         "adc_mode",
         "adc_channels",
         "moves_waiting",
+        "missing_encoders",  # bit masks: what CONFIG leaves out
+        "missing_dacs",
+        "missing_steppers",
+        "missing_adcs",
     ),
 )

@@ -50,6 +50,18 @@ OUTPUT_OBJECT = HiddenBlock(
     ints=("on", "bit", "windows"),
 )
 
+FAST_STATUS = HiddenBlock(
+    prefix="FSB",
+    count=10,
+    doubles=("phase_ms",),  # since the last copy; entry 0 counts for all
+    ints=(
+        "code",  # as loaded when the cycle was started
+        "index",
+        "type",
+        ("words", 8),  # LONG, or FP32 through the other view
+    ),
+)
+
 SAMPLER = HiddenBlock(
     prefix="SA",
     count=1,

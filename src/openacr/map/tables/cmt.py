@@ -23,12 +23,12 @@ COMMUTATOR = Block(
     packet=objects_apart,
 )
 COMMUTATOR.row(0x00, "FeedBackEncoder", LONG, RW, "", "Number of the feedback encoder.")
-COMMUTATOR.row(0x01, "AngleBetweenPhases", LONG, RW, "deg", "Phase B minus phase A.")
+COMMUTATOR.row(0x01, "AngleBetweenPhases", LONG, RW, "deg", "Phase B minus phase A.", default=120)
 COMMUTATOR.row(
     0x02, "EncoderShaftPosition", LONG, R, "pulse", "Counts since the last marker pulse."
 )
 COMMUTATOR.row(0x03, "PhaseADacChannel", LONG, RW, "", "DAC of phase A.")
-COMMUTATOR.row(0x04, "PhaseBDacChannel", LONG, RW, "", "DAC of phase B.")
+COMMUTATOR.row(0x04, "PhaseBDacChannel", LONG, RW, "", "DAC of phase B.", default=1)
 COMMUTATOR.row(
     0x05, "PulsePerRevolution", LONG, RW, "pulse/rev", "Encoder pulses before multiplication."
 )
@@ -37,7 +37,9 @@ COMMUTATOR.row(0x07, "PhaseBADCCChannel", LONG, RW, "", "ADC of phase B.")
 COMMUTATOR.row(
     0x08, "PhaseMarkerOffset", LONG, RW, "pulse", "Added to the count before the sine table."
 )
-COMMUTATOR.row(0x09, "ElecRevPerMechRev", LONG, RW, "", "Electrical cycles per revolution.")
+COMMUTATOR.row(
+    0x09, "ElecRevPerMechRev", LONG, RW, "", "Electrical cycles per revolution.", default=1
+)
 COMMUTATOR.row(0x0A, "HallEffectChannel", LONG, RW, "", "Hall inputs; the feedback encoder: none.")
 COMMUTATOR.reserved(LONG, range(0x0B, 0x0E))
 COMMUTATOR.row(0x0E, "MaxFollowingErr", LONG, RW, "pulse", "Beyond this the commutator turns off.")
@@ -62,8 +64,8 @@ COMMUTATOR.row(0x18, "PhaseASignal", FP32, R, "V", "Signal of phase A.")
 COMMUTATOR.row(0x19, "PhaseBSignal", FP32, R, "V", "Signal of phase B.")
 COMMUTATOR.row(0x1A, "PhaseAOffset", FP32, RW, "V", "Added to phase A.")
 COMMUTATOR.row(0x1B, "PhaseBOffset", FP32, RW, "V", "Added to phase B.")
-COMMUTATOR.row(0x1C, "PhaseAGain", FP32, RW, "", "Factor on phase A.")
-COMMUTATOR.row(0x1D, "PhaseBGain", FP32, RW, "", "Factor on phase B.")
+COMMUTATOR.row(0x1C, "PhaseAGain", FP32, RW, "", "Factor on phase A.", default=1)
+COMMUTATOR.row(0x1D, "PhaseBGain", FP32, RW, "", "Factor on phase B.", default=1)
 COMMUTATOR.row(0x1E, "MaxMotorRPM", FP32, RW, "1/min", "Highest speed of the motor.")
 COMMUTATOR.row(0x1F, "MaxMotorCurrent", FP32, RW, "A", "Highest current of the motor.")
 COMMUTATOR.row(0x20, "MaxMotorCurrentNeg", FP32)

@@ -1,0 +1,212 @@
+"""Global objects: commutators (CMTn), which share an axis output out to two motor phases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic.commands.global_objects import adcs, dacs, encoder_count
+from openacr.basic.grammar import Form, Group, Int
+from openacr.basic.nodes import Expr
+from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import ANY, command
+from openacr.basic.run import Run
+from openacr.basic.saving import each, kept
+from openacr.basic.value_commands import ObjectValue, check_number, object_values
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind as TokenKind
+from openacr.map import block
+from openacr.map import numbers as at
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion.card import Card
+from openacr.motion.settings import Setting, not_negative
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from openacr.basic.parser import Parser
+
+GROUP = "Global Objects"
+REF = "PG Global Objects"
+FAULTS = at.CMF_CMT_MOTOR_OVERSPEED | at.CMF_CMT_ENCODER_FAULT | at.CMF_CMT_FOLLOWING_ERROR
+
+
+class Channel(Form):
+    """The number of a channel; its word may stand in front again, as in `CMT0 ENC0 ENC1`."""
+
+    def __init__(self, word: str) -> None:
+        super().__init__(word, optional=True)
+
+    def starts(self, p: Parser) -> bool:
+        """Whether a number, or the word with one, stands here."""
+        return p.at_value or (p.is_word(self.name) and p.ahead(1).kind is TokenKind.NUMBER)
+
+    def parse(self, p: Parser) -> Expr:
+        """Read the number."""
+        p.accept(self.name)
+        return p.value()
+
+    def evaluate(self, run: Run, read: Expr | None) -> int | None:
+        """The channel."""
+        return None if read is None else run.integer(read)
+
+
+def commutators(card: Card) -> int:
+    """How many commutators there are."""
+    return at.CMT_COUNT
+
+
+def _long(row: int) -> Setting:
+    return Setting(block.Kind.LONG, at.CMT_BASE + row, at.CMT_STRIDE)
+
+
+def _fp32(row: int, allows: Callable[[float], bool] = not_negative) -> Setting:
+    return Setting(block.Kind.FP32, at.CMT_BASE + row, at.CMT_STRIDE, allows)
+
+
+object_values(
+    (
+        ObjectValue("CMT # PPR", _long(at.CMT_PULSEPERREVOLUTION), commutators,
+                    "Set the pulses the encoder gives in one revolution of the motor."),
+        ObjectValue("CMT # ERPMR", _long(at.CMT_ELECREVPERMECHREV), commutators,
+                    "Set the electrical cycles of one revolution of the motor.", "", "1"),
+        ObjectValue("CMT # ANG", _long(at.CMT_ANGLEBETWEENPHASES), commutators,
+                    "Set the angle from phase A to phase B.", "deg", "120"),
+        ObjectValue("CMT # SHIFT", _long(at.CMT_PHASEMARKEROFFSET), commutators,
+                    "Set the encoder counts from the marker to the zero of phase A.", "counts"),
+        ObjectValue("CMT # MAXRPM", _fp32(at.CMT_MAXMOTORRPM), commutators,
+                    "Set the speed that turns a commutator off; 0 is none.", "1/min"),
+        ObjectValue("CMT # MAXAMP", _fp32(at.CMT_MAXMOTORCURRENT), commutators,
+                    "Set the highest current of the phases; 0 is no limit.", "A"),
+        ObjectValue("CMT # HSEN", _long(at.CMT_HALLEFFECTCHANNEL), commutators,
+                    "Choose the Hall inputs of a commutator."),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Channels:
+    """Two channels of one kind."""
+
+    word: str
+    rows: tuple[int, int]
+    count: Callable[[Card], int]
+    doc: str
+
+    def read(self, card: Card, number: int) -> list[int]:
+        """Both channels."""
+        return [card.memory.I[row] for row in self._places(number)]
+
+    def write(self, card: Card, number: int, channels: Sequence[int]) -> None:
+        """Store those given; one the card does not have changes nothing."""
+        for channel in channels:
+            check_number(channel, self.count(card))
+        for row, channel in zip(self._places(number), channels, strict=False):
+            card.memory.I[row] = channel
+
+    def _places(self, number: int) -> list[int]:
+        return [at.CMT_BASE + number * at.CMT_STRIDE + row for row in self.rows]
+
+
+def _register(channels: Channels) -> None:
+    def handler(run: Run, number: int, first: int | None, second: int | None) -> None:
+        check_number(number, at.CMT_COUNT)
+        if first is None:
+            run.print(",".join(map(str, channels.read(run.card, number))))
+        else:
+            channels.write(run.card, number, [n for n in (first, second) if n is not None])
+
+    handler.__doc__ = channels.doc
+    words = f"CMT # {channels.word}"
+    grammar = (Channel(channels.word), Channel(channels.word))
+    command(words, group=GROUP, levels=ANY, grammar=grammar, ref=REF, saved=True)(handler)
+    kept[words] = each(words, commutators, channels.read, channels.write)
+
+
+for _channels in (
+    Channels("ENC", (at.CMT_FEEDBACKENCODER, at.CMT_HALLEFFECTCHANNEL), encoder_count,
+             "Choose the feedback encoder and the Hall inputs of a commutator."),
+    Channels("DAC", (at.CMT_PHASEADACCHANNEL, at.CMT_PHASEBDACCHANNEL), dacs,
+             "Choose the analog outputs of both phases."),
+    Channels("ADC", (at.CMT_PHASEAADCCCHANNEL, at.CMT_PHASEBADCCCHANNEL), adcs,
+             "Choose the analog inputs that measure both phases."),
+):  # fmt: skip
+    _register(_channels)
+
+
+def _offsets(card: Card, number: int) -> list[float]:
+    return [card.memory.S[_first_offset(number) + phase] for phase in range(2)]
+
+
+def _set_offsets(card: Card, number: int, offsets: Sequence[float]) -> None:
+    for phase, offset_v in enumerate(offsets):
+        card.memory.S[_first_offset(number) + phase] = offset_v
+
+
+def _first_offset(number: int) -> int:
+    return at.CMT_BASE + number * at.CMT_STRIDE + at.CMT_PHASEAOFFSET
+
+
+@command("CMT # OFFSET", group=GROUP, levels=ANY, ref=REF, units="V", default="0,0", saved=True,
+         grammar=(Group("a", "b", optional=True),))  # fmt: skip
+def cmt_offset(run: Run, number: int, offsets: tuple[float, float] | None) -> None:
+    """Set what is added to the signal of each phase."""
+    check_number(number, at.CMT_COUNT)
+    if offsets is None:
+        run.print(",".join(number_text(v, Kind.SINGLE) for v in _offsets(run.card, number)))
+    else:
+        _set_offsets(run.card, number, offsets)
+
+
+kept["CMT # OFFSET"] = each("CMT # OFFSET", commutators, _offsets, _set_offsets)
+
+
+def _mode(card: Card, number: int) -> int:
+    return int(card.memory.I[at.CMF_WORD + number] & at.CMF_CMT_SINUSOIDAL_ON != 0)
+
+
+def _set_mode(card: Card, number: int, mode: int) -> None:
+    if mode not in (0, 1):
+        raise CardError(INVALID_ARGUMENT)
+    flags = card.memory.I[at.CMF_WORD + number] & ~at.CMF_CMT_SINUSOIDAL_ON
+    card.memory.I[at.CMF_WORD + number] = flags | mode * at.CMF_CMT_SINUSOIDAL_ON
+
+
+@command("CMT # MODE", group=GROUP, levels=ANY, ref=REF, default="0", saved=True,
+         grammar=(Int("mode", 0, 1, optional=True),))  # fmt: skip
+def cmt_mode(run: Run, number: int, mode: int | None) -> None:
+    """Choose trapezoidal (0) or sinusoidal (1) commutation."""
+    check_number(number, at.CMT_COUNT)
+    if mode is None:
+        run.print(str(_mode(run.card, number)))
+    else:
+        _set_mode(run.card, number, mode)
+
+
+kept["CMT # MODE"] = each("CMT # MODE", commutators, _mode, _set_mode)
+
+
+@command("CMT # ON", group=GROUP, levels=ANY, ref=REF)
+def cmt_on(run: Run, number: int) -> None:
+    """Turn a commutator on and forget what has turned it off."""
+    check_number(number, at.CMT_COUNT)
+    flags = run.card.memory.I[at.CMF_WORD + number] & ~FAULTS
+    run.card.memory.I[at.CMF_WORD + number] = flags | at.CMF_CMT_COMMUTATOR_ON
+
+
+@command("CMT # OFF", group=GROUP, levels=ANY, ref=REF)
+def cmt_off(run: Run, number: int) -> None:
+    """Turn a commutator off: both phases are 0 V."""
+    check_number(number, at.CMT_COUNT)
+    run.card.memory.I[at.CMF_WORD + number] &= ~at.CMF_CMT_COMMUTATOR_ON
+
+
+@command("CMT #", group=GROUP, levels=ANY, ref=REF)
+def cmt_report(run: Run, number: int) -> None:
+    """Report whether a commutator is on."""
+    check_number(number, at.CMT_COUNT)
+    is_on = run.card.memory.I[at.CMF_WORD + number] & at.CMF_CMT_COMMUTATOR_ON
+    run.print("ON" if is_on else "OFF")

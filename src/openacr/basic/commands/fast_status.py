@@ -1,0 +1,100 @@
+"""Global objects: the fast status block (FSTAT), copies of parameters for a host on the bus.
+
+The virtual card has no bus to a PC: the copies are kept as the card would hand them over, and
+`FSTAT n` shows them.
+"""
+
+from __future__ import annotations
+
+from openacr.basic.grammar import Group, Int
+from openacr.basic.number_format import Kind, number_text
+from openacr.basic.registry import ANY, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import check_number
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.map.lookup import packet_groups
+from openacr.messages import INVALID_ARGUMENT
+
+GROUP = "Global Objects"
+REF = "PG Global Objects"
+FIELDS = 8
+TYPES = (LONG, FP32) = (0, 1)
+LONGEST_MS = 60000
+
+
+def _entry(number: int) -> int:
+    check_number(number, at.FST_COUNT)
+    return at.FST_BASE + number * at.FST_STRIDE
+
+
+@command("FSTAT ON", group=GROUP, levels=ANY, ref=REF)
+def fstat_on(run: Run) -> None:
+    """Load the entries of the fast status block and copy it cyclically."""
+    run.card.memory.I[at.W_FSTAT] |= at.FSF_FSTAT_ON_REQUEST
+
+
+@command("FSTAT OFF", group=GROUP, levels=ANY, ref=REF)
+def fstat_off(run: Run) -> None:
+    """Stop copying: the fast status block stays as it is."""
+    run.card.memory.I[at.W_FSTAT] &= ~(at.FSF_FSTAT_ON | at.FSF_FSTAT_ON_REQUEST)
+
+
+@command("FSTAT PERIOD", group=GROUP, levels=ANY, ref=REF, units="ms", default="50",
+         grammar=(Int("ms", 1, LONGEST_MS, optional=True),))  # fmt: skip
+def fstat_period(run: Run, period_ms: int | None) -> None:
+    """Set the time from copy to copy."""
+    if period_ms is None:
+        run.print(str(run.card.memory.I[at.P_FSTAT_PERIOD]))
+    else:
+        run.card.memory.I[at.P_FSTAT_PERIOD] = period_ms
+
+
+@command("FSTAT CLEAR", group=GROUP, levels=ANY, ref=REF)
+def fstat_clear(run: Run) -> None:
+    """Forget all entries of the fast status block."""
+    for number in range(at.FST_COUNT):
+        _write(run, number, 0, 0, LONG)
+
+
+@command("FSTAT #", group=GROUP, levels=ANY, ref=REF,
+         grammar=(Group("code", "index", "type", optional=True),))  # fmt: skip
+def fstat_entry(run: Run, number: int, chosen: tuple[float, ...] | None) -> None:
+    """Choose the packet group an entry copies, as LONG (0) or FP32 (1), or show its copy."""
+    check_number(number, at.FST_COUNT)
+    if chosen is None:
+        run.print(",".join(_copies(run, number)))
+        return
+    code, index, kind = map(int, chosen)
+    if (code, index) not in packet_groups() or kind not in TYPES:
+        raise CardError(INVALID_ARGUMENT)
+    _write(run, number, code, index, kind)
+
+
+def _write(run: Run, number: int, code: int, index: int, kind: int) -> None:
+    row, memory = _entry(number), run.card.memory.I
+    memory[row + at.FST_FSTAT_CODE] = code
+    memory[row + at.FST_FSTAT_INDEX] = index
+    memory[row + at.FST_FSTAT_TYPE] = kind
+
+
+def _copies(run: Run, number: int) -> list[str]:
+    row, memory = at.FSBI_BASE + number * at.FSBI_STRIDE, run.card.memory
+    words = range(row + at.FSBI_WORDS, row + at.FSBI_WORDS + FIELDS)
+    if memory.I[row + at.FSBI_TYPE] == FP32:
+        return [number_text(memory.S[word], Kind.SINGLE) for word in words]
+    return [str(memory.I[word]) for word in words]
+
+
+@command("FSTAT", group=GROUP, levels=ANY, ref=REF)
+def fstat_report(run: Run) -> None:
+    """Report state, period and entries of the fast status block."""
+    memory = run.card.memory.I
+    is_on = memory[at.W_FSTAT] & (at.FSF_FSTAT_ON | at.FSF_FSTAT_ON_REQUEST)
+    run.print(f"FSTAT {'ON' if is_on else 'OFF'} PERIOD {memory[at.P_FSTAT_PERIOD]}")
+    for number in range(at.FST_COUNT):
+        row = _entry(number)
+        places = (at.FST_FSTAT_CODE, at.FST_FSTAT_INDEX, at.FST_FSTAT_TYPE)
+        code, index, kind = (memory[row + place] for place in places)
+        if code:
+            run.print(f"FSTAT{number} ({code},{index},{kind})")
