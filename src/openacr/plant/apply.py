@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.plant import apply_nodes, bus
 from openacr.plant.schema import (
     Axis,
     Contact,
@@ -49,6 +50,7 @@ def apply_world(world: World, memory: Memory) -> None:
     memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
     for axis in world.axis:
         _write_motor(memory, axis, world)
+    apply_nodes.write_nodes(memory, world)
     slots = _write_input_words(memory, world)
     _write_wires(memory, world, slots)
     plant_refresh(memory.F, memory.I, at.PL_COUNT)
@@ -58,18 +60,21 @@ _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
+    *apply_nodes.REALS,
 )
 _INTS = (
     (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
     (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
     (at.PLGI_BASE, at.PLGI_STRIDE),
+    *apply_nodes.INTS,
     (FLAG_WORDS, 1),  # the onboard inputs
 )
 
 
 def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
     """The state of the world outside, which survives a restart of the card."""
+    memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] = bus.now_s(memory)
     return (
         [list(memory.F[base : base + length]) for base, length in _REALS],
         [memory.I[base : base + length].tolist() for base, length in _INTS],
@@ -273,15 +278,15 @@ def _write_input_words(memory: Memory, world: World) -> dict[int, int]:
     """List the words that hold wired inputs; the onboard inputs always come first."""
     on, off = world.inputs.on, world.inputs.off
     wired = [*(box.input for box in _boxes(world)), *(wire.input for wire in world.wire), *on, *off]
-    words = sorted({_place(number)[0] for number in wired} | {at.W_INPUTS})
+    words = sorted({_input(number)[0] for number in wired} | {at.W_INPUTS})
     slots = {word: slot for slot, word in enumerate(words)}
     for word, slot in slots.items():
         memory.I[_word_row(slot) + at.PLNI_WORD] = word
     for number in wired:
-        word, mask = _place(number)
+        word, mask = _input(number)
         memory.I[_word_row(slots[word]) + at.PLNI_WIRED] |= mask
     for number in on:
-        word, mask = _place(number)
+        word, mask = _input(number)
         memory.I[_word_row(slots[word]) + at.PLNI_LEVEL] |= mask
     memory.I[at.PLGI_BASE + at.PLGI_WORDS] = len(slots)
     return slots
@@ -307,7 +312,7 @@ def _write_wires(memory: Memory, world: World, slots: dict[int, int]) -> None:
 def _write_target(
     memory: Memory, entry: int, number: int, contact: Contact, slots: dict[int, int]
 ) -> None:
-    word, mask = _place(number)
+    word, mask = _input(number)
     base = at.PLWI_BASE + entry * at.PLWI_STRIDE
     memory.I[base + at.PLWI_SLOT] = slots[word]
     memory.I[base + at.PLWI_MASK] = mask
@@ -319,7 +324,7 @@ def _write_target(
 
 def _write_output(memory: Memory, entry: int, wire: Wire) -> None:
     base = at.PLWI_BASE + entry * at.PLWI_STRIDE
-    word, mask = _place(wire.output or 0)
+    word, mask = _output(wire.output or 0)
     memory.I[base + at.PLWI_OUTPUT_WORD], memory.I[base + at.PLWI_OUTPUT_MASK] = word, mask
     memory.F[at.PLWF_BASE + entry * at.PLWF_STRIDE + at.PLWF_DELAY_S] = wire.delay_s
 
@@ -341,6 +346,20 @@ def _write_box(memory: Memory, entry: int, box: _Box, slots: dict[int, int]) -> 
 def _all_but_last(sides: Iterable[_Side]) -> list[bool]:
     count = len(list(sides))
     return [position < count - 1 for position in range(count)]
+
+
+def _input(flag: int) -> tuple[int, int]:
+    """Word and mask of what drives an input: of a node it is the level at its terminal."""
+    terminal = bus.input_terminal(flag)
+    word, mask = _place(flag)
+    return (bus.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
+
+
+def _output(flag: int) -> tuple[int, int]:
+    """Word and mask of an output; of a node it is the level at its terminal."""
+    terminal = bus.output_terminal(flag)
+    word, mask = _place(flag)
+    return (bus.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
 
 
 def _place(flag: int) -> tuple[int, int]:

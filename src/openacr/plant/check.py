@@ -1,10 +1,10 @@
 """Contradictions that each single value of a `machine.toml` cannot show."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from difflib import get_close_matches
 
-from openacr.plant.locate import Path
+from openacr.plant.check_nodes import canopen_faults, input_ranges, output_ranges
+from openacr.plant.complaint import Complaint, Path
 from openacr.plant.schema import (
     Axis,
     IdealDrive,
@@ -15,18 +15,10 @@ from openacr.plant.schema import (
 )
 
 BOX_SIDES = 64
+INPUT_WORDS = 16
 # The onboard inputs and those of the four expansion boards; all other flags belong to the card.
 INPUT_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
 OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
-
-
-@dataclass(frozen=True, slots=True)
-class Complaint:
-    """Something wrong: where in the file, in words, and how to mend it."""
-
-    path: Path
-    text: str
-    hint: str = ""
 
 
 def contradictions(world: World) -> Iterator[Complaint]:
@@ -145,9 +137,9 @@ def _wires(world: World) -> Iterator[Complaint]:
             yield from _region_faults(wire.region, labels, (*path, "region"))
             if wire.delay_s:
                 yield Complaint((*path, "delay_s"), "delay_s has a meaning only with output")
-        elif wire.output is not None and not _within(wire.output, OUTPUT_RANGES):
+        elif wire.output is not None and not _within(wire.output, _outputs(world)):
             text = f"output {wire.output} is not an output"
-            yield Complaint((*path, "output"), text, _ranges("outputs", OUTPUT_RANGES))
+            yield Complaint((*path, "output"), text, _ranges("outputs", _outputs(world)))
 
 
 def _region_faults(
@@ -169,10 +161,11 @@ def _region_faults(
 def _inputs(world: World) -> Iterator[Complaint]:
     """Every input has at most one source."""
     taken: dict[int, str] = {}
+    ranges = INPUT_RANGES + input_ranges(world)
     for path, number, what in _sources(world):
-        if not _within(number, INPUT_RANGES):
+        if not _within(number, ranges):
             text = f"{what} is wired to {number}, which is not an input"
-            yield Complaint(path, text, _ranges("inputs", INPUT_RANGES))
+            yield Complaint(path, text, _ranges("inputs", ranges))
         elif number in taken:
             yield Complaint(path, f"two wires on input {number}: {taken[number]} and {what}")
         taken[number] = what
@@ -206,6 +199,13 @@ def _size(world: World) -> Iterator[Complaint]:
     sides += sum(len(wire.region or "o") for wire in world.wire)
     if sides > BOX_SIDES:
         yield Complaint((), f"{sides} switches, ranges and wires are more than {BOX_SIDES}")
+    words = len({0, *(number // 32 for _, number, _ in _sources(world))})
+    if words > INPUT_WORDS:
+        yield Complaint((), f"wires lead to inputs of {words} words, more than {INPUT_WORDS}")
+
+
+def _outputs(world: World) -> tuple[tuple[int, int], ...]:
+    return OUTPUT_RANGES + output_ranges(world)
 
 
 def _within(number: int, ranges: tuple[tuple[int, int], ...]) -> bool:
@@ -225,5 +225,6 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     _wires,
     _inputs,
     _fault_inputs,
+    canopen_faults,
     _size,
 )

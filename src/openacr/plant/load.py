@@ -13,7 +13,8 @@ from msgspec import inspect
 
 from openacr.errors import SourceError, UserError
 from openacr.plant import locate
-from openacr.plant.check import Complaint, contradictions
+from openacr.plant.check import contradictions
+from openacr.plant.complaint import Complaint
 from openacr.plant.schema import World
 
 _SYNTAX = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")

@@ -12,6 +12,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
+from openacr.plant.network_schema import Canopen
 
 AXES = 16
 COUNTS_PER_LINE = 4
@@ -200,6 +201,7 @@ class World(_Table, frozen=True):
     axis: tuple[Axis, ...] = ()
     wire: tuple[Wire, ...] = ()
     inputs: Inputs = Inputs()
+    canopen: Canopen | None = None
 
 
 @dataclass(frozen=True, slots=True)

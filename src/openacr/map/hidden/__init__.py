@@ -6,6 +6,7 @@ from openacr.map.hidden import (
     engine,
     gear,
     motion,
+    network,
     objects,
     plant,
     plc,
@@ -29,6 +30,7 @@ TOPICS = (
     gear,
     cam,
     objects,
+    network,
 )
 
 HIDDEN_BLOCKS: tuple[HiddenBlock, ...] = tuple(

@@ -85,7 +85,7 @@ WIRE = HiddenBlock(
 )
 
 # The words in which inputs are wired.
-INPUT_WORD = HiddenBlock(prefix="PLN", count=8, doubles=(), ints=("word", "wired", "level"))
+INPUT_WORD = HiddenBlock(prefix="PLN", count=16, doubles=(), ints=("word", "wired", "level"))
 
 GENERAL = HiddenBlock(
     prefix="PLG",

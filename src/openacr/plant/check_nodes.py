@@ -1,0 +1,81 @@
+"""Contradictions in what a `machine.toml` says about the CANopen bus."""
+
+from collections.abc import Callable, Iterator
+
+from openacr.plant.complaint import Complaint, Path
+from openacr.plant.network_schema import FAULTS, NODES, Canopen, Fault, FaultKind, Node
+from openacr.plant.schema import World
+
+WITH_CANOPEN = ("ACR9000", "ACR9030", "ACR9040")
+FIRST_INPUT, FIRST_OUTPUT, FLAGS_PER_NODE = 11520, 12032, 1024
+_OF_A_NODE = {FaultKind.SILENT, FaultKind.LOST}
+
+
+def input_ranges(world: World) -> tuple[tuple[int, int], ...]:
+    """Return the flags of the digital inputs of all nodes."""
+    return tuple(_ranges(world, FIRST_INPUT, lambda node: node.digital_inputs))
+
+
+def output_ranges(world: World) -> tuple[tuple[int, int], ...]:
+    """Return the flags of the digital outputs of all nodes."""
+    return tuple(_ranges(world, FIRST_OUTPUT, lambda node: node.digital_outputs))
+
+
+def _ranges(world: World, first: int, count_of: Callable[[Node], int]) -> Iterator[tuple[int, int]]:
+    for place, node in enumerate(world.canopen.node if world.canopen else ()):
+        if count := count_of(node):
+            start = first + place * FLAGS_PER_NODE
+            yield start, start + count - 1
+
+
+def canopen_faults(world: World) -> Iterator[Complaint]:
+    """Yield what does not fit together in `[canopen]`."""
+    if world.canopen is None:
+        return
+    if world.card.model not in WITH_CANOPEN:
+        text = f"the {world.card.model} has no CANopen controller"
+        yield Complaint(("canopen",), text, "these have: " + ", ".join(WITH_CANOPEN))
+    yield from _sizes(world.canopen)
+    yield from _nodes(world.canopen)
+    for place, fault in enumerate(world.canopen.fault):
+        yield from _fault(("canopen", "fault", place), fault, world.canopen)
+
+
+def _sizes(canopen: Canopen) -> Iterator[Complaint]:
+    for key, limit in (("node", NODES), ("fault", FAULTS)):
+        count = len(getattr(canopen, key))
+        if count > limit:
+            text = f"{count} {key}s are more than {limit}"
+            yield Complaint(("canopen", key, limit), text)
+
+
+def _nodes(canopen: Canopen) -> Iterator[Complaint]:
+    taken: dict[int, int] = {}
+    for place, node in enumerate(canopen.node):
+        path: Path = ("canopen", "node", place)
+        other = taken.setdefault(node.id, place)
+        if other != place:
+            hint = f"the other is canopen.node[{other}]"
+            yield Complaint((*path, "id"), f"two nodes have the id {node.id}", hint)
+        for key in ("input_range", "output_range"):
+            low, high = getattr(node, key)
+            if high <= 0.0 or low not in (0.0, -high):
+                text = f"{key} of node {node.id} goes from {low:g} to {high:g}"
+                yield Complaint((*path, key), text, "it is [0, x] or [-x, x]")
+        if len(node.analog_values) > node.analog_inputs:
+            text = f"node {node.id} has {node.analog_inputs} analog inputs"
+            yield Complaint((*path, "analog_values"), text, "give no more values than inputs")
+
+
+def _fault(path: Path, fault: Fault, canopen: Canopen) -> Iterator[Complaint]:
+    if (fault.node is None) == (fault.kind in _OF_A_NODE):
+        text = f'the fault "{fault.kind}" ' + (
+            "lacks its node" if fault.node is None else "has a node"
+        )
+        yield Complaint((*path, "kind"), text, "silent and lost are faults of one node")
+    elif fault.node is not None and fault.node not in {node.id for node in canopen.node}:
+        known = ", ".join(str(node.id) for node in canopen.node)
+        yield Complaint((*path, "node"), f"there is no node {fault.node}", f"nodes: {known}")
+    if fault.until_s is not None and fault.until_s <= fault.at_s:
+        text = f"the fault ends at {fault.until_s:g} s, but begins at {fault.at_s:g} s"
+        yield Complaint((*path, "until_s"), text)

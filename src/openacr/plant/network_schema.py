@@ -1,0 +1,97 @@
+"""What a `machine.toml` may say about the networks of the card: nodes on its CANopen bus.
+
+The n-th node of the file is the one whose inputs scenarios and wires reach at the flags the
+card shows for its node n: digital inputs from 11520 + 1024 n on, digital outputs from
+12032 + 1024 n on, analog input k at P33288 + 512 n + 16 k.
+"""
+
+from enum import IntEnum, StrEnum
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+NODES = 4
+DIGITAL = 512
+ANALOG = 32
+FAULTS = 16
+
+NodeId = Annotated[int, Meta(ge=1, le=127)]
+Digital = Annotated[int, Meta(ge=0, le=DIGITAL)]
+Analog = Annotated[int, Meta(ge=0, le=ANALOG)]
+AnalogBits = Annotated[int, Meta(ge=8, le=16)]
+Signal = Annotated[float, Meta(ge=-1e6, le=1e6)]
+Moment = Annotated[float, Meta(ge=0, le=1e9)]
+Share = Annotated[float, Meta(gt=0, le=1)]
+
+
+class BitRate(IntEnum):
+    """The bit rates of CANopen, in kbit/s."""
+
+    KBIT_10 = 10
+    KBIT_20 = 20
+    KBIT_50 = 50
+    KBIT_125 = 125
+    KBIT_250 = 250
+    KBIT_500 = 500
+    KBIT_800 = 800
+    MBIT_1 = 1000
+
+
+class Coupler(StrEnum):
+    """The bus coupler of a node; how fast it is depends on it."""
+
+    PIO_337 = "PIO-337"
+    PIO_347 = "PIO-347"
+
+
+class Health(StrEnum):
+    """How a node tells that it is alive."""
+
+    HEARTBEAT = "heartbeat"
+    GUARDING = "guarding"
+
+
+class FaultKind(StrEnum):
+    """What can go wrong on the bus."""
+
+    SILENT = "silent"  # a node says nothing more; its outputs stay
+    LOST = "lost"  # a node without power: its outputs drop, it begins anew
+    NOISE = "noise"  # a share of all messages is destroyed
+    CONTROLLER = "controller"  # the network hardware of the card is broken
+    SOFTWARE_OVERFLOW = "software overflow"  # received messages are lost in the card
+    HARDWARE_OVERFLOW = "hardware overflow"
+
+
+class Node(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One node: what it is, its switches, and how much is plugged into it."""
+
+    id: NodeId
+    name: str = ""
+    coupler: Coupler = Coupler.PIO_337
+    bit_rate: BitRate = BitRate.KBIT_125
+    health: Health = Health.HEARTBEAT
+    digital_inputs: Digital = 0
+    digital_outputs: Digital = 0
+    analog_inputs: Analog = 0
+    analog_outputs: Analog = 0
+    analog_bits: AnalogBits = 16
+    input_range: tuple[Signal, Signal] = (-10.0, 10.0)
+    output_range: tuple[Signal, Signal] = (-10.0, 10.0)
+    analog_values: tuple[Signal, ...] = ()
+
+
+class Fault(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Something goes wrong at a time, and is right again later if the file says so."""
+
+    kind: FaultKind
+    node: NodeId | None = None
+    at_s: Moment = 0.0
+    until_s: Moment | None = None
+    rate: Share = 0.5
+
+
+class Canopen(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The CANopen bus; a card in whose file it does not stand has no controller for it."""
+
+    node: tuple[Node, ...] = ()
+    fault: tuple[Fault, ...] = ()
