@@ -68,6 +68,7 @@ ORDER = (
     "plant/wiring_cy.py",
     "plant/step_cy.py",
     "plc/scan_cy.py",
+    "network/wake_cy.py",
     "engine/loop_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from openacr.controller import Controller
+from openacr.plant.schema import World
 from openacr.protocol.stream import StreamKind
 
 X_AND_Y = (
@@ -84,18 +85,18 @@ def _bytes(data: str | bytes) -> bytes:
     return data.replace("|", "\r\n").encode("latin-1") if isinstance(data, str) else data
 
 
-def connected(*lines: str, model: str = "ACR9000") -> Host:
+def connected(*lines: str, model: str = "ACR9000", world: World | None = None) -> Host:
     """A host of a new card, after some lines."""
-    host = Host(Controller(model))
+    host = Host(Controller(model, world=world))
     for line in lines:
         answer = host.type(line)
         assert answer.count("|") == 0, answer
     return host
 
 
-def at_axes() -> Host:
+def at_axes(world: World | None = None) -> Host:
     """At P00 with axes X and Y, drives on."""
-    host = connected(*X_AND_Y)
+    host = connected(*X_AND_Y, world=world)
     host.card.advance(100)
     return host
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as replace_world
 from tests.controller.hosts import Host, at_axes, connected, store
 
 from openacr.controller import Controller
@@ -15,13 +16,17 @@ from openacr.controller.journal import Entered, Recorder, read_journal
 from openacr.controller.replay import Replay
 from openacr.controller.ring import Ring
 from openacr.errors import StoreError
+from openacr.plant.network_schema import Canopen, Node
+from openacr.plant.schema import default_world
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import ControlKey
+
+WITH_A_NODE = replace_world(default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)))
 
 
 def recorded(folder: Path) -> Path:
     """The journal of a card to which all kinds of things happen."""
-    host = at_axes()
+    host = at_axes(WITH_A_NODE)
     store(host, "PBOOT", "_L", "SET 40", "DWL 0.1", "CLR 40", "DWL 0.07", "GOTO L")
     card, path = host.card, folder / "a.journal"
     host.send("?P12288")
@@ -32,6 +37,7 @@ def recorded(folder: Path) -> Path:
     packets.send(b"\x00\x30\x02\x03")
     card.drag(0, 0.25)
     card.set_input(5, True)
+    card.set_analog(33288, 2.5)
     card.until(40, timeout_s=2.0)
     card.p[3] = 2.5
     card.bit[130] = True
@@ -89,10 +95,10 @@ def test_a_replay_stops_where_it_is_told(tmp_path: Path) -> None:
     assert again.lived_s == 100.0
 
 
-@pytest.mark.parametrize("what", list(Entered)[:8])
+@pytest.mark.parametrize("what", list(Entered)[:9])
 def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> None:
     """Of every kind, one that has an effect at all."""
-    card = Controller()
+    card = Controller(world=WITH_A_NODE)
     host = Host(card)
     path = tmp_path / "a.journal"
     card.recorder = Recorder(card, path)
@@ -103,6 +109,8 @@ def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> 
             other.close()
     elif what is Entered.INPUT:
         card.set_input(3, True)
+    elif what is Entered.ANALOG:
+        card.set_analog(33288, 1.0)
     elif what is Entered.DRAG:
         card.drag(0, 100.0)
     elif what is Entered.PARAMETER:

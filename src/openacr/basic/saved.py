@@ -15,8 +15,6 @@ from openacr.basic.saving import Saved, each, kept
 from openacr.errors import CardError
 from openacr.kernel import source_cy
 from openacr.map import numbers as at
-from openacr.map.block import Access
-from openacr.map.lookup import parameters
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import attach, buffer, filters, settings, sources, time_base
 from openacr.motion.card import SLAVES, Card
@@ -27,7 +25,9 @@ if TYPE_CHECKING:
     from openacr.motion.settings import LimitEnables
 
 STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)
-_CANOPEN = (range(32768, 32779), range(at.CANN_BASE, at.CANN_BASE + at.CANN_COUNT * at.CANN_STRIDE))
+_NETWORK = range(at.CAN_BASE, at.CAN_BASE + at.CAN_NUMBER_OF_ANALOG_OUTPUTS + 1)
+_NODE_IDS = range(at.CANN_BASE, at.CANN_BASE + at.CANN_COUNT * at.CANN_STRIDE, at.CANN_STRIDE)
+_SCALES = (at.CANDAC_DAC_GAIN, at.CANDAC_DAC_OFFSET, at.CANADC_ADC_GAIN, at.CANADC_ADC_OFFSET)
 
 
 def _numbered(rows: list[Any], count: int) -> Iterator[tuple[int, Any]]:
@@ -231,17 +231,17 @@ def _put_addresses(system: System, addresses: dict[str, str]) -> None:
 
 
 def _canopen_numbers() -> list[int]:
-    """The parameters of the network and its nodes that a user can set."""
-    known = parameters()
-    numbers = (number for span in _CANOPEN for number in span if number in known)
-    return [number for number in numbers if known[number].access is Access.READ_WRITE]
+    """The network with what was found on it, the ids of the nodes, all gains and offsets."""
+    channels = range(at.CANDAC_BASE, at.CANDAC_BASE + at.CANDAC_COUNT * at.CANDAC_STRIDE)
+    first = channels[:: at.CANDAC_STRIDE]
+    return [*_NETWORK, *_NODE_IDS, *(channel + row for channel in first for row in _SCALES)]
 
 
-def _take_canopen(system: System) -> dict[int, int]:
-    return {number: int(system.card.memory.read(number)) for number in _canopen_numbers()}
+def _take_canopen(system: System) -> dict[int, float]:
+    return {number: system.card.memory.read(number) for number in _canopen_numbers()}
 
 
-def _put_canopen(system: System, values: dict[int, int]) -> None:
+def _put_canopen(system: System, values: dict[int, float]) -> None:
     for number in _canopen_numbers():
         with suppress(KeyError):
             system.card.memory.write(number, values[number])

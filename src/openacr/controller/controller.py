@@ -65,7 +65,8 @@ from openacr.motion import drive
 from openacr.motion.card import Card
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
-from openacr.plant import apply, load, schema
+from openacr.network.networks import Networks
+from openacr.plant import apply, bus, load, schema
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
 from openacr.project import Project, find_project
@@ -108,6 +109,7 @@ class Controller:
         self.system = System(self.card)
         self.executor = Executor(self.system)
         self.plcs = Plcs(self.memory, self._plc_text)
+        self.networks = Networks(self.memory)
         self.control = ProgramControl(self.system, self.executor, self.plcs)
         self.system.control = self.control
         self.system.runner = self.executor
@@ -258,6 +260,9 @@ class Controller:
             self.control.scan()
         elif reason == loop_cy.ROOM:
             self.streams.moves.drain()
+        elif reason == loop_cy.NETWORKS:
+            self.networks.attend()
+            self.streams.settle()
         else:
             self.executor.attend(reason - loop_cy.THREAD)
             self.streams.settle()
@@ -339,8 +344,9 @@ class Controller:
     # the world
 
     def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input that no part of the world drives."""
-        self.memory.set_bit(bit, on)
+        """Switch an input that no part of the world drives, onboard or at a CANopen node."""
+        if not bus.switch(self.memory, bit, on):
+            self.memory.set_bit(bit, on)
         self._note(Entered.INPUT, bit, on)
 
     def _note(
@@ -353,6 +359,14 @@ class Controller:
                 self.journal.append(entry)
             if self.recorder is not None:
                 self.recorder.note(entry)
+
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value, in its unit, to the analog input of a node that a parameter shows."""
+        place = bus.analog_input(self.memory, parameter)
+        if place is None:
+            raise UserError(f"P{parameter} shows no analog input of a node")
+        self.memory.F[place] = value
+        self._note(Entered.ANALOG, parameter, value)
 
     def drag(self, axis: int, by_u: float) -> None:
         """Push the load of an axis by hand, at once; it takes part in the physics after that."""
@@ -368,6 +382,7 @@ class Controller:
         apply.apply_world(self.world, self.memory)
         self.card.set_period(self.world.card.period_s)
         self.memory.I[P_CARD_SERIAL_NUMBER] = self.model.serial_number
+        self.networks.power_up()
 
     # reading
 

@@ -74,6 +74,8 @@ class Replay:
             self._apply_to_stream(entry)
         elif what is Entered.INPUT:
             card.set_input(entry.number, bool(entry.value))
+        elif what is Entered.ANALOG:
+            card.set_analog(entry.number, entry.value)
         elif what is Entered.DRAG:
             card.drag(entry.number, entry.value)
         elif what is Entered.PARAMETER:

@@ -73,6 +73,7 @@ from openacr.map.numbers import (
     WATI_STATE,
     WATI_STRIDE,
 )
+from openacr.network.wake_cy import networks_due
 from openacr.plant.step_cy import plant_step
 from openacr.plc.scan_cy import plc_step
 from openacr.views import F32, F64, I32
@@ -87,11 +88,13 @@ REQUESTS = 3  # control flags of a program or PLC want something
 STOPPED = 4  # the tick is over at whose end somebody wanted to look
 WATCH = 5  # something watched has changed in the tick that is over
 ROOM = 6  # binary moves wait, and the buffer of their master has room
+NETWORKS = 7  # something on a network is due
 THREAD = 16
 
 # How far the present tick has got (row in_tick); 0: not begun.
 SERVO_DONE = 1
-REQUESTS_DONE = 2
+NETWORKS_DONE = 2
+REQUESTS_DONE = 3
 
 # Where a watched value is: masked bits of a word, or a number that is compared.
 WATCH_WORD = 0
@@ -266,14 +269,18 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
     e: int = ENGI_BASE
     axes: int = I[KRI_BASE + KRI_AXES]
     while True:
+        number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
         if I[e + ENGI_IN_TICK] == SERVO_DONE:
+            I[e + ENGI_IN_TICK] = NETWORKS_DONE
+            if networks_due(F, I, number):
+                return NETWORKS
+        if I[e + ENGI_IN_TICK] == NETWORKS_DONE:
             I[e + ENGI_IN_TICK] = REQUESTS_DONE
             if requests_pending(I):
                 return REQUESTS
         if I[e + ENGI_IN_TICK] and I[KRI_BASE + KRI_MOVES_WAITING] and room_made(I):
             return ROOM
         if I[e + ENGI_IN_TICK]:
-            number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
             thread: int = scheduler_step(F, I, S, code, nums, number)
             if thread:
                 return THREAD + thread - 1

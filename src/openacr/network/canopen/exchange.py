@@ -1,0 +1,182 @@
+"""The running network: cycles, changed inputs, health and bus errors.
+
+One cycle: the master sends all outputs, then the synchronisation. On that the nodes put the
+outputs out and latch their analog inputs, whose values have arrived when the messages of
+the cycle are through. Digital inputs travel by themselves, whenever one has changed.
+"""
+
+from __future__ import annotations
+
+from openacr.map import numbers as at
+from openacr.network.canopen import figures, image
+from openacr.network.canopen.rows import BusState, Master, Phase
+from openacr.plant import bus
+
+# The error counter of a bus controller: 8 up for a message that was destroyed, 1 down for
+# one that came through; a warning from 96 on, off the bus from 256 on.
+DESTROYED, WARNING, OFF = 8, 96, 256
+
+
+def begin(master: Master) -> None:
+    """Make the nodes operational; they tell their digital inputs at once."""
+    image.clear_moved(master)
+    master.memory.F[at.NETMF_BASE + at.NETMF_ERRORS] = 0.0
+    for slave in master.slaves():
+        bus.run(master.memory, _node(master, slave))
+        _send_inputs(master, slave)
+        _show_inputs(master, slave)
+    master.set_time(at.NETMF_HEALTH_TK, figures.HEALTH_CYCLES * master.get(at.NETMI_CYCLE_MS))
+    cycle(master)
+
+
+def cycle(master: Master) -> None:
+    """One synchronisation."""
+    bit_rate, messages = master.get(at.NETMI_BIT_RATE), master.get(at.NETMI_FRAMES)
+    for slave in _answering(master):
+        _exchange_outputs(master, slave)
+        latched = bus.convert_inputs(master.memory, _node(master, slave))
+        for number, counts in enumerate(latched):
+            master.put_slave(slave, at.NETSI_LATCHED + number, counts)
+    master.set_time(at.NETMF_SYNC_TK, master.get(at.NETMI_CYCLE_MS))
+    master.set_time(at.NETMF_ARRIVAL_TK, figures.cycle_ms(messages, bit_rate))
+    _count_errors(master, messages, bus.destroyed(master.memory, bit_rate))
+
+
+def arrive(master: Master) -> None:
+    """Everything the nodes have answered to the last synchronisation is there."""
+    master.memory.F[at.NETMF_BASE + at.NETMF_ARRIVAL_TK] = 0.0
+    if _receives(master):
+        for slave in _answering(master):
+            count = master.shown_slave(slave, at.CANN_NUMBER_OF_ANALOG_INPUTS)
+            counts = [master.slave(slave, at.NETSI_LATCHED + n) for n in range(_at_most(count))]
+            image.show_analog_inputs(master.memory, slave, counts)
+
+
+def _at_most(count: int) -> int:
+    """A count the user may have overwritten."""
+    return min(max(count, 0), at.NETSI_LATCHED_SIZE)
+
+
+def _node(master: Master, slave: int) -> int:
+    return master.slave(slave, at.NETSI_NODE)
+
+
+def _answering(master: Master) -> list[int]:
+    """Slaves that take part in the exchange."""
+    bit_rate = master.get(at.NETMI_BIT_RATE)
+    return [
+        slave
+        for slave in master.live_slaves()
+        if bus.answers(master.memory, _node(master, slave), bit_rate)
+        and bus.is_operational(master.memory, _node(master, slave))
+    ]
+
+
+def _exchange_outputs(master: Master, slave: int) -> None:
+    node = _node(master, slave)
+    has = bus.ints(node)
+    digital, analog = (
+        master.memory.I[has + row] for row in (at.BUSNI_DIGITAL_OUTPUTS, at.BUSNI_ANALOG_OUTPUTS)
+    )
+    words = image.read_outputs(master, slave, digital)
+    bus.set_outputs(master.memory, node, words, image.dac_counts(master.memory, slave, analog))
+
+
+def _receives(master: Master) -> bool:
+    """Whether the card can take what arrives; an overflow is shown and loses it."""
+    kinds = (
+        (bus.Trouble.SOFTWARE_OVERFLOW, at.CANF_SW_RX_OVERFLOW),
+        (bus.Trouble.HARDWARE_OVERFLOW, at.CANF_HW_RX_OVERFLOW),
+    )
+    lost = [flag for kind, flag in kinds if bus.has_fault(master.memory, kind)]
+    for flag in lost:
+        master.change_flags(set_=flag)
+    return not lost
+
+
+# digital inputs
+
+
+def note_changes(master: Master) -> None:
+    """Let nodes send digital inputs that have changed; they arrive one message later."""
+    answering = _answering(master)
+    for slave in master.live_slaves():
+        time = at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK
+        if not master.memory.F[time] and _send_inputs(master, slave) and slave in answering:
+            after_ms = figures.MESSAGE_BITS / master.get(at.NETMI_BIT_RATE)
+            master.memory.F[time] = master.tick + master.ticks(after_ms)
+
+
+def receive_changes(master: Master) -> None:
+    """Show digital inputs whose messages have arrived."""
+    for slave in master.live_slaves():
+        time = at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK
+        if 0.0 < master.memory.F[time] <= master.tick:
+            master.memory.F[time] = 0.0
+            if _receives(master):
+                _show_inputs(master, slave)
+
+
+def _send_inputs(master: Master, slave: int) -> bool:
+    """What a node sends is what is at its terminals now; whether it is something new."""
+    levels = bus.ints(_node(master, slave)) + at.BUSNI_LEVELS
+    is_new = False
+    for word in range(master.slave(slave, at.NETSI_WORDS)):
+        level = master.memory.I[levels + word]
+        is_new = is_new or level != master.slave(slave, at.NETSI_SENT + word)
+        master.put_slave(slave, at.NETSI_SENT + word, level)
+    return is_new
+
+
+def _show_inputs(master: Master, slave: int) -> None:
+    for word in range(master.slave(slave, at.NETSI_WORDS)):
+        sent = master.slave(slave, at.NETSI_SENT + word)
+        master.memory.I[image.input_word(master, slave, word)] = sent
+
+
+# what goes wrong
+
+
+def check_health(master: Master) -> None:
+    """Count as dead who does not answer: a fault that lasts until the next start."""
+    cycle_ms = master.get(at.NETMI_CYCLE_MS)
+    master.set_time(at.NETMF_HEALTH_TK, figures.HEALTH_CYCLES * cycle_ms)
+    answering = _answering(master)
+    for slave in master.live_slaves():
+        if slave not in answering or _is_overrun(master, slave, cycle_ms):
+            master.put_slave(slave, at.NETSI_LIVE, 0)
+            master.show_slave(slave, at.CANN_NODE_STATE, 0)
+            master.change_flags(set_=at.CANF_NODE_FAILURE)
+            master.show(BusState.HEALTH_EVENT)
+
+
+def _is_overrun(master: Master, slave: int, cycle_ms: int) -> bool:
+    """Whether the cycle is too fast for a node; it is then too busy to say that it is alive."""
+    memory, rows = master.memory, bus.ints(_node(master, slave))
+    digital, analog = (
+        sum(memory.I[rows + row] for row in pair)
+        for pair in (
+            (at.BUSNI_DIGITAL_INPUTS, at.BUSNI_DIGITAL_OUTPUTS),
+            (at.BUSNI_ANALOG_INPUTS, at.BUSNI_ANALOG_OUTPUTS),
+        )
+    )
+    speed = figures.COUPLERS[memory.I[rows + at.BUSNI_COUPLER]]
+    return cycle_ms < figures.node_ms(speed, digital, analog)
+
+
+def _count_errors(master: Master, messages: int, share: float) -> None:
+    """Follow the error counter: too many errors are a warning, still more end it all."""
+    row = at.NETMF_BASE + at.NETMF_ERRORS
+    before = master.memory.F[row]
+    step = messages * (DESTROYED * share - (1.0 - share))
+    now = master.memory.F[row] = min(max(before + step, 0.0), float(OFF))
+    if now >= OFF:
+        master.stop_times()
+        master.enter(Phase.IDLE)
+        master.show(BusState.BUS_OFF)
+    elif (now >= WARNING) != (before >= WARNING) and _all_live(master):
+        master.show(BusState.EXCESS_ERRORS if now >= WARNING else BusState.STARTED)
+
+
+def _all_live(master: Master) -> bool:
+    return len(master.live_slaves()) == len(master.slaves())

@@ -1,0 +1,89 @@
+"""Where the card shows the inputs and outputs of its nodes, and how analog values are scaled.
+
+Each bit has one place. P32771 moves the first words of some nodes to the flags of the expansion
+boards (P4104 to P4111, an input and an output word in turn), which PLCs can reach; what
+was moved is no longer at its standard place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.network.canopen.rows import Master
+
+EXPANSION = 4104
+WORDS = at.NETSI_SENT_SIZE
+FULL_SCALE, BOTTOM = 32767, -32768
+
+# Node and word of each pair of expansion words, by P32771.
+MAPPINGS: tuple[tuple[tuple[int, int], ...], ...] = (
+    (),
+    ((0, 0), (0, 1), (0, 2), (0, 3)),
+    ((0, 0), (0, 1), (1, 0), (1, 1)),
+    ((0, 0), (1, 0), (2, 0), (3, 0)),
+)
+
+
+def mapping_of(value: int) -> int:
+    """Which mapping a value of P32771 means."""
+    return min(max(value, 0), len(MAPPINGS) - 1)
+
+
+def input_word(master: Master, slave: int, word: int) -> int:
+    """The parameter that shows 32 inputs of a slave."""
+    return _place(master, slave, word, at.CANDI_WORD, 0)
+
+
+def output_word(master: Master, slave: int, word: int) -> int:
+    """The parameter that commands 32 outputs of a slave."""
+    return _place(master, slave, word, at.CANDO_WORD, 1)
+
+
+def _place(master: Master, slave: int, word: int, standard: int, side: int) -> int:
+    pairs = MAPPINGS[master.get(at.NETMI_MAPPING)]
+    if (slave, word) in pairs:
+        return EXPANSION + 2 * pairs.index((slave, word)) + side
+    return standard + slave * at.CANDI_WORD_STRIDE + word
+
+
+def clear_moved(master: Master) -> None:
+    """Empty the standard places of everything that has been moved."""
+    for slave, word in MAPPINGS[master.get(at.NETMI_MAPPING)]:
+        for standard in (at.CANDI_WORD, at.CANDO_WORD):
+            master.memory.I[standard + slave * at.CANDI_WORD_STRIDE + word] = 0
+
+
+def read_outputs(master: Master, slave: int, count: int) -> list[int]:
+    """The commanded digital outputs of a slave, in words."""
+    words = -(-count // 32)
+    return [master.memory.I[output_word(master, slave, word)] for word in range(words)]
+
+
+def dac_counts(memory: Memory, slave: int, count: int) -> list[int]:
+    """The commanded analog outputs of a slave: (value + offset) * gain, in counts."""
+    return [_dac_counts(memory, _channel(slave, number)) for number in range(count)]
+
+
+def _dac_counts(memory: Memory, channel: int) -> int:
+    value = memory.S[channel + at.CANDAC_DAC_OUTPUT_VALUE]
+    counts = (value + memory.S[channel + at.CANDAC_DAC_OFFSET]) * memory.S[
+        channel + at.CANDAC_DAC_GAIN
+    ]
+    return round(min(max(counts, BOTTOM), FULL_SCALE)) if counts == counts else 0
+
+
+def show_analog_inputs(memory: Memory, slave: int, counts: Sequence[int]) -> None:
+    """Show analog inputs: share of full scale * gain + offset."""
+    for number, value in enumerate(counts):
+        channel = _channel(slave, number)
+        share = value / (FULL_SCALE if value > 0 else -BOTTOM)
+        gain, offset = (
+            memory.S[channel + row] for row in (at.CANADC_ADC_GAIN, at.CANADC_ADC_OFFSET)
+        )
+        memory.S[channel + at.CANADC_ADC_INPUT_VALUE] = share * gain + offset
+
+
+def _channel(slave: int, number: int) -> int:
+    return at.CANDAC_BASE + (slave * at.NETSI_LATCHED_SIZE + number) * at.CANDAC_STRIDE

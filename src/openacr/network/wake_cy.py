@@ -1,0 +1,60 @@
+"""Whether the networks need the slow side in this tick; everything they do is done there."""
+
+from openacr.map.numbers import (
+    BUSNI_BASE,
+    BUSNI_LEVELS,
+    BUSNI_STRIDE,
+    CANF_RESET_NETWORK,
+    CANF_START_NETWORK,
+    NETF_BASE,
+    NETF_DUE_TK,
+    NETMI_BASE,
+    NETMI_PHASE,
+    NETMI_SLAVES,
+    NETS_COUNT,
+    NETSF_BASE,
+    NETSF_CHANGE_TK,
+    NETSF_STRIDE,
+    NETSI_BASE,
+    NETSI_LIVE,
+    NETSI_NODE,
+    NETSI_SENT,
+    NETSI_STRIDE,
+    NETSI_WORDS,
+    SYSI_BASE,
+    SYSI_SLOW_PHASE,
+    W_CAN,
+)
+from openacr.views import F64, I32
+
+__all__ = ["networks_due"]
+
+RUNNING = 5  # Phase.RUNNING of the network master
+
+
+def networks_due(F: F64, I: I32, number: int) -> bool:
+    """Whether a time has come, an input of a node has changed, or a request flag is set."""
+    due: float = F[NETF_BASE + NETF_DUE_TK]
+    if due > 0.0 and float(number) >= due:
+        return True
+    if I[NETMI_BASE + NETMI_PHASE] == RUNNING and inputs_changed(F, I):
+        return True
+    return I[SYSI_BASE + SYSI_SLOW_PHASE] == 0 and requests_set(I)
+
+
+def inputs_changed(F: F64, I: I32) -> bool:
+    """Whether a live node has an input to tell that it has not told."""
+    for slave in range(min(I[NETMI_BASE + NETMI_SLAVES], NETS_COUNT)):
+        s: int = NETSI_BASE + slave * NETSI_STRIDE
+        waits: float = F[NETSF_BASE + slave * NETSF_STRIDE + NETSF_CHANGE_TK]
+        if I[s + NETSI_LIVE] and waits == 0.0:
+            levels: int = BUSNI_BASE + I[s + NETSI_NODE] * BUSNI_STRIDE + BUSNI_LEVELS
+            for word in range(I[s + NETSI_WORDS]):
+                if I[levels + word] != I[s + NETSI_SENT + word]:
+                    return True
+    return False
+
+
+def requests_set(I: I32) -> bool:
+    """Whether the user asks the networks for something; looked at in the slow scan."""
+    return I[W_CAN] & (CANF_START_NETWORK | CANF_RESET_NETWORK) != 0

@@ -1,0 +1,233 @@
+"""Data between the card and its nodes: digital on change, the rest once a cycle."""
+
+import pytest
+from tests.network.rig import (
+    DI,
+    DO,
+    HW_OVERFLOW,
+    PANEL,
+    SW_OVERFLOW,
+    converted,
+    fault,
+    node,
+    output,
+    running,
+)
+
+from openacr.controller import Controller
+from openacr.map import numbers as at
+from openacr.plant import bus
+
+SYNC = at.NETMF_BASE + at.NETMF_SYNC_TK
+MESSAGE_S = 0.001  # 125 bits at 125 kbit/s
+
+
+def wait_for_sync(made: Controller) -> None:
+    """Live until the next synchronisation is over."""
+    made.advance(int(made.memory.F[SYNC]) - made.tick)
+
+
+@pytest.mark.req("ACR-CAN-17")
+def test_a_digital_input_travels_at_once_and_only_when_it_changes() -> None:
+    made = running(cycle_ms=500)
+    wait_for_sync(made)
+    made.set_input(DI[0] + 3, True)
+    before = made.tick
+    assert made.until(DI[0] + 3, timeout_s=0.1)
+    assert MESSAGE_S <= (made.tick - before) * made.period_s <= MESSAGE_S + 0.001
+    made.p[4456] = 0
+    made.advance(seconds=2.0)
+    assert made.p[4456] == 0, "what has not changed is not sent again"
+    made.set_input(DI[0], True)
+    made.advance(seconds=0.01)
+    assert made.p[4456] == 0b1001
+
+
+@pytest.mark.req("ACR-CAN-17")
+def test_an_input_that_changes_while_it_is_on_its_way_is_sent_again() -> None:
+    made = running()
+    made.set_input(DI[0], True)
+    made.advance(1)
+    made.set_input(DI[0], False)
+    levels = []
+    for _ in range(10):
+        made.advance(1)
+        levels.append(made.bit[DI[0]])
+    assert levels.count(True) > 0 and not levels[-1]
+
+
+@pytest.mark.req("ACR-CAN-17")
+def test_outputs_are_put_out_with_the_synchronisation() -> None:
+    made = running(cycle_ms=100)
+    wait_for_sync(made)
+    made.bit[DO[0] + 1] = True
+    made.p[33280] = 5.0
+    made.advance(seconds=0.099)
+    assert (output(made, 0, 1), converted(made, 0, 0)) == (False, 0)
+    made.advance(seconds=0.002)
+    assert (output(made, 0, 1), converted(made, 0, 0)) == (True, 16384)
+
+
+@pytest.mark.req("ACR-CAN-17")
+def test_analog_inputs_are_latched_by_the_synchronisation_in_each_cycle() -> None:
+    made = running(cycle_ms=100)
+    made.set_analog(33288, 4.0)
+    wait_for_sync(made)
+    made.set_analog(33288, 6.0)
+    made.advance(seconds=0.05)
+    assert made.p[33288] == pytest.approx(4.0, abs=0.001)
+    made.p[33288] = 0.0
+    made.advance(seconds=0.1)
+    assert made.p[33288] == pytest.approx(6.0, abs=0.001)
+
+
+@pytest.mark.req("ACR-CANIO-02", "ACR-CANIO-01")
+@pytest.mark.parametrize("slave", range(4))
+def test_each_node_has_its_own_blocks(slave: int) -> None:
+    """Inputs of node n begin at P4456 + 32 n, outputs sixteen words later."""
+    full = {"digital_inputs": 512, "digital_outputs": 512, "coupler": "PIO-337"}
+    empty = "".join(node(10 + n) for n in range(4) if n != slave)
+    ids = [10 + n for n in range(4)]
+    made = running(empty + node(10 + slave, **full), *ids)
+    place = 3  # of the full node in the world
+    for terminal in (0, 31, 32, 511):
+        word, bit = 4456 + 32 * slave + terminal // 32, terminal % 32
+        made.set_input(DI[place] + terminal, True)
+        made.advance(seconds=0.01)
+        assert made.memory.I[word] >> bit & 1, f"input {terminal}"
+        assert made.bit[DI[slave] + terminal]
+        made.bit[32 * (4472 + 32 * slave - 4096) + terminal] = True
+        made.advance(seconds=0.06)
+        assert output(made, place, terminal), f"output {terminal}"
+        assert made.bit[DO[slave] + terminal]
+
+
+@pytest.mark.req("ACR-CANIO-01", "ACR-CANIO-02")
+def test_the_blocks_begin_where_the_guide_says() -> None:
+    assert DI == (11520, 12544, 13568, 14592)
+    assert DO == (12032, 13056, 14080, 15104)
+    assert [4096 + flag // 32 for flag in DI] == [4456, 4488, 4520, 4552]
+    assert [4096 + flag // 32 for flag in DO] == [4472, 4504, 4536, 4568]
+
+
+@pytest.mark.req("ACR-CANIO-03")
+def test_twelve_inputs_of_node_two_are_two_bytes() -> None:
+    world = node(1) + node(2) + node(3, digital_inputs=12)
+    made = running(world, 1, 2, 3)
+    for terminal in range(16):
+        made.set_input(13568 + terminal, True)
+    made.advance(seconds=0.01)
+    assert made.p[4520] == 0xFFF
+    assert made.p[33057] == 2
+
+
+@pytest.mark.req("ACR-CANIO-04")
+@pytest.mark.parametrize("slave", range(4))
+@pytest.mark.parametrize("channel", [0, 1, 7, 31])
+def test_each_analog_channel_has_its_block_of_sixteen(slave: int, channel: int) -> None:
+    empty = "".join(node(10 + n) for n in range(4) if n != slave)
+    full = node(10 + slave, analog_inputs=32, analog_outputs=32)
+    made = running(empty + full, *(10 + n for n in range(4)), cycle_ms=100)
+    block = 33280 + 512 * slave + 16 * channel
+    made.p[block], made.p[block + 2], made.p[block + 3] = 2.0, 1000.0, 0.5
+    made.p[block + 10], made.p[block + 11] = 20.0, -1.0
+    made.set_analog(33288 + 512 * 3 + 16 * channel, 5.0)
+    made.advance(seconds=0.25)
+    assert converted(made, 3, channel) == 2500
+    assert made.p[block + 8] == pytest.approx(9.0, abs=0.001)
+    assert sum(map(abs, (converted(made, 3, other) for other in range(32)))) == 2500
+
+
+@pytest.mark.req("ACR-CANIO-05")
+@pytest.mark.parametrize("bits", [8, 10, 12, 14, 16])
+def test_full_scale_is_that_of_sixteen_bits_for_any_resolution(bits: int) -> None:
+    world = node(1, analog_inputs=3, analog_bits=bits, analog_values=[10.0, -10.0, 2.5])
+    made = running(world)
+    assert bus.convert_inputs(made.memory, 0)[:2] == [32767, -32768]
+    counts = bus.convert_inputs(made.memory, 0)[2]
+    assert counts % 2 ** (16 - bits) == 0
+    assert 0 <= 8192 - counts < max(2 ** (16 - bits), 2)
+    made.advance(seconds=0.06)
+    assert [made.p[33288], made.p[33304]] == [10.0, -10.0]
+
+
+@pytest.mark.req("ACR-CANIO-05")
+def test_a_device_without_negative_values_uses_the_upper_half() -> None:
+    world = node(
+        1, analog_inputs=3, analog_outputs=1, input_range=[0.0, 10.0],
+        output_range=[0.0, 10.0], analog_values=[-3.0, 0.0, 12.0],
+    )  # fmt: skip
+    made = running(world)
+    assert bus.convert_inputs(made.memory, 0) == [0, 0, 32767]
+    made.p[33280] = -5.0
+    made.advance(seconds=0.06)
+    assert converted(made, 0, 0) == 0
+
+
+@pytest.mark.req("ACR-CANIO-06")
+def test_seven_and_a_half_volts_are_24576_counts() -> None:
+    made = running()
+    made.p[33280] = 7.5
+    made.advance(seconds=0.06)
+    assert converted(made, 0, 0) == 24576
+    assert bus.output_value(made.memory, 0, 0) == pytest.approx(7.5, abs=0.001)
+
+
+@pytest.mark.req("ACR-CANIO-05", "ACR-CANIO-06")
+def test_an_output_stays_within_sixteen_bits() -> None:
+    made = running()
+    made.p[33280], made.p[33296] = 12.0, -12.0
+    made.advance(seconds=0.06)
+    assert [converted(made, 0, 0), converted(made, 0, 1)] == [32767, -32768]
+    assert bus.output_value(made.memory, 0, 1) == -10.0
+
+
+@pytest.mark.req("ACR-CANIO-07")
+@pytest.mark.parametrize(
+    ("full_scale", "gain", "offset", "at_terminal", "shown"),
+    [(10.0, 10.0, 0.0, 5.0, 5.0), (20.0, 20.0, 0.0, -12.0, -12.0), (20.0, 100.0, 3.0, 20.0, 103.0)],
+)
+def test_an_analog_input_is_shown_in_the_users_unit(
+    full_scale: float, gain: float, offset: float, at_terminal: float, shown: float
+) -> None:
+    made = running(node(1, analog_inputs=1, input_range=[-full_scale, full_scale]))
+    made.p[33290], made.p[33291] = gain, offset
+    made.set_analog(33288, at_terminal)
+    made.advance(seconds=0.12)
+    assert made.p[33288] == pytest.approx(shown, abs=gain / 32767)
+
+
+@pytest.mark.req("ACR-CANIO-08")
+def test_gains_and_offsets_have_defaults() -> None:
+    made = running()
+    for block in range(33280, 33280 + 128 * 16, 16):
+        assert made.p[block + 2] == pytest.approx(3276.8)
+        assert [made.p[block + row] for row in (3, 10, 11)] == [0.0, 10.0, 0.0]
+
+
+@pytest.mark.req("ACR-CAN-21")
+@pytest.mark.parametrize(
+    ("kind", "flag"), [("software overflow", SW_OVERFLOW), ("hardware overflow", HW_OVERFLOW)]
+)
+def test_an_overflow_is_shown_and_loses_what_arrived(kind: str, flag: int) -> None:
+    made = running(PANEL + fault(kind, at_s=1.0, until_s=1.5))
+    made.advance(seconds=1.0 - made.time_s + 0.01)
+    made.set_input(DI[0], True)
+    made.advance(seconds=0.1)
+    assert made.bit[flag] and not made.bit[DI[0]]
+    made.advance(seconds=0.5)
+    made.set_input(DI[0] + 1, True)
+    made.advance(seconds=0.1)
+    assert made.p[4456] == 0b11 and made.bit[flag]
+    made.bit[11265] = True
+    made.advance(seconds=0.4)
+    assert not made.bit[flag], "the next start clears it"
+
+
+def test_ports_of_nodes_that_are_not_on_the_bus_stay_silent() -> None:
+    made = running()
+    made.set_input(DI[1], True)  # there is no second node
+    made.advance(seconds=0.1)
+    made.bit[DO[1]] = True
+    made.advance(seconds=0.1)
+    assert not output(made, 0, 0)
