@@ -70,6 +70,9 @@ class FakeMachine:
     def drag(self, axis: int, by_u: float) -> None:
         return None
 
+    def set_analog(self, parameter: int, value: float) -> None:
+        return None
+
     def axis_reports(self) -> tuple[AxisReport, ...]:
         return self.reports
 

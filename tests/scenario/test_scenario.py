@@ -47,6 +47,9 @@ class Bench:
     def drag(self, axis: int, by_u: float) -> None:
         self.deeds.append((self.tick, "drag", axis, by_u))
 
+    def set_analog(self, parameter: int, value: float) -> None:
+        self.deeds.append((self.tick, "analog", parameter, value))
+
 
 def nothing(bench: Bench, play: Play) -> None:
     """Leave the world as it is."""
@@ -62,6 +65,19 @@ def play(
         run.step(bench)
     run.finish(bench)
     return bench, run
+
+
+def test_inputs_of_nodes_are_switched_and_measured() -> None:
+    bench, _ = play(
+        """
+        [[at]]
+        time_s = 0.001
+        set = [13568]
+        analog = {input = 33800, value = -2.5}
+        """,
+        5,
+    )
+    assert bench.deeds == [(2, "input", 13568, True), (2, "analog", 33800, -2.5)]
 
 
 def test_timed_actions_happen_at_their_tick_in_the_order_of_the_file() -> None:
@@ -368,6 +384,11 @@ def test_a_step_skipped_over_its_moment_is_made_up_for() -> None:
         ),
         ("[[at]]\nset = [1]", "s.toml:1:3: this entry does not say when it happens"),
         ("[[at]]\ntime_s = 1", "s.toml:1:3: this entry does nothing (one of set, clear"),
+        (
+            "[[at]]\ntime_s = 1\nanalog = {input = 33289, value = 1.0}",
+            "s.toml:3:1: P33289 is not an analog input",
+        ),
+        ("[[at]]\ntime_s = 1\nset = [12032]", "s.toml:3:1: bit 12032 is not an input"),
         ("[[at]]\ntime_s = 1\nset = [32]", "s.toml:3:1: bit 32 is not an input (inputs are"),
         (
             "[[at]]\ntime_s = 1\nafter = 'start'\nset = [1]",

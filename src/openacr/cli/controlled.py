@@ -149,6 +149,10 @@ class ControlledMachine:
         """Switch an input."""
         self._controller.set_input(bit, on)
 
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value to the analog input a parameter shows."""
+        self._controller.set_analog(parameter, value)
+
     def drag(self, axis: int, by_u: float) -> None:
         """Move the load of an axis by hand, at once."""
         self._controller.drag(axis, by_u)

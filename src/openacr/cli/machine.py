@@ -60,6 +60,9 @@ class Machine(Protocol):
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""
 
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value to the analog input a parameter shows."""
+
     def drag(self, axis: int, by_u: float) -> None:
         """Move the load of an axis by hand, at once."""
 
@@ -80,6 +83,7 @@ class MachineWorld:
         self._machine = machine
         self._begin_tk = machine.tick
         self.set_input = machine.set_input
+        self.set_analog = machine.set_analog
         self.type_text = machine.type_text
         self.drag = machine.drag
 

@@ -46,6 +46,9 @@ class World(Protocol):
     def drag(self, axis: int, by_u: float) -> None:
         """Move the load of an axis by hand, at once."""
 
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value to the analog input a parameter shows."""
+
 
 @dataclass(slots=True)
 class _Pending:
@@ -210,6 +213,8 @@ class Play:
             world.drag(pull.axis, pull.by_u)
             if pull.end_tk > world.tick:
                 self._pulls.append(pull)
+        if action.analog is not None:
+            world.set_analog(action.analog.input, action.analog.value)
         if action.checkpoint is not None:
             self._reach(action.checkpoint, world.tick)
 

@@ -9,12 +9,15 @@ from msgspec.structs import fields
 
 from openacr.errors import MapError
 from openacr.map import flag, parameter
-from openacr.scenario.schema import Action, Condition, Drag, Expectation, Scenario
+from openacr.scenario.schema import Action, Analog, Condition, Drag, Expectation, Scenario
 
 Step = str | int
 
-# The 32 opto-isolated inputs and the 32 miscellaneous ones are the card's input pins.
-INPUT_BITS = frozenset([*range(32), *range(64, 96)])
+# The 32 opto-isolated inputs and the 32 miscellaneous ones are the card's input pins; the
+# others are the digital and analog inputs of up to four CANopen nodes.
+_NODES = [range(first, first + 512) for first in range(11520, 15616, 1024)]
+INPUT_BITS = frozenset([*range(32), *range(64, 96), *(bit for node in _NODES for bit in node)])
+ANALOG_INPUTS = range(33288, 35328, 16)
 STREAMS = ("FIFO", "COM1", "COM2", "DPCB", *(f"STREAM{n}" for n in range(1, 6)))
 START, END = "start", "end"
 
@@ -23,10 +26,11 @@ STRUCT_OF_KEY: dict[str, type[Struct]] = {
     "expect": Expectation,
     "when": Condition,
     "drag": Drag,
+    "analog": Analog,
 }
 
 _SUBJECTS = ("parameter", "flag", "axis", "program", "printed", "between")
-_DEEDS = ("set", "clear", "press", "send", "key", "drag", "checkpoint")
+_DEEDS = ("set", "clear", "press", "send", "key", "drag", "analog", "checkpoint")
 _COMPANIONS = {
     "parameter": {"is", "above", "below", "tolerance"},
     "flag": {"is"},
@@ -154,8 +158,11 @@ def _action(where: tuple[Step, ...], action: Action) -> Iterator[Problem]:
     for key in ("set", "clear", "press"):
         for bit in getattr(action, key):
             if bit not in INPUT_BITS:
-                hint = "inputs are bits 0..31 and 64..95"
+                hint = "inputs are bits 0..31, 64..95, and 11520..12031 + 1024 n of node n"
                 yield Problem((*where, key), f"bit {bit} is not an input", hint)
+    if action.analog is not None and action.analog.input not in ANALOG_INPUTS:
+        text = f"P{action.analog.input} is not an analog input"
+        yield Problem((*where, "analog"), text, "they are P33288 + 512 n + 16 k of node n")
     if {"send", "key"} <= keys:
         yield Problem((*where, "key"), "`send` and `key` exclude each other", "use two entries")
     if "stream" in keys and not keys & {"send", "key"}:

@@ -66,6 +66,13 @@ class Drag(Struct, frozen=True, forbid_unknown_fields=True):
     over_s: Seconds = 0.0
 
 
+class Analog(Struct, frozen=True, forbid_unknown_fields=True):
+    """Bring a value to the analog input of a node, named by the parameter that shows it."""
+
+    input: Parameter
+    value: float
+
+
 class Action(Struct, frozen=True, forbid_unknown_fields=True):
     """One entry of `[[at]]`: a moment and what the operator does then."""
 
@@ -81,6 +88,7 @@ class Action(Struct, frozen=True, forbid_unknown_fields=True):
     key: Key | None = None
     stream: Text | None = None
     drag: Drag | None = None
+    analog: Analog | None = None
     checkpoint: Text | None = None
 
 
