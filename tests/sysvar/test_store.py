@@ -8,31 +8,28 @@ from openacr.errors import MapError
 from openacr.mill.settings import Settings
 from openacr.sysvar import SettingError, Store
 
-PERSISTENT = {
-    "MILL-P-100-199": (100, 150, 199),
-    "MILL-P-200-233": (200, 233),
-    "MILL-P-234-248": (234, 248),
-    "MILL-P-249-270": (249, 270),
-    "MILL-P-271-399": (271, 280, 399),
-    "MILL-P-400-799": (400, 799),
-    "MILL-P-800-832": (800, 832),
-    "MILL-P-833-899": (833, 899),
-    "MILL-P-900-999": (900, 999),
-    "MILL-P-1000-1400": (1001, 1400),
-    "MILL-P-1401-1499": (1401, 1499),
-    "MILL-P-1500-1900": (1501, 1900),
-    "MILL-P-1901-1997": (1901, 1997),
-    "MILL-P-2000-2999": (2001, 2999),
-    "MILL-P-3000-3999": (3001, 3999),
-    "MILL-P-4002-4095": (4002, 4095),
-}
+PERSISTENT = [
+    pytest.param((100, 150, 199), marks=pytest.mark.req("MILL-P-100-199")),
+    pytest.param((200, 233), marks=pytest.mark.req("MILL-P-200-233")),
+    pytest.param((234, 248), marks=pytest.mark.req("MILL-P-234-248")),
+    pytest.param((249, 270), marks=pytest.mark.req("MILL-P-249-270")),
+    pytest.param((271, 280, 399), marks=pytest.mark.req("MILL-P-271-399")),
+    pytest.param((400, 799), marks=pytest.mark.req("MILL-P-400-799")),
+    pytest.param((800, 832), marks=pytest.mark.req("MILL-P-800-832")),
+    pytest.param((833, 899), marks=pytest.mark.req("MILL-P-833-899")),
+    pytest.param((900, 999), marks=pytest.mark.req("MILL-P-900-999")),
+    pytest.param((1001, 1400), marks=pytest.mark.req("MILL-P-1000-1400")),
+    pytest.param((1401, 1499), marks=pytest.mark.req("MILL-P-1401-1499")),
+    pytest.param((1501, 1900), marks=pytest.mark.req("MILL-P-1500-1900")),
+    pytest.param((1901, 1997), marks=pytest.mark.req("MILL-P-1901-1997")),
+    pytest.param((2001, 2999), marks=pytest.mark.req("MILL-P-2000-2999")),
+    pytest.param((3001, 3999), marks=pytest.mark.req("MILL-P-3000-3999")),
+    pytest.param((4002, 4095), marks=pytest.mark.req("MILL-P-4002-4095")),
+]
 
 
 @pytest.mark.req("MILL-P-PERSIST", "MILL-SYSVAR-NAMES")
-@pytest.mark.parametrize(
-    "cells",
-    [pytest.param(cells, marks=pytest.mark.req(row)) for row, cells in PERSISTENT.items()],
-)
+@pytest.mark.parametrize("cells", PERSISTENT)
 def test_a_value_survives_the_end_of_the_program(cells: tuple[int, ...], tmp_path: Path) -> None:
     path = tmp_path / "sysvar.db"
     with Store(path) as store:
