@@ -130,10 +130,6 @@ class Database:
         query = "SELECT number, value, changed FROM cell WHERE changed > ? ORDER BY changed, number"
         return self._do(query, (token,)).fetchall()
 
-    def newest(self) -> int:
-        """The count of the last transaction."""
-        return int(self._do("SELECT ifnull(max(changed), 0) FROM cell").fetchone()[0])
-
     # --- writing ----------------------------------------------------------------------
 
     def begin(self, *, is_durable: bool) -> None:

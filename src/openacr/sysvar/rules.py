@@ -36,8 +36,9 @@ def check(cells: Reader, changed: Collection[int], was_running: bool) -> None:
     for n in system:
         if was_running and known(n).row.is_motion:
             raise SettingError(known(n), "changed", "a program runs", "stop it first")
-    for rule in _RULES:
-        rule(cells, system)
+    if system:
+        for rule in _RULES:
+            rule(cells, system)
 
 
 def _soft_limits(cells: Reader, changed: Iterable[int]) -> None:

@@ -232,14 +232,15 @@ class Store:
         if parameter.row.is_fixed:
             raise SettingError(parameter, value, "it is fixed")
         new = values.checked(parameter, value, self._factor)
+        self._refresh()
+        if n in self._stored and new == self._raw(n):
+            return
         with self.transaction(is_durable=n >= FIRST_SYSTEM):
             if n == UNITS and new != self.read(UNITS):
                 self._convert(MM_PER_INCH if new else 1.0 / MM_PER_INCH)
             self._put(n, new)
 
     def _put(self, n: int, value: Value) -> None:
-        if n in self._stored and value == self._raw(n):
-            return
         self._keep(n)
         self._hold(n, value)
         self._forget_defaults(n)
@@ -270,7 +271,7 @@ class Store:
             self._database.rollback()
             return
         rules.check(self, self._before, self._was_running)
-        token = self._database.newest() + 1
+        token = self._token + 1  # all before it was read when the transaction began
         self._database.put((n, self._raw(n), token) for n in self._before)
         self._counter.begin()
         try:
