@@ -69,6 +69,8 @@ ORDER = (
     "plant/step_cy.py",
     "plc/scan_cy.py",
     "network/wake_cy.py",
+    "cnc/compensation/curve_cy.py",
+    "cnc/compensation/join_cy.py",
     "engine/loop_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)

@@ -1,0 +1,129 @@
+"""G40, G41 and G42: the phases a compensated contour goes through."""
+
+from enum import Enum, auto
+from typing import Generic
+
+from openacr.cnc.compensation.chain import Chain, Held
+from openacr.cnc.compensation.moves import is_motion, moved
+from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
+from openacr.cnc.elements import Element
+
+
+class Phase(Enum):
+    """Where in a contour the program is."""
+
+    OFF = auto()
+    LEADING_IN = auto()  # G41 or G42 was read, nothing has moved yet
+    ON = auto()
+    LEADING_OUT = auto()  # G40 was read, the tool stands beside the last element
+
+
+class Compensator(Generic[Held]):
+    """Takes elements in program order, gives those of the tool's centre.
+
+    Every method returns what can be issued by now, in order. An element is issued when the
+    next one is known; where elements may be left out (Gouge Stop off), five more wait.
+    """
+
+    def __init__(self, rules: Rules, report: Report, watch: Watch | None = None) -> None:
+        self._report = report
+        self._chain: Chain[Held] = Chain(rules, report, watch)
+        self._phase = Phase.OFF
+        self._side = Side.LEFT
+
+    @property
+    def is_on(self) -> bool:
+        """Whether G41 or G42 is in force."""
+        return self._phase in (Phase.LEADING_IN, Phase.ON)
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Where the tool rests in the plane; None where that is the programmed point."""
+        return self._chain.at
+
+    def switch(self, side: Side | None, radius: float = 0.0) -> list[Held | Element]:
+        """G40 (no side), G41, G42, or another radius for the elements to come."""
+        if side is None:
+            self._switch_off()
+        else:
+            self._switch_on(side, radius)
+        return self._chain.drain()
+
+    def _switch_on(self, side: Side, radius: float) -> None:
+        news = self._chain.news
+        if radius < 0.0:
+            news.append(("W310", f"negative radius {radius:g}: the tool is on the other side"))
+        if self._phase is not Phase.ON:
+            self._phase = Phase.LEADING_IN
+        elif side is not self._side:
+            news.append(("W313", f"{side.value} follows {self._side.value} without G40"))
+        self._side = side
+        self._chain.away = radius if side is Side.LEFT else -radius
+
+    def _switch_off(self) -> None:
+        if self._phase is Phase.ON:
+            self._chain.finish()
+            self._phase = Phase.LEADING_OUT
+        elif self._phase is Phase.LEADING_IN:
+            self._phase = Phase.OFF if self._chain.at is None else Phase.LEADING_OUT
+
+    def add(self, element: Element) -> list[Held | Element]:
+        """The next element of the program."""
+        chain = self._chain
+        if self._phase is Phase.ON:
+            chain.follow(element)
+        elif self._phase is Phase.OFF:
+            return [element]
+        elif not is_motion(element):
+            chain.rest(element)
+        elif self._phase is Phase.LEADING_IN:
+            self._lead_in(element)
+        else:
+            self._lead_out(element)
+        return chain.drain()
+
+    def hold(self, thing: Held, *, is_behind: bool = False) -> list[Held | Element]:
+        """Something between two elements: issued where the first one ends.
+
+        `is_behind`: behind the moves that are inserted at the corner.
+        """
+        self._chain.hold(thing, is_behind)
+        return self._chain.drain()
+
+    def flush(self) -> list[Held | Element]:
+        """Issue all: what follows has to wait until the machine is at rest."""
+        self._chain.finish()
+        return self._chain.drain()
+
+    def stop(self) -> list[Held | Element]:
+        """M2, ABORT: issue all; compensation is off without a move."""
+        self._chain.finish()
+        self._phase = Phase.OFF
+        self._chain.forget()
+        return self._chain.drain()
+
+    def _lead_in(self, element: Element) -> None:
+        chain = self._chain
+        chain.tell(element)
+        if element.centre is not None:
+            self._report("E313", "compensation cannot begin with an arc", element)
+            chain.ready.append(element)
+            return
+        chain.begin(self._from_here(element))
+        self._phase = Phase.ON
+
+    def _lead_out(self, element: Element) -> None:
+        if element.centre is not None:
+            self._report("E313", "compensation cannot end with an arc", element)
+        self._chain.issue_way(self._from_here(element), abs(self._chain.away))
+        self._phase = Phase.OFF
+        self._chain.forget()
+
+    def _from_here(self, element: Element) -> Element:
+        """A straight move from where the tool is."""
+        start, at = element.start, self._chain.at
+        if at is not None:
+            start = moved(start, element.plane, *at)
+        return Element(
+            element.source, element.plane, start, element.end, element.pace, is_compensated=True
+        )

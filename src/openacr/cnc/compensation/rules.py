@@ -1,0 +1,46 @@
+"""What compensation goes by: the side of the tool, the tolerances, and where findings go."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+from openacr.cnc.elements import Element
+
+Report = Callable[[str, str, Element], None]
+"""Takes a finding: its code, its text, and the element it is about."""
+
+
+class Watch(Protocol):
+    """Whoever looks at whole chains (`ChainCheck`)."""
+
+    def contour(self, element: Element) -> None:
+        """An element of the programmed contour."""
+
+    def way(self, element: Element, radius: float) -> None:
+        """A move of the tool."""
+
+    def end(self) -> None:
+        """The chain has ended."""
+
+
+class Side(Enum):
+    """Where the tool is, seen along its way."""
+
+    LEFT = "G41"
+    RIGHT = "G42"
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The tolerances of system parameters 250101..250103, and Gouge Stop (P250130)."""
+
+    epsilon: float = 0.002  # what is nearer is joined; units of length
+    sweep_epsilon: float = 0.01  # the smallest arc, radians
+    root_epsilon: int = -4  # exponent of ten: negative squares that count as 0
+    gouge_stop: bool = True  # elements that cannot be reached are errors
+
+    @property
+    def root(self) -> float:
+        """The square below which circles do not cross."""
+        return 10.0**self.root_epsilon

@@ -1,0 +1,281 @@
+"""Beginning and end of compensation, what waits between elements, and changes on the way."""
+
+from math import pi
+
+import pytest
+from tests.cnc.compensation.tools import EXACT, FEED, Path, Trace, compensate, plane_point
+
+from openacr.cnc.canonical import Plane, Source
+from openacr.cnc.compensation import Compensator, Rules, Side
+from openacr.cnc.elements import Element
+
+
+def started(radius: float = 0.25, side: Side = Side.LEFT, rules: Rules = EXACT):  # type: ignore[no-untyped-def]
+    trace = Trace()
+    compensator: Compensator[str] = Compensator(rules, trace.report)
+    trace.out += compensator.switch(side, radius)
+    return trace, compensator
+
+
+def texts(trace: Trace) -> list[object]:
+    """Positions of elements and the held texts between them, in order."""
+    return [e if isinstance(e, str) else plane_point(e.plane, e.end) for e in trace.out]
+
+
+@pytest.mark.req("MILL-COMP-12")
+def test_the_way_in_ends_beside_the_start_of_the_contour() -> None:
+    trace = compensate(Path(-1, 2).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
+    lead_in = trace.elements[0]
+    assert lead_in.start[:2] == (-1, 2)
+    assert trace.ends[0] == (0, 0.25)
+    assert trace.findings == []
+
+
+def test_rapid_ways_in_and_out_stay_rapid() -> None:
+    path = Path(-1, 2).rapid(0, 0).to(2, 0).rapid(2, 2)
+    trace = compensate(path.elements, 0.25)
+    assert [each.pace for each in trace.elements] == [None, FEED, None]
+
+
+@pytest.mark.req("MILL-COMP-13")
+def test_the_way_out_goes_straight_from_beside_the_end() -> None:
+    trace = compensate(Path(-1, 2).to(0, 0).to(2, 0).to(3, 3).elements, 0.25)
+    assert trace.ends[1:] == [(2, 0.25), (3, 3)]
+
+
+def test_the_tool_rests_beside_the_end_until_something_moves() -> None:
+    trace, compensator = started()
+    path = Path(-1, 2).to(0, 0).to(2, 0)
+    for element in path.elements:
+        trace.out += compensator.add(element)
+    trace.out += compensator.switch(None)
+    assert texts(trace)[-1] == (2, 0.25)
+    assert compensator.place == (2, 0.25)
+    path.to(2, 0, 5).to(3, 0)
+    up, out = path.elements[-2:]
+    (lifted,) = compensator.add(up)
+    assert isinstance(lifted, Element)
+    assert lifted.end[:3] == (2, 0.25, 5)
+    (left,) = compensator.add(out)
+    assert isinstance(left, Element)
+    assert left.start[:3] == (2, 0.25, 5)
+    assert left.end[:3] == (3, 0, 5)
+    assert compensator.place is None
+
+
+def test_without_an_element_behind_it_the_way_in_ends_beside_itself() -> None:
+    trace = compensate(Path(0, 0).to(2, 0).to(4, 4).elements, 0.25)
+    assert trace.ends == [(2, 0.25), (4, 4)]
+
+
+@pytest.mark.req("MILL-COMP-14")
+@pytest.mark.parametrize("is_first", [True, False])
+def test_an_arc_is_neither_way_in_nor_way_out(is_first: bool) -> None:
+    path = Path(0, 0)
+    if is_first:
+        path.arc(2, 0, 1, 0, 1).to(3, 0).to(4, 4)
+    else:
+        path.to(1, 0).to(3, 0).arc(5, 0, 4, 0, 1)
+    trace = compensate(path.elements, 0.25)
+    ((code, _, line),) = trace.findings
+    assert (code, line) == ("E313", 1 if is_first else 3)
+
+
+def test_a_short_way_in_is_told() -> None:
+    trace = compensate(Path(0, 0.2).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
+    assert trace.findings == [("W311", "lead-in is shorter than the radius 0.25", 1)]
+
+
+def test_a_way_in_from_the_material_is_told() -> None:
+    trace = compensate(Path(1.5, -0.1).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
+    assert trace.codes == ["W312"]
+    assert "line 2" in trace.findings[0][1]
+
+
+def test_a_way_in_from_far_behind_the_contour_is_not() -> None:
+    trace = compensate(Path(1.5, -0.3).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
+    assert trace.codes == []
+
+
+@pytest.mark.req("MILL-COMP-15")
+def test_a_negative_radius_is_the_other_side_and_told() -> None:
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    negative = compensate(path.elements, -0.25, Side.LEFT)
+    positive = compensate(path.elements, 0.25, Side.RIGHT)
+    assert negative.ends == positive.ends
+    assert negative.codes == ["W310"]
+    assert positive.codes == []
+
+
+def test_blocks_without_motion_wait_for_the_trimmed_end() -> None:
+    trace, compensator = started(side=Side.RIGHT)
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 0, 3).to(1, 1).to(0, 1)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.hold("M8")
+    trace.out += compensator.hold("block end", is_behind=True)
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert texts(trace)[1:6] == [(1, -0.25), "M8", (1, -0.25), (1.25, 0), "block end"]
+    up, corner = trace.elements[2:4]
+    assert (up.start[2], up.end[2]) == (0, 3)
+    assert corner.is_inserted
+    assert (corner.start[2], corner.end[2]) == (3, 3)
+
+
+def test_more_than_a_hundred_waiting_blocks_end_the_chain() -> None:
+    trace, compensator = started()
+    path = Path(0, 1).to(0, 0).to(1, 0)
+    for element in path.elements:
+        trace.out += compensator.add(element)
+    for k in range(101):
+        trace.out += compensator.hold(f"M{k}")
+    assert texts(trace)[1] == (1, 0.25)
+    assert texts(trace)[-1] == "M100"
+
+
+def test_a_waiting_block_ends_the_chain_and_the_corner_is_rounded_behind_it() -> None:
+    trace, compensator = started(side=Side.RIGHT)
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.flush()
+    assert texts(trace)[-1] == (1, -0.25)
+    trace.out.append("M0")
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert texts(trace)[2:4] == ["M0", (1.25, 0)]
+    assert trace.inserted[0].sweep_rad == pytest.approx(pi / 2)
+    assert trace.findings == []
+
+
+def test_behind_a_waiting_block_an_inside_corner_is_reached_straight() -> None:
+    trace, compensator = started()
+    path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.flush()
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert trace.ends[:4] == [(0, 0.25), (1, 0.25), (0.75, 0), (0.75, 0.75)]
+    assert trace.inserted[0].centre is None
+    assert trace.codes == ["W324"]
+
+
+@pytest.mark.req("MILL-COMP-26")
+def test_another_radius_acts_from_the_next_element_on() -> None:
+    trace, compensator = started()
+    path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.switch(Side.LEFT, 0.4)
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert trace.ends[1:3] == [(0.6, 0.25), (0.6, 0.6)]
+
+
+def test_another_radius_at_an_outside_corner_is_reached_straight() -> None:
+    trace, compensator = started(side=Side.RIGHT)
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.switch(Side.RIGHT, 0.4)
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert trace.ends[1:3] == [(1, -0.25), (1.4, 0)]
+    assert trace.inserted[0].centre is None
+
+
+def test_a_change_of_side_goes_straight_across() -> None:
+    trace, compensator = started()
+    path = Path(0, 1).to(0, 0).to(1, 0).to(2, 0).to(3, 0)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.switch(Side.RIGHT, 0.25)
+    for element in path.elements[2:]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert trace.ends[1:4] == [(1, 0.25), (1, -0.25), (2, -0.25)]
+    assert trace.findings == [("W313", "G42 follows G41 without G40", 3)]
+
+
+def test_a_ramp_reaches_its_level_over_the_trimmed_element() -> None:
+    path = Path(0, 1).to(0, 0).to(1, 0, -1).to(1, 1, -2).to(0, 1)
+    trace = compensate(path.elements, 0.25)
+    ramp = trace.elements[1]
+    assert ramp.start[:3] == (0, 0.25, 0)
+    assert ramp.end[:3] == (0.75, 0.25, -1)
+
+
+def test_a_helix_keeps_its_pitch_of_turns() -> None:
+    path = Path(0, 0).to(1, 0).arc(1, 0, 0, 0, 1, z=-1).arc(1, 0, 0, 0, 1, z=-2).to(0, 0)
+    trace = compensate(path.elements, 0.25)
+    for turn, level in zip(trace.elements[1:3], (-1, -2), strict=True):
+        assert turn.sweep_rad == pytest.approx(2 * pi)
+        assert turn.end[:3] == pytest.approx((0.75, 0, level))
+    assert trace.findings == []
+
+
+@pytest.mark.parametrize("side", list(Side))
+def test_a_full_circle_stays_one(side: Side) -> None:
+    trace = compensate(Path(3, 0).to(2, 0).arc(2, 0, 0, 0, -1).to(3, 0).elements, 0.25, side)
+    circle = trace.elements[1]
+    assert circle.sweep_rad == pytest.approx(-2 * pi)
+    assert circle.start[:2] == pytest.approx((2.25 if side is Side.LEFT else 1.75, 0))
+
+
+@pytest.mark.req("MILL-COMP-22")
+def test_without_g41_elements_pass_unchanged() -> None:
+    trace = Trace()
+    compensator: Compensator[str] = Compensator(EXACT, trace.report)
+    path = Path(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).rapid(0, 0, 5)
+    for element in path.elements:
+        assert compensator.add(element) == [element]
+    assert compensator.hold("M5") == ["M5"]
+    assert compensator.flush() == []
+
+
+def test_stop_ends_compensation_without_a_move() -> None:
+    trace, compensator = started()
+    path = Path(0, 1).to(0, 0).to(1, 0).to(2, 2)
+    for element in path.elements[:2]:
+        trace.out += compensator.add(element)
+    trace.out += compensator.stop()
+    assert trace.ends == [(0, 0.25), (1, 0.25)]
+    assert not compensator.is_on
+    last = path.elements[2]
+    assert compensator.add(last) == [last]
+
+
+def test_moves_shorter_than_a_millionth_only_wait() -> None:
+    path = Path(0, 1).to(0, 0).to(1, 0).to(1 + 5e-7, 0, -1).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25)
+    assert [each.end[2] for each in trace.elements[1:4]] == [0, -1, -1]
+    assert trace.elements[2].start[:2] == trace.elements[2].end[:2] == trace.elements[1].end[:2]
+    assert trace.findings == []
+
+
+def test_a_rapid_corner_keeps_its_distance_in_straight_moves() -> None:
+    path = Path(0, -1).rapid(0, 0).rapid(1, 0).rapid(1, 1).rapid(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT)
+    assert all(each.pace is None and each.centre is None for each in trace.elements)
+    for each in trace.inserted:
+        for x, y in (plane_point(Plane.XY, each.start), plane_point(Plane.XY, each.end)):
+            assert ((x - 1) ** 2 + y**2) ** 0.5 >= 0.25 - 1e-9
+
+
+def test_findings_name_the_source_of_the_element() -> None:
+    trace = Trace()
+    places: list[Source] = []
+    compensator: Compensator[str] = Compensator(
+        EXACT, lambda code, text, element: places.append(element.source)
+    )
+    compensator.switch(Side.LEFT, -1.0)
+    path = Path(0, 5).to(0, 0)
+    trace.out += compensator.add(path.elements[0])
+    assert places == [path.elements[0].source]

@@ -1,0 +1,258 @@
+"""How the tool gets from one element to the next, for every pair of forms."""
+
+from math import cos, hypot, pi, sin, sqrt
+
+import pytest
+from tests.cnc.compensation.tools import EXACT, FEED, Path, compensate
+
+from openacr.cnc.canonical import Plane
+from openacr.cnc.compensation import Rules, Side, listing
+
+
+def near(point: tuple[float, float]) -> object:
+    return pytest.approx(point, abs=1e-9)
+
+
+@pytest.mark.req("MILL-COMP-01")
+def test_two_lines_at_an_inside_corner_are_cut_where_their_offsets_cross() -> None:
+    path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25)
+    assert trace.ends == [(0, 0.25), (0.75, 0.25), (0.75, 1), (0, 1)]
+    assert trace.findings == []
+
+
+@pytest.mark.req("MILL-COMP-02", "MILL-COMP-11")
+def test_the_tool_rolls_around_an_outside_corner() -> None:
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT)
+    assert trace.ends == [(0, -0.25), (1, -0.25), (1.25, 0), (1.25, 1), (0, 1)]
+    (corner,) = trace.inserted
+    assert corner.centre == (1, 0)
+    assert corner.sweep_rad == pytest.approx(pi / 2)
+    assert corner.pace is FEED
+    assert corner.source.line == 3
+
+
+@pytest.mark.req("MILL-COMP-10")
+def test_an_inserted_move_is_listed_with_its_mark() -> None:
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    (corner,) = compensate(path.elements, 0.25, Side.RIGHT).inserted
+    assert listing(corner) == "<ins> G3 X1.25 Y0 I1 J0"
+
+
+def test_an_inserted_move_is_listed_with_the_words_of_its_plane() -> None:
+    path = Path(0, -1, plane=Plane.ZX).to(0, 0).to(1, 0).to(1, 1.23456).to(0, 1)
+    (corner,) = compensate(path.elements, 0.125, Side.RIGHT).inserted
+    assert listing(corner, is_metric=True) == "<ins> G3 X0 Z1.125 I0 K1"
+
+
+def test_an_inserted_line_is_listed_as_a_line() -> None:
+    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT)
+    straight = trace.elements[1]
+    assert listing(straight) == "<ins> G1 X1 Y-0.25"
+
+
+@pytest.mark.req("MILL-COMP-04")
+def test_a_line_and_an_arc_are_cut_where_their_offsets_cross() -> None:
+    # Along the x axis into a counter-clockwise arc about (0, 2) that starts to the left.
+    x, y = 2 * sin(0.5), 2 - 2 * cos(0.5)
+    path = Path(-2, 1 + y).to(-2, y).to(x, y).arc(0, 4, 0, 2, 1).to(0, 3)
+    trace = compensate(path.elements, 0.25)
+    # The line y + 0.25 meets the circle of radius 1.75 about (0, 2).
+    height = y + 0.25
+    assert trace.ends[1] == near((sqrt(1.75**2 - (2 - height) ** 2), height))
+    assert trace.elements[2].centre == near((0, 2))
+    assert trace.findings == []
+
+
+@pytest.mark.req("MILL-COMP-04")
+def test_a_line_runs_into_a_tangent_arc_without_more() -> None:
+    path = Path(-1, 1).to(-1, 0).to(0, 0).arc(1, 1, 0, 1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25)
+    assert trace.ends == [(-1, 0.25), (0, 0.25), (0.75, 1), (0, 1)]
+    assert trace.elements[2].sweep_rad == pytest.approx(pi / 2)
+
+
+@pytest.mark.req("MILL-COMP-05")
+def test_an_arc_and_a_line_are_cut_where_their_offsets_cross() -> None:
+    # Down a quarter about (0, 0), then to the left along y = -1... of an inside corner.
+    path = Path(-2, 0).to(-1, 0).arc(0, -1, 0, 0, 1).to(0, 1).to(-0.5, 1)
+    trace = compensate(path.elements, 0.25)
+    assert trace.ends[1] == near((-0.25, -sqrt(0.75**2 - 0.25**2)))
+    assert trace.ends[2] == (-0.25, 1)
+
+
+@pytest.mark.req("MILL-COMP-05")
+def test_an_arc_runs_into_a_tangent_line_without_more() -> None:
+    path = Path(0, -2).to(0, -1).arc(1, 0, 0, 0, 1).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT)
+    assert trace.ends == [(0, -1.25), (1.25, 0), (1.25, 1), (0, 1)]
+
+
+@pytest.mark.req("MILL-COMP-03")
+def test_two_arcs_are_cut_where_their_offsets_cross() -> None:
+    # A lens: two circles of radius 2 about (-1, 0) and (1, 0) meet at (0, sqrt 3).
+    top = sqrt(3)
+    path = Path(0, 0).to(1, 0).arc(0, top, -1, 0, 1).arc(-1, 0, 1, 0, 1).to(0, 0)
+    trace = compensate(path.elements, 0.5)
+    assert trace.ends[1] == near((0, sqrt(1.5**2 - 1)))
+    first, second = trace.elements[1:3]
+    assert first.end == pytest.approx(second.start)
+    assert first.sweep_rad == pytest.approx(second.sweep_rad)
+    assert trace.findings == []
+
+
+@pytest.mark.req("MILL-COMP-06")
+def test_tangent_joins_insert_nothing() -> None:
+    path = Path(-1, -1).to(0, 0).to(3, 0).arc(4, 1, 3, 1, 1).to(4, 2).arc(5, 3, 5, 2, -1)
+    path.to(7, 3).to(8, 8)
+    for side in Side:
+        trace = compensate(path.elements, 0.25, side)
+        assert trace.inserted == []
+        assert len(trace.elements) == len(path.elements)
+
+
+@pytest.mark.req("MILL-COMP-07")
+def test_without_a_radius_the_tool_runs_on_the_contour() -> None:
+    path = Path(0, 0).to(1, 0).to(2, 1).arc(4, 1, 3, 1, -1).arc(6, 1, 5, 1, 1).to(0, 3).to(0, 0)
+    trace = compensate(path.elements, 0.0)
+    assert [each.end for each in trace.elements] == [each.end for each in path.elements]
+    for out, programmed in zip(trace.elements, path.elements, strict=True):
+        assert out.sweep_rad == pytest.approx(programmed.sweep_rad)
+        assert out.centre == programmed.centre
+
+
+def test_a_reversal_is_rounded_by_half_a_turn() -> None:
+    path = Path(0, 1).to(0, 0).to(2, 0).to(0, 0).to(0, -1)
+    trace = compensate(path.elements, 0.25)
+    (corner,) = trace.inserted
+    assert corner.centre == (2, 0)
+    assert corner.sweep_rad == pytest.approx(-pi)
+
+
+def test_a_cusp_that_closes_on_the_tool_is_an_inside_corner() -> None:
+    # The arc goes straight back and then away from the line on the side of the tool.
+    path = Path(0, 1).to(0, 0).to(4, 0).arc(2, 2, 4, 2, -1).to(1, 2)
+    trace = compensate(path.elements, 0.25)
+    assert trace.inserted == []
+    assert trace.ends[1] == near((4 - sqrt(2.25**2 - 1.75**2), 0.25))
+
+
+@pytest.mark.req("MILL-COMP-18")
+def test_feet_that_are_nearer_than_epsilon_are_joined() -> None:
+    angle = 0.0007 / 0.25  # the feet of a tool of radius 0.25 are 0.0007 apart
+    path = Path(0, 2).to(0, 0).to(1, 0).to(1 + cos(angle), -sin(angle)).to(3, 2)
+    joined = compensate(path.elements, 0.25, rules=Rules(epsilon=0.001))
+    assert joined.inserted == []
+    assert joined.elements[1].end == joined.elements[2].start
+    apart = compensate(path.elements, 0.25, rules=Rules(epsilon=0.0001))
+    assert len(apart.inserted) == 1
+
+
+@pytest.mark.req("MILL-COMP-19")
+@pytest.mark.parametrize(("sweep", "is_arc"), [(0.009, False), (0.011, True)])
+def test_an_arc_below_the_sweep_epsilon_is_a_line(sweep: float, is_arc: bool) -> None:
+    path = Path(-1, 3).to(-1, 0).to(0, 0).arc(10 * sin(sweep), 10 - 10 * cos(sweep), 0, 10, 1)
+    path.to(3, 3)
+    trace = compensate(path.elements, 0.25, rules=Rules())
+    assert (trace.elements[2].centre is not None) is is_arc
+
+
+@pytest.mark.req("MILL-COMP-20")
+def test_the_root_epsilon_makes_circles_cross() -> None:
+    # A lens of two circles of radius 2; with 1.0 the inner circles touch at L = 2.
+    def crossing(gap: float, root_epsilon: int) -> list[str]:
+        half = 1 + gap / 2
+        top = sqrt(4 - half * half)
+        path = Path(0, 0).to(2 - half, 0).arc(0, top, -half, 0, 1).arc(half - 2, 0, half, 0, 1)
+        path.to(0, -0.1)
+        rules = Rules(epsilon=1e-6, root_epsilon=root_epsilon)
+        return compensate(path.elements, 1.0, rules=rules).codes
+
+    assert "E321" not in crossing(2e-5, -4)
+    assert "W320" in crossing(2e-5, -9)
+    assert "W320" in crossing(0.01, -4)
+
+
+def test_circles_that_are_farther_apart_than_the_tool_do_not_cross() -> None:
+    top = sqrt(4 - 1.9**2)
+    path = Path(0, 0).to(0.1, 0).arc(0, top, -1.9, 0, 1).arc(-0.1, 0, 1.9, 0, 1).to(0, 0)
+    trace = compensate(path.elements, 1.5)
+    assert "E321" in trace.codes
+
+
+@pytest.mark.req("MILL-COMP-08")
+def test_ways_that_no_longer_cross_are_joined_by_an_inserted_line() -> None:
+    top = sqrt(3)
+    path = Path(-2, -4).to(0, -top).arc(0, top, -1, 0, 1).arc(0, -top, 1, 0, 1).to(2, -4)
+    trace = compensate(path.elements, 1.1)
+    (line,) = trace.inserted
+    assert line.centre is None
+    assert trace.ends[1:3] == [near((-0.1, 0)), near((0.1, 0))]
+    assert "W320" in trace.codes
+    for one, other in zip(trace.elements, trace.elements[1:], strict=False):
+        assert one.end == pytest.approx(other.start)
+
+
+@pytest.mark.req("MILL-COMP-21")
+def test_a_spiral_within_epsilon_gets_the_nearest_centre() -> None:
+    path = Path(0, -2).to(0, -1).arc(1.0005, 0, 0, 0, 1).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT, Rules(epsilon=0.001))
+    arc = trace.elements[1]
+    assert trace.findings == []
+    assert arc.centre is not None
+    radii = [hypot(p[0] - arc.centre[0], p[1] - arc.centre[1]) for p in (arc.start, arc.end)]
+    assert radii[0] == pytest.approx(radii[1], abs=1e-3)
+    assert radii[0] == pytest.approx(1.25, abs=1e-3)
+
+
+@pytest.mark.req("MILL-COMP-21")
+def test_a_spiral_beyond_epsilon_is_refused() -> None:
+    path = Path(0, -2).to(0, -1).arc(1.01, 0, 0, 0, 1).to(1, 1).to(0, 1)
+    trace = compensate(path.elements, 0.25, Side.RIGHT, Rules(epsilon=0.001))
+    assert trace.findings[0] == (
+        "E315",
+        "start and end radius differ by more than 0.001",
+        2,
+    )
+
+
+@pytest.mark.req("MILL-COMP-23")
+@pytest.mark.parametrize("plane", list(Plane))
+def test_every_plane_is_compensated_alike(plane: Plane) -> None:
+    path = Path(0, -1, plane=plane).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(0, 2).to(0, 3)
+    flat = Path(0, -1).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(0, 2).to(0, 3)
+    trace = compensate(path.elements, 0.25, Side.RIGHT)
+    assert trace.ends == compensate(flat.elements, 0.25, Side.RIGHT).ends
+    assert all(each.plane is plane for each in trace.elements)
+
+
+@pytest.mark.req("MILL-COMP-24")
+def test_the_mirrored_contour_on_the_other_side_gives_the_mirrored_way() -> None:
+    path = Path(0, -1).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(1, 2).to(0, 0.5).to(-1, 0)
+    mirrored = Path(0, 1).to(0, 0).to(1, 0).arc(2, -1, 1, -1, -1).to(2, -2).to(1, -2)
+    mirrored.to(0, -0.5).to(-1, 0)
+    right = compensate(path.elements, 0.2, Side.RIGHT)
+    left = compensate(mirrored.elements, 0.2, Side.LEFT)
+    assert right.ends == [(x, -y + 0.0) for x, y in left.ends]
+    assert right.codes == left.codes
+
+
+@pytest.mark.req("MILL-COMP-25")
+@pytest.mark.parametrize("scale", [0.001, 1.0, 1000.0])
+def test_small_and_large_parts_run_alike_with_fitting_epsilons(scale: float) -> None:
+    s = scale
+    path = Path(0, -s).to(0, 0).to(s, 0).arc(2 * s, s, s, s, 1).to(2 * s, 2 * s)
+    path.to(0.5 * s, 2 * s).to(-s, s)
+    rules = Rules(epsilon=1e-5 * s if s < 1 else 1e-4 * s, root_epsilon=-12)
+    trace = compensate(path.elements, 0.25 * s, Side.RIGHT, rules)
+    assert trace.findings == []
+    wanted = [(0, -0.25), (1, -0.25), (2.25, 1), (2.25, 2), (2, 2.25), (0.5, 2.25), (-1, 1)]
+    assert [(x / s, y / s) for x, y in trace.ends] == [pytest.approx(w, abs=1e-4) for w in wanted]
+
+
+def test_default_rules_are_those_of_a_new_store() -> None:
+    assert Rules() == Rules(0.002, 0.01, -4, True)
+    assert Rules(root_epsilon=-4).root == pytest.approx(1e-4)
+    assert EXACT.root == pytest.approx(1e-12)
