@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
 from openacr.mill.planning import (
     CornerRules,
-    PathMode,
     Planner,
     Stretch,
     corner_speed,
@@ -102,13 +102,13 @@ RULES = CornerRules(30.0, 120.0, 0.5)
 
 def planned(chosen: Chosen, takes: int) -> list[Stretch]:
     """The moves with their end speeds, taken out in pieces of a few moves."""
-    planner = Planner(RULES)
+    planner: Planner[Stretch] = Planner(RULES)
     out: list[Stretch] = []
     for at, (direction, length, feed) in enumerate(chosen, start=1):
         planner.add(line(direction, length, feed))
         if at % takes == 0:
-            out += planner.take(is_complete=False)
-    out += planner.take(is_complete=True)
+            out += planner.take(10000, is_complete=False)
+    out += planner.take(10000, is_complete=True)
     return out
 
 
@@ -139,8 +139,8 @@ def test_a_chain_of_short_tangent_moves_keeps_the_feed() -> None:
 
 
 def test_as_many_moves_wait_as_were_asked_for() -> None:
-    planner = Planner(CornerRules(), least_ahead=10)
+    planner: Planner[Stretch] = Planner(CornerRules(), least_ahead=10)
     for _ in range(25):
         planner.add(line(0.0, length=100.0))
-    assert len(list(planner.take(is_complete=False))) == 15
+    assert len(list(planner.take(10000, is_complete=False))) == 15
     assert len(planner) == 10

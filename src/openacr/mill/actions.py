@@ -54,6 +54,11 @@ class Spindle:
         self.rpm = 0.0
         self.override = 1.0
 
+    @property
+    def is_on(self) -> bool:
+        """Whether it turns, or is told to."""
+        return self.state != OFF
+
     def volts(self) -> float:
         """What the DAC is at, from the speed, the scaling and the override."""
         if self.state == OFF:

@@ -122,6 +122,10 @@ class Alarms:
             self._note(alarm)
         return self._active[key]
 
+    def is_up(self, what: Kind, detail: object) -> bool:
+        """Whether this alarm has not been cleared yet."""
+        return (what.code, str(detail)) in self._active
+
     @property
     def active(self) -> list[Alarm]:
         """What is up, oldest first."""

@@ -29,6 +29,7 @@ class Look:
     counter: int  # packets that have started
     inputs: int
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
+    limits: tuple[int, ...]  # quinary flag words
 
     @property
     def is_moving(self) -> bool:
@@ -44,6 +45,11 @@ class Look:
     def is_in_position(self) -> bool:
         """All axes of the master are inside their in-position band."""
         return not self.master & n.MF1_NOT_IN_POSITION
+
+    @property
+    def is_within_error(self) -> bool:
+        """All axes of the master are inside their following error band."""
+        return bool(self.master & n.MF1_NOT_EXCESS_ERROR)
 
     @property
     def is_killed(self) -> bool:
@@ -66,23 +72,29 @@ class Machine:
         self.master = master
         self._passed_ms = 0
         self._clock_ms: int | None = None
+        self.is_dropping = False  # moves are killed on purpose
+        self._is_clearing = False
 
     # --- seeing -----------------------------------------------------------------------
 
     @cached_property
     def _watched(self) -> list[int]:
         drives = [n.AF4_WORD + axis for axis in self.axes]
+        limits = [n.AF5_WORD + axis for axis in self.axes]
         counter = n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
         head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, counter, n.W_INPUTS]
-        return head + drives
+        return head + drives + limits
 
     def look(self) -> Look:
         """Ask the card how it stands."""
-        clock, master, counter, inputs, *drives = map(int, self.card.read_many(self._watched))
+        clock, master, counter, inputs, *words = map(int, self.card.read_many(self._watched))
         if self._clock_ms is not None:
             self._passed_ms += (clock - self._clock_ms) % CLOCK_PERIOD_MS
         self._clock_ms = clock
-        return Look(clock, master, counter, inputs, tuple(drives))
+        if self._is_clearing and not master & n.MF1_KILL_ALL_MOVES_REQUEST:
+            self.is_dropping = self._is_clearing = False
+        count = len(self.axes)
+        return Look(clock, master, counter, inputs, tuple(words[:count]), tuple(words[count:]))
 
     @property
     def now_s(self) -> float:
@@ -102,12 +114,15 @@ class Machine:
         rows = [n.AX_BASE + axis * n.AX_STRIDE + offset for axis in self.axes]
         return [int(value) for value in self.card.read_many(rows)]
 
+    def axis_flags(self, word: int) -> list[int]:
+        """One flag word of all axes in use, e.g. `AF1_WORD`."""
+        return [int(each) for each in self.card.read_many([word + axis for axis in self.axes])]
+
     # --- telling ----------------------------------------------------------------------
 
     def send(self, moves: Iterable[Move]) -> None:
         """Moves for the buffer of the master."""
-        for move in moves:
-            self.card.tell(move)
+        self.card.tell(*moves)
 
     def write(self, parameter: int, value: float) -> None:
         """Set a parameter of the card."""
@@ -132,17 +147,28 @@ class Machine:
 
     def stop(self) -> None:
         """Feed hold, then drop all moves."""
+        self.is_dropping = True
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
 
     def clear_kill(self) -> None:
         """Let the master move again."""
+        self._is_clearing = True
         self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
 
     def kill(self) -> None:
         """Kill the motion of every axis in use."""
+        self.is_dropping = True
+        self._set_kills(True)
+
+    def release(self) -> None:
+        """Take a kill back: axes and master may move again; drives stay as they are."""
+        self._set_kills(False)
+        self.clear_kill()
+
+    def _set_kills(self, on: bool) -> None:
         bit = n.AF4_KILL_ALL_MOTION_REQUEST.bit_length() - 1
         for axis in self.axes:
-            self.set_flag((n.AF4_WORD + axis - FIRST_FLAG_WORD) * BITS_PER_WORD + bit, True)
+            self.set_flag((n.AF4_WORD + axis - FIRST_FLAG_WORD) * BITS_PER_WORD + bit, on)
 
     def override(self, feed: float, rapid: float) -> None:
         """Feed and rapid override, 1 = as programmed."""

@@ -16,21 +16,13 @@ import math
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
-from enum import Enum
+from typing import Generic, TypeVar
 
+from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
 
 Direction = tuple[float, ...]  # unit vector over the linear axes
 MOST_AHEAD = 4000  # moves held back at most, however short they are
-
-
-class PathMode(Enum):
-    """How a move meets the one behind it."""
-
-    EXACT = "G61"
-    CORNER = "G62"
-    LOCKED = "G63"
-    FREE = "G64"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,35 +98,52 @@ def corner_speed(before: Stretch, after: Stretch, rules: CornerRules) -> float:
     return min(feed_ups, _by_step(before.end, after.start, rules))
 
 
-class Planner:
+Moves = TypeVar("Moves", bound=Stretch)
+
+
+class Planner(Generic[Moves]):
     """A queue of moves; they leave it with the speed they end with."""
 
     def __init__(self, rules: CornerRules, least_ahead: int = 0) -> None:
         self._rules = rules
         self._least_ahead = least_ahead
-        self._moves: deque[Stretch] = deque()
+        self._moves: deque[Moves] = deque()
 
     def __len__(self) -> int:
         return len(self._moves)
 
-    def add(self, move: Stretch) -> None:
+    def add(self, move: Moves) -> None:
         """One more move behind the last one."""
         if self._moves:
             self._moves[-1].corner_ups = corner_speed(self._moves[-1], move, self._rules)
         self._moves.append(move)
 
-    def take(self, *, is_complete: bool) -> Iterator[Stretch]:
-        """The moves that may be sent now; all of them when no more will come for the moment."""
-        if not self._moves:
+    def ready(self) -> int:
+        """How many moves may leave although more will come."""
+        return len(self._moves) - self._ahead() if self._moves else 0
+
+    def take(self, room: int, *, is_complete: bool) -> Iterator[Moves]:
+        """At most `room` moves that may be sent now.
+
+        `is_complete` says that nothing comes behind them for the moment: then the last one
+        ends at rest and all may leave.
+        """
+        if not self._moves or room <= 0:
             return
         self._plan()
-        keep = 0 if is_complete else self._ahead()
-        while len(self._moves) > keep:
+        may = len(self._moves) if is_complete else len(self._moves) - self._ahead()
+        for _ in range(min(room, may)):
             yield self._moves.popleft()
+
+    def clear(self) -> list[Moves]:
+        """Take all moves back, planned or not."""
+        moves = list(self._moves)
+        self._moves.clear()
+        return moves
 
     def _plan(self) -> None:
         """The backward pass over all moves that are still here."""
-        after: Stretch | None = None
+        after: Moves | None = None
         for move in reversed(self._moves):
             reach = 0.0
             if after is not None:

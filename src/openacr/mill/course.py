@@ -1,0 +1,158 @@
+"""One pass of a program on its way to the card: what was sent, what comes next.
+
+The course knows the moves; what the runner decides (hold, go on, take back, join again)
+happens to them here.
+"""
+
+from collections.abc import Callable, Iterator
+
+from openacr.cnc import canonical as c
+from openacr.mill.actions import Steps, Until
+from openacr.mill.doing import Doing
+from openacr.mill.encoding import Encoder, Job, Motion
+from openacr.mill.feeding import Feed, Halt
+from openacr.mill.host import RunHost
+from openacr.mill.limits import first_excess
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+from openacr.mill.probing import Probing
+from openacr.mill.rejoin import Place, lead_in, place, rest_of
+from openacr.mill.tracking import Tracker
+
+PULSES_OFF = 2.0  # further away the machine has been moved
+Entries = Callable[[RunHost], Iterator[c.Entry]]
+
+
+class Course:
+    """The moves of one machine, from the entries of a program to the buffer of the card."""
+
+    def __init__(self, panel: Panel, doing: Doing, depth: int) -> None:
+        self.settings = panel.settings
+        self.host = RunHost(panel.machine, panel.settings, lambda: self._probing.point)
+        self.tracker = Tracker()
+        self.moves = 0  # moves sent
+        self._machine = panel.machine
+        self._doing = doing
+        self._depth = depth
+        self._probing = Probing(panel, self._send)
+        self._encoder = Encoder(panel.settings)
+        self._feed: Feed | None = None
+
+    def begin(self, entries: Entries, *, is_dry: bool, is_single: bool) -> None:
+        """A program from its first block on."""
+        self._machine.reset_counter()
+        self.tracker.reset()
+        self._encoder = Encoder(self.settings, is_dry=is_dry)
+        begin = self.host.position()
+        self._feed = Feed(entries(self.host), begin, self.settings, self._encoder)
+        self._feed.is_single = is_single
+
+    def end(self) -> None:
+        """No program any more."""
+        self._feed = None
+
+    def set_single(self, on: bool) -> None:
+        """Whether every block is followed by a stop."""
+        if self._feed is not None:
+            self._feed.is_single = on
+
+    # --- forward ----------------------------------------------------------------------
+
+    def advance(self, look: Look) -> Halt | None:
+        """Read and send as far as there is room; what the program has come to at rest."""
+        feed = self._feed
+        if feed is None:
+            return None
+        room = self._depth - self.tracker.waiting
+        feed.read(room)
+        for job in feed.take(room):
+            self._send(job)
+        is_at_rest = look.counter >= self.tracker.sent and not look.is_moving
+        for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
+            for _ in self._doing.steps(note):
+                pass  # none of them waits
+        return feed.halt if feed.is_empty and is_at_rest else None
+
+    def go_on(self) -> None:
+        """What the program had come to is done."""
+        if self._feed is not None:
+            self._feed.go_on()
+
+    def _send(self, job: Job) -> None:
+        packet = self._encoder.packet(job)
+        self.tracker.add(job, has_packet=packet is not None)
+        if packet is not None:
+            self._machine.send([packet])
+            self.moves += 1
+
+    def probe(self, entry: c.Probe) -> Steps:
+        """G31, from rest to rest."""
+        feed = self._feed
+        if feed is not None:
+            yield from self._probing.steps(feed.probe(entry), self._encoder.job, entry.end)
+            feed.position = self.host.position()
+
+    # --- back and again ---------------------------------------------------------------
+
+    def place(self) -> Place | None:
+        """Where a held machine stands on its path."""
+        job = self.tracker.current
+        return place(job, self.host.position()) if job else None
+
+    def is_off(self, left: Place) -> bool:
+        """Whether the machine has been moved away from where it left the path."""
+        here = self.host.position()
+        return any(
+            abs(here[axis.index] - left.point[axis.index])
+            > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
+            for axis in self.settings.axes
+        )
+
+    def retake(self) -> Steps:
+        """Stop, take every move back that is not done, and read them again."""
+        feed = self._feed
+        if feed is None:
+            return
+        self._machine.hold()
+        yield Until("stops", lambda look: look.is_held or not look.is_moving)
+        feed.replace(self._taken_back(self.host.position()))
+        yield from self.drop_moves()
+
+    def rejoin(self, left: Place) -> Steps:
+        """Back to the path on an arc that touches it, then the rest of the way."""
+        feed = self._feed
+        if feed is None:
+            return
+        here = self.host.position()
+        jobs = self._taken_back(left.point)
+        yield from self.drop_moves()
+        leading = self._jobs(lead_in(left, here, self.settings.lead_in_u), here)
+        if any(first_excess(job, self.settings) for job in leading):
+            leading = self._jobs(lead_in(left, here, 0.0), here)
+        feed.replace([*leading, *jobs])
+
+    def drop_moves(self) -> Steps:
+        """Drop what the card holds and count from zero again."""
+        self._machine.stop()
+        yield Until("moves end", lambda look: not look.is_moving)
+        self._machine.clear_kill()
+        self._machine.reset_counter()
+        self.tracker.reset()
+        yield Until("kill is cleared", lambda look: not look.is_killed)
+
+    def _jobs(self, entries: Iterator[Motion], begin: c.Point) -> list[Job]:
+        jobs = []
+        for entry in entries:
+            jobs.append(self._encoder.job(entry, begin))
+            begin = entry.end
+        return [job for job in jobs if job.length_u > 0.0]
+
+    def _taken_back(self, here: c.Point) -> list[Job]:
+        """The rest of the move that is held at `here`, and those behind it."""
+        jobs = self.tracker.take_back()
+        if not jobs or jobs[0].count > self.tracker.started:
+            return jobs
+        first = jobs[0]
+        rest = self._encoder.job(rest_of(first.entry, first.begin, here), here)
+        rest.block = first.block
+        return [rest, *jobs[1:]] if rest.length_u > 0.0 else jobs[1:]

@@ -1,0 +1,148 @@
+"""What each canonical entry that is no move makes the machine do, at rest and in order."""
+
+from collections.abc import Callable
+from functools import singledispatchmethod
+from math import inf
+from typing import TYPE_CHECKING
+
+from openacr.cnc import canonical as c
+from openacr.map.numbers import AX_ACTUAL_POSITION
+from openacr.mill import alarms
+from openacr.mill.actions import Coolant, Spindle, Steps, ToolChanger, Until, pause
+from openacr.mill.alarms import AlarmError
+from openacr.mill.feeding import Fault, Halt, InPosition
+from openacr.mill.panel import Panel
+from openacr.mill.settings import NONE, Store
+
+if TYPE_CHECKING:
+    from openacr.mill.machine import Look
+
+TOOL_IN_SPINDLE = 235
+PULSES_OFF = 2.0  # what the check of a reference point allows
+
+
+class Doing:
+    """Spindle, coolant, tools, outputs and waits of one machine."""
+
+    def __init__(self, panel: Panel, store: Store, say: Callable[[str], None]) -> None:
+        self._panel = panel
+        self._store = store
+        self._say = say
+        self.spindle = Spindle(panel)
+        self.coolant = Coolant(panel)
+        self.changer = ToolChanger(panel, self.spindle)
+
+    def off(self) -> None:
+        """Spindle and coolant off, as ABORT and E-stop want it."""
+        self.spindle.switch_off()
+        self.coolant.set(mist=False, flood=False)
+
+    @singledispatchmethod
+    def steps(self, halt: Halt) -> Steps:
+        """The steps of one entry; those that only end or hold a program have none."""
+        yield from ()
+
+    @steps.register
+    def _(self, halt: Fault) -> Steps:
+        raise AlarmError(halt.kind, halt.detail)
+        yield
+
+    @steps.register
+    def _(self, halt: InPosition) -> Steps:
+        limit_s = self._panel.settings.speeds.in_position_s or inf
+        yield Until(
+            "in position", lambda look: look.is_in_position, limit_s, alarms.NOT_IN_POSITION
+        )
+
+    @steps.register
+    def _(self, entry: c.Dwell) -> Steps:
+        yield pause(entry.seconds, f"dwell {entry.seconds:g} s")
+
+    @steps.register
+    def _(self, entry: c.Spindle) -> Steps:
+        if entry.spin is c.Spin.OFF:
+            self.spindle.rpm = entry.rpm
+            yield from self.spindle.stop() if entry.is_awaited else ()
+        elif entry.is_awaited:
+            yield from self.spindle.start(entry.spin.value, entry.rpm)
+        else:
+            self.spindle.set_speed(entry.rpm)
+
+    @steps.register
+    def _(self, entry: c.Orient) -> Steps:
+        if entry.is_on:
+            yield from self.spindle.orient()
+        else:
+            self.spindle.release()
+
+    @steps.register
+    def _(self, entry: c.Coolant) -> Steps:
+        self.coolant.set(entry.mist, entry.flood)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.Output) -> Steps:
+        self._panel.output(entry.number, entry.is_on)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.SetBit) -> Steps:
+        self._panel.machine.set_flag(entry.bit, entry.is_on)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.WaitBit) -> Steps:
+        card = self._panel.machine.card
+        yield Until(entry.reason, lambda _look: card.read_bit(entry.bit) == entry.is_on)
+
+    @steps.register
+    def _(self, entry: c.Tool) -> Steps:
+        old = int(self._store.read(TOOL_IN_SPINDLE))
+        if entry.number != old:
+            yield from self.changer.change(entry.number, old)
+            self._store.write(TOOL_IN_SPINDLE, entry.number)
+
+    @steps.register
+    def _(self, entry: c.Transfer) -> Steps:
+        self._panel.machine.write(entry.parameter, entry.value)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.SetCell) -> Steps:
+        self._store.write(entry.parameter, entry.value)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.Say) -> Steps:
+        self._say(entry.text)
+        yield from ()
+
+    @steps.register
+    def _(self, entry: c.Confirm) -> Steps:
+        if entry.check is c.Check.REFERENCE_INPUT:
+            yield from self._reference_input()
+        else:
+            self._at_reference(entry)
+
+    def _reference_input(self) -> Steps:
+        """G27: the switch has to answer; the output stays on where it does not."""
+        wiring, panel = self._panel.settings.wiring, self._panel
+        panel.output(wiring.g27_output, True)
+
+        def is_on(look: "Look") -> bool:
+            return panel.is_in(look, wiring.g27_input)
+
+        yield Until("reference input", is_on, wiring.reference_s, alarms.NOT_CONFIRMED)
+        panel.output(wiring.g27_output, False)
+
+    def _at_reference(self, entry: c.Confirm) -> None:
+        """G28, G30: the axes have to stand on the point."""
+        machine, wiring = self._panel.machine, self._panel.settings.wiring
+        counts = dict(zip(machine.axes, machine.axis_values(AX_ACTUAL_POSITION), strict=True))
+        for index in entry.axes:
+            axis = self._panel.settings.axis(index)
+            off_u = abs(counts[index] / axis.pulses_per_unit - entry.point[index])
+            if off_u > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit):
+                number = wiring.g28_error if wiring.g28_error != NONE else wiring.g27_output
+                self._panel.output(number, True)
+                raise AlarmError(alarms.POINT_MISSED, f"axis {axis.name} off by {off_u:.6g}")

@@ -1,0 +1,213 @@
+"""From canonical entries to moves ready to be sent, and the things that wait for rest.
+
+The feed reads ahead of the machine: moves go through the planner, everything else is a
+halt - it acts when all moves before it are done - or a note, which takes effect in passing.
+"""
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.cnc.canonical import (
+    Arc,
+    BlockEnd,
+    Coolant,
+    Entry,
+    Line,
+    Output,
+    Point,
+    Polyline,
+    Probe,
+    Rapid,
+    Say,
+    SetCell,
+    Source,
+)
+from openacr.cnc.findings import BlockError
+from openacr.mill import alarms
+from openacr.mill.alarms import Kind
+from openacr.mill.encoding import BeyondPulsesError, Encoder, Job
+from openacr.mill.limits import first_excess, unhomed
+from openacr.mill.planning import CornerRules, Planner
+from openacr.mill.settings import Settings
+from openacr.mill.tracking import Tracker
+
+READ_TOGETHER = 32
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What ends the program where it was found: before its block acts."""
+
+    kind: Kind
+    detail: str
+    source: Source | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class InPosition:
+    """The wait of G9 and G61 behind a move."""
+
+    source: Source
+
+
+Halt = Entry | Fault | InPosition
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """What takes effect in passing, when the moves up to a number are done."""
+
+    entry: Say | SetCell | Output | Coolant
+    behind: Job | None  # the move before it
+
+
+class Feed:
+    """The way of one program's entries to the card."""
+
+    def __init__(
+        self, entries: Iterator[Entry], begin: Point, settings: Settings, encoder: Encoder
+    ) -> None:
+        self._entries = entries
+        self._settings = settings
+        self._encoder = encoder
+        speeds = settings.speeds
+        rules = CornerRules(
+            speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
+        )
+        self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
+        self._waits = any(axis.in_position_u > 0.0 for axis in settings.axes)
+        self._has_begun = False
+        self._last: Job | None = None
+        self.position = begin  # behind everything read so far
+        self.block = 0  # blocks read
+        self.halt: Halt | None = None
+        self.notes: deque[Note] = deque()
+        self._again: deque[Job] = deque()  # taken back from the card, still to be made
+        self._halt_behind: Halt | None = None
+        self.is_single = False
+
+    # --- reading ----------------------------------------------------------------------
+
+    def read(self, room: int) -> None:
+        """Read on until `room` moves may leave, or something has to wait for rest."""
+        while self.halt is None and self._wants_more(room):
+            for _ in range(READ_TOGETHER):
+                self._read_one()
+                if self.halt is not None:
+                    break
+
+    def _wants_more(self, room: int) -> bool:
+        if not self._has_begun and len(self._planner) < self._settings.drip_threshold:
+            return True
+        return self._planner.ready() < max(room, 1)
+
+    def _read_one(self) -> None:
+        if self._again:
+            self._repeat(self._again.popleft())
+        else:
+            self._read_entry()
+
+    def _repeat(self, job: Job) -> None:
+        """A move that was taken back; in single block every block stops once more."""
+        self._planner.add(job)
+        is_last = not self._again
+        if self.is_single and (is_last or self._again[0].block != job.block):
+            self.halt = BlockEnd(job.entry.source)
+        elif is_last:
+            self.halt, self._halt_behind = self._halt_behind, None
+
+    def _read_entry(self) -> None:
+        try:
+            entry = next(self._entries, None)
+        except BlockError as error:
+            self.halt = Fault(alarms.PROGRAM_ERROR, str(error))
+            return
+        if entry is None:
+            self.halt = Fault(alarms.PROGRAM_ERROR, "the program has no end")
+        elif isinstance(entry, Rapid | Line | Arc | Polyline):
+            self._move(entry)
+        elif isinstance(entry, BlockEnd):
+            self.block += 1
+            if self.is_single:
+                self.halt = entry
+        elif isinstance(entry, Say | SetCell) or (
+            self._settings.on_the_fly and isinstance(entry, Output | Coolant)
+        ):
+            self.notes.append(Note(entry, self._last))
+        else:
+            self.halt = entry
+
+    def _move(self, entry: Rapid | Line | Arc | Polyline) -> None:
+        for piece in self._encoder.pieces(entry, self.position):
+            job = self._encoder.job(piece, self.position)
+            self.halt = self._fault(job)
+            if self.halt is not None:
+                return
+            self._append(job)
+        if self._waits and not isinstance(entry, Rapid) and entry.pace.is_confirmed:
+            self.halt = InPosition(entry.source)
+
+    def _fault(self, job: Job) -> Fault | None:
+        """Why a move may not be made at all."""
+        source = job.entry.source
+        axis = unhomed(job, self._settings)
+        if axis is not None:
+            return Fault(alarms.NOT_HOMED, axis.name, source)
+        excess = first_excess(job, self._settings)
+        if excess is not None:
+            return Fault(alarms.TARGET_BEYOND, f"line {source.line}, {excess}", source)
+        try:
+            self._encoder.pulses(job.finish)
+        except BeyondPulsesError as error:
+            return Fault(alarms.PROGRAM_ERROR, f"line {source.line}: {error}", source)
+        return None
+
+    def _append(self, job: Job) -> None:
+        job.block = self.block
+        self.position = job.finish
+        if job.length_u > 0.0:
+            self._last = job
+            self._planner.add(job)
+
+    def probe(self, entry: Probe) -> Job:
+        """The job of a probing move; it is sent by itself."""
+        return self._encoder.job(entry, self.position)
+
+    # --- leaving ----------------------------------------------------------------------
+
+    def take(self, room: int) -> Iterator[Job]:
+        """Moves to be sent now, with the speed they end with."""
+        is_complete = self.halt is not None
+        if not self._has_begun and not is_complete:
+            self._has_begun = len(self._planner) >= self._settings.drip_threshold
+        if self._has_begun or is_complete:
+            self._has_begun = True
+            yield from self._planner.take(room, is_complete=is_complete)
+
+    @property
+    def is_empty(self) -> bool:
+        """Every move read so far has left."""
+        return not len(self._planner)
+
+    def passed(
+        self, tracker: Tracker, *, is_at_rest: bool
+    ) -> Iterator[Say | SetCell | Output | Coolant]:
+        """The notes whose moment has come."""
+        while self.notes and tracker.is_done(self.notes[0].behind, is_at_rest=is_at_rest):
+            yield self.notes.popleft().entry
+
+    def go_on(self) -> None:
+        """The halt is over; one that was set aside for a stop behind a block comes next."""
+        if self._again:
+            self.halt = None
+        else:
+            self.halt, self._halt_behind = self._halt_behind, None
+
+    # --- another way ------------------------------------------------------------------
+
+    def replace(self, jobs: list[Job]) -> None:
+        """Make these moves, then those that have been read and have not left yet."""
+        self._again = deque([*jobs, *self._planner.clear(), *self._again])
+        self._halt_behind, self.halt = self.halt, None
+        self._has_begun = True

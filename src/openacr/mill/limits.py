@@ -1,0 +1,65 @@
+"""Soft limits: the end of a move and the outermost points of its arc, before it is sent."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.cnc.canonical import Arc, Point
+from openacr.mill.encoding import Job, Motion, along
+from openacr.mill.settings import AxisSettings, Settings
+
+QUARTER = 0.5 * math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Excess:
+    """A point beyond a limit: the axis, how far, and which limit."""
+
+    axis: AxisSettings
+    beyond_u: float
+    limit_u: float
+
+    def __str__(self) -> str:
+        return f"axis {self.axis.name} {self.beyond_u:.6g} beyond {self.limit_u:g}"
+
+
+def first_excess(job: Job, settings: Settings) -> Excess | None:
+    """The first axis a move takes beyond its soft limits; un-homed axes have none."""
+    for point in outermost(job.entry, job.begin):
+        for axis in settings.axes:
+            if axis.soft_limits is None or not settings.is_homed(axis.index):
+                continue
+            excess = _excess(axis, point[axis.index], *axis.soft_limits)
+            if excess is not None and point[axis.index] != job.begin[axis.index]:
+                return excess
+    return None
+
+
+def _excess(axis: AxisSettings, at_u: float, high_u: float, low_u: float) -> Excess | None:
+    if at_u > high_u:
+        return Excess(axis, at_u - high_u, high_u)
+    return Excess(axis, low_u - at_u, low_u) if at_u < low_u else None
+
+
+def unhomed(job: Job, settings: Settings) -> AxisSettings | None:
+    """An axis that moves although it must be homed first."""
+    for axis in settings.axes:
+        moves = job.begin[axis.index] != job.finish[axis.index]
+        if moves and axis.is_home_required and not settings.is_homed(axis.index):
+            return axis
+    return None
+
+
+def outermost(entry: Motion, begin: Point) -> Iterator[Point]:
+    """The end of a move and, on arcs, every point where an axis of the plane turns back.
+
+    Those are the quarter points of the circle, at whole multiples of 90 degrees.
+    """
+    yield entry.end
+    if not isinstance(entry, Arc):
+        return
+    first, second = entry.plane.first, entry.plane.second
+    start = math.atan2(begin[second] - entry.centre[1], begin[first] - entry.centre[0])
+    low, high = sorted((start, start + entry.sweep_rad))
+    for quarter in range(math.ceil(low / QUARTER), math.floor(high / QUARTER) + 1):
+        yield along(entry, begin, (quarter * QUARTER - start) / entry.sweep_rad)

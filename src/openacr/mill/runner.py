@@ -1,0 +1,386 @@
+"""Runs a part program on a card: states, commands, and one step after the other.
+
+`step()` looks at the card once and does what is due; whoever drives it lets time pass in
+between. Nothing here sleeps or knows the wall clock, so the same run takes an hour on a real
+machine and seconds on a virtual one.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+from openacr.client import ConnectionLostError
+from openacr.cnc import canonical as c
+from openacr.errors import UserError
+from openacr.mill import alarms
+from openacr.mill.actions import Steps, Until
+from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
+from openacr.mill.course import Course, Entries
+from openacr.mill.doing import Doing
+from openacr.mill.feeding import Halt
+from openacr.mill.machine import Look, Machine
+from openacr.mill.overrides import Override, Overrides
+from openacr.mill.panel import Panel
+from openacr.mill.published import (
+    CARD_LINE,
+    CARD_SPEED,
+    CARD_SPINDLE,
+    CARD_STATE,
+    EXECUTING_LINE,
+    FEED_PERCENT,
+    LAST_ALARM,
+    PARTS,
+    RUN_STATE,
+    RUN_TIME,
+    Published,
+)
+from openacr.mill.rejoin import Place
+from openacr.mill.script import Script
+from openacr.mill.settings import Settings, Store
+from openacr.mill.times import Times
+from openacr.mill.watching import Edges, Watch
+
+OVERRIDES_S = 0.05
+PUBLISH_S = 0.5
+
+
+class State(IntEnum):
+    """What the machine is doing; the values are those of P244."""
+
+    IDLE = 0
+    RUN = 1
+    PAUSED = 2
+    WAIT = 3
+    HOLD = 4
+    ALARM = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a program is run."""
+
+    is_dry: bool = False
+    is_single: bool = False
+    stops_optionally: bool = False
+
+
+class Runner:
+    """One machine and the program that runs on it."""
+
+    def __init__(
+        self,
+        machine: Machine,
+        store: Store,
+        depth: int,
+        say: Callable[[str], None] = lambda _text: None,
+        alarm_list: Alarms | None = None,
+    ) -> None:
+        self.machine = machine
+        self.settings = Settings(store)
+        self.panel = Panel(machine, self.settings)
+        self.doing = Doing(self.panel, store, say)
+        self.alarms = alarm_list or Alarms()
+        self.overrides = Overrides(self.settings)
+        self.state = State.IDLE
+        self.reason = ""  # what a WAIT or HOLD is for
+        self.options = Options()
+        self.passes = 0  # ends of the program reached
+        self.course = Course(self.panel, self.doing, depth)
+        self._watch = Watch(self.panel)
+        self._edges = Edges(self.panel)
+        self._entries: Entries | None = None
+        self._script = Script()
+        self._left: Place | None = None  # where a feed hold has come to rest
+        self._factors = (1.0, 1.0)
+        self._times = Times()
+        self._published = Published(store, machine)
+
+    # --- commands ---------------------------------------------------------------------
+
+    def run(self, entries: Entries, options: Options | None = None) -> None:
+        """Start a program from its beginning."""
+        if self.alarms.bars_start:
+            raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
+        self._require(State.IDLE, "start a program")
+        self.options = options or Options()
+        self._entries = entries
+        self._begin_pass()
+        self.state = State.RUN
+        self._times.restart()
+
+    def _begin_pass(self) -> None:
+        """The program from its first block on."""
+        if self._entries is None:
+            raise UserError("no program is loaded")
+        options = self.options
+        self.course.begin(self._entries, is_dry=options.is_dry, is_single=options.is_single)
+
+    def start(self) -> None:
+        """START, Cycle Start: go on from a pause or hold."""
+        if self.state is State.PAUSED:
+            self.resume()
+        elif self.state is State.HOLD:
+            self.state, self.reason = State.RUN, ""
+            self.course.go_on()
+        else:
+            self._require(State.HOLD, "go on")
+
+    def stop(self) -> None:
+        """STOP: feed hold."""
+        if self.state not in (State.RUN, State.WAIT):
+            raise UserError(f"nothing runs: the state is {self.state.name}")
+        self._pause()
+
+    def _pause(self) -> None:
+        self.machine.hold()
+        self.state = State.PAUSED
+
+    def resume(self) -> None:
+        """RESUME: the way goes on where it was held."""
+        self._require(State.PAUSED, "resume")
+        if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
+            raise UserError("the feed hold input is active")
+        left, self._left = self._left, None
+        if left is None or not self.course.is_off(left):
+            self.machine.go_on()
+        elif self._script.is_active:
+            raise UserError("the machine was moved while an action waits: abort")
+        else:
+            self._script.begin(self.course.rejoin(left))
+        self.state = State.RUN
+
+    def abort(self) -> None:
+        """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
+        if self.state in (State.IDLE, State.ALARM):
+            raise UserError("no program runs")
+        self._end_program(State.IDLE)
+
+    def block(self, on: bool) -> None:
+        """BLOCK: stop behind every block, also behind the one that is being executed."""
+        self.options = replace(self.options, is_single=on)
+        self.course.set_single(on)
+        if on and self.state is State.RUN and not self._script.is_active:
+            self._script.begin(self.course.retake())
+
+    def acknowledge(self) -> list[Alarm]:
+        """Clear the alarms whose cause is gone; those that stay."""
+        look = self.machine.look()
+        left = self.alarms.acknowledge(self._watch.is_gone(look, spins=self._spins))
+        if self.state is State.ALARM and not self.alarms.bars_start:
+            self.machine.release()
+            self.state = State.IDLE
+        return left
+
+    def _require(self, state: State, what: str) -> None:
+        if self.state is not state:
+            raise UserError(f"cannot {what}: the state is {self.state.name}, not {state.name}")
+
+    # --- one step ---------------------------------------------------------------------
+
+    def step(self) -> None:
+        """Look at the card and do what is due."""
+        try:
+            look = self.machine.look()
+        except ConnectionLostError:
+            self._raise(alarms.LINK_LOST, "")
+            return
+        self._times.look(self.machine.now_s)
+        self.course.tracker.update(look.counter)
+        self._supervise(look)
+        self._switches(look)
+        self._note_place(look)
+        if self.state is not State.PAUSED:
+            self._play(look)
+        if self.state is State.RUN and not self._script.is_active:
+            self._advance(look)
+        self._publish()
+
+    def _note_place(self, look: Look) -> None:
+        """Where a feed hold has come to rest on the path."""
+        if self.state is State.PAUSED and self._left is None and look.is_held:
+            self._left = self.course.place()
+
+    @property
+    def is_busy(self) -> bool:
+        """A program runs, waits, is held, or is being ended."""
+        return self.state not in (State.IDLE, State.ALARM) or self._script.is_active
+
+    @property
+    def source(self) -> c.Source | None:
+        """The block that is executed."""
+        return self.course.tracker.source
+
+    @property
+    def run_s(self) -> float:
+        """Card time since the start of the program."""
+        return self._times.run_s
+
+    def _advance(self, look: Look) -> None:
+        """Read, send, and take up what waits for rest."""
+        while self.state is State.RUN and not self._script.is_active:
+            halt, passes = self.course.advance(look), self.passes
+            if halt is None:
+                return
+            self._script.begin(self._halt_steps(halt))
+            self._play(look)
+            if self.passes != passes:
+                return  # another pass counts from zero: this look is of the old one
+
+    # --- what waits for rest ----------------------------------------------------------
+
+    def _halt_steps(self, halt: Halt) -> Steps:
+        if isinstance(halt, c.Probe):
+            yield from self.course.probe(halt)
+        elif isinstance(halt, c.Ask):
+            yield Until(halt.text, lambda _look: halt.parameter in self.course.host.answers)
+        elif isinstance(halt, c.Stop | c.BlockEnd):
+            if not self._passes_by(halt):
+                self._hold(halt)
+                return
+        elif isinstance(halt, c.End):
+            self._end_of_text()
+            return
+        else:
+            yield from self.doing.steps(halt)
+        self.course.go_on()
+
+    def _passes_by(self, halt: c.Stop | c.BlockEnd) -> bool:
+        """Whether a stop has no effect: M1 without the switch, single block switched off."""
+        if isinstance(halt, c.BlockEnd):
+            return not self.options.is_single
+        if halt.pause is c.Pause.OPTIONAL:
+            return not self._stops_optionally
+        return False
+
+    @property
+    def _stops_optionally(self) -> bool:
+        wired = self.panel.is_in(self.machine.look(), self.settings.wiring.optional_stop)
+        return self.options.stops_optionally or wired
+
+    def _hold(self, halt: c.Stop | c.BlockEnd) -> None:
+        text = halt.text if isinstance(halt, c.Stop) else ""
+        self.state = State.HOLD
+        self.reason = text or (halt.pause.value if isinstance(halt, c.Stop) else "block")
+
+    def _end_of_text(self) -> None:
+        """M2 or the end: over, or once more where the store says so."""
+        self.passes += 1
+        self._published.cell(PARTS, self.passes)
+        if self.settings.repeats:
+            self._begin_pass()
+            return
+        self.doing.off()
+        self.course.end()
+        self.state, self.reason = State.IDLE, ""
+
+    # --- scripts ----------------------------------------------------------------------
+
+    def _play(self, look: Look) -> None:
+        """Go on with what is being done as far as the card lets it."""
+        try:
+            self._script.play(look, self._times.step_s)
+        except AlarmError as error:
+            self._raise(error.kind, error.detail)
+        if self._script.is_active and self.state is State.RUN:
+            self.state = State.WAIT
+        if self.state is State.WAIT:
+            self.reason = self._script.reason
+            if not self._script.is_active:
+                self.state = State.RUN
+
+    # --- ends -------------------------------------------------------------------------
+
+    def _end_program(self, state: State) -> None:
+        """The program is over: to rest, moves dropped, everything off."""
+        self.course.end()
+        self._left = None
+        self.state, self.reason = state, ""
+        self._script.begin(self._ending())
+
+    def _ending(self) -> Steps:
+        self.machine.hold()
+        yield Until("stops", lambda look: look.is_held or not look.is_moving)
+        yield from self.course.drop_moves()
+        if not self.options.is_dry:
+            self.doing.off()
+
+    # --- supervision ------------------------------------------------------------------
+
+    @property
+    def _spins(self) -> bool:
+        return self.doing.spindle.is_on
+
+    def _supervise(self, look: Look) -> None:
+        """Alarms for what is wrong, each once until it is acknowledged."""
+        for kind, detail in self._watch.causes(look, spins=self._spins):
+            self._raise(kind, detail)
+
+    def _raise(self, kind: Kind, detail: str) -> None:
+        is_new = not self.alarms.is_up(kind, detail)
+        self.alarms.give(kind, detail, self.machine.now_s)
+        if not is_new:
+            return
+        if kind.effect is Effect.KILL:
+            self._kill()
+        elif not self.is_busy:
+            return
+        elif kind.effect is Effect.ABORT:
+            self._end_program(State.ALARM)
+        elif kind.effect is Effect.HOLD and self.state in (State.RUN, State.WAIT):
+            self._pause()
+
+    def _kill(self) -> None:
+        """All motion is killed, drives go off, the program is over."""
+        self.machine.kill()
+        self.panel.output(self.settings.wiring.drive_enable, False)
+        self._script.close()
+        self.course.end()
+        self._left = None
+        self.doing.off()
+        self.state, self.reason = State.ALARM, ""
+
+    def _switches(self, look: Look) -> None:
+        """The switches and buttons of the panel."""
+        wiring = self.settings.wiring
+        self.course.host.is_skipping = self.panel.is_in(look, wiring.block_skip)
+        if self.panel.is_in(look, wiring.feed_hold):
+            if self.state in (State.RUN, State.WAIT):
+                self._pause()
+        elif self._edges.rose(look, wiring.cycle_start) and self.state in (
+            State.PAUSED,
+            State.HOLD,
+        ):
+            self.start()
+        if self._times.is_due("overrides", OVERRIDES_S):
+            self._send_overrides(look)
+
+    def _send_overrides(self, look: Look) -> None:
+        self.overrides.read(lambda number: self.panel.is_in(look, number))
+        factors = (self.overrides.factor(Override.FEED), self.overrides.factor(Override.RAPID))
+        if factors != self._factors:
+            self.machine.override(*factors)
+            self._factors = factors
+        self.doing.spindle.set_override(self.overrides.factor(Override.SPINDLE))
+
+    def _publish(self) -> None:
+        """What other programs read of the run."""
+        if not self._times.is_due("cells", PUBLISH_S):
+            return
+        line, spindle = float(self.source.line) if self.source else 0.0, self.doing.spindle
+        cells = {
+            EXECUTING_LINE: line,
+            RUN_STATE: float(self.state),
+            LAST_ALARM: float(self.alarms.last_code),
+            FEED_PERCENT: 100.0 * self._factors[0],
+            RUN_TIME: self.run_s,
+        }
+        variables = {
+            CARD_SPEED: spindle.rpm,
+            CARD_SPINDLE: float(spindle.state),
+            CARD_LINE: line,
+            CARD_STATE: float(self.state),
+        }
+        for number, value in cells.items():
+            self._published.cell(number, value)
+        for number, value in variables.items():
+            self._published.variable(number, value)

@@ -1,0 +1,67 @@
+"""Which move is executed now: the move counter of the card says how many have started.
+
+The counter starts at 0 and every packet counts up, so packet number c has started when the
+counter reaches c. What belongs behind a move that has no packet (it ends on the same
+pulse) counts with the one before it.
+"""
+
+from collections import deque
+
+from openacr.cnc.canonical import Source
+from openacr.mill.encoding import Job
+
+
+class Tracker:
+    """The moves on their way: sent, started, done."""
+
+    def __init__(self) -> None:
+        self.sent = 0  # packets
+        self.started = 0
+        self._jobs: deque[Job] = deque()  # sent and not known to be done
+
+    @property
+    def waiting(self) -> int:
+        """Packets that wait in the buffer of the card."""
+        return self.sent - self.started
+
+    @property
+    def current(self) -> Job | None:
+        """The move that is executed, or was last."""
+        return self._jobs[0] if self._jobs and self._jobs[0].count <= self.started else None
+
+    @property
+    def source(self) -> Source | None:
+        """The block that is executed."""
+        return self.current.entry.source if self.current else None
+
+    def add(self, job: Job, *, has_packet: bool) -> None:
+        """A move has left for the card; one without packet counts with the one before it."""
+        self.sent += has_packet
+        job.count = self.sent
+        self._jobs.append(job)
+
+    def update(self, counter: int) -> None:
+        """The card says how many packets have started; earlier moves are done."""
+        self.started = counter
+        jobs = self._jobs
+        while len(jobs) > 1 and jobs[1].count <= counter:
+            jobs.popleft()
+
+    def is_done(self, job: Job | None, *, is_at_rest: bool) -> bool:
+        """Whether a move has been executed; None stands for the beginning."""
+        if job is None:
+            return True
+        if not job.count:
+            return False  # not sent yet
+        return self.started > job.count or (is_at_rest and self.started == job.count)
+
+    def take_back(self) -> list[Job]:
+        """The executed move and all behind it, for a way that is planned anew."""
+        left = [job for job in self._jobs if job.count >= self.started]
+        self._jobs.clear()
+        return left
+
+    def reset(self) -> None:
+        """Count from zero again."""
+        self.sent = self.started = 0
+        self._jobs.clear()

@@ -1,0 +1,74 @@
+"""What the runner looks for at every look: causes of alarms, and the switches of the panel."""
+
+from collections.abc import Callable, Iterator
+
+from openacr.map import numbers as n
+from openacr.mill import alarms
+from openacr.mill.alarms import Alarm, Kind
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+
+HARDWARE_LIMIT = (
+    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+)
+Cause = tuple[Kind, str]
+
+
+class Watch:
+    """The causes of alarms that the card and its inputs show."""
+
+    def __init__(self, panel: Panel) -> None:
+        self._panel = panel
+        self._names = [axis.name for axis in panel.settings.axes]
+        self._has_error_band = any(axis.excess_error_u > 0.0 for axis in panel.settings.axes)
+
+    def causes(self, look: Look, *, spins: bool) -> Iterator[Cause]:
+        """Everything that is wrong now; `spins` says that the spindle is on."""
+        wiring, spindle = self._panel.settings.wiring, self._panel.settings.spindle
+        if self._panel.is_in(look, wiring.emergency_stop):
+            yield alarms.EMERGENCY_STOP, ""
+        yield from self._of_axes(look)
+        if self._has_error_band and not look.is_within_error:
+            for name in self._in_error():
+                yield alarms.EXCESS_ERROR, name
+        if look.is_killed and not self._panel.machine.is_dropping:
+            yield alarms.MOVES_KILLED, ""
+        if spins and self._panel.is_in(look, spindle.exception):
+            yield alarms.SPINDLE_EXCEPTION, ""
+        if self._panel.is_in(look, wiring.lubrication):
+            yield alarms.LUBRICATION, ""
+
+    def _of_axes(self, look: Look) -> Iterator[Cause]:
+        for name, drive, limit in zip(self._names, look.drives, look.limits, strict=True):
+            if drive & n.AF4_EXCESS_ERROR_FAULT:
+                yield alarms.EXCESS_ERROR, name
+            if drive & n.AF4_DRIVE_FAULT:
+                yield alarms.DRIVE_FAULT, name
+            if limit & HARDWARE_LIMIT:
+                yield alarms.HARDWARE_LIMIT, name
+
+    def _in_error(self) -> Iterator[str]:
+        """The axes outside their band, asked for only when the master says there are some."""
+        words = self._panel.machine.axis_flags(n.AF1_WORD)
+        for axis, word in zip(self._panel.settings.axes, words, strict=True):
+            if axis.excess_error_u > 0.0 and not word & n.AF1_NOT_EXCESS_ERROR:
+                yield axis.name
+
+    def is_gone(self, look: Look, *, spins: bool) -> Callable[[Alarm], bool]:
+        """Whether the cause of an alarm is no longer there."""
+        present = {(kind.code, detail) for kind, detail in self.causes(look, spins=spins)}
+        return lambda alarm: (alarm.kind.code, alarm.detail) not in present
+
+
+class Edges:
+    """Inputs that act when they come on."""
+
+    def __init__(self, panel: Panel) -> None:
+        self._panel = panel
+        self._before: dict[int, bool] = {}
+
+    def rose(self, look: Look, number: int) -> bool:
+        """Whether an input came on since the last look; at the first one it did not."""
+        now = self._panel.is_in(look, number)
+        before, self._before[number] = self._before.get(number, True), now
+        return now and not before

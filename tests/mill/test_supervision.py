@@ -1,0 +1,153 @@
+"""What goes wrong in a run: alarms, what they do, and that the machine stops safely."""
+
+import pytest
+from tests.mill.shop import Shop, at, end, line, rapid, src
+
+from openacr.cnc import canonical as c
+from openacr.cnc.findings import BlockError, Finding
+from openacr.mill.alarms import AlarmError
+from openacr.mill.runner import State
+
+ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
+
+
+def codes(shop: Shop) -> list[int]:
+    return [alarm.kind.code for alarm in shop.runner.alarms.active]
+
+
+def long_way() -> tuple[c.Entry, ...]:
+    return (line(1, at(50)), end())
+
+
+@pytest.mark.req("MILL-SYS-IO-ESTOP")
+def test_the_emergency_stop_kills_everything() -> None:
+    shop = Shop(**{ESTOP: 5, "P800_005": 40, "P800_009": 41})
+    shop.start(
+        c.Spindle(src(1), c.Spin.CLOCKWISE, 500), c.Coolant(src(1), True, False), *long_way()
+    )
+    shop.pass_time(0.5)
+    assert shop.outputs((40, 41)) == [True, True]
+    shop.controller.set_input(5, True)
+    shop.pass_time(0.02)
+    assert shop.runner.state is State.ALARM
+    assert codes(shop)[0] == 10
+    assert shop.outputs((40, 41)) == [False, False]
+    place = shop.place()
+    shop.pass_time(0.5)
+    assert shop.place() == pytest.approx(place, abs=0.6)
+    before = shop.place()
+    shop.pass_time(0.5)
+    assert shop.place() == before
+
+
+def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
+    shop = Shop(**{ESTOP: 5})
+    shop.controller.set_input(5, True)
+    shop.pass_time(0.02)
+    with pytest.raises(AlarmError, match="Emergency stop"):
+        shop.start(*long_way())
+    assert [alarm.kind.code for alarm in shop.runner.acknowledge()] == [10]
+    shop.controller.set_input(5, False)
+    shop.pass_time(0.02)
+    assert shop.runner.acknowledge() == []
+    assert shop.runner.state is State.IDLE
+    shop.pass_time(0.2)
+    shop.finish(line(1, at(1)), end())
+    assert shop.pulses() == (10000, 0, 0)
+
+
+@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCLESTART")
+def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
+    shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
+    shop.start(*long_way())
+    shop.pass_time(0.3)
+    shop.controller.set_input(6, True)
+    shop.pass_time(0.3)
+    assert shop.runner.state is State.PAUSED
+    held = shop.place()
+    shop.controller.set_input(7, True)
+    shop.pass_time(0.1)
+    assert shop.place() == held  # refused while the hold is on
+    shop.controller.set_input(6, False)
+    shop.controller.set_input(7, False)
+    shop.pass_time(0.1)
+    shop.controller.set_input(7, True)
+    assert shop.until(State.IDLE) is State.IDLE
+    assert shop.pulses()[0] == 500000
+
+
+def test_a_lubrication_error_holds() -> None:
+    shop = Shop(**{LUBRICATION: 8})
+    shop.start(*long_way())
+    shop.pass_time(0.2)
+    shop.controller.set_input(8, True)
+    shop.pass_time(0.3)
+    assert shop.runner.state is State.PAUSED
+    assert codes(shop) == [43]
+
+
+def test_a_target_beyond_a_soft_limit_stops_in_front_of_its_block() -> None:
+    shop = Shop(P200_000=2.0, P200_001=-2.0, P200_002=0, P271=1)
+    shop.start(line(1, at(1)), line(2, at(3)), end())
+    assert shop.until(State.ALARM) is State.ALARM
+    assert codes(shop) == [21]
+    assert "line 2, axis X 1 beyond 2" in shop.runner.alarms.active[0].text
+    assert shop.pulses() == (10000, 0, 0)
+
+
+def test_the_bulge_of_an_arc_counts_for_the_limits() -> None:
+    shop = Shop(P200_000=2.0, P200_001=-2.0, P200_002=0, P271=1)
+    bulge = c.Arc(src(2), at(1.5, 1), c.Plane.XY, (1.5, 0.0), 3.14159265, 1.0, 1.0, c.Pace(60.0))
+    shop.start(line(1, at(1.5, -1)), bulge, end())
+    shop.until(State.ALARM)
+    assert "axis X 0.5 beyond 2" in shop.runner.alarms.active[0].text
+
+
+def test_an_axis_that_must_be_homed_does_not_move_before() -> None:
+    shop = Shop(P201_007=1)
+    shop.start(line(1, at(1, 0)), line(2, at(1, 1)), end())
+    shop.until(State.ALARM)
+    assert codes(shop) == [33]
+    assert shop.pulses() == (10000, 0, 0)
+
+
+def test_a_program_error_stops_behind_the_block_before() -> None:
+    def entries(_host: object) -> object:
+        yield line(1, at(1))
+        raise BlockError(Finding("E210", "arithmetic error", "TEST.TXT", 2))
+
+    shop = Shop()
+    shop.runner.run(entries)  # type: ignore[arg-type]
+    shop.until(State.ALARM)
+    assert codes(shop) == [60]
+    assert "E210" in shop.runner.alarms.active[0].text
+    assert shop.pulses() == (10000, 0, 0)
+
+
+def test_moves_the_card_kills_by_itself_end_the_program() -> None:
+    shop = Shop()
+    shop.start(*long_way())
+    shop.pass_time(0.3)
+    shop.controller.bit[522] = True
+    shop.pass_time(0.3)
+    assert shop.until(State.ALARM) is State.ALARM
+    assert 14 in codes(shop)
+
+
+def test_a_following_error_out_of_its_band_is_an_alarm() -> None:
+    shop = Shop(P200_004=0.001)
+    shop.start(*long_way())
+    shop.until(State.ALARM)
+    assert 11 in codes(shop)
+    assert "axis X" in shop.runner.alarms.active[0].text
+
+
+@pytest.mark.parametrize(
+    ("width", "state"), [(0.00001, State.ALARM), (0.05, State.IDLE), (0.0, State.IDLE)]
+)
+def test_exact_stops_wait_for_the_in_position_band(width: float, state: State) -> None:
+    shop = Shop(P200_003=width, P150_000=0.0001 if state is State.ALARM else 0.00244)
+    pace = c.Pace(600.0, c.PathMode.EXACT, is_confirmed=True)
+    shop.start(c.Line(src(1), at(1), pace), rapid(2, at(0)), end())
+    assert shop.until(state) is state
+    assert codes(shop) == ([24] if state is State.ALARM else [])
