@@ -4,14 +4,37 @@
 only a machine knows. `VirtualMachine` answers for checks and previews, where nothing moves.
 """
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Protocol
 
 from openacr.cnc.canonical import Point
 
 
+class Home(Protocol):
+    """Where a parameter lives and who may use it."""
+
+    @property
+    def is_on_card(self) -> bool:
+        """Whether the card keeps it: reads and writes wait for rest."""
+
+    @property
+    def read_error(self) -> str | None:
+        """The code of the refusal when a program reads it, None if it may."""
+
+    @property
+    def write_warning(self) -> str | None:
+        """The code of the warning when a program assigns it."""
+
+    def write_error(self, *, is_service: bool = False) -> str | None:
+        """The code of the refusal when a program assigns it, None if it may."""
+
+
 class Cells(Protocol):
     """Numbered cells that outlive the run."""
+
+    def home(self, n: int) -> Home:
+        """Where a number lives."""
 
     def read(self, n: int) -> float:
         """The number in a cell."""
@@ -21,6 +44,9 @@ class Cells(Protocol):
 
     def read_text(self, n: int) -> str:
         """The text in a cell."""
+
+    def transaction(self) -> AbstractContextManager[None]:
+        """What is written inside is stored together, or not at all."""
 
 
 class Machine(Protocol):
@@ -46,6 +72,15 @@ class Machine(Protocol):
 
     def is_block_skip_on(self) -> bool:
         """Whether blocks with a slash are left out."""
+
+    def is_homed(self, axis: int) -> bool:
+        """Whether an axis knows its reference point."""
+
+    def has_probe(self) -> bool:
+        """Whether a probe input is configured."""
+
+    def is_probe_active(self) -> bool:
+        """Whether the probe has tripped before it was asked."""
 
 
 @dataclass
@@ -83,3 +118,15 @@ class VirtualMachine:
     def is_block_skip_on(self) -> bool:
         """As set."""
         return self.is_skipping
+
+    def is_homed(self, axis: int) -> bool:
+        """Taken for granted."""
+        return True
+
+    def has_probe(self) -> bool:
+        """Taken for granted."""
+        return True
+
+    def is_probe_active(self) -> bool:
+        """Never."""
+        return False

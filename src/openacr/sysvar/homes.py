@@ -44,6 +44,11 @@ class Home:
     writer: Writer
 
     @property
+    def is_on_card(self) -> bool:
+        """Whether the card keeps it."""
+        return self.host in (Host.CARD, Host.LIVE)
+
+    @property
     def read_error(self) -> str | None:
         """The code of the refusal when a program reads such a number, None if it may."""
         return UNKNOWN if self.host is Host.NONE else None

@@ -23,6 +23,7 @@ from openacr.errors import MapError, StoreError
 from openacr.sysvar import lookup, rules, values
 from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
 from openacr.sysvar.database import Database
+from openacr.sysvar.homes import Home, home_of
 from openacr.sysvar.schema import AXIS_CELLS, At, Parameter
 from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
 
@@ -108,6 +109,11 @@ class Store:
             return self._numbers[n]
         except KeyError:
             return self._first_number(n)
+
+    @staticmethod
+    def home(n: int) -> Home:
+        """Where a number lives, be it on the card, and who may use it."""
+        return home_of(n)
 
     def read_text(self, n: int) -> str:
         """The text in a cell."""

@@ -1,0 +1,102 @@
+"""Which line comes next: jumps, calls and the levels of calls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, auto
+
+from openacr.cnc.findings import CodeError
+from openacr.cnc.program import Node, Nodes, Part, Place, Program
+
+DEEPEST = 10
+FIRST_CYCLE_LABEL = 70_000
+
+
+class Level(Enum):
+    """Why a level was entered."""
+
+    SUB = auto()  # GOSUB
+    MACRO = auto()  # G65
+    MODAL_MACRO = auto()  # G66
+    CUSTOM = auto()  # M code of the user
+    CYCLE = auto()
+
+
+@dataclass(slots=True, eq=False)
+class Frame:
+    """One call; a GOSUB goes back to a line, the others to whoever called."""
+
+    level: Level
+    back: Node | None = None
+    is_done: bool = False
+
+
+class Flow:
+    """The place in the program."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._nodes = Nodes(program)
+        self.next: Node | None = None
+        self.frames: list[Frame] = []
+
+    def start(self) -> None:
+        """At the first line, in no call."""
+        self.frames.clear()
+        self.next = self._nodes.at(self._program.main.start)
+
+    def behind(self, node: Node) -> Node | None:
+        """The line that follows, from now on known to the node."""
+        after = self._nodes.behind(node)
+        node.next = after
+        return after
+
+    def at(self, place: Place) -> Node | None:
+        """The line at a place."""
+        return self._nodes.at(place)
+
+    # --- jumps ------------------------------------------------------------------------
+
+    def labelled(self, label: int, node: Node, column: int) -> Node:
+        """The line with a label, seen from another line."""
+        found = self.find(label, node.part, column)
+        if found.part.is_cycles and not node.part.is_cycles:
+            raise CodeError("E264", column, f"N{label}")
+        return found
+
+    def find(self, label: int, part: Part, column: int = 0) -> Node:
+        """The line with a label among the texts that belong together."""
+        place = part.labels.get(label)
+        node = self._nodes.at(place) if place else None
+        if node is None:
+            raise CodeError("E220", column, f"N{label}")
+        return node
+
+    def go(self, node: Node) -> None:
+        """Go on there."""
+        self.next = node
+
+    def call_sub(self, node: Node) -> None:
+        """GOSUB."""
+        self.enter(Frame(Level.SUB, self.next))
+        self.next = node
+
+    def enter(self, frame: Frame) -> None:
+        """One level deeper; cycles do not count."""
+        counted = [one for one in self.frames if one.level is not Level.CYCLE]
+        if frame.level is not Level.CYCLE and len(counted) >= DEEPEST:
+            raise CodeError("E260")
+        self.frames.append(frame)
+
+    def go_back(self, column: int) -> None:
+        """RET."""
+        if not self.frames:
+            raise CodeError("E261", column)
+        frame = self.frames.pop()
+        frame.is_done = True
+        if frame.level is Level.SUB:
+            self.next = frame.back
+
+    def is_within(self, level: Level) -> bool:
+        """Whether a call of that kind is in force."""
+        return any(frame.level is level for frame in self.frames)

@@ -1,0 +1,336 @@
+"""Expressions as trees: what they are worth, and the same as Python source.
+
+A tree is evaluated as it stands at first; a formula that is used again and again is
+written as one Python expression and compiled, which makes it several times faster. Both
+forms call the same functions, so that they give the same number.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+RADIANS = math.pi / 180.0
+HOT = 16  # uses after which a formula is compiled
+
+_SINES = {
+    0.0: 0.0, 30.0: 0.5, 90.0: 1.0, 150.0: 0.5, 180.0: 0.0, 210.0: -0.5, 270.0: -1.0,
+    330.0: -0.5, 360.0: 0.0,
+}  # fmt: skip
+_SINES |= {-x: -y for x, y in _SINES.items()}
+_COSINES = {
+    0.0: 1.0, 60.0: 0.5, 90.0: 0.0, 120.0: -0.5, 180.0: -1.0, 240.0: -0.5, 270.0: 0.0,
+    300.0: 0.5, 360.0: 1.0,
+}  # fmt: skip
+_COSINES |= {-x: y for x, y in _COSINES.items()}
+
+
+class Sources(Protocol):
+    """Where the operands of formulas come from."""
+
+    def read_p(self, n: float) -> float:
+        """Parameter Pn."""
+
+    def read_hash(self, n: float) -> float:
+        """Parameter #n: a local of the macro, or Pn."""
+
+    def read_named(self, name: str) -> float:
+        """A named parameter."""
+
+    def has_named(self, name: str) -> bool:
+        """Whether a named parameter exists."""
+
+    def read_input(self, n: float) -> float:
+        """The state of an input."""
+
+    def read_output(self, n: float) -> float:
+        """The state of an output."""
+
+    def read_bit(self, n: float) -> float:
+        """The state of a card flag."""
+
+
+class Node(Protocol):
+    """A part of a formula."""
+
+    def value(self, at: Sources) -> float:
+        """What it is worth now."""
+
+    def source(self) -> str:
+        """The same in Python; operands come from `at`."""
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is always worth the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number as written."""
+
+    number: float
+
+    def value(self, at: Sources) -> float:
+        """Itself."""
+        return self.number
+
+    def source(self) -> str:
+        """Itself."""
+        return repr(self.number)
+
+    @property
+    def is_constant(self) -> bool:
+        """Always."""
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """`P n` or `#n`; the index is a formula of its own."""
+
+    index: Node
+    is_hash: bool
+
+    def value(self, at: Sources) -> float:
+        """What is in the cell."""
+        index = self.index.value(at)
+        return at.read_hash(index) if self.is_hash else at.read_p(index)
+
+    def source(self) -> str:
+        """A read of the cell."""
+        return f"{'read_hash' if self.is_hash else 'read_p'}({self.index.source()})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """`#<name>`, or `EXISTS[#<name>]`."""
+
+    name: str
+    is_test: bool = False
+
+    def value(self, at: Sources) -> float:
+        """What it holds, or whether there is one."""
+        return float(at.has_named(self.name)) if self.is_test else at.read_named(self.name)
+
+    def source(self) -> str:
+        """A read by name."""
+        name = repr(self.name)
+        return f"float(has_named({name}))" if self.is_test else f"read_named({name})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """`INP(n)`, `OUT(n)`, `BIT(n)`: a state of the machine, 0 or 1."""
+
+    kind: str
+    index: Node
+
+    def value(self, at: Sources) -> float:
+        """The state now."""
+        read: Callable[[float], float] = getattr(at, _READS[self.kind])
+        return read(self.index.value(at))
+
+    def source(self) -> str:
+        """A question to the machine."""
+        return f"{_READS[self.kind]}({self.index.source()})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+_READS = {"INP": "read_input", "OUT": "read_output", "BIT": "read_bit"}
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function or operator of one or two operands."""
+
+    function: "Function"
+    operands: tuple[Node, ...]
+
+    def value(self, at: Sources) -> float:
+        """The result for the operands as they are now."""
+        return self.function.work(*[operand.value(at) for operand in self.operands])
+
+    def source(self) -> str:
+        """The same in Python."""
+        return self.function.template.format(*[operand.source() for operand in self.operands])
+
+    @property
+    def is_constant(self) -> bool:
+        """When all operands are."""
+        return all(operand.is_constant for operand in self.operands)
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """What a function or operator does, and how Python writes it."""
+
+    work: Callable[..., float]
+    template: str
+
+
+# --- the functions ---------------------------------------------------------------------
+
+
+def sine(x: float) -> float:
+    """Sine of degrees; exact where it is a half or a whole."""
+    y = _SINES.get(x)
+    return math.sin(x * RADIANS) if y is None else y
+
+
+def cosine(x: float) -> float:
+    """Cosine of degrees; exact where it is a half or a whole."""
+    y = _COSINES.get(x)
+    return math.cos(x * RADIANS) if y is None else y
+
+
+def tangent(x: float) -> float:
+    """Tangent of degrees; none at 90 and 270."""
+    turned = math.fmod(x, 180.0)
+    if abs(turned) == 90.0:
+        raise ArithmeticError("TAN of a right angle")
+    return math.copysign(1.0, turned) if abs(turned) == 45.0 else math.tan(x * RADIANS)
+
+
+def arc_tangent(x: float) -> float:
+    """Angle in degrees whose tangent this is."""
+    return math.degrees(math.atan(x))
+
+
+def arc_tangent2(y: float, x: float) -> float:
+    """Angle in degrees of the point (x, y)."""
+    return math.degrees(math.atan2(y, x))
+
+
+def arc_sine(x: float) -> float:
+    """Angle in degrees whose sine this is."""
+    return math.degrees(math.asin(x))
+
+
+def arc_cosine(x: float) -> float:
+    """Angle in degrees whose cosine this is."""
+    return math.degrees(math.acos(x))
+
+
+def whole(x: float) -> float:
+    """The number without its fraction."""
+    return float(math.trunc(x))
+
+
+def rounded(x: float) -> float:
+    """Nearest whole number, halves away from zero."""
+    return math.copysign(math.floor(abs(x) + 0.5), x)
+
+
+def down(x: float) -> float:
+    """Largest whole number not above."""
+    return float(math.floor(x))
+
+
+def up(x: float) -> float:
+    """Smallest whole number not below."""
+    return float(math.ceil(x))
+
+
+def remainder(x: float, y: float) -> float:
+    """Remainder with the sign of the dividend."""
+    return math.fmod(x, y)
+
+
+def remainder_up(x: float, y: float) -> float:
+    """Remainder that is never negative."""
+    rest = math.fmod(x, y)
+    return rest + abs(y) if rest < 0.0 else rest
+
+
+def power(x: float, y: float) -> float:
+    """Power of x to y."""
+    return math.pow(x, y)
+
+
+def _logic(operator: str) -> Function:
+    template = f"float(({{0}} != 0.0) {operator} ({{1}} != 0.0))"
+    return Function(eval(f"lambda x, y: {template.format('x', 'y')}"), template)
+
+
+def _comparison(operator: str) -> Function:
+    template = f"(1.0 if {{0}} {operator} {{1}} else 0.0)"
+    return Function(eval(f"lambda x, y: {template.format('x', 'y')}"), template)
+
+
+def _arithmetic(operator: str) -> Function:
+    template = f"({{0}} {operator} {{1}})"
+    return Function(eval(f"lambda x, y: {template.format('x', 'y')}"), template)
+
+
+def _called(work: Callable[..., float], count: int = 1) -> Function:
+    holes = ", ".join(f"{{{k}}}" for k in range(count))
+    return Function(work, f"{work.__name__}({holes})")
+
+
+ADD, SUBTRACT, MULTIPLY, DIVIDE = (_arithmetic(operator) for operator in "+-*/")
+LESS, MORE, EQUAL, AT_MOST, AT_LEAST, UNEQUAL = (
+    _comparison(operator) for operator in ("<", ">", "==", "<=", ">=", "!=")
+)
+AND, OR, XOR = (_logic(operator) for operator in ("&", "|", "!="))
+NOT = Function(lambda x: float(x == 0.0), "float({0} == 0.0)")
+NEGATE = Function(lambda x: -x, "(-{0})")
+MOD = _called(remainder, 2)
+MOD_UP = _called(remainder_up, 2)
+POWER = _called(power, 2)
+SIN, COS, TAN, ATAN = _called(sine), _called(cosine), _called(tangent), _called(arc_tangent)
+ASIN, ACOS, ATAN2 = _called(arc_sine), _called(arc_cosine), _called(arc_tangent2, 2)
+SQRT, ABS, INT, ROUND = _called(math.sqrt), _called(math.fabs), _called(whole), _called(rounded)
+FIX, FUP, LN, EXP = _called(down), _called(up), _called(math.log), _called(math.exp)
+
+_NAMES: dict[str, Any] = {
+    work.__name__: work
+    for work in (
+        sine, cosine, tangent, arc_tangent, arc_tangent2, arc_sine, arc_cosine, whole, rounded,
+        down, up, remainder, remainder_up, power, math.sqrt, math.fabs, math.log, math.exp,
+    )
+}  # fmt: skip
+_OPERANDS = (
+    "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
+)  # fmt: skip
+
+
+class Formula:
+    """A formula in use: counts how often, and is compiled when that pays."""
+
+    __slots__ = ("_at", "_uses", "node", "now")
+
+    def __init__(self, node: Node, at: Sources) -> None:
+        self.node = node
+        self._at = at
+        self._uses = 0
+        self.now: Callable[[], float] = self._first
+        if isinstance(node, Number):
+            number = node.number
+            self.now = lambda: number
+
+    def _first(self) -> float:
+        self._uses += 1
+        if self._uses == HOT:
+            self.now = compiled(self.node, self._at)
+        return self.node.value(self._at)
+
+
+def compiled(node: Node, at: Sources) -> Callable[[], float]:
+    """The formula as one Python function of nothing."""
+    names = _NAMES | {name: getattr(at, name) for name in _OPERANDS}
+    work: Callable[[], float] = eval(f"lambda: {node.source()}", names)
+    return work

@@ -1,0 +1,222 @@
+"""G73 to G89: canned cycles, written in the part-program language (CYCLES.TXT).
+
+A cycle block positions the hole and calls label code * 1000 of that file with its levels
+in P249 to P270. In the file X and Y are the axes of the plane, Z is the drill axis, and
+positions are those behind scaling and rotation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import BlockEnd, Entry, Plane, Point, Spin, Spindle
+from openacr.cnc.codes import Axes, Group, Limit, Step
+from openacr.cnc.flow import Frame, Level
+from openacr.cnc.parameters import LOCALS
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+gcode = ACROMILL.gcode
+CYCLE_WORDS = "RQPFL"
+NONE = 80
+LABELS = 1000  # label of code 81: N81000
+FIRST_CELL = 249
+RETRACT, CLEARANCE, SHIFT = 250_140, 250_141, 250_142
+PECKS, SHIFTS, TO_INITIAL = (73, 83), (76, 87), (87,)
+TURNS = {74: Spin.COUNTER_CLOCKWISE, 84: Spin.CLOCKWISE}  # tapping starts like this
+SHIFT_SIGNS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
+
+
+@dataclass(slots=True)
+class Drilling:
+    """What cycle blocks have said since the last G80: lengths in default units."""
+
+    initial: float = 0.0
+    level: tuple[float, bool] | None = None  # R, and whether it counts from the initial level
+    bottom: tuple[float, bool] | None = None  # Z, and whether it counts from R
+    words: dict[str, float] = field(default_factory=dict)  # Q, P
+
+    @property
+    def levels(self) -> tuple[float, float]:
+        """R level and bottom."""
+        r, is_from_initial = self.level or (0.0, False)
+        r = r + self.initial if is_from_initial else r
+        b, is_from_r = self.bottom or (0.0, False)
+        return r, b + r if is_from_r else b
+
+
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE)
+def no_cycle(run: Interpreter, b: Turn) -> None:
+    """End of the cycle."""
+    run.modal.cycle = NONE
+    run.drilling = None
+
+
+@gcode(
+    73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89,
+    step=Step.MOTION, group=Group.CYCLE, words="RQPL", takes="RQPL", axes=Axes.MOVE,
+    limits=(Limit("L", 0, 9999, "E250", is_whole=True), Limit("P", 0, 999.9, "E250")),
+)  # fmt: skip
+def cycle(run: Interpreter, b: Turn) -> Iterator[Entry]:
+    """Drill, tap or bore at X Y from level R to Z; the cycle stays active until G80."""
+    run.refuse_compensation(b, "E312")
+    run.check_cycles(b)
+    if run.modal.cycle == NONE or run.drilling is None:
+        run.drilling = Drilling()
+    run.drilling.initial = run.path.program[run.modal.plane_axes.drill]
+    run.modal.cycle = int(b.number)
+    yield from drill(run, b)
+
+
+def drill(run: Interpreter, b: Turn) -> Iterator[Entry]:
+    """The holes of one block."""
+    run.refuse_compensation(b, "E312")
+    drilling = run.drilling
+    if drilling is None:
+        raise b.fault("E250")
+    plane, code = run.modal.plane_axes, run.modal.cycle
+    _take(run, b, drilling, plane)
+    _check(b, drilling, code)
+    r, bottom = drilling.levels
+    if bottom > r:
+        run.warn(b, "W214", "Z")
+    repeat_cnt = b.whole("L", 1, "E250")
+    for left in range(repeat_cnt, 0, -1):
+        run.path.rapid(b, _hole(run, b, plane))
+        yield from _one(run, b, drilling, left)
+        if run.is_ended:
+            return
+    b.has_moved = False  # cycles do not call modal macros
+
+
+def _take(run: Interpreter, b: Turn, drilling: Drilling, plane: Plane) -> None:
+    """The words of the block, kept for the blocks behind it."""
+    is_incremental = run.modal.distance == 91
+    for axis, _, value in b.axes:
+        if axis == plane.drill:
+            drilling.bottom = run.path.length(value), is_incremental
+    if "R" in b.words:
+        drilling.level = run.path.length(b.words["R"]), is_incremental
+    for letter in "QP":
+        if letter in b.words:
+            drilling.words[letter] = b.words[letter]
+
+
+def _check(b: Turn, drilling: Drilling, code: int) -> None:
+    if drilling.bottom is None or drilling.level is None:
+        raise b.fault("E250", detail="Z" if drilling.bottom is None else "R")
+    if code in PECKS and drilling.words.get("Q", 0.0) <= 0.0:
+        raise b.fault("E250", "Q", "Q above 0")
+    if code in SHIFTS and "Q" not in drilling.words:
+        raise b.fault("E252")
+
+
+def _hole(run: Interpreter, b: Turn, plane: Plane) -> Point:
+    """The plane position of the next hole, at the present level."""
+    end = list(run.path.end(b))
+    end[plane.drill] = run.path.program[plane.drill]
+    return tuple(end)
+
+
+def _one(run: Interpreter, b: Turn, drilling: Drilling, left: int) -> Iterator[Entry]:
+    """One hole: cells filled, spindle as it has to be, the text of the cycle called."""
+    modal = run.modal
+    wanted = TURNS.get(modal.cycle)
+    if wanted is not None and modal.spin is not wanted and not run.options.is_dry:
+        run.warn(b, "W215")
+        modal.spin = wanted
+        run.tell(Spindle(b.source, wanted, modal.speed))
+    with run.cells.transaction():
+        for n, value in enumerate(_cells(run, drilling, left), FIRST_CELL):
+            run.cells.write(n, value)
+    kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
+    start = run.cycle_start(kept[0] * LABELS, b)
+    modal.cycle, modal.distance, run.motions = NONE, 90, IN_CYCLE
+    yield from run.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
+    run.motions = kept[4]
+    if not run.is_ended:
+        modal.cycle, modal.motion, modal.distance, modal.path, _ = kept
+        run.path.change_pace()
+        if run.options.has_block_ends and left > 1:
+            run.tell(BlockEnd(b.source))
+
+
+def _cells(run: Interpreter, drilling: Drilling, left: int) -> list[float]:
+    """P249 to P270, in active units."""
+    modal, path, read = run.modal, run.path, run.cells.read
+    plane, code = modal.plane_axes, modal.cycle
+    r, bottom = drilling.levels
+    i = drilling.initial
+    first, second = path.placed[plane.first], path.placed[plane.second]
+    is_to_r = modal.return_level == 99 and code not in TO_INITIAL
+    placed = [_level(run, plane, z) for z in (bottom, r, i, r if is_to_r else i)]
+    q = drilling.words.get("Q", 0.0)
+    signs = SHIFT_SIGNS[int(read(SHIFT))]
+    return [
+        float(code),
+        *[path.shown(x) for x in (first, second, *placed)],
+        q,
+        drilling.words.get("P", 0.0),
+        path.shown(modal.feed),
+        float(left),
+        path.shown(read(RETRACT)),
+        path.shown(read(CLEARANCE)),
+        signs[0] * q,
+        signs[1] * q,
+        float(modal.spin.value),
+        float(modal.return_level),
+        float(modal.plane),
+        float(modal.distance),
+        0.0,
+        0.0,
+        1.0 if r >= bottom else -1.0,
+    ]
+
+
+def _level(run: Interpreter, plane: Plane, z: float) -> float:
+    """A level behind scaling and rotation."""
+    point = list(run.path.program)
+    point[plane.drill] = z
+    return run.path.coordinates.forward(tuple(point))[plane.drill]
+
+
+# --- moves of the cycle file ---------------------------------------------------------------
+
+
+def _end(run: Interpreter, b: Turn) -> Point:
+    """X, Y, Z as the axes of the plane and the drill axis, behind scaling and rotation."""
+    plane, placed = run.modal.plane_axes, list(run.path.placed)
+    axes = {"X": plane.first, "Y": plane.second, "Z": plane.drill}
+    for _, letter, value in b.axes:
+        if letter not in axes:
+            raise b.fault("E206", letter, letter)
+        placed[axes[letter]] = run.path.length(value)
+    return tuple(placed)
+
+
+def rapid_in_cycle(run: Interpreter, b: Turn) -> None:
+    """G0 in the cycle file."""
+    run.path.place(b, _end(run, b), None)
+
+
+def line_in_cycle(run: Interpreter, b: Turn) -> None:
+    """G1 in the cycle file."""
+    run.path.place(b, _end(run, b), run.path.pace(b))
+
+
+def no_arc_in_cycle(run: Interpreter, b: Turn) -> None:
+    """Cycles are straight."""
+    raise b.fault("E206")
+
+
+IN_CYCLE: dict[float, Callable[[Interpreter, Turn], None]] = {
+    0: rapid_in_cycle,
+    1: line_in_cycle,
+    2: no_arc_in_cycle,
+    3: no_arc_in_cycle,
+}

@@ -1,0 +1,106 @@
+"""G0 to G3: rapid moves, lines and arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from openacr.cnc import arcs
+from openacr.cnc.codes import Group, Step
+from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Entry
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+gcode, letter = ACROMILL.gcode, ACROMILL.letter
+NO_CYCLE, NO_MOTION = 80, 80
+CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
+_LENGTHS = "IJKR"
+
+
+@gcode(0, 1, step=Step.MOTION, group=Group.MOTION)
+def straight(run: Interpreter, b: Turn) -> None:
+    """G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends."""
+    select(run, b)
+
+
+@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKR")
+def arc(run: Interpreter, b: Turn) -> None:
+    """G2 cuts arcs clockwise, G3 counter-clockwise; a cycle ends."""
+    select(run, b)
+
+
+def select(run: Interpreter, b: Turn) -> None:
+    """The motion that is active from now on."""
+    run.modal.motion = b.number
+    run.modal.cycle = NO_CYCLE
+
+
+@letter("MOTION", step=Step.MOTION)
+def motion(run: Interpreter, b: Turn) -> Iterator[Entry] | None:
+    """Move as the active motion or cycle does."""
+    if run.modal.cycle != NO_CYCLE:
+        check_words(b, CYCLE_WORDS)
+        return drill(run, b)
+    run.motions[run.modal.motion](run, b)
+    return None
+
+
+def check_words(b: Turn, allowed: str) -> None:
+    """Refuse words the active motion has no use for."""
+    for word in b.plan.modal_words:
+        if word not in allowed:
+            raise b.fault("E206", word, word)
+
+
+def rapid(run: Interpreter, b: Turn) -> None:
+    """G0."""
+    check_words(b, "")
+    run.path.rapid(b, run.path.end(b))
+
+
+def line(run: Interpreter, b: Turn) -> None:
+    """G1."""
+    check_words(b, "")
+    end = run.path.end(b)
+    run.path.line(b, end, run.feed_pace(b, end, None))
+
+
+def _arc(run: Interpreter, b: Turn, direction: int) -> None:
+    check_words(b, _LENGTHS)
+    path, modal = run.path, run.modal
+    plane, end = modal.plane_axes, path.end(b)
+    lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
+    epsilon = run.cells.read(arcs.EPSILON_CELL)
+    bow = arcs.bow_of(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
+    run.check_radii(b, bow)
+    bow = arcs.placed(b, bow, plane, path.coordinates, path.program)
+    path.arc(b, end, bow, run.feed_pace(b, end, bow))
+
+
+def clockwise(run: Interpreter, b: Turn) -> None:
+    """G2."""
+    _arc(run, b, CLOCKWISE)
+
+
+def counter_clockwise(run: Interpreter, b: Turn) -> None:
+    """G3."""
+    _arc(run, b, COUNTER_CLOCKWISE)
+
+
+def no_motion(run: Interpreter, b: Turn) -> None:
+    """Axis words without an active motion."""
+    raise b.fault("E206", b.plan.axes[0][1] if b.plan.axes else b.plan.modal_words[0])
+
+
+Motions = dict[float, Callable[["Interpreter", "Turn"], None]]
+MOTIONS: Motions = {
+    0: rapid,
+    1: line,
+    2: clockwise,
+    3: counter_clockwise,
+    NO_MOTION: no_motion,
+}

@@ -1,0 +1,67 @@
+"""G31: a move that ends where the probe trips."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Entry, Line, Pace, PathMode, Point, Probe
+from openacr.cnc.codes import Axes, Step
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+gcode = ACROMILL.gcode
+TRIPS, TRIPPED, PROGRAM_TRIPS = 101, 329, 330
+BACK_FEED = 600_003
+
+
+@gcode(31, step=Step.MOTION, axes=Axes.MOVE)
+def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
+    """Move at feed until the probe trips; P101 to P108 say where that was."""
+    run.refuse_compensation(b, "E243")
+    if not run.machine.has_probe():
+        raise b.fault("E243", hint="no probe input")
+    yield from run.sync(b.source)
+    if run.machine.is_probe_active():
+        raise b.fault("A35")
+    yield from probed(run, b)
+
+
+def probed(run: Interpreter, b: Turn) -> Iterator[Entry]:
+    """The move, and what it found."""
+    path, machine = run.path, run.machine
+    end = path.end(b)
+    target = path.coordinates.to_machine(path.coordinates.forward(end))
+    pace = Pace(run.modal.feed, PathMode.EXACT)
+    b.has_moved = True
+    run.move(Probe(b.source, target, pace))
+    yield from run.sync(b.source)
+    trip = machine.tripped()
+    with run.cells.transaction():
+        run.cells.write(TRIPPED, float(trip is not None))
+        if trip is None:
+            path.stand(target)
+            return
+        path.stand(trip)
+        keep(run, trip)
+    run.move(_back(run, b, trip))
+
+
+def keep(run: Interpreter, trip: Point) -> None:
+    """Store the trip position: machine and program coordinates, active unit."""
+    rotary = {axis for letter, axis in run.planner.axes.items() if letter in "ABC"}
+    program = run.path.program
+    for axis, value in enumerate(trip):
+        is_length = axis not in rotary
+        run.cells.write(TRIPS + axis, run.path.shown(value) if is_length else value)
+        read = program[axis]
+        run.cells.write(PROGRAM_TRIPS + axis, run.path.shown(read) if is_length else read)
+
+
+def _back(run: Interpreter, b: Turn, trip: Point) -> Entry:
+    """The way back from where the axes have come to rest."""
+    feed = run.cells.read(BACK_FEED) or run.modal.feed
+    return Line(b.source, trip, Pace(feed, PathMode.EXACT, is_confirmed=True))

@@ -1,0 +1,95 @@
+"""G52 to G59.2 and G92: work systems, local shift, floating zero."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.cnc.codes import ROTARY, Axes, Group, Step
+from openacr.cnc.coordinates import FLOATING, LOCAL
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+gcode = ACROMILL.gcode
+SYSTEMS = {54: 1, 55: 2, 56: 3, 57: 4, 58: 5, 59: 6, 59.1: 7, 59.2: 8, 59.3: 9}
+FLOATING_ON, FLOATING_WORD, FLOATING_BEFORE, FLOATING_AT = 800, 809, 817, 825
+_AXES = 8
+
+
+@gcode(*list(SYSTEMS)[:8], step=Step.WORK, group=Group.WORK)
+def work_system(run: Interpreter, b: Turn) -> None:
+    """Work system 1 to 8; a local shift ends."""
+    select(run, SYSTEMS[b.number])
+    run.modal.has_work = True
+
+
+@gcode(53, step=Step.WORK, group=Group.WORK)
+def machine_system(run: Interpreter, b: Turn) -> None:
+    """Machine coordinates, until another system is chosen."""
+    run.refuse_compensation(b, "E310")
+    select(run, 0)
+    run.modal.has_work = False
+
+
+def select(run: Interpreter, system: int) -> None:
+    """Make a system active; the local shift ends."""
+    run.modal.work = system
+    for axis in range(_AXES):
+        run.cells.write(LOCAL + axis, 0.0)
+    run.path.refresh()
+
+
+@gcode(52, step=Step.LOCAL, axes=Axes.DATA)
+def local_shift(run: Interpreter, b: Turn) -> None:
+    """Shift the zero of the active work system."""
+    if not run.modal.has_work:
+        raise b.fault("E245", hint="behind G54 to G59.2 only")
+    for axis, letter, value in b.axes:
+        run.cells.write(LOCAL + axis, length_of(run, letter, value))
+    run.path.refresh()
+
+
+def length_of(run: Interpreter, letter: str, value: float) -> float:
+    """The value of an axis word in default units."""
+    return value if letter in ROTARY else run.path.length(value)
+
+
+@gcode(92, step=Step.ZERO, axes=Axes.DATA)
+def floating_zero(run: Interpreter, b: Turn) -> None:
+    """The present point reads the words from now on; without words all axes read 0."""
+    if run.modal.work == 0:
+        raise b.fault("E245", hint="not with G53")
+    named = {axis: length_of(run, letter, value) for axis, letter, value in b.axes}
+    preset_zero(run, named or dict.fromkeys(run.planner.axes.values(), 0.0))
+
+
+def preset_zero(run: Interpreter, named: dict[int, float]) -> None:
+    """Set the shift so that the present point reads these values."""
+    path, write = run.path, run.cells.write
+    wanted = list(path.program)
+    for axis, value in named.items():
+        wanted[axis] = value
+    missed = path.coordinates.forward(tuple(wanted))
+    for axis, value in named.items():
+        before = run.cells.read(FLOATING + axis)
+        write(FLOATING_BEFORE + axis, before)
+        write(FLOATING_WORD + axis, value)
+        write(FLOATING_AT + axis, path.target[axis])
+        write(FLOATING + axis, before + path.placed[axis] - missed[axis])
+    show_zero(run)
+
+
+def show_zero(run: Interpreter) -> None:
+    """P800 says whether a shift is active."""
+    shifts = [run.cells.read(FLOATING + axis) for axis in range(_AXES)]
+    run.cells.write(FLOATING_ON, float(any(shifts)))
+    run.path.refresh()
+
+
+def clear_zero(run: Interpreter) -> None:
+    """CLR ZERO: no floating zero."""
+    for axis in range(_AXES):
+        run.cells.write(FLOATING + axis, 0.0)
+    show_zero(run)

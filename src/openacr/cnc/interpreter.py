@@ -1,0 +1,356 @@
+"""The interpreter: a loaded program to canonical entries.
+
+The entries are pulled. A block is checked as a whole before anything of it acts; what it
+says acts in the order of the dialect. Where a value depends on the machine, a `Sync` is
+handed out first: when the reader asks for the entry behind it, the machine is at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.cnc import dialects as _dialects  # noqa: F401  registers the languages
+from openacr.cnc.arcs import Bow
+from openacr.cnc.canonical import (
+    BlockEnd,
+    Dwell,
+    End,
+    Entry,
+    Motion,
+    Pace,
+    Point,
+    Say,
+    Source,
+    Stop,
+    Sync,
+    WaitBit,
+)
+from openacr.cnc.codes import DIALECTS
+from openacr.cnc.coordinates import ORIGIN
+from openacr.cnc.findings import BlockError, CodeError, Finding, found
+from openacr.cnc.flow import Flow, Frame
+from openacr.cnc.gcodes.cycles import Drilling
+from openacr.cnc.gcodes.macros import ModalMacro
+from openacr.cnc.gcodes.motion import MOTIONS, Motions
+from openacr.cnc.hosts import Cells, Machine
+from openacr.cnc.load import planner_of
+from openacr.cnc.modal import Modal, reset
+from openacr.cnc.parameters import LOCALS, RADIUS_CELLS, NotAtRestError, Parameters
+from openacr.cnc.path import Path
+from openacr.cnc.program import Node, Program
+from openacr.cnc.ready import Ready, ready, values_of
+from openacr.cnc.statements import shown
+from openacr.cnc.turn import Turn
+
+MOST_IDLE = 100_000
+_WAITS = Motion | Dwell | WaitBit | Stop
+_ARITHMETIC = (ArithmeticError, ValueError)
+OFF = 40
+LENGTH_CELLS = ((4000, 2000), (4001, 3000))
+RADIUS_SOURCES = ((1998, 1000), (1999, 1500))
+LIBRARY_CENTRES = 250_004
+MACRO = "MACRO"
+
+
+@dataclass(slots=True)
+class Options:
+    """How a program is run."""
+
+    is_dry: bool = False  # DRY RUN: standard M codes do nothing
+    has_block_ends: bool = False  # BlockEnd behind every block with effect
+    is_service: bool = False  # system parameters may be assigned
+    is_library_part: bool = False  # I, J, K by the setting for library parts
+
+
+class Interpreter:
+    """Runs one program on cells and a machine."""
+
+    def __init__(
+        self,
+        program: Program,
+        cells: Cells,
+        machine: Machine,
+        dialect: str = "acromill",
+        options: Options | None = None,
+    ) -> None:
+        self.program = program
+        self.cells = cells
+        self.machine = machine
+        self.dialect = DIALECTS[dialect]
+        self.options = options or Options()
+        self.modal = Modal()
+        self.warnings: list[Finding] = []
+        self.planner = planner_of(cells, self.dialect, program)
+        self.flow = Flow(program)
+        self.out: list[Entry] = []
+        letters = self.planner.axes
+        self.path = Path(cells, self.modal, letters, self.move)
+        self.parameters = Parameters(self)
+        self.macro: ModalMacro | None = None  # G66
+        self.drilling: Drilling | None = None
+        self.motions: Motions = MOTIONS
+        self.is_rested = True
+        self.is_ended = False
+        self._idle_cnt = 0
+        self._node: Node | None = None
+        self.power_up()
+
+    @property
+    def position(self) -> Point:
+        """The program position, default units."""
+        return self.path.program
+
+    # --- entries ----------------------------------------------------------------------
+
+    def entries(self) -> Iterator[Entry]:
+        """The program from its first line to its end, once."""
+        self.begin()
+        return self._guarded(None)
+
+    def _guarded(self, frame: Frame | None) -> Iterator[Entry]:
+        try:
+            yield from self._blocks(frame)
+        except CodeError as fault:
+            raise self._error(fault) from None
+        except RecursionError:
+            raise self._error(CodeError("E260")) from None
+
+    def _error(self, fault: CodeError) -> BlockError:
+        self.out.clear()
+        node = self._node
+        if node is None:
+            return BlockError(fault.at(self.program.main.text.name, 1, ""))
+        return BlockError(fault.at(node.part.text.name, node.line, node.raw))
+
+    def move(self, entry: Entry) -> None:
+        """An entry that moves or waits."""
+        self.out.append(entry)
+        self.is_rested = False
+        self._idle_cnt = 0
+
+    def tell(self, entry: Entry) -> None:
+        """An entry without motion."""
+        self.out.append(entry)
+        if not isinstance(entry, Say):
+            self.is_rested = False
+        if isinstance(entry, _WAITS):
+            self._idle_cnt = 0
+
+    def flush(self) -> Iterator[Entry]:
+        """Hand out what has come together."""
+        yield from self.out
+        self.out.clear()
+
+    def sync(self, source: Source) -> Iterator[Entry]:
+        """Hand out everything and wait for rest."""
+        if self.is_rested and not self.out:
+            return
+        yield from self.flush()
+        yield Sync(source)
+        self.is_rested = True
+
+    def warn(self, b: Turn, code: str, letter: str = "", detail: str = "") -> None:
+        """Note something doubtful about a block."""
+        node = b.node
+        name, column = node.part.text.name, b.plan.column(letter)
+        finding = found(code, name, node.line, column, detail, "", node.raw)
+        if finding not in self.warnings:
+            self.warnings.append(finding)
+
+    # --- state ------------------------------------------------------------------------
+
+    def power_up(self) -> None:
+        """Nothing chosen, nothing active; the machine stands where it is."""
+        self._reset()
+        self.path.begin(self.machine.position() or ORIGIN)
+
+    def begin(self) -> None:
+        """The start set, at the first line."""
+        self._reset()
+        if self.options.is_library_part:
+            self.modal.centres = int(self.cells.read(LIBRARY_CENTRES))
+        self.is_ended = False
+        self.is_rested = False
+        self._idle_cnt = 0
+        self.out.clear()
+        self.path.begin(self.machine.position() or self.path.target)
+        self.flow.start()
+
+    def _reset(self, *, is_abort: bool = False) -> None:
+        reset(self.modal, self.cells, is_abort=is_abort)
+        self.macro = None
+        self.drilling = None
+        self.motions = MOTIONS
+        self.path.shape = None
+        self.parameters.locals = None
+        self.path.coordinates.scale = self.path.coordinates.rotation = None
+        self.path.coordinates.added = ORIGIN
+        for cell in (*RADIUS_CELLS, 4000, 4001):
+            self.cells.write(cell, 0.0)
+        if not is_abort:
+            for axis in range(8):
+                self.cells.write(990 + axis, 0.0)
+        self.path.set_unit()
+        self.path.change_pace()
+        self.path.refresh()
+
+    def abort(self) -> None:
+        """The state behind ABORT and emergency stop."""
+        self._reset(is_abort=True)
+        self.flow.start()
+        self.out.clear()
+
+    def reload_offsets(self) -> None:
+        """Offsets were written: those in use are taken over."""
+        modal = self.modal
+        for cells, number in (
+            (LENGTH_CELLS, modal.length_number),
+            (RADIUS_SOURCES, modal.radius_number),
+        ):
+            for target, source in cells:
+                if number:
+                    self.cells.write(target, self.cells.read(source + number))
+        self.offsets_changed()
+
+    def offsets_changed(self, cell: int = 0) -> None:
+        """Offsets were written: the machine stays, the program position follows."""
+        self.path.refresh()
+
+    def finish(self, source: Source, *, is_by_code: bool) -> None:
+        """End the program."""
+        self.tell(End(source, is_by_code))
+        self._reset()
+        self.is_ended = True
+
+    # --- blocks -----------------------------------------------------------------------
+
+    def _blocks(self, frame: Frame | None) -> Iterator[Entry]:
+        """Run block after block until the frame is left or the program has ended."""
+        flow = self.flow
+        while not self.is_ended:
+            node = flow.next
+            if node is None:
+                source = self._node.source if self._node else Source("", 1, "")
+                self.finish(source, is_by_code=False)
+                yield from self.flush()
+                return
+            self._node = node
+            block = node.ready
+            if block is None:
+                block = node.ready = ready(node, self)
+            flow.next = node.next or flow.behind(node)
+            if block.is_empty:
+                continue
+            if block.plan.block.is_skippable and self.machine.is_block_skip_on():
+                continue
+            self._idle_cnt += 1
+            if self._idle_cnt > MOST_IDLE:
+                raise CodeError("A62", 1)
+            yield from self._block(node, block)
+            if frame is not None and frame.is_done:
+                return
+
+    def _block(self, node: Node, block: Ready) -> Iterator[Entry]:
+        """One block: read and check everything, then act."""
+        out = self.out
+        for message in block.plan.block.messages:
+            self.tell(Say(node.source, self._text(message.text, message.has_values)))
+        done = 0
+        words: dict[str, float] = {}
+        while True:
+            try:
+                while done < len(block.assigns):
+                    block.assigns[done](node)
+                    done += 1
+                if block.statement is not None:
+                    waiting = block.statement(node)
+                    if waiting is not None:
+                        yield from waiting
+                elif block.acts:
+                    words = values_of(block)
+                for act in block.late:
+                    act(node)
+                break
+            except NotAtRestError:
+                yield from self.sync(node.source)
+            except _ARITHMETIC as error:
+                raise CodeError("E210", 1, str(error)) from None
+        if block.acts:
+            yield from self._act(Turn(node, block.plan, words), block)
+        if self.options.has_block_ends:
+            self.tell(BlockEnd(node.source))
+        if out:
+            yield from out
+            out.clear()
+
+    def _act(self, b: Turn, block: Ready) -> Iterator[Entry]:
+        for code in block.acts:
+            if code.letter is MACRO and self.macro is None:
+                continue
+            b.number = code.number
+            waiting = code.act(self, b)
+            if waiting is not None:
+                yield from waiting
+                if self.is_ended:
+                    return
+
+    def _text(self, text: str, has_values: bool) -> str:
+        return text
+
+    # --- what codes need --------------------------------------------------------------
+
+    def feed_pace(self, b: Turn, end: Point, bow: Bow | None) -> Pace:
+        """How a feed move to a program point runs."""
+        return self.path.pace(b)
+
+    def check_radii(self, b: Turn, bow: Bow) -> None:
+        """Radii of an arc may differ as far as the dialect allows."""
+        allowed = self.dialect.radius_tolerance
+        if allowed is None:
+            return
+        apart = abs(bow.end_radius - bow.start_radius)
+        inch, share = allowed
+        if apart > max(self.path.inches(inch), share * bow.start_radius):
+            raise b.fault("E230", detail=f"{bow.start_radius:.5g} and {bow.end_radius:.5g}")
+
+    def refuse_compensation(self, b: Turn, code: str) -> None:
+        """An error while cutter radius compensation is on."""
+        if self.modal.compensation != OFF:
+            raise b.fault(code)
+
+    def switch_compensation(self, b: Turn, code: int) -> None:
+        """G40, G41, G42."""
+        self.modal.compensation = code
+
+    def check_cycles(self, b: Turn) -> None:
+        """An error without the text of the cycles."""
+        if not self.program.has_cycles:
+            raise b.fault("E251", hint="$I CYCLES.TXT behind M2")
+
+    def cycle_start(self, label: int, b: Turn) -> Node:
+        """The first line of a cycle."""
+        return self.flow.find(label, self.program.main, b.plan.column(""))
+
+    # --- calls ------------------------------------------------------------------------
+
+    def call(self, frame: Frame, start: Node, values: list[float]) -> Iterator[Entry]:
+        """Run lines until RET leaves the frame; `values` are its locals."""
+        flow, parameters = self.flow, self.parameters
+        flow.enter(frame)
+        back, kept, here = flow.next, parameters.locals, self._node
+        parameters.locals = values
+        flow.next = start
+        yield from self.flush()
+        yield from self._blocks(frame)
+        parameters.locals = kept
+        if not self.is_ended:
+            flow.next, self._node = back, here
+
+
+def no_values() -> list[float]:
+    """Locals of a call without arguments."""
+    return [0.0] * (LOCALS + 1)
+
+
+__all__ = ["Interpreter", "Options", "no_values", "shown"]

@@ -1,0 +1,396 @@
+"""Loading: every line read once, all errors found, labels and added texts noted.
+
+A program with an error cannot be started. What only shows when it runs - jumps that are
+computed, values of expressions, geometry - is found then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+
+from openacr.cnc.blocks import Assignment, Block, Gosub, Goto, If, Include, Print, Word
+from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect
+from openacr.cnc.findings import MOST, CodeError, Finding, found
+from openacr.cnc.formulas import Call, Node, Number, Parameter, State
+from openacr.cnc.hosts import Cells
+from openacr.cnc.parser import parse
+from openacr.cnc.plan import Plan, Planner
+from openacr.cnc.program import CYCLES_FILE, Part, Place, Program
+from openacr.cnc.text import Kept, Text, decoded
+
+MOST_LABELS = 1_000_000
+DEEPEST_INCLUDE = 8
+LINE_STEP = 1000
+FIRST_CYCLE_LABEL = 70_000
+AXIS_COUNT_CELL, NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 100_001, 200_008, 200_012, 1000
+HASH_TEST, M30_ENDS, AUTO_CYCLES = 700_001, 700_002, 700_006
+MANUAL_CHANGE, CHANGED_INPUT, CUSTOM_FOLDER = 900_002, 900_000, 900_010
+START_FEED = 100_021
+
+
+@dataclass(frozen=True, slots=True)
+class Folders:
+    """Where added texts are looked for, behind the folder of the program."""
+
+    library: Path | None = None
+    customs: Path | None = None  # Mnnn.TXT
+
+
+def axes_of(cells: Cells) -> dict[str, int]:
+    """Letters of the configured axes."""
+    found: dict[str, int] = {}
+    for axis in range(len(AXIS_LETTERS)):
+        cell = AXIS_CELLS * axis
+        if cells.read(CONFIGURED_CELL + cell):
+            found[cells.read_text(NAME_CELL + cell).strip().upper()] = axis
+    return found
+
+
+def load(
+    source: Path | str | bytes,
+    cells: Cells,
+    dialect: str = "acromill",
+    folders: Folders | None = None,
+    name: str = "PROGRAM",
+) -> Program:
+    """Read a program from a file, or from text."""
+    if isinstance(source, Path):
+        text, folder = Text.file(source), source.parent
+    else:
+        text, folder = Text.of(source, name), None
+    return Loader(cells, DIALECTS[dialect], folders or Folders()).load(text, folder)
+
+
+def planner_of(cells: Cells, dialect: Dialect, program: Program | None = None) -> Planner:
+    """Plans for the axes of these cells and the M codes of a program."""
+    planner = Planner(dialect, axes_of(cells), dialect.table.letters.get("CUSTOM"))
+    if program is not None:
+        planner.customs.update(program.customs)
+    if cells.read(M30_ENDS) and dialect.has_custom:
+        planner.replaced["M", 30.0] = dialect.table.mcodes[2.0]
+    return planner
+
+
+@dataclass(slots=True)
+class _Seen:
+    """What the lines so far have said."""
+
+    motion: float = 1
+    has_feed: bool = False
+    has_speed: bool = False
+    codes: set[str] = field(default_factory=set)
+    percent_cnt: int = 0
+    has_end: bool = False
+    last: Plan | None = None
+    last_place: tuple[int, str] = (0, "")
+
+
+class Loader:
+    """One pass over all lines of a program."""
+
+    def __init__(self, cells: Cells, dialect: Dialect, folders: Folders) -> None:
+        self._cells = cells
+        self._dialect = dialect
+        self._folders = folders
+        self._planner = planner_of(cells, dialect)
+        self._findings: list[Finding] = []
+        self._jumps: list[tuple[Part, int, str, int, int]] = []
+        self._warned: set[str] = set()
+        self._hash_tests = cells.read(HASH_TEST) != 0.0
+        self._m30_ends = cells.read(M30_ENDS) != 0.0
+        self._seen = _Seen(has_feed=cells.read(START_FEED) > 0.0)
+        self._where: tuple[str, int, str] = ("", 0, "")
+
+    def load(self, text: Text, folder: Path | None) -> Program:
+        """The program of a text."""
+        program = Program(Part(text, {}), folder)
+        self._program = program
+        self._read(program.main, depth=0)
+        if self._cells.read(AUTO_CYCLES) and not program.has_cycles:
+            self._add_cycles(program.main)
+        self._check_last()
+        self._check_labels()
+        self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
+        program.findings = self._findings[:MOST]
+        return program
+
+    # --- lines ------------------------------------------------------------------------
+
+    def _read(self, part: Part, depth: int) -> None:
+        self._program.parts.append(part)
+        offset, line = part.text.begin, 0
+        while len(self._findings) < MOST:
+            taken = part.text.line(offset)
+            if taken is None:
+                break
+            if line % LINE_STEP == 0:
+                part.line_offsets.append(offset)
+            line += 1
+            self._line(Place(part, offset, line), decoded(taken[0]), taken[1], depth)
+            offset = taken[1]
+        part.line_cnt = line
+
+    def _line(self, place: Place, raw: str, after: int, depth: int) -> None:
+        self._where = (place.part.text.name, place.line, raw)
+        self._part = place.part
+        try:
+            block = parse(raw, self._dialect.grammar)
+            if block.is_percent:
+                self._percent(place)
+                return
+            self._label(block, place)
+            plan = self._planner_plan(block, place)
+            self._statement(block, place, after, depth)
+            self._values(block)
+            self._warnings(block, plan)
+        except CodeError as fault:
+            self._findings.append(fault.at(*self._where))
+
+    def _percent(self, place: Place) -> None:
+        self._seen.percent_cnt += 1
+        if self._seen.percent_cnt == 2 and place.part is self._program.main:
+            place.part.text.end = place.offset
+
+    def _label(self, block: Block, place: Place) -> None:
+        if block.label is None or not self._dialect.labels:
+            return
+        labels = place.part.labels
+        first = labels.get(block.label)
+        if first is not None:
+            hint = f"first in line {first.line} of {first.part.text.name}"
+            raise CodeError("E221", 1, f"N{block.label}", hint)
+        is_own = self._program.has_cycles and not place.part.is_cycles
+        if is_own and block.label > FIRST_CYCLE_LABEL:
+            raise CodeError("E263", 1, f"N{block.label}")
+        if len(labels) >= MOST_LABELS:
+            raise CodeError("E270", 1)
+        labels[block.label] = place
+
+    def _planner_plan(self, block: Block, place: Place) -> Plan:
+        """The plan of a block; M codes of the user are read from their files first."""
+        for word in block.words:
+            if word.letter == "M" and self._dialect.has_custom:
+                self._custom(word)
+        plan = self._planner.plan(block)
+        names = {code.name for code in plan.codes}
+        self._seen.codes |= names
+        if place.part is self._program.main:
+            self._seen.has_end |= "M2" in names or ("M30" in names and self._m30_ends)
+            if not block.is_empty and not self._seen.has_end:
+                self._seen.last, self._seen.last_place = plan, (place.line, self._where[2])
+        return plan
+
+    def _custom(self, word: Word) -> None:
+        if not isinstance(word.value, Number) or word.value.number in self._dialect.table.mcodes:
+            return
+        number = int(word.value.number)
+        folder = self._custom_folder()
+        if number in self._program.customs or folder is None:
+            return
+        path = _found_in(folder, f"M{number}.TXT")
+        if path is not None:
+            part = Part(Text.file(path), {})
+            self._program.customs[number] = part
+            self._planner.customs.add(number)
+            where = self._where
+            self._read(part, depth=1)
+            self._where = where
+
+    def _custom_folder(self) -> Path | None:
+        if self._folders.customs is not None:
+            return self._folders.customs
+        named = self._cells.read_text(CUSTOM_FOLDER)
+        return Path(named) if named else None
+
+    # --- added texts ------------------------------------------------------------------
+
+    def _statement(self, block: Block, place: Place, after: int, depth: int) -> None:
+        statement = block.statement
+        if isinstance(statement, If):
+            if statement.test is not None and self._hash_tests:
+                self._warn("W211", statement.column, f"input {statement.test.number}")
+            statement = statement.then
+        if isinstance(statement, Goto | Gosub):
+            if isinstance(statement.label, Number):
+                label = round(statement.label.number)
+                _, line, raw = self._where
+                self._jumps.append((place.part, line, raw, statement.column, label))
+        elif isinstance(statement, Include):
+            self._include(statement, place, after, depth)
+
+    def _include(self, statement: Include, place: Place, after: int, depth: int) -> None:
+        is_main = place.part is self._program.main
+        if is_main and not self._seen.has_end:
+            raise CodeError("E262", statement.column, "it stands behind M2")
+        if depth >= DEEPEST_INCLUDE:
+            raise CodeError("E262", statement.column, "nested deeper than 8")
+        text = self._text_named(statement.name)
+        if text is None:
+            raise CodeError("E262", statement.column, f"{statement.name} is not there")
+        part = Part(text, place.part.labels, behind=Place(place.part, after, place.line + 1))
+        part.is_cycles = Path(statement.name).name.upper() == CYCLES_FILE
+        self._program.has_cycles |= part.is_cycles
+        self._program.includes[place.part.text.name, place.line] = part
+        if part.is_cycles:
+            self._check_own_labels(place.part.labels)
+        self._read(part, depth + 1)
+
+    def _check_own_labels(self, labels: dict[int, Place]) -> None:
+        for label, place in labels.items():
+            if label > FIRST_CYCLE_LABEL and not place.part.is_cycles:
+                self._findings.append(
+                    found("E263", place.part.text.name, place.line, detail=f"N{label}")
+                )
+
+    def _text_named(self, name: str) -> Text | None:
+        for folder in (self._program.folder, self._folders.library):
+            path = _found_in(folder, name) if folder else None
+            if path is not None:
+                return Text.file(path)
+        return supplied_cycles() if Path(name).name.upper() == CYCLES_FILE else None
+
+    def _add_cycles(self, main: Part) -> None:
+        part = Part(supplied_cycles(), main.labels, is_cycles=True)
+        self._program.has_cycles = True
+        self._read(part, depth=1)
+
+    # --- what does not fit ------------------------------------------------------------
+
+    def _values(self, block: Block) -> None:
+        """Parameters written as numbers: known, and writable where they are assigned."""
+        for node, column in _formulas(block):
+            for parameter in _parameters(node):
+                error = self._home_error(parameter)
+                if error:
+                    raise CodeError(error, column, _shown(parameter))
+        for assignment in block.assignments:
+            self._check_assignment(assignment)
+
+    def _home_error(self, parameter: Parameter) -> str | None:
+        if not isinstance(parameter.index, Number) or self._dialect.aliases:
+            return None
+        return self._cells.home(int(parameter.index.number)).read_error
+
+    def _check_assignment(self, assignment: Assignment) -> None:
+        index = assignment.index
+        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.aliases:
+            return
+        home = self._cells.home(int(index.number))
+        error = home.write_error()
+        if error:
+            raise CodeError(error, assignment.column, f"P{index.number:g}")
+        if home.write_warning and not (assignment.kind == "#" and index.number <= 33):
+            self._warn(home.write_warning, assignment.column, f"P{index.number:g}")
+
+    def _warnings(self, block: Block, plan: Plan) -> None:
+        for code, column in block.warnings:
+            self._warn(code, column)
+        if self._part.is_cycles:
+            return
+        seen = self._seen
+        seen.has_speed |= "S" in plan.words
+        for act in plan.codes:
+            self._check_code(act.name)
+            if act.letter == "G" and act.number in (0, 1, 2, 3):
+                seen.motion = act.number
+        seen.has_feed |= "F" in plan.words and not {"G4", "G200"} & {c.name for c in plan.codes}
+        if plan.axes and seen.motion and not seen.has_feed and _is_plain(plan):
+            self._warn_once("W218", plan.column(plan.axes[0][1]))
+        if {"G90", "G91"} <= seen.codes:
+            self._warn_once("W212", 1)
+
+    def _check_code(self, name: str) -> None:
+        if name in ("M3", "M4") and not self._seen.has_speed:
+            self._warn_once("W217", 1)
+        if name == "M6" and self._is_change_impossible():
+            raise CodeError("E223", 1)
+
+    def _is_change_impossible(self) -> bool:
+        read = self._cells.read
+        return read(MANUAL_CHANGE) == 0.0 and read(CHANGED_INPUT) < 0.0
+
+    def _check_last(self) -> None:
+        last = self._seen.last
+        is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
+        if is_m30 and not self._m30_ends and self._dialect.has_custom:
+            line, raw = self._seen.last_place
+            self._where = (self._program.main.text.name, line, raw)
+            self._warn("W216", 1)
+
+    def _check_labels(self) -> None:
+        for part, line, raw, column, label in self._jumps:
+            if label not in part.labels and len(self._findings) < MOST:
+                self._findings.append(
+                    found("E220", part.text.name, line, column, f"N{label}", "", raw)
+                )
+
+    def _warn(self, code: str, column: int, detail: str = "") -> None:
+        name, line, raw = self._where
+        self._findings.append(found(code, name, line, column, detail, "", raw))
+
+    def _warn_once(self, code: str, column: int) -> None:
+        if code not in self._warned:
+            self._warned.add(code)
+            self._warn(code, column)
+
+
+def supplied_cycles() -> Text:
+    """The canned cycles that come with the package."""
+    data = files("openacr.cnc").joinpath("CYCLES.TXT").read_bytes()
+    return Text(CYCLES_FILE, Kept(data))
+
+
+def _found_in(folder: Path, name: str) -> Path | None:
+    """A file of a folder, whatever the case of its name."""
+    path = folder / name
+    if path.is_file():
+        return path
+    if not path.parent.is_dir():
+        return None
+    wanted = path.name.upper()
+    return next((p for p in path.parent.iterdir() if p.name.upper() == wanted), None)
+
+
+def _is_plain(plan: Plan) -> bool:
+    """Whether the axis words of a block belong to the motion that is active."""
+    return any(act.letter == "MOTION" for act in plan.acts)
+
+
+def _shown(parameter: Parameter) -> str:
+    index = parameter.index
+    digits = f"{index.number:g}" if isinstance(index, Number) else "()"
+    return f"{'#' if parameter.is_hash else 'P'}{digits}"
+
+
+def _formulas(block: Block) -> Iterator[tuple[Node, int]]:
+    """Every expression of a block and the column of what it belongs to."""
+    for word in block.words:
+        yield word.value, word.column
+    for assignment in block.assignments:
+        yield assignment.value, assignment.column
+        if not isinstance(assignment.index, str):
+            yield assignment.index, assignment.column
+    statement = block.statement
+    if isinstance(statement, If):
+        yield statement.condition, statement.column
+    if isinstance(statement, Print):
+        for item in statement.items:
+            if not isinstance(item, str):
+                yield item, statement.column
+
+
+def _parameters(node: Node) -> Iterator[Parameter]:
+    """The parameters a formula reads."""
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, Parameter):
+            yield part
+            waiting.append(part.index)
+        elif isinstance(part, Call):
+            waiting.extend(part.operands)
+        elif isinstance(part, State):
+            waiting.append(part.index)

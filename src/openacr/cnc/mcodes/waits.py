@@ -1,0 +1,28 @@
+"""M100 to M299: waits for software relays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Say, WaitBit
+from openacr.cnc.codes import Step
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+FIRST_ON, FIRST_OFF, RELAYS = 100, 200, 100
+FIRST_BIT = 128  # flag of relay 0
+
+
+@ACROMILL.mcode(*range(FIRST_ON, FIRST_OFF + RELAYS), step=Step.SWITCHES)
+def wait_for_relay(run: Interpreter, b: Turn) -> None:
+    """M1xx waits until relay xx is on, M2xx until it is off."""
+    relay, is_on = int(b.number) % RELAYS, b.number < FIRST_OFF
+    name = f"M{b.number:g}"
+    if run.options.is_dry:
+        run.tell(Say(b.source, f"{name}: wait left out"))
+        return
+    state = "on" if is_on else "off"
+    run.tell(WaitBit(b.source, FIRST_BIT + relay, is_on, f"{name}: relay {relay} {state}"))

@@ -1,0 +1,168 @@
+"""Parameters as programs use them: each number at its home.
+
+Cells of the card and states of the machine can only be read at rest: whoever reads one
+before that gets `NotAtRestError`, waits and asks again. Some numbers of the store show the
+modal state as it is where the program is read, not where the machine is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from openacr.cnc.findings import CodeError
+from openacr.cnc.turn import NEAR
+from openacr.errors import MapError, OpenacrError
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.modal import Modal
+
+LOCALS = 33
+FIRST_STORED, LAST_STORED = 100, 4095
+FIRST_OUTPUT = 32
+# Written by programs, read by the coordinates.
+OFFSET_CELLS = ((801, 808), (900, 997), (1998, 1999), (4000, 4001))
+RADIUS_CELLS = (1998, 1999)
+
+SHOWN: dict[int, Callable[[Modal], float]] = {
+    234: lambda m: float(m.tool),
+    235: lambda m: float(m.tool_in_spindle),
+    236: lambda m: float(m.radius_number),
+    237: lambda m: float(m.length_number),
+    238: lambda m: m.speed,
+    240: lambda m: float(m.spin.value),
+    241: lambda m: m.mist + 2.0 * m.flood,
+    242: lambda m: float(m.unit),
+    998: lambda m: float(m.work),
+}
+FEED_CELL = 239
+
+
+class NotAtRestError(Exception):
+    """A value is wanted that is only known when the machine is at rest."""
+
+
+class Parameters:
+    """Reads and writes by number, name or state."""
+
+    def __init__(self, run: Interpreter) -> None:
+        self._run = run
+        self._cells = run.cells
+        self._machine = run.machine
+        self._modal = run.modal
+        self._aliases = run.dialect.aliases
+        self._read_cell = run.cells.read
+        self.locals: list[float] | None = None
+        self.names: dict[str, float] = {}  # of this call
+        self.global_names: dict[str, float] = {}
+
+    # --- reading ----------------------------------------------------------------------
+
+    def read_hash(self, n: float) -> float:
+        """Parameter #n: a local of the macro, or Pn."""
+        if self.locals is not None and 1 <= n <= LOCALS:
+            return self.locals[number(n)]
+        return self.read_p(n)
+
+    def read_p(self, n: float) -> float:
+        """Parameter Pn."""
+        k = int(n)
+        if k != n:
+            k = number(n)
+        if self._aliases:
+            k = self._aliases.get(k, k)
+        if FIRST_STORED <= k <= LAST_STORED and k not in SHOWN and k != FEED_CELL:
+            return self._read_cell(k)
+        return self._read_rare(k)
+
+    def _read_rare(self, k: int) -> float:
+        if k in SHOWN:
+            return SHOWN[k](self._modal)
+        if k == FEED_CELL:
+            return self._run.path.shown(self._modal.feed)
+        home = self._cells.home(k)
+        if home.read_error:
+            raise CodeError(home.read_error, 0, f"P{k}")
+        if home.is_on_card:
+            self._at_rest()
+            return self._machine.read_parameter(k)
+        try:
+            return self._read_cell(k)
+        except MapError:
+            raise CodeError("E211", 0, f"P{k}") from None
+
+    def _at_rest(self) -> None:
+        if not self._run.is_rested:
+            raise NotAtRestError
+
+    def read_named(self, name: str) -> float:
+        """A named parameter: one that begins with `_` is global."""
+        names = self.global_names if name.startswith("_") else self.names
+        if name not in names:
+            raise CodeError("E211", 0, f"#<{name}>")
+        return names[name]
+
+    def has_named(self, name: str) -> bool:
+        """Whether a named parameter exists."""
+        return name in (self.global_names if name.startswith("_") else self.names)
+
+    def read_input(self, n: float) -> float:
+        """The state of an input."""
+        return self.read_bit(n)
+
+    def read_output(self, n: float) -> float:
+        """The state of an output; outputs are flags from 32 on."""
+        return self.read_bit(n)
+
+    def read_bit(self, n: float) -> float:
+        """The state of a card flag."""
+        self._at_rest()
+        return float(self._machine.read_bit(number(n)))
+
+    # --- writing ----------------------------------------------------------------------
+
+    def write(self, kind: str, n: float | str, value: float) -> None:
+        """Assign `P`, `#` or a name."""
+        if not math.isfinite(value):
+            raise CodeError("E210")
+        if isinstance(n, str):
+            (self.global_names if n.startswith("_") else self.names)[n] = value
+        elif kind == "#" and self.locals is not None and 1 <= n <= LOCALS:
+            self.locals[number(n)] = value
+        else:
+            self.write_p(number(n), value)
+
+    def write_p(self, k: int, value: float) -> None:
+        """Assign a parameter by number."""
+        k = self._aliases.get(k, k)
+        home = self._cells.home(k)
+        error = home.write_error(is_service=self._run.options.is_service)
+        if error:
+            raise CodeError(error, 0, f"P{k}")
+        if home.is_on_card:
+            self._at_rest()
+            self._machine.write_parameter(k, value)
+            return
+        self.store(k, value)
+
+    def store(self, k: int, value: float) -> None:
+        """Write a cell of the store, and let the offsets follow."""
+        try:
+            self._cells.write(k, value)
+        except OpenacrError as error:
+            raise CodeError("E222", 0, str(error)) from None
+        for first, last in OFFSET_CELLS:
+            if first <= k <= last:
+                self._run.offsets_changed(k)
+
+
+def number(n: float) -> int:
+    """A parameter number; E204 between two whole ones."""
+    if not abs(n) < 1e9:
+        raise CodeError("E211")
+    k = round(n)
+    if abs(k - n) > NEAR:
+        raise CodeError("E204", 0, f"P{n:g}")
+    return k

@@ -1,0 +1,295 @@
+"""Blocks: one line of text to words, assignments and a statement.
+
+    block     = [ "/" [digit] ] [ "N" integer ] { item } [ comment ]
+    item      = word | assignment | statement
+    statement = IF | GOTO | GOSUB | RET | PRINT | INPUT | "$I" file     alone in its block
+
+Nothing is decided here about what words mean together.
+"""
+
+import re
+from collections.abc import Callable
+
+from openacr.cnc.blocks import (
+    Assignment,
+    Block,
+    Gosub,
+    Goto,
+    If,
+    Include,
+    Input,
+    InputTest,
+    Message,
+    OWord,
+    Print,
+    Return,
+    Statement,
+    Word,
+)
+from openacr.cnc.expressions import ExpressionReader
+from openacr.cnc.findings import CodeError
+from openacr.cnc.formulas import EQUAL, Call, Node, Number, Parameter
+from openacr.cnc.grammar import Grammar
+
+LONGEST = 256
+LAST_LABEL = 999_999
+INPUTS = 32
+_TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
+_O_WORD = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)\s*([A-Z]+)")
+_LETTERS = "ABCDEFGHIJKLMPQRSTUVWXYZ"  # all but N, O
+
+
+def parse(raw: str, grammar: Grammar) -> Block:
+    """The block of one line; CodeError with the column of the first wrong character."""
+    if len(raw) > LONGEST:
+        raise CodeError("E101", LONGEST + 1)
+    return _Parser(raw, grammar).block()
+
+
+class _Parser(ExpressionReader):
+    """Reads one line."""
+
+    def block(self) -> Block:
+        block = Block(warnings=self.warnings)
+        char = self.peek()
+        if char == "%":
+            block.is_percent = True
+            return block
+        if char == "/":
+            self._skip_mark(block)
+        if self.text.startswith("REM", self.pos) and not self.grammar.has_o_words:
+            return block
+        if self.peek() == "N":
+            self._label(block)
+        if self.peek() == "O" and self._o_word(block):
+            return block
+        while self._item(block):
+            pass
+        return block
+
+    def _skip_mark(self, block: Block) -> None:
+        self.pos += 1
+        block.is_skippable = True
+        if self.text[self.pos : self.pos + 1].isdecimal():
+            self.pos += 1
+
+    def _label(self, block: Block) -> None:
+        self.pos += 1
+        at = self.column
+        block.label = self.integer()
+        if not 1 <= block.label <= LAST_LABEL:
+            raise CodeError("E222", at, f"N{block.label}", f"labels are 1 to {LAST_LABEL}")
+
+    def _o_word(self, block: Block) -> bool:
+        rest = self.text[self.pos :]
+        if _TITLE.match(rest):
+            block.title = self.raw[self.pos :].strip()
+            return True
+        if not self.grammar.has_o_words:
+            return False
+        found = _O_WORD.match(rest)
+        if not found:
+            raise self.fault("E108")
+        at = self.column
+        self.pos += found.end()
+        name = found[1].lstrip("0") or "0" if found[1] else found[2].replace(" ", "")
+        values = []
+        self.gap()
+        while self.peek() == self.open:
+            values.append(self.bracketed())
+            self.gap()
+        self._end(block)
+        block.statement = OWord(name, found[3], tuple(values), at)
+        return True
+
+    def _item(self, block: Block) -> bool:
+        """One item; False at the end of the line."""
+        char = self.peek()
+        if not char or char == ";":
+            return False
+        if char == "(":
+            self._remark(block)
+        elif char == "#":
+            self._assignment(block, "#")
+        elif not self._statement(block):
+            self._word(block, char)
+        return True
+
+    def _remark(self, block: Block) -> None:
+        text = self.comment()
+        kind, comma, rest = text.partition(",")
+        kind = kind.strip().upper()
+        if comma and kind in ("MSG", "DEBUG", "PRINT"):
+            block.messages.append(Message(rest.strip(), kind != "MSG"))
+
+    def _word(self, block: Block, char: str) -> None:
+        at = self.column
+        if char == "P" and "P" in self.grammar.parameters:
+            self._p_word(block)
+            return
+        for kind in ("OUT", "BIT"):
+            if kind in self.grammar.states and self.text.startswith(kind, self.pos):
+                self._switch(block, kind)
+                return
+        if char not in _LETTERS:
+            raise self.fault("E104")
+        self.pos += 1
+        start = self.pos
+        value = self.value()
+        bare = value.index if isinstance(value, Parameter) and char == "T" else None
+        if self.pos == start:
+            raise self.fault("E105")
+        block.words.append(Word(char, value, at, bare))
+
+    def _p_word(self, block: Block) -> None:
+        """`P5 = ..` and `P(5) = ..` assign; any other P is a word."""
+        at = self.column
+        self.pos += 1
+        value = self.value()
+        self.gap()
+        if self.match("="):
+            block.assignments.append(Assignment("P", value, self.expression(), at))
+        else:
+            block.words.append(Word("P", value, at))
+
+    def _assignment(self, block: Block, kind: str) -> None:
+        at = self.column
+        self.pos += 1
+        index: Node | str
+        if self.grammar.has_names and self.peek() == "<":
+            kind, index = "<", self.name()
+        else:
+            index = self.index()
+        self.gap()
+        if not self.match("="):
+            raise self.fault("E104")
+        block.assignments.append(Assignment(kind, index, self.expression(), at))
+
+    def _switch(self, block: Block, kind: str) -> None:
+        at = self.column
+        self.pos += len(kind)
+        index = self.bracketed()
+        if not self.match("="):
+            raise self.fault("E108")
+        block.assignments.append(Assignment(kind, index, self.expression(), at))
+
+    # --- statements -----------------------------------------------------------------------
+
+    def _statement(self, block: Block) -> bool:
+        for keyword, read in _STATEMENTS:
+            if keyword in self.grammar.statements and self.text.startswith(keyword, self.pos):
+                if block.words or block.assignments:
+                    raise self.fault("E108", hint="a statement stands alone in its block")
+                at = self.column
+                self.pos += len(keyword)
+                block.statement = read(self, at)
+                self._end(block)
+                return True
+        return False
+
+    def _end(self, block: Block) -> None:
+        """Nothing but comments may follow."""
+        while self.peek() == "(":
+            self._remark(block)
+        if self.peek() not in ("", ";"):
+            raise self.fault("E108")
+
+    def target(self) -> Node:
+        """The label of GOTO and GOSUB."""
+        if self.peek() == self.open:
+            return self.bracketed()
+        if not self.peek().isdecimal():
+            raise self.fault("E108")
+        return Number(float(self.integer()))
+
+    def goto(self, at: int) -> Goto:
+        return Goto(self.target(), at)
+
+    def gosub(self, at: int) -> Gosub:
+        return Gosub(self.target(), at)
+
+    def back(self, at: int) -> Return:
+        return Return(at)
+
+    def if_(self, at: int) -> If:
+        is_bare = self.peek() == "#"
+        condition = self.expression()
+        test = _input_test(condition) if is_bare else None
+        if not self.match("THEN"):
+            raise self.fault("E108", hint="IF condition THEN GOTO n")
+        self.blanks()
+        start = self.column
+        for keyword, read in (("GOTO", _Parser.goto), ("GOSUB", _Parser.gosub)):
+            if self.match(keyword):
+                return If(condition, read(self, start), at, test)
+        if self.match("RET"):
+            return If(condition, Return(start), at, test)
+        raise self.fault("E108", hint="THEN GOTO n, THEN GOSUB n or THEN RET")
+
+    def print_(self, at: int) -> Print:
+        items: list[str | Node] = []
+        while self.peek() not in ("", ";"):
+            items.append(self.quoted() if self.peek() == '"' else self._printed())
+            self.gap()
+            if not self.match(";"):
+                break
+        return Print(tuple(items), at)
+
+    def _printed(self) -> Node:
+        start = self.column
+        try:
+            return self.expression()
+        except CodeError as fault:
+            code = "E109" if fault.code == "E104" else fault.code
+            raise CodeError(code, fault.column if code != "E109" else start) from None
+
+    def quoted(self) -> str:
+        """A text in quotes."""
+        if self.peek() != '"':
+            raise self.fault("E109")
+        end = self.raw.find('"', self.pos + 1)
+        if end < 0:
+            raise self.fault("E109")
+        text = self.raw[self.pos + 1 : end]
+        self.pos = end + 1
+        return text
+
+    def input_(self, at: int) -> Input:
+        text = self.quoted()
+        if not self.match(","):
+            raise self.fault("E108")
+        if not self.peek() or self.peek() not in self.grammar.parameters:
+            raise self.fault("E108")
+        self.pos += 1
+        return Input(text, self.index(), at)
+
+    def include(self, at: int) -> Include:
+        name = self.raw[self.pos :].split(";")[0].split("(")[0].strip()
+        if not name:
+            raise self.fault("E108", hint="$I file")
+        self.pos = len(self.raw)
+        return Include(name.strip('"'), at)
+
+
+_STATEMENTS: tuple[tuple[str, Callable[[_Parser, int], Statement]], ...] = (
+    ("IF", _Parser.if_),
+    ("GOTO", _Parser.goto),
+    ("GOSUB", _Parser.gosub),
+    ("RET", _Parser.back),
+    ("PRINT", _Parser.print_),
+    ("INPUT", _Parser.input_),
+    ("$I", _Parser.include),
+)
+
+
+def _input_test(condition: Node) -> InputTest | None:
+    """The condition as `#n = 0|1` with n an input."""
+    if not isinstance(condition, Call) or condition.function is not EQUAL:
+        return None
+    left, right = condition.operands
+    if not (isinstance(left, Parameter) and left.is_hash and isinstance(left.index, Number)):
+        return None
+    if not isinstance(right, Number) or right.number not in (0.0, 1.0):
+        return None
+    number = int(left.index.number)
+    return InputTest(number, int(right.number)) if number < INPUTS else None

@@ -1,0 +1,219 @@
+"""Where the program is, and the moves it makes from there.
+
+Three views of one point: `program` as the words say, `placed` after scaling and rotation,
+`target` in machine coordinates. Moves are made of placed points; what lies behind the
+cutter radius compensation only shifts them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from openacr.cnc.arcs import Bow
+from openacr.cnc.canonical import Arc, Entry, Line, Pace, PathMode, Point, Rapid, Source
+from openacr.cnc.codes import ROTARY
+from openacr.cnc.coordinates import ORIGIN, Coordinates
+from openacr.cnc.elements import Element
+from openacr.cnc.hosts import Cells
+from openacr.cnc.modal import COMPATIBILITY, Modal
+from openacr.cnc.turn import Turn
+
+MM_PER_INCH = 25.4
+DEFAULT_UNIT = 250_001
+METRIC = 21
+
+
+class Path:
+    """The point the program has reached, in its three views."""
+
+    def __init__(
+        self, cells: Cells, modal: Modal, letters: dict[str, int], emit: Callable[[Entry], None]
+    ) -> None:
+        self._cells = cells
+        self._modal = modal
+        self._emit = emit
+        self.coordinates = Coordinates(cells, letters)
+        self.program: Point = ORIGIN
+        self.placed: Point = ORIGIN
+        self.target: Point = ORIGIN
+        self.times, self.per = 1.0, 1.0  # active unit to default unit
+        self._pace: Pace | None = None
+        self.elements: Callable[[Element], None] | None = None  # into the compensation
+        self.shape: Callable[[Source, Point, Point, Bow | None, Pace | None], Point] | None = None
+
+    # --- units and feed ----------------------------------------------------------------
+
+    def set_unit(self) -> None:
+        """Take over the active unit and the default unit."""
+        is_metric = self._modal.unit == METRIC
+        is_stored_metric = self._cells.read(DEFAULT_UNIT) != 0.0
+        self.times = MM_PER_INCH if is_stored_metric and not is_metric else 1.0
+        self.per = MM_PER_INCH if is_metric and not is_stored_metric else 1.0
+
+    def length(self, value: float) -> float:
+        """A length in active units, in default units."""
+        return value * self.times / self.per
+
+    def shown(self, value: float) -> float:
+        """A length in default units, in active units."""
+        return value * self.per / self.times
+
+    def inches(self, value: float) -> float:
+        """A length in inches, in default units."""
+        return value * MM_PER_INCH if self._cells.read(DEFAULT_UNIT) else value
+
+    def change_pace(self) -> None:
+        """Feed, path mode or a lock has changed."""
+        self._pace = None
+
+    def pace(self, b: Turn) -> Pace:
+        """How a feed move of this block runs."""
+        pace = self._pace
+        if pace is None:
+            modal = self._modal
+            mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
+            is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
+            pace = self._pace = Pace(modal.feed, mode, is_locked, mode is PathMode.EXACT)
+        return replace(pace, is_confirmed=True) if b.is_confirmed else pace
+
+    # --- places ------------------------------------------------------------------------
+
+    def end(self, b: Turn) -> Point:
+        """The program point the axis words of a block mean."""
+        p = list(self.program)
+        times, per = self.times, self.per
+        words = b.words
+        is_incremental = self._modal.distance == 91
+        for axis, letter in b.plan.axes:
+            value = words[letter]
+            if letter not in ROTARY:
+                value = value * times / per
+            p[axis] = p[axis] + value if is_incremental else value
+        return tuple(p)
+
+    def begin(self, machine: Point) -> None:
+        """The machine stands here."""
+        self.coordinates.refresh(self._modal)
+        self.stand(machine)
+
+    def refresh(self) -> None:
+        """Offsets have changed: the same machine point reads anew."""
+        self.coordinates.refresh(self._modal)
+        self.stand(self.target)
+
+    # --- moves -------------------------------------------------------------------------
+
+    def rapid(self, b: Turn, end: Point) -> None:
+        """A rapid move to a program point."""
+        self._straight(b, end, self.coordinates.forward(end), None)
+
+    def line(self, b: Turn, end: Point, pace: Pace) -> None:
+        """A feed move to a program point."""
+        self._straight(b, end, self.coordinates.forward(end), pace)
+
+    def place(self, b: Turn, placed: Point, pace: Pace | None) -> None:
+        """A straight move to a point behind scaling and rotation."""
+        self._straight(b, self.coordinates.backward(placed), placed, pace)
+
+    def go_machine(self, b: Turn, target: Point, pace: Pace | None = None) -> None:
+        """A straight move to a machine point."""
+        if target != self.target:
+            self._issue_straight(b.source, target, pace)
+        self.stand(target)
+
+    def stand(self, target: Point) -> None:
+        """The machine stands there."""
+        self.target = target
+        self.placed = self.coordinates.from_machine(target)
+        self.program = self.coordinates.backward(self.placed)
+
+    def _straight(self, b: Turn, end: Point, placed: Point, pace: Pace | None) -> None:
+        b.has_moved = True
+        start, self.program, self.placed = self.placed, end, placed
+        if self.elements is not None:
+            plane = self._modal.plane_axes
+            self.target = self.coordinates.to_machine(placed)
+            self.elements(Element(b.source, plane, start, placed, pace))
+            return
+        target = self.coordinates.to_machine(placed)
+        if target != self.target:
+            self._issue_straight(b.source, target, pace)
+            self.target = target
+
+    def _issue_straight(
+        self,
+        source: Source,
+        target: Point,
+        pace: Pace | None,
+        is_inserted: bool = False,
+        is_compensated: bool = False,
+    ) -> None:
+        if self.shape is not None:
+            target = self.shape(source, self.target, target, None, pace)
+        if pace is None:
+            self._emit(Rapid(source, target, is_inserted))
+        else:
+            self._emit(Line(source, target, pace, is_inserted, is_compensated))
+
+    def arc(self, b: Turn, end: Point, bow: Bow, pace: Pace) -> None:
+        """An arc; `bow` and `end` are given behind scaling and rotation and in front of it."""
+        b.has_moved = True
+        start, self.program = self.placed, end
+        self.placed = self.coordinates.forward(end)
+        target = self.coordinates.to_machine(self.placed)
+        if self.elements is not None:
+            self.target = target
+            plane = self._modal.plane_axes
+            self.elements(
+                Element(b.source, plane, start, self.placed, pace, bow.centre, bow.sweep_rad)
+            )
+            return
+        self._issue_arc(b.source, target, bow, pace)
+        self.target = target
+
+    def _issue_arc(
+        self,
+        source: Source,
+        target: Point,
+        bow: Bow,
+        pace: Pace,
+        is_inserted: bool = False,
+        is_compensated: bool = False,
+    ) -> None:
+        plane = self._modal.plane_axes
+        if self.shape is not None:
+            target = self.shape(source, self.target, target, bow, pace)
+        shift = self.coordinates.shift
+        centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
+        self._emit(
+            Arc(
+                source,
+                target,
+                plane,
+                centre,
+                bow.sweep_rad,
+                bow.start_radius,
+                bow.end_radius,
+                pace,
+                is_inserted,
+                is_compensated,
+            )
+        )
+
+    def issue(self, element: Element) -> None:
+        """A compensated element as a canonical move."""
+        target = self.coordinates.to_machine(element.end)
+        flags = element.is_inserted, element.is_compensated
+        if element.centre is None or element.pace is None:
+            self._issue_straight(element.source, target, element.pace, *flags)
+            return
+        first, second = element.plane.first, element.plane.second
+        bow = Bow(
+            element.centre,
+            element.sweep_rad,
+            math.dist((element.start[first], element.start[second]), element.centre),
+            math.dist((element.end[first], element.end[second]), element.centre),
+        )
+        self._issue_arc(element.source, target, bow, element.pace, *flags)

@@ -1,0 +1,120 @@
+"""A loaded program: its texts, where labels stand, and what was found wrong with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Source
+from openacr.cnc.findings import Finding
+from openacr.cnc.text import Text, decoded
+
+if TYPE_CHECKING:
+    from openacr.cnc.ready import Ready
+
+CYCLES_FILE = "CYCLES.TXT"
+MANY = 20_000  # nodes kept
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line of a text."""
+
+    part: Part
+    offset: int
+    line: int
+
+
+@dataclass(slots=True, eq=False)
+class Part:
+    """One text of a program; `labels` are shared with the texts it is added to."""
+
+    text: Text
+    labels: dict[int, Place]
+    is_cycles: bool = False
+    behind: Place | None = None  # where an included text goes on
+    line_cnt: int = 0
+    line_offsets: list[int] = field(default_factory=list)  # of every LINE_STEPth line
+
+    @property
+    def start(self) -> Place:
+        """The first line."""
+        return Place(self, self.text.begin, 1)
+
+
+class Node:
+    """One line in use: its text, what it does once that is known, and the line behind it."""
+
+    __slots__ = ("after", "line", "next", "part", "raw", "ready", "source")
+
+    def __init__(self, part: Part, line: int, raw: str, after: int) -> None:
+        self.part = part
+        self.line = line
+        self.raw = raw
+        self.after = after  # offset of the next line
+        self.next: Node | None = None
+        self.ready: Ready | None = None
+        self.source = Source(part.text.name, line, raw)
+
+
+@dataclass(slots=True, eq=False)
+class Program:
+    """Texts with their labels, includes and M codes of the user."""
+
+    main: Part
+    folder: Path | None = None
+    parts: list[Part] = field(default_factory=list)
+    includes: dict[tuple[str, int], Part] = field(default_factory=dict)  # by file and line
+    customs: dict[int, Part] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)
+    has_cycles: bool = False
+
+    @property
+    def errors(self) -> list[Finding]:
+        """Why it cannot be started."""
+        return [finding for finding in self.findings if finding.is_error]
+
+    @property
+    def line_cnt(self) -> int:
+        """Lines of the main text."""
+        return self.main.line_cnt
+
+
+class Nodes:
+    """Lines of a program as nodes; those in use are kept."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._kept: dict[tuple[int, int], Node] = {}
+
+    def at(self, place: Place) -> Node | None:
+        """The line at a place; None behind the last one of a program."""
+        key = (id(place.part), place.offset)
+        node = self._kept.get(key)
+        if node is None:
+            node = self._made(place)
+            if node is not None:
+                self._keep(key, node)
+        return node
+
+    def _made(self, place: Place) -> Node | None:
+        found = place.part.text.line(place.offset)
+        if found is None:
+            behind = place.part.behind
+            return self.at(behind) if behind else None
+        return Node(place.part, place.line, decoded(found[0]), found[1])
+
+    def _keep(self, key: tuple[int, int], node: Node) -> None:
+        if len(self._kept) >= MANY:
+            for kept in self._kept.values():
+                kept.next = None
+            self._kept.clear()
+        self._kept[key] = node
+
+    def behind(self, node: Node) -> Node | None:
+        """The line that follows, in the text added here where one is."""
+        part = self._program.includes.get((node.part.text.name, node.line))
+        if part is not None:
+            return self.at(part.start)
+        return self.at(Place(node.part, node.after, node.line + 1))

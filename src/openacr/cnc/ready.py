@@ -1,0 +1,122 @@
+"""A block made ready to run: its plan, with formulas bound to where their operands come from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.cnc.blocks import Assignment
+from openacr.cnc.canonical import Entry, Output, SetBit
+from openacr.cnc.codes import Code
+from openacr.cnc.findings import CodeError
+from openacr.cnc.formulas import Formula, Number
+from openacr.cnc.parameters import NotAtRestError, number
+from openacr.cnc.parser import parse
+from openacr.cnc.plan import Plan, check_limit
+from openacr.cnc.statements import statement_of
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.program import Node
+
+Assign = Callable[["Node"], None]
+Act = Callable[["Node"], "Iterator[Entry] | None"]
+
+
+@dataclass(slots=True)
+class Ready:
+    """What is done when a block is reached."""
+
+    plan: Plan
+    is_empty: bool
+    assigns: tuple[Assign, ...]
+    late: tuple[Assign, ...]  # where assignments act behind the reading of the block
+    statement: Act | None
+    values: tuple[tuple[str, Formula], ...]
+    acts: tuple[Code, ...]
+
+
+def ready(node: Node, run: Interpreter) -> Ready:
+    """Read and plan the line of a node."""
+    block = parse(node.raw, run.dialect.grammar)
+    if block.is_percent:
+        block = type(block)()
+    plan = run.planner.plan(block)
+    assigns = tuple(_assign(one, run) for one in block.assignments)
+    late: tuple[Assign, ...] = ()
+    if run.dialect.assigns_last:
+        assigns, late = (), _together(block.assignments, run)
+    statement = statement_of(block.statement, run, node) if block.statement else None
+    values: tuple[tuple[str, Formula], ...] = ()
+    if plan.numbers is None:
+        values = tuple((k, Formula(w.value, run.parameters)) for k, w in plan.words.items()
+                       if w.parameter is None)  # fmt: skip
+    acts = tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
+    return Ready(plan, block.is_empty, assigns, late, statement, values, acts)
+
+
+def values_of(ready: Ready) -> dict[str, float]:
+    """The words of a block as numbers, checked against their limits."""
+    plan = ready.plan
+    if plan.numbers is not None:
+        return plan.numbers
+    words = {}
+    for letter, formula in ready.values:
+        value = words[letter] = formula.now()
+        if not math.isfinite(value):
+            raise CodeError("E210", plan.column(letter))
+    for code in plan.acts:
+        for limit in code.limits:
+            if limit.letter in words:
+                check_limit(limit, words[limit.letter], plan.column(limit.letter))
+    return words
+
+
+def _assign(one: Assignment, run: Interpreter) -> Assign:
+    """An assignment as a function; the commonest form is written out."""
+    value = Formula(one.value, run.parameters)
+    if one.kind in ("OUT", "BIT"):
+        return _switch(one, value, run)
+    write, kind = run.parameters.write, one.kind
+    if isinstance(one.index, str):
+        name = one.index
+        return lambda node: write(kind, name, value.now())
+    if isinstance(one.index, Number):
+        n = one.index.number
+        return lambda node: write(kind, n, value.now())
+    index = Formula(one.index, run.parameters)
+    return lambda node: write(kind, index.now(), value.now())
+
+
+def _switch(one: Assignment, value: Formula, run: Interpreter) -> Assign:
+    """`OUT(n) = x`, `BIT(n) = x`: at rest, as everything that reads the machine."""
+    if isinstance(one.index, str):
+        raise TypeError(one.index)
+    index = Formula(one.index, run.parameters)
+    made = Output if one.kind == "OUT" else SetBit
+
+    def act(node: Node) -> None:
+        if not run.is_rested:
+            raise NotAtRestError
+        run.tell(made(node.source, number(index.now()), value.now() != 0.0))
+
+    return act
+
+
+def _together(many: list[Assignment], run: Interpreter) -> tuple[Assign, ...]:
+    """All assignments of a block with the values from before it."""
+    if not many:
+        return ()
+    pairs = [(one, Formula(one.value, run.parameters)) for one in many]
+    indices = [None if isinstance(one.index, str) else Formula(one.index, run.parameters)
+               for one in many]  # fmt: skip
+
+    def act(node: Node) -> None:
+        values = [value.now() for _, value in pairs]
+        numbers = [index.now() if index else 0.0 for index in indices]
+        for (one, _), n, value in zip(pairs, numbers, values, strict=True):
+            run.parameters.write(one.kind, one.index if isinstance(one.index, str) else n, value)
+
+    return (act,)

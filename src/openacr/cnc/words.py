@@ -1,0 +1,85 @@
+"""F, S, T, D, H: words that act by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Entry, SetCell, Spin, Spindle, Transfer
+from openacr.cnc.codes import Limit, Step
+from openacr.cnc.findings import CodeError
+from openacr.cnc.formulas import Formula
+from openacr.cnc.parameters import number
+from openacr.cnc.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.turn import Turn
+
+letter = ACROMILL.letter
+RADII, RADIUS_WEARS, RADIUS, RADIUS_WEAR = 1000, 1500, 1998, 1999
+LENGTHS, LENGTH_WEARS, LENGTH, LENGTH_WEAR = 2000, 3000, 4000, 4001
+LAST_VARIABLE = 4095
+TOOL_CELL = 234
+
+
+@letter("F", step=Step.FEED)
+def feed(run: Interpreter, b: Turn) -> None:
+    """Feed in active units per minute."""
+    if b.words["F"] <= 0.0:
+        raise b.fault("E222", "F", f"F{b.words['F']:g}", "the feed is above 0")
+    run.modal.feed = run.path.length(b.words["F"])
+    run.modal.has_feed = True
+    run.path.change_pace()
+
+
+@letter("S", step=Step.SPEED, limits=(Limit("S", 0, 1e6, "E222"),))
+def speed(run: Interpreter, b: Turn) -> None:
+    """Spindle speed in turns per minute; acts at once while the spindle turns."""
+    run.modal.speed = b.words["S"]
+    if run.modal.spin is not Spin.OFF and not run.options.is_dry:
+        run.tell(Spindle(b.source, run.modal.spin, run.modal.speed, is_awaited=False))
+
+
+@letter("T", step=Step.TOOL, limits=(Limit("T", 0, 999, "E222", is_whole=True),))
+def tool(run: Interpreter, b: Turn) -> None:
+    """Tool for the next M6."""
+    run.modal.tool = b.whole("T")
+    run.tell(SetCell(b.source, TOOL_CELL, run.modal.tool))
+
+
+@letter("T#", step=Step.TRANSFER)
+def transfer(run: Interpreter, b: Turn) -> Iterator[Entry]:
+    """`T Pn`: the card variable Pn gets the value of parameter n."""
+    yield from run.sync(b.source)
+    word = b.plan.words["T"]
+    if word.parameter is None:
+        raise b.fault("E105", "T")
+    n = number(Formula(word.parameter, run.parameters).now())
+    if not 0 <= n <= LAST_VARIABLE:
+        raise CodeError("E211", word.column, f"P{n}")
+    run.tell(Transfer(b.source, n, run.parameters.read_p(n)))
+
+
+@letter("D", step=Step.RADIUS, limits=(Limit("D", 0, 400, "E222", is_whole=True),))
+def radius(run: Interpreter, b: Turn) -> None:
+    """Cutter radius and its wear by number; D0 is radius 0."""
+    n = run.modal.radius_number = b.whole("D")
+    run.parameters.store(RADIUS, run.cells.read(RADII + n) if n else 0.0)
+    run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
+
+
+@letter("H", step=Step.LENGTH_NUMBER, limits=(Limit("H", 0, 999, "E222", is_whole=True),))
+def length(run: Interpreter, b: Turn) -> None:
+    """Tool length and its wear by number; without G43 or G44 it switches G43 on."""
+    select_length(run, b.whole("H"))
+    if run.modal.length == 49 and b.whole("H"):
+        run.modal.length = 43
+    run.path.refresh()
+
+
+def select_length(run: Interpreter, n: int) -> None:
+    """Copy length n and its wear to the cells in use."""
+    run.modal.length_number = n
+    run.parameters.store(LENGTH, run.cells.read(LENGTHS + n) if n else 0.0)
+    run.parameters.store(LENGTH_WEAR, run.cells.read(LENGTH_WEARS + n) if n else 0.0)
