@@ -162,7 +162,7 @@ def test_21_a_macro_with_arguments() -> None:
 def test_22_probing() -> None:
     text = "N100 F100 G1 X0Y0\nN110 G31 X1\nN120 Y1\nN130 X0\nN140 Y0"
     done = run(text, machine=Bench(trip=(0.75, 0, 0, 0, 0, 0, 0, 0)))
-    assert done.moves == ["P X1", "L X0.75", "L X0.75 Y1", "L Y1", "L 0"]
+    assert done.moves == ["P X1", "L X0.75 Y1", "L Y1", "L 0"]
     assert done.p(101) == 0.75
     assert run(text).moves == ["P X1", "L X1 Y1", "L Y1", "L 0"]
 
@@ -198,3 +198,26 @@ def test_31_the_input_test() -> None:
     text = "If #1 = 1 THEN GOTO 100\nX1\nN100 X2"
     assert run(text, machine=Bench(bits={1})).moves == ["L X2"]
     assert run(text, {1: 1}).moves == ["L X1", "L X2"]
+
+
+@pytest.mark.req("MILL-G41", "MILL-G40", "MILL-WORD-D")
+def test_25_compensation_inside_a_corner() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    done = run(text, {1001: 0.25}, start=(0, 1, 0))
+    assert done.moves == ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]
+
+
+@pytest.mark.req("MILL-G42")
+def test_26_compensation_around_a_corner() -> None:
+    text = "G42 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    done = run(text, {1001: 0.2, 1501: 0.05}, start=(0, -1, 0))
+    assert done.moves == [
+        "L Y-0.25",
+        "L X1 Y-0.25",
+        "A X1.25 about 1,0 90",
+        "L X1.25 Y1",
+        "L Y1",
+    ]
+    (arc,) = done.of(Arc)
+    assert isinstance(arc, Arc)
+    assert arc.is_inserted

@@ -79,9 +79,6 @@ class Machine(Protocol):
     def has_probe(self) -> bool:
         """Whether a probe input is configured."""
 
-    def is_probe_active(self) -> bool:
-        """Whether the probe has tripped before it was asked."""
-
 
 @dataclass
 class VirtualMachine:
@@ -126,7 +123,3 @@ class VirtualMachine:
     def has_probe(self) -> bool:
         """Taken for granted."""
         return True
-
-    def is_probe_active(self) -> bool:
-        """Never."""
-        return False

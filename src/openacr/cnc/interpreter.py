@@ -36,6 +36,7 @@ from openacr.cnc.gcodes.motion import MOTIONS, Motions
 from openacr.cnc.hosts import Cells, Machine
 from openacr.cnc.load import planner_of
 from openacr.cnc.modal import Modal, reset
+from openacr.cnc.offset_path import OffsetPath
 from openacr.cnc.parameters import LOCALS, RADIUS_CELLS, NotAtRestError, Parameters
 from openacr.cnc.path import Path
 from openacr.cnc.program import Node, Program
@@ -47,8 +48,9 @@ MOST_IDLE = 100_000
 _WAITS = Motion | Dwell | WaitBit | Stop
 _ARITHMETIC = (ArithmeticError, ValueError)
 OFF = 40
-LENGTH_CELLS = ((4000, 2000), (4001, 3000))
-RADIUS_SOURCES = ((1998, 1000), (1999, 1500))
+LENGTH_CELLS = (4000, 4001)
+RADIUS, RADIUS_WEAR = RADIUS_CELLS
+RADIUS_WITHOUT_D = 100_020
 LIBRARY_CENTRES = 250_004
 MACRO = "MACRO"
 
@@ -61,6 +63,7 @@ class Options:
     has_block_ends: bool = False  # BlockEnd behind every block with effect
     is_service: bool = False  # system parameters may be assigned
     is_library_part: bool = False  # I, J, K by the setting for library parts
+    collects_errors: bool = False  # go on behind errors of the geometry, to find them all
 
 
 class Interpreter:
@@ -87,6 +90,8 @@ class Interpreter:
         letters = self.planner.axes
         self.path = Path(cells, self.modal, letters, self.move)
         self.parameters = Parameters(self)
+        self.offset_path = OffsetPath(self)
+        self.errors: list[Finding] = []  # where they are collected
         self.macro: ModalMacro | None = None  # G66
         self.drilling: Drilling | None = None
         self.motions: Motions = MOTIONS
@@ -131,9 +136,12 @@ class Interpreter:
 
     def tell(self, entry: Entry) -> None:
         """An entry without motion."""
-        self.out.append(entry)
-        if not isinstance(entry, Say):
+        if self.path.elements is not None:
+            self.offset_path.hold(entry)
             self.is_rested = False
+        else:
+            self.out.append(entry)
+            self.is_rested &= isinstance(entry, Say)
         if isinstance(entry, _WAITS):
             self._idle_cnt = 0
 
@@ -144,6 +152,8 @@ class Interpreter:
 
     def sync(self, source: Source) -> Iterator[Entry]:
         """Hand out everything and wait for rest."""
+        if self.path.elements is not None:
+            self.offset_path.flush()
         if self.is_rested and not self.out:
             return
         yield from self.flush()
@@ -157,6 +167,16 @@ class Interpreter:
         finding = found(code, name, node.line, column, detail, "", node.raw)
         if finding not in self.warnings:
             self.warnings.append(finding)
+
+    def complain(self, code: str, text: str, source: Source) -> None:
+        """Something about the geometry: a warning is noted, an error ends the program."""
+        finding = Finding(code, text, source.file, source.line, 1, "", source.text)
+        if not finding.is_error:
+            self.warnings.append(finding)
+        elif self.options.collects_errors:
+            self.errors.append(finding)
+        else:
+            raise BlockError(finding)
 
     # --- state ------------------------------------------------------------------------
 
@@ -174,6 +194,7 @@ class Interpreter:
         self.is_rested = False
         self._idle_cnt = 0
         self.out.clear()
+        self.offset_path.begin()
         self.path.begin(self.machine.position() or self.path.target)
         self.flow.start()
 
@@ -186,8 +207,9 @@ class Interpreter:
         self.parameters.locals = None
         self.path.coordinates.scale = self.path.coordinates.rotation = None
         self.path.coordinates.added = ORIGIN
-        for cell in (*RADIUS_CELLS, 4000, 4001):
+        for cell in (RADIUS_WEAR, *LENGTH_CELLS):
             self.cells.write(cell, 0.0)
+        self.cells.write(RADIUS, self.cells.read(RADIUS_WITHOUT_D))
         if not is_abort:
             for axis in range(8):
                 self.cells.write(990 + axis, 0.0)
@@ -197,6 +219,7 @@ class Interpreter:
 
     def abort(self) -> None:
         """The state behind ABORT and emergency stop."""
+        self.offset_path.begin()
         self._reset(is_abort=True)
         self.flow.start()
         self.out.clear()
@@ -204,21 +227,27 @@ class Interpreter:
     def reload_offsets(self) -> None:
         """Offsets were written: those in use are taken over."""
         modal = self.modal
-        for cells, number in (
-            (LENGTH_CELLS, modal.length_number),
-            (RADIUS_SOURCES, modal.radius_number),
+        for target, source, n in (
+            (LENGTH_CELLS[0], 2000, modal.length_number),
+            (LENGTH_CELLS[1], 3000, modal.length_number),
+            (RADIUS, 1000, modal.radius_number),
+            (RADIUS_WEAR, 1500, modal.radius_number),
         ):
-            for target, source in cells:
-                if number:
-                    self.cells.write(target, self.cells.read(source + number))
+            if n:
+                self.cells.write(target, self.cells.read(source + n))
+        self.offset_path.change_radius()
         self.offsets_changed()
 
     def offsets_changed(self, cell: int = 0) -> None:
         """Offsets were written: the machine stays, the program position follows."""
-        self.path.refresh()
+        if cell in RADIUS_CELLS:
+            self.offset_path.change_radius()
+        else:
+            self.path.refresh()
 
     def finish(self, source: Source, *, is_by_code: bool) -> None:
         """End the program."""
+        self.offset_path.stop()
         self.tell(End(source, is_by_code))
         self._reset()
         self.is_ended = True
@@ -321,7 +350,7 @@ class Interpreter:
 
     def switch_compensation(self, b: Turn, code: int) -> None:
         """G40, G41, G42."""
-        self.modal.compensation = code
+        self.offset_path.switch(b, code)
 
     def check_cycles(self, b: Turn) -> None:
         """An error without the text of the cycles."""

@@ -38,6 +38,7 @@ class Path:
         self.program: Point = ORIGIN
         self.placed: Point = ORIGIN
         self.target: Point = ORIGIN
+        self.issued: Point = ORIGIN  # the end of the last move that was made
         self.times, self.per = 1.0, 1.0  # active unit to default unit
         self._pace: Pace | None = None
         self.elements: Callable[[Element], None] | None = None  # into the compensation
@@ -125,7 +126,7 @@ class Path:
 
     def stand(self, target: Point) -> None:
         """The machine stands there."""
-        self.target = target
+        self.target = self.issued = target
         self.placed = self.coordinates.from_machine(target)
         self.program = self.coordinates.backward(self.placed)
 
@@ -151,7 +152,8 @@ class Path:
         is_compensated: bool = False,
     ) -> None:
         if self.shape is not None:
-            target = self.shape(source, self.target, target, None, pace)
+            target = self.shape(source, self.issued, target, None, pace)
+        self.issued = target
         if pace is None:
             self._emit(Rapid(source, target, is_inserted))
         else:
@@ -184,7 +186,8 @@ class Path:
     ) -> None:
         plane = self._modal.plane_axes
         if self.shape is not None:
-            target = self.shape(source, self.target, target, bow, pace)
+            target = self.shape(source, self.issued, target, bow, pace)
+        self.issued = target
         shift = self.coordinates.shift
         centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
         self._emit(

@@ -48,6 +48,14 @@ class RunHost:
         """What the operator said, once."""
         return self.answers.pop(parameter, None)
 
+    def is_homed(self, axis: int) -> bool:
+        """Whether an axis knows its reference point."""
+        return self._settings.is_homed(axis)
+
+    def has_probe(self) -> bool:
+        """Whether a probe input is configured."""
+        return self._settings.wiring.probe >= 0
+
     def is_block_skip_on(self) -> bool:
         """The switch, or the button on the screen."""
         return self.is_skipping

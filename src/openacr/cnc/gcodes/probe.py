@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Entry, Line, Pace, PathMode, Point, Probe
+from openacr.cnc.canonical import Entry, Pace, PathMode, Point, Probe
 from openacr.cnc.codes import Axes, Step
 from openacr.cnc.tables import ACROMILL
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 gcode = ACROMILL.gcode
 TRIPS, TRIPPED, PROGRAM_TRIPS = 101, 329, 330
-BACK_FEED = 600_003
 
 
 @gcode(31, step=Step.MOTION, axes=Axes.MOVE)
@@ -25,8 +24,6 @@ def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     if not run.machine.has_probe():
         raise b.fault("E243", hint="no probe input")
     yield from run.sync(b.source)
-    if run.machine.is_probe_active():
-        raise b.fault("A35")
     yield from probed(run, b)
 
 
@@ -47,7 +44,6 @@ def probed(run: Interpreter, b: Turn) -> Iterator[Entry]:
             return
         path.stand(trip)
         keep(run, trip)
-    run.move(_back(run, b, trip))
 
 
 def keep(run: Interpreter, trip: Point) -> None:
@@ -59,9 +55,3 @@ def keep(run: Interpreter, trip: Point) -> None:
         run.cells.write(TRIPS + axis, run.path.shown(value) if is_length else value)
         read = program[axis]
         run.cells.write(PROGRAM_TRIPS + axis, run.path.shown(read) if is_length else read)
-
-
-def _back(run: Interpreter, b: Turn, trip: Point) -> Entry:
-    """The way back from where the axes have come to rest."""
-    feed = run.cells.read(BACK_FEED) or run.modal.feed
-    return Line(b.source, trip, Pace(feed, PathMode.EXACT, is_confirmed=True))

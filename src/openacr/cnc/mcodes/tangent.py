@@ -30,3 +30,4 @@ def release(run: Interpreter, b: Turn) -> None:
     if run.modal.tangent in ENDS[int(b.number)]:
         run.modal.tangent = 0
         run.path.shape = None
+        run.path.stand(run.path.issued)
