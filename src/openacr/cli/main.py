@@ -63,6 +63,9 @@ COMMANDS: dict[str, Entry | Family] = {
         "Store settings, attachments, variables and programs of a card in a folder.",
     ),
     "restore": Entry("backup", "restore", "Stop a card, clear it and put a backup back."),
+    "configure": Entry(
+        "configure", "configure", "Make the configuration code of a machine from answers in a file."
+    ),
     "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
     "check": Entry("check", "check_file", "Find every error in a controller file."),
     "packet": Entry(

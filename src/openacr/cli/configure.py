@@ -1,0 +1,58 @@
+"""`openacr configure`: controller files made of the answers to a few questions."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from openacr.errors import UserError
+
+
+def configure(
+    answers: Annotated[
+        Path,
+        typer.Argument(
+            metavar="ANSWERS",
+            help="Answers (.toml), or a listing of the program in which a card keeps them (.8k).",
+        ),
+    ],
+    folder: Annotated[
+        Path | None,
+        typer.Argument(help="Project folder for the files; without it they are shown."),
+    ] = None,
+    is_forced: Annotated[
+        bool, typer.Option("--force", help="Replace files that are there already.")
+    ] = False,
+) -> None:
+    """Make the configuration code of a machine from answers in a file.
+
+    A set-up file and, for older firmware, limit code; a program keeps the answers on the card.
+    """
+    from openacr.configure import code_files
+    from openacr.configure.answers import warnings
+    from openacr.configure.load import parse_answers
+    from openacr.configure.watch_code import kept_answers
+    from openacr.project import decode, read_bytes
+
+    text = decode(read_bytes(answers))
+    if answers.suffix.lower() == ".8k":
+        text = kept_answers(text.splitlines())
+    found = parse_answers(text, str(answers))
+    files = code_files(found, text)
+    for sentence in warnings(found):
+        typer.echo(f"warning: {sentence}", err=True)
+    if folder is None:
+        for name, code in files.items():
+            typer.echo(f"==> {name} <==\n{code}")
+    else:
+        _write(folder, files, is_forced=is_forced)
+
+
+def _write(folder: Path, files: dict[str, str], *, is_forced: bool) -> None:
+    there = [name for name in files if (folder / name).exists()]
+    if there and not is_forced:
+        raise UserError(f"{folder / there[0]} is there already; --force replaces it")
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, code in files.items():
+        (folder / name).write_text(code)
+        typer.echo(str(folder / name))

@@ -1,0 +1,141 @@
+"""The set-up file: memory, hardware, axes and masters, in the order a card needs them."""
+
+import re
+import struct
+from collections.abc import Iterator
+
+from openacr.configure.answers import Answers, AxisAnswers, MasterAnswers
+
+PROGRAM_BYTES = (8192, 4096, *[1000] * 13, 28672)  # PROG0 to PROG15
+WATCH_PROGRAM, WATCH_BYTES = 7, 28672
+PLC_BYTES = 4096
+USER_PARAMETERS, WATCHED_PARAMETERS = 100, 201
+DEFINES = 20
+SOFT_POSITIVE, SOFT_NEGATIVE = 100, 116  # P100-P115, P116-P131: limits by axis
+DAC_GAIN = "3276.8"
+FLAGS_PER_AXIS = 32
+
+
+def setup_code(answers: Answers, plcs: int) -> Iterator[str]:
+    """All lines; `plcs` is how many PLCs watch the limits (older firmware)."""
+    yield from ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL", "")
+    yield from _memory(answers, plcs)
+    if not answers.card.minimal:
+        yield from _hardware(answers)
+    for axis in answers.axis:
+        yield from _axis(axis)
+    unused = [n for n in range(answers.card.hardware.axes) if n not in answers.used_axes]
+    if unused:
+        yield "REM Axes that are not there cost processor time only"
+        yield from (f"AXIS{number} OFF" for number in unused)
+        yield ""
+    if plcs:
+        yield from _soft_limits(answers)
+    for master in answers.master:
+        yield from _master(answers, master)
+
+
+def _memory(answers: Answers, plcs: int) -> Iterator[str]:
+    yield f"REM Configuration of {answers.card.model} {answers.card.option}".rstrip()
+    yield "REM P0-P99 and P201-P4095 are free for user programs"
+    yield "REM P100-P200 are used by generated code"
+    for program, size in enumerate(PROGRAM_BYTES):
+        is_watch = plcs > 0 and program == WATCH_PROGRAM
+        yield f"DIM PROG{program}({WATCH_BYTES if is_watch else size})"
+    yield from (f"DIM PLC{number}({PLC_BYTES})" for number in range(5, 5 + plcs))
+    yield f"DIM P({WATCHED_PARAMETERS if plcs else USER_PARAMETERS})"
+    yield f"DIM DEF({DEFINES})"
+    yield ""
+
+
+def _hardware(answers: Answers) -> Iterator[str]:
+    canopen = answers.card.canopen
+    yield "REM 16-bit analog inputs; CANopen master, bit rate, cycle and nodes"
+    yield "ADC MODE 1"
+    yield f"P32768={canopen.master_id}"
+    yield f"P32769={canopen.bit_rate_kbps}"
+    yield f"P32772={canopen.cycle_ms}"
+    yield f"P32770={canopen.nodes}"
+    yield ""
+
+
+def _axis(axis: AxisAnswers) -> Iterator[str]:
+    n, encoder, dac = axis.number, axis.feedback, axis.output
+    yield f"REM Axis {n}: {axis.name}"
+    yield f"ATTACH AXIS{n} ENC{encoder} DAC{dac} ENC{encoder}"
+    yield f"AXIS{n} PPU {pulses_per_unit(axis):.6f}"
+    yield f"AXIS{n} EXC ({plain(axis.excess_error)},{plain(-axis.excess_error)})"
+    yield from _drive(axis)
+    yield f"ENC{encoder} SRC 0"
+    yield f"ENC{encoder} MULT 4"
+    for word in axis.gains.__struct_fields__:
+        yield f"AXIS{n} {word.upper()} {plain(getattr(axis.gains, word))}"
+    yield from _limits(axis)
+    yield f"DAC{dac} GAIN {DAC_GAIN}"
+    yield f"AXIS{n} ON"
+    yield ""
+
+
+def _drive(axis: AxisAnswers) -> Iterator[str]:
+    drive, shift = axis.drive, FLAGS_PER_AXIS * axis.number
+    yield _flag(8468 + shift, drive.uses_signals)
+    yield _flag(8464 + shift, drive.step_and_direction)
+    yield _flag(8470 + shift, drive.disable_on_excess_error_only)
+    yield _flag(8469 + shift, drive.disable_on_excess_error)
+    yield _flag(8453 + shift, drive.is_fault_inverted)
+    yield _flag(8471 + shift, drive.disable_on_kill)
+
+
+def _limits(axis: AxisAnswers) -> Iterator[str]:
+    limits, n, shift = axis.limits, axis.number, FLAGS_PER_AXIS * axis.number
+    if axis.limit_input:
+        yield f"AXIS{n} HLBIT {axis.limit_input}"
+    yield f"AXIS{n} HLDEC {plain(limits.deceleration)}"
+    for flag in (16144, 16145):
+        yield _flag(flag + shift, limits.contacts_are_closed)
+    for flag in (16148, 16149):
+        yield _flag(flag + shift, limits.is_enabled)
+    if limits.soft is not None:
+        yield f"AXIS{n} SLM ({plain(limits.soft[0])},{plain(limits.soft[1])})"
+    deceleration = limits.soft_deceleration
+    deceleration = limits.deceleration if deceleration is None else deceleration
+    yield f"AXIS{n} SLDEC {plain(deceleration)}"
+    for flag in (16150, 16151):
+        yield _flag(flag + shift, limits.soft_is_enabled)
+
+
+def _soft_limits(answers: Answers) -> Iterator[str]:
+    yield "REM Ends of travel by position"
+    for axis in answers.axis:
+        for first, position in zip(
+            (SOFT_POSITIVE, SOFT_NEGATIVE), axis.limits.soft or (), strict=False
+        ):
+            yield f"P{first + axis.number}={plain(position)}"
+    yield ""
+
+
+def _master(answers: Answers, master: MasterAnswers) -> Iterator[str]:
+    yield f"REM Master {master.number}: {' '.join(master.axes)}"
+    yield f"PROG{answers.program_of(master.number)}"
+    yield "DETACH"
+    yield f"ATTACH MASTER{master.number}"
+    for slave, name in enumerate(master.axes):
+        yield f'ATTACH SLAVE{slave} AXIS{answers.named(name).number} "{name}"'
+    for word in ("acc", "dec", "stp", "vel", "jrk"):
+        yield f"{word.upper()} {plain(getattr(master, word))}"
+    yield ""
+
+
+def _flag(number: int, on: bool) -> str:
+    return f"{'SET' if on else 'CLR'} BIT{number}"
+
+
+def pulses_per_unit(axis: AxisAnswers) -> float:
+    """Counts per unit; the length of a turn is a single-precision number, as in the card."""
+    (turn,) = struct.unpack("f", struct.pack("f", axis.units_per_rev))
+    return float(axis.counts_per_rev / turn)
+
+
+def plain(value: float) -> str:
+    """A number in six digits, exponents in three: 0.00001 is 1e-005."""
+    return re.sub(r"e([+-])(\d\d)$", r"e\g<1>0\2", f"{value:.6g}")
