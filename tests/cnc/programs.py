@@ -159,7 +159,7 @@ def made(
     folders: Folders | None = None,
 ) -> Run:
     """Load a program and make its interpreter; nothing has run yet."""
-    shadow = Shadow(STORE)
+    shadow = Shadow(Shadow(STORE))  # what a replay commits stays in the inner one
     for axis in range(8):
         shadow.write(200_012 + 1000 * axis, float(axis < axes))
     for n, value in (cells or {}).items():

@@ -45,6 +45,11 @@ class Flow:
         self.frames.clear()
         self.next = self._nodes.at(self._program.main.start)
 
+    def leave(self) -> None:
+        """In no program."""
+        self.frames.clear()
+        self.next = None
+
     def behind(self, node: Node) -> Node | None:
         """The line that follows, from now on known to the node."""
         after = self._nodes.behind(node)

@@ -97,6 +97,8 @@ class Interpreter:
         self.motions: Motions = MOTIONS
         self.is_rested = True
         self.is_ended = False
+        self.is_arrived = False
+        self._until = 0  # the line a replay ends at
         self._idle_cnt = 0
         self._node: Node | None = None
         self.power_up()
@@ -111,11 +113,45 @@ class Interpreter:
     def entries(self) -> Iterator[Entry]:
         """The program from its first line to its end, once."""
         self.begin()
-        return self._guarded(None)
+        return self._guarded(self._blocks(None))
 
-    def _guarded(self, frame: Frame | None) -> Iterator[Entry]:
+    def entries_until(self, line: int) -> Iterator[Entry]:
+        """The program up to the first arrival at a line of its main text."""
+        self.begin()
+        self._until = line
+        self.is_arrived = False
+        yield from self._guarded(self._blocks(None))
+        self._until = 0
+
+    def go_on(self) -> Iterator[Entry]:
+        """The program from where it is."""
+        return self._guarded(self._blocks(None))
+
+    def single(self, node: Node) -> Iterator[Entry]:
+        """One block that belongs to no program, and what it calls (MDI)."""
+        self._node = node
+        self.is_ended = self.is_rested = False
+        self._idle_cnt = 0
+        self.flow.leave()
+        self.path.begin(self.machine.position() or self.path.target)
+        before = self.modal.copy()
         try:
-            yield from self._blocks(frame)
+            yield from self._guarded(self._single(node))
+        except BlockError:
+            self.modal.take(before)
+            self.path.refresh()
+            raise
+
+    def _single(self, node: Node) -> Iterator[Entry]:
+        yield from self._block(node, ready(node, self))
+        if self.flow.frames and not self.is_ended:
+            yield from self._blocks(self.flow.frames[0])
+        self.offset_path.flush()
+        yield from self.flush()
+
+    def _guarded(self, entries: Iterator[Entry]) -> Iterator[Entry]:
+        try:
+            yield from entries
         except CodeError as fault:
             raise self._error(fault) from None
         except RecursionError:
@@ -265,6 +301,9 @@ class Interpreter:
                 yield from self.flush()
                 return
             self._node = node
+            if node.line == self._until and node.part is self.program.main:
+                self.is_arrived = True
+                return
             block = node.ready
             if block is None:
                 block = node.ready = ready(node, self)

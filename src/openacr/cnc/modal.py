@@ -56,6 +56,11 @@ class Modal:
         """A snapshot."""
         return replace(self, memory=dict(self.memory))
 
+    def take(self, other: Modal) -> None:
+        """Become as a snapshot says."""
+        for name in self.__slots__:
+            setattr(self, name, getattr(other, name))
+
     @property
     def plane_axes(self) -> Plane:
         """The plane as axes."""

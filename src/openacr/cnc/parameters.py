@@ -50,7 +50,6 @@ class Parameters:
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         self._cells = run.cells
-        self._machine = run.machine
         self._modal = run.modal
         self._aliases = run.dialect.aliases
         self._read_cell = run.cells.read
@@ -87,7 +86,7 @@ class Parameters:
             raise CodeError(home.read_error, 0, f"P{k}")
         if home.is_on_card:
             self._at_rest()
-            return self._machine.read_parameter(k)
+            return self._run.machine.read_parameter(k)
         try:
             return self._read_cell(k)
         except MapError:
@@ -119,7 +118,7 @@ class Parameters:
     def read_bit(self, n: float) -> float:
         """The state of a card flag."""
         self._at_rest()
-        return float(self._machine.read_bit(number(n)))
+        return float(self._run.machine.read_bit(number(n)))
 
     # --- writing ----------------------------------------------------------------------
 
@@ -143,7 +142,7 @@ class Parameters:
             raise CodeError(error, 0, f"P{k}")
         if home.is_on_card:
             self._at_rest()
-            self._machine.write_parameter(k, value)
+            self._run.machine.write_parameter(k, value)
             return
         self.store(k, value)
 

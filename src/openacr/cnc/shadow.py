@@ -13,6 +13,7 @@ class Shadow:
         self._home = cells.home
         self._kept: dict[int, float] = {}  # read before, or written
         self.written: dict[int, float] = {}
+        self._is_open = False
 
     def home(self, n: int) -> Home:
         """Where a number lives."""
@@ -20,26 +21,32 @@ class Shadow:
 
     def read(self, n: int) -> float:
         """The number written last, or that of the cells."""
+        if self._is_open:
+            return self._cells.read(n)
         found = self._kept.get(n)
         if found is None:
             found = self._kept[n] = self._cells.read(n)
         return found
 
     def write(self, n: int, value: float) -> None:
-        """Keep a number."""
-        self._kept[n] = self.written[n] = value
+        """Keep a number; behind `commit` it goes to the cells at once."""
+        if self._is_open:
+            self._cells.write(n, value)
+        else:
+            self._kept[n] = self.written[n] = value
 
     def read_text(self, n: int) -> str:
         """The text in a cell."""
         return self._cells.read_text(n)
 
     def transaction(self) -> AbstractContextManager[None]:
-        """Nothing is stored here in any case."""
-        return nullcontext()
+        """That of the cells, once they are written."""
+        return self._cells.transaction() if self._is_open else nullcontext()
 
     def commit(self) -> None:
-        """Write everything that was kept."""
+        """Write everything that was kept, and from now on all of it at once."""
         with self._cells.transaction():
             for n, value in self.written.items():
                 self._cells.write(n, value)
         self.written.clear()
+        self._is_open = True

@@ -1,0 +1,198 @@
+"""Start at line N: the lines before it are interpreted without motion.
+
+What they leave behind - modal state, offsets, parameters, the position, outputs - is
+collected, compared with how the machine stands, and put in place by the entries of
+`approach` before the program goes on at line N.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from openacr.cnc.canonical import (
+    Arc,
+    Coolant,
+    Entry,
+    Line,
+    Output,
+    Pace,
+    Point,
+    Probe,
+    Rapid,
+    SetBit,
+    Source,
+    Spindle,
+    Tool,
+)
+from openacr.cnc.hosts import Machine
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.shadow import Shadow
+from openacr.errors import UserError
+
+MOST_BLOCKS = 10_000_000
+TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT, H, WORK = 235, 238, 240, 241, 237, 998
+LIVE = "values of the card were read as they are now"
+
+
+class StartError(UserError):
+    """A line at which the program cannot be started."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """Something that is not as the program needs it at line N."""
+
+    name: str
+    present: float | Point
+    wanted: float | Point
+
+
+class _Rehearsal:
+    """The machine while lines are replayed: nothing moves, trips or is answered."""
+
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+        self.has_read_card = False
+
+    def read_parameter(self, n: int) -> float:
+        self.has_read_card = True
+        return self._machine.read_parameter(n)
+
+    def write_parameter(self, n: int, value: float) -> None:
+        self._machine.write_parameter(n, value)
+
+    def read_bit(self, n: int) -> bool:
+        self.has_read_card = True
+        return self._machine.read_bit(n)
+
+    def position(self) -> Point | None:
+        return None
+
+    def tripped(self) -> Point | None:
+        return None
+
+    def answer(self, parameter: int) -> float | None:
+        return self._machine.answer(parameter)
+
+    def is_block_skip_on(self) -> bool:
+        return self._machine.is_block_skip_on()
+
+    def is_homed(self, axis: int) -> bool:
+        return self._machine.is_homed(axis)
+
+    def has_probe(self) -> bool:
+        return self._machine.has_probe()
+
+
+@dataclass(slots=True)
+class Replay:
+    """The state in front of line N; `entries` begin with the approach."""
+
+    run: Interpreter
+    line: int
+    present: Point
+    shadow: Shadow
+    differences: list[Difference] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    outputs: dict[int, Output] = field(default_factory=dict)
+    bits: dict[int, SetBit] = field(default_factory=dict)
+    last_move: Entry | None = None
+
+    @property
+    def needs_tool(self) -> bool:
+        """The tool in the spindle is not the one the program has there."""
+        return any(difference.name == "tool" for difference in self.differences)
+
+    def entries(self) -> Iterator[Entry]:
+        """The approach, then the program from line N on; parameters are written now."""
+        self.shadow.commit()
+        yield from self.approach()
+        yield from self.run.go_on()
+
+    def approach(self) -> Iterator[Entry]:
+        """Drill axis up, the others over, spindle and coolant on, drill axis down."""
+        modal, wanted = self.run.modal, self.run.path.issued
+        source = Source(self.run.program.main.text.name, self.line, "")
+        drill = modal.plane_axes.drill
+        place = list(self.present)
+        place[drill] = max(place[drill], wanted[drill])
+        yield Rapid(source, tuple(place), is_inserted=True)
+        over = [*wanted[:drill], place[drill], *wanted[drill + 1 :]]
+        yield Rapid(source, tuple(over), is_inserted=True)
+        yield Spindle(source, modal.spin, modal.speed)
+        yield Coolant(source, modal.mist, modal.flood)
+        yield from self.outputs.values()
+        yield from self.bits.values()
+        if isinstance(self.last_move, Rapid | None):
+            yield Rapid(source, wanted, is_inserted=True)
+        else:
+            yield Line(source, wanted, Pace(modal.feed), is_inserted=True)
+
+
+def start_at(run: Interpreter, line: int) -> Replay:
+    """Replay everything in front of a line; StartError where it is never reached.
+
+    The cells of the interpreter have to be a Shadow: they are written when it goes on.
+    """
+    last = run.program.line_cnt
+    if not 1 <= line <= last:
+        raise StartError(f"line {line}: the program has lines 1 to {last}")
+    if not isinstance(run.cells, Shadow):
+        raise TypeError("a replay needs cells of its own")
+    machine = run.machine
+    present = machine.position() or run.path.target
+    before = {n: run.cells.read(n) for n in (TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT)}
+    rehearsal = _Rehearsal(machine)
+    run.machine = rehearsal
+    replay = Replay(run, line, present, run.cells)
+    try:
+        _rehearse(replay, line)
+    finally:
+        run.machine = machine
+    if rehearsal.has_read_card:
+        replay.warnings.append(LIVE)
+    replay.differences += _differences(replay, before)
+    return replay
+
+
+def _rehearse(replay: Replay, line: int) -> None:
+    run = replay.run
+    for count, entry in enumerate(run.entries_until(line)):
+        if count > MOST_BLOCKS:
+            raise StartError(f"line {line} is not reached within {MOST_BLOCKS} steps")
+        match entry:
+            case Rapid() | Line() | Arc() | Probe():
+                replay.last_move = entry
+            case Output():
+                replay.outputs[entry.number] = entry
+            case SetBit():
+                replay.bits[entry.bit] = entry
+            case Tool():
+                pass
+    if not run.is_arrived:
+        raise StartError(f"line {line} is never reached")
+    if run.flow.frames:
+        raise StartError(f"line {line} belongs to a subroutine")
+
+
+def _differences(replay: Replay, before: dict[int, float]) -> Iterator[Difference]:
+    modal, run = replay.run.modal, replay.run
+    coolant = modal.mist + 2.0 * modal.flood
+    pairs = (
+        ("tool", before[TOOL_IN_SPINDLE], float(modal.tool_in_spindle)),
+        ("S", before[SPEED], modal.speed),
+        ("spindle", before[SPIN], float(modal.spin.value)),
+        ("coolant", before[COOLANT], coolant),
+        ("work system", 1.0, float(modal.work)),
+        ("H", 0.0, float(modal.length_number)),
+        ("D", 0.0, float(modal.radius_number)),
+    )
+    for name, present, wanted in pairs:
+        if present != wanted:
+            yield Difference(name, present, wanted)
+    for output in replay.outputs.values():
+        if replay.run.machine.read_bit(output.number) != output.is_on:
+            yield Difference(f"output {output.number}", float(not output.is_on), output.is_on)
+    if run.path.issued != replay.present:
+        yield Difference("position", replay.present, run.path.issued)

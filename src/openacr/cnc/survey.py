@@ -1,0 +1,220 @@
+"""A program read to its end without a machine: what it does and what is wrong with it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from openacr.cnc.canonical import (
+    Arc,
+    Dwell,
+    Entry,
+    Line,
+    Plane,
+    Point,
+    Polyline,
+    Probe,
+    Rapid,
+    Tool,
+)
+from openacr.cnc.findings import MOST, BlockError, Finding
+from openacr.cnc.hosts import Cells, Machine, VirtualMachine
+from openacr.cnc.interpreter import Interpreter, Options
+from openacr.cnc.program import Program
+from openacr.cnc.shadow import Shadow
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+LINEAR = "XYZUV"
+_QUARTER = math.pi / 2.0
+
+
+@dataclass(slots=True)
+class Survey:
+    """Counts, lengths, extents and findings of a program; lengths in default units."""
+
+    letters: dict[str, int]
+    line_cnt: int = 0
+    move_cnts: dict[str, int] = field(
+        default_factory=lambda: {"rapid": 0, "feed": 0, "arc": 0, "dwell": 0}
+    )
+    lengths: dict[str, float] = field(default_factory=lambda: {"rapid": 0.0, "feed": 0.0})
+    low: list[float] = field(default_factory=lambda: [math.inf] * 8)
+    high: list[float] = field(default_factory=lambda: [-math.inf] * 8)
+    end: Point = (0.0,) * 8
+    tools: list[int] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
+
+    @property
+    def errors(self) -> list[Finding]:
+        """Why the program cannot be run."""
+        return [finding for finding in self.findings if finding.is_error]
+
+    @property
+    def warnings(self) -> list[Finding]:
+        """What is doubtful."""
+        return [finding for finding in self.findings if not finding.is_error]
+
+    def data(self) -> dict[str, Any]:
+        """All of it for JSON."""
+        axes = list(self.letters.values())
+        has_moved = any(self.low[a] < math.inf for a in axes)
+        return {
+            "lines": self.line_cnt,
+            "errors": [_as_data(finding) for finding in self.errors],
+            "warnings": [_as_data(finding) for finding in self.warnings],
+            "moves": self.move_cnts,
+            "length": self.lengths,
+            "extents": {
+                "min": [self.low[a] for a in axes] if has_moved else [],
+                "max": [self.high[a] for a in axes] if has_moved else [],
+            },
+            "end": {letter: self.end[axis] for letter, axis in self.letters.items()},
+            "tools": self.tools,
+        }
+
+
+def _as_data(finding: Finding) -> dict[str, Any]:
+    return {
+        "code": finding.code,
+        "text": finding.text,
+        "file": finding.file,
+        "line": finding.line,
+        "column": finding.column,
+        "hint": finding.hint,
+        "block": finding.block,
+    }
+
+
+def survey(
+    program: Program,
+    cells: Cells,
+    dialect: str = "acromill",
+    options: Options | None = None,
+    machine: Machine | None = None,
+    look: Callable[[Entry], None] | None = None,
+) -> Survey:
+    """Read a program to its end; `look` sees every entry. Nothing is written to the cells.
+
+    A program with errors at load is not run. The first error at run time ends the run, but
+    all errors of the geometry are found.
+    """
+    shadow = Shadow(cells)
+    options = options or Options()
+    options.collects_errors = True
+    run = Interpreter(program, shadow, machine or VirtualMachine(), dialect, options)
+    found = Survey(run.planner.axes, program.line_cnt, findings=list(program.findings))
+    if not program.errors:
+        _Count(found, run).all(look)
+        found.findings += [*run.errors, *run.warnings]
+        _sort(found.findings)
+    return found
+
+
+def _sort(findings: list[Finding]) -> None:
+    findings.sort(key=lambda f: (f.file, f.line, f.column))
+    del findings[MOST:]
+
+
+class _Count:
+    """Adds entries up."""
+
+    def __init__(self, found: Survey, run: Interpreter) -> None:
+        self._found = found
+        self._run = run
+        self._at: Point = run.path.target
+        self._linear = [axis for letter, axis in found.letters.items() if letter in LINEAR]
+
+    def all(self, look: Callable[[Entry], None] | None) -> None:
+        """The whole program."""
+        found = self._found
+        try:
+            for entry in self._entries():
+                self.add(entry)
+                if look is not None:
+                    look(entry)
+        except BlockError as error:
+            found.findings.append(error.finding)
+        found.end = self._at
+
+    def _entries(self) -> Iterator[Entry]:
+        return self._run.entries()
+
+    def add(self, entry: Entry) -> None:
+        """One entry."""
+        found = self._found
+        match entry:
+            case Rapid():
+                self._straight("rapid", entry.end)
+            case Line() | Probe():
+                self._straight("feed", entry.end)
+            case Arc():
+                self._arc(entry)
+            case Polyline():
+                self._many(entry)
+            case Dwell():
+                found.move_cnts["dwell"] += 1
+            case Tool():
+                found.tools.append(entry.number)
+            case _:
+                pass
+
+    def _straight(self, kind: str, end: Point) -> None:
+        found = self._found
+        found.move_cnts[kind] += 1
+        found.lengths[kind] += math.sqrt(sum((end[a] - self._at[a]) ** 2 for a in self._linear))
+        self._reach(self._at)
+        self._reach(end)
+        self._at = end
+
+    def _reach(self, point: Point) -> None:
+        low, high = self._found.low, self._found.high
+        for axis, value in enumerate(point):
+            low[axis] = min(low[axis], value)
+            high[axis] = max(high[axis], value)
+
+    def _many(self, entry: Polyline) -> None:
+        import numpy as np
+
+        found, ends = self._found, entry.ends
+        found.move_cnts["feed"] += len(ends)
+        all_points = np.vstack([np.asarray(self._at), ends])
+        steps = np.diff(all_points[:, self._linear], axis=0)
+        found.lengths["feed"] += float(np.sqrt((steps**2).sum(axis=1)).sum())
+        self._reach(tuple(map(float, all_points.min(axis=0))))
+        self._reach(tuple(map(float, all_points.max(axis=0))))
+        self._at = tuple(map(float, ends[-1]))
+
+    def _arc(self, arc: Arc) -> None:
+        """The mean radius counts; axes beside the plane add as on a helix."""
+        found, plane = self._found, arc.plane
+        found.move_cnts["arc"] += 1
+        bow = 0.5 * (arc.start_radius + arc.end_radius) * abs(arc.sweep_rad)
+        rise = [arc.end[a] - self._at[a] for a in self._linear if a not in plane_axes(plane)]
+        found.lengths["feed"] += math.sqrt(bow * bow + sum(d * d for d in rise))
+        for point in extremes(arc, self._at):
+            self._reach(point)
+        self._reach(self._at)
+        self._reach(arc.end)
+        self._at = arc.end
+
+
+def plane_axes(plane: Plane) -> tuple[int, int]:
+    """First and second axis."""
+    return plane.first, plane.second
+
+
+def extremes(arc: Arc, start: Point) -> Iterator[Point]:
+    """Where an arc reaches farthest along the axes of its plane."""
+    first, second = plane_axes(arc.plane)
+    begin = math.atan2(start[second] - arc.centre[1], start[first] - arc.centre[0])
+    low, high = sorted((begin, begin + arc.sweep_rad))
+    for quarter in range(math.ceil(low / _QUARTER), math.floor(high / _QUARTER) + 1):
+        share = (quarter * _QUARTER - begin) / arc.sweep_rad
+        radius = arc.start_radius + (arc.end_radius - arc.start_radius) * share
+        point = [a + (b - a) * share for a, b in zip(start, arc.end, strict=True)]
+        point[first] = arc.centre[0] + radius * math.cos(quarter * _QUARTER)
+        point[second] = arc.centre[1] + radius * math.sin(quarter * _QUARTER)
+        yield tuple(point)

@@ -1,0 +1,86 @@
+"""Single blocks typed by the operator."""
+
+import pytest
+from tests.cnc.programs import CYCLES, made, shown
+
+from openacr.cnc.findings import BlockError
+from openacr.cnc.mdi import Mdi
+
+
+def mdi(text: str = "M2", cells: dict[int, float] | None = None) -> Mdi:
+    return Mdi(made(text, cells).interpreter)
+
+
+def does(typed: Mdi, line: str) -> list[str]:
+    return [shown(entry) for entry in typed.execute(line)]
+
+
+@pytest.mark.req("MILL-MDI-EXEC")
+def test_a_line_acts_at_once() -> None:
+    typed = mdi()
+    assert does(typed, "G1 F50 X5.6 Y3.5") == ["L X5.6 Y3.5"]
+    assert typed._run.modal.feed == 50
+
+
+def test_the_modal_state_stays_from_line_to_line() -> None:
+    typed = mdi()
+    does(typed, "G91 G0")
+    assert does(typed, "X1") == ["R X1"]
+    assert does(typed, "X1") == ["R X2"]
+
+
+@pytest.mark.req("MILL-MDI-ALLCODES")
+@pytest.mark.parametrize(
+    ("line", "wanted"),
+    [
+        ("T3", ["SetCell"]),
+        ("P3=55555", []),
+        ("M3 S100", ["M3 S100"]),
+        ("G10 L2 P1 X1", ["Sync"]),
+        ("G81 X1 Z-1 R-.5", ["R X1", "R X1 Z-0.5", "L X1 Z-1", "R X1"]),
+        ("G65 P5 X4", ["L X4"]),
+        ("GOSUB 6", ["L Y2"]),
+        ("(MSG, hello)", ["say hello"]),
+        ("G4 F2", ["dwell 2"]),
+        ("BIT(130) = 1", ["bit 130 1"]),
+    ],
+)
+def test_every_kind_of_line_is_taken(line: str, wanted: list[str]) -> None:
+    typed = mdi("M2\nN5 G1 F10 X(#1)\nRET\nN6 Y2\nRET")
+    story = does(typed, line)
+    assert [s for s in story if s != "Sync"] == [w for w in wanted if w != "Sync"]
+
+
+@pytest.mark.req("MILL-MDI-BUFFER")
+def test_the_buffer_takes_lines_while_it_is_on() -> None:
+    typed = mdi()
+    does(typed, "X1 F10")
+    typed.is_buffer_on = False
+    does(typed, "X2")
+    assert typed.text == ["X1 F10"]
+
+
+@pytest.mark.req("MILL-MDI-ERR")
+@pytest.mark.parametrize("line", ["G0 X1 X2", "G30 P(9) X1", "FOO", "GOTO 5", "M2 X1 Q#"])
+def test_an_invalid_line_does_nothing(line: str) -> None:
+    typed = mdi()
+    does(typed, "G91 G1 F10")
+    typed.text.clear()
+    entries = []
+    with pytest.raises(BlockError):
+        for entry in typed.execute("G90 " + line if line.startswith("G30") else line):
+            entries.append(entry)
+    assert entries == []
+    assert typed.text == []
+    assert typed._run.modal.distance == 91
+
+
+def test_programs_with_cycles_keep_their_own() -> None:
+    typed = mdi("X1 F10" + CYCLES)
+    assert does(typed, "G81 X1 Z-1 R0") == ["R X1", "L X1 Z-1", "R X1"]
+
+
+def test_a_compensated_chain_ends_with_its_line() -> None:
+    typed = mdi("M2", {1001: 0.25})
+    assert does(typed, "G41 D1 G1 F10 X1") == ["L X1 Y0.25"]
+    assert does(typed, "X2") == ["L X2 Y0.25"]

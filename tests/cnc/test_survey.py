@@ -1,0 +1,60 @@
+"""What a program does, counted without a machine."""
+
+import math
+
+import pytest
+from tests.cnc.programs import STORE
+
+from openacr.cnc.load import load
+from openacr.cnc.shadow import Shadow
+from openacr.cnc.survey import Survey, survey
+
+
+def of(text: str, cells: dict[int, float] | None = None) -> Survey:
+    shadow = Shadow(STORE)
+    for n, value in (cells or {}).items():
+        shadow.write(n, value)
+    return survey(load(text, shadow), shadow)
+
+
+def test_moves_and_lengths_are_counted() -> None:
+    found = of("G0 X3 Y4\nG1 F10 X0\nG4 F1\nT2 M6\nG0 Z5\nM2")
+    assert found.move_cnts == {"rapid": 2, "feed": 1, "arc": 0, "dwell": 1}
+    assert found.lengths == {"rapid": 10.0, "feed": 3.0}
+    assert found.tools == [2]
+    assert found.end[:3] == (0, 4, 5)
+
+
+def test_arcs_reach_farther_than_their_ends() -> None:
+    found = of("G0 X1\nG3 F10 X-1 I0 J0\nM2")
+    assert found.lengths["feed"] == pytest.approx(math.pi)
+    assert found.high[:2] == pytest.approx([1, 1])
+    assert found.low[:2] == pytest.approx([-1, 0])
+
+
+def test_the_data_are_complete() -> None:
+    data = of("G1 X1 F10 G0\nX1").data()
+    assert data["lines"] == 2
+    assert data["errors"][0]["code"] == "E201"
+    assert data["errors"][0]["column"] == 11
+    assert data["end"] == {"X": 0.0, "Y": 0.0, "Z": 0.0}
+    assert data["extents"] == {"min": [], "max": []}
+
+
+def test_nothing_is_written_to_the_store() -> None:
+    before = STORE.read(901), STORE.read(150)
+    of("P150=99\nG10 L2 P1 X7\nM2")
+    assert (STORE.read(901), STORE.read(150)) == before
+
+
+def test_an_error_at_run_time_is_found_with_its_line() -> None:
+    (error,) = of("X1 F10\nX(1/P150)\nM2", {150: 0}).errors
+    assert (error.code, error.line) == ("E210", 2)
+
+
+@pytest.mark.req("MILL-COMP-09", "MILL-COMP-27")
+def test_all_gouges_are_found() -> None:
+    """Example 27: the .4 sides of the rectangle cannot be reached with radius .25."""
+    text = "G0 X0.5 Y0.2\nG42 D1 G1 F10 X0.5 Y0\nX0\nY0.4\nX1\nY0\nX0.5\nG40 X0.5 Y0.2\nM2"
+    errors = of(text, {1001: 0.25}).errors
+    assert {(e.code, e.line) for e in errors if e.code == "E322"} >= {("E322", 4), ("E322", 6)}
