@@ -78,7 +78,7 @@ def test_text_and_packets_alternate_in_any_pieces(sizes: list[int]) -> None:
     session = Session()
     for request, reply, answer in (
         (Line("PROG1"), b"PROG1\r\nP01>", Answer()),
-        (Ask(GetLong(12288)), REPLY, Answer(data=REPLY[4:])),
+        (Ask((GetLong(12288),)), REPLY, Answer(data=REPLY[4:])),
         (Line("?2"), b"?2\r\n2\r\nP01>", Answer(("2",))),
     ):
         session.begin(request)
@@ -133,13 +133,13 @@ def test_a_wrong_echo_is_a_garbled_answer(reply: bytes) -> None:
 
 
 def test_text_in_front_of_a_packet_reply_is_garbled_unless_a_program_is_followed() -> None:
-    answer = asked(Ask(GetLong(12288)), b"P00>" + REPLY)
+    answer = asked(Ask((GetLong(12288),)), b"P00>" + REPLY)
     assert isinstance(answer, Answer)
     assert answer.is_garbled
     session = Session()
     session.begin(Follow("LISTEN"))
     assert fed(session, b"LISTEN\r\nab", [100]) == [Heard("ab")]
-    session.begin(Ask(GetLong(12288)))
+    session.begin(Ask((GetLong(12288),)))
     assert fed(session, b"cd\r\n" + REPLY + b"ef\r\n", [100]) == [Answer(data=REPLY[4:])]
     assert session.next_event() == Heard("cd\nef\n")
 
@@ -168,7 +168,7 @@ def test_escape_ends_following_with_the_prompt() -> None:
 def test_packets_travel_in_the_mode_of_a_serial_line() -> None:
     session = Session()
     session.mode = BinaryMode.PREFIX_CONTROLS
-    assert session.begin(Ask(GetLong(4099))) == bytes.fromhex("00 88 23 43 23 50")
+    assert session.begin(Ask((GetLong(4099),))) == bytes.fromhex("00 88 23 43 23 50")
     reply = bytes.fromhex("00 88 23 43 23 50") + b"#C#@#@#@"
     assert fed(session, reply, [1] * 20) == [Answer(data=b"\x03\0\0\0")]
 

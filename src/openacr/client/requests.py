@@ -62,13 +62,13 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A packet the card replies to."""
+    """Packets the card replies to, sent together and answered in their order."""
 
-    packet: Packet
+    packets: tuple[Packet, ...]
     is_query: bool = True
 
     def __str__(self) -> str:
-        return str(self.packet)
+        return ", ".join(map(str, self.packets))
 
 
 @dataclass(frozen=True, slots=True)

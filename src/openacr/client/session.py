@@ -69,6 +69,7 @@ class Session:
         self._marks = 0
         self._mark = b""
         self._is_echoed = False  # the echo of the line that began listening is gone
+        self._wires: list[bytes] = []  # the packets of the request, as they travel
         self._readers: dict[type, Callable[[bool], Event]] = {
             Line: self._line,
             Ask: self._packet,
@@ -93,7 +94,7 @@ class Session:
         if isinstance(self._request, Line) and self.echo & EchoMode.CHARACTERS:
             expected = bytes_of(self._request.text) + CRLF
         elif isinstance(self._request, Ask):
-            expected = encode_packet(self._request.packet.encode(), self.mode)
+            expected = self._wires[0]
         else:
             return True
         return self._received[: len(expected)] == expected[: len(self._received)]
@@ -120,7 +121,8 @@ class Session:
             echo = self._typed(f"ECHO {int(self.echo)}")
             return ESC + CR + self._typed("SYS") + echo + self._mark_line()
         if isinstance(request, Ask):
-            return encode_packet(request.packet.encode(), self.mode)
+            self._wires = [encode_packet(each.encode(), self.mode) for each in request.packets]
+            return b"".join(self._wires)
         return ESC if isinstance(request, Leave) else bytes((request.key,))
 
     def _typed(self, text: str) -> bytes:
@@ -222,22 +224,28 @@ class Session:
         request = self._request
         if not isinstance(request, Ask):
             return NEED_DATA
-        wire = encode_packet(request.packet.encode(), self.mode)
-        at = self._received.find(wire)
-        if at < 0:
-            return NEED_DATA
-        if at > 0 and not self.is_listening:
-            return self._done(Answer(is_garbled=True, raw=self.received))
-        found = self._reply_data(request.packet, at + len(wire))
-        if found is None:
-            return NEED_DATA
-        data, end = found
-        del self._received[at:end]
+        at, data, found = 0, b"", []
+        for packet, wire in zip(request.packets, self._wires, strict=True):
+            begin = self._received.find(wire, at)
+            if begin < 0:
+                return NEED_DATA
+            if begin > at and not self.is_listening:
+                return self._done(Answer(is_garbled=True, raw=self.received))
+            reply = self._reply_data(packet, begin + len(wire))
+            if reply is None:
+                return NEED_DATA
+            data, at = data + reply[0], reply[1]
+            found.append((begin, at))
+        for begin, end in reversed(found):
+            del self._received[begin:end]
         return self._done(Answer(data=data))
 
     def _reply_data(self, packet: Packet, begin: int) -> tuple[bytes, int] | None:
         """The data behind the repeated request, and where the reply ends."""
         wanted = packet.reply_words() * WORD_BYTES
+        if not self.mode.prefixes:
+            end = begin + wanted
+            return (bytes(self._received[begin:end]), end) if end <= len(self._received) else None
         decoder, data = Decoder(self.mode), bytearray()
         for at in range(begin, len(self._received)):
             if len(data) == wanted:

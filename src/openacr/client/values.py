@@ -2,7 +2,9 @@
 
 import re
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
 from openacr.client.errors import RefusedError
@@ -20,6 +22,7 @@ from openacr.protocol.parameter import GetIeee, GetLong
 Number: TypeAlias = int | float
 
 BITS_PER_WORD = 32
+TOGETHER = 16  # packets on their way at once: a small buffer takes them
 ARRAY_WORDS = frozenset(("LA", "SA", "DA"))
 _INTEGER = re.compile(r"-?\d+")
 _DIMENSION = re.compile(r"DIM (\w+?)\((\d+)\)")
@@ -57,28 +60,50 @@ def read(talk: Talk, what: What) -> Op[Number]:
     if kind is None:
         return (yield from ask(talk, f"P{number}"))
     packet = GetLong(number) if kind is Kind.LONG else GetIeee(number)
-    return (yield from _fetch(talk, packet, [kind]))[0]
+    return (yield from _fetch(talk, (packet,), (kind,)))[0]
 
 
 def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
     """Several parameters in their order; those of one packet group with one packet."""
-    numbers = [parameter_number(what) for what in whats]
+    numbers = tuple(parameter_number(what) for what in whats)
+    plan = _plan(numbers if talk.options.uses_packets else ())
     found: dict[int, Number] = {}
-    for packet in _packets(talk, numbers):
-        asked = list(packet.parameters())
-        kinds = [parameters()[number].kind for number in asked]
-        found.update(zip(asked, (yield from _fetch(talk, packet, kinds)), strict=True))
+    for part in plan:
+        got = yield from _fetch(talk, part.packets, part.kinds)
+        found.update(zip(part.numbers, got, strict=True))
     for number in dict.fromkeys(numbers):
         if number not in found:
             found[number] = yield from read(talk, number)
     return [found[number] for number in numbers]
 
 
-def _packets(talk: Talk, numbers: Iterable[int]) -> list[DataRequest]:
-    """The data packets that fetch these parameters, as far as packets reach them."""
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """Packets sent together, with the parameters they bring."""
+
+    packets: tuple[DataRequest, ...]
+    numbers: tuple[int, ...]
+    kinds: tuple[Kind, ...]
+
+
+@lru_cache(maxsize=256)
+def _plan(numbers: tuple[int, ...]) -> tuple[_Part, ...]:
+    """The data packets for parameters, as far as packets reach them; hosts ask again and again."""
+    packets = _packets(numbers)
+    parts = []
+    for at in range(0, len(packets), TOGETHER):
+        chosen = tuple(packets[at : at + TOGETHER])
+        asked = tuple(number for packet in chosen for number in packet.parameters())
+        kinds = tuple(parameters()[number].kind for number in asked)
+        parts.append(_Part(chosen, asked, kinds))
+    return tuple(parts)
+
+
+def _packets(numbers: Iterable[int]) -> list[DataRequest]:
+    """Packets for these parameters, those of one group index in one."""
     masks: dict[tuple[int, int], int] = {}
     for number in numbers:
-        packet = locate(number) if _packet_kind(talk, number) is not None else None
+        packet = locate(number) if _kind(number) is not None else None
         if packet is not None:
             key = (packet.group, packet.index)
             masks[key] = masks.get(key, 0) | packet.mask
@@ -87,16 +112,24 @@ def _packets(talk: Talk, numbers: Iterable[int]) -> list[DataRequest]:
 
 def _packet_kind(talk: Talk, number: int) -> Kind | None:
     """How a packet carries a parameter without loss; None where only text does."""
-    known = parameters().get(number) if talk.options.uses_packets else None
+    return _kind(number) if talk.options.uses_packets else None
+
+
+def _kind(number: int) -> Kind | None:
+    known = parameters().get(number)
     return known.kind if known is not None and known.kind is not Kind.FP64 else None
 
 
-def _fetch(talk: Talk, packet: Packet, kinds: Sequence[Kind]) -> Op[list[Number]]:
-    answer = yield from talk.exchange(Ask(packet))
-    layout = "<" + "".join("i" if kind is Kind.LONG else "f" for kind in kinds)
+def _fetch(talk: Talk, packets: tuple[Packet, ...], kinds: tuple[Kind, ...]) -> Op[list[Number]]:
+    answer = yield from talk.exchange(Ask(packets))
     if len(answer.data) != WORD_BYTES * len(kinds):
-        raise RefusedError(str(packet), "reply of another length")
-    return list(struct.unpack(layout, answer.data))
+        raise RefusedError(", ".join(map(str, packets)), "reply of another length")
+    return list(_layout(kinds).unpack(answer.data))
+
+
+@lru_cache(maxsize=256)
+def _layout(kinds: tuple[Kind, ...]) -> struct.Struct:
+    return struct.Struct("<" + "".join("i" if kind is Kind.LONG else "f" for kind in kinds))
 
 
 def read_bit(talk: Talk, what: What) -> Op[bool]:

@@ -23,7 +23,7 @@ class BinaryMode(IntFlag):
     @property
     def prefixes(self) -> bool:
         """Control characters travel behind a `#`."""
-        return bool(self.value & 1)  # asked for every byte: an enum would be slow
+        return int.__and__(self, 1) == 1  # asked for every byte: an enum would be slow
 
     @property
     def strips(self) -> bool:

@@ -21,6 +21,7 @@ class PacketReader:
     _data: bytearray = field(default_factory=bytearray)
     _decoder: Decoder = field(default_factory=lambda: Decoder(BinaryMode.PLAIN))
     _tick: int = 0
+    _is_plain: bool = True  # nothing has to be converted
     _wanted: int = 0  # bytes, as far as those received tell
 
     @property
@@ -31,12 +32,13 @@ class PacketReader:
     @property
     def whole_bytes(self) -> int:
         """How many bytes may be fed together: 1 where they have to be converted."""
-        return 1 if self._decoder.mode.prefixes else self._wanted - len(self._data)
+        return self._wanted - len(self._data) if self._is_plain else 1
 
     def start(self, header: int, mode: BinaryMode, tick: int) -> None:
         """Begin with a header byte; the data behind it travel in `mode`."""
         self._data = bytearray((header,))
         self._decoder = Decoder(mode)
+        self._is_plain = not mode.prefixes
         self._tick = tick
         self._wanted = 2
 
@@ -48,13 +50,13 @@ class PacketReader:
     def feed(self, data: bytes, tick: int) -> Packet | None:
         """The packet completed by at most `whole_bytes` bytes; PacketError for a broken one."""
         self._tick = tick
-        if len(data) == 1:
+        if self._is_plain:
+            self._data += data
+        else:
             value = self._decoder.feed(data[0])
             if value is None:
                 return None
             self._data.append(value)
-        else:
-            self._data += data
         return self._complete() if len(self._data) >= self._wanted else None
 
     def _complete(self) -> Packet | None:

@@ -62,20 +62,20 @@ class Packet:
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
         """Bytes of the whole packet as far as `prefix` tells; more may turn out later."""
-        return len(cls.HEADER) + sum(wire.size for _, wire in wires(cls))
+        return _form(cls).length
 
     @classmethod
     def decode(cls, data: bytes) -> Self:
         """The packet in exactly these bytes."""
         if len(data) != cls.total_length(data):
             raise PacketError(f"{cls.__name__}: {len(data)} bytes, {cls.total_length(data)} wanted")
-        return cls(*struct.unpack(_format(cls), data[len(cls.HEADER) :]))
+        return cls(*_form(cls).fields.unpack_from(data, len(cls.HEADER)))
 
     def encode(self) -> bytes:
         """The bytes a host sends, before any MODE conversion."""
-        values = [getattr(self, name) for name, _ in wires(type(self))]
+        form = _form(type(self))
         try:
-            return self.HEADER + struct.pack(_format(type(self)), *values)
+            return self.HEADER + form.fields.pack(*[getattr(self, name) for name in form.names])
         except (struct.error, OverflowError) as wrong:
             raise PacketError(f"{self}: {wrong}") from None
 
@@ -115,8 +115,26 @@ def wires(packet: type[Packet]) -> tuple[tuple[str, Wire], ...]:
     return _WIRES[packet]
 
 
-def _format(packet: type[Packet]) -> str:
-    return "<" + "".join(wire.format for _, wire in wires(packet))
+@dataclass(frozen=True, slots=True)
+class _Form:
+    """The wire layout of a packet class, worked out once."""
+
+    names: tuple[str, ...]
+    fields: struct.Struct
+    length: int
+
+
+_FORMS: dict[type[Packet], _Form] = {}
+
+
+def _form(packet: type[Packet]) -> _Form:
+    form = _FORMS.get(packet)
+    if form is None:
+        found = wires(packet)
+        fields = struct.Struct("<" + "".join(wire.format for _, wire in found))
+        names = tuple(name for name, _ in found)
+        form = _FORMS[packet] = _Form(names, fields, len(packet.HEADER) + fields.size)
+    return form
 
 
 def pack_word(value: int | float) -> bytes:

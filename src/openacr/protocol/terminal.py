@@ -278,7 +278,7 @@ class Terminal:
         return None
 
     def _packet_byte(self, byte: int, segment: _Segment) -> Event | None:
-        if self.mode.prefixes and self.kind is StreamKind.SERIAL and byte in (XON, XOFF):
+        if self.kind is StreamKind.SERIAL and byte in (XON, XOFF) and self.mode.prefixes:
             return self._keys[byte]()
         try:
             packet = self._reader.feed(self._together(segment), segment.tick)
