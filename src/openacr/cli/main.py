@@ -89,6 +89,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "import_drawing",
                 "Make a part program of a DXF drawing: a path, or holes to drill.",
             ),
+            "part": Entry(
+                "mill_part",
+                "make_part",
+                "List the parts of the library, or make the program of one of them.",
+            ),
         },
     ),
     "sysvar": Family(

@@ -1,0 +1,339 @@
+"""Library parts: part programs with sizes to choose.
+
+    ;PART Keyhole plate
+    ;PARAM P200 "Length" in 4.0 0.1 24.0      unit, default, lowest, highest
+    ;CHECK P201*2 <= P200
+    ;START lower left corner
+
+Units are in, mm, deg and n (a plain number). Before a part runs, its sizes are set in
+their cells, lengths in the active unit; P224 is then the radius of the tool and P233 the
+lead-in radius of the store.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from openacr.cnc.expressions import ExpressionReader
+from openacr.cnc.findings import CodeError, Finding
+from openacr.cnc.formulas import Node
+from openacr.cnc.grammar import ACROMILL
+from openacr.cnc.hosts import Cells
+from openacr.errors import UserError
+
+FOLDER = Path(__file__).parent / "library"
+SUFFIX = ".TXT"
+FIRST_CELL, LAST_CELL = 200, 233
+TOOL_RADIUS, LEAD_IN = 224, 233
+# Cells of the store: default unit, I/J of parts, lead-in radius, radius without D, feeds, D tables.
+UNITS, IJ_CODE, LEAD_IN_CELL, CMP_RAD = 250_001, 250_004, 250_005, 100_020
+START_FEED, CUT_SPEED = 100_021, 650_002
+D_RADIUS, D_WEAR, LAST_D = 1000, 1500, 400
+MM_PER_INCH = 25.4
+INCH, MM = "in", "mm"
+LENGTHS = frozenset((INCH, MM))
+UNIT_NAMES = (INCH, MM, "deg", "n")
+DIGITS = 12
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+_SIZE = re.compile(rf'P(\d+)\s+"([^"]+)"\s+(\w+)\s+({_NUMBER})\s+({_NUMBER})\s+({_NUMBER})\s*')
+_HEAD = re.compile(r";\s*(PART|PARAM|CHECK|START)\b\s*(.*)", re.IGNORECASE)
+
+
+class PartError(UserError):
+    """A part that cannot be used, or sizes it cannot have."""
+
+    def __init__(self, findings: Iterable[Finding]) -> None:
+        self.findings = tuple(findings)
+        super().__init__("\n".join(map(str, self.findings)))
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """One parameter of a part, in its own unit."""
+
+    cell: int
+    text: str
+    unit: str
+    default: float
+    low: float
+    high: float
+    line: int
+
+    @property
+    def accepted(self) -> str:
+        """The values it takes, in words."""
+        unit = "" if self.unit == "n" else f" {self.unit}"
+        return f"{self.low:g} to {self.high:g}{unit}"
+
+    def __str__(self) -> str:
+        return f"P{self.cell} {self.text}"
+
+
+class Rule(NamedTuple):
+    """A condition between sizes."""
+
+    text: str
+    line: int
+    condition: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part program with its head."""
+
+    path: Path
+    title: str
+    sizes: tuple[Size, ...]
+    rules: tuple[Rule, ...]
+    start: str
+    text: str
+
+    @property
+    def name(self) -> str:
+        """What it is called for."""
+        return self.path.stem.upper()
+
+    def size(self, wanted: str) -> Size:
+        """A size by its cell or its words."""
+        word = wanted.strip().casefold()
+        for size in self.sizes:
+            if word in (f"p{size.cell}", size.text.casefold()):
+                return size
+        known = ", ".join(map(str, self.sizes))
+        raise UserError(f"{self.name} has no size {wanted.strip()} (it has {known})")
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A part with its sizes: what is set before it starts, and the text that then runs."""
+
+    part: Part
+    values: Mapping[int, float]  # cells, lengths in the active unit
+    ij_code: int  # reading of I and J (G200 F) until the part has a G200
+    is_metric: bool
+    feed: float  # active units per minute
+    d_number: int  # 0: the radius is that of CMP RAD
+
+    @property
+    def program(self) -> str:
+        """Everything as one part program that runs by itself."""
+        lines = [f"; {self.part.name}", "G21" if self.is_metric else "G20"]
+        lines += [f"G200 F{self.ij_code}", f"F{_plain(self.feed)}"]
+        if self.d_number:
+            lines.append(f"D{self.d_number}")
+        names = {size.cell: size.text for size in self.part.sizes}
+        names |= {TOOL_RADIUS: "radius of the tool", LEAD_IN: "radius of the lead-in"}
+        for cell, value in self.values.items():
+            lines.append(f"P{cell}={_plain(value)} ; {names[cell]}")
+        return "\n".join(lines) + "\n" + self.part.text
+
+
+def _plain(value: float) -> str:
+    """A number without exponent."""
+    return f"{value:.{DIGITS}f}".rstrip("0").rstrip(".")
+
+
+# --- reading ----------------------------------------------------------------------------
+
+
+def names(folder: Path = FOLDER) -> list[str]:
+    """The parts in a folder; other texts there have no PART line."""
+    return sorted(path.stem.upper() for path in _files(folder) if _is_part(path))
+
+
+def _files(folder: Path) -> list[Path]:
+    try:
+        return [path for path in folder.iterdir() if path.suffix.upper() == SUFFIX]
+    except OSError as error:
+        raise UserError(f"{folder}: cannot be read: {error.strerror}") from None
+
+
+def _is_part(path: Path) -> bool:
+    return any(kind == "PART" for kind, _, _ in _head(_text(path)))
+
+
+def part_named(name: str, folder: Path = FOLDER) -> Part:
+    """The part of a name, whatever its case."""
+    wanted = name.strip().upper().removesuffix(SUFFIX)
+    for path in _files(folder):
+        if path.stem.upper() == wanted and _is_part(path):
+            return read_part(path)
+    raise UserError(f"there is no part {name} (there are {', '.join(names(folder))})")
+
+
+def read_part(path: Path) -> Part:
+    """The part in a file; PartError with all that is wrong in its head."""
+    text = _text(path)
+    findings: list[Finding] = []
+    title, start = "", ""
+    sizes: list[Size] = []
+    rules: list[Rule] = []
+    for kind, rest, line in _head(text):
+        try:
+            if kind == "PARAM":
+                sizes.append(_size(rest, line, sizes))
+            elif kind == "CHECK":
+                rules.append(Rule(rest, line, _condition(rest)))
+            elif kind == "PART":
+                title = rest
+            else:
+                start = rest
+        except CodeError as fault:
+            findings.append(fault.at(str(path), line, rest))
+    if not title:
+        findings.append(
+            CodeError("E108", hint=";PART and a title are missing").at(str(path), 1, "")
+        )
+    if findings:
+        raise PartError(findings)
+    return Part(path, title, tuple(sizes), tuple(rules), start, text)
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8", errors="replace")
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def _head(text: str) -> Iterator[tuple[str, str, int]]:
+    """Kind, rest and line of the lines that describe the part."""
+    for line, raw in enumerate(text.splitlines(), 1):
+        if raw.strip() and not raw.lstrip().startswith(";"):
+            return
+        found = _HEAD.fullmatch(raw.strip())
+        if found:
+            yield found[1].upper(), found[2].strip(), line
+
+
+def _size(text: str, line: int, others: Iterable[Size]) -> Size:
+    found = _SIZE.fullmatch(text)
+    if not found:
+        raise CodeError("E108", hint=';PARAM P200 "Length" in default lowest highest')
+    cell, words, unit = int(found[1]), found[2], found[3].lower()
+    default, low, high = (float(found[k]) for k in (4, 5, 6))
+    if not FIRST_CELL <= cell <= LAST_CELL or cell in (TOOL_RADIUS, LEAD_IN):
+        raise CodeError("E211", hint="sizes are P200 to P232, but P224")
+    if any(cell == other.cell for other in others):
+        raise CodeError("E202", detail=f"P{cell}")
+    if unit not in UNIT_NAMES:
+        raise CodeError("E108", hint=f"the unit is one of {', '.join(UNIT_NAMES)}")
+    if not low <= default <= high:
+        raise CodeError("E222", detail=f"the default {default:g} is not {low:g} to {high:g}")
+    return Size(cell, words, unit, default, low, high, line)
+
+
+def _condition(text: str) -> Node:
+    reader = ExpressionReader(text, ACROMILL)
+    condition = reader.expression()
+    if reader.peek():
+        raise reader.fault("E104")
+    return condition
+
+
+# --- preparing --------------------------------------------------------------------------
+
+
+def prepared(
+    part: Part,
+    given: Mapping[int, float],
+    cells: Cells,
+    *,
+    is_metric: bool,
+    d_number: int = 0,
+    feed: float | None = None,
+) -> Ready:
+    """The part with these sizes (in their own units), the others as they are by default.
+
+    `is_metric` is the active unit; without `feed` (in it) the one of the run set-up holds, or
+    Cut Speed. PartError with code E222 if a size is out of range or a condition does not hold.
+    """
+    store_unit = MM if cells.read(UNITS) else INCH
+    active = MM if is_metric else INCH
+    values: dict[int, float] = {}
+    findings: list[Finding] = []
+    for size in part.sizes:
+        value = given.get(size.cell, size.default)
+        if not size.low <= value <= size.high:
+            detail = f"{size} = {value:g} ({size.accepted})"
+            findings.append(CodeError("E222", detail=detail).at(str(part.path), size.line, ""))
+        values[size.cell] = in_unit(value, size.unit, active)
+    values[TOOL_RADIUS] = in_unit(_tool_radius(cells, d_number), store_unit, active)
+    values[LEAD_IN] = in_unit(cells.read(LEAD_IN_CELL), store_unit, active)
+    if not findings:
+        findings = [
+            finding for rule in part.rules for finding in _broken(part, rule, values, cells)
+        ]
+    if findings:
+        raise PartError(findings)
+    if feed is None:
+        feed = in_unit(cells.read(START_FEED) or cells.read(CUT_SPEED), store_unit, active)
+    if not feed > 0.0:
+        raise UserError(f"feed {feed:g}: it must be above 0")
+    return Ready(part, values, int(cells.read(IJ_CODE)), is_metric, feed, d_number)
+
+
+def in_unit(value: float, unit: str, active: str) -> float:
+    """A length in the active unit; anything else as it is."""
+    if unit == active or unit not in LENGTHS:
+        return value
+    converted = value * MM_PER_INCH if active == MM else value / MM_PER_INCH
+    return float(f"{converted:.{DIGITS}g}")
+
+
+def _tool_radius(cells: Cells, d_number: int) -> float:
+    if not d_number:
+        return abs(cells.read(CMP_RAD))
+    if not 1 <= d_number <= LAST_D:
+        raise UserError(f"D{d_number}: offsets are D1 to D{LAST_D}")
+    return abs(cells.read(D_RADIUS + d_number) + cells.read(D_WEAR + d_number))
+
+
+def _broken(part: Part, rule: Rule, values: Mapping[int, float], cells: Cells) -> Iterator[Finding]:
+    """The finding of a condition that does not hold."""
+    try:
+        if rule.condition.value(_Sizes(values, cells)):
+            return
+        fault = CodeError("E222", detail=f"{rule.text} does not hold")
+    except CodeError as found:
+        fault = found
+    except (ArithmeticError, ValueError):
+        fault = CodeError("E210", detail=rule.text)
+    yield fault.at(str(part.path), rule.line, "")
+
+
+class _Sizes:
+    """What conditions may ask for: sizes and cells of the store."""
+
+    def __init__(self, values: Mapping[int, float], cells: Cells) -> None:
+        self._values, self._cells = values, cells
+
+    def read_p(self, n: float) -> float:
+        """A size, or a cell of the store."""
+        if n in self._values:
+            return self._values[int(n)]
+        home = self._cells.home(int(n))
+        if n != int(n) or home.is_on_card or home.read_error:
+            raise CodeError("E211", detail=f"P{n:g}")
+        return self._cells.read(int(n))
+
+    def read_hash(self, n: float) -> float:
+        """The same."""
+        return self.read_p(n)
+
+    def read_named(self, name: str) -> float:
+        """There are none."""
+        raise CodeError("E108", hint="a CHECK knows parameters alone")
+
+    def has_named(self, name: str) -> bool:
+        """There are none."""
+        return False
+
+    def read_input(self, n: float) -> float:
+        """No input has a say in what a part can be."""
+        raise CodeError("E108", hint="a CHECK knows parameters alone")
+
+    read_output = read_bit = read_input
