@@ -291,7 +291,7 @@ def test_waiting_moves_are_part_of_a_snapshot() -> None:
         Move.of({7: 1}),
         Move.of({0: 1, 1: 1}, centers=(5, 5), code1=3 << 6),
         Move.of({0: 1000}, vel=-1.0),
-        Move.of({0: 1}, code1=Code1.NURB, code3=Code3.CURVE),
+        Move.of({}, code1=Code1.SPLINE, code3=Code3.CURVE),
     ],
     ids=str,
 )
@@ -300,3 +300,41 @@ def test_a_move_that_nobody_can_make_changes_nothing(refused: Move) -> None:
     before = sender.card.digest()
     assert sender.host.send(refused.encode()) == ""
     assert sender.card.digest() == before
+
+
+NURB = {"code1": Code1.NURB, "code3": Code3.CURVE}
+SPLINE = {"code1": Code1.SPLINE, "code3": Code3.CURVE}
+TIMED_SPLINE = {"code1": Code1.SPLINE | Code1.SPLINE_KNOTS, "code3": Code3.CURVE}
+
+
+@pytest.mark.req("BIN-136", "BIN-154", "BIN-156", "BIN-157")
+def test_a_nurb_of_packets_draws_a_quarter_circle() -> None:
+    sender = Sender("NURB RANK 3").move({0: 1000}).rest()
+    sender.move({0: 1000, 1: 0}, scaling=(0.0, 1.0), **NURB)
+    sender.move({1: 1000}, scaling=(0.0, 0.5**0.5), **NURB)
+    sender.move({0: 0}, scaling=(0.0, 1.0), **NURB)
+    sender.move({}, scaling=(-1.0, 0.0), **NURB)
+    while sender.card.bit[IN_MOTION]:
+        x, y, _ = sender.ticks(50).at
+        assert math.hypot(x, y) == pytest.approx(1000, abs=1e-4)
+    assert sender.at == (0, 1000, 0)
+
+
+@pytest.mark.req("BIN-128", "BIN-129", "BIN-155")
+def test_knots_of_spline_packets_are_times() -> None:
+    sender = Sender()
+    for knot in (0.125, 0.25, -0.125):
+        sender.move({0: 500}, **TIMED_SPLINE | {"code3": Code3.CURVE | Code3.INCREMENTAL_TARGET},
+                    scaling=(knot, 0.0))  # fmt: skip
+    start = sender.card.tick
+    sender.rest()
+    assert sender.card.tick - start == 1000
+    assert sender.at == (1500, 0, 0)
+
+
+def test_curves_of_many_packets_wait_for_room() -> None:
+    sender = Sender("SPLINE MODE 1")
+    for step in range(1, 41):
+        sender.move({0: 100 * step}, **SPLINE)
+    sender.move({0: 4000}, **TIMED_SPLINE, scaling=(-1.0, 0.0)).rest()
+    assert sender.at == (4000, 0, 0)

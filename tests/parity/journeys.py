@@ -45,6 +45,11 @@ JOURNEYS: dict[str, tuple[Step, ...]] = {
         "X0.2 Y0.1", 40, "X0.3", "FOV 0.5", 190, "JRK 2000", "X0 Y0", 90, "SET 520", 110,
         "SET 521", 150,
     ),
+    "curves": (
+        "P8228=0.125", "SPLINE MODE 0", "X0.1", "X0.2 Y0.1", "X0.1 Y0.2", "X0 Y0.1", 90, "X0 Y0",
+        "SPLINE END", 300, "NURB MODE 1", "NURB RANK 3", "X0 Y0 NW 2", "X0.2 Y0", "X0.2 Y0.2",
+        "X0 Y0.3 NK -2", 200,
+    ),
     "jogs": (
         "JOG FWD X", 60, "JOG REV Y", 50, "JOG VEL X1", 40, "JOG OFF X Y", 50, "JOG ABS X0.1 Y0",
         120, "JOG INC X-0.05", 60,

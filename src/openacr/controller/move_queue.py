@@ -12,17 +12,20 @@ from collections import deque
 from collections.abc import Iterator
 
 from openacr.errors import CardError
-from openacr.map.numbers import KRI_BASE, KRI_MOVES_WAITING
-from openacr.motion import host_moves, moves
+from openacr.map.numbers import KRI_BASE, KRI_MOVES_WAITING, MSI_ROOM_BELOW
+from openacr.motion import host_moves, moves, pieces
 from openacr.motion.card import Card
-from openacr.motion.host_moves import Arc, HostMove
+from openacr.motion.curve_modes import Family
+from openacr.motion.host_moves import Arc, HostMove, HostPoint
 from openacr.motion.orders import Direction
 from openacr.motion.permits import scale_of
+from openacr.motion.rows import master_ints
 from openacr.protocol.move import Code1, Code3, Curve, Move
 from openacr.protocol.packet import PacketError
 
 log = logging.getLogger(__name__)
 MOST = 64
+_FAMILIES = {Curve.NURB: Family.NURB, Curve.SPLINE: Family.SPLINE}
 _WAITING = KRI_BASE + KRI_MOVES_WAITING
 
 
@@ -51,8 +54,8 @@ class MoveQueue:
     def _issue(self, master: int) -> None:
         waiting = self._waiting[master]
         try:
-            while waiting and self._has_room(master):
-                host_moves.issue(self._card, _host_move(self._card, waiting.popleft()))
+            while waiting and self._has_room(waiting[0]):
+                self._make(waiting.popleft())
         except (CardError, PacketError) as refused:
             log.debug("master %d: %s; %d moves behind it dropped", master, refused, len(waiting))
             waiting.clear()
@@ -60,12 +63,30 @@ class MoveQueue:
             del self._waiting[master]
         self._note()
 
-    def _has_room(self, master: int) -> bool:
-        return master >= self._card.model.masters or moves.has_room(self._card, master)
+    def _make(self, move: Move) -> None:
+        if move.curve in _FAMILIES:
+            host_moves.take_point(self._card, _host_point(self._card, move))
+        else:
+            host_moves.issue(self._card, _host_move(self._card, move))
+
+    def _has_room(self, move: Move) -> bool:
+        if move.master >= self._card.model.masters:
+            return True  # nothing to wait for: it will be refused
+        row, limit = self._room(move)
+        return self._card.memory.I[row] < limit
+
+    def _room(self, move: Move) -> tuple[int, int]:
+        """Row in I and value it must stay below for a move to find room."""
+        if move.curve in _FAMILIES:
+            return pieces.room_row(self._card, move.master, pieces.MOST)
+        return moves.room_row(self._card, move.master)
 
     def _note(self) -> None:
-        """Tell the engine which masters are waited for."""
-        self._card.memory.I[_WAITING] = sum(1 << master for master in self._waiting)
+        """Tell the engine which masters are waited for, and for how much room."""
+        rows = self._card.memory.I
+        rows[_WAITING] = sum(1 << master for master in self._waiting)
+        for master, waiting in self._waiting.items():
+            rows[master_ints(master) + MSI_ROOM_BELOW] = self._room(waiting[0])[1]
 
     def clear(self) -> None:
         """Forget all waiting moves, as at power-up."""
@@ -87,8 +108,6 @@ class MoveQueue:
 
 def _host_move(card: Card, move: Move) -> HostMove:
     """What a packet asks of a card in its present mode."""
-    if move.curve in (Curve.NURB, Curve.SPLINE):
-        raise PacketError(f"{move.curve.name} moves are not there")
     profile = move.profile(host_moves.has_rapid_modes(card, move.master))
     return HostMove(
         master=move.master,
@@ -105,6 +124,25 @@ def _host_move(card: Card, move: Move) -> HostMove:
         count=move.counter_step,
         interrupt=bool(move.code1 & Code1.INTERRUPT),
         block_skip=bool(move.code3 & Code3.BLOCK_SKIP),
+    )
+
+
+def _host_point(card: Card, move: Move) -> HostPoint:
+    """A point of a curve: the first scaling field is its knot, the second a NURB's weight."""
+    knot, weight = move.scaling or (None, None)
+    is_nurb = move.curve is Curve.NURB
+    if not is_nurb and not move.code1 & Code1.SPLINE_KNOTS:
+        knot = None
+    return HostPoint(
+        master=move.master,
+        family=_FAMILIES[move.curve],
+        targets_cnt=dict(_pulses(card, move, move.targets)),
+        relative=bool(move.code3 & Code3.INCREMENTAL_TARGET),
+        knot=knot,
+        weight=weight if is_nurb and move.targets else None,
+        vel_ups=move.vel,
+        acc_ups2=move.acc,
+        fvel_ups=move.fvel,
     )
 
 

@@ -36,8 +36,8 @@ from openacr.map.numbers import (
     KRI_MISSING_DACS,
     KRI_MOVES_WAITING,
     MSI_BASE,
-    MSI_DEPTH,
     MSI_QUEUED,
+    MSI_ROOM_BELOW,
     MSI_STRIDE,
     PF_BLOCK_CONTROL,
     PF_BLOCK_MODE,
@@ -257,7 +257,7 @@ def room_made(I: I32) -> bool:
     while waiting:
         if waiting & 1:
             i: int = MSI_BASE + m * MSI_STRIDE
-            if I[i + MSI_QUEUED] <= I[i + MSI_DEPTH]:
+            if I[i + MSI_QUEUED] < I[i + MSI_ROOM_BELOW]:
                 return True
         waiting = waiting >> 1
         m += 1

@@ -1,6 +1,7 @@
 """Moves along curves: CIRCW, CIRCCW, TARC, SINE and axes in Sinusoidal Mode.
 
-All of them are one formula. With f = s/L from 0 to 1, a slave on a curve stands at
+The pieces of SPLINE and NURB are left to bezier_cy. All others are one formula: with
+f = s/L from 0 to 1, a slave on a curve stands at
 
     target - slope (1 - f) + wave(f) - wave(1),
     wave(f) = (amplitude + growth f) sin(phase + sweep f),
@@ -17,6 +18,13 @@ known only when the move begins, or is planned behind others.
 
 from openacr.cmath import atan2, cos, fabs, sin, sqrt
 from openacr.kernel.axis_cy import axis_scale
+from openacr.kernel.bezier_cy import (
+    bezier_position,
+    bezier_slope,
+    bezier_steepest,
+    bezier_u,
+    is_bezier,
+)
 from openacr.map.numbers import (
     AX_BASE,
     AX_END_RADIUS,
@@ -47,6 +55,7 @@ from openacr.map.numbers import (
     MWF_POINT_CNT,
     MWF_RADIUS_SCALE,
     MWF_SLOPE_CNT,
+    MWF_SPAN,
     MWF_STRIDE,
     MWF_SWEEP_RAD,
 )
@@ -72,8 +81,17 @@ def curve_wave(F: F64, w: int, s: int, part: float) -> float:
     )
 
 
-def curve_position(F: F64, record: int, s: int, rest: float) -> float:
-    """Position of slave s of a move when `rest` of it (1 to 0) is still to go."""
+def curve_rest(F: F64, I: I32, record: int, rest: float) -> float:
+    """What `curve_position` takes when `rest` of the path (1 to 0) is still to go."""
+    if is_bezier(I, record):
+        return 1.0 - bezier_u(F, I, record, 1.0 - rest)
+    return rest
+
+
+def curve_position(F: F64, I: I32, record: int, s: int, rest: float) -> float:
+    """Position of slave s of a move when `rest` of it is still to go."""
+    if is_bezier(I, record):
+        return bezier_position(F, I, record, s, 1.0 - rest)
     w: int = MWF_BASE + record * MWF_STRIDE
     return (
         F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s]
@@ -82,8 +100,10 @@ def curve_position(F: F64, record: int, s: int, rest: float) -> float:
     )
 
 
-def curve_slope(F: F64, record: int, s: int, part: float) -> float:
+def curve_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     """Change of the position of slave s with the part of the move."""
+    if is_bezier(I, record):
+        return bezier_slope(F, I, record, s, bezier_u(F, I, record, part))
     w: int = MWF_BASE + record * MWF_STRIDE
     angle: float = F[w + MWF_PHASE_RAD + s] + F[w + MWF_SWEEP_RAD + s] * part
     growth: float = F[w + MWF_GROWTH_CNT + s]
@@ -95,8 +115,10 @@ def curve_slope(F: F64, record: int, s: int, part: float) -> float:
     )
 
 
-def curve_steepest(F: F64, record: int, s: int) -> float:
+def curve_steepest(F: F64, I: I32, record: int, s: int) -> float:
     """A bound of the size of `curve_slope` over the whole move."""
+    if is_bezier(I, record):
+        return bezier_steepest(F, I, record, s)
     w: int = MWF_BASE + record * MWF_STRIDE
     size: float = F[w + MWF_AMPLITUDE_CNT + s]
     growth: float = F[w + MWF_GROWTH_CNT + s]
@@ -137,6 +159,8 @@ def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> flo
     q: int = MQI_BASE + record * MQI_STRIDE
     kind: int = I[q + MQI_CURVE]
     arc: float = 0.0
+    if is_bezier(I, record):
+        return F[MWF_BASE + record * MWF_STRIDE + MWF_SPAN]
     curve_sines(F, I, record)
     if kind == CURVE_CW or kind == CURVE_CCW:
         spiral: bool = I[MF2_WORD + m if m < 8 else MF2_WORD_HIGH + m] & MF2_SPIRAL_MODE != 0

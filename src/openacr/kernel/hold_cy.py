@@ -1,5 +1,7 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
+from openacr.kernel.bezier_cy import is_bezier
+from openacr.kernel.curveflags_cy import curve_drop
 from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
 from openacr.kernel.lookahead_cy import look_active
 from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record
@@ -90,6 +92,7 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     I[i + MSI_STRETCH] = 1
     I[i + MSI_TRIGGER] = 0
     I[i + MSI_TRIGGER_AXIS] = 0
+    curve_drop(I, m)
     F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
     F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
     profile_reset(F, I, m, 0.0, 0.0)
@@ -146,6 +149,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]
     flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_active(I, m)
+    flows = flows or is_bezier(I, move_record(I, m))
     merged: bool = flows and I[i + MSI_QUEUED] > I[i + MSI_STRETCH]
     if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
         stp: float = F[q + MQF_STP_UPS2]

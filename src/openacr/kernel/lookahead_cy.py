@@ -23,7 +23,8 @@ Moves with a time, a capture or a trigger of their own are entered and left at r
 """
 
 from openacr.cmath import sqrt
-from openacr.kernel.path_cy import master_word, move_limit, move_override
+from openacr.kernel.bezier_cy import is_bezier, is_timed
+from openacr.kernel.path_cy import MARK_CURVE_BEGIN, master_word, move_limit, move_override
 from openacr.map.numbers import (
     MA_BASE,
     MA_LOOK_AHEAD_MIN_VEL,
@@ -45,6 +46,7 @@ from openacr.map.numbers import (
     MQI_BASE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
+    MQI_MARKS,
     MQI_RAPID,
     MQI_SEEK_AXIS,
     MQI_STRIDE,
@@ -82,6 +84,17 @@ def look_active(I: I32, m: int) -> bool:
     return flags & MF4_LOOK_AHEAD_MODE != 0 and not flags & MF4_LOOK_AHEAD_NEGLECT
 
 
+def look_through(F: F64, I: I32, m: int, record: int) -> bool:
+    """Whether plans may run beyond a move: with look-ahead, and along SPLINE and NURB always."""
+    return look_plain(F, I, record) and (look_active(I, m) or is_bezier(I, record))
+
+
+def same_curve(I: I32, a: int, b: int) -> bool:
+    """Whether both of two moves that follow each other are pieces of one curve."""
+    marks: int = I[MQI_BASE + b * MQI_STRIDE + MQI_MARKS]
+    return is_bezier(I, a) and is_bezier(I, b) and not marks & MARK_CURVE_BEGIN
+
+
 def look_record(I: I32, m: int, k: int) -> int:
     """Record of the move `k` places behind the present one."""
     i: int = MSI_BASE + m * MSI_STRIDE
@@ -102,7 +115,7 @@ def look_plain(F: F64, I: I32, record: int) -> bool:
 def look_speed(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     """Speed of a move the junctions are laid out for; overrides below 1 come on top."""
     override: float = move_override(I, S, m, record)
-    return move_limit(F, S, m, record, override if override > 1.0 else 1.0)
+    return move_limit(F, I, S, m, record, override if override > 1.0 else 1.0)
 
 
 def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
@@ -110,6 +123,12 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
     velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+    if same_curve(I, a, b) or is_timed(I, a):
+        return velocity
+    if is_timed(I, b):
+        return 0.0
+    if not look_active(I, m):  # beside a curve moves merge as they do without look-ahead
+        return min(velocity, look_final(F, I, S, m, a))
     turn: float = F[MQF_BASE + a * MQF_STRIDE + MQF_TURN_DEG]
     begin: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_FROM_DEG]
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_TO_DEG]

@@ -9,7 +9,9 @@ in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), se
 (MSEEK), hsint_cy (HSINT), timed_cy (TMOV) and timebase_cy (SRC, TOV).
 """
 
+from openacr.kernel.bezier_cy import is_timed
 from openacr.kernel.capture_cy import capture_arm
+from openacr.kernel.curveflags_cy import curve_show
 from openacr.kernel.hold_cy import (
     FEEDHOLDING,
     IN_FEEDHOLD,
@@ -26,6 +28,7 @@ from openacr.kernel.path_cy import (
     MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
     MARK_COUNT_UP,
+    MARK_CURVE_BEGIN,
     MARK_INTERRUPT,
     MARK_OVERRIDE_LOCKED,
     master_limit,
@@ -48,6 +51,10 @@ from openacr.kernel.seek_cy import SEEK_NONE, SEEK_SEARCHING, SEEK_STOPPING, see
 from openacr.kernel.timebase_cy import path_advance, path_time
 from openacr.kernel.timed_cy import move_timed
 from openacr.map.numbers import (
+    CPI_BASE,
+    CPI_LIVE,
+    CPI_OPEN,
+    CPI_STRIDE,
     MA_BASE,
     MA_DISTANCE_INTO_MOVE,
     MA_DISTANCE_INTO_PATH,
@@ -125,6 +132,7 @@ from openacr.map.numbers import (
     MSI_SIZE,
     MSI_STRETCH,
     MSI_STRIDE,
+    MSI_TIMED,
     PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
@@ -155,6 +163,9 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     move_geometry(F, I, S, m)
     turn: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TURN_DEG]
     S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_VECTOR_ANGLE] = turn
+    if time_changes(I, m, record):
+        velocity = 0.0
+        accel = 0.0
     I[i + MSI_MOVING] = 1
     I[i + MSI_CUT] = 0
     I[i + MSI_RESPONSE] = response_period(I, m)
@@ -182,6 +193,17 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     if F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] > 0.0:
         move_timed(F, I, S, m)
     master_plan(F, I, S, m)
+
+
+def time_changes(I: I32, m: int, record: int) -> bool:
+    """Whether speed begins anew with a move: curves in time are entered and left at rest."""
+    row: int = MSI_BASE + m * MSI_STRIDE + MSI_TIMED
+    before: int = I[row]
+    I[row] = 1 if is_timed(I, record) else 0
+    if I[row] != before:
+        return True
+    marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
+    return before != 0 and marks & MARK_CURVE_BEGIN != 0
 
 
 def move_flags(I: I32, S: F32, m: int, record: int) -> None:
@@ -321,6 +343,13 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
 
 def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
     """Advance master m by one servo period of `dt` seconds of path time."""
+    master_moves(F, I, S, m, dt)
+    if I[CPI_BASE + m * CPI_STRIDE + CPI_LIVE]:
+        curve_show(I, m)
+
+
+def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
+    """Take the path of a master on, through as many of its moves as fit."""
     i: int = MSI_BASE + m * MSI_STRIDE
     word: int = master_word(m)
     left: float = dt
@@ -428,6 +457,9 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
 def master_idle(F: F64, I: I32, S: F32, m: int) -> None:
     """All moves have arrived: motion flags clear in the tick of the final positions."""
     word: int = master_word(m)
+    moving: int = 0
+    if I[CPI_BASE + m * CPI_STRIDE + CPI_OPEN]:  # a curve waits for its next points
+        moving = I[word] & MF1_IN_MOTION
     I[word] &= ~(
         MF1_IN_MOTION
         | MF1_MOVE_BUFFERED
@@ -436,6 +468,7 @@ def master_idle(F: F64, I: I32, S: F32, m: int) -> None:
         | MF1_STOPPING
         | MF1_JERKING
     )
+    I[word] |= moving
     profile_reset(F, I, m, 0.0, 0.0)
     p: int = MA_BASE + m * MA_STRIDE
     S[p + MA_DISTANCE_INTO_MOVE] = S[p + MA_VECTOR_LENGTH]

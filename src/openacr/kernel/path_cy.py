@@ -10,10 +10,12 @@ which is exactly the target at s = L; those on a curve where curve_cy says.
 
 from openacr.cmath import atan2, fabs, sqrt
 from openacr.kernel.axis_cy import axis_scale
+from openacr.kernel.bezier_cy import is_bezier, is_timed
 from openacr.kernel.curve_cy import (
     DEGREES,
     curve_longest_deg,
     curve_position,
+    curve_rest,
     curve_shape,
     curve_slope,
     curve_steepest,
@@ -85,6 +87,10 @@ MARK_COUNT_UP = 2
 MARK_COUNT_DOWN = 4
 MARK_INTERRUPT = 8
 MARK_BLOCK_SKIP = 16
+# What a piece of a curve brings along.
+MARK_CURVE_BEGIN = 32
+MARK_NURB = 64
+BESIDE = 1e-3
 FAR_U = 1e30
 
 
@@ -111,7 +117,7 @@ def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
     if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
         velocity = S[MA_BASE + m * MA_STRIDE + MA_USER_VELOCITY]
         F[MQF_BASE + record * MQF_STRIDE + MQF_VEL_UPS] = velocity
-    velocity = move_limit(F, S, m, record, move_override(I, S, m, record))
+    velocity = move_limit(F, I, S, m, record, move_override(I, S, m, record))
     cap: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_CAP_UPS]
     return min(velocity, cap) if cap > 0.0 else velocity
 
@@ -128,7 +134,7 @@ def move_override(I: I32, S: F32, m: int, record: int) -> float:
     return S[p + MA_FEEDRATE_OVERRIDE]
 
 
-def move_limit(F: F64, S: F32, m: int, record: int, override: float) -> float:
+def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> float:
     """Cruising speed of a move [units/s] with an override.
 
     The comparisons are written so that what is no number counts as 0 or as no limit.
@@ -136,7 +142,7 @@ def move_limit(F: F64, S: F32, m: int, record: int, override: float) -> float:
     q: int = MQF_BASE + record * MQF_STRIDE
     velocity: float = F[q + MQF_VEL_UPS] * override
     limit: float = S[MA_BASE + m * MA_STRIDE + MA_VEL_LIMIT]
-    if limit > 0.0:
+    if limit > 0.0 and not is_timed(I, record):
         velocity = min(velocity, limit)
     if F[q + MQF_MAXVEL_UPS] > 0.0:
         velocity = min(velocity, F[q + MQF_MAXVEL_UPS])
@@ -215,7 +221,7 @@ def move_maxvel(F: F64, I: I32, S: F32, m: int, record: int) -> None:
             limit: float = S[AX_BASE + axis * AX_STRIDE + AX_MAX_VELOCITY_LIMIT]
             travel: float = fabs(F[q + MQF_DELTA_CNT + s])
             if curved & (1 << s):
-                travel = curve_steepest(F, record, s)
+                travel = curve_steepest(F, I, record, s)
             travel = travel / fabs(axis_scale(S, axis))
             if limit > 0.0 and travel > 0.0:
                 speed: float = limit * F[q + MQF_LENGTH_U] / travel
@@ -229,7 +235,7 @@ def path_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     if not I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES] & (1 << s):
         return 0.0
     if I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED] & (1 << s):
-        return curve_slope(F, record, s, part)
+        return curve_slope(F, I, record, s, part)
     return F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
 
 
@@ -243,6 +249,8 @@ def path_direction(F: F64, I: I32, S: F32, m: int, record: int, part: float, row
     """Write the direction of the first three slaves at a part of a move; 0 without any."""
     q: int = MQF_BASE + record * MQF_STRIDE
     square: float = 0.0
+    if is_bezier(I, record):  # at its very ends it may stand still
+        part = part + (0.5 - part) * BESIDE
     for s in range(3):
         axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
         slope: float = 0.0
@@ -284,6 +292,9 @@ def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
     i: int = MSI_BASE + m * MSI_STRIDE
     slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
     curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
+    along: float = rest
+    if curved:
+        along = curve_rest(F, I, record, rest)
     s: int = 0
     while slaves:
         if slaves & 1:
@@ -291,7 +302,7 @@ def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
             if 0 <= axis < AX_COUNT:
                 position: float = F[q + MQF_TARGET_CNT + s] - F[q + MQF_DELTA_CNT + s] * rest
                 if curved & (1 << s):
-                    position = curve_position(F, record, s, rest)
+                    position = curve_position(F, I, record, s, along)
                 F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT] = position
         slaves = slaves >> 1
         s += 1

@@ -1,11 +1,10 @@
 """Plan the path of a master from where it is: the present move, or all that look-ahead joins."""
 
 from openacr.kernel.lookahead_cy import (
-    look_active,
-    look_plain,
     look_rate,
     look_record,
     look_scan,
+    look_through,
 )
 from openacr.kernel.path_cy import master_limit, master_word, move_record
 from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan
@@ -46,7 +45,7 @@ from openacr.views import F32, F64, I32
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the present move of master m from where it is."""
     record: int = move_record(I, m)
-    if look_active(I, m) and look_plain(F, I, record):
+    if look_through(F, I, m, record):
         look_scan(F, I, S, m)
         look_plan(F, I, S, m)
         return
@@ -128,7 +127,7 @@ def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:
     i: int = MSI_BASE + m * MSI_STRIDE
     f: int = MSF_BASE + m * MSF_STRIDE
     I[i + MSI_LOOK_DIRTY] = 0
-    if not (look_active(I, m) and look_plain(F, I, move_record(I, m))):
+    if not look_through(F, I, m, move_record(I, m)):
         return
     end: float = F[f + MSF_STRETCH_U]
     cap: float = F[f + MSF_LOOK_CAP_UPS]

@@ -3,13 +3,19 @@
 from collections.abc import Sequence
 from math import radians
 
+from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import curve_cy
+from openacr.kernel import bezier_cy, curve_cy
+from openacr.map.hidden.motion import SLAVES
 from openacr.map.numbers import (
     AF1_SINUSOIDAL_MODE,
+    MQF_BASE,
+    MQF_STRIDE,
+    MQF_WEIGHT,
     MQI_BASE,
     MQI_CURVE,
     MQI_CURVED,
+    MQI_DEGREE,
     MQI_HALF_WAVE,
     MQI_PLANE,
     MQI_STRIDE,
@@ -17,18 +23,20 @@ from openacr.map.numbers import (
     MWF_BASE,
     MWF_PHASE_RAD,
     MWF_POINT_CNT,
+    MWF_POLE_WEIGHT,
     MWF_RADIUS_SCALE,
+    MWF_SPAN,
     MWF_STRIDE,
     MWF_SWEEP_RAD,
 )
 from openacr.messages import INVALID_ARC, UNDEFINED_SYMBOL
 from openacr.motion.card import Card
-from openacr.motion.orders import Circle, Part, Sine, SpaceArc, Target
+from openacr.motion.orders import Circle, Piece, Shape, Sine, SpaceArc, Target
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_word
 
 
-def write(card: Card, program: int, record: int, parts: Sequence[Part]) -> None:
+def write(card: Card, program: int, record: int, parts: Sequence[Shape]) -> None:
     """Write the curves of all parts; parts on straight lines have none."""
     rows = MQI_BASE + record * MQI_STRIDE
     ints = card.memory.I
@@ -47,6 +55,11 @@ def write(card: Card, program: int, record: int, parts: Sequence[Part]) -> None:
                 _write_plane(card, program, record, axes, center, direction, stretch)
             case SpaceArc(axes, _, mid):
                 _write_plane(card, program, record, axes, mid, curve_cy.CURVE_SPACE)
+            case Piece():
+                _write_piece(card, record, part)
+
+
+_bezier_measure = pick(bezier_cy.bezier_measure)
 
 
 def slave_of(card: Card, program: int, axis: int) -> int:
@@ -91,3 +104,30 @@ def _write_plane(
         card.memory.I[rows + MQI_PLANE + place] = slave_of(card, program, axis)
         point = MWF_BASE + record * MWF_STRIDE + MWF_POINT_CNT + place
         card.memory.F[point] = value * scale_of(card, axis)
+
+
+def _write_piece(card: Card, record: int, piece: Piece) -> None:
+    """Poles relative to the target, and what the way is measured by."""
+    memory = card.memory
+    rows, waves = MQI_BASE + record * MQI_STRIDE, MWF_BASE + record * MWF_STRIDE
+    memory.I[rows + MQI_CURVE] = bezier_cy.CURVE_TIMED if piece.span else bezier_cy.CURVE_PATH
+    memory.I[rows + MQI_DEGREE] = len(piece.poles_cnt) - 1
+    memory.I[rows + MQI_CURVED] = sum(1 << slave for slave in piece.slaves)
+    target = piece.poles_cnt[-1]
+    for k, (pole, weight) in enumerate(zip(piece.poles_cnt, piece.weights, strict=True)):
+        memory.F[waves + MWF_POLE_WEIGHT + k] = weight
+        row = waves + MWF_AMPLITUDE_CNT + k * SLAVES
+        for slave, value, end in zip(piece.slaves, pole, target, strict=True):
+            memory.F[row + slave] = value - end
+    _weigh(card, record, piece)
+    length = _bezier_measure(memory.F, memory.I, record)
+    memory.F[waves + MWF_SPAN] = piece.span or length
+
+
+def _weigh(card: Card, record: int, piece: Piece) -> None:
+    """Turn the weights of VECDEF into units per pulse; without any all slaves count alike."""
+    first = MQF_BASE + record * MQF_STRIDE + MQF_WEIGHT
+    given = [card.memory.F[first + slave] for slave in piece.slaves]
+    weights = given if any(given) else [1.0] * len(given)
+    for slave, axis, weight in zip(piece.slaves, piece.axes, weights, strict=True):
+        card.memory.F[first + slave] = weight / abs(scale_of(card, axis))

@@ -34,6 +34,7 @@ from openacr.map.numbers import (
     MSF_FVEL_UPS,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
+from openacr.motion import curve_modes
 from openacr.motion.card import Card
 from openacr.motion.moves import start_cnt
 from openacr.motion.orders import Circle, Direction, Part
@@ -92,6 +93,21 @@ class HostMove:
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HostPoint:
+    """A point of SPLINE or NURB of a master as a packet describes it."""
+
+    master: int
+    family: curve_modes.Family
+    targets_cnt: Mapping[int, float] = field(default_factory=dict)  # by slave
+    relative: bool = False
+    knot: float | None = None
+    weight: float | None = None
+    vel_ups: float | None = None
+    acc_ups2: float | None = None
+    fvel_ups: float | None = None
+
+
 def has_rapid_modes(card: Card, master: int) -> bool:
     """Whether move packets of a master carry rapid modes (Enable Rapid Move Modes)."""
     return bool(card.memory.I[master_word2(master)] & MF2_ENABLE_RAPID_MOVE_MODES)
@@ -116,10 +132,7 @@ def issue(card: Card, move: HostMove) -> None:
     """Start or buffer the move; the caller has made sure that there is room."""
     program = _program(card, move.master)
     needs_moves(card, move.master)
-    ways = _ways(card, move)
-    for way in ways:
-        needs_on(card, way.axis)
-        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    ways = _permitted(card, _ways(card, move))
     _take_profile(card, move)
     if move.arc is None and not any(way.delta_cnt for way in ways):
         if not master_moving(card, move.master):
@@ -136,6 +149,30 @@ def issue(card: Card, move: HostMove) -> None:
     card.memory.I[ints + MQI_MARKS] = move.marks
 
 
+def take_point(card: Card, point: HostPoint) -> None:
+    """Take a point of a curve, which it begins in mode 0 if no command has; as with `issue`."""
+    program = _program(card, point.master)
+    needs_moves(card, point.master)
+    here = not master_moving(card, point.master)
+    ways = _straight(card, point.master, point.targets_cnt, here=here, relative=point.relative)
+    _permitted(card, ways)
+    if not ways and point.family is curve_modes.Family.SPLINE:
+        raise CardError(INVALID_ARGUMENT)
+    if curve_modes.family(card, point.master) is not point.family:
+        curve_modes.begin(card, point.master, point.family, 0)
+    _take_profile(card, point)
+    values = {way.slave: way.target_cnt for way in ways}
+    curve_modes.take(card, program, point.master, values, point.knot, point.weight)
+
+
+def _permitted(card: Card, ways: list[Way]) -> list[Way]:
+    """The ways, refused if one of them is barred."""
+    for way in ways:
+        needs_on(card, way.axis)
+        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    return ways
+
+
 def _count_at_once(card: Card, move: HostMove) -> None:
     """A move that leads nowhere is over when it comes."""
     row = master_parameter(move.master) + MA_MOVE_COUNTER
@@ -144,7 +181,7 @@ def _count_at_once(card: Card, move: HostMove) -> None:
         card.memory.I[row] = counted
 
 
-def _take_profile(card: Card, move: HostMove) -> None:
+def _take_profile(card: Card, move: HostMove | HostPoint) -> None:
     """Velocity, ramps and final velocity are those of the master from now on."""
     given = (move.vel_ups, move.acc_ups2, move.fvel_ups)
     if any(value is not None and value < 0.0 for value in given):
@@ -167,12 +204,18 @@ def _ways(card: Card, move: HostMove) -> list[Way]:
             axis = slave_axis(card, move.master, slave)
             start = start_cnt(card, move.master, slave, axis, here=here)
             targets[slave] = 0.0 if move.relative else start
+    return _straight(card, move.master, targets, here=here, relative=move.relative)
+
+
+def _straight(
+    card: Card, master: int, targets: Mapping[int, float], *, here: bool, relative: bool
+) -> list[Way]:
     found = []
     for slave, value in sorted(targets.items()):
-        axis = slave_axis(card, move.master, slave)
-        start = start_cnt(card, move.master, slave, axis, here=here)
-        delta = value if move.relative else value - start
-        found.append(Way(slave, axis, start, start + delta, delta, relative=move.relative))
+        axis = slave_axis(card, master, slave)
+        start = start_cnt(card, master, slave, axis, here=here)
+        delta = value if relative else value - start
+        found.append(Way(slave, axis, start, start + delta, delta, relative=relative))
     return found
 
 

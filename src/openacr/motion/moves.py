@@ -29,7 +29,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
-from openacr.motion import replacing
+from openacr.motion import curve_modes, curve_points, replacing
 from openacr.motion.card import Card
 from openacr.motion.curves import slave_of
 from openacr.motion.orders import FlagState, Part, Target, end_points
@@ -101,6 +101,21 @@ def issue(
     rows = MQI_BASE + append(card, program, master, ways, parts) * MQI_STRIDE
     card.memory.I[rows + MQI_RAPID] = int(rapid)
     card.memory.I[rows + MQI_INTERRUPT] = interrupt.signed if interrupt else 0
+
+
+def point(
+    card: Card, program: int, targets: Sequence[Target], knot: float | None, weight: float | None
+) -> None:
+    """Take a point of the curve that SPLINE MODE or NURB MODE has begun."""
+    master = needed_master(card, program)
+    needs_moves(card, master)
+    here = not master_moving(card, master)
+    ways = [_way(card, program, master, target, here=here) for target in targets]
+    for way in ways:
+        needs_on(card, way.axis)
+        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    values = {way.slave: way.target_cnt for way in ways}
+    curve_modes.take(card, program, master, values, knot, weight)
 
 
 def _is_nothing(ways: list[Way], parts: Sequence[Part]) -> bool:
@@ -176,7 +191,10 @@ def shortest_way(delta: float, length: float) -> float:
 
 
 def start_cnt(card: Card, master: int, slave: int, axis: int, *, here: bool) -> float:
-    """Where a slave is, or where its last queued move ends."""
+    """Where a slave is, or where its last queued move (or point of a curve) ends."""
+    point = curve_points.last_cnt(card, master, slave)
+    if point is not None:
+        return point
     if not here:
         return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]
     if not master_moving(card, master):

@@ -56,6 +56,17 @@ class SpaceArc:
 
 
 @dataclass(frozen=True, slots=True)
+class Piece:
+    """Slaves on a piece of SPLINE or NURB, in pulses; it takes `span` or, if 0, its length."""
+
+    slaves: tuple[int, ...]
+    axes: tuple[int, ...]
+    poles_cnt: tuple[tuple[float, ...], ...]
+    weights: tuple[float, ...]
+    span: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class FlagState:
     """A flag in the state that is waited for."""
 
@@ -69,6 +80,7 @@ class FlagState:
 
 
 Part: TypeAlias = Target | Sine | Circle | SpaceArc
+Shape: TypeAlias = Part | Piece
 
 
 def end_points(parts: Sequence[Part]) -> list[Target]:

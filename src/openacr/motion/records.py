@@ -59,7 +59,7 @@ from openacr.map.numbers import (
 from openacr.messages import INVALID_ARC
 from openacr.motion import curves, settings
 from openacr.motion.card import Card
-from openacr.motion.orders import Part
+from openacr.motion.orders import Shape
 from openacr.motion.rows import (
     axis_reals,
     master_ints,
@@ -95,7 +95,7 @@ class Way:
     relative: bool
 
 
-def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequence[Part]) -> int:
+def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequence[Shape]) -> int:
     """Write the next record of the ring and set the motion flags at once; its index."""
     settings.refresh_max_velocity(card, master)
     memory = card.memory

@@ -9,7 +9,9 @@ from openacr.basic import registry
 from openacr.basic.grammar import AxisTarget, AxisTargets, Bit, BitState
 from openacr.basic.registry import PROG, command
 from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.motion import moves, transform
+from openacr.errors import CardError
+from openacr.messages import INVALID_ARGUMENT, NOT_VALID_AT_THIS_LEVEL
+from openacr.motion import curve_modes, curve_points, moves, pieces, transform
 from openacr.motion.orders import Circle, FlagState, Part, Sine, SpaceArc, Target
 
 GROUP = "Interpolation"
@@ -18,10 +20,16 @@ REF = "PG Interpolation"
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How the move of a block is to be made: ended by a flag (INT), at once (TRJ)."""
+    """How the move of a block is to be made: ended by a flag (INT), at once (TRJ).
+
+    `knot` and `weight` are those of a point of a curve, `spline` tells whose knot it is.
+    """
 
     interrupt: FlagState | None = None
     replace: bool = False
+    knot: float | None = None
+    weight: float | None = None
+    spline: bool = False
 
 
 Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | Manner
@@ -58,12 +66,39 @@ def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
     manner = _manner(given)
+    if curve_points.is_given(run.card, master):
+        return _point(run, master, manner, given)
+    if manner.knot is not None or manner.weight is not None:
+        raise CardError(NOT_VALID_AT_THIS_LEVEL)
     if not manner.replace and not moves.has_room(run.card, master):
         return room(run, master)
     programmed = [_part(item) for item in given if not isinstance(item, Manner)]
     parts = transform.apply(run.card, program, programmed)
     moves.issue(run.card, program, parts, interrupt=manner.interrupt, replace=manner.replace)
     return None
+
+
+def _point(run: Run, master: int, manner: Manner, given: tuple[Given, ...]) -> Wait | None:
+    """Take a point of SPLINE or NURB; wait until all pieces it may complete find room."""
+    program = run.needed_program()
+    ours = curve_modes.family(run.card, master) is curve_modes.Family.SPLINE
+    if manner.interrupt or manner.replace or (manner.knot is not None and manner.spline != ours):
+        raise CardError(INVALID_ARGUMENT)
+    if not pieces.has_room(run.card, master, pieces.MOST):
+        return room_for_pieces(run, master)
+    programmed = [_part(item) for item in given if not isinstance(item, Manner)]
+    parts = transform.apply(run.card, program, programmed)
+    targets = [part for part in parts if isinstance(part, Target)]
+    if len(targets) < len(parts):
+        raise CardError(INVALID_ARGUMENT)
+    moves.point(run.card, program, targets, manner.knot, manner.weight)
+    return None
+
+
+def room_for_pieces(run: Run, master: int) -> Wait:
+    """Wait until the pieces of a curve find room, then try again."""
+    row, limit = pieces.room_row(run.card, master, pieces.MOST)
+    return Wait(WaitKind.ROW_BELOW, row, limit, retry=True, show=Show.MOVE_PENDING)
 
 
 def room(run: Run, master: int, count: int = 1) -> Wait:
@@ -87,6 +122,9 @@ def _manner(given: tuple[Given, ...]) -> Manner:
                 found,
                 interrupt=item.interrupt or found.interrupt,
                 replace=item.replace or found.replace,
+                knot=found.knot if item.knot is None else item.knot,
+                weight=found.weight if item.weight is None else item.weight,
+                spline=item.spline or found.spline,
             )
     return found
 

@@ -12,6 +12,10 @@ SLAVES = 16
 MOVES_PER_MASTER = 16
 MOVES_DIMENSIONED = 512  # room for the buffers that DIM MBUF makes longer
 MOVES = 16 * MOVES_PER_MASTER + MOVES_DIMENSIONED
+POLES = 6
+ARCS = 8
+POINTS = 12  # of an unfinished curve
+KNOTS = 24
 
 # One motion profile: pieces of constant jerk, evaluated in order (kernel/profile_cy.py).
 # Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes.
@@ -78,7 +82,8 @@ MOVE = HiddenBlock(
         "seek_mode",
         "curved",  # mask of the slaves that follow a curve, see kernel/curve_cy.py
         "half_wave",  # of those, the ones in Sinusoidal Mode
-        "curve",  # 0 none but SINE, 1 CIRCW, 2 CIRCCW, 3 TARC
+        "curve",  # 0 none but SINE, 1 CIRCW, 2 CIRCCW, 3 TARC, 4 and 5 SPLINE and NURB
+        "degree",  # of SPLINE and NURB (kernel/bezier_cy.py)
         ("plane", 3),  # slaves of CIRCW, CIRCCW and TARC
         "interrupt",  # INT: flag + 1 that ends it, negative: by being clear
         "trigger",  # TRG: flag + 1 that starts it, negative: by being clear
@@ -86,11 +91,12 @@ MOVE = HiddenBlock(
         "hsint_axis",  # HSINT: axis + 1
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
-        "marks",  # of a binary move: override lock, counter, interrupt, block skip
+        "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
 )
 
-# The curves of those moves: per slave a wave on a straight base (kernel/curve_cy.py).
+# The curves of those moves: per slave a wave on a straight base (kernel/curve_cy.py). SPLINE
+# and NURB keep up to six poles per slave in the first six rows (kernel/bezier_cy.py).
 CURVE = HiddenBlock(
     prefix="MW",
     count=MOVES,
@@ -103,6 +109,9 @@ CURVE = HiddenBlock(
         ("slope_cnt", SLAVES),  # of the base, over the whole move
         ("point_cnt", 3),  # centre of CIRCW and CIRCCW, mid point of TARC
         ("radius_scale", 3),  # of the axes of a circle: an ellipse
+        ("pole_weight", POLES),
+        ("arc_u", ARCS),  # length of a curve up to each eighth of its parameter
+        "span",  # the path along a curve: its length, or its time
     ),
 )
 
@@ -149,8 +158,31 @@ MASTER = HiddenBlock(
         "look_dirty",  # the buffer has changed: look ahead again
         "trigger",  # TRG for the next move to be issued, as in the move
         "trigger_axis",
+        "room_below",  # moves in the ring below which waiting binary moves find room
+        "timed",  # the present move is a curve whose path is time
         "paced",  # path time is not simply time: another source, or TOV
         ("rotate_slave", 2),  # the plane of ROTATE
+    ),
+)
+
+# What SPLINE and NURB have been given and cannot follow yet (motion/splines.py).
+CURVE_POINTS = HiddenBlock(
+    prefix="CP",
+    count=16,
+    doubles=(
+        ("point_cnt", POINTS * SLAVES),
+        ("weight", POINTS),
+        ("knot", KNOTS),  # NURB: knots; SPLINE: time of the way to each point
+        ("tangent_cps", SLAVES),  # SPLINE: at the beginning of the next piece
+    ),
+    ints=(
+        "slaves",  # mask of the slaves of the curve
+        "points",
+        "knots",
+        "behind",  # SPLINE: points before the beginning of the next piece
+        "rank",  # NURB: 0 the usual one
+        "open",  # pieces have been handed over and more are to come
+        "live",  # flags of a curve are to be kept true
     ),
 )
 

@@ -1,0 +1,100 @@
+"""Curves through points and by control points: SPLINE and NURB."""
+
+from __future__ import annotations
+
+from openacr.basic.commands.interpolation import GROUP, REF, Given, Manner, room_for_pieces
+from openacr.basic.grammar import Int, Num
+from openacr.basic.registry import BY_OBJECT, PROG, command
+from openacr.basic.run import Run, Wait
+from openacr.errors import CardError
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import curve_modes, curve_points, pieces
+from openacr.motion.curve_modes import Family
+
+HIGHEST_RANK = 6
+
+
+@command("SPLINE", group=GROUP, levels=BY_OBJECT, ref=REF)
+def spline(run: Run) -> None:
+    """Report the mode of splines."""
+    _report(run, Family.SPLINE)
+
+
+@command("SPLINE MODE", group=GROUP, levels=BY_OBJECT, grammar=(Int("mode"),), ref=REF)
+def spline_mode(run: Run, mode: int) -> None:
+    """Let moves be points of a smooth curve: in their times (0) or with the profile (1)."""
+    curve_modes.begin(run.card, run.master(), Family.SPLINE, mode)
+
+
+@command("SPLINE END", group=GROUP, levels=PROG, ref=REF)
+def spline_end(run: Run) -> Wait | None:
+    """End the spline at its last point; moves are moves again."""
+    return _end(run, Family.SPLINE)
+
+
+@command("SK", group=GROUP, levels=PROG, grammar=(Num("seconds"),), ref=REF, units="s", move=True)
+def sk(run: Run, knot: float) -> tuple[Given, ...]:
+    """Set the time of the way to this point of a spline; a negative one ends it."""
+    return (Manner(knot=knot, spline=True),)
+
+
+@command("NURB", group=GROUP, levels=BY_OBJECT, ref=REF)
+def nurb(run: Run) -> None:
+    """Report the mode of NURBs."""
+    _report(run, Family.NURB)
+
+
+@command("NURB MODE", group=GROUP, levels=BY_OBJECT, grammar=(Int("mode"),), ref=REF)
+def nurb_mode(run: Run, mode: int) -> None:
+    """Let moves be control points: by time (0), with the profile (1), slower in bends (4)."""
+    curve_modes.begin(run.card, run.master(), Family.NURB, mode)
+
+
+@command(
+    "NURB RANK",
+    group=GROUP,
+    levels=BY_OBJECT,
+    grammar=(Int("order", low=2, high=HIGHEST_RANK, optional=True),),
+    ref=REF,
+    default="4",
+)
+def nurb_rank(run: Run, order: int | None) -> None:
+    """Set the order of NURBs: how many control points act on a place of the curve."""
+    master = run.master()
+    if order is None:
+        run.print(str(curve_points.rank(run.card, master)))
+        return
+    if curve_points.load(run.card, master).points:
+        raise CardError(INVALID_ARGUMENT)
+    curve_points.set_rank(run.card, master, order)
+
+
+@command("NURB END", group=GROUP, levels=PROG, ref=REF)
+def nurb_end(run: Run) -> Wait | None:
+    """Repeat the last knot and end the NURB; moves are moves again."""
+    return _end(run, Family.NURB)
+
+
+@command("NK", group=GROUP, levels=PROG, grammar=(Num("knot"),), ref=REF, move=True)
+def nk(run: Run, knot: float) -> tuple[Given, ...]:
+    """Set the knot of this control point or, alone, give a further one; a negative one ends."""
+    return (Manner(knot=knot),)
+
+
+@command("NW", group=GROUP, levels=PROG, grammar=(Num("weight"),), ref=REF, default="1", move=True)
+def nw(run: Run, weight: float) -> tuple[Given, ...]:
+    """Set the weight of this control point."""
+    return (Manner(weight=weight),)
+
+
+def _report(run: Run, family: Family) -> None:
+    mode = curve_modes.mode(run.card, run.master(), family)
+    run.print("OFF" if mode is None else str(mode))
+
+
+def _end(run: Run, family: Family) -> Wait | None:
+    master = run.master()
+    if not pieces.has_room(run.card, master, pieces.MOST):
+        return room_for_pieces(run, master)
+    curve_modes.end(run.card, run.needed_program(), master, family)
+    return None

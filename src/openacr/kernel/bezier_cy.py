@@ -1,0 +1,212 @@
+"""Moves along rational Bezier curves: the pieces of which SPLINE and NURB are made.
+
+With u from 0 to 1 and the Bernstein polynomials B_k of degree n, a slave stands at
+
+    target + sum B_k(u) w_k q_k / sum B_k(u) w_k,
+
+where q_k are its poles relative to the target, so that u = 1 is exactly the target. The
+poles take the rows of the waves of other curves: pole k of slave s is row k of the six.
+
+In time modes the path of the master is u itself. In velocity modes it is the arc
+
+    s(u) = integral of |c'(u)| du,    c' weighted with VECDEF, in units,
+
+measured by Gauss-Legendre quadrature over ARCS equal parts; the u of an arc is found by
+Newton's method inside its part, kept in a bracket because |c'| may vanish at the ends of a
+spline.
+"""
+
+from openacr.cmath import fabs, sqrt
+from openacr.map.numbers import (
+    MQF_BASE,
+    MQF_STRIDE,
+    MQF_TARGET_CNT,
+    MQF_WEIGHT,
+    MQI_BASE,
+    MQI_CURVE,
+    MQI_CURVED,
+    MQI_DEGREE,
+    MQI_STRIDE,
+    MWF_AMPLITUDE_CNT,
+    MWF_ARC_U,
+    MWF_BASE,
+    MWF_POLE_WEIGHT,
+    MWF_STRIDE,
+)
+from openacr.views import F64, I32
+
+__all__ = ["bezier_measure", "bezier_position", "bezier_slope", "bezier_speed", "bezier_u"]
+
+CURVE_TIMED = 4
+CURVE_PATH = 5
+SLAVES = 16
+ARCS = 8
+PART = 0.125
+STEPS = 60
+SAMPLES = 32
+SAMPLE = 0.03125
+CLOSE = 1e-14
+# Nodes and weights of Gauss-Legendre quadrature of five points on (-1, 1).
+NODE_1 = 0.5384693101056831
+NODE_2 = 0.9061798459386640
+WEIGHT_0 = 0.5688888888888889
+WEIGHT_1 = 0.4786286704993665
+WEIGHT_2 = 0.2369268850561891
+
+
+def is_bezier(I: I32, record: int) -> bool:
+    """Whether a move is a piece of SPLINE or NURB."""
+    return I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE] >= CURVE_TIMED
+
+
+def is_timed(I: I32, record: int) -> bool:
+    """Whether the path of a move is time instead of a way."""
+    return I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE] == CURVE_TIMED
+
+
+def weight_sum(F: F64, record: int, degree: int, u: float) -> float:
+    """Sum of B_k(u) w_k."""
+    w: int = MWF_BASE + record * MWF_STRIDE + MWF_POLE_WEIGHT
+    total: float = F[w]
+    power: float = 1.0
+    for k in range(1, degree + 1):
+        power = power * u * (degree - k + 1) / k
+        total = total * (1.0 - u) + power * F[w + k]
+    return total
+
+
+def weight_rise(F: F64, record: int, degree: int, u: float) -> float:
+    """Derivative of `weight_sum` after u."""
+    w: int = MWF_BASE + record * MWF_STRIDE + MWF_POLE_WEIGHT
+    total: float = F[w + 1] - F[w]
+    power: float = 1.0
+    for k in range(1, degree):
+        power = power * u * (degree - k) / k
+        total = total * (1.0 - u) + power * (F[w + k + 1] - F[w + k])
+    return total * degree
+
+
+def pole(F: F64, record: int, s: int, k: int) -> float:
+    """Pole k of slave s times its weight."""
+    w: int = MWF_BASE + record * MWF_STRIDE
+    return F[w + MWF_AMPLITUDE_CNT + k * SLAVES + s] * F[w + MWF_POLE_WEIGHT + k]
+
+
+def pole_sum(F: F64, record: int, s: int, degree: int, u: float) -> float:
+    """Sum of B_k(u) w_k q_k of slave s."""
+    total: float = pole(F, record, s, 0)
+    power: float = 1.0
+    for k in range(1, degree + 1):
+        power = power * u * (degree - k + 1) / k
+        total = total * (1.0 - u) + power * pole(F, record, s, k)
+    return total
+
+
+def pole_rise(F: F64, record: int, s: int, degree: int, u: float) -> float:
+    """Derivative of `pole_sum` after u."""
+    total: float = pole(F, record, s, 1) - pole(F, record, s, 0)
+    power: float = 1.0
+    for k in range(1, degree):
+        power = power * u * (degree - k) / k
+        total = total * (1.0 - u) + power * (pole(F, record, s, k + 1) - pole(F, record, s, k))
+    return total * degree
+
+
+def bezier_position(F: F64, I: I32, record: int, s: int, u: float) -> float:
+    """Position of slave s at u."""
+    target: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s]
+    degree: int = I[MQI_BASE + record * MQI_STRIDE + MQI_DEGREE]
+    if u >= 1.0:
+        return target
+    return target + pole_sum(F, record, s, degree, u) / weight_sum(F, record, degree, u)
+
+
+def bezier_slope(F: F64, I: I32, record: int, s: int, u: float) -> float:
+    """Change of the position of slave s with u."""
+    degree: int = I[MQI_BASE + record * MQI_STRIDE + MQI_DEGREE]
+    below: float = weight_sum(F, record, degree, u)
+    rise: float = pole_rise(F, record, s, degree, u) * below
+    turn: float = pole_sum(F, record, s, degree, u) * weight_rise(F, record, degree, u)
+    return (rise - turn) / (below * below)
+
+
+def bezier_speed(F: F64, I: I32, record: int, u: float) -> float:
+    """Change of the weighted way [units] with u."""
+    curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
+    square: float = 0.0
+    for s in range(SLAVES):
+        if curved & (1 << s):
+            weight: float = F[MQF_BASE + record * MQF_STRIDE + MQF_WEIGHT + s]
+            if weight != 0.0:
+                slope: float = weight * bezier_slope(F, I, record, s, u)
+                square += slope * slope
+    return sqrt(square)
+
+
+def bezier_arc(F: F64, I: I32, record: int, a: float, b: float) -> float:
+    """Length of the curve from u = a to b."""
+    half: float = (b - a) / 2.0
+    mid: float = (a + b) / 2.0
+    total: float = WEIGHT_0 * bezier_speed(F, I, record, mid)
+    total += WEIGHT_1 * bezier_speed(F, I, record, mid - half * NODE_1)
+    total += WEIGHT_1 * bezier_speed(F, I, record, mid + half * NODE_1)
+    total += WEIGHT_2 * bezier_speed(F, I, record, mid - half * NODE_2)
+    total += WEIGHT_2 * bezier_speed(F, I, record, mid + half * NODE_2)
+    return total * half
+
+
+def bezier_measure(F: F64, I: I32, record: int) -> float:
+    """Note the arcs of a curve whose poles are known; return its length."""
+    w: int = MWF_BASE + record * MWF_STRIDE + MWF_ARC_U
+    total: float = 0.0
+    for k in range(ARCS):
+        total += bezier_arc(F, I, record, k * PART, (k + 1) * PART)
+        F[w + k] = total
+    return total
+
+
+def bezier_u(F: F64, I: I32, record: int, part: float) -> float:
+    """The u at a part of the path of a move, both from 0 to 1."""
+    if part <= 0.0 or part >= 1.0 or is_timed(I, record):
+        return part
+    w: int = MWF_BASE + record * MWF_STRIDE + MWF_ARC_U
+    length: float = F[w + ARCS - 1]
+    gone: float = part * length
+    k: int = 0
+    while k < ARCS - 1 and F[w + k] < gone:
+        k += 1
+    before: float = F[w + k - 1] if k > 0 else 0.0
+    first: float = k * PART
+    low: float = first
+    high: float = first + PART
+    width: float = F[w + k] - before
+    u: float = low
+    if width > 0.0:
+        u = low + (high - low) * (gone - before) / width
+    for _ in range(STEPS):
+        off: float = before + bezier_arc(F, I, record, first, u) - gone
+        if fabs(off) <= CLOSE * length:
+            break
+        if off > 0.0:
+            high = u
+        else:
+            low = u
+        speed: float = bezier_speed(F, I, record, u)
+        u = u - off / speed if speed > 0.0 else low
+        if not low < u < high:
+            u = (low + high) / 2.0
+    return u
+
+
+def bezier_steepest(F: F64, I: I32, record: int, s: int) -> float:
+    """The largest change of the position of slave s with the part of the path, sampled."""
+    length: float = F[MWF_BASE + record * MWF_STRIDE + MWF_ARC_U + ARCS - 1]
+    timed: bool = is_timed(I, record)
+    largest: float = 0.0
+    for k in range(SAMPLES + 1):
+        slope: float = fabs(bezier_slope(F, I, record, s, k * SAMPLE))
+        if not timed:
+            speed: float = bezier_speed(F, I, record, k * SAMPLE)
+            slope = slope * length / speed if speed > CLOSE * length else 0.0
+        largest = max(largest, slope)
+    return largest

@@ -1,0 +1,115 @@
+"""SPLINE MODE and NURB MODE: what moves are points of, and where a curve ends."""
+
+from enum import IntEnum
+
+from openacr.errors import CardError
+from openacr.map.numbers import (
+    MA_SPLINE_TIME_FACTOR,
+    MF3_NURB_DYNAMIC,
+    MF3_NURB_INTERPOLATION,
+    MF3_NURB_NEG_KNOT,
+    MF3_NURB_SMOOTH,
+    MF3_NURB_TIME,
+    MF3_SPLINE_END,
+    MF3_SPLINE_INTERPOLATION,
+    MF3_SPLINE_KNOT_PRESENT,
+    MF3_SPLINE_NEG_KNOT,
+    MF3_SPLINE_TIME_MODE,
+    MF3_SPLINE_VELOCITY_MODE,
+    MF3_WORD,
+)
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import curve_points, nurbs, splines
+from openacr.motion.card import Card
+from openacr.motion.curve_points import CurvePoints
+from openacr.motion.rows import master_parameter
+
+
+class Family(IntEnum):
+    """Which curve moves are points of; the values are the flags of its mode."""
+
+    NONE = 0
+    SPLINE = MF3_SPLINE_INTERPOLATION
+    NURB = MF3_NURB_INTERPOLATION
+
+
+SPLINE_MODES = {0: MF3_SPLINE_TIME_MODE, 1: MF3_SPLINE_VELOCITY_MODE}
+NURB_MODES = {0: MF3_NURB_TIME, 1: MF3_NURB_DYNAMIC, 4: MF3_NURB_SMOOTH}
+_MODES = {Family.SPLINE: SPLINE_MODES, Family.NURB: NURB_MODES}
+SHORTEST_S = 1e-6
+
+
+def family(card: Card, master: int) -> Family:
+    """What the moves of a master are points of."""
+    flags = card.memory.I[MF3_WORD + master]
+    return next((one for one in (Family.NURB, Family.SPLINE) if flags & one), Family.NONE)
+
+
+def mode(card: Card, master: int, wanted: Family) -> int | None:
+    """The mode of a family, None while it is off."""
+    flags = card.memory.I[MF3_WORD + master]
+    if not flags & wanted:
+        return None
+    return next((mode for mode, flag in _MODES[wanted].items() if flags & flag), 0)
+
+
+def begin(card: Card, master: int, wanted: Family, number: int) -> None:
+    """Let moves be points of a curve; an unfinished one has to be ended first."""
+    curve = curve_points.load(card, master)
+    flag = _MODES[wanted].get(number)
+    if flag is None or curve.is_open:
+        raise CardError(INVALID_ARGUMENT)
+    if curve.points:
+        curve_points.store(card, master, CurvePoints())
+    flags = card.memory.I[MF3_WORD + master]
+    for one, modes in _MODES.items():
+        flags &= ~(one | sum(modes.values()))
+    card.memory.I[MF3_WORD + master] = flags | wanted | flag
+
+
+def end(card: Card, program: int, master: int, wanted: Family) -> None:
+    """END: go to the end of the curve; later moves are moves again."""
+    if family(card, master) is not wanted:
+        return
+    if wanted is Family.NURB:
+        nurbs.finish(card, program, master)
+    else:
+        splines.finish(card, program, master)
+        card.memory.I[MF3_WORD + master] |= MF3_SPLINE_END
+    flags = card.memory.I[MF3_WORD + master]
+    card.memory.I[MF3_WORD + master] = flags & ~(wanted | sum(_MODES[wanted].values()))
+
+
+def take(
+    card: Card,
+    program: int,
+    master: int,
+    values_cnt: dict[int, float],
+    knot: float | None,
+    weight: float | None,
+) -> None:
+    """Take a point with its knot and weight; a negative knot ends the curve with it."""
+    wanted = family(card, master)
+    size = None if knot is None else abs(knot)
+    if wanted is Family.NURB:
+        nurbs.take(card, program, master, values_cnt, size, weight)
+        negative = MF3_NURB_NEG_KNOT
+    elif wanted is Family.SPLINE and values_cnt and weight is None:
+        splines.take(card, program, master, values_cnt, _time_s(card, master, size))
+        negative = MF3_SPLINE_NEG_KNOT
+        if knot is not None:
+            card.memory.I[MF3_WORD + master] |= MF3_SPLINE_KNOT_PRESENT
+    else:
+        raise CardError(INVALID_ARGUMENT)
+    if knot is not None and knot < 0.0:
+        card.memory.I[MF3_WORD + master] |= negative
+        end(card, program, master, wanted)
+
+
+def _time_s(card: Card, master: int, knot: float | None) -> float:
+    """The time of the way to a point of a spline."""
+    factor = card.memory.S[master_parameter(master) + MA_SPLINE_TIME_FACTOR]
+    time_s = (1.0 if knot is None else knot) * factor
+    if not SHORTEST_S <= time_s < 1.0 / SHORTEST_S:
+        raise CardError(INVALID_ARGUMENT)
+    return time_s

@@ -1,0 +1,161 @@
+"""NURB: rational B-splines of order RANK from control points, knots and weights.
+
+Knot i belongs to point i, and RANK more follow the last point. The curve runs from knot
+RANK - 1 to the knot behind that of the last point; the span from knot j to j + 1 needs the
+knots up to j + RANK - 1, so the motion is RANK - 1 points behind the input.
+"""
+
+from itertools import pairwise
+
+from openacr.errors import CardError
+from openacr.map.numbers import (
+    MA_NURB_START_TIME,
+    MA_NURB_TIME_FACTOR,
+    MF3_NURB_LOADED,
+    MF3_NURB_PENDING,
+    MF3_NURB_SMOOTH,
+    MF3_NURB_TIME,
+    MF3_WORD,
+    MSF_ACC_UPS2,
+    MSI_SLAVE_AXIS,
+)
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import bezier, curve_points, pieces
+from openacr.motion.bezier import Bezier
+from openacr.motion.card import Card
+from openacr.motion.curve_points import CurvePoints
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import master_ints, master_parameter, master_reals
+
+STEP = 1.0  # between knots that are not given
+FASTEST = 1e6
+
+
+def take(
+    card: Card,
+    program: int,
+    master: int,
+    values_cnt: dict[int, float],
+    knot: float | None,
+    weight: float | None,
+) -> None:
+    """Take a control point or, without values, a knot; go as far as is known."""
+    curve = curve_points.load(card, master)
+    value = _knot(curve, knot)
+    if values_cnt:
+        _add_point(card, master, curve, values_cnt, 1.0 if weight is None else weight)
+    elif weight is not None or len(curve.knots) >= len(curve.points) + _rank(card, master):
+        raise CardError(INVALID_ARGUMENT)
+    curve.knots.append(value)
+    card.memory.I[MF3_WORD + master] |= MF3_NURB_PENDING
+    _follow(card, program, master, curve, ends=False)
+    curve_points.store(card, master, curve)
+
+
+def finish(card: Card, program: int, master: int) -> None:
+    """Repeat the last knot as often as is missing, and go to the end of the curve.
+
+    Without a knot behind the last point the next one is repeated: a curve whose last knot
+    was that of the last point would end before it.
+    """
+    curve = curve_points.load(card, master)
+    if not curve.points:
+        return
+    rank = _rank(card, master)
+    if len(curve.points) < rank and not curve.is_open:
+        raise CardError(INVALID_ARGUMENT)
+    if len(curve.knots) == len(curve.points):
+        curve.knots.append(curve.knots[-1] + STEP)
+    missing = len(curve.points) + rank - len(curve.knots)
+    curve.knots += [curve.knots[-1]] * missing
+    _follow(card, program, master, curve, ends=True)
+    curve_points.store(card, master, CurvePoints())
+
+
+def _rank(card: Card, master: int) -> int:
+    return curve_points.rank(card, master)
+
+
+def _knot(curve: CurvePoints, knot: float | None) -> float:
+    """The knot that is meant; `Invalid argument` for one below the one before."""
+    if knot is None:
+        return curve.knots[-1] + STEP if curve.knots else 0.0
+    if curve.knots and not knot >= curve.knots[-1]:
+        raise CardError(INVALID_ARGUMENT)
+    return knot
+
+
+def _add_point(
+    card: Card, master: int, curve: CurvePoints, values_cnt: dict[int, float], weight: float
+) -> None:
+    if not weight > 0.0 or len(curve.knots) > len(curve.points):
+        raise CardError(INVALID_ARGUMENT)
+    point = list(curve.points[-1]) if curve.points else pieces.base_point(card, master)
+    for slave, value in values_cnt.items():
+        point[slave] = value
+        curve.slaves |= 1 << slave
+    curve.points.append(point)
+    curve.weights.append(weight)
+
+
+def _follow(card: Card, program: int, master: int, curve: CurvePoints, *, ends: bool) -> None:
+    """Hand over all spans whose points and knots are known."""
+    rank = _rank(card, master)
+    while len(curve.points) >= rank and len(curve.knots) >= 2 * rank - 1:
+        begin, end = curve.knots[rank - 1 : rank + 1]
+        if end > begin:
+            numbers = curve.numbers
+            points = [[point[s] for s in numbers] for point in curve.points[:rank]]
+            way = bezier.span(points, curve.weights[:rank], curve.knots[: 2 * rank - 1])
+            is_last = ends and not any(b > a for a, b in pairwise(curve.knots[rank:]))
+            _send(card, program, master, curve, way, end - begin, ends=is_last)
+        for row in (curve.points, curve.weights, curve.knots):
+            row.pop(0)
+
+
+def _send(
+    card: Card,
+    program: int,
+    master: int,
+    curve: CurvePoints,
+    way: Bezier,
+    span: float,
+    *,
+    ends: bool,
+) -> None:
+    flags = card.memory.I[MF3_WORD + master]
+    if not flags & MF3_NURB_TIME and way.is_point:
+        return
+    parts = bezier.halves(way) if flags & MF3_NURB_SMOOTH else (way,)
+    for part in parts:
+        pace = _pace(card, master, curve, part, ends=ends and part is parts[-1])
+        size = span / len(parts)
+        pieces.hand_over(card, program, master, curve.numbers, part, size, pace)
+        curve.is_open = True
+    card.memory.I[MF3_WORD + master] |= MF3_NURB_LOADED
+
+
+def _pace(card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bool) -> pieces.Pace:
+    flags, base = card.memory.I[MF3_WORD + master], master_parameter(master)
+    begins = not curve.is_open
+    if flags & MF3_NURB_TIME:
+        factor = card.memory.S[base + MA_NURB_TIME_FACTOR]
+        start_s = card.memory.S[base + MA_NURB_START_TIME]
+        return pieces.Pace(
+            rate=1.0 / factor if factor > 1.0 / FASTEST else FASTEST,
+            start_s=start_s if start_s > 0.0 else 0.0,
+            is_nurb=True,
+            begins=begins,
+            ends=ends,
+        )
+    most = _bend_speed(card, master, curve, part) if flags & MF3_NURB_SMOOTH else 0.0
+    return pieces.Pace(most_ups=most, is_nurb=True, begins=begins, ends=ends)
+
+
+def _bend_speed(card: Card, master: int, curve: CurvePoints, part: Bezier) -> float:
+    """Speed at which the tightest bend takes ACC: v^2 / R <= ACC."""
+    acc = card.memory.F[master_reals(master) + MSF_ACC_UPS2]
+    axes = [card.memory.I[master_ints(master) + MSI_SLAVE_AXIS + s] for s in curve.numbers]
+    radius = bezier.tightest_radius(part, [scale_of(card, axis) for axis in axes])
+    bound = (acc * radius) ** 0.5
+    return bound if bound < FASTEST else 0.0
