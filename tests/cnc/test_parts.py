@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from shapely.geometry import LineString, MultiLineString
 from tests.cnc.part_models import MODELS, Model
+from tests.cnc.programs import unrolled
 
 from openacr.cnc.canonical import Arc, End, Entry, Line, Point, Rapid
 from openacr.cnc.hosts import VirtualMachine
@@ -39,7 +40,7 @@ def cut(entries: Iterable[Entry]) -> Cut:
     """Follow the canonical moves."""
     result = Cut()
     here: Point = (0.0,) * 8
-    for entry in entries:
+    for entry in unrolled(iter(entries)):
         if isinstance(entry, End):
             break
         assert isinstance(entry, Rapid | Line | Arc), entry
@@ -183,7 +184,7 @@ def test_parts_work_in_millimetres_as_in_inches() -> None:
         assert scaled.hausdorff_distance(LineString(b)) < 1.0  # the leads have 0.01 of a unit more
 
 
-@pytest.mark.req("MILL-LIB-IJ")
+@pytest.mark.req("MILL-LIB-IJ", "MILL-SYS-CTL-LIBIJ")
 @pytest.mark.parametrize(
     ("code", "words"), [(0, "I0 J-1"), (1, "I0 J1"), (2, "I1 J2")], ids=["F0", "F1", "F2"]
 )

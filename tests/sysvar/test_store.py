@@ -63,6 +63,21 @@ def test_texts_and_numbers_of_the_machine_survive(
         assert store.value(n) == value
 
 
+@pytest.mark.req("MILL-MSG-COLOR")
+def test_every_message_has_a_length_and_colours_of_its_own() -> None:
+    store = Store()
+    with store.transaction():
+        for message in range(32):
+            for k in (3, 4):
+                store.write(1_000_000 + 107 * message + k, (message + k) % 16)
+            store.write(1_000_000 + 107 * message + 5, 10 + message)
+    for message in range(32):
+        first = 1_000_000 + 107 * message
+        assert store.parameter(first + 3).name == f"Message {message} text colour"
+        found = [store.read(first + k) for k in (3, 4, 5)]
+        assert found == [(message + 3) % 16, (message + 4) % 16, 10 + message]
+
+
 @pytest.mark.req("MILL-WCS-8")
 def test_eight_work_systems_have_a_value_for_each_axis() -> None:
     store = Store()

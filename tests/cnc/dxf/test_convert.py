@@ -1,17 +1,26 @@
 """DXF files of every kind of entity, and what program they make."""
 
 import math
+import random
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
 from ezdxf.document import Drawing
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from shapely.geometry import LineString, Point, Polygon
 from tests.cnc.dxf.programs import trace
+from tests.cnc.programs import unrolled
 
+from openacr.cnc.canonical import Arc, Line, Rapid
 from openacr.cnc.dxf import Conversion, Options, Pattern, convert
+from openacr.cnc.hosts import VirtualMachine
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.load import load
 from openacr.errors import UserError
+from openacr.sysvar import Store
 
 
 def drawing(units: int = 1, version: str = "R2010") -> Drawing:
@@ -300,8 +309,6 @@ def test_a_file_that_is_no_dxf_text_is_refused(content: bytes, words: str, tmp_p
 
 @pytest.mark.req("MILL-DXF-12")
 def test_damage_anywhere_in_a_file_gives_a_program_or_an_error(tmp_path: Path) -> None:
-    import random
-
     document = drawing(1, "R12")
     square(document.modelspace())
     document.modelspace().add_circle((5, 5), 1)
@@ -330,3 +337,94 @@ def test_damage_anywhere_in_a_file_gives_a_program_or_an_error(tmp_path: Path) -
 def test_a_missing_file_is_reported(tmp_path: Path) -> None:
     with pytest.raises(UserError, match=r"none\.dxf: cannot be read: No such file"):
         convert(tmp_path / "none.dxf", Options())
+
+
+# --- the programs run -------------------------------------------------------------------
+
+
+def interpreted(result: Conversion, is_metric: bool = False) -> list[list[tuple[float, float]]]:
+    """What the part-program interpreter makes of an imported program, at depth 0."""
+    store = Store(is_metric=is_metric)
+    program = load(result.text, store)
+    assert not program.errors
+    here, depth = (0.0, 0.0), 1.0
+    runs: list[list[tuple[float, float]]] = []
+    for entry in unrolled(Interpreter(program, store, VirtualMachine()).entries()):
+        if isinstance(entry, Rapid | Line | Arc):
+            end = (entry.end[0], entry.end[1])
+            if entry.end[2] == 0.0 and depth > 0.0:
+                runs.append([here])
+            elif isinstance(entry, Arc):
+                runs[-1] += arc_points(entry, here)
+            elif isinstance(entry, Line):
+                runs[-1].append(end)
+            here, depth = end, entry.end[2]
+    return runs
+
+
+def arc_points(arc: Arc, start: tuple[float, float]) -> list[tuple[float, float]]:
+    (x, y), points = arc.centre, []
+    angle = math.atan2(start[1] - y, start[0] - x)
+    for k in range(1, 181):
+        turned = angle + arc.sweep_rad * k / 180
+        points.append(
+            (x + arc.end_radius * math.cos(turned), y + arc.end_radius * math.sin(turned))
+        )
+    return points
+
+
+@pytest.mark.req("MILL-DXF-08", "MILL-DXF-13")
+@settings(max_examples=25, deadline=None)
+@given(seed=st.integers(0, 10**9), count=st.integers(3, 12), units=st.sampled_from([1, 4, 5]))
+def test_an_imported_program_runs_around_the_drawing(
+    seed: int, count: int, units: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """Outlines of lines, arcs and polylines, through the file, the program and the interpreter."""
+    chance = random.Random(seed)
+    corners = []
+    for k in range(count):
+        angle, r = 2 * math.pi * (k + 0.6 * chance.random()) / count, chance.uniform(2, 5)
+        corners.append((20 + r * math.cos(angle), 10 + r * math.sin(angle)))
+    bulges = [chance.choice((0.0, chance.uniform(-0.3, 0.3))) for _ in corners]
+    document = drawing(units)
+    whole = document.modelspace().add_lwpolyline(
+        [(x, y, b) for (x, y), b in zip(corners, bulges, strict=True)], format="xyb", close=True
+    )
+    whole.explode()
+    folder = tmp_path_factory.mktemp("dxf")
+    is_ccw = chance.random() < 0.5
+    result = converted(document, folder, is_counter_clockwise=is_ccw)
+    factor = {1: 1.0, 4: 1 / 25.4, 5: 10 / 25.4}[units]  # the interpreter speaks inches here
+    (run,) = interpreted(result)
+    assert run[0] == pytest.approx(run[-1])
+    shape = Polygon(run)
+    assert shape.exterior.is_ccw == is_ccw
+    wanted = bulged_area(corners, bulges) * factor**2
+    assert shape.area == pytest.approx(wanted, rel=1e-3)
+    for x, y in corners:
+        assert shape.exterior.distance(Point(x * factor, y * factor)) < 1e-4
+
+
+def bulged_area(corners: list[tuple[float, float]], bulges: list[float]) -> float:
+    """The area of a polygon plus that of its circular segments."""
+    area = float(Polygon(corners).area)
+    for (x0, y0), (x1, y1), b in zip(corners, [*corners[1:], corners[0]], bulges, strict=True):
+        if b:
+            chord, sweep = math.hypot(x1 - x0, y1 - y0), 4 * math.atan(abs(b))
+            r = chord / (2 * math.sin(sweep / 2))
+            area += math.copysign(r * r / 2 * (sweep - math.sin(sweep)), b)
+    return area
+
+
+@pytest.mark.req("MILL-DXF-04", "MILL-DXF-08")
+def test_an_imported_drill_pattern_drills(tmp_path: Path) -> None:
+    document = drawing()
+    holes = [(1.0, 0.0), (2.0, 3.0), (5.0, 1.0)]
+    for hole in holes:
+        document.modelspace().add_point(hole)
+    store = Store()
+    program = load(converted(document, tmp_path, pattern=Pattern.DRILL).text, store)
+    assert not program.errors
+    entries = Interpreter(program, store, VirtualMachine()).entries()
+    bottoms = [e.end[:3] for e in entries if isinstance(e, Line) and e.end[2] < 0]
+    assert sorted(bottoms) == [(x, y, -0.5) for x, y in holes]
