@@ -313,3 +313,14 @@ def test_the_reports_do_not_go_to_other_terminals(bench: Bench) -> None:
     set_by_user(bench)
     card.advance(seconds=0.3)
     assert "Axis 0 Error 7" not in card.take_output(card.console).decode("latin-1")
+
+
+@pytest.mark.req("ACR-ERR-02")
+def test_it_names_flags_and_parameters() -> None:
+    card = load("error_handler")
+    card.send("ECHO 6\rRUN PROG1\r")
+    card.advance(seconds=0.5)
+    listed = card.send("SYS\rDEF\r").replace("BIT ", "BIT")
+    names = re.findall(r"#DEFINE \w+ (\w+)", listed)
+    flags = (16140, 16132, 769, 8477, 522, 8467, 2560, 5646)
+    assert {*(f"BIT{flag}" for flag in flags), "P50", "P51", "P52", "P53"} <= set(names)

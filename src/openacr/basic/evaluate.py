@@ -19,6 +19,7 @@ from openacr.basic.nodes import (
     StringLocal,
     is_text,
 )
+from openacr.basic.printed import printed
 from openacr.basic.run import Wait
 from openacr.basic.string_storage import ProgramStrings
 from openacr.errors import CardError
@@ -97,12 +98,14 @@ class Operands:
 
     def _apply(self, thread: int, node: Apply) -> Any:
         function = node.function
+        if function.apply is None:
+            raise CardError(TYPE_MISMATCH)
+        if function.takes == "p":
+            return function.apply(printed(self._executor.run_of(thread), *node.arguments))
         arguments = [
             self.text(thread, argument) if is_text(argument) else self._value(thread, argument)
             for argument in node.arguments
         ]
-        if function.apply is None:
-            raise CardError(TYPE_MISMATCH)
         if function.wants_run:
             result = function.apply(self._executor.run_of(thread), *arguments)
             if isinstance(result, Wait):

@@ -31,7 +31,7 @@ from openacr.map.lookup import Flag, Parameter
 from openacr.messages import MESSAGES
 
 _ANY_AXES = frozenset(("X", "Y", "Z", "A", "B", "C"))
-_TAKES = {"n": "number", "s": "string", "e": "value"}
+_TAKES = {"n": "number", "s": "string", "e": "value", "p": "number"}
 MADE_BY = "Written by `make docs` from the rows of the registry; do not edit."
 
 

@@ -94,7 +94,8 @@ class Command:
 class Function:
     """One function of expressions; `code` is its number in the VM, else `apply` computes it.
 
-    `takes` has one letter per argument: n number, s string, e either. With `wants_run`
+    `takes` has one letter per argument: n number, s string, e either; `p` alone is a number
+    that is handed over as the text PRINT shows. With `wants_run`
     the first argument of `apply` is the Run, and it may return a Wait.
     """
 

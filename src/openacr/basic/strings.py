@@ -10,7 +10,6 @@ import re
 from collections.abc import Callable
 from typing import TypeVar
 
-from openacr.basic.number_format import double_text
 from openacr.basic.registry import function
 from openacr.errors import CardError
 from openacr.messages import MATH_ERROR, TYPE_MISMATCH
@@ -86,10 +85,10 @@ def instr(*arguments: str | float) -> float:
     return float(text.find(find, start - 1) + 1) if find else float(start)
 
 
-@_function("STR$", "n")
-def str_(value: float) -> str:
+@_function("STR$", "p")
+def str_(shown: str) -> str:
     """The text PRINT shows for the value."""
-    return double_text(value)
+    return shown  # as `p` hands it over
 
 
 @_function("VAL", "s")

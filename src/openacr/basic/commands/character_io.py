@@ -17,22 +17,16 @@ from openacr.basic.grammar import (
     Str,
 )
 from openacr.basic.nodes import (
-    Element,
     Expr,
-    Local,
-    LocalKind,
-    Parameter,
     Statement,
     is_text,
-    resolved,
 )
-from openacr.basic.number_format import UsingFormat, double_text, single_text
+from openacr.basic.number_format import UsingFormat
+from openacr.basic.printed import printed
 from openacr.basic.registry import ANY, IMMEDIATE, PROG, command, functions
 from openacr.basic.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
-from openacr.map import numbers as at
-from openacr.map.kinds_cy import kind_of
 from openacr.messages import INVALID_DEVICE, SYNTAX_ERROR, UNDEFINED_SYMBOL
 
 if TYPE_CHECKING:
@@ -166,26 +160,10 @@ def print_text(run: Run, items: tuple[PrintItem, ...]) -> str:
             parts.append(picture.text(run.value(item)))
             picture = None
         else:
-            parts.append(value_text(run, item))
+            parts.append(printed(run, item))
     if not items or not isinstance(items[-1], str):
         parts.append(LINE_END)
     return "".join(parts)
-
-
-def value_text(run: Run, node: Expr) -> str:
-    """The text of a number: seven digits for what is stored as FP32, else ten."""
-    value = run.value(node)
-    return single_text(value) if is_single(run, node) else double_text(value)
-
-
-def is_single(run: Run, node: Expr) -> bool:
-    """Whether the value of an expression is one FP32 parameter or variable."""
-    match resolved(node):
-        case Parameter(index):
-            return kind_of(run.card.memory.I, run.integer(index)) == at.KIND_FP32
-        case Local(LocalKind.SINGLE, _) | Element(LocalKind.SINGLE, _, _):
-            return True
-    return False
 
 
 # OPEN, CLOSE

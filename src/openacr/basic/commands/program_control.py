@@ -39,16 +39,25 @@ LAST_LINE = 999999
     ref="PG Starting, Pausing, and Halting Programs",
 )
 def run_(run: Run, line: int | None, target: ObjectRef | None) -> None:
-    """Start a program or PLC at its first line or at `line`; the prompt returns at once."""
+    """Start a program or PLC at its first line or at `line`; the prompt returns at once.
+
+    ALL starts every one that can be started; the first that cannot is reported.
+    """
     control = run.system.control
     is_all = target is not None and target.word == "ALL"
+    refused: list[CardError] = []
     for owner in targets.owners(run, target):
         if run.system.programs.is_empty(owner):
             continue
-        if not control.is_running(owner):
-            control.run(owner, line)
-        elif not is_all:
-            raise CardError(PROGRAM_IS_RUNNING)
+        try:
+            if not control.is_running(owner):
+                control.run(owner, line)
+            elif not is_all:
+                raise CardError(PROGRAM_IS_RUNNING)
+        except CardError as error:
+            refused.append(error)
+    if refused:
+        raise refused[0]
 
 
 @command(
