@@ -8,8 +8,10 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
+from openacr.sysvar.reference import page
 
-TEXT = (Path(__file__).parents[2] / "docs" / "sysvar.md").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+TEXT = (DOCS / "sysvar.md").read_text(encoding="utf-8")
 
 
 def blocks(kind: str) -> list[str]:
@@ -32,3 +34,7 @@ def test_the_commands_of_the_page_work(tmp_path: Path, monkeypatch: pytest.Monke
             words += ["--new", "x"]
         result = CliRunner().invoke(app, words)
         assert result.exit_code == 0, (words, result.output)
+
+
+def test_the_tables_are_up_to_date() -> None:
+    assert (DOCS / "sysvar-tables.md").read_text(encoding="utf-8") == page(), "run `make docs`"

@@ -1,0 +1,131 @@
+"""Write the page of all cells from their tables: `python -m openacr.sysvar.reference FILE`."""
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from openacr.sysvar.homes import HOMES, Host, Writer
+from openacr.sysvar.lookup import known
+from openacr.sysvar.schema import AXIS_CELLS, Kind, Row, Tab
+from openacr.sysvar.store import Store
+from openacr.sysvar.tabs import CELLS, TABS
+from openacr.sysvar.values import limits, plain, shown
+
+MADE_BY = "Written by `make docs` from the tables of `openacr.sysvar`; do not edit."
+UNITS = "Units: u is the default unit (inch or mm), u/m per minute, u/s and u/s2 per second."
+KINDS = {
+    Kind.REAL: "number",
+    Kind.INTEGER: "whole number",
+    Kind.BOOLEAN: "true, false",
+    Kind.CHOICE: "choice",
+    Kind.TEXT: "text",
+}
+WRITERS = {
+    Writer.PROGRAM: "yes",
+    Writer.WARNED: "yes, with W220",
+    Writer.NOBODY: "no (E212)",
+    Writer.SERVICE: "MDI with the service role, else E212",
+    Writer.CARD: "where the card allows",
+}
+
+
+def page() -> str:
+    """The whole page."""
+    parts = ["# Parameters of the CNC side", MADE_BY, UNITS, "## Where numbers live", _map()]
+    for tab in (*TABS, CELLS):
+        parts += [f"## {tab.name}", _numbers(tab), _table(tab)]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _map() -> str:
+    lines = ["| P | use | kept by | written by programs |", "|---|---|---|---|"]
+    for home in HOMES:
+        if home.host is not Host.NONE:
+            span = f"{home.first}" if home.first == home.last else f"{home.first}-{home.last}"
+            kept = {Host.STORE: "store", Host.CARD: "card, lost with its power"}.get(home.host)
+            words = (span, home.use, kept or "card", WRITERS[home.writer])
+            lines.append(f"| {' | '.join(words)} |")
+    return "\n".join(lines)
+
+
+def _numbers(tab: Tab) -> str:
+    return (
+        f"Numbers are those of axis 0; axis a has {AXIS_CELLS} a more." if tab.is_per_axis else ""
+    )
+
+
+def _table(tab: Tab) -> str:
+    head = [
+        "| P | name | type | unit | default | takes | meaning |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    return "\n".join(head + list(_rows(tab)))
+
+
+def _rows(tab: Tab) -> Iterator[str]:
+    store = Store()
+    for row in sorted(tab.rows, key=lambda each: each.k):
+        if "reserved" in row.name.lower():
+            continue
+        found = known(tab.base + row.k)
+        words = (
+            _span(tab, row),
+            row.name.replace("{}", "n") + ("" if row.axis is None else f", axis {row.axis}"),
+            KINDS[row.kind],
+            row.unit,
+            _defaults(store, found.number, found.number + row.step * (row.count - 1)),
+            _takes(row, *limits(found)),
+            row.doc,
+        )
+        yield f"| {' | '.join(words)} |"
+
+
+def _span(tab: Tab, row: Row) -> str:
+    first = tab.base + row.k
+    if row.count == 1:
+        return str(first)
+    last = first + row.step * (row.count - 1)
+    counted = "axis" if row.is_by_axis else f"n = {row.first}..{row.first + row.count - 1}"
+    step = f", step {row.step}" if row.step > 1 else ""
+    return f"{first}-{last} ({counted}{step})"
+
+
+def _defaults(store: Store, first: int, last: int) -> str:
+    """The default of a cell, or of the first and the last of a series."""
+    ends = (_default(store, first), _default(store, last))
+    return ends[0] if ends[0] == ends[1] else " ... ".join(ends)
+
+
+def _default(store: Store, n: int) -> str:
+    value = store.default(n)
+    return value if isinstance(value, str) else shown(store.parameter(n), value)
+
+
+def _takes(row: Row, low: float, high: float) -> str:
+    if row.is_fixed:
+        return "fixed"
+    if row.kind is Kind.CHOICE:
+        return ", ".join(_choice(value, word) for value, word in row.words.items())
+    if row.kind in (Kind.BOOLEAN, Kind.TEXT):
+        return ""
+    if row.unit.endswith("/u"):
+        return "not 0"
+    bounds = [f"{'above' if row.is_low_open else 'from'} {plain(low)}"] if low > -high else []
+    if high != float("inf"):
+        bounds = [*bounds, f"to {plain(high)}"]
+    return " ".join(bounds)
+
+
+def _choice(value: int, word: str) -> str:
+    return word if word == str(value) else f"{value} {word}"
+
+
+def main(arguments: list[str], say: Callable[[str], None] = print) -> None:
+    """Write the page into a file."""
+    path = Path(arguments[0])
+    path.write_text(page(), encoding="utf-8")
+    say(str(path))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
