@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from operator import add
 
 from openacr.cnc.canonical import AXES, Plane, Point
 from openacr.cnc.hosts import Cells
@@ -82,7 +83,7 @@ class Coordinates:
         ]
         for axis, value in enumerate(self.offsets(modal)):
             shift[axis] += value
-        self.shift = tuple(shift)
+        self.shift = tuple(shift) if any(shift) else ORIGIN
 
     def offsets(self, modal: Modal) -> Point:
         """Steps 7 and 8: fixture and length."""
@@ -121,7 +122,9 @@ class Coordinates:
 
     def to_machine(self, placed: Point) -> Point:
         """Steps 5 to 8."""
-        return tuple(x + s for x, s in zip(placed, self.shift, strict=True))
+        if self.shift is ORIGIN:
+            return placed
+        return tuple(map(add, placed, self.shift))
 
     def from_machine(self, machine: Point) -> Point:
         """Steps 8 to 5 undone."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 RADIANS = math.pi / 180.0
+LOCALS = 33  # parameters of a call
 HOT = 16  # uses after which a formula is compiled
 
 _SINES = {
@@ -40,6 +41,15 @@ class Sources(Protocol):
     def has_named(self, name: str) -> bool:
         """Whether a named parameter exists."""
 
+    def is_plain_cell(self, n: float) -> bool:
+        """Whether a parameter is nothing but a cell of the store."""
+
+    def is_card_cell(self, n: float) -> bool:
+        """Whether a parameter is a variable of the card that programs may write."""
+
+    def names_of_formulas(self) -> dict[str, object]:
+        """What compiled formulas call by name."""
+
     def read_input(self, n: float) -> float:
         """The state of an input."""
 
@@ -56,7 +66,7 @@ class Node(Protocol):
     def value(self, at: Sources) -> float:
         """What it is worth now."""
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """The same in Python; operands come from `at`."""
 
     @property
@@ -74,7 +84,7 @@ class Number:
         """Itself."""
         return self.number
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """Itself."""
         return repr(self.number)
 
@@ -96,14 +106,29 @@ class Parameter:
         index = self.index.value(at)
         return at.read_hash(index) if self.is_hash else at.read_p(index)
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """A read of the cell."""
-        return f"{'read_hash' if self.is_hash else 'read_p'}({self.index.source()})"
+        index = self.index.source(at)
+        if isinstance(self.index, Number):
+            n = self.index.number
+            if self.is_hash and 1 <= n <= LOCALS:
+                return f"(values[{int(n)}] if values[0] else {_read(n, at)})"
+            return _read(n, at)
+            if at.is_card_cell(n):
+                return f"card({int(n)})"
+        return f"{'read_hash' if self.is_hash else 'read_p'}({index})"
 
     @property
     def is_constant(self) -> bool:
         """Never."""
         return False
+
+
+def _read(n: float, at: Sources) -> str:
+    """The shortest way to parameter Pn."""
+    if at.is_plain_cell(n):
+        return f"cell({int(n)})"
+    return f"card({int(n)})" if at.is_card_cell(n) else f"read_p({n!r})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +142,7 @@ class Named:
         """What it holds, or whether there is one."""
         return float(at.has_named(self.name)) if self.is_test else at.read_named(self.name)
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """A read by name."""
         name = repr(self.name)
         return f"float(has_named({name}))" if self.is_test else f"read_named({name})"
@@ -140,9 +165,9 @@ class State:
         read: Callable[[float], float] = getattr(at, _READS[self.kind])
         return read(self.index.value(at))
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """A question to the machine."""
-        return f"{_READS[self.kind]}({self.index.source()})"
+        return f"{_READS[self.kind]}({self.index.source(at)})"
 
     @property
     def is_constant(self) -> bool:
@@ -164,9 +189,9 @@ class Call:
         """The result for the operands as they are now."""
         return self.function.work(*[operand.value(at) for operand in self.operands])
 
-    def source(self) -> str:
+    def source(self, at: Sources) -> str:
         """The same in Python."""
-        return self.function.template.format(*[operand.source() for operand in self.operands])
+        return self.function.template.format(*[operand.source(at) for operand in self.operands])
 
     @property
     def is_constant(self) -> bool:
@@ -303,9 +328,6 @@ _NAMES: dict[str, Any] = {
         down, up, remainder, remainder_up, power, math.sqrt, math.fabs, math.log, math.exp,
     )
 }  # fmt: skip
-_OPERANDS = (
-    "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
-)  # fmt: skip
 
 
 class Formula:
@@ -331,6 +353,10 @@ class Formula:
 
 def compiled(node: Node, at: Sources) -> Callable[[], float]:
     """The formula as one Python function of nothing."""
-    names = _NAMES | {name: getattr(at, name) for name in _OPERANDS}
-    work: Callable[[], float] = eval(f"lambda: {node.source()}", names)
+    work: Callable[[], float] = eval(f"lambda: {node.source(at)}", names_for(at))
     return work
+
+
+def names_for(at: Sources) -> dict[str, Any]:
+    """Everything compiled formulas call by name."""
+    return _NAMES | at.names_of_formulas()

@@ -29,7 +29,8 @@ from openacr.cnc.canonical import (
 from openacr.cnc.codes import DIALECTS
 from openacr.cnc.coordinates import ORIGIN
 from openacr.cnc.findings import BlockError, CodeError, Finding, found
-from openacr.cnc.flow import Flow, Frame
+from openacr.cnc.flow import Flow, Frame, Level
+from openacr.cnc.formulas import LOCALS
 from openacr.cnc.gcodes.cycles import Drilling
 from openacr.cnc.gcodes.macros import ModalMacro
 from openacr.cnc.gcodes.motion import MOTIONS, Motions
@@ -37,10 +38,10 @@ from openacr.cnc.hosts import Cells, Machine
 from openacr.cnc.load import planner_of
 from openacr.cnc.modal import Modal, reset
 from openacr.cnc.offset_path import OffsetPath
-from openacr.cnc.parameters import LOCALS, RADIUS_CELLS, NotAtRestError, Parameters
+from openacr.cnc.parameters import RADIUS_CELLS, NotAtRestError, Parameters
 from openacr.cnc.path import Path
 from openacr.cnc.program import Node, Program
-from openacr.cnc.ready import Ready, ready, values_of
+from openacr.cnc.ready import Quick, Ready, ready, values_of
 from openacr.cnc.statements import shown
 from openacr.cnc.turn import Turn
 
@@ -143,7 +144,10 @@ class Interpreter:
             raise
 
     def _single(self, node: Node) -> Iterator[Entry]:
-        yield from self._block(node, ready(node, self))
+        block = ready(node, self)
+        if not block.is_empty:
+            yield from self._block(node, block)
+            yield from self.flush()
         if self.flow.frames and not self.is_ended:
             yield from self._blocks(self.flow.frames[0])
         self.offset_path.flush()
@@ -240,7 +244,7 @@ class Interpreter:
         self.drilling = None
         self.motions = MOTIONS
         self.path.shape = None
-        self.parameters.locals = None
+        self.parameters.swap([0.0] * (LOCALS + 1))
         self.path.coordinates.scale = self.path.coordinates.rotation = None
         self.path.coordinates.added = ORIGIN
         for cell in (RADIUS_WEAR, *LENGTH_CELLS):
@@ -292,18 +296,53 @@ class Interpreter:
 
     def _blocks(self, frame: Frame | None) -> Iterator[Entry]:
         """Run block after block until the frame is left or the program has ended."""
+        out = self.out
+        while not self.is_ended and (frame is None or not frame.is_done):
+            node = self._fetch()
+            if node is None:
+                return
+            block = node.ready
+            if block is None:  # the end of the text
+                yield from self.flush()
+                return
+            if block.quick is not None:
+                if not self._is_quick(node, block.quick):
+                    yield from self.sync(node.source)
+                    self._is_quick(node, block.quick)
+            elif block.is_plain and (b := self._turn(node, block)) is not None:
+                for code in block.acts:
+                    if code.letter == MACRO and self.macro is None:
+                        continue
+                    b.number = code.number
+                    waiting = code.act(self, b)
+                    if waiting is not None:
+                        yield from waiting
+                        if self.is_ended:
+                            break
+            else:
+                yield from self._block(node, block)
+            if self.options.has_block_ends and not self.flow.is_within(Level.CYCLE):
+                self.tell(BlockEnd(node.source))
+            if out:
+                yield from out
+                out.clear()
+
+    def _fetch(self) -> Node | None:
+        """The next line with an effect; None where a replay has arrived.
+
+        Behind the last line the program has ended, and the line says nothing.
+        """
         flow = self.flow
-        while not self.is_ended:
+        while True:
             node = flow.next
             if node is None:
                 source = self._node.source if self._node else Source("", 1, "")
                 self.finish(source, is_by_code=False)
-                yield from self.flush()
-                return
+                return Node(self.program.main, source.line, "", 0)
             self._node = node
             if node.line == self._until and node.part is self.program.main:
                 self.is_arrived = True
-                return
+                return None
             block = node.ready
             if block is None:
                 block = node.ready = ready(node, self)
@@ -315,13 +354,29 @@ class Interpreter:
             self._idle_cnt += 1
             if self._idle_cnt > MOST_IDLE:
                 raise CodeError("A62", 1)
-            yield from self._block(node, block)
-            if frame is not None and frame.is_done:
-                return
+            return node
+
+    def _is_quick(self, node: Node, work: Quick) -> bool:
+        """Do it at once; False where a value needs the machine at rest."""
+        try:
+            work.now(node)
+        except NotAtRestError:
+            return False
+        except _ARITHMETIC as error:
+            raise CodeError("E210", 1, str(error)) from None
+        return True
+
+    def _turn(self, node: Node, block: Ready) -> Turn | None:
+        """The words as numbers; None where a value needs the machine at rest."""
+        try:
+            return Turn(node, block.plan, block.plan.numbers or values_of(block))
+        except NotAtRestError:
+            return None
+        except _ARITHMETIC as error:
+            raise CodeError("E210", 1, str(error)) from None
 
     def _block(self, node: Node, block: Ready) -> Iterator[Entry]:
         """One block: read and check everything, then act."""
-        out = self.out
         for message in block.plan.block.messages:
             self.tell(Say(node.source, self._text(message.text, message.has_values)))
         done = 0
@@ -346,15 +401,10 @@ class Interpreter:
                 raise CodeError("E210", 1, str(error)) from None
         if block.acts:
             yield from self._act(Turn(node, block.plan, words), block)
-        if self.options.has_block_ends:
-            self.tell(BlockEnd(node.source))
-        if out:
-            yield from out
-            out.clear()
 
     def _act(self, b: Turn, block: Ready) -> Iterator[Entry]:
         for code in block.acts:
-            if code.letter is MACRO and self.macro is None:
+            if code.letter == MACRO and self.macro is None:
                 continue
             b.number = code.number
             waiting = code.act(self, b)
@@ -406,12 +456,12 @@ class Interpreter:
         """Run lines until RET leaves the frame; `values` are its locals."""
         flow, parameters = self.flow, self.parameters
         flow.enter(frame)
-        back, kept, here = flow.next, parameters.locals, self._node
-        parameters.locals = values
+        back, here = flow.next, self._node
+        kept = parameters.swap([1.0, *values[1:]])
         flow.next = start
         yield from self.flush()
         yield from self._blocks(frame)
-        parameters.locals = kept
+        parameters.swap(kept)
         if not self.is_ended:
             flow.next, self._node = back, here
 

@@ -144,7 +144,7 @@ class Loader:
             self._label(block, place)
             plan = self._planner_plan(block, place)
             self._statement(block, place, after, depth)
-            self._values(block)
+            self._values(block, plan)
             self._warnings(block, plan)
         except CodeError as fault:
             self._findings.append(fault.at(*self._where))
@@ -259,8 +259,10 @@ class Loader:
 
     # --- what does not fit ------------------------------------------------------------
 
-    def _values(self, block: Block) -> None:
+    def _values(self, block: Block, plan: Plan) -> None:
         """Parameters written as numbers: known, and writable where they are assigned."""
+        if plan.numbers is not None and not (block.assignments or block.statement):
+            return
         for node, column in _formulas(block):
             for parameter in _parameters(node):
                 error = self._home_error(parameter)

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from openacr.cnc.findings import CodeError
+from openacr.cnc.formulas import LOCALS
 from openacr.cnc.turn import NEAR
 from openacr.errors import MapError, OpenacrError
 
@@ -19,11 +20,15 @@ if TYPE_CHECKING:
     from openacr.cnc.interpreter import Interpreter
     from openacr.cnc.modal import Modal
 
-LOCALS = 33
 FIRST_STORED, LAST_STORED = 100, 4095
 FIRST_OUTPUT = 32
 # Written by programs, read by the coordinates.
 OFFSET_CELLS = ((801, 808), (900, 997), (1998, 1999), (4000, 4001))
+LAST_CARD = 89
+FREE_CELLS = ((109, 233), (400, 799), (833, 899), (1401, 1499), (1901, 1997), (4002, 4095))
+OPERANDS = (
+    "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
+)  # fmt: skip
 RADIUS_CELLS = (1998, 1999)
 
 SHOWN: dict[int, Callable[[Modal], float]] = {
@@ -53,16 +58,68 @@ class Parameters:
         self._modal = run.modal
         self._aliases = run.dialect.aliases
         self._read_cell = run.cells.read
-        self.locals: list[float] | None = None
+        # #1 to #33 of the call in force; #0, which no program can name, is 1 inside a call.
+        self.values: list[float] = [0.0] * (LOCALS + 1)
         self.names: dict[str, float] = {}  # of this call
         self.global_names: dict[str, float] = {}
+
+    @property
+    def is_in_call(self) -> bool:
+        """Whether #1 to #33 are locals now."""
+        return self.values[0] != 0.0
+
+    def swap(self, values: list[float]) -> list[float]:
+        """Other locals; those that were in force."""
+        kept = self.values[:]
+        self.values[:] = values
+        return kept
+
+    # --- for compiled formulas ----------------------------------------------------------
+
+    def is_plain_cell(self, n: float) -> bool:
+        """Whether a parameter is nothing but a cell of the store."""
+        k = int(n)
+        is_stored = FIRST_STORED <= k <= LAST_STORED and k == n
+        return is_stored and k not in SHOWN and k != FEED_CELL and not self._aliases
+
+    def is_free_cell(self, n: float) -> bool:
+        """Whether a program may write it, and nothing follows from that."""
+        return self.is_plain_cell(n) and any(first <= n <= last for first, last in FREE_CELLS)
+
+    def is_card_cell(self, n: float) -> bool:
+        """Whether a parameter is a variable of the card that programs may write."""
+        return 0 <= n <= LAST_CARD and n == int(n) and not self._aliases
+
+    def read_card(self, k: int) -> float:
+        """A variable of the card."""
+        if not self._run.is_rested:
+            raise NotAtRestError
+        return self._run.machine.read_parameter(k)
+
+    def write_card(self, k: int, value: float) -> None:
+        """Set a variable of the card."""
+        if not self._run.is_rested:
+            raise NotAtRestError
+        self._run.machine.write_parameter(k, value)
+
+    def names_of_formulas(self) -> dict[str, object]:
+        """What compiled formulas call by name."""
+        return {
+            "values": self.values,
+            "cell": self._read_cell,
+            "keep": self._cells.write,
+            "write": self.write,
+            "wrong": _wrong,
+            "card": self.read_card,
+            "set_card": self.write_card,
+        } | {name: getattr(self, name) for name in OPERANDS}
 
     # --- reading ----------------------------------------------------------------------
 
     def read_hash(self, n: float) -> float:
         """Parameter #n: a local of the macro, or Pn."""
-        if self.locals is not None and 1 <= n <= LOCALS:
-            return self.locals[number(n)]
+        if self.values[0] and 1 <= n <= LOCALS:
+            return self.values[number(n)]
         return self.read_p(n)
 
     def read_p(self, n: float) -> float:
@@ -128,8 +185,8 @@ class Parameters:
             raise CodeError("E210")
         if isinstance(n, str):
             (self.global_names if n.startswith("_") else self.names)[n] = value
-        elif kind == "#" and self.locals is not None and 1 <= n <= LOCALS:
-            self.locals[number(n)] = value
+        elif kind == "#" and self.values[0] and 1 <= n <= LOCALS:
+            self.values[number(n)] = value
         else:
             self.write_p(number(n), value)
 
@@ -155,6 +212,10 @@ class Parameters:
         for first, last in OFFSET_CELLS:
             if first <= k <= last:
                 self._run.offsets_changed(k)
+
+
+def _wrong() -> None:
+    raise CodeError("E210")
 
 
 def number(n: float) -> int:

@@ -36,6 +36,9 @@ LAST_LABEL = 999_999
 INPUTS = 32
 _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
 _O_WORD = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)\s*([A-Z]+)")
+_PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
+_PLAIN_LINE = re.compile(rf"[ \t]*(?:N[ \t]*(\d+)[ \t]*)?((?:{_PLAIN_WORD})*)", re.I | re.A)
+_PLAIN_WORDS = re.compile(_PLAIN_WORD, re.I | re.A)
 _LETTERS = "ABCDEFGHIJKLMPQRSTUVWXYZ"  # all but N, O
 
 
@@ -43,7 +46,28 @@ def parse(raw: str, grammar: Grammar) -> Block:
     """The block of one line; CodeError with the column of the first wrong character."""
     if len(raw) > LONGEST:
         raise CodeError("E101", LONGEST + 1)
-    return _Parser(raw, grammar).block()
+    return _plain(raw) or _Parser(raw, grammar).block()
+
+
+def _plain(raw: str) -> Block | None:
+    """The block of a line of words with numbers, which most lines are; None for others."""
+    found = _PLAIN_LINE.fullmatch(raw)
+    if found is None:
+        return None
+    block = Block()
+    if found[1]:
+        block.label = _checked_label(int(found[1]), found.start(1) + 1)
+    for word in _PLAIN_WORDS.finditer(raw, found.start(2)):
+        letter, sign, digits = word.groups()
+        number = -float(digits) if sign == "-" else float(digits)
+        block.words.append(Word(letter.upper(), Number(number), word.start() + 1))
+    return block
+
+
+def _checked_label(label: int, column: int) -> int:
+    if not 1 <= label <= LAST_LABEL:
+        raise CodeError("E222", column, f"N{label}", f"labels are 1 to {LAST_LABEL}")
+    return label
 
 
 class _Parser(ExpressionReader):
@@ -76,9 +100,7 @@ class _Parser(ExpressionReader):
     def _label(self, block: Block) -> None:
         self.pos += 1
         at = self.column
-        block.label = self.integer()
-        if not 1 <= block.label <= LAST_LABEL:
-            raise CodeError("E222", at, f"N{block.label}", f"labels are 1 to {LAST_LABEL}")
+        block.label = _checked_label(self.integer(), at)
 
     def _o_word(self, block: Block) -> bool:
         rest = self.text[self.pos :]

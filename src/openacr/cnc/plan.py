@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from openacr.cnc.blocks import Block, Word
 from openacr.cnc.codes import AXIS_LETTERS, Axes, Code, Dialect, Group, Limit
@@ -10,6 +10,7 @@ from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Number
 from openacr.cnc.turn import NEAR
 
+MOST_SHAPES = 4096
 _UNKNOWN = {"G": "E203", "M": "E205"}
 _MOTION_WORDS = frozenset("IJKRQPL")  # may belong to the motion or cycle that is active
 
@@ -32,6 +33,31 @@ class Plan:
         return word.column if word else (self.block.words[0].column if self.block.words else 1)
 
 
+Shape = tuple[str | tuple[str, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """The plan of one shape of blocks."""
+
+    plan: Plan
+    limits: tuple[Limit, ...]
+
+
+def _shape(words: list[Word]) -> Shape:
+    """Letters in their order; codes with their number."""
+    return tuple(
+        [
+            (word.letter, word.value.number)
+            if word.letter in "GM" and isinstance(word.value, Number)
+            else word.letter
+            if word.parameter is None
+            else ("#", 0.0)
+            for word in words
+        ]
+    )
+
+
 class Planner:
     """Makes plans by the tables of a dialect, for a machine with these axes."""
 
@@ -42,15 +68,36 @@ class Planner:
         self._custom = custom
         self._motion = dialect.table.letters["MOTION"]
         self._macro = dialect.table.letters.get("MACRO")
+        self._known: dict[Shape, _Known] = {}
         self.customs: set[int] = set()  # numbers of M codes made by the user
         self.replaced: dict[tuple[str, float], Code] = {}  # codes with another meaning here
 
     def plan(self, block: Block) -> Plan:
-        """The plan of a block; CodeError where it makes no sense."""
+        """The plan of a block; CodeError where it makes no sense.
+
+        Blocks of the same letters and codes have the same plan but for their values: it is
+        made once.
+        """
         if not block.words:
             return Plan(block)
-        codes, words = self._sorted(block)
-        return self._planned(block, codes, words)
+        shape = _shape(block.words)
+        known = self._known.get(shape)
+        if known is None:
+            codes, words = self._sorted(block)
+            plan = self._planned(block, codes, words)
+            if not any(code.takes_all for code in plan.codes):
+                self._remember(shape, plan)
+            return plan
+        words = {word.letter: word for word in block.words if word.letter not in "GM"}
+        for limit in known.limits:
+            _check_written(limit, words)
+        return replace(known.plan, block=block, words=words, numbers=_numbers(words))
+
+    def _remember(self, shape: Shape, plan: Plan) -> None:
+        if len(self._known) >= MOST_SHAPES:
+            self._known.clear()
+        limits = tuple(limit for code in plan.acts for limit in code.limits)
+        self._known[shape] = _Known(plan, limits)
 
     # --- codes and words --------------------------------------------------------------
 
@@ -204,8 +251,15 @@ def _check_limits(codes: list[tuple[Code, Word]], acts: list[Code], words: dict[
                     raise CodeError(
                         limit.error, at.column if at else 1, f"{limit.letter} is missing"
                     )
-            elif isinstance(word.value, Number):
-                check_limit(limit, word.value.number, word.column)
+            else:
+                _check_written(limit, words)
+
+
+def _check_written(limit: Limit, words: dict[str, Word]) -> None:
+    """A value that is written as a number is checked at once."""
+    word = words.get(limit.letter)
+    if word is not None and isinstance(word.value, Number):
+        check_limit(limit, word.value.number, word.column)
 
 
 def check_limit(limit: Limit, value: float, column: int) -> None:

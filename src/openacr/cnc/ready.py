@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from openacr.cnc.blocks import Assignment
+from openacr.cnc.blocks import Assignment, Input
 from openacr.cnc.canonical import Entry, Output, SetBit
-from openacr.cnc.codes import Code
+from openacr.cnc.codes import Code, Limit
 from openacr.cnc.findings import CodeError
-from openacr.cnc.formulas import Formula, Number
-from openacr.cnc.parameters import NotAtRestError, number
+from openacr.cnc.formulas import HOT, LOCALS, Formula, Number, names_for
+from openacr.cnc.parameters import NotAtRestError, Parameters, number
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, check_limit
 from openacr.cnc.statements import statement_of
@@ -35,7 +35,10 @@ class Ready:
     late: tuple[Assign, ...]  # where assignments act behind the reading of the block
     statement: Act | None
     values: tuple[tuple[str, Formula], ...]
+    limits: tuple[Limit, ...]  # of words that are formulas
     acts: tuple[Code, ...]
+    quick: Quick | None  # the block is one assignment, or a statement that never waits
+    is_plain: bool  # the block is words and nothing else
 
 
 def ready(node: Node, run: Interpreter) -> Ready:
@@ -54,7 +57,21 @@ def ready(node: Node, run: Interpreter) -> Ready:
         values = tuple((k, Formula(w.value, run.parameters)) for k, w in plan.words.items()
                        if w.parameter is None)  # fmt: skip
     acts = tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
-    return Ready(plan, block.is_empty, assigns, late, statement, values, acts)
+    limits = tuple(limit for code in plan.acts for limit in code.limits) if values else ()
+    beside = block.messages or late
+    quick: Quick | None = None
+    if statement is not None and not isinstance(block.statement, Input) and not beside:
+        quick = _Statement(statement)
+    elif (
+        len(assigns) == 1
+        and block.assignments[0].kind in "P#<"
+        and not (block.words or beside or statement)
+    ):
+        quick = _Quick(block.assignments, assigns, run.parameters)
+    is_plain = bool(block.words) and not (assigns or beside or statement)
+    return Ready(
+        plan, block.is_empty, assigns, late, statement, values, limits, acts, quick, is_plain
+    )
 
 
 def values_of(ready: Ready) -> dict[str, float]:
@@ -67,15 +84,14 @@ def values_of(ready: Ready) -> dict[str, float]:
         value = words[letter] = formula.now()
         if not math.isfinite(value):
             raise CodeError("E210", plan.column(letter))
-    for code in plan.acts:
-        for limit in code.limits:
-            if limit.letter in words:
-                check_limit(limit, words[limit.letter], plan.column(limit.letter))
+    for limit in ready.limits:
+        if limit.letter in words:
+            check_limit(limit, words[limit.letter], plan.column(limit.letter))
     return words
 
 
 def _assign(one: Assignment, run: Interpreter) -> Assign:
-    """An assignment as a function; the commonest form is written out."""
+    """An assignment as a function."""
     value = Formula(one.value, run.parameters)
     if one.kind in ("OUT", "BIT"):
         return _switch(one, value, run)
@@ -88,6 +104,73 @@ def _assign(one: Assignment, run: Interpreter) -> Assign:
         return lambda node: write(kind, n, value.now())
     index = Formula(one.index, run.parameters)
     return lambda node: write(kind, index.now(), value.now())
+
+
+class Quick(Protocol):
+    """Something that is done by a call."""
+
+    @property
+    def now(self) -> Callable[[Node], object]:
+        """Do it."""
+
+
+class _Statement:
+    """A jump, a call or PRINT."""
+
+    __slots__ = ("now",)
+
+    def __init__(self, act: Act) -> None:
+        self.now = act
+
+
+class _Quick:
+    """Assignments that are executed again and again: one Python function in the end."""
+
+    __slots__ = ("_assigns", "_blocks", "_parameters", "_uses", "now")
+
+    def __init__(
+        self, many: list[Assignment], assigns: tuple[Assign, ...], parameters: Parameters
+    ) -> None:
+        self._blocks = many
+        self._assigns = assigns
+        self._parameters = parameters
+        self._uses = 0
+        self.now: Assign = self._first
+
+    def _first(self, node: Node) -> None:
+        self._uses += 1
+        if self._uses == HOT:
+            self.now = self._compiled()
+        self._assigns[0](node)
+
+    def _compiled(self) -> Assign:
+        names = names_for(self._parameters)
+        lines = [line for one in self._blocks for line in _lines(one, self._parameters)]
+        exec("def assign(node):\n    " + "\n    ".join(lines), names)
+        work: Assign = names["assign"]
+        return work
+
+
+def _lines(one: Assignment, parameters: Parameters) -> list[str]:
+    """One assignment in Python: the value is found and checked, then it is kept."""
+    lines = [f"v = {one.value.source(parameters)}", "if v - v != 0.0: wrong()"]
+    kind, index = repr(one.kind), one.index
+    if isinstance(index, str):
+        return [*lines, f"write({kind}, {index!r}, v)"]
+    if isinstance(index, Number):
+        n = index.number
+        if one.kind == "#" and 1 <= n <= LOCALS:
+            store = _store(n, parameters)
+            return [*lines, f"if values[0]: values[{int(n)}] = v", f"else: {store}"]
+        return [*lines, _store(n, parameters)]
+    return [*lines, f"write({kind}, {index.source(parameters)}, v)"]
+
+
+def _store(n: float, parameters: Parameters) -> str:
+    """The shortest way to write parameter Pn."""
+    if parameters.is_free_cell(n):
+        return f"keep({int(n)}, v)"
+    return f"set_card({int(n)}, v)" if parameters.is_card_cell(n) else f"write('P', {n!r}, v)"
 
 
 def _switch(one: Assignment, value: Formula, run: Interpreter) -> Assign:

@@ -68,10 +68,8 @@ def _if(statement: If, run: Interpreter, node: Node) -> Act:
         wanted, bit = float(test.wanted), float(test.number)
 
         def act_by_input(node: Node) -> None:
-            is_macro = parameters.locals is not None
-            if (is_macro and condition.now()) or (
-                not is_macro and parameters.read_bit(bit) == wanted
-            ):
+            is_call = parameters.is_in_call
+            if condition.now() if is_call else parameters.read_bit(bit) == wanted:
                 then(node)
 
         return act_by_input

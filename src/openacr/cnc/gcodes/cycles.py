@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import BlockEnd, Entry, Plane, Point, Spin, Spindle
 from openacr.cnc.codes import Axes, Group, Limit, Step
 from openacr.cnc.flow import Frame, Level
-from openacr.cnc.parameters import LOCALS
+from openacr.cnc.formulas import LOCALS
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import Entry
 from openacr.cnc.codes import Axes, Group, Limit, Step
 from openacr.cnc.flow import Frame, Level
-from openacr.cnc.parameters import LOCALS
+from openacr.cnc.formulas import LOCALS
 from openacr.cnc.program import Node
 from openacr.cnc.tables import ACROMILL
 

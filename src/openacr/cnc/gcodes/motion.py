@@ -64,7 +64,8 @@ def rapid(run: Interpreter, b: Turn) -> None:
 
 def line(run: Interpreter, b: Turn) -> None:
     """G1."""
-    check_words(b, "")
+    if b.plan.modal_words:
+        check_words(b, "")
     end = run.path.end(b)
     run.path.line(b, end, run.feed_pace(b, end, None))
 
