@@ -110,6 +110,7 @@ class Parameters:
             "keep": self._cells.write,
             "write": self.write,
             "wrong": _wrong,
+            "rest": self.rest,
             "card": self.read_card,
             "set_card": self.write_card,
         } | {name: getattr(self, name) for name in OPERANDS}
@@ -142,14 +143,15 @@ class Parameters:
         if home.read_error:
             raise CodeError(home.read_error, 0, f"P{k}")
         if home.is_on_card:
-            self._at_rest()
+            self.rest()
             return self._run.machine.read_parameter(k)
         try:
             return self._read_cell(k)
         except MapError:
             raise CodeError("E211", 0, f"P{k}") from None
 
-    def _at_rest(self) -> None:
+    def rest(self) -> None:
+        """What follows needs the machine at rest."""
         if not self._run.is_rested:
             raise NotAtRestError
 
@@ -174,7 +176,7 @@ class Parameters:
 
     def read_bit(self, n: float) -> float:
         """The state of a card flag."""
-        self._at_rest()
+        self.rest()
         return float(self._run.machine.read_bit(number(n)))
 
     # --- writing ----------------------------------------------------------------------
@@ -198,7 +200,7 @@ class Parameters:
         if error:
             raise CodeError(error, 0, f"P{k}")
         if home.is_on_card:
-            self._at_rest()
+            self.rest()
             self._run.machine.write_parameter(k, value)
             return
         self.store(k, value)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from openacr.cnc.blocks import Assignment, Input
+from openacr.cnc.blocks import Assignment, Block, Input
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes import Code, Limit
 from openacr.cnc.findings import CodeError
@@ -62,16 +63,17 @@ def ready(node: Node, run: Interpreter) -> Ready:
     quick: Quick | None = None
     if statement is not None and not isinstance(block.statement, Input) and not beside:
         quick = _Statement(statement)
-    elif (
-        len(assigns) == 1
-        and block.assignments[0].kind in "P#<"
-        and not (block.words or beside or statement)
-    ):
+    elif _are_quick(block) and assigns and not (beside or statement):
         quick = _Quick(block.assignments, assigns, run.parameters)
     is_plain = bool(block.words) and not (assigns or beside or statement)
     return Ready(
         plan, block.is_empty, assigns, late, statement, values, limits, acts, quick, is_plain
     )
+
+
+def _are_quick(block: Block) -> bool:
+    """Whether a block is assignments of parameters and nothing else."""
+    return not block.words and all(one.kind in "P#<" for one in block.assignments)
 
 
 def values_of(ready: Ready) -> dict[str, float]:
@@ -126,13 +128,14 @@ class _Statement:
 class _Quick:
     """Assignments that are executed again and again: one Python function in the end."""
 
-    __slots__ = ("_assigns", "_blocks", "_parameters", "_uses", "now")
+    __slots__ = ("_assigns", "_lines", "_needs", "_parameters", "_uses", "now")
 
     def __init__(
         self, many: list[Assignment], assigns: tuple[Assign, ...], parameters: Parameters
     ) -> None:
-        self._blocks = many
         self._assigns = assigns
+        self._lines = [line for one in many for line in _lines(one, parameters)]
+        self._needs = _needs("\n".join(self._lines))
         self._parameters = parameters
         self._uses = 0
         self.now: Assign = self._first
@@ -141,14 +144,33 @@ class _Quick:
         self._uses += 1
         if self._uses == HOT:
             self.now = self._compiled()
-        self._assigns[0](node)
+        _rest_for(self._needs, self._parameters)
+        for assign in self._assigns:
+            assign(node)
 
     def _compiled(self) -> Assign:
         names = names_for(self._parameters)
-        lines = [line for one in self._blocks for line in _lines(one, self._parameters)]
+        lines = [self._needs, *self._lines]
         exec("def assign(node):\n    " + "\n    ".join(lines), names)
         work: Assign = names["assign"]
         return work
+
+
+_LOCAL = re.compile(r"if values\[0\](?:: values\[\d+\] = v)?\s*else:? \w+\([^()]*\)")
+_CARD = re.compile(r"card\(|read_|write\(")
+NEVER, OUTSIDE, ALWAYS = "pass", "values[0] or rest()", "rest()"
+
+
+def _needs(source: str) -> str:
+    """Whether the machine has to rest first, as Python: all of a block acts, or nothing."""
+    if _CARD.search(_LOCAL.sub("", source)):
+        return ALWAYS
+    return OUTSIDE if _CARD.search(source) else NEVER
+
+
+def _rest_for(needs: str, parameters: Parameters) -> None:
+    if needs == ALWAYS or (needs == OUTSIDE and not parameters.is_in_call):
+        parameters.rest()
 
 
 def _lines(one: Assignment, parameters: Parameters) -> list[str]:
