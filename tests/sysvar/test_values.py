@@ -103,6 +103,8 @@ def test_parameters_are_found_by_number_name_axis_and_tab() -> None:
     assert one("fov click 3").number == 450_003
     assert one("fixture 99 x").number == 952_990
     assert len(find("servo")) == 80
+    assert {found.tab for found in find("servo y")} == {"SERVO"}
+    assert len(find("servo y")) == 10
     assert len(find("jog feedrate")) == 8
 
 

@@ -109,11 +109,12 @@ def _entries(document: dict[str, Any]) -> Iterator[tuple[Parameter, Value]]:
 
 
 def _value(parameter: Parameter, value: object) -> Value:
-    if isinstance(value, bool | int | float):
-        return float(value)
-    if not isinstance(value, str):
-        raise SettingError(parameter, value, values.accepted(parameter))
-    return values.parsed(parameter, value)
+    if isinstance(value, str):
+        return values.parsed(parameter, value)
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, OverflowError):
+        raise SettingError(parameter, value, values.accepted(parameter)) from None
 
 
 def _apply(store: Store, entries: list[tuple[Parameter, Value]], is_metric: bool) -> int:

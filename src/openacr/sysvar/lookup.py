@@ -11,6 +11,7 @@ from openacr.sysvar.tabs import CELLS, FIRST_CELL, TAB_CELLS, TABS
 _NUMBER = re.compile(r"[Pp]?\s*(\d+)")
 _WORD = re.compile(r"[a-z0-9]+|[+%-]")
 AXIS_LETTERS = "XYZABCUV"
+_AXIS_WORDS = frozenset(("axis", *AXIS_LETTERS.lower()))
 LISTED = 5
 _LAST_TAB = len(TABS) - 1
 
@@ -21,7 +22,7 @@ def _tab_of(number: int) -> Tab:
     return TABS[min((number - FIRST_CELL) // TAB_CELLS, _LAST_TAB)]
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=1 << 14)  # all of them
 def parameter(number: int) -> Parameter | None:
     """What a number stands for in the store; None if there is no such cell."""
     return _tab_of(number).parameter(number)
@@ -87,17 +88,34 @@ def _words(text: str) -> list[str]:
     return _WORD.findall(text.lower())
 
 
+Named = tuple[Parameter, list[str]]
+
+
+@lru_cache(maxsize=1)
+def _catalogue() -> tuple[tuple[list[str], list[Named]], ...]:
+    """Of every row the words of its name and tab, and its parameters with the words of theirs."""
+    rows: dict[tuple[str, int], tuple[list[str], list[Named]]] = {}
+    for found in parameters():
+        words = [*_words(found.row.name), *_words(found.tab)]
+        row = rows.setdefault((found.tab, found.row.k), (words, []))
+        row[1].append((found, _words(found.name)))
+    return tuple(rows.values())
+
+
 def _named(words: list[str]) -> list[Parameter]:
     """Those with exactly these words as their name, else those that have all of them."""
     partly = []
     exactly = []
-    for found in parameters():
-        own = _words(found.name)
-        rest = _without(words, own)
-        if rest is not None and (not rest or _names_axis(rest, found)):
-            exactly.append(found)
-        elif _has_all(words, found, own):
-            partly.append(found)
+    telling = [word for word in words if word not in _AXIS_WORDS and not word.isdigit()]
+    for own_words, members in _catalogue():
+        if not all(any(_begins(own, word) for own in own_words) for word in telling):
+            continue
+        for found, own in members:
+            rest = _without(words, own)
+            if rest is not None and (not rest or _names_axis(rest, found)):
+                exactly.append(found)
+            elif _has_all(words, found, own):
+                partly.append(found)
     return exactly or partly
 
 

@@ -26,7 +26,7 @@ class SettingError(UserError):
 
     def __init__(self, parameter: Parameter, value: object, expected: str, hint: str = "") -> None:
         self.parameter, self.value, self.expected, self.hint = parameter, value, expected, hint
-        shown = f"{value:g}" if isinstance(value, float) else repr(value)
+        shown = f"{value:g}" if isinstance(value, float) else f"{value!r:.60}"
         tail = f" ({hint})" if hint else ""
         super().__init__(f"{parameter} cannot be {shown}: {expected}{tail}")
 
