@@ -84,6 +84,21 @@ COMMANDS: dict[str, Entry | Family] = {
     "mill": Family(
         "Part programs (RS-274): the CNC side.",
         {
+            "check": Entry(
+                "mill", "check_program", "Find every error of a part program, and say what it does."
+            ),
+            "time": Entry(
+                "mill",
+                "time_program",
+                "Predict how long a part program runs, from the plan of its moves.",
+            ),
+            "run": Entry(
+                "mill_run",
+                "run_program",
+                "Run a part program on the virtual machine, or on a card.",
+            ),
+            "mdi": Entry("mill_run", "run_blocks", "Run single blocks on a card."),
+            "home": Entry("mill_run", "home_axes", "Find the reference points of axes on a card."),
             "import": Entry(
                 "mill_import",
                 "import_drawing",

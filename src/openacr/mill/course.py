@@ -51,6 +51,11 @@ class Course:
         """No program any more."""
         self._feed = None
 
+    @property
+    def has_program(self) -> bool:
+        """Whether a program is on its way."""
+        return self._feed is not None
+
     def set_single(self, on: bool) -> None:
         """Whether every block is followed by a stop."""
         if self._feed is not None:

@@ -121,7 +121,7 @@ class Feed:
         try:
             entry = next(self._entries, None)
         except BlockError as error:
-            self.halt = Fault(alarms.PROGRAM_ERROR, str(error))
+            self.halt = _fault_of(error)
             return
         if entry is None:
             self.halt = Fault(alarms.PROGRAM_ERROR, "the program has no end")
@@ -211,3 +211,11 @@ class Feed:
         self._again = deque([*jobs, *self._planner.clear(), *self._again])
         self._halt_behind, self.halt = self.halt, None
         self._has_begun = True
+
+
+def _fault_of(error: BlockError) -> Fault:
+    """An error of a block; codes `Ann` are alarms of their own, all others are alarm 60."""
+    finding = error.finding
+    if finding.code.startswith("A"):
+        return Fault(alarms.kind(int(finding.code[1:])), f"line {finding.line}")
+    return Fault(alarms.PROGRAM_ERROR, str(finding))

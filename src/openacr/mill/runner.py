@@ -5,7 +5,7 @@ between. Nothing here sleeps or knows the wall clock, so the same run takes an h
 machine and seconds on a virtual one.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 
@@ -18,6 +18,7 @@ from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
 from openacr.mill.course import Course, Entries
 from openacr.mill.doing import Doing
 from openacr.mill.feeding import Halt
+from openacr.mill.homing import home
 from openacr.mill.machine import Look, Machine
 from openacr.mill.overrides import Override, Overrides
 from openacr.mill.panel import Panel
@@ -62,6 +63,7 @@ class Options:
     is_dry: bool = False
     is_single: bool = False
     stops_optionally: bool = False
+    is_mdi: bool = False  # blocks typed one by one: what is on stays on behind them
 
 
 class Runner:
@@ -84,6 +86,8 @@ class Runner:
         self.state = State.IDLE
         self.reason = ""  # what a WAIT or HOLD is for
         self.options = Options()
+        self.has_operator = True  # somebody answers and starts again
+        self.asking: c.Ask | None = None
         self.passes = 0  # ends of the program reached
         self.course = Course(self.panel, self.doing, depth)
         self._watch = Watch(self.panel)
@@ -114,6 +118,15 @@ class Runner:
             raise UserError("no program is loaded")
         options = self.options
         self.course.begin(self._entries, is_dry=options.is_dry, is_single=options.is_single)
+
+    def home(self, axes: Sequence[int]) -> None:
+        """HOME: find the reference points of axes, priority after priority."""
+        if self.alarms.bars_start:
+            raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
+        self._require(State.IDLE, "home")
+        self._script.begin(home(self.panel, axes))
+        self.state = State.WAIT
+        self._times.restart()
 
     def start(self) -> None:
         """START, Cycle Start: go on from a pause or hold."""
@@ -232,7 +245,7 @@ class Runner:
         if isinstance(halt, c.Probe):
             yield from self.course.probe(halt)
         elif isinstance(halt, c.Ask):
-            yield Until(halt.text, lambda _look: halt.parameter in self.course.host.answers)
+            yield from self._asked(halt)
         elif isinstance(halt, c.Stop | c.BlockEnd):
             if not self._passes_by(halt):
                 self._hold(halt)
@@ -243,6 +256,17 @@ class Runner:
         else:
             yield from self.doing.steps(halt)
         self.course.go_on()
+
+    def _asked(self, ask: c.Ask) -> Steps:
+        """INPUT: until the operator has answered; alarm 61 where nobody can."""
+        answers = self.course.host.answers
+        if ask.parameter not in answers and not self.has_operator:
+            raise AlarmError(alarms.ANSWER_MISSING, f"P{ask.parameter} {ask.text}")
+        self.asking = ask
+        try:
+            yield Until(ask.text, lambda _look: ask.parameter in answers)
+        finally:
+            self.asking = None
 
     def _passes_by(self, halt: c.Stop | c.BlockEnd) -> bool:
         """Whether a stop has no effect: M1 without the switch, single block switched off."""
@@ -264,12 +288,14 @@ class Runner:
 
     def _end_of_text(self) -> None:
         """M2 or the end: over, or once more where the store says so."""
-        self.passes += 1
-        self._published.cell(PARTS, self.passes)
-        if self.settings.repeats:
+        if not self.options.is_mdi:
+            self.passes += 1
+            self._published.cell(PARTS, self.passes)
+        if self.settings.repeats and not self.options.is_mdi:
             self._begin_pass()
             return
-        self.doing.off()
+        if not self.options.is_mdi:
+            self.doing.off()
         self.course.end()
         self.state, self.reason = State.IDLE, ""
 
@@ -286,7 +312,7 @@ class Runner:
         if self.state is State.WAIT:
             self.reason = self._script.reason
             if not self._script.is_active:
-                self.state = State.RUN
+                self.state = State.RUN if self.course.has_program else State.IDLE
 
     # --- ends -------------------------------------------------------------------------
 

@@ -1,0 +1,172 @@
+"""`openacr mill check` and `time`: what a part program does, without a machine."""
+
+import json as json_format
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from openacr.cnc.findings import Finding
+    from openacr.cnc.program import Program
+    from openacr.cnc.survey import Survey
+    from openacr.mill.predicting import Prediction
+    from openacr.sysvar import Store
+
+FAILED = 1
+S_PER_MIN = 60
+CONTEXT_COLUMNS = 72
+
+PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
+AtStore = Annotated[
+    Path | None,
+    typer.Option(
+        "--store",
+        metavar="PATH",
+        help="File of the store (else OPENACR_STORE, else in the data folder of the user).",
+    ),
+]
+Dialect = Annotated[
+    str | None,
+    typer.Option(help="acromill or rs274ngc; else as the program or the store says."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes without effect.")]
+
+
+@contextmanager
+def opened_store(path: Path | None) -> "Iterator[Store]":
+    """The store a machine is described by."""
+    from openacr.sysvar import Store
+    from openacr.sysvar.location import default_path
+
+    with Store(path or default_path()) as store:
+        yield store
+
+
+def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", str]:
+    """A program with everything that belongs to it, and the name of its dialect."""
+    from openacr.cnc.load import load
+    from openacr.mill.dialects import dialect_of
+
+    if not file.is_file():
+        raise UserError(f"{file}: no such file")
+    name = dialect_of(file, store, dialect)
+    return load(file, store, name), name
+
+
+def show_findings(findings: "list[Finding]") -> None:
+    """Every error and warning with its line and a mark at the column."""
+    for finding in findings:
+        colour = typer.colors.RED if finding.is_error else typer.colors.YELLOW
+        typer.secho(str(finding), fg=colour, err=True)
+        block = finding.block.expandtabs(1)
+        if block.strip() and finding.column <= min(len(block), CONTEXT_COLUMNS):
+            typer.echo(f"    {block[:CONTEXT_COLUMNS]}", err=True)
+            typer.echo("    " + " " * (finding.column - 1) + "^", err=True)
+
+
+def check_program(
+    file: PartProgram,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find every error of a part program, and say what it does."""
+    with opened_store(store) as cells:
+        program, name = loaded(file, cells, dialect)
+        survey, prediction = _surveyed(program, cells, name, is_dry=False)
+    if as_json:
+        typer.echo(json_format.dumps(_as_data(survey, prediction), indent=1))
+    else:
+        show_findings(survey.findings)
+        _show_survey(survey, prediction)
+    if survey.errors:
+        raise typer.Exit(FAILED)
+
+
+def time_program(
+    file: PartProgram,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    is_dry: Dry = False,
+    as_json: AsJson = False,
+) -> None:
+    """Predict how long a part program runs, from the plan of its moves."""
+    with opened_store(store) as cells:
+        program, name = loaded(file, cells, dialect)
+        survey, prediction = _surveyed(program, cells, name, is_dry=is_dry)
+    if survey.errors:
+        show_findings(survey.errors)
+        raise typer.Exit(FAILED)
+    record = _times(prediction)
+    if as_json:
+        typer.echo(json_format.dumps(record, indent=1))
+        return
+    typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
+    for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
+        typer.echo(f"  {text:<8} {record[key]:10.2f} s")
+
+
+def _surveyed(
+    program: "Program", cells: "Store", dialect: str, *, is_dry: bool
+) -> "tuple[Survey, Prediction]":
+    """Read a program once, for the survey and for its time."""
+    from openacr.cnc.interpreter import Options
+    from openacr.cnc.survey import survey
+    from openacr.mill.predicting import Predictor
+    from openacr.mill.settings import Settings
+
+    predictor = Predictor(Settings(cells), (0.0,) * 8, is_dry=is_dry)
+    found = survey(program, cells, dialect, Options(is_dry=is_dry), look=predictor.add)
+    predictor.rest()
+    return found, predictor.found
+
+
+def _times(prediction: "Prediction") -> dict[str, float]:
+    return {
+        "time_s": round(prediction.time_s, 4),
+        "feed_s": round(prediction.feed_s, 4),
+        "rapid_s": round(prediction.rapid_s, 4),
+        "dwell_s": round(prediction.dwell_s, 4),
+    }
+
+
+def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:
+    data = survey.data()
+    data["time_s"] = None if survey.errors else round(prediction.time_s, 4)
+    return data
+
+
+def _show_survey(survey: "Survey", prediction: "Prediction") -> None:
+    counts = survey.move_cnts
+    typer.echo(
+        f"{survey.line_cnt} lines, {len(survey.errors)} errors, {len(survey.warnings)} warnings"
+    )
+    if survey.errors:
+        return
+    typer.echo(
+        f"moves: {counts['feed']} lines, {counts['arc']} arcs, {counts['rapid']} rapids,"
+        f" {counts['dwell']} dwells"
+    )
+    typer.echo(
+        f"length: {survey.lengths['feed']:.4g} at feed, {survey.lengths['rapid']:.4g} at rapid"
+    )
+    for letter, axis in survey.letters.items():
+        if survey.low[axis] < survey.high[axis]:
+            typer.echo(f"  {letter}: {survey.low[axis]:.4f} to {survey.high[axis]:.4f}")
+    if survey.tools:
+        typer.echo("tools: " + " ".join(map(str, survey.tools)))
+    typer.echo(f"time: {clock(prediction.time_s)}")
+
+
+def clock(seconds: float) -> str:
+    """A time as people read it."""
+    minutes, rest = divmod(round(seconds), S_PER_MIN)
+    hours, minutes = divmod(minutes, S_PER_MIN)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,0 +1,251 @@
+"""`openacr mill run`, `mdi`, `home`: part programs on a virtual or a real machine."""
+
+import json as json_format
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from openacr.cli.mill import (
+    AsJson,
+    AtStore,
+    Dialect,
+    Dry,
+    PartProgram,
+    clock,
+    loaded,
+    opened_store,
+    show_findings,
+)
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Ask
+    from openacr.cnc.program import Program
+    from openacr.cnc.replay import Replay
+    from openacr.mill.workshop import Start, Workshop
+    from openacr.sysvar import Store
+
+FAILED, INTERRUPTED = 1, 130
+SHOW_EVERY = 25  # steps
+
+ToHost = Annotated[
+    str | None,
+    typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="A real card; else a virtual one."),
+]
+AtHost = Annotated[
+    str, typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="The card of the machine.")
+]
+
+
+def run_program(
+    file: PartProgram,
+    host: ToHost = None,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    is_dry: Dry = False,
+    line: Annotated[int, typer.Option("--line", min=1, help="Start at this line.")] = 1,
+    accepts_tool: Annotated[
+        bool, typer.Option("--any-tool", help="Start at a line with another tool in the spindle.")
+    ] = False,
+    is_skipping: Annotated[
+        bool, typer.Option("--block-skip", help="Leave blocks with a slash out.")
+    ] = False,
+    stops_optionally: Annotated[bool, typer.Option("--optional-stop", help="Stop at M1.")] = False,
+    answers: Annotated[
+        list[str] | None, typer.Option("--answer", metavar="Pn=VALUE", help="Answer to an INPUT.")
+    ] = None,
+    as_json: AsJson = False,
+    is_quiet: Annotated[bool, typer.Option("--quiet", help="No progress, no table.")] = False,
+) -> None:
+    """Run a part program on the virtual machine, or on a card.
+
+    The virtual machine stands on its reference points, runs as fast as it can and waits for
+    nobody. On a card Ctrl-C is a feed hold and ends the program; stops ask on the terminal.
+    """
+    from openacr.mill.workshop import Start
+
+    start = Start("", line, is_dry, is_skipping, stops_optionally, accepts_tool)
+    with opened_store(store) as cells:
+        program, name = loaded(file, cells, dialect)
+        if program.errors:
+            show_findings(program.errors)
+            raise typer.Exit(FAILED)
+        with _workshop(host, cells, to_stderr=as_json) as shop:
+            shop.runner.course.host.answers.update(map(_answer, answers or []))
+            _run(shop, program, _with_dialect(start, name), is_quiet or as_json)
+            _report(shop, as_json, is_quiet)
+
+
+def run_blocks(
+    blocks: Annotated[list[str], typer.Argument(metavar="BLOCK...", help='"G0 X1" "M3 S500"')],
+    host: AtHost,
+    store: AtStore = None,
+    dialect: Dialect = None,
+) -> None:
+    """Run single blocks on a card."""
+    with opened_store(store) as cells, _workshop(host, cells) as shop:
+        for place in shop.run_blocks(blocks, dialect or "acromill", _attend):
+            typer.echo(_place_text(shop, place))
+        _end_with_alarms(shop)
+
+
+def home_axes(
+    host: AtHost,
+    axes: Annotated[
+        str, typer.Option("--axes", help="Names of the axes, e.g. XYZ; else all with a priority.")
+    ] = "",
+    store: AtStore = None,
+) -> None:
+    """Find the reference points of axes on a card."""
+    with opened_store(store) as cells, _workshop(host, cells) as shop:
+        homed = shop.home(axes, _attend)
+        typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
+        _end_with_alarms(shop)
+
+
+# --- running ------------------------------------------------------------------------------
+
+
+@contextmanager
+def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
+    from openacr.client import ConnectionLostError
+    from openacr.mill.workshop import Workshop
+
+    def say(text: str) -> None:
+        typer.echo(text, err=to_stderr)
+
+    try:
+        shop = Workshop.real(host, cells, say) if host else Workshop.virtual(cells, say)
+    except ConnectionLostError as lost:
+        raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
+    try:
+        yield shop
+    finally:
+        shop.close()
+
+
+def _with_dialect(start: "Start", name: str) -> "Start":
+    from dataclasses import replace
+
+    return replace(start, dialect=name)
+
+
+def _answer(text: str) -> tuple[int, float]:
+    name, _, value = text.partition("=")
+    try:
+        return int(name.strip().lstrip("Pp#")), float(value)
+    except ValueError:
+        raise UserError(f"--answer {text}: write it as P200=1.5") from None
+
+
+def _run(shop: "Workshop", program: "Program", start: "Start", is_quiet: bool) -> None:
+    from openacr.cli.online import progress_bar
+
+    replay = shop.start(program, start)
+    if replay is not None:
+        _show_replay(replay, start)
+    try:
+        with progress_bar(Path(program.main.text.name).name) as show:
+            count = 0
+            while shop.runner.is_busy:
+                shop.step()
+                _attend(shop)
+                count += 1
+                source = shop.runner.source
+                if not is_quiet and source is not None and count % SHOW_EVERY == 0:
+                    show(source.line, program.line_cnt)
+    except KeyboardInterrupt:
+        _break_off(shop)
+        raise typer.Exit(INTERRUPTED) from None
+
+
+def _show_replay(replay: "Replay", start: "Start") -> None:
+    for warning in replay.warnings:
+        typer.echo(f"warning: {warning}", err=True)
+    for each in replay.differences:
+        typer.echo(f"{each.name}: now {each.present}, at the line {each.wanted}", err=True)
+    if replay.needs_tool and not start.accepts_tool:
+        raise UserError("another tool is in the spindle; --any-tool starts all the same")
+
+
+def _attend(shop: "Workshop") -> None:
+    """Where the machine waits for somebody: nobody on a virtual one, the terminal else."""
+    from openacr.mill.runner import State
+
+    if shop.is_virtual:
+        shop.carry_on()
+    elif shop.runner.state is State.HOLD:
+        _ask(shop)
+    elif shop.runner.asking is not None:
+        _answer_to(shop, shop.runner.asking)
+
+
+def _ask(shop: "Workshop") -> None:
+    if not sys.stdin.isatty():
+        shop.runner.abort()
+        raise UserError(f"{shop.runner.reason}: nobody is at the terminal to go on")
+    if typer.confirm(f"{shop.runner.reason}: go on?", default=True):
+        shop.runner.start()
+    else:
+        shop.runner.abort()
+
+
+def _answer_to(shop: "Workshop", ask: "Ask") -> None:
+    if not sys.stdin.isatty():
+        shop.runner.abort()
+        raise UserError(f"nobody is at the terminal to answer {ask.text!r}; use --answer")
+    shop.runner.course.host.answers[ask.parameter] = typer.prompt(ask.text, type=float)
+
+
+def _break_off(shop: "Workshop") -> None:
+    """Ctrl-C: to rest on the path, then the program is over."""
+    if shop.runner.is_busy:
+        shop.runner.abort()
+    while shop.runner.is_busy:
+        shop.step()
+
+
+# --- reports ------------------------------------------------------------------------------
+
+
+def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
+    runner = shop.runner
+    place = runner.course.host.position()
+    if as_json:
+        record: dict[str, Any] = {
+            "time_s": round(runner.run_s, 3),
+            "moves": runner.course.moves,
+            "passes": runner.passes,
+            "end": {axis.name: place[axis.index] for axis in runner.settings.axes},
+            "alarms": [
+                {"code": alarm.kind.code, "text": alarm.text, "at_s": alarm.at_s}
+                for alarm in runner.alarms.active
+            ],
+        }
+        typer.echo(json_format.dumps(record, indent=1))
+    elif not is_quiet:
+        typer.echo(
+            f"{clock(runner.run_s)}  ({runner.run_s:.2f} s, {runner.course.moves} moves)"
+            f"  {_place_text(shop, place)}"
+        )
+    _end_with_alarms(shop, is_shown=not as_json)
+
+
+def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
+    axes = shop.runner.settings.axes
+    return " ".join(f"{axis.name}{place[axis.index]:.4f}" for axis in axes)
+
+
+def _end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
+    """Say what went wrong; exit code 1 when anything did."""
+    active = shop.runner.alarms.active
+    source = shop.runner.source
+    for alarm in active if is_shown else ():
+        where = f" (line {source.line}: {source.text.strip()})" if source else ""
+        typer.secho(f"alarm {alarm.kind.code}: {alarm.text}{where}", fg=typer.colors.RED, err=True)
+    if active:
+        raise typer.Exit(FAILED)

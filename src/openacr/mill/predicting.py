@@ -1,0 +1,110 @@
+r"""How long a program takes, from the plan alone.
+
+The card runs each move from the speed the move before it ended with, up to its feed and
+down to the speed it was sent with, at constant acceleration a. Over a length L
+
+    end      v1 = min(planned, sqrt(v0^2 + 2 a L))    what can be reached at all
+    peak     vp = min(feed, sqrt((2 a L + v0^2 + v1^2) / 2))
+    time     (vp - v0)/a + (vp - v1)/a + (L - ramps)/vp
+
+so the sum over all moves is the run time, without a card and without its ticks. Waits for
+people and signals count as nothing.
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from openacr.cnc import canonical as c
+from openacr.mill.encoding import Encoder, Job
+from openacr.mill.planning import CornerRules, Planner
+from openacr.mill.settings import Settings
+
+TOGETHER = 512  # moves planned at once
+MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe
+
+
+@dataclass(slots=True)
+class Prediction:
+    """Seconds by kind; dwells are waits."""
+
+    rapid_s: float = 0.0
+    feed_s: float = 0.0
+    dwell_s: float = 0.0
+    moves: int = 0
+
+    @property
+    def time_s(self) -> float:
+        """All of it."""
+        return self.rapid_s + self.feed_s + self.dwell_s
+
+
+class Predictor:
+    """Adds up the times of moves as they would be sent."""
+
+    def __init__(self, settings: Settings, begin: c.Point, *, is_dry: bool = False) -> None:
+        self._encoder = Encoder(settings, is_dry=is_dry)
+        speeds = settings.speeds
+        rules = CornerRules(
+            speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
+        )
+        self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
+        self._position = begin
+        self._speed_ups = 0.0
+        self.found = Prediction()
+
+    def add(self, entry: c.Entry) -> None:
+        """One more entry of the program."""
+        if isinstance(entry, MOTIONS):
+            for piece in self._encoder.pieces(entry, self._position):
+                self._move(self._encoder.job(piece, self._position))
+            if isinstance(entry, c.Probe):
+                self.rest()
+        elif isinstance(entry, c.Say | c.SetCell | c.BlockEnd):
+            return
+        else:
+            self.rest()
+            if isinstance(entry, c.Dwell):
+                self.found.dwell_s += entry.seconds
+
+    def _move(self, job: Job) -> None:
+        self._position = job.finish
+        if job.length_u > 0.0:
+            self._planner.add(job)
+        if self._planner.ready() >= TOGETHER:
+            self._take(is_complete=False)
+
+    def rest(self) -> None:
+        """The machine comes to rest here."""
+        self._take(is_complete=True)
+        self._speed_ups = 0.0
+
+    def _take(self, *, is_complete: bool) -> None:
+        for job in self._planner.take(1 << 30, is_complete=is_complete):
+            seconds, self._speed_ups = travel(job, self._speed_ups)
+            self.found.moves += 1
+            if job.is_rapid:
+                self.found.rapid_s += seconds
+            else:
+                self.found.feed_s += seconds
+
+
+def travel(job: Job, begin_ups: float) -> tuple[float, float]:
+    """The time of a move that begins at a speed, and the speed it ends with."""
+    a, length = job.ramp_ups2, job.length_u
+    begin = min(begin_ups, job.feed_ups)
+    end = min(job.exit_ups, math.sqrt(begin * begin + 2.0 * a * length))
+    peak = min(job.feed_ups, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
+    ramps = ((peak * peak - begin * begin) + (peak * peak - end * end)) / (2.0 * a)
+    return (2.0 * peak - begin - end) / a + max(length - ramps, 0.0) / peak, end
+
+
+def predicted(
+    entries: Iterable[c.Entry], settings: Settings, begin: c.Point, *, is_dry: bool = False
+) -> Prediction:
+    """The run time of a whole program."""
+    predictor = Predictor(settings, begin, is_dry=is_dry)
+    for entry in entries:
+        predictor.add(entry)
+    predictor.rest()
+    return predictor.found

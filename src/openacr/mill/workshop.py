@@ -1,0 +1,181 @@
+"""A machine for one run: the card, the cells, the runner, and who watches it.
+
+The virtual machine stands on its reference points and has nothing wired to it: inputs that
+the store names are left out, waits for relays are passed by, tools are there when they are
+asked for. A real one is everything the store says.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from itertools import chain, repeat
+
+from openacr.client import Card
+from openacr.cnc import canonical as c
+from openacr.cnc.hosts import Cells
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.interpreter import Options as Reading
+from openacr.cnc.load import load
+from openacr.cnc.mdi import Mdi
+from openacr.cnc.program import Program
+from openacr.cnc.replay import Replay, start_at
+from openacr.cnc.shadow import Shadow
+from openacr.errors import UserError
+from openacr.mill.host import RunHost
+from openacr.mill.machine import Machine
+from openacr.mill.runner import Options, Runner, State
+from openacr.mill.settings import HOMED, NONE, Settings
+from openacr.mill.setup import prepare
+
+POLL_S = 0.01
+ALL_AXES = 255
+# Inputs of the store that nothing is wired to on the virtual machine.
+UNWIRED = (
+    *range(400_000, 400_007), 400_012, 450_016, 500_016, 550_016, 800_003, 800_004, 800_008,
+    800_013, 900_000,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """How a program is to be run."""
+
+    dialect: str = "acromill"
+    line: int = 1
+    is_dry: bool = False
+    is_skipping: bool = False
+    stops_optionally: bool = False
+    accepts_tool: bool = False  # start at a line although another tool is in the spindle
+
+
+class Workshop:
+    """A card that is set up for the machine, and its runner."""
+
+    def __init__(
+        self, card: Card, cells: Cells, say: Callable[[str], None], *, is_virtual: bool
+    ) -> None:
+        self.cells = cells
+        self.card = card
+        self.is_virtual = is_virtual
+        settings = Settings(cells)
+        depth = prepare(card, settings)
+        axes = [axis.index for axis in settings.axes]
+        self.machine = Machine(card, axes, settings.master)
+        self.runner = Runner(self.machine, cells, depth, say)
+        self.runner.has_operator = not is_virtual
+
+    @classmethod
+    def virtual(cls, store: Cells, say: Callable[[str], None] = print) -> "Workshop":
+        """The virtual machine; what a program writes to the store is forgotten."""
+        from openacr.controller import Controller
+
+        cells = Shadow(store)
+        cells.write(HOMED, ALL_AXES)
+        for cell in UNWIRED:
+            cells.write(cell, NONE)
+        cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
+        shop = cls(Card.open(Controller()), cells, say, is_virtual=True)
+        names = " ".join(axis.name for axis in shop.runner.settings.axes)
+        shop.card.command(f"DRIVE ON {names}", program=shop.machine.master)
+        return shop
+
+    @classmethod
+    def real(cls, target: str, store: Cells, say: Callable[[str], None] = print) -> "Workshop":
+        """A card at the other end of a link; drives are left as they are."""
+        return cls(Card.open(target), store, say, is_virtual=False)
+
+    def close(self) -> None:
+        """Let go of the card."""
+        self.card.close()
+
+    # --- programs ---------------------------------------------------------------------
+
+    def start(self, program: Program, start: Start) -> Replay | None:
+        """Begin a program; the replay of the lines before, when it begins later."""
+        replay: Replay | None = None
+        options = Options(is_dry=start.is_dry, stops_optionally=start.stops_optionally)
+        host = self.runner.course.host
+        host.is_skipping = host.is_skipping or start.is_skipping
+        reading = self._interpreter(program, start)
+        first: Callable[[], Iterator[c.Entry]] = reading.entries
+        if start.line > 1:
+            replay = start_at(reading, start.line)
+            if replay.needs_tool and not start.accepts_tool:
+                return replay
+            first = replay.entries
+        passes = chain([first], repeat(reading.entries))
+        self.runner.run(lambda _host: self._watched(next(passes)()), options)
+        return replay
+
+    def _interpreter(self, program: Program, start: Start) -> Interpreter:
+        reading = Reading(is_dry=start.is_dry, has_block_ends=True)
+        cells = Shadow(self.cells) if start.line > 1 else self.cells
+        return Interpreter(program, cells, self.runner.course.host, start.dialect, reading)
+
+    def _watched(self, entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
+        """The entries; on the virtual machine nobody has to be waited for."""
+        for entry in entries:
+            if self.is_virtual and isinstance(entry, c.WaitBit):
+                yield c.Say(entry.source, f"passed by: {entry.reason}")
+            else:
+                yield entry
+
+    def run_blocks(
+        self, blocks: Iterable[str], dialect: str, attend: Callable[["Workshop"], None]
+    ) -> Iterator[c.Point]:
+        """MDI: one block after the other; where the machine stands behind each."""
+        host = self.runner.course.host
+        program = load(b"", self.cells, dialect, name="MDI")
+        typed = Mdi(Interpreter(program, self.cells, host, dialect))
+        for block in blocks:
+            entries = _ended(typed.execute(block))
+            self.runner.run(partial(_given, entries), Options(is_mdi=True))
+            self._finish(attend)
+            yield host.position()
+            if self.runner.alarms.bars_start:
+                return
+
+    def home(self, names: str, attend: Callable[["Workshop"], None]) -> list[str]:
+        """Find the reference points of the axes named, or of all that have a priority."""
+        axes = self.runner.settings.axes
+        known = {axis.name for axis in axes}
+        for name in names:
+            if name not in known:
+                raise UserError(f"axis {name} is not configured: {' '.join(sorted(known))} are")
+        chosen = [axis for axis in axes if not names or axis.name in names]
+        self.runner.home([axis.index for axis in chosen])
+        self._finish(attend)
+        return [axis.name for axis in chosen if self.runner.settings.is_homed(axis.index)]
+
+    def _finish(self, attend: Callable[["Workshop"], None]) -> None:
+        while self.runner.is_busy:
+            self.step()
+            attend(self)
+
+    def step(self) -> None:
+        """Let a little time pass and do what is due."""
+        self.machine.pause(POLL_S)
+        self.runner.step()
+
+    def carry_on(self) -> None:
+        """What an operator does who never hesitates: starts again, confirms tools."""
+        runner = self.runner
+        runner.doing.changer.is_confirmed = True
+        if runner.state is State.HOLD:
+            runner.start()
+
+
+def _given(entries: Iterator[c.Entry], _host: RunHost) -> Iterator[c.Entry]:
+    """Entries that are there already."""
+    return entries
+
+
+def _ended(entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
+    """The entries of a block, and an end behind it that switches nothing off."""
+    last = c.Source("MDI", 1, "")
+    for entry in entries:
+        last = getattr(entry, "source", last)
+        yield entry
+        if isinstance(entry, c.End):
+            return
+    yield c.End(last, is_by_code=False)

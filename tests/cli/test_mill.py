@@ -1,0 +1,141 @@
+"""`openacr mill check`, `time` and `run`: part programs at the command line."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from openacr.cli.main import app
+
+SQUARE = """\
+G90 F60
+G0 X1 Y1
+G1 X2
+Y2
+G2 X1 Y1 I1 J2
+M2
+"""
+
+
+@pytest.fixture(autouse=True)
+def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+
+
+def program(folder: Path, text: str) -> str:
+    file = folder / "PART.NC"
+    file.write_text(text)
+    return str(file)
+
+
+def mill(*words: str) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["mill", *words])
+    return result.exit_code, result.output
+
+
+def as_json(*words: str) -> Any:
+    result = CliRunner().invoke(app, ["mill", *words, "--json"])
+    return json.loads(result.stdout)
+
+
+def test_check_counts_moves_lengths_and_extents(tmp_path: Path) -> None:
+    found = as_json("check", program(tmp_path, SQUARE))
+    assert found["lines"] == 6
+    assert (found["errors"], found["warnings"]) == ([], [])
+    assert found["moves"] == {"rapid": 1, "feed": 2, "arc": 1, "dwell": 0}
+    assert found["length"]["rapid"] == pytest.approx(2**0.5)
+    assert found["length"]["feed"] == pytest.approx(2 + 0.5 * 3.14159265)
+    assert found["extents"] == {"min": [0.0, 0.0, 0.0], "max": [2.0, 2.0, 0.0]}
+    assert found["end"] == {"X": 1.0, "Y": 1.0, "Z": 0.0}
+
+
+def test_check_shows_errors_with_line_column_and_mark(tmp_path: Path) -> None:
+    code, text = mill("check", program(tmp_path, "G90\nG1 X1 G0\nG1 X1 X2\n"))
+    assert code == 1
+    assert "PART.NC:2:7: E201" in text
+    assert "    G1 X1 G0\n          ^" in text
+    assert "PART.NC:3:7: E202" in text
+
+
+def test_time_is_that_of_the_run_within_a_percent(tmp_path: Path) -> None:
+    file = program(tmp_path, SQUARE)
+    assert as_json("time", file)["time_s"] == pytest.approx(
+        as_json("run", file)["time_s"], rel=0.01
+    )
+
+
+def test_run_ends_where_the_program_ends(tmp_path: Path) -> None:
+    code, text = mill("run", program(tmp_path, SQUARE))
+    assert code == 0
+    assert "X1.0000 Y1.0000 Z0.0000" in text
+
+
+def test_a_program_with_errors_is_not_run(tmp_path: Path) -> None:
+    code, text = mill("run", program(tmp_path, "G90 F60\nG1 X1\nQQ\n"))
+    assert code == 1
+    assert "PART.NC:3" in text
+    assert "moves" not in text
+
+
+def test_an_error_at_run_time_is_an_alarm_with_its_line(tmp_path: Path) -> None:
+    code, text = mill("run", program(tmp_path, "G90 F600\nP5=0\nG1 X1\nG1 X(1/P5)\nM2\n"))
+    assert code == 1
+    assert "alarm 60" in text
+    assert "PART.NC:4" in text
+
+
+def test_nobody_has_to_be_waited_for_on_the_virtual_machine(tmp_path: Path) -> None:
+    text = 'F600\nM3 S100\nT3 M6\nM122\nM0\nG1 X1\nINPUT "size", P200\nG1 Y(P200)\nM2\n'
+    found = as_json("run", program(tmp_path, text), "--answer", "P200=0.5")
+    assert found["alarms"] == []
+    assert found["end"]["X"] == 1.0
+    assert found["end"]["Y"] == 0.5
+
+
+def test_a_missing_answer_is_alarm_61(tmp_path: Path) -> None:
+    found = as_json("run", program(tmp_path, 'F600\nINPUT "size", P200\nG1 Y(P200)\nM2\n'))
+    assert [alarm["code"] for alarm in found["alarms"]] == [61]
+
+
+def test_what_a_virtual_run_writes_is_forgotten(tmp_path: Path) -> None:
+    mill("run", program(tmp_path, "F60\nP150=7\nG1 X.1\nM2\n"))
+    result = CliRunner().invoke(app, ["sysvar", "get", "P150", "--json"])
+    assert json.loads(result.stdout)[0]["value"] == 0
+
+
+def test_start_at_a_line_goes_there_first(tmp_path: Path) -> None:
+    found = as_json("run", program(tmp_path, SQUARE), "--line", "5")
+    assert found["end"] == {"X": 1.0, "Y": 1.0, "Z": 0.0}
+    code, text = mill("run", program(tmp_path, SQUARE), "--line", "9")
+    assert code == 2
+    assert "the program has lines 1 to 6" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("check", "nowhere.nc"), "nowhere.nc: no such file"),
+        (("run", "PART", "--answer", "size"), "write it as P200=1.5"),
+        (("check", "PART", "--dialect", "klingon"), "known are acromill"),
+    ],
+)
+def test_mistakes_of_the_user_are_said_in_one_line(
+    tmp_path: Path, words: tuple[str, ...], said: str
+) -> None:
+    file = program(tmp_path, SQUARE)
+    code, text = mill(*(file if word == "PART" else word for word in words))
+    assert code == 2
+    assert said in text
+
+
+def test_the_dialect_may_stand_in_the_file(tmp_path: Path) -> None:
+    _, text = mill("check", program(tmp_path, ";dialect elvish\nG1 X1\n"))
+    assert "dialect elvish: known are" in text
+
+
+def test_no_card_is_said_as_such(tmp_path: Path) -> None:
+    code, text = mill("run", program(tmp_path, SQUARE), "--host", "127.0.0.1:1")
+    assert code == 2
+    assert "NO CARD FOUND" in text
