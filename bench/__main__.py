@@ -16,6 +16,7 @@ ORDER = (
     "startup",
     "terminal_latency",
     "packets",
+    "compensate",
     "moves",
 )
 

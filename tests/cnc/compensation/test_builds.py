@@ -9,6 +9,7 @@ from openacr.compiled import pick
 from openacr.views import F64
 
 ROUNDS = 2000
+AWAY = 0.01
 
 
 def rows() -> F64:
@@ -30,16 +31,17 @@ def lay(F: F64, i: int, ends: list[float], bulge: float, run: dict[str, object])
         h = 0.5 * (1 / bulge - bulge) / 2
         centre = ((x0 + x1) / 2 - h * (y1 - y0), (y0 + y1) / 2 + h * (x1 - x0))
         sweep = 4 * math.atan(bulge)
-    return run["curve"](F, i, x0, y0, x1, y1, *centre, sweep, 1e-3, 0.01)  # type: ignore[operator, no-any-return]
+    return run["curve"](F, i, x0, y0, x1, y1, *centre, sweep, AWAY, 1e-3, 0.01)  # type: ignore[operator, no-any-return]
 
 
 def test_both_builds_agree_in_every_bit() -> None:
     plain: dict[str, object] = {
-        "curve": curve_cy.comp_curve,
+        "curve": curve_cy.comp_lay,
         "place": curve_cy.comp_place,
         "fit": curve_cy.comp_fit,
         "range": curve_cy.comp_range,
         "join": join_cy.comp_join,
+        "meet": join_cy.comp_meet,
     }
     fast: dict[str, object] = {name: pick(each) for name, each in plain.items()}  # type: ignore[arg-type]
     rnd = random.Random(3)
@@ -57,6 +59,7 @@ def test_both_builds_agree_in_every_bit() -> None:
             for i in (0, COLUMNS):
                 said.append(run["place"](F, i, away))  # type: ignore[operator]
             said.append(run["join"](F, 0, COLUMNS, 1e-3, 1e-4, is_inside))  # type: ignore[operator]
+            said.append(run["meet"](F, 0, COLUMNS, 1e-3, 0.01, 1e-4, is_inside))  # type: ignore[operator]
             said.append(run["fit"](F, 0, 1e-3, 0.01))  # type: ignore[operator]
             said.append(run["range"](F, 0, *points[4:]))  # type: ignore[operator]
             results.append((said, bytes(F)))

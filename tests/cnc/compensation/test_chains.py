@@ -1,5 +1,6 @@
 """Beginning and end of compensation, what waits between elements, and changes on the way."""
 
+from dataclasses import FrozenInstanceError, replace
 from math import pi
 
 import pytest
@@ -279,3 +280,16 @@ def test_findings_name_the_source_of_the_element() -> None:
     path = Path(0, 5).to(0, 0)
     trace.out += compensator.add(path.elements[0])
     assert places == [path.elements[0].source]
+
+
+def test_elements_that_come_out_are_like_any_other() -> None:
+    path = Path(-1, 2).to(0, 0).to(2, 0).to(2, 2)
+    made = compensate(path.elements, 0.25).elements[1]
+    same = Element(
+        path.elements[1].source, Plane.XY, made.start, made.end, FEED, is_compensated=True
+    )
+    assert made == same
+    assert hash(made) == hash(same)
+    assert replace(made, pace=None).pace is None
+    with pytest.raises(FrozenInstanceError):
+        made.pace = None  # type: ignore[misc]

@@ -1,34 +1,36 @@
 """The elements between the way in and the way out, and the tool's way beside them."""
 
-from math import hypot
 from typing import Generic, TypeVar
 
+from openacr.cnc.canonical import Plane
 from openacr.cnc.compensation.curve_cy import (
     AWAY,
     AX,
-    AY,
     BX,
     BY,
-    EMPTY,
-    FITS,
     GOUGES,
     NOTHING,
-    RADIUS,
-    SHORTEST,
-    T0X,
-    T0Y,
+    SMALL,
     T1X,
     T1Y,
     UNEQUAL,
-    X0,
     X1,
-    Y0,
     Y1,
 )
-from openacr.cnc.compensation.gouge import largest_radius
-from openacr.cnc.compensation.join_cy import APART, BRIDGE, CROSSING, FORCED, GAP, JOINED, ROUND
+from openacr.cnc.compensation.gouge import gouge_text, report_apart, report_small
+from openacr.cnc.compensation.join_cy import (
+    APART,
+    BRIDGE,
+    CROSSING,
+    FIT_STEP,
+    FORCED,
+    GAP,
+    JOINED,
+    ROUND,
+)
+from openacr.cnc.compensation.lead import begin_lead_in, end_lead_in
 from openacr.cnc.compensation.moves import at_place, inserted, tool_way
-from openacr.cnc.compensation.rows import Piece, Table, curve, distance, fit, join, place
+from openacr.cnc.compensation.rows import Piece, Table, fit, lay, meet, place
 from openacr.cnc.compensation.rules import Report, Rules, Watch
 from openacr.cnc.elements import Element
 
@@ -47,10 +49,14 @@ class Chain(Generic[Held]):
         self.ready: list[Held | Element] = []
         self.at: tuple[float, float] | None = None  # where the tool is, if not as programmed
         self._rules = rules
+        self._tolerances = (rules.epsilon, rules.sweep_epsilon)
         self._root = rules.root
+        self._waiting_cnt = 1 if rules.gouge_stop else 1 + LEFT_OUT_CNT
         self._report = report
         self._watch = watch
         self._table = Table()
+        self._plane = Plane.XY
+        self._axes = (0, 1)
         self._chain: list[Piece[Held]] = []
         self._last: Piece[Held] | None = None  # issued last
         self._is_inside = False  # something in front of the next element was left out
@@ -85,22 +91,19 @@ class Chain(Generic[Held]):
     def begin(self, element: Element) -> None:
         """The way in: a line from where the tool is to beside the start of the next element."""
         self._laid_out(element)
-        F, row = self._table.F, self._table.row
-        place(F, row, self.away)
-        F[row + AX] = F[row + X0]
-        F[row + AY] = F[row + Y0]
-        length = hypot(F[row + X1] - F[row + X0], F[row + Y1] - F[row + Y0])
-        if length < abs(self.away):
-            self._report("W311", f"lead-in is shorter than the radius {abs(self.away):g}", element)
-        self._chain = [Piece(element, self._table.keep(), is_lead_in=True)]
+        lead = Piece[Held](element, self._table.keep(), is_lead_in=True)
+        begin_lead_in(self._table.F, lead, self._report)
+        self._chain = [lead]
 
     def _laid_out(self, element: Element) -> int:
         """Fill the next row with an element."""
         start, end, plane = element.start, element.end, element.plane
-        first, second = plane.first, plane.second
+        if plane is not self._plane:
+            self._plane = plane
+            self._axes = (plane.first, plane.second)
+        first, second = self._axes
         cx, cy = element.centre or (0.0, 0.0)
-        rules = self._rules
-        return curve(
+        return lay(
             self._table.F,
             self._table.row,
             start[first],
@@ -110,8 +113,8 @@ class Chain(Generic[Held]):
             cx,
             cy,
             element.sweep_rad,
-            rules.epsilon,
-            rules.sweep_epsilon,
+            self.away,
+            *self._tolerances,
         )
 
     def follow(self, element: Element) -> None:
@@ -124,74 +127,50 @@ class Chain(Generic[Held]):
             self.tell(element)
         if self._watch:
             self._watch.contour(element)
-        if found == UNEQUAL:
-            self._report(
-                "E315", f"start and end radius differ by more than {self._rules.epsilon:g}", element
-            )
-        if not place(self._table.F, self._table.row, self.away):
-            self._leave_out_small(element)
-            return
-        self._connect(Piece(element, self._table.keep()))
-
-    def _leave_out_small(self, element: Element) -> None:
-        radius = self._table.F[self._table.row + RADIUS]
-        text = f"arc of radius {radius:g} is not larger than the tool radius {abs(self.away):g}"
-        if self._rules.gouge_stop:
-            self._report("E320", text, element)
+        if found & UNEQUAL:
+            limit = self._rules.epsilon
+            self._report("E315", f"start and end radius differ by more than {limit:g}", element)
+        if found & SMALL:
+            report_small(self._report, Piece(element, self._table.row), self._table, self._rules)
+            self._is_inside = True
         else:
-            self._report("W320", f"geometry adjusted: {text}, left out", element)
-        self._is_inside = True
+            self._connect(Piece(element, self._table.keep()))
 
     def _connect(self, piece: Piece[Held]) -> None:
         chain = self._chain
-        if not chain:
-            self._restart(piece)
-        else:
+        if chain:
             last = chain[-1]
             self._meet(last, piece, self._is_inside)
             if last.fits == GOUGES or last.meets == APART:
                 self._gouge(piece)
+        else:
+            self._restart(piece)
         self._is_inside = False
         chain.append(piece)
-        limit = 1 if self._rules.gouge_stop else 1 + LEFT_OUT_CNT
-        while len(chain) > limit:
+        while len(chain) > self._waiting_cnt:
             self._issue(chain.pop(0), chain[0])
 
     def _meet(self, last: Piece[Held], piece: Piece[Held], is_inside: bool) -> None:
         """Set the end of one piece and the start of the next."""
         F, i, j = self._table.F, last.row, piece.row
-        rules = self._rules
         if last.is_lead_in:
-            place(F, j, F[j + AWAY])
-            F[i + BX], F[i + BY] = F[j + AX], F[j + AY]
-            self._check_lead_in(last, piece)
+            end_lead_in(F, last, piece, self._report, self._rules.epsilon)
             return
-        last.meets = join(F, i, j, rules.epsilon, self._root, is_inside)
-        last.fits = fit(F, i, rules.epsilon, rules.sweep_epsilon)
-
-    def _check_lead_in(self, last: Piece[Held], piece: Piece[Held]) -> None:
-        """Whether it begins on the material side of the element behind it."""
-        F, i, j = self._table.F, last.row, piece.row
-        x, y = F[i + X0], F[i + Y0]
-        side = (x - F[j + X0]) * F[j + T0Y] - (y - F[j + Y0]) * F[j + T0X]
-        nearest = distance(F, j, x, y)
-        if F[j + AWAY] * side > 0.0 and nearest < abs(F[j + AWAY]):
-            text = f"lead-in crosses the part: it begins {nearest:.6g} from line"
-            self._report("W312", f"{text} {piece.element.source.line}", last.element)
+        found = meet(F, i, j, *self._tolerances, self._root, is_inside)
+        last.fits, last.meets = divmod(found, FIT_STEP)
 
     def _restart(self, piece: Piece[Held]) -> None:
         """Go on behind a chain that was broken: from where the tool rests to the new start."""
         last = self._last
-        if last is None:
+        if last is None or self.at is None:
             return
-        F, j, rules = self._table.F, piece.row, self._rules
-        meets = join(F, last.row, j, rules.epsilon, self._root, False)
+        F, j = self._table.F, piece.row
+        meets = meet(F, last.row, j, *self._tolerances, self._root, False) % FIT_STEP
         if meets not in (JOINED, ROUND, BRIDGE):
             self._report("W324", "the chain is broken by a waiting block", piece.element)
             meets = BRIDGE
             place(F, j, F[j + AWAY])
-        if self.at is not None:
-            F[last.row + BX], F[last.row + BY] = self.at
+        F[last.row + BX], F[last.row + BY] = self.at
         self._insert(last, piece, meets)
 
     # --- gouges -------------------------------------------------------------------------
@@ -207,7 +186,7 @@ class Chain(Generic[Held]):
             if len(chain) < 2 or chain[-2].left_out_cnt + bad.left_out_cnt >= LEFT_OUT_CNT:
                 self._refuse(bad, piece)
                 return
-            self._report("W322", self._gouge_text(bad, piece) + ", left out", bad.element)
+            self._report("W322", f"{self._gouge_text(bad, piece)}, left out", bad.element)
             before = chain[-2]
             self._take_out(before, chain.pop())
             if piece is None:
@@ -224,20 +203,13 @@ class Chain(Generic[Held]):
 
     def _refuse(self, bad: Piece[Held], piece: Piece[Held] | None) -> None:
         if bad.meets == APART and piece is not None:
-            text = f"no intersection with line {piece.element.source.line}"
-            self._report("E321", f"{text} at radius {abs(self.away):g}", bad.element)
+            report_apart(self._report, bad, piece, self._table)
         if bad.fits == GOUGES:
             self._report("E322", self._gouge_text(bad, piece), bad.element)
 
     def _gouge_text(self, bad: Piece[Held], piece: Piece[Held] | None) -> str:
-        chain = self._chain
-        before = chain[-2] if len(chain) > 1 else self._last
-        radius = largest_radius(self._table, before, bad, piece, self._rules)
-        line, away = bad.element.source.line, abs(self._table.F[bad.row + AWAY])
-        return (
-            f"gouge: line {line} cannot be reached with radius {away:g} "
-            f"(largest radius {radius:.6g})"
-        )
+        before = self._chain[-2] if len(self._chain) > 1 else self._last
+        return gouge_text(self._table, before, bad, piece, self._rules)
 
     # --- issuing ------------------------------------------------------------------------
 
@@ -257,12 +229,12 @@ class Chain(Generic[Held]):
 
     def _end_beside(self, piece: Piece[Held]) -> None:
         """Let a piece end beside the end of its element."""
-        F, row, rules = self._table.F, piece.row, self._rules
+        F, row = self._table.F, piece.row
         F[row + BX] = F[row + X1] - F[row + AWAY] * F[row + T1Y]
         F[row + BY] = F[row + Y1] + F[row + AWAY] * F[row + T1X]
         piece.meets = JOINED
         if not piece.is_lead_in:
-            piece.fits = fit(F, row, rules.epsilon, rules.sweep_epsilon)
+            piece.fits = fit(F, row, *self._tolerances)
 
     def finish(self) -> None:
         """Issue the whole chain; the tool rests beside the end of its last element."""
@@ -275,30 +247,24 @@ class Chain(Generic[Held]):
         while chain:
             piece = chain.pop(0)
             self._issue(piece, chain[0] if chain else None)
-        F, last = self._table.F, self._last
-        if last is not None:
-            self.at = (F[last.row + BX], F[last.row + BY])
 
     def _issue(self, piece: Piece[Held], following: Piece[Held] | None) -> None:
-        F, row = self._table.F, piece.row
-        if piece.is_lead_in:
-            length = hypot(F[row + BX] - F[row + AX], F[row + BY] - F[row + AY])
-            piece.fits = EMPTY if length < SHORTEST else FITS
-        way = tool_way(F, piece)
+        way = tool_way(self._table.F, piece)
         if way is not None:
-            self.issue_way(way, abs(F[row + AWAY]))
+            self.issue_way(way, self._table.F[piece.row + AWAY])
         self._last = piece
-        self.at = (F[row + BX], F[row + BY])
-        if piece.held:
-            for thing in piece.held:
-                self.rest(thing)
+        if piece.held or following is None:
+            self._rest_at(piece.row + BX, piece.held)
         if following is not None and piece.meets > CROSSING:
             self._insert(piece, following, piece.meets)
         if piece.held_behind:
-            if following is not None:
-                self.at = (F[following.row + AX], F[following.row + AY])
-            for thing in piece.held_behind:
-                self.rest(thing)
+            self._rest_at((following or piece).row + (AX if following else BX), piece.held_behind)
+
+    def _rest_at(self, place: int, things: list[Held | Element] | None) -> None:
+        """Issue things where the tool rests; its coordinates are in the table."""
+        self.at = (self._table.F[place], self._table.F[place + 1])
+        for thing in things or ():
+            self.rest(thing)
 
     def _insert(self, piece: Piece[Held], following: Piece[Held], meets: int) -> None:
         F = self._table.F
@@ -307,10 +273,10 @@ class Chain(Generic[Held]):
             text = f"geometry adjusted: the ways beside {lines} do not cross"
             self._report("W320", text, following.element)
         for element in inserted(F, piece, following, meets):
-            self.issue_way(element, abs(F[following.row + AWAY]))
+            self.issue_way(element, F[following.row + AWAY])
 
-    def issue_way(self, element: Element, radius: float) -> None:
+    def issue_way(self, element: Element, away: float) -> None:
         """Issue a move of the tool."""
         self.ready.append(element)
         if self._watch:
-            self._watch.way(element, radius)
+            self._watch.way(element, abs(away))

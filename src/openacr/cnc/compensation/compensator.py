@@ -115,7 +115,7 @@ class Compensator(Generic[Held]):
     def _lead_out(self, element: Element) -> None:
         if element.centre is not None:
             self._report("E313", "compensation cannot end with an arc", element)
-        self._chain.issue_way(self._from_here(element), abs(self._chain.away))
+        self._chain.issue_way(self._from_here(element), self._chain.away)
         self._phase = Phase.OFF
         self._chain.forget()
 

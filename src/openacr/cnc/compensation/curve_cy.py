@@ -13,7 +13,7 @@ so that the distance never changes the form of an element, only its ends.
 from openacr.cmath import atan2, fabs, rint, sqrt
 from openacr.views import F64
 
-__all__ = ["comp_curve", "comp_fit", "comp_place", "comp_range"]
+__all__ = ["comp_fit", "comp_lay", "comp_place", "comp_range"]
 
 X0 = 0  # the contour: start,
 Y0 = 1
@@ -34,16 +34,18 @@ AY = 15
 BX = 16  # and end of its way,
 BY = 17
 TOOL_SWEEP = 18  # the sweep of its arc
+ROLL = 19  # the sweep about the corner behind it
 COLUMNS = 20
 
 PI = 3.141592653589793
 SHORTEST = 1.0e-6  # what moves less in the plane is no element
 LEAST_SLACK = 1.0e-9
 
-# what comp_curve found
+# what comp_lay found
 NOTHING = 0
 PLAIN = 1
 UNEQUAL = 2  # start and end of an arc have different radii
+SMALL = 4  # the tool does not fit into an arc; UNEQUAL may be added
 
 # what comp_fit found
 FITS = 0
@@ -51,7 +53,28 @@ EMPTY = 1
 GOUGES = 2
 
 
-def comp_curve(
+def comp_lay(
+    F: F64,
+    i: int,
+    x0: float,
+    y0: float,
+    x1: float,
+    y1: float,
+    cx: float,
+    cy: float,
+    sweep: float,
+    away: float,
+    epsilon: float,
+    sweep_epsilon: float,
+) -> int:
+    """Lay out a line, or with a sweep an arc, and the tool beside it; say what was found."""
+    found: int = _comp_curve(F, i, x0, y0, x1, y1, cx, cy, sweep, epsilon, sweep_epsilon)
+    if found != NOTHING and not comp_place(F, i, away):
+        return SMALL + UNEQUAL if found == UNEQUAL else SMALL
+    return found
+
+
+def _comp_curve(
     F: F64,
     i: int,
     x0: float,
@@ -64,10 +87,7 @@ def comp_curve(
     epsilon: float,
     sweep_epsilon: float,
 ) -> int:
-    """Lay out a line, or with a sweep an arc: PLAIN, UNEQUAL, or NOTHING where none is left.
-
-    An arc of less than the sweep epsilon is the line between its ends.
-    """
+    """The contour; an arc of less than the sweep epsilon is the line between its ends."""
     F[i + X0] = x0
     F[i + Y0] = y0
     F[i + X1] = x1

@@ -15,7 +15,7 @@ The ways are taken as whole lines and circles. With a circle of radius R' around
 The differences of squares are computed as products, which keeps all digits near tangency.
 """
 
-from openacr.cmath import fabs, sqrt
+from openacr.cmath import atan2, fabs, sqrt
 from openacr.cnc.compensation.curve_cy import (
     AWAY,
     AX,
@@ -24,7 +24,9 @@ from openacr.cnc.compensation.curve_cy import (
     BY,
     CX,
     CY,
+    PI,
     RADIUS,
+    ROLL,
     SHORTEST,
     SWEEP,
     T0X,
@@ -37,11 +39,12 @@ from openacr.cnc.compensation.curve_cy import (
     Y0,
     Y1,
     comp_beyond,
+    comp_fit,
     comp_length,
 )
 from openacr.views import F64
 
-__all__ = ["comp_join"]
+__all__ = ["comp_join", "comp_meet"]
 
 # what comp_join found
 JOINED = 0
@@ -52,8 +55,33 @@ GAP = 4  # a line is to be inserted: the ways do not cross
 APART = 5  # the ways do not even come near each other
 FORCED = 6  # the ways cross by the root epsilon only
 
+FIT_STEP = 8  # comp_meet adds this many times what comp_fit found
+
 PARALLEL = 1.0e-9
 FAR = 1.0e30
+
+
+def comp_meet(
+    F: F64, i: int, j: int, epsilon: float, sweep_epsilon: float, root: float, is_inside: bool
+) -> int:
+    """Join two elements and look whether the tool's way beside the first one fits."""
+    meets: int = comp_join(F, i, j, epsilon, root, is_inside)
+    if meets == ROUND:
+        F[i + ROLL] = _comp_rolled(F, i, j)
+    return meets + FIT_STEP * comp_fit(F, i, epsilon, sweep_epsilon)
+
+
+def _comp_rolled(F: F64, i: int, j: int) -> float:
+    """The sweep of a tool that rolls about P: clockwise where it is on the left."""
+    sx: float = F[i + BX] - F[i + X1]
+    sy: float = F[i + BY] - F[i + Y1]
+    ex: float = F[j + AX] - F[i + X1]
+    ey: float = F[j + AY] - F[i + Y1]
+    turn: float = -1.0 if F[i + AWAY] > 0.0 else 1.0
+    angle: float = turn * atan2(sx * ey - sy * ex, sx * ex + sy * ey)
+    if angle < 0.0:
+        angle = angle + 2.0 * PI
+    return turn * angle
 
 
 def comp_join(F: F64, i: int, j: int, epsilon: float, root: float, is_inside: bool) -> int:
@@ -126,7 +154,7 @@ def _comp_lines(F: F64, i: int, j: int, c: float, epsilon: float) -> int:
         y: float = F[j + AY] - s * F[j + T0Y]
         return _comp_gap(F, i, j, F[i + BX], F[i + BY], x, y, epsilon)
     u: float = (dx * F[j + T0Y] - dy * F[j + T0X]) / c
-    return _comp_meet(F, i, j, F[i + BX] + u * F[i + T1X], F[i + BY] + u * F[i + T1Y])
+    return _comp_at(F, i, j, F[i + BX] + u * F[i + T1X], F[i + BY] + u * F[i + T1Y])
 
 
 def _comp_line_circle(
@@ -196,9 +224,9 @@ def _comp_choose(
     a: float = _comp_cost(F, i, j, ax, ay, epsilon)
     b: float = _comp_cost(F, i, j, bx, by, epsilon)
     if a <= b:
-        _comp_meet(F, i, j, ax, ay)
+        _comp_at(F, i, j, ax, ay)
     else:
-        _comp_meet(F, i, j, bx, by)
+        _comp_at(F, i, j, bx, by)
 
 
 def _comp_cost(F: F64, i: int, j: int, x: float, y: float, epsilon: float) -> float:
@@ -214,7 +242,7 @@ def _comp_cost(F: F64, i: int, j: int, x: float, y: float, epsilon: float) -> fl
     return distance if beyond <= epsilon and before <= epsilon else FAR + distance * FAR
 
 
-def _comp_meet(F: F64, i: int, j: int, x: float, y: float) -> int:
+def _comp_at(F: F64, i: int, j: int, x: float, y: float) -> int:
     F[i + BX] = x
     F[i + BY] = y
     F[j + AX] = x

@@ -1,30 +1,31 @@
 """From the rows of a chain back to elements: what is issued for a piece and between pieces."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import atan2, ceil, cos, pi, sin, tau
+from itertools import pairwise
+from math import ceil, cos, pi, sin
 
-from openacr.cnc.canonical import Pace, Plane, Point, Source
+from openacr.cnc.canonical import Pace, Plane, Point
 from openacr.cnc.compensation.curve_cy import (
-    AWAY,
     AX,
     AY,
     BX,
     BY,
     CX,
     CY,
-    EMPTY,
     FITS,
+    ROLL,
     SHORTEST,
-    SWEEP,
-    TOOL_SWEEP,
     X1,
     Y1,
 )
-from openacr.cnc.compensation.join_cy import BRIDGE, GAP, ROUND
+from openacr.cnc.compensation.drafts import tool_element
+from openacr.cnc.compensation.join_cy import CROSSING, FORCED, JOINED, ROUND
 from openacr.cnc.compensation.rows import Piece
 from openacr.cnc.elements import Element
 from openacr.views import F64
+
+Place = tuple[float, float]
 
 RAPID_STEP_RAD = pi / 3.0  # of a corner that is rounded at rapid speed
 
@@ -43,96 +44,63 @@ def tool_way(F: F64, piece: Piece[object]) -> Element | None:
     """The move of the tool beside an element; None where nothing is left of it."""
     element, row = piece.element, piece.row
     plane = element.plane
-    start = moved(element.start, plane, F[row + AX], F[row + AY])
-    end = moved(element.end, plane, F[row + BX], F[row + BY])
-    if piece.fits == FITS and F[row + SWEEP] != 0.0:
+    ax, ay, bx, by, sweep = F[row + AX : row + ROLL].tolist()
+    if plane is Plane.XY:
+        start, end = (ax, ay, *element.start[2:]), (bx, by, *element.end[2:])
+    else:
+        start, end = moved(element.start, plane, ax, ay), moved(element.end, plane, bx, by)
+    pace, source = element.pace, element.source
+    if sweep != 0.0 and piece.fits == FITS:
         centre = (F[row + CX], F[row + CY])
-        sweep = F[row + TOOL_SWEEP]
-        return Element(element.source, plane, start, end, element.pace, centre, sweep, False, True)
-    if piece.fits == EMPTY and start == moved(end, plane, F[row + AX], F[row + AY]):
-        return None
-    return Element(element.source, plane, start, end, element.pace, None, 0.0, False, True)
+        return tool_element(source, plane, start, end, pace, centre, sweep)
+    if piece.fits != FITS or piece.is_lead_in:
+        is_short = abs(bx - ax) < SHORTEST and abs(by - ay) < SHORTEST
+        if is_short and start == moved(end, plane, ax, ay):
+            return None
+    return tool_element(source, plane, start, end, pace)
 
 
 def inserted(
     F: F64, piece: Piece[object], following: Piece[object], meets: int
-) -> Iterator[Element]:
+) -> Sequence[Element]:
     """The moves between the end of a piece and the start of the one behind it."""
-    if meets not in (ROUND, BRIDGE, GAP):
-        return
-    element = following.element
-    pace = element.pace or piece.element.pace
-    start = (F[piece.row + BX], F[piece.row + BY])
-    end = (F[following.row + AX], F[following.row + AY])
-    make = _Maker(element.source, element.plane, element.start, pace)
+    if meets in (JOINED, CROSSING, FORCED):
+        return ()
+    i, j = piece.row, following.row
+    start, end = (F[i + BX], F[i + BY]), (F[j + AX], F[j + AY])
+    pace = following.element.pace or piece.element.pace
     if meets != ROUND:
-        yield make.element(start, end)
-        return
-    corner = (F[piece.row + X1], F[piece.row + Y1])
-    sweep = rolled(start, end, corner, F[piece.row + AWAY])
-    if pace is not None:
-        yield make.element(start, end, corner, sweep)
-    else:
-        yield from make.around(start, end, corner, sweep)
+        return (_between(following.element, pace, start, end),)
+    corner, sweep = (F[i + X1], F[i + Y1]), F[i + ROLL]
+    if pace is None:
+        places = [*_around(start, corner, sweep), end]
+        return [_between(following.element, None, a, b) for a, b in pairwise([start, *places])]
+    return (_between(following.element, pace, start, end, corner, sweep),)
 
 
-def rolled(
-    start: tuple[float, float], end: tuple[float, float], corner: tuple[float, float], away: float
-) -> float:
-    """The sweep of a tool that rolls about a corner: clockwise where it is on the left."""
-    first = atan2(start[1] - corner[1], start[0] - corner[0])
-    last = atan2(end[1] - corner[1], end[0] - corner[0])
-    turn = -1.0 if away > 0.0 else 1.0
-    return turn * ((turn * (last - first)) % tau)
+def _between(
+    element: Element,
+    pace: Pace | None,
+    start: Place,
+    end: Place,
+    centre: Place | None = None,
+    sweep: float = 0.0,
+) -> Element:
+    """An inserted move; axes outside the plane rest where the element behind it starts."""
+    plane, point = element.plane, element.start
+    first, last = moved(point, plane, *start), moved(point, plane, *end)
+    return tool_element(element.source, plane, first, last, pace, centre, sweep, True)
 
 
-class _Maker:
-    """Makes inserted elements of one place; axes outside the plane rest."""
-
-    def __init__(self, source: Source, plane: Plane, point: Point, pace: Pace | None) -> None:
-        self._source = source
-        self._plane = plane
-        self._point = point
-        self._pace = pace
-
-    def element(
-        self,
-        start: tuple[float, float],
-        end: tuple[float, float],
-        centre: tuple[float, float] | None = None,
-        sweep_rad: float = 0.0,
-    ) -> Element:
-        return Element(
-            self._source,
-            self._plane,
-            moved(self._point, self._plane, *start),
-            moved(self._point, self._plane, *end),
-            self._pace,
-            centre,
-            sweep_rad,
-            is_inserted=True,
-            is_compensated=True,
-        )
-
-    def around(
-        self,
-        start: tuple[float, float],
-        end: tuple[float, float],
-        corner: tuple[float, float],
-        sweep: float,
-    ) -> Iterator[Element]:
-        """Straight rapid moves around the arc: tangents of it, that never come nearer."""
-        steps = max(1, ceil(abs(sweep) / RAPID_STEP_RAD))
-        step = sweep / steps
-        x, y = start[0] - corner[0], start[1] - corner[1]
-        at = start
-        for k in range(steps):
-            angle, stretch = (k + 0.5) * step, 1.0 / cos(0.5 * step)
-            c, s = cos(angle) * stretch, sin(angle) * stretch
-            to = (corner[0] + c * x - s * y, corner[1] + s * x + c * y)
-            yield self.element(at, to)
-            at = to
-        yield self.element(at, end)
+def _around(start: Place, corner: Place, sweep: float) -> Iterator[Place]:
+    """Corners of tangents around an arc, for rapid moves: they never come nearer."""
+    steps = max(1, ceil(abs(sweep) / RAPID_STEP_RAD))
+    step = sweep / steps
+    x, y = start[0] - corner[0], start[1] - corner[1]
+    stretch = 1.0 / cos(0.5 * step)
+    for k in range(steps):
+        c, s = cos((k + 0.5) * step) * stretch, sin((k + 0.5) * step) * stretch
+        yield corner[0] + c * x - s * y, corner[1] + s * x + c * y
 
 
 def at_place(element: Element, place: tuple[float, float]) -> Element:

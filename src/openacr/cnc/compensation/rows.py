@@ -5,21 +5,22 @@ from typing import Generic, TypeVar
 from openacr.cnc.compensation.curve_cy import (
     COLUMNS,
     FITS,
-    comp_curve,
     comp_fit,
+    comp_lay,
     comp_place,
     comp_range,
 )
-from openacr.cnc.compensation.join_cy import JOINED, comp_join
+from openacr.cnc.compensation.join_cy import JOINED, comp_join, comp_meet
 from openacr.cnc.elements import Element
 from openacr.compiled import pick
 from openacr.views import F64
 
 Held_co = TypeVar("Held_co", covariant=True)
 
-curve = pick(comp_curve)
 fit = pick(comp_fit)
+lay = pick(comp_lay)
 join = pick(comp_join)
+meet = pick(comp_meet)
 place = pick(comp_place)
 distance = pick(comp_range)
 
