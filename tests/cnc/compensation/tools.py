@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from math import atan2, hypot, tau
 
 from openacr.cnc.canonical import Pace, Plane, Point, Source
-from openacr.cnc.compensation import Compensator, Rules, Side
+from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.elements import Element
 
 FEED = Pace(10.0)
@@ -91,10 +91,12 @@ def compensate(
     rules: Rules = EXACT,
     *,
     has_lead_out: bool = True,
+    is_checked: bool = False,
 ) -> Trace:
-    """The first element leads in, the last one out."""
+    """The first element leads in, the last one out; checked: as a whole, too."""
     trace = Trace()
-    compensator: Compensator[str] = Compensator(rules, trace.report)
+    watch = ChainCheck(rules.epsilon, trace.report) if is_checked else None
+    compensator: Compensator[str] = Compensator(rules, trace.report, watch)
     trace.out += compensator.switch(side, radius)
     for element in elements[:-1] if has_lead_out else elements:
         trace.out += compensator.add(element)

@@ -27,5 +27,6 @@ not None the tool rests there in the plane and not at the programmed point.
 from openacr.cnc.compensation.compensator import Compensator
 from openacr.cnc.compensation.listing import listing
 from openacr.cnc.compensation.rules import Report, Rules, Side
+from openacr.cnc.compensation.whole import ChainCheck
 
-__all__ = ["Compensator", "Report", "Rules", "Side", "listing"]
+__all__ = ["ChainCheck", "Compensator", "Report", "Rules", "Side", "listing"]
