@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from openacr.basic.ip_address import IpAddress
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 
@@ -29,10 +30,10 @@ class Setup:
 
     def set_address(self, name: str, text: str) -> None:
         """IP, IP MASK or IP GATE; all numbers are checked before anything changes."""
-        changed = self.addresses | {name: ".".join(map(str, _octets(text)))}
+        address = IpAddress.read(text)
         if name == "IP":
-            _check_host(_octets(text), _octets(changed["MASK"]))
-        self.addresses = changed
+            address.check_host(IpAddress.read(self.addresses["MASK"]))
+        self.addresses = self.addresses | {name: str(address)}
 
     def state(self) -> tuple[tuple[str, ...], dict[str, str]]:
         """Both settings, for a snapshot."""
@@ -42,21 +43,3 @@ class Setup:
         """Take over what `state` returned."""
         config, addresses = state
         self.config, self.addresses = config, dict(addresses)
-
-
-def _octets(text: str) -> list[int]:
-    """The four numbers of a dotted address."""
-    parts = text.strip().split(".")
-    if len(parts) != 4 or not all(part.isascii() and part.isdigit() for part in parts):
-        raise CardError(INVALID_ARGUMENT)
-    octets = [int(part) for part in parts]
-    if max(octets) > 255:
-        raise CardError(INVALID_ARGUMENT)
-    return octets
-
-
-def _check_host(address: list[int], mask: list[int]) -> None:
-    """A host address has no octet 255, and its part outside the mask is not zero."""
-    host = [octet & ~bits & 255 for octet, bits in zip(address, mask, strict=True)]
-    if 255 in address or not any(host):
-        raise CardError(INVALID_ARGUMENT)

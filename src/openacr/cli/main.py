@@ -57,6 +57,12 @@ COMMANDS: dict[str, Entry | Family] = {
         "upload", "upload", "Read a program or PLC of a card, or all of them into a folder."
     ),
     "monitor": Entry("monitor", "monitor", "Show parameters, flags and axes of a card, live."),
+    "status": Entry(
+        "status", "status", "Show lights, drives, encoders and limit switches of a card."
+    ),
+    "ip": Entry(
+        "ip", "explain_address", "Explain an address of the network: class, network, host, reach."
+    ),
     "backup": Entry(
         "backup",
         "backup",

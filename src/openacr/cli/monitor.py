@@ -44,7 +44,7 @@ def monitor(
     with connected(target, baud, silence) as card:
         axes = axis or []
         if not items and not axes:
-            axes = _axes_on(card)
+            axes = axes_on(card)
         samples = _samples(card, Sampler(card, items or [], axes), every, duration)
         if as_json:
             for sample in samples:
@@ -95,7 +95,7 @@ class Sampler:
         return dict(zip(_NAMES, [*in_units, *flags], strict=True))
 
 
-def _axes_on(card: "Card") -> list[int]:
+def axes_on(card: "Card") -> list[int]:
     """The axes that are on; the card refuses to tell about axes it does not have."""
     from openacr.client import RefusedError
 

@@ -9,6 +9,7 @@ import socket
 import time
 from typing import TYPE_CHECKING, Protocol
 
+from openacr.client.causes import NO_DRIVER, network_cause
 from openacr.client.errors import ConnectionLostError
 from openacr.errors import UserError
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
@@ -90,7 +91,10 @@ class TcpLink:
         try:
             self._socket = socket.create_connection(self.address, CONNECT_S)
         except (OSError, OverflowError) as failure:
-            raise ConnectionLostError(f"cannot connect to {self.name}: {failure}") from None
+            cause = network_cause(failure)
+            raise ConnectionLostError(
+                f"cannot connect to {self.name}: {failure} ({cause})"
+            ) from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def read(self, timeout_s: float | None) -> bytes:
@@ -155,7 +159,9 @@ class SerialLink:
                 self.name, baudrate=self.baud, xonxoff=True, write_timeout=CONNECT_S
             )
         except (serial.SerialException, OSError, ValueError) as failure:
-            raise ConnectionLostError(f"cannot open serial port {self.name}: {failure}") from None
+            raise ConnectionLostError(
+                f"cannot open serial port {self.name}: {failure} ({NO_DRIVER})"
+            ) from None
 
     def read(self, timeout_s: float | None) -> bytes:
         """What has arrived."""

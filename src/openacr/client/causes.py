@@ -1,0 +1,23 @@
+"""Why there is no connection: the codes hosts show, each with its usual cause."""
+
+import errno
+import socket
+
+NO_DRIVER = "17054: no driver for the USB or serial port, or no such port"
+WRONG_NETWORK = "11003: wrong cable, or wrong address or mask of this host"
+NO_RESPONSE = "11010: wrong cable, or wrong address of the card"
+REFUSED = "10061: another device has this address, or no card listens there"
+NOT_REACHABLE = "17080: the card cannot be reached"
+
+_NO_WAY = frozenset((errno.EHOSTUNREACH, errno.ENETUNREACH, errno.ENETDOWN, errno.EADDRNOTAVAIL))
+
+
+def network_cause(failure: Exception) -> str:
+    """Code and cause of a connection over the network that failed."""
+    if isinstance(failure, ConnectionRefusedError):
+        return REFUSED
+    if isinstance(failure, TimeoutError):
+        return NO_RESPONSE
+    if isinstance(failure, socket.gaierror) or getattr(failure, "errno", None) in _NO_WAY:
+        return WRONG_NETWORK
+    return NOT_REACHABLE

@@ -1,0 +1,50 @@
+"""The lights on the front of a card, told from what it says about itself."""
+
+from enum import StrEnum
+
+SUPPLIES = 0b1100011  # P7044: ISO, EXT, VEE, VDD
+FLASH_INVALID = 0b111 << 24  # flags 5656 to 5658: boot flash and both system flashes
+FAULT_INPUT, DRIVE_ENABLED, FAULT_LATCHED = 1 << 0, 1 << 17, 1 << 29  # quaternary axis flags
+
+
+class Light(StrEnum):
+    """What a light shows."""
+
+    OFF = "off"
+    GREEN = "green"
+    BLINKING_GREEN = "blinking green"
+    RED = "red"
+    BLINKING_RED = "blinking red"
+    RED_AND_GREEN = "red and green in turn"
+    ONE_FLASH = "one red flash"
+    TWO_FLASHES = "two red flashes"
+
+
+# By P32779: pre-initialised, ready, started, wrong ids twice, a node is missing, excess bus
+# errors, health event, internal error, transmission overflow, bus off.
+_BUS = (
+    Light.OFF, Light.BLINKING_GREEN, Light.GREEN, Light.RED, Light.RED, Light.BLINKING_GREEN,
+    Light.ONE_FLASH, Light.TWO_FLASHES, Light.BLINKING_RED, Light.BLINKING_RED, Light.RED,
+)  # fmt: skip
+
+
+def power_light(*, is_there: bool, diagnostics: int = 0, misc_control: int = 0) -> Light:
+    """Power: off without, red with a supply that fails, both colours after a boot error."""
+    if not is_there:
+        return Light.OFF
+    if misc_control & FLASH_INVALID:
+        return Light.RED_AND_GREEN
+    return Light.RED if diagnostics & SUPPLIES else Light.GREEN
+
+
+def axis_light(drive_flags: int) -> Light:
+    """An axis: red with a fault (or without a cable: the fault input is on), green enabled."""
+    if drive_flags & (FAULT_INPUT | FAULT_LATCHED):
+        return Light.RED
+    return Light.GREEN if drive_flags & DRIVE_ENABLED else Light.OFF
+
+
+def bus_light(bus_state: int, *, is_installed: bool) -> Light:
+    """The CANopen network; off without a controller for it."""
+    known = is_installed and 0 <= bus_state < len(_BUS)
+    return _BUS[bus_state] if known else Light.OFF
