@@ -239,3 +239,9 @@ def test_angles_in_programs_are_degrees_and_cells_plain_numbers() -> None:
     done = run("P150=SIN(30)\nG21\nP151=1\nF10 G1 XP151")
     assert done.p(150) == 0.5
     assert math.isclose(done.ends[0][0], 1 / 25.4, abs_tol=1e-9)
+
+
+def test_cycles_count_in_their_cells_without_waiting_for_rest() -> None:
+    done = run("G90 G83 X1 Z-1 R.1 Q.3 F10\nM2\n$I CYCLES.TXT\n", start=(0, 0, 2))
+    assert [type(entry).__name__ for entry in done.entries].count("Sync") == 0
+    assert len(done.moves) == 13

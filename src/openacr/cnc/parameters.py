@@ -25,7 +25,15 @@ FIRST_OUTPUT = 32
 # Written by programs, read by the coordinates.
 OFFSET_CELLS = ((801, 808), (900, 997), (1998, 1999), (4000, 4001))
 LAST_CARD = 89
-FREE_CELLS = ((109, 233), (400, 799), (833, 899), (1401, 1499), (1901, 1997), (4002, 4095))
+FREE_CELLS = (
+    (109, 233),
+    (250, 270),
+    (400, 799),
+    (833, 899),
+    (1401, 1499),
+    (1901, 1997),
+    (4002, 4095),
+)
 OPERANDS = (
     "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
 )  # fmt: skip
