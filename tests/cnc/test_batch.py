@@ -26,7 +26,7 @@ def batch(folder: Path, text: str) -> Path:
     return path
 
 
-@pytest.mark.req("MILL-BATCH-FORMAT")
+@pytest.mark.req("MILL-BATCH-FORMAT", "MILL-LOAD-BATCH")
 def test_each_line_names_a_program_and_blank_lines_and_remarks_count_for_nothing(
     folder: Path,
 ) -> None:

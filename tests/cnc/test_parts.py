@@ -99,6 +99,7 @@ def test_every_supplied_part_has_a_shape_to_be_compared_with() -> None:
     assert set(names()) == set(MODELS)
 
 
+@pytest.mark.req("MILL-LOAD-LIBRARY")
 @pytest.mark.parametrize(("name", "change"), CASES)
 def test_a_part_follows_its_shape(name: str, change: dict[int, float]) -> None:
     store, model = Store(), MODELS[name]
@@ -155,6 +156,15 @@ def _assert_reached(path: MultiLineString, edge: LineString, radius: float, clos
 
 def _rounded(hole: Spot) -> Spot:
     return (round(hole[0], 6) + 0.0, round(hole[1], 6) + 0.0)
+
+
+@pytest.mark.parametrize("name", ["CIRCLE", "LBRACKET", "WASHER"])
+def test_without_d_the_tool_is_that_of_the_run_set_up(name: str) -> None:
+    store, model = Store(), MODELS[name]
+    store.write(100_020, 0.125)
+    ready = prepared(part_named(name), {}, store, is_metric=False)
+    assert "D1" not in ready.program.splitlines()
+    _assert_shape(model, ready, run(ready, store), 0.125)
 
 
 @pytest.mark.req("MILL-LIB-TRIANGLE")

@@ -1,6 +1,7 @@
 """Reading, writing, groups of changes, rules between settings, units, news."""
 
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -321,6 +322,37 @@ def test_listeners_hear_of_own_changes_and_those_of_others(tmp_path: Path) -> No
         end()
         store.write(154, 1.0)
     assert heard == [{150, 151}, {152}]
+
+
+def test_listeners_hear_of_others_even_where_an_own_change_comes_first(tmp_path: Path) -> None:
+    heard: list[set[int]] = []
+    with Store(tmp_path / "s.db") as store, Store(tmp_path / "s.db") as other:
+        store.subscribe(lambda numbers: heard.append(set(numbers)))
+        other.write(150, 1.0)
+        with store.transaction():
+            store.write(151, 1.0)
+        other.write(152, 1.0)
+        with pytest.raises(KeyError), store.transaction():
+            store.write(153, 1.0)
+            raise KeyError
+    assert heard == [{150}, {151}, {152}]
+
+
+def test_threads_share_a_store(tmp_path: Path) -> None:
+    """A group of one thread is not mixed with that of another."""
+    with Store(tmp_path / "s.db") as store:
+
+        def count() -> None:
+            for _ in range(100):
+                with store.transaction(is_durable=False):
+                    store.write(150, store.read(150) + 1)
+
+        threads = [Thread(target=count) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert store.read(150) == 300
 
 
 def test_a_listener_reads_the_new_values() -> None:

@@ -201,21 +201,27 @@ class Store:
         without it the end of the process loses nothing, but a power cut may lose the last
         changes.
         """
-        with self._lock:
-            if self._depth:
-                yield
-                return
-            self._begin(is_durable)
-            try:
-                yield
-                self._commit()
-            except BaseException:
-                self._give_up()
-                raise
-            finally:
-                self._depth = 0
-                changed, self._before = frozenset(self._before), {}
-        self._tell(changed)
+        foreign: frozenset[int] = frozenset()
+        changed: frozenset[int] = frozenset()
+        try:
+            with self._lock:
+                if self._depth:
+                    yield
+                    return
+                foreign = self._begin(is_durable)
+                try:
+                    yield
+                    self._commit()
+                    changed = frozenset(self._before)
+                except BaseException:
+                    self._give_up()
+                    raise
+                finally:
+                    self._depth = 0
+                    self._before = {}
+        finally:
+            self._tell(foreign)
+            self._tell(changed)
 
     def start(self) -> None:
         """The state at the start of the front end: no offset in use, spindle off, idle."""
@@ -261,16 +267,18 @@ class Store:
 
     # --- transactions -----------------------------------------------------------------
 
-    def _begin(self, is_durable: bool) -> None:
+    def _begin(self, is_durable: bool) -> frozenset[int]:
+        """Start a transaction; the result is what others have written since the last look."""
         self._database.begin(is_durable=is_durable)
         try:
-            self._take(self._database.since(self._token))
+            foreign = self._take(self._database.since(self._token))
         except BaseException:
             self._database.rollback()
             raise
         self._depth = 1
         self._before = {}
         self._was_running = self._numbers.get(rules.RUN_STATE, 0.0) in rules.RUNNING
+        return foreign
 
     def _commit(self) -> None:
         if not self._before:

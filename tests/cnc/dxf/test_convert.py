@@ -373,7 +373,7 @@ def arc_points(arc: Arc, start: tuple[float, float]) -> list[tuple[float, float]
     return points
 
 
-@pytest.mark.req("MILL-DXF-08", "MILL-DXF-13")
+@pytest.mark.req("MILL-DXF-08", "MILL-DXF-13", "MILL-LOAD-DXF")
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 10**9), count=st.integers(3, 12), units=st.sampled_from([1, 4, 5]))
 def test_an_imported_program_runs_around_the_drawing(
