@@ -39,6 +39,7 @@ ORDER = (
     "kernel/jog_cy.py",
     "kernel/bezier_cy.py",
     "kernel/curve_cy.py",
+    "kernel/tangent_cy.py",
     "kernel/path_cy.py",
     "kernel/lookahead_cy.py",
     "kernel/plan_cy.py",

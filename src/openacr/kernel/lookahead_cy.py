@@ -24,7 +24,13 @@ Moves with a time, a capture or a trigger of their own are entered and left at r
 
 from openacr.cmath import sqrt
 from openacr.kernel.bezier_cy import is_bezier, is_timed
-from openacr.kernel.path_cy import MARK_CURVE_BEGIN, master_word, move_limit, move_override
+from openacr.kernel.path_cy import (
+    MARK_CURVE_BEGIN,
+    MARK_TURN,
+    master_word,
+    move_limit,
+    move_override,
+)
 from openacr.map.numbers import (
     MA_BASE,
     MA_LOOK_AHEAD_MIN_VEL,
@@ -109,6 +115,7 @@ def look_plain(F: F64, I: I32, record: int) -> bool:
     q: int = MQI_BASE + record * MQI_STRIDE
     special: int = I[q + MQI_SEEK_AXIS] | I[q + MQI_HSINT_AXIS] | I[q + MQI_INTERRUPT]
     special = special | I[q + MQI_TRIGGER] | I[q + MQI_TRIGGER_AXIS]
+    special = special | (I[q + MQI_MARKS] & MARK_TURN)
     return special == 0 and F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] <= 0.0
 
 

@@ -31,6 +31,7 @@ from openacr.kernel.path_cy import (
     MARK_CURVE_BEGIN,
     MARK_INTERRUPT,
     MARK_OVERRIDE_LOCKED,
+    MARK_TURN,
     master_limit,
     master_place,
     master_word,
@@ -124,6 +125,7 @@ from openacr.map.numbers import (
     MSI_HOLD,
     MSI_HSINT_PHASE,
     MSI_LOOK_DIRTY,
+    MSI_MANNER,
     MSI_MOVING,
     MSI_PACED,
     MSI_QUEUED,
@@ -132,7 +134,6 @@ from openacr.map.numbers import (
     MSI_SIZE,
     MSI_STRETCH,
     MSI_STRIDE,
-    MSI_TIMED,
     PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
@@ -163,7 +164,7 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     move_geometry(F, I, S, m)
     turn: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TURN_DEG]
     S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_VECTOR_ANGLE] = turn
-    if time_changes(I, m, record):
+    if starts_anew(I, m, record):
         velocity = 0.0
         accel = 0.0
     I[i + MSI_MOVING] = 1
@@ -195,14 +196,19 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     master_plan(F, I, S, m)
 
 
-def time_changes(I: I32, m: int, record: int) -> bool:
-    """Whether speed begins anew with a move: curves in time are entered and left at rest."""
-    row: int = MSI_BASE + m * MSI_STRIDE + MSI_TIMED
+def starts_anew(I: I32, m: int, record: int) -> bool:
+    """Whether speed begins anew with a move.
+
+    Curves in time and turns of the tangential axis are entered and left at rest.
+    """
+    row: int = MSI_BASE + m * MSI_STRIDE + MSI_MANNER
     before: int = I[row]
-    I[row] = 1 if is_timed(I, record) else 0
+    marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
+    I[row] = marks & MARK_TURN
+    if is_timed(I, record):
+        I[row] = 1
     if I[row] != before:
         return True
-    marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
     return before != 0 and marks & MARK_CURVE_BEGIN != 0
 
 

@@ -20,6 +20,7 @@ from openacr.kernel.curve_cy import (
     curve_slope,
     curve_steepest,
 )
+from openacr.kernel.tangent_cy import tangent_place
 from openacr.map.numbers import (
     AX_BASE,
     AX_COUNT,
@@ -60,6 +61,7 @@ from openacr.map.numbers import (
     MQI_RELATIVE,
     MQI_SLAVES,
     MQI_STRIDE,
+    MQI_TANG,
     MSF_BASE,
     MSF_LOOK_CAP_UPS,
     MSF_ORIGIN_U,
@@ -90,6 +92,7 @@ MARK_BLOCK_SKIP = 16
 # What a piece of a curve brings along.
 MARK_CURVE_BEGIN = 32
 MARK_NURB = 64
+MARK_TURN = 128  # a turn of the tangential axis between two moves
 BESIDE = 1e-3
 FAR_U = 1e30
 
@@ -306,3 +309,5 @@ def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
                 F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT] = position
         slaves = slaves >> 1
         s += 1
+    if I[MQI_BASE + record * MQI_STRIDE + MQI_TANG]:
+        tangent_place(F, I, m, record, rest, along)

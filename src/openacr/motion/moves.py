@@ -29,7 +29,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
-from openacr.motion import curve_modes, curve_points, replacing
+from openacr.motion import curve_modes, curve_points, replacing, tangent
 from openacr.motion.card import Card
 from openacr.motion.curves import slave_of
 from openacr.motion.orders import FlagState, Part, Target, end_points
@@ -98,7 +98,7 @@ def issue(
         return
     if replace:
         replacing.clear_the_way(card, master, ways)
-    rows = MQI_BASE + append(card, program, master, ways, parts) * MQI_STRIDE
+    rows = MQI_BASE + tangent.add(card, program, master, ways, parts) * MQI_STRIDE
     card.memory.I[rows + MQI_RAPID] = int(rapid)
     card.memory.I[rows + MQI_INTERRUPT] = interrupt.signed if interrupt else 0
 

@@ -32,14 +32,15 @@ from openacr.map.numbers import (
     MSI_SIZE,
     MSI_SLAVE_AXIS,
 )
+from openacr.motion import tangent
 from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
 from openacr.motion.orders import Piece, Target
 from openacr.motion.permits import scale_of
-from openacr.motion.records import Way, append
+from openacr.motion.records import Way
 from openacr.motion.rows import axis_reals, master_ints, master_reals
 
-MOST = 12  # pieces that one statement can make, the way to the first one included
+MOST = 12  # records that one statement can make, the way to the first one included
 NEAR_CNT = 0.01
 SAMPLES = 16
 
@@ -86,7 +87,7 @@ def hand_over(
     time_s = span if pace.rate else 0.0
     piece = Piece(tuple(axes), tuple(axes.values()), curve.poles, curve.weights, time_s)
     ways = _ways(axes, curve.poles[0], curve.poles[-1])
-    record = append(card, program, master, ways, [piece])
+    record = tangent.add(card, program, master, ways, [piece])
     marks = (MARK_CURVE_BEGIN if pace.begins else 0) | (MARK_NURB if pace.is_nurb else 0)
     card.memory.I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] = marks
     if pace.rate:
@@ -111,7 +112,7 @@ def _lead_up(
         return False
     ways = _ways(axes, here, start)
     targets = [Target(way.axis, way.target_cnt / scale_of(card, way.axis)) for way in ways]
-    append(card, program, master, ways, targets)
+    tangent.add(card, program, master, ways, targets)
     return True
 
 

@@ -38,6 +38,7 @@ from openacr.map.numbers import (
     MQI_SEEK_AXIS,
     MQI_SLAVES,
     MQI_STRIDE,
+    MQI_TANG,
     MQI_TRIGGER,
     MQI_TRIGGER_AXIS,
     MSF_ACC_UPS2,
@@ -77,7 +78,7 @@ _COPIED = (
     (MSF_FVEL_UPS, MQF_FVEL_UPS),
     (MSF_IVEL_UPS, MQF_IVEL_UPS),
 )
-_CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS, MQI_MARKS)
+_CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS, MQI_MARKS, MQI_TANG)
 _move_shape = pick(path_cy.move_shape)
 _move_directions = pick(path_cy.move_directions)
 _path_turn_deg = pick(path_cy.path_turn_deg)
@@ -85,7 +86,10 @@ _path_turn_deg = pick(path_cy.path_turn_deg)
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """The displacement of one slave; a relative one keeps it wherever the move begins."""
+    """The displacement of one slave; a relative one keeps it wherever the move begins.
+
+    A weightless one does not count for the length of the path.
+    """
 
     slave: int
     axis: int
@@ -93,6 +97,7 @@ class Way:
     target_cnt: float
     delta_cnt: float
     relative: bool
+    weightless: bool = False
 
 
 def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequence[Shape]) -> int:
@@ -142,7 +147,8 @@ def _write_ways(card: Card, master: int, record: int, ways: list[Way]) -> None:
         relative |= int(way.relative) << way.slave
         memory.F[reals + MQF_TARGET_CNT + way.slave] = way.target_cnt
         memory.F[reals + MQF_DELTA_CNT + way.slave] = way.delta_cnt
-        memory.F[reals + MQF_WEIGHT + way.slave] = memory.F[source + MSF_VECDEF + way.slave]
+        weight = 0.0 if way.weightless else memory.F[source + MSF_VECDEF + way.slave]
+        memory.F[reals + MQF_WEIGHT + way.slave] = weight
     memory.I[ints + MQI_SLAVES] = slaves
     memory.I[ints + MQI_RELATIVE] = relative
     for row in _CLEARED:

@@ -11,7 +11,7 @@ from openacr.basic.registry import PROG, command
 from openacr.basic.run import Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT, NOT_VALID_AT_THIS_LEVEL
-from openacr.motion import curve_modes, curve_points, moves, pieces, transform
+from openacr.motion import curve_modes, curve_points, moves, pieces, tangent, transform
 from openacr.motion.orders import Circle, FlagState, Part, Sine, SpaceArc, Target
 
 GROUP = "Interpolation"
@@ -70,8 +70,9 @@ def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
         return _point(run, master, manner, given)
     if manner.knot is not None or manner.weight is not None:
         raise CardError(NOT_VALID_AT_THIS_LEVEL)
-    if not manner.replace and not moves.has_room(run.card, master):
-        return room(run, master)
+    count = tangent.moves_of(run.card, master)
+    if not manner.replace and not moves.has_room(run.card, master, count):
+        return room(run, master, count)
     programmed = [_part(item) for item in given if not isinstance(item, Manner)]
     parts = transform.apply(run.card, program, programmed)
     moves.issue(run.card, program, parts, interrupt=manner.interrupt, replace=manner.replace)

@@ -73,6 +73,7 @@ MOVE = HiddenBlock(
         ("target_cnt", SLAVES),
         ("delta_cnt", SLAVES),
         ("weight", SLAVES),
+        ("tang", 5),  # see kernel/tangent_cy.py
     ),
     ints=(
         "slaves",  # mask of the slaves that take part
@@ -91,6 +92,7 @@ MOVE = HiddenBlock(
         "hsint_axis",  # HSINT: axis + 1
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
+        "tang",  # slave + 1 that is kept tangential along a curve
         "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
 )
@@ -136,6 +138,7 @@ MASTER = HiddenBlock(
         "look_cap_ups",  # highest speed that suits all junctions of the present plan, 0 none
         "look_exit_ups",  # speed at its end
         "pace",  # path time per time in the last tick
+        "tang_deg",  # TANG ANG
         "rotate_deg",  # ROTATE of programmed paths (motion/transform.py)
         ("rotate_center_u", 2),
     ),
@@ -159,8 +162,9 @@ MASTER = HiddenBlock(
         "trigger",  # TRG for the next move to be issued, as in the move
         "trigger_axis",
         "room_below",  # moves in the ring below which waiting binary moves find room
-        "timed",  # the present move is a curve whose path is time
+        "manner",  # of the present move: what speed is not carried over from or to
         "paced",  # path time is not simply time: another source, or TOV
+        "tang_axis",  # TANG: axis + 1
         ("rotate_slave", 2),  # the plane of ROTATE
     ),
 )

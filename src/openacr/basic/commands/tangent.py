@@ -1,0 +1,46 @@
+"""The tangential axis: TANG."""
+
+from __future__ import annotations
+
+from openacr.basic.commands.interpolation import GROUP, REF
+from openacr.basic.grammar import Axes, Axis
+from openacr.basic.registry import BY_OBJECT, PROG, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, master_values
+from openacr.errors import CardError
+from openacr.map.numbers import MSF_TANG_DEG
+from openacr.messages import INVALID_ARGUMENT
+from openacr.motion import tangent
+from openacr.motion.settings import anything, of_master_real
+
+
+@command("TANG", group=GROUP, levels=PROG, ref=REF)
+def tang(run: Run) -> None:
+    """Report the tangential axis."""
+    axis = tangent.axis_of(run.card, run.master())
+    names = {one.number: one.name for one in run.axes()}
+    run.print("OFF" if axis is None else names.get(axis, f"AXIS{axis}"))
+
+
+@command("TANG ON", group=GROUP, levels=PROG, grammar=(Axes(),), ref=REF)
+def tang_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Keep an axis in degrees tangential to the path of the first two slaves."""
+    if len(axes) != 1:
+        raise CardError(INVALID_ARGUMENT)
+    tangent.switch_on(run.card, run.needed_program(), run.master(), axes[0].number)
+
+
+@command("TANG OFF", group=GROUP, levels=BY_OBJECT, ref=REF)
+def tang_off(run: Run) -> None:
+    """Leave the tangential axis alone again."""
+    tangent.switch_off(run.card, run.master())
+
+
+master_values(
+    (
+        Value("TANG ANG", of_master_real(MSF_TANG_DEG, anything),
+              "Set the angle between the path and the tangential axis.", "degrees"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip

@@ -1,0 +1,171 @@
+"""TANG: keep an axis in degrees tangential to the path of the first two slaves.
+
+Where a move is to begin in another direction the axis turns there, the short way, in a move
+of its own; less than TANG Turn Limit it makes up on the way. Along curves it turns with
+the tangent (kernel/tangent_cy.py). It does not count for the length of the path.
+"""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from openacr.compiled import pick
+from openacr.kernel import tangent_cy
+from openacr.kernel.path_cy import MARK_TURN
+from openacr.map.numbers import (
+    AF3_TANGENTIAL,
+    AF3_WORD,
+    AXF_POSITION_CNT,
+    MA_TANG_TURN_LIMIT,
+    MF2_TANG_MODE,
+    MQF_BASE,
+    MQF_STRIDE,
+    MQF_TANG,
+    MQI_BASE,
+    MQI_CURVED,
+    MQI_MARKS,
+    MQI_STRIDE,
+    MQI_TANG,
+    MSF_STRIDE,
+    MSF_TANG_DEG,
+    MSF_TARGET_CNT,
+    MSI_QUEUED,
+    MSI_SLAVE_AXIS,
+    MSI_STRIDE,
+    MSI_TANG_AXIS,
+)
+from openacr.motion.card import Card
+from openacr.motion.curves import slave_of
+from openacr.motion.orders import Shape, Target
+from openacr.motion.permits import needs_on, scale_of
+from openacr.motion.records import Way, append
+from openacr.motion.rows import (
+    axis_reals,
+    master_ints,
+    master_parameter,
+    master_reals,
+    master_word2,
+)
+
+SAMPLES = 32
+LEAST_CNT = 0.5
+_tangent_deg = pick(tangent_cy.tangent_deg)
+
+
+def switch_on(card: Card, program: int, master: int, axis: int) -> None:
+    """Keep an axis of the program tangential from the next move on."""
+    slave_of(card, program, axis)
+    switch_off(card, master)
+    card.memory.I[master_ints(master) + MSI_TANG_AXIS] = axis + 1
+    card.memory.I[AF3_WORD + axis] |= AF3_TANGENTIAL
+    card.memory.I[master_word2(master)] |= MF2_TANG_MODE
+
+
+def switch_off(card: Card, master: int) -> None:
+    """Leave the axis alone again."""
+    axis = _axis(card, master)
+    if axis is not None:
+        card.memory.I[AF3_WORD + axis] &= ~AF3_TANGENTIAL
+    card.memory.I[master_ints(master) + MSI_TANG_AXIS] = 0
+    card.memory.I[master_word2(master)] &= ~MF2_TANG_MODE
+
+
+def _axis(card: Card, master: int) -> int | None:
+    axis = card.memory.I[master_ints(master) + MSI_TANG_AXIS] - 1
+    return axis if axis >= 0 else None
+
+
+def axis_of(card: Card, master: int) -> int | None:
+    """The axis that is kept tangential, None while TANG is off."""
+    return _axis(card, master) if card.memory.I[master_word2(master)] & MF2_TANG_MODE else None
+
+
+def moves_of(card: Card, master: int) -> int:
+    """How many records a move may take."""
+    return 1 if axis_of(card, master) is None else 2
+
+
+def add(card: Card, program: int, master: int, ways: list[Way], shapes: Sequence[Shape]) -> int:
+    """Append a move with the turns it needs; the record of the move itself."""
+    axis = axis_of(card, master)
+    if axis is None or any(way.axis == axis for way in ways):
+        return append(card, program, master, ways, shapes)
+    course = _course(card, program, master, ways, shapes)
+    if course is None:
+        return append(card, program, master, ways, shapes)
+    needs_on(card, axis)
+    return _turned(card, program, master, ways, shapes, axis, course)
+
+
+def _turned(
+    card: Card,
+    program: int,
+    master: int,
+    ways: list[Way],
+    shapes: Sequence[Shape],
+    axis: int,
+    course: tuple[float, float],
+) -> int:
+    slave, scale = slave_of(card, program, axis), scale_of(card, axis)
+    offset = card.memory.F[master_reals(master) + MSF_TANG_DEG]
+    start = _start(card, master, slave, axis)
+    lag = (course[0] + offset - start / scale + 180.0) % 360.0 - 180.0
+    limit = card.memory.S[master_parameter(master) + MA_TANG_TURN_LIMIT]
+    if abs(lag) > limit and abs(lag * scale) > LEAST_CNT:
+        turn = Way(slave, axis, start, start + lag * scale, lag * scale, relative=True)
+        record = append(card, program, master, [turn], [Target(axis, lag, incremental=True)])
+        card.memory.I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] = MARK_TURN
+        start, lag = start + lag * scale, 0.0
+    delta = (lag + course[1]) * scale
+    way = Way(slave, axis, start, start + delta, delta, relative=True, weightless=True)
+    record = append(card, program, master, [*ways, way], shapes)
+    _note(card, master, record, slave, scale, offset, lag)
+    return record
+
+
+def _start(card: Card, master: int, slave: int, axis: int) -> float:
+    if card.memory.I[master_ints(master) + MSI_QUEUED]:
+        return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]
+    return card.memory.F[axis_reals(axis) + AXF_POSITION_CNT]
+
+
+def _units(card: Card, master: int) -> tuple[float, float]:
+    """Units per pulse of the first two slaves."""
+    axes = card.memory.I[master_ints(master) + MSI_SLAVE_AXIS :][:2]
+    x, y = (1.0 / scale_of(card, axis) if axis >= 0 else 0.0 for axis in axes)
+    return x, y
+
+
+def _course(
+    card: Card, program: int, master: int, ways: list[Way], shapes: Sequence[Shape]
+) -> tuple[float, float] | None:
+    """Direction at the beginning, and turn to the end, of a move; None if it has none.
+
+    The move is written to be measured, then taken back.
+    """
+    memory = card.memory
+    ints, reals = master_ints(master), master_reals(master)
+    kept = bytes(memory.I[ints : ints + MSI_STRIDE]), bytes(memory.F[reals : reals + MSF_STRIDE])
+    record = append(card, program, master, ways, shapes)
+    x, y = _units(card, master)
+    angles = [
+        _tangent_deg(memory.F, memory.I, record, x, y, n / SAMPLES) for n in range(SAMPLES + 1)
+    ]
+    memory.I[ints : ints + MSI_STRIDE] = memoryview(kept[0]).cast("i")
+    memory.F[reals : reals + MSF_STRIDE] = memoryview(kept[1]).cast("d")
+    angles = [angle for angle in angles if angle > -999.0]
+    if not angles:
+        return None
+    turns = ((b - a + 180.0) % 360.0 - 180.0 for a, b in pairwise(angles))
+    return angles[0], sum(turns)
+
+
+def _note(
+    card: Card, master: int, record: int, slave: int, scale: float, offset: float, lag: float
+) -> None:
+    """Let the kernel follow the tangent of a curve; a line has but one."""
+    memory, rows = card.memory, MQI_BASE + record * MQI_STRIDE
+    if not memory.I[rows + MQI_CURVED]:
+        return
+    memory.I[rows + MQI_TANG] = slave + 1
+    for n, value in enumerate((*_units(card, master), scale, offset, lag)):
+        memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TANG + n] = value
