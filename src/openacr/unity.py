@@ -50,6 +50,7 @@ ORDER = (
     "kernel/hold_cy.py",
     "kernel/timebase_cy.py",
     "kernel/timed_cy.py",
+    "kernel/sync_cy.py",
     "kernel/master_cy.py",
     "kernel/offset_cy.py",
     "kernel/limits_cy.py",

@@ -42,7 +42,7 @@ def misalignment(path: np.ndarray) -> np.ndarray:
     moves = np.hypot(steps[:, 0], steps[:, 1]) > 1e-3
     chord = np.degrees(np.arctan2(steps[moves, 1], steps[moves, 0]))
     look = (path[1:, 2] + path[:-1, 2])[moves] / 2
-    return np.abs((look - chord + 180) % 360 - 180)
+    return np.asarray(np.abs((look - chord + 180) % 360 - 180))
 
 
 @pytest.mark.req("ACR-CMD-TANG")

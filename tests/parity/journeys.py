@@ -35,6 +35,7 @@ SET_UP = (
     "SYS", "HALT ALL", "NEW ALL", "DETACH ALL", "DIM P(10)", "DIM PROG0(4000)",
     "DIM PROG1(4000)", "PROG0",
     "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE1 AXIS1 "Y"',
+    'ATTACH SLAVE2 AXIS2 "Z"',
     "PPU X4000 Y4000", "MULT X4 Y4", "PGAIN Y0.01", "DGAIN Y0.0001",
     "ACC 50 DEC 50 STP 50 VEL 5", "JOG ACC X50 Y50", "JOG DEC X50 Y50", "JOG VEL X2 Y3",
 )  # fmt: skip
@@ -49,6 +50,11 @@ JOURNEYS: dict[str, tuple[Step, ...]] = {
         "P8228=0.125", "SPLINE MODE 0", "X0.1", "X0.2 Y0.1", "X0.1 Y0.2", "X0 Y0.1", 90, "X0 Y0",
         "SPLINE END", 300, "NURB MODE 1", "NURB RANK 3", "X0 Y0 NW 2", "X0.2 Y0", "X0.2 Y0.2",
         "X0 Y0.3 NK -2", 200,
+    ),
+    "together": (
+        "TANG ON Z", "CIRCCW X(0,0.1) Y(0,0)", 200, "TANG OFF", "PROG2", "ATTACH MASTER2",
+        'ATTACH SLAVE0 AXIS3 "A"', "ACC 50 DEC 50 STP 50 VEL 5", "SYNC ON MASTER0 MASTER2", "A1",
+        30, "PROG0", "X0.2", 200,
     ),
     "jogs": (
         "JOG FWD X", 60, "JOG REV Y", 50, "JOG VEL X1", 40, "JOG OFF X Y", 50, "JOG ABS X0.1 Y0",

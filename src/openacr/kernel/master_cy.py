@@ -49,6 +49,7 @@ from openacr.kernel.profile_cy import (
     profile_reset,
 )
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_SEARCHING, SEEK_STOPPING, seek_end, seek_step
+from openacr.kernel.sync_cy import sync_bars
 from openacr.kernel.timebase_cy import path_advance, path_time
 from openacr.kernel.timed_cy import move_timed
 from openacr.map.numbers import (
@@ -134,6 +135,7 @@ from openacr.map.numbers import (
     MSI_SIZE,
     MSI_STRETCH,
     MSI_STRIDE,
+    MSI_SYNC_GO,
     PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
@@ -168,6 +170,7 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
         velocity = 0.0
         accel = 0.0
     I[i + MSI_MOVING] = 1
+    I[i + MSI_SYNC_GO] = 0
     I[i + MSI_CUT] = 0
     I[i + MSI_RESPONSE] = response_period(I, m)
     I[i + MSI_HSINT_PHASE] = HSINT_NONE
@@ -385,7 +388,7 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
             if I[i + MSI_HOLD] == FEEDHOLDING and velocity <= 0.0:
                 master_at_rest(F, I, S, m)
                 break
-            if I[word] & BARS and move_barred(I, m):
+            if sync_bars(I, m) or (I[word] & BARS and move_barred(I, m)):
                 profile_reset(F, I, m, 0.0, 0.0)
                 break
             if move_skipped(I, m):

@@ -67,6 +67,7 @@ from openacr.map.numbers import (
     MSI_HOLD,
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
+    MSI_SYNC_START,
     PLI_BASE,
     PLI_KIND,
     PLI_MARKER,
@@ -194,6 +195,8 @@ def master_requests(F: F64, I: I32, S: F32, m: int) -> None:
         I[word] &= ~MF1_CYCLE_START_REQUEST
         if hold != NOT_HELD and not flags & MF1_CYCLE_START_LOCKOUT:
             master_release(F, I, S, m)
+        elif not flags & MF1_CYCLE_START_LOCKOUT:
+            I[MSI_BASE + m * MSI_STRIDE + MSI_SYNC_START] = 1
     if flags & MF1_REN_REQUEST_FLAG:
         I[word] &= ~MF1_REN_REQUEST_FLAG
         for s in range(SLAVE_COUNT):

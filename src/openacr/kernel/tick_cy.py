@@ -29,6 +29,7 @@ from openacr.kernel.sample_cy import sample_step
 from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
 from openacr.kernel.source_cy import sources_follow, triggers_watch
+from openacr.kernel.sync_cy import sync_step
 from openacr.map.numbers import (
     AF1_BALLSCREW_ACTIVATE,
     AF1_CAM_ACTIVATE,
@@ -52,6 +53,7 @@ from openacr.map.numbers import (
     KRI_MISSING_ENCODERS,
     KRI_MISSING_STEPPERS,
     KRI_SLOW_TICKS,
+    KRI_SYNCED,
     MF1_IN_MOTION,
     MO_SAMPLE_TRIGGER_ARMED,
     OBI_BASE,
@@ -147,6 +149,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
             drive_step(I, n, period_s)
             limits_step(F, I, S, n)
+    if I[KRI_BASE + KRI_SYNCED]:
+        sync_step(F, I, S, masters)
     for m in range(masters):
         master_step(F, I, S, m, period_s)
     for n in range(axes):

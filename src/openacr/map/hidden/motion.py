@@ -165,6 +165,8 @@ MASTER = HiddenBlock(
         "manner",  # of the present move: what speed is not carried over from or to
         "paced",  # path time is not simply time: another source, or TOV
         "tang_axis",  # TANG: axis + 1
+        "sync_go",  # SYNC: the move at the head may begin
+        "sync_start",  # SYNC MDI: a cycle start has come
         ("rotate_slave", 2),  # the plane of ROTATE
     ),
 )
@@ -310,6 +312,9 @@ KERNEL = HiddenBlock(
         "adc_mode",
         "adc_channels",
         "moves_waiting",
+        "synced",  # some masters are synchronised
+        "sync_manual",  # SYNC MDI
+        "sync_killed",  # a kill on a member has been seen
         "missing_encoders",  # bit masks: what CONFIG leaves out
         "missing_dacs",
         "missing_steppers",
