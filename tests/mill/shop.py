@@ -44,13 +44,23 @@ class Shop:
     """A machine with axes X Y Z; nothing has to be homed."""
 
     def __init__(self, **cells: float) -> None:
+        self._set_up(Controller(), cells)
+
+    @classmethod
+    def on(cls, controller: Controller, cells: dict[str, float]) -> "Shop":
+        """On a machine that is there already."""
+        shop = cls.__new__(cls)
+        shop._set_up(controller, cells)
+        return shop
+
+    def _set_up(self, controller: Controller, cells: dict[str, float]) -> None:
         self.store = Store()
         for axis in range(3):
             self.store.write(HOME_REQUIRED + 1000 * axis, 0)
         self.store.write(MAX_SPEED, 6000.0)
         for name, value in cells.items():
             self.store.write(int(name.removeprefix("P")), value)
-        self.controller = Controller()
+        self.controller = controller
         self.card = Card.open(self.controller)
         settings = Settings(self.store)
         depth = prepare(self.card, settings)

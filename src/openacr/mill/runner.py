@@ -88,6 +88,7 @@ class Runner:
         self.options = Options()
         self.has_operator = True  # somebody answers and starts again
         self.asking: c.Ask | None = None
+        self._is_homing = False
         self.passes = 0  # ends of the program reached
         self.course = Course(self.panel, self.doing, depth)
         self._watch = Watch(self.panel)
@@ -126,6 +127,7 @@ class Runner:
         self._require(State.IDLE, "home")
         self._script.begin(home(self.panel, axes))
         self.state = State.WAIT
+        self._is_homing = True
         self._times.restart()
 
     def start(self) -> None:
@@ -145,6 +147,9 @@ class Runner:
         self._pause()
 
     def _pause(self) -> None:
+        if self._is_homing:  # cannot be resumed: the axes count as not homed
+            self._raise(alarms.HOMING_FAILED, "stopped")
+            return
         self.machine.hold()
         self.state = State.PAUSED
 
@@ -312,6 +317,7 @@ class Runner:
         if self.state is State.WAIT:
             self.reason = self._script.reason
             if not self._script.is_active:
+                self._is_homing = False
                 self.state = State.RUN if self.course.has_program else State.IDLE
 
     # --- ends -------------------------------------------------------------------------
@@ -319,7 +325,7 @@ class Runner:
     def _end_program(self, state: State) -> None:
         """The program is over: to rest, moves dropped, everything off."""
         self.course.end()
-        self._left = None
+        self._left, self._is_homing = None, False
         self.state, self.reason = state, ""
         self._script.begin(self._ending())
 
@@ -361,7 +367,7 @@ class Runner:
         self.panel.output(self.settings.wiring.drive_enable, False)
         self._script.close()
         self.course.end()
-        self._left = None
+        self._left, self._is_homing = None, False
         self.doing.off()
         self.state, self.reason = State.ALARM, ""
 
