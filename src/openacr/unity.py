@@ -3,7 +3,7 @@
 The modules are plain typed Python and also run as such. The joined form differs only in
 what C needs:
 
-- annotations become C types (float: double, int: 64-bit, F64/I32/F32: pointers into the
+- annotations become C types (float: double, int: 64-bit, F64/I32/F32/U8: pointers into the
   state buffer; with `checked`, bounds-checked memoryviews);
 - module constants (`NAME = number`, and those of the generated numbers module) become
   literals, so that the inner loop never looks a name up;
@@ -76,11 +76,12 @@ ORDER = (
     "cnc/compensation/curve_cy.py",
     "cnc/compensation/join_cy.py",
     "engine/loop_cy.py",
+    "cnc/scan_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)
 
 SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
-VIEWS = {"F64": "double", "I32": "int", "F32": "float"}
+VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
 Number = int | float
 
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from enum import Enum, auto
 
 from openacr.cnc.findings import CodeError
-from openacr.cnc.program import Node, Nodes, Part, Place, Program
+from openacr.cnc.labels import Place
+from openacr.cnc.program import Node, Nodes, Part, Program
 
 DEEPEST = 10
 FIRST_CYCLE_LABEL = 70_000
@@ -38,23 +39,49 @@ class Flow:
         self._program = program
         self._nodes = Nodes(program)
         self.next: Node | None = None
+        # Where `next` has yet to be looked for: behind a line, or at a place.
+        self.last: Node | None = None
+        self.place: Place | None = None
         self.frames: list[Frame] = []
 
     def start(self) -> None:
         """At the first line, in no call."""
         self.frames.clear()
-        self.next = self._nodes.at(self._program.main.start)
+        self.go_place(self._program.main.start)
 
     def leave(self) -> None:
         """In no program."""
         self.frames.clear()
-        self.next = None
+        self.next = self.last = self.place = None
 
-    def behind(self, node: Node) -> Node | None:
-        """The line that follows, from now on known to the node."""
-        after = self._nodes.behind(node)
-        node.next = after
-        return after
+    def pass_by(self, node: Node) -> None:
+        """The line behind this one comes next."""
+        self.next = node.next
+        self.last = node if node.next is None else None
+        self.place = None
+
+    def following(self) -> Node | None:
+        """The line that comes next; None at the end."""
+        last = self.last
+        if last is not None:
+            self.next = last.next = self._nodes.behind(last)
+            self.last = None
+        elif self.place is not None:
+            self.next, self.place = self._nodes.at(self.place), None
+        return self.next
+
+    def ahead(self) -> Place | None:
+        """The place of a line that was not looked at yet, in the same text; else None."""
+        last = self.last
+        if last is None:
+            return self.place
+        if last.is_include or last.part.behind is not None:
+            return None
+        return Place(last.part, last.after, last.line + 1)
+
+    def go_place(self, place: Place) -> None:
+        """Go on at a place."""
+        self.next, self.last, self.place = None, None, place
 
     def at(self, place: Place) -> Node | None:
         """The line at a place."""
@@ -79,12 +106,16 @@ class Flow:
 
     def go(self, node: Node) -> None:
         """Go on there."""
-        self.next = node
+        self.resume(node)
+
+    def resume(self, node: Node | None) -> None:
+        """Go on there, or end the program."""
+        self.next, self.last, self.place = node, None, None
 
     def call_sub(self, node: Node) -> None:
         """GOSUB."""
-        self.enter(Frame(Level.SUB, self.next))
-        self.next = node
+        self.enter(Frame(Level.SUB, self.following()))
+        self.go(node)
 
     def enter(self, frame: Frame) -> None:
         """One level deeper; cycles do not count."""
@@ -100,7 +131,7 @@ class Flow:
         frame = self.frames.pop()
         frame.is_done = True
         if frame.level is Level.SUB:
-            self.next = frame.back
+            self.resume(frame.back)
 
     def is_within(self, level: Level) -> bool:
         """Whether a call of that kind is in force."""

@@ -41,15 +41,6 @@ class Sources(Protocol):
     def has_named(self, name: str) -> bool:
         """Whether a named parameter exists."""
 
-    def is_plain_cell(self, n: float) -> bool:
-        """Whether a parameter is nothing but a cell of the store."""
-
-    def is_card_cell(self, n: float) -> bool:
-        """Whether a parameter is a variable of the card that programs may write."""
-
-    def names_of_formulas(self) -> dict[str, object]:
-        """What compiled formulas call by name."""
-
     def read_input(self, n: float) -> float:
         """The state of an input."""
 
@@ -60,13 +51,26 @@ class Sources(Protocol):
         """The state of a card flag."""
 
 
+class Names(Sources, Protocol):
+    """The same for compiled formulas."""
+
+    def is_plain_cell(self, n: float) -> bool:
+        """Whether a parameter is nothing but a cell of the store."""
+
+    def is_card_cell(self, n: float) -> bool:
+        """Whether a parameter is a variable of the card that programs may write."""
+
+    def names_of_formulas(self) -> dict[str, object]:
+        """What compiled formulas call by name."""
+
+
 class Node(Protocol):
     """A part of a formula."""
 
     def value(self, at: Sources) -> float:
         """What it is worth now."""
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """The same in Python; operands come from `at`."""
 
     @property
@@ -84,7 +88,7 @@ class Number:
         """Itself."""
         return self.number
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """Itself."""
         return repr(self.number)
 
@@ -106,7 +110,7 @@ class Parameter:
         index = self.index.value(at)
         return at.read_hash(index) if self.is_hash else at.read_p(index)
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """A read of the cell."""
         index = self.index.source(at)
         if isinstance(self.index, Number):
@@ -124,7 +128,7 @@ class Parameter:
         return False
 
 
-def _read(n: float, at: Sources) -> str:
+def _read(n: float, at: Names) -> str:
     """The shortest way to parameter Pn."""
     if at.is_plain_cell(n):
         return f"cell({int(n)})"
@@ -142,7 +146,7 @@ class Named:
         """What it holds, or whether there is one."""
         return float(at.has_named(self.name)) if self.is_test else at.read_named(self.name)
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """A read by name."""
         name = repr(self.name)
         return f"float(has_named({name}))" if self.is_test else f"read_named({name})"
@@ -165,7 +169,7 @@ class State:
         read: Callable[[float], float] = getattr(at, _READS[self.kind])
         return read(self.index.value(at))
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """A question to the machine."""
         return f"{_READS[self.kind]}({self.index.source(at)})"
 
@@ -189,7 +193,7 @@ class Call:
         """The result for the operands as they are now."""
         return self.function.work(*[operand.value(at) for operand in self.operands])
 
-    def source(self, at: Sources) -> str:
+    def source(self, at: Names) -> str:
         """The same in Python."""
         return self.function.template.format(*[operand.source(at) for operand in self.operands])
 
@@ -335,7 +339,7 @@ class Formula:
 
     __slots__ = ("_at", "_uses", "node", "now")
 
-    def __init__(self, node: Node, at: Sources) -> None:
+    def __init__(self, node: Node, at: Names) -> None:
         self.node = node
         self._at = at
         self._uses = 0
@@ -351,12 +355,12 @@ class Formula:
         return self.node.value(self._at)
 
 
-def compiled(node: Node, at: Sources) -> Callable[[], float]:
+def compiled(node: Node, at: Names) -> Callable[[], float]:
     """The formula as one Python function of nothing."""
     work: Callable[[], float] = eval(f"lambda: {node.source(at)}", names_for(at))
     return work
 
 
-def names_for(at: Sources) -> dict[str, Any]:
+def names_for(at: Names) -> dict[str, Any]:
     """Everything compiled formulas call by name."""
     return _NAMES | at.names_of_formulas()

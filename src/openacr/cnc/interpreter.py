@@ -42,6 +42,7 @@ from openacr.cnc.parameters import RADIUS_CELLS, NotAtRestError, Parameters
 from openacr.cnc.path import Path
 from openacr.cnc.program import Node, Program
 from openacr.cnc.ready import Quick, Ready, ready, values_of
+from openacr.cnc.scanning import Scanner
 from openacr.cnc.statements import shown
 from openacr.cnc.turn import Turn
 
@@ -92,6 +93,7 @@ class Interpreter:
         self.path = Path(cells, self.modal, letters, self.move)
         self.parameters = Parameters(self)
         self.offset_path = OffsetPath(self)
+        self.scanner = Scanner(self)
         self.errors: list[Finding] = []  # where they are collected
         self.macro: ModalMacro | None = None  # G66
         self.drilling: Drilling | None = None
@@ -103,6 +105,11 @@ class Interpreter:
         self._idle_cnt = 0
         self._node: Node | None = None
         self.power_up()
+
+    @property
+    def is_replaying(self) -> bool:
+        """Whether lines in front of a start line are being replayed."""
+        return self._until != 0
 
     @property
     def position(self) -> Point:
@@ -298,6 +305,9 @@ class Interpreter:
         """Run block after block until the frame is left or the program has ended."""
         out = self.out
         while not self.is_ended and (frame is None or not frame.is_done):
+            while self._scan():
+                yield from out
+                out.clear()
             node = self._fetch()
             if node is None:
                 return
@@ -327,6 +337,22 @@ class Interpreter:
                 yield from out
                 out.clear()
 
+    def _scan(self) -> bool:
+        """Take the plain lines that come next; False where there are none."""
+        flow = self.flow
+        if flow.next is not None or not self.scanner.is_free:
+            return False
+        place = flow.ahead()
+        if place is None:
+            return False
+        polyline, behind = self.scanner.take(place)
+        if behind is place:
+            return False
+        flow.go_place(behind)
+        if polyline is not None:
+            self.move(polyline)
+        return True
+
     def _fetch(self) -> Node | None:
         """The next line with an effect; None where a replay has arrived.
 
@@ -334,7 +360,7 @@ class Interpreter:
         """
         flow = self.flow
         while True:
-            node = flow.next
+            node = flow.following()
             if node is None:
                 source = self._node.source if self._node else Source("", 1, "")
                 self.finish(source, is_by_code=False)
@@ -346,7 +372,7 @@ class Interpreter:
             block = node.ready
             if block is None:
                 block = node.ready = ready(node, self)
-            flow.next = node.next or flow.behind(node)
+            flow.pass_by(node)
             if block.is_empty:
                 continue
             if block.plan.block.is_skippable and self.machine.is_block_skip_on():
@@ -456,14 +482,15 @@ class Interpreter:
         """Run lines until RET leaves the frame; `values` are its locals."""
         flow, parameters = self.flow, self.parameters
         flow.enter(frame)
-        back, here = flow.next, self._node
+        back, here = flow.following(), self._node
         kept = parameters.swap([1.0, *values[1:]])
-        flow.next = start
+        flow.go(start)
         yield from self.flush()
         yield from self._blocks(frame)
         parameters.swap(kept)
         if not self.is_ended:
-            flow.next, self._node = back, here
+            self._node = here
+            flow.resume(back)
 
 
 def no_values() -> list[float]:

@@ -16,14 +16,15 @@ from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect
 from openacr.cnc.findings import MOST, CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.hosts import Cells
+from openacr.cnc.labels import Labels, Place
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, Planner
-from openacr.cnc.program import CYCLES_FILE, Part, Place, Program
+from openacr.cnc.program import CYCLES_FILE, Part, Program
+from openacr.cnc.scanning import Skimmer
 from openacr.cnc.text import Kept, Text, decoded
 
 MOST_LABELS = 1_000_000
 DEEPEST_INCLUDE = 8
-LINE_STEP = 1000
 FIRST_CYCLE_LABEL = 70_000
 AXIS_COUNT_CELL, NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 100_001, 200_008, 200_012, 1000
 HASH_TEST, M30_ENDS, AUTO_CYCLES = 700_001, 700_002, 700_006
@@ -96,6 +97,7 @@ class Loader:
         self._dialect = dialect
         self._folders = folders
         self._planner = planner_of(cells, dialect)
+        self._skimmer = Skimmer(self._planner.axes)
         self._findings: list[Finding] = []
         self._jumps: list[tuple[Part, int, str, int, int]] = []
         self._warned: set[str] = set()
@@ -106,13 +108,14 @@ class Loader:
 
     def load(self, text: Text, folder: Path | None) -> Program:
         """The program of a text."""
-        program = Program(Part(text, {}), folder)
+        program = Program(Part(text), folder)
         self._program = program
         self._read(program.main, depth=0)
         if self._cells.read(AUTO_CYCLES) and not program.has_cycles:
             self._add_cycles(program.main)
         self._check_last()
         self._check_labels()
+        self._check_doubles()
         self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
         program.findings = self._findings[:MOST]
         return program
@@ -126,12 +129,30 @@ class Loader:
             taken = part.text.line(offset)
             if taken is None:
                 break
-            if line % LINE_STEP == 0:
-                part.line_offsets.append(offset)
             line += 1
             self._line(Place(part, offset, line), decoded(taken[0]), taken[1], depth)
             offset = taken[1]
+            while self._seen.has_feed or "W218" in self._warned:
+                skimmed, offset = self._skim(part, offset, line)
+                line += skimmed
+                if not skimmed:
+                    break
         part.line_cnt = line
+
+    def _skim(self, part: Part, offset: int, line: int) -> tuple[int, int]:
+        """Pass over plain lines: nothing can be wrong with them but their labels."""
+        count, after = self._skimmer.skim(part.text, offset)
+        if not count:
+            return 0, offset
+        labels = self._skimmer.labels
+        if self._dialect.labels and len(labels):
+            labels += (0, line + 1, offset)
+            self._check_room(part, len(labels), line + 1)
+            part.labels.add_rows(part, labels)
+        self._seen.last = None
+        if self._skimmer.motion >= 0:
+            self._seen.motion = self._skimmer.motion
+        return count, after
 
     def _line(self, place: Place, raw: str, after: int, depth: int) -> None:
         self._where = (place.part.text.name, place.line, raw)
@@ -157,17 +178,24 @@ class Loader:
     def _label(self, block: Block, place: Place) -> None:
         if block.label is None or not self._dialect.labels:
             return
+        self._keep_label(block.label, place)
+
+    def _keep_label(self, label: int, place: Place) -> None:
         labels = place.part.labels
-        first = labels.get(block.label)
+        first = labels.get(label)
         if first is not None:
-            hint = f"first in line {first.line} of {first.part.text.name}"
-            raise CodeError("E221", 1, f"N{block.label}", hint)
+            raise CodeError("E221", 1, f"N{label}", _first_at(first))
         is_own = self._program.has_cycles and not place.part.is_cycles
-        if is_own and block.label > FIRST_CYCLE_LABEL:
-            raise CodeError("E263", 1, f"N{block.label}")
+        if is_own and label > FIRST_CYCLE_LABEL:
+            raise CodeError("E263", 1, f"N{label}")
         if len(labels) >= MOST_LABELS:
             raise CodeError("E270", 1)
-        labels[block.label] = place
+        labels.add(label, place)
+
+    def _check_room(self, part: Part, count: int, line: int) -> None:
+        if len(part.labels) + count > MOST_LABELS and "E270" not in self._warned:
+            self._warned.add("E270")
+            self._findings.append(found("E270", part.text.name, line))
 
     def _planner_plan(self, block: Block, place: Place) -> Plan:
         """The plan of a block; M codes of the user are read from their files first."""
@@ -192,7 +220,7 @@ class Loader:
             return
         path = _found_in(folder, f"M{number}.TXT")
         if path is not None:
-            part = Part(Text.file(path), {})
+            part = Part(Text.file(path))
             self._program.customs[number] = part
             self._planner.customs.add(number)
             where = self._where
@@ -238,9 +266,9 @@ class Loader:
             self._check_own_labels(place.part.labels)
         self._read(part, depth + 1)
 
-    def _check_own_labels(self, labels: dict[int, Place]) -> None:
-        for label, place in labels.items():
-            if label > FIRST_CYCLE_LABEL and not place.part.is_cycles:
+    def _check_own_labels(self, labels: Labels) -> None:
+        for label, place in labels.above(FIRST_CYCLE_LABEL):
+            if not place.part.is_cycles:
                 self._findings.append(
                     found("E263", place.part.text.name, place.line, detail=f"N{label}")
                 )
@@ -324,9 +352,22 @@ class Loader:
 
     def _check_labels(self) -> None:
         for part, line, raw, column, label in self._jumps:
-            if label not in part.labels and len(self._findings) < MOST:
+            if part.labels.get(label) is None and len(self._findings) < MOST:
                 self._findings.append(
                     found("E220", part.text.name, line, column, f"N{label}", "", raw)
+                )
+
+    def _check_doubles(self) -> None:
+        """Labels of plain lines, of which whole blocks are taken over unseen."""
+        for part in {id(part.labels): part for part in self._program.parts}.values():
+            for label, first, second in part.labels.doubles():
+                if len(self._findings) >= MOST:
+                    return
+                text = second.part.text
+                taken = text.line(second.offset)
+                raw = decoded(taken[0]) if taken else ""
+                self._findings.append(
+                    found("E221", text.name, second.line, 1, f"N{label}", _first_at(first), raw)
                 )
 
     def _warn(self, code: str, column: int, detail: str = "") -> None:
@@ -337,6 +378,10 @@ class Loader:
         if code not in self._warned:
             self._warned.add(code)
             self._warn(code, column)
+
+
+def _first_at(place: Place) -> str:
+    return f"first in line {place.line} of {place.part.text.name}"
 
 
 def supplied_cycles() -> Text:

@@ -8,9 +8,10 @@ from openacr.cnc.blocks import Goto, If, Include
 from openacr.cnc.canonical import Entry
 from openacr.cnc.findings import BlockError, CodeError
 from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.labels import Place
 from openacr.cnc.load import supplied_cycles
 from openacr.cnc.parser import parse
-from openacr.cnc.program import Node, Part, Place
+from openacr.cnc.program import Node, Part
 
 FILE = "MDI"
 _REFUSED = Goto | If | Include
@@ -36,7 +37,7 @@ class Mdi:
             line += 1
             block = parse(taken[0].decode(), self._run.dialect.grammar)
             if block.label is not None:
-                part.labels.setdefault(block.label, Place(part, offset, line))
+                part.labels.add(block.label, Place(part, offset, line))
             offset = taken[1]
         program.parts.append(part)
         program.has_cycles = True

@@ -117,6 +117,7 @@ class Parameters:
             "cell": self._read_cell,
             "keep": self._cells.write,
             "write": self.write,
+            "put": self.write_p,
             "wrong": _wrong,
             "rest": self.rest,
             "card": self.read_card,

@@ -71,13 +71,18 @@ class Path:
 
     def pace(self, b: Turn) -> Pace:
         """How a feed move of this block runs."""
+        pace = self._pace or self.plain_pace()
+        return replace(pace, is_confirmed=True) if b.is_confirmed else pace
+
+    def plain_pace(self) -> Pace:
+        """How feed moves run now."""
         pace = self._pace
         if pace is None:
             modal = self._modal
             mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
             is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
             pace = self._pace = Pace(modal.feed, mode, is_locked, mode is PathMode.EXACT)
-        return replace(pace, is_confirmed=True) if b.is_confirmed else pace
+        return pace
 
     # --- places ------------------------------------------------------------------------
 
@@ -129,6 +134,11 @@ class Path:
         self.target = self.issued = target
         self.placed = self.coordinates.from_machine(target)
         self.program = self.coordinates.backward(self.placed)
+
+    def jump(self, program: Point) -> None:
+        """Straight moves have ended here, without scaling and rotation."""
+        self.program = self.placed = program
+        self.target = self.issued = self.coordinates.to_machine(program)
 
     def _straight(self, b: Turn, end: Point, placed: Point, pace: Pace | None) -> None:
         b.has_moved = True

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Source
 from openacr.cnc.findings import Finding
+from openacr.cnc.labels import Labels, Place
 from openacr.cnc.text import Text, decoded
 
 if TYPE_CHECKING:
@@ -17,25 +18,15 @@ CYCLES_FILE = "CYCLES.TXT"
 MANY = 20_000  # nodes kept
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A line of a text."""
-
-    part: Part
-    offset: int
-    line: int
-
-
 @dataclass(slots=True, eq=False)
 class Part:
     """One text of a program; `labels` are shared with the texts it is added to."""
 
     text: Text
-    labels: dict[int, Place]
+    labels: Labels = field(default_factory=Labels)
     is_cycles: bool = False
     behind: Place | None = None  # where an included text goes on
     line_cnt: int = 0
-    line_offsets: list[int] = field(default_factory=list)  # of every LINE_STEPth line
 
     @property
     def start(self) -> Place:
@@ -46,13 +37,14 @@ class Part:
 class Node:
     """One line in use: its text, what it does once that is known, and the line behind it."""
 
-    __slots__ = ("after", "line", "next", "part", "raw", "ready", "source")
+    __slots__ = ("after", "is_include", "line", "next", "part", "raw", "ready", "source")
 
     def __init__(self, part: Part, line: int, raw: str, after: int) -> None:
         self.part = part
         self.line = line
         self.raw = raw
         self.after = after  # offset of the next line
+        self.is_include = False  # another text follows
         self.next: Node | None = None
         self.ready: Ready | None = None
         self.source = Source(part.text.name, line, raw)
@@ -103,7 +95,9 @@ class Nodes:
         if found is None:
             behind = place.part.behind
             return self.at(behind) if behind else None
-        return Node(place.part, place.line, decoded(found[0]), found[1])
+        node = Node(place.part, place.line, decoded(found[0]), found[1])
+        node.is_include = (place.part.text.name, place.line) in self._program.includes
+        return node
 
     def _keep(self, key: tuple[int, int], node: Node) -> None:
         if len(self._kept) >= MANY:

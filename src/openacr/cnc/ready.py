@@ -192,6 +192,8 @@ def _store(n: float, parameters: Parameters) -> str:
     """The shortest way to write parameter Pn."""
     if parameters.is_free_cell(n):
         return f"keep({int(n)}, v)"
+    if parameters.is_plain_cell(n):
+        return f"put({int(n)}, v)"
     return f"set_card({int(n)}, v)" if parameters.is_card_cell(n) else f"write('P', {n!r}, v)"
 
 

@@ -1,0 +1,165 @@
+"""Runs of plain lines, taken from the text many at a time.
+
+Where nothing but the position depends on a line - straight feed moves without scaling,
+rotation, compensation, macros, single block - the compiled scanner reads the bytes and
+the moves come out as one `Polyline`. The result is that of the lines one by one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from openacr.cnc import scan_cy as scan
+from openacr.cnc.canonical import Polyline, Source
+from openacr.cnc.codes import ROTARY
+from openacr.cnc.gcodes.motion import MOTIONS
+from openacr.cnc.labels import Place, Rows
+from openacr.cnc.program import Part
+from openacr.cnc.text import decoded
+from openacr.compiled import pick
+from openacr.views import F64, I32
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.text import Text
+
+MOST_ROWS = 8192
+LEAST_ROWS = 16  # fewer lines are read one by one
+AXES = 8
+FEED_PER_MINUTE = 94
+_scan_lines = pick(scan.scan_lines)
+_skim_lines = pick(scan.skim_lines)
+
+
+class Tables:
+    """The rows the scanner works on."""
+
+    def __init__(self, axes: dict[str, int]) -> None:
+        self.W = np.zeros(scan.W_SIZE)
+        self.K = np.zeros(scan.K_SIZE, np.int32)
+        self.K[:26] = -1
+        for letter, axis in axes.items():
+            self.K[ord(letter) - ord("A")] = axis
+            if letter in ROTARY:
+                self.K[scan.K_ROTARY] |= 1 << axis
+        self.w = cast(F64, self.W.data)
+        self.k: I32 = self.K.data
+        self._window = b""
+        self._bytes = memoryview(bytearray(1))
+
+    def bytes(self, text: Text, offset: int) -> tuple[memoryview, int]:
+        """Whole lines from a window of the text, and where the offset is in them."""
+        window, place = text.window(offset)
+        if window is not self._window:
+            self._window = window
+            self._bytes = memoryview(bytearray(window or b"\n"))
+        return self._bytes, place
+
+
+class Skimmer:
+    """Passes over the plain lines of a text at load."""
+
+    def __init__(self, axes: dict[str, int]) -> None:
+        self._tables = Tables(axes)
+        self._labels = np.zeros(3 * MOST_ROWS, np.int32)
+        self.motion = -1  # the last of G0 and G1 in these lines, -1 none
+        self.labels: Rows = np.zeros((0, 3), np.int64)  # label, line from 0, offset from here
+
+    def skim(self, text: Text, offset: int) -> tuple[int, int]:
+        """How many plain lines stand here, and the offset behind them."""
+        if offset >= text.end:
+            return 0, offset
+        data, place = self._tables.bytes(text, offset)
+        stop = len(data) if len(data) < text.end - offset + place else text.end - offset + place
+        count = _skim_lines(
+            data, place, stop, self._tables.w, self._tables.k, self._labels.data, MOST_ROWS
+        )
+        K = self._tables.K
+        self.motion = int(K[scan.K_MOTION])
+        found = self._labels[: 3 * int(K[scan.K_LABELS])].reshape(-1, 3)
+        self.labels = found.astype(np.int64) - (0, 0, place)
+        return count, offset + int(K[scan.K_NEXT]) - place
+
+
+class Scanner:
+    """Takes runs of plain lines for an interpreter."""
+
+    def __init__(self, run: Interpreter) -> None:
+        self._run = run
+        self._tables = Tables(run.planner.axes)
+        self._ends = np.zeros(MOST_ROWS * AXES)
+        self._lines = np.zeros(MOST_ROWS, np.int32)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether a line changes nothing but the position."""
+        run = self._run
+        modal, path = run.modal, run.path
+        return (
+            modal.motion == 1
+            and run.macro is None
+            and path.elements is None
+            and path.shape is None
+            and modal.feed_mode == FEED_PER_MINUTE
+            and modal.cycle == 80
+            and path.coordinates.is_plain
+            and run.motions is MOTIONS
+            and not run.options.has_block_ends
+            and not run.is_replaying
+        )
+
+    def take(self, start: Place) -> tuple[Polyline | None, Place]:
+        """The moves of the lines from a place on, and the place behind them.
+
+        Nothing is taken where there are only a few.
+        """
+        run, part, offset, line = self._run, start.part, start.offset, start.line
+        modal, path, text = run.modal, run.path, part.text
+        if offset >= text.end:
+            return None, start
+        data, place = self._tables.bytes(text, offset)
+        stop = min(len(data), text.end - offset + place)
+        W, K = self._tables.W, self._tables.K
+        W[scan.W_POSITION : scan.W_POSITION + AXES] = path.program
+        W[scan.W_TIMES], W[scan.W_PER], W[scan.W_PRESENT] = path.times, path.per, modal.feed
+        K[scan.K_IS_INCREMENTAL] = modal.distance == 91
+        rows = _scan_lines(
+            data, place, stop, self._tables.w, self._tables.k,
+            cast(F64, self._ends.data), self._lines.data, MOST_ROWS,
+        )  # fmt: skip
+        if rows < LEAST_ROWS:
+            return None, start
+        behind = Place(part, offset + int(K[scan.K_NEXT]) - place, line + int(K[scan.K_LINES]))
+        if K[scan.K_NEW_FEED]:
+            modal.feed, modal.has_feed = float(W[scan.W_PRESENT]), True
+            path.change_pace()
+        return self._polyline(rows, part, line, offset), behind
+
+    def _polyline(self, rows: int, part: Part, line: int, offset: int) -> Polyline | None:
+        """The rows as machine positions; lines that do not move leave none."""
+        if not rows:
+            return None
+        path = self._run.path
+        program = tuple(self._tables.W[scan.W_POSITION : scan.W_POSITION + AXES].tolist())
+        ends = self._ends[: rows * AXES].reshape(rows, AXES) + path.coordinates.shift
+        lines = self._lines[:rows].astype(np.int64) + line
+        before = np.empty_like(ends)
+        before[0], before[1:] = path.target, ends[:-1]
+        moves = (ends != before).any(axis=1)
+        if not moves.all():
+            ends, lines = ends[moves], lines[moves]
+        path.jump(program)
+        if not len(ends):
+            return None
+        source = Source(part.text.name, int(lines[0]), self._text(part, offset, lines[0] - line))
+        return Polyline(source, ends, lines, path.plain_pace())
+
+    def _text(self, part: Part, offset: int, skipped: int) -> str:
+        for _ in range(int(skipped) + 1):
+            found = part.text.line(offset)
+            if found is None:
+                return ""
+            raw, offset = found
+        return decoded(raw)
