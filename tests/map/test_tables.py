@@ -20,6 +20,7 @@ from openacr.map.block import (
 )
 
 DATA = Path(__file__).parents[1] / "data"
+DRIVE_TALK_ROWS = {*range(2, 8), *range(20, 38)} - {21}  # configuration and status items
 
 
 def rows(name: str) -> Iterator[dict[str, str]]:
@@ -80,7 +81,8 @@ def test_nothing_is_derived_beyond_the_transcription_but_the_known_additions() -
     added = set(parameters()) - transcribed
     senary_words = set(range(4632, 4648))
     user_rows = set(range(4096)) | set(range(38912, 39424))
-    assert added == senary_words | user_rows
+    drive_talk = {28672 + 256 * axis + row for axis in range(16) for row in DRIVE_TALK_ROWS}
+    assert added == senary_words | user_rows | drive_talk
     flag_numbers = {int(r["number"]) for r in rows("flags.csv")}
     assert set(flags()) - flag_numbers == set(range(17152, 17664))
 

@@ -11,6 +11,7 @@ from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.messages import DEVICE_IN_USE, DEVICE_NOT_OPEN, INVALID_DEVICE
+from openacr.network.drivetalk import lines
 
 if TYPE_CHECKING:
     from openacr.basic.listeners import Listeners
@@ -63,6 +64,7 @@ class Devices:
         if session is not None:
             session.opened_by = None
             self._mark(session.name, False)
+            lines.close_line(self._memory, session.name)
         self._clear(key)
 
     def close_all(self, program: int) -> None:
@@ -73,7 +75,9 @@ class Devices:
     def is_sending(self, key: Key) -> bool:
         """Whether output of the device has not left yet."""
         session = self._session(key)
-        return session is not None and session.has_output
+        if session is None:
+            return False
+        return session.has_output or lines.is_busy(self._memory, session.name)
 
     def write(self, key: Key, text: str) -> None:
         """Send text; device 0 is every channel that listens to the program."""

@@ -22,6 +22,7 @@ from openacr.map.numbers import (
     P_FIFO_CHARACTER_BUFFER_COUNT,
 )
 from openacr.messages import LINE_TOO_LONG
+from openacr.network.drivetalk import lines
 
 if TYPE_CHECKING:
     from openacr.basic.system import System
@@ -79,6 +80,7 @@ class Session:
     until_end: bool = False  # LRUN: listen until the program ends
     opened_by: tuple[int, int] | None = None  # program and device number
     partner: str | None = None  # channel joined by TALK TO
+    drive: int | None = None  # axis whose drive DTALK has joined
     echo_line_end: bool = True  # False while `INPUT;` reads a line
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
     _modes: list[int] = field(default_factory=lambda: [ECHO_CHARACTERS, 0])
@@ -139,7 +141,7 @@ class Session:
         """Who gets what is typed."""
         if self.opened_by is not None:
             return Attention.OPEN
-        if self.partner is not None:
+        if self.partner is not None or self.drive is not None:
             return Attention.PASS_THROUGH
         return Attention.COMMANDS if self.listening_to is None else Attention.LISTENING
 
@@ -176,6 +178,7 @@ class Session:
             self.system.runner.cancel(self)
             self.busy = False
         self.stop_listening()
+        self._leave_drive()
         self.partner, self.capture = None, None
         self._output.clear()
 
@@ -208,7 +211,11 @@ class Session:
 
     def typed(self, byte: int) -> None:
         """One byte for the program or channel that has the attention."""
-        if self.partner is not None:
+        if self.drive is not None:
+            shown = lines.type_byte(self.system.card.memory, self.index, byte)
+            if self.echo & ECHO_CHARACTERS:
+                self.write(shown)
+        elif self.partner is not None:
             self.system.sessions[self.partner].write(chr(byte))
         elif self.opened_by is not None:
             self.system.devices.receive(self.opened_by, byte)
@@ -220,6 +227,7 @@ class Session:
         if self.attention in (Attention.LISTENING, Attention.PASS_THROUGH):
             self.stop_listening()
             self._leave_partner()
+            self._leave_drive()
             self.write(LINE_END)
             self._send_prompt()
 
@@ -296,10 +304,21 @@ class Session:
             self.system.sessions[self.partner].partner = None
             self.partner = None
 
+    def talk_to_drive(self, axis: int, port: int) -> None:
+        """DTALK: what is typed here goes to the drive of an axis, over a Drive Talk line."""
+        lines.connect(self.system.card.memory, port, self.index, axis)
+        self.drive = axis
+
+    def _leave_drive(self) -> None:
+        if self.drive is not None:
+            lines.disconnect(self.system.card.memory, self.index)
+            self.drive = None
+
     def power_up(self) -> None:
         """Begin as after power-up; the connection, if there is one, stays."""
         self.stop_listening()
         self.busy, self.capture, self.opened_by, self.partner = False, None, None, None
+        self.drive = None
         self.reset()
 
     # snapshot
@@ -310,7 +329,7 @@ class Session:
             "level": self.level.name, "number": self.number, "echo": self.echo,
             "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
             "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
-            "partner": self.partner, "echo_line_end": self.echo_line_end,
+            "partner": self.partner, "drive": self.drive, "echo_line_end": self.echo_line_end,
         }  # fmt: skip
 
     def restore(self, state: dict[str, Any]) -> None:

@@ -109,7 +109,7 @@ class Controller:
         self.system = System(self.card)
         self.executor = Executor(self.system)
         self.plcs = Plcs(self.memory, self._plc_text)
-        self.networks = Networks(self.memory)
+        self.networks = Networks(self.memory, self._deliver)
         self.control = ProgramControl(self.system, self.executor, self.plcs)
         self.system.control = self.control
         self.system.runner = self.executor
@@ -292,6 +292,12 @@ class Controller:
         if self._wants_reboot:
             self._reboot()
         self.nonvolatile.battery.follow()
+
+    def _deliver(self, channel: int, text: str) -> None:
+        """Write something on a channel by its number."""
+        for session in self.system.sessions.values():
+            if session.index == channel:
+                session.write(text)
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.network.canopen import master as canopen
+from openacr.network.drivetalk import service as drivetalk
 
 
 class Networks:
-    """The networks of one card; their whole state is in the map."""
+    """The networks of one card; their whole state is in the map.
 
-    def __init__(self, memory: Memory) -> None:
+    `deliver` gets what a drive has sent for a channel that talks to it.
+    """
+
+    def __init__(self, memory: Memory, deliver: Callable[[int, str], None]) -> None:
         self._memory = memory
+        self._deliver = deliver
 
     def power_up(self) -> None:
         """Begin after switching the card on."""
@@ -21,7 +28,10 @@ class Networks:
     def attend(self) -> None:
         """Do everything that is due."""
         canopen.attend(self._memory)
+        drivetalk.attend(self._memory, self._deliver)
         self._set_due()
 
     def _set_due(self) -> None:
-        self._memory.F[at.NETF_BASE + at.NETF_DUE_TK] = canopen.next_tk(self._memory)
+        times = canopen.next_tk(self._memory), drivetalk.next_tk(self._memory)
+        due_tk = min((time for time in times if time), default=0.0)
+        self._memory.F[at.NETF_BASE + at.NETF_DUE_TK] = due_tk

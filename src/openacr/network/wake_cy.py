@@ -6,8 +6,17 @@ from openacr.map.numbers import (
     BUSNI_STRIDE,
     CANF_RESET_NETWORK,
     CANF_START_NETWORK,
+    DTCF_AUTO_ADDRESS_REQUEST,
+    DTCF_GET_CONFIGURATION_REQUEST,
+    DTCF_GET_DRIVE_DATA_REQUEST,
+    DTCF_SEND_CONFIGURATION_REQUEST,
+    DTCF_SEND_ERRORL_REQUEST,
+    DTCF_WORD,
+    DTK_COUNT,
+    DTSF_AUTO_ADDRESS_ALL,
     NETF_BASE,
     NETF_DUE_TK,
+    NETL_COUNT,
     NETMI_BASE,
     NETMI_PHASE,
     NETMI_SLAVES,
@@ -24,12 +33,20 @@ from openacr.map.numbers import (
     SYSI_BASE,
     SYSI_SLOW_PHASE,
     W_CAN,
+    W_DTALK_LPT1,
 )
 from openacr.views import F64, I32
 
 __all__ = ["networks_due"]
 
 RUNNING = 5  # Phase.RUNNING of the network master
+DRIVE_REQUESTS = (
+    DTCF_AUTO_ADDRESS_REQUEST
+    | DTCF_GET_CONFIGURATION_REQUEST
+    | DTCF_SEND_CONFIGURATION_REQUEST
+    | DTCF_SEND_ERRORL_REQUEST
+    | DTCF_GET_DRIVE_DATA_REQUEST
+)
 
 
 def networks_due(F: F64, I: I32, number: int) -> bool:
@@ -57,4 +74,12 @@ def inputs_changed(F: F64, I: I32) -> bool:
 
 def requests_set(I: I32) -> bool:
     """Whether the user asks the networks for something; looked at in the slow scan."""
-    return I[W_CAN] & (CANF_START_NETWORK | CANF_RESET_NETWORK) != 0
+    if I[W_CAN] & (CANF_START_NETWORK | CANF_RESET_NETWORK):
+        return True
+    for axis in range(DTK_COUNT):
+        if I[DTCF_WORD + axis] & DRIVE_REQUESTS:
+            return True
+    for port in range(NETL_COUNT):
+        if I[W_DTALK_LPT1 + port] & DTSF_AUTO_ADDRESS_ALL:
+            return True
+    return False

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import apply_nodes, bus
+from openacr.plant import apply_networks, bus
 from openacr.plant.schema import (
     Axis,
     Contact,
@@ -50,7 +50,8 @@ def apply_world(world: World, memory: Memory) -> None:
     memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
     for axis in world.axis:
         _write_motor(memory, axis, world)
-    apply_nodes.write_nodes(memory, world)
+    apply_networks.write_nodes(memory, world)
+    apply_networks.write_drives(memory, world)
     slots = _write_input_words(memory, world)
     _write_wires(memory, world, slots)
     plant_refresh(memory.F, memory.I, at.PL_COUNT)
@@ -60,14 +61,14 @@ _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
-    *apply_nodes.REALS,
+    *apply_networks.REALS,
 )
 _INTS = (
     (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
     (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
     (at.PLGI_BASE, at.PLGI_STRIDE),
-    *apply_nodes.INTS,
+    *apply_networks.INTS,
     (FLAG_WORDS, 1),  # the onboard inputs
 )
 

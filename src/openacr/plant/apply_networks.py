@@ -1,10 +1,18 @@
-"""Write the CANopen nodes of a world into the memory of a card."""
+"""Write CANopen nodes and talking drives of a world into the memory of a card."""
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import bus
-from openacr.plant.network_schema import Coupler, Fault, FaultKind, Health, Node
-from openacr.plant.schema import World
+from openacr.plant import aries, bus
+from openacr.plant.network_schema import (
+    Coupler,
+    DrivePort,
+    Fault,
+    FaultKind,
+    Health,
+    Node,
+    TalkingDrive,
+)
+from openacr.plant.schema import Axis, TorqueDrive, VelocityDrive, World
 
 COUPLERS = {Coupler.PIO_337: 0, Coupler.PIO_347: 1}
 HEALTH = {Health.HEARTBEAT: 1, Health.GUARDING: 2}
@@ -16,12 +24,15 @@ TROUBLES = {
     FaultKind.SOFTWARE_OVERFLOW: bus.Trouble.SOFTWARE_OVERFLOW,
     FaultKind.HARDWARE_OVERFLOW: bus.Trouble.HARDWARE_OVERFLOW,
 }
+PORTS = {DrivePort.COM1: 1, DrivePort.COM2: 2}
 REALS = (
+    (at.BUSDF_BASE, at.BUSD_COUNT * at.BUSDF_STRIDE),
     (at.BUSNF_BASE, at.BUSN_COUNT * at.BUSNF_STRIDE),
     (at.BUSXF_BASE, at.BUSX_COUNT * at.BUSXF_STRIDE),
     (at.BUSF_BASE, at.BUSF_STRIDE),
 )
 INTS = (
+    (at.BUSDI_BASE, at.BUSD_COUNT * at.BUSDI_STRIDE),
     (at.BUSNI_BASE, at.BUSN_COUNT * at.BUSNI_STRIDE),
     (at.BUSXI_BASE, at.BUSX_COUNT * at.BUSXI_STRIDE),
     (at.BUSI_BASE, at.BUSI_STRIDE),
@@ -76,3 +87,46 @@ def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int
     memory.F[reals + at.BUSXF_FROM_S] = fault.at_s
     memory.F[reals + at.BUSXF_UNTIL_S] = bus.NEVER_S if fault.until_s is None else fault.until_s
     memory.F[reals + at.BUSXF_RATE] = fault.rate
+
+
+# -- drives --------------------------------------------------------------------------------
+
+
+def write_drives(memory: Memory, world: World) -> None:
+    """Put the talking drives of a world on their lines."""
+    axes = {axis.number: axis for axis in world.axis}
+    for talking in world.drive:
+        _write_drive(aries.Drive(memory, talking.axis), talking, axes[talking.axis])
+
+
+def _write_drive(drive: aries.Drive, talking: TalkingDrive, axis: Axis) -> None:
+    wholes = {
+        at.BUSDI_KIND: aries.ARIES,
+        at.BUSDI_PORT: PORTS[talking.port],
+        at.BUSDI_BAUD: int(talking.baud),
+        at.BUSDI_ADDRESS: talking.address,
+        at.BUSDI_REVISION: int(talking.revision.replace(".", "")),
+    }
+    for row, number in wholes.items():
+        drive.put_whole(row, number)
+    reals = {
+        at.BUSDF_CONNECTED_S: talking.connected_s,
+        at.BUSDF_POWERED_S: talking.powered_s,
+        at.BUSDF_LOST_S: bus.NEVER_S if talking.lost_s is None else talking.lost_s,
+        at.BUSDF_BACK_S: bus.NEVER_S if talking.back_s is None else talking.back_s,
+        at.BUSDF_DRIVE_TEMP_C: talking.drive_temp_c,
+        at.BUSDF_MOTOR_TEMP_C: talking.motor_temp_c,
+        at.BUSDF_BUS_V: talking.bus_v,
+        **{at.BUSDF_SETTINGS + n: value for n, value in enumerate(_settings(axis))},
+    }
+    for row, value in reals.items():
+        drive.put_real(row, value)
+
+
+def _settings(axis: Axis) -> tuple[float, ...]:
+    """DMODE, ERES, SMPER, DMTIP, DMTSCL, DMVSCL, as the machine file describes the drive."""
+    drive, counts = axis.drive, float(axis.counts)
+    if isinstance(drive, TorqueDrive):
+        return (aries.TORQUE, counts, counts, drive.peak_amps, drive.amps_per_volt, 0.0)
+    peak = drive.peak_amps if isinstance(drive, VelocityDrive) else 0.0
+    return (aries.VELOCITY, counts, counts, peak, 0.0, drive.revs_per_s_per_volt)

@@ -3,7 +3,12 @@
 from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 
-from openacr.plant.check_nodes import canopen_faults, input_ranges, output_ranges
+from openacr.plant.check_networks import (
+    canopen_faults,
+    drive_faults,
+    input_ranges,
+    output_ranges,
+)
 from openacr.plant.complaint import Complaint, Path
 from openacr.plant.schema import (
     Axis,
@@ -226,5 +231,6 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     _inputs,
     _fault_inputs,
     canopen_faults,
+    drive_faults,
     _size,
 )

@@ -1,4 +1,4 @@
-"""Contradictions in what a `machine.toml` says about the CANopen bus."""
+"""Contradictions in what a `machine.toml` says about CANopen nodes and talking drives."""
 
 from collections.abc import Callable, Iterator
 
@@ -79,3 +79,20 @@ def _fault(path: Path, fault: Fault, canopen: Canopen) -> Iterator[Complaint]:
     if fault.until_s is not None and fault.until_s <= fault.at_s:
         text = f"the fault ends at {fault.until_s:g} s, but begins at {fault.at_s:g} s"
         yield Complaint((*path, "until_s"), text)
+
+
+def drive_faults(world: World) -> Iterator[Complaint]:
+    """Yield what does not fit together in `[[drive]]`."""
+    axes, taken = {axis.number for axis in world.axis}, set[int]()
+    for place, drive in enumerate(world.drive):
+        path: Path = ("drive", place)
+        if drive.axis not in axes:
+            text = f"there is no axis {drive.axis} for the drive"
+            yield Complaint((*path, "axis"), text, "it needs a motor: [[axis]]")
+        if drive.axis in taken:
+            yield Complaint((*path, "axis"), f"two drives talk for axis {drive.axis}")
+        taken.add(drive.axis)
+        lost_s = float("inf") if drive.lost_s is None else drive.lost_s
+        if drive.back_s is not None and drive.back_s <= lost_s:
+            text = f"the drive is back at {drive.back_s:g} s, but not lost before"
+            yield Complaint((*path, "back_s"), text, "give lost_s, the earlier time")

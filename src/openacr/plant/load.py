@@ -197,7 +197,7 @@ def _words(kind: inspect.Type) -> str:
         low = f"above {kind.gt:g}" if kind.gt is not None else f"from {kind.ge:g}"
         return f"a number {low} to {kind.le:g}"
     if isinstance(kind, inspect.EnumType):
-        return "one of " + ", ".join(f'"{member.value}"' for member in kind.cls)
+        return "one of " + ", ".join(_toml(member.value) for member in kind.cls)
     if isinstance(kind, inspect.StrType):
         return "a text in quotes"
     if isinstance(kind, inspect.TupleType):

@@ -1,4 +1,4 @@
-"""What a `machine.toml` may say about the networks of the card: nodes on its CANopen bus.
+"""What a `machine.toml` may say about the networks of the card: CANopen nodes, talking drives.
 
 The n-th node of the file is the one whose inputs scenarios and wires reach at the flags the
 card shows for its node n: digital inputs from 11520 + 1024 n on, digital outputs from
@@ -15,6 +15,11 @@ DIGITAL = 512
 ANALOG = 32
 FAULTS = 16
 
+DriveAxis = Annotated[int, Meta(ge=0, le=15)]
+Address = Annotated[int, Meta(ge=0, le=99)]
+Celsius = Annotated[float, Meta(ge=-60, le=300)]
+BusVolts = Annotated[float, Meta(ge=0, le=1000)]
+Revision = Annotated[str, Meta(pattern=r"^\d\.\d\d$")]
 NodeId = Annotated[int, Meta(ge=1, le=127)]
 Digital = Annotated[int, Meta(ge=0, le=DIGITAL)]
 Analog = Annotated[int, Meta(ge=0, le=ANALOG)]
@@ -95,3 +100,45 @@ class Canopen(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     node: tuple[Node, ...] = ()
     fault: tuple[Fault, ...] = ()
+
+
+class DriveType(StrEnum):
+    """Drives that can talk."""
+
+    ARIES = "aries"
+
+
+class DrivePort(StrEnum):
+    """The port of the card to which the serial lines of drives lead."""
+
+    COM1 = "COM1"
+    COM2 = "COM2"
+
+
+class Baud(IntEnum):
+    """Speeds of a serial line."""
+
+    B4800 = 4800
+    B9600 = 9600
+    B19200 = 19200
+    B38400 = 38400
+    B57600 = 57600
+    B115200 = 115200
+
+
+class TalkingDrive(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The serial side of the drive of an axis; what it drives is said at the axis."""
+
+    axis: DriveAxis
+    type: DriveType
+    port: DrivePort = DrivePort.COM2
+    baud: Baud = Baud.B9600
+    address: Address = 0
+    revision: Revision = "2.00"
+    connected_s: Moment = 0.0
+    powered_s: Moment = 0.0
+    lost_s: Moment | None = None
+    back_s: Moment | None = None
+    drive_temp_c: Celsius = 35.0
+    motor_temp_c: Celsius = 30.0
+    bus_v: BusVolts = 320.0

@@ -12,7 +12,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
-from openacr.plant.network_schema import Canopen
+from openacr.plant.network_schema import Canopen, TalkingDrive
 
 AXES = 16
 COUNTS_PER_LINE = 4
@@ -202,6 +202,7 @@ class World(_Table, frozen=True):
     wire: tuple[Wire, ...] = ()
     inputs: Inputs = Inputs()
     canopen: Canopen | None = None
+    drive: tuple[TalkingDrive, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,10 @@ from openacr.map.hidden.block import HiddenBlock
 NODES = 4
 WORDS_PER_NODE = 16
 ANALOG_CHANNELS = 32
+PORTS = 7
+LINE_LENGTH = 80
+ANSWER_LENGTH = 256
+LOG_ENTRIES = 8
 
 # The world: node n of the machine file.
 NODE = HiddenBlock(
@@ -87,4 +91,66 @@ SLAVE = HiddenBlock(
     ),
 )
 
-NETWORKS = HiddenBlock(prefix="NET", count=1, doubles=("due_tk",))
+# The world: the drive of motor n, as its serial port shows it.
+DRIVE = HiddenBlock(
+    prefix="BUSD",
+    count=16,
+    doubles=(
+        ("settings", 6),  # see plant/aries.py
+        "connected_s",
+        "powered_s",
+        "lost_s",
+        "back_s",
+        "drive_temp_c",
+        "motor_temp_c",
+        "bus_v",
+        ("log_s", LOG_ENTRIES),
+    ),
+    ints=(
+        "kind",  # 0: no drive that can talk
+        "port",
+        "baud",
+        "address",
+        "revision",  # in hundredths
+        "selection",  # errors it logs
+        "errors",  # at the last look
+        "log_count",
+        ("log_error", LOG_ENTRIES),
+    ),
+)
+
+# The card: the Drive Talk line of each port, and what it knows of the drive of each axis.
+LINE = HiddenBlock(
+    prefix="NETL",
+    count=PORTS,
+    doubles=("due_tk",),
+    ints=(
+        "device",  # 0: not open
+        "program",
+        "baud",
+        "character_bits",
+        "axis",  # that was served last
+        "request",  # what is being done, 0 nothing
+        "selection",  # the control flags when it began
+        "exchange",  # which of its exchanges
+        "addressing",  # all axes have been asked to address their drives
+        "answers",  # how many drives have answered
+        "length",
+        ("answer", ANSWER_LENGTH),
+        "channel",  # of the terminal that talks to a drive, from 1 on
+        "talks_to",
+        "typed_count",
+        ("typed", LINE_LENGTH),
+    ),
+)
+
+AXIS = HiddenBlock(prefix="NETD", count=16, doubles=("limit_tk",), ints=("known",))
+
+NETWORKS = HiddenBlock(
+    prefix="NET",
+    count=1,
+    doubles=(
+        "due_tk",  # the slow side is wanted
+        "look_tk",  # drives look for errors to log
+    ),
+)

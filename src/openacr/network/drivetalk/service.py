@@ -1,0 +1,219 @@
+"""Serves the requests of all axes, one exchange after the other on each line.
+
+An exchange takes as long as its characters on the line, and a pause in which the drive
+thinks. A drive that does not answer costs a second. The axes of a line take turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
+from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
+from openacr.plant import aries, rs485
+from openacr.plant.aries_port import split_address
+
+TIMEOUT_MS = 1000.0
+THINKING_MS = 2.0
+LOOK_MS = 50.0
+PASSED_ON = -1  # instead of a request: a line a terminal has typed
+
+Deliver = Callable[[int, str], None]  # channel, text
+
+
+def tick_of(memory: Memory) -> int:
+    """The present tick."""
+    rows = memory.I
+    return rows[at.SYSI_BASE + at.SYSI_TICK_HIGH] * 2**31 + rows[at.SYSI_BASE + at.SYSI_TICK_LOW]
+
+
+def later_tk(memory: Memory, after_ms: float) -> int:
+    """The tick so much later, at least the next."""
+    period_s = memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S]
+    return tick_of(memory) + max(1, round(after_ms / 1000 / period_s))
+
+
+def attend(memory: Memory, deliver: Deliver) -> None:
+    """Do everything that is due on all lines."""
+    for line in lines(memory):
+        _address_all(line)
+        if line.is_open:
+            _serve(line, deliver)
+        _address_all(line)
+    for axis in range(at.DTK_COUNT):
+        _give_up(memory, axis)
+    _look_for_errors(memory)
+
+
+def next_tk(memory: Memory) -> float:
+    """The tick at which something is due; 0 if nothing is."""
+    times = [line.due_tk for line in lines(memory)]
+    times += [memory.F[_limit(axis)] for axis in range(at.DTK_COUNT)]
+    times.append(memory.F[_LOOK])
+    return min((time for time in times if time), default=0.0)
+
+
+# requests
+
+
+def _address_all(line: TalkLine) -> None:
+    """Auto Address All: ask it of every axis of the line; done when all have been served."""
+    flag, word = at.DTSF_AUTO_ADDRESS_ALL, at.W_DTALK_LPT1 + line.port
+    if not line.memory.I[word] & flag:
+        return
+    axes, request = list(line.axes()), at.DTCF_AUTO_ADDRESS_REQUEST
+    if not line.get(at.NETLI_ADDRESSING) and axes:
+        line.put(at.NETLI_ADDRESSING, 1)
+        for axis in axes:
+            line.memory.I[at.DTCF_WORD + axis] |= request
+    elif not any(pending(line.memory, axis) & request for axis in axes):
+        line.put(at.NETLI_ADDRESSING, 0)
+        line.memory.I[word] &= ~flag
+
+
+def _serve(line: TalkLine, deliver: Deliver) -> None:
+    """Finish the exchange under way if it is over, then begin what comes next."""
+    if line.due_tk and line.due_tk <= tick_of(line.memory):
+        line.due_tk = 0.0
+        _finish(line, deliver)
+    while not line.due_tk and _begin(line):
+        pass
+
+
+def _begin(line: TalkLine) -> bool:
+    """Begin an exchange of the request under way, or of the next; False if there is none."""
+    if line.get(at.NETLI_REQUEST):
+        return _begin_exchange(line)
+    if line.get(at.NETLI_CHANNEL):
+        return _pass_on(line)
+    last = line.get(at.NETLI_AXIS)
+    axes = list(line.axes())
+    for axis in [*(n for n in axes if n > last), *(n for n in axes if n <= last)]:
+        if requests := pending(line.memory, axis):
+            line.put(at.NETLI_AXIS, axis)
+            line.put(at.NETLI_REQUEST, requests & -requests)  # the lowest first
+            line.put(at.NETLI_SELECTION, line.memory.I[at.DTCF_WORD + axis])
+            line.put(at.NETLI_EXCHANGE, 0)
+            return True
+    return False
+
+
+def _begin_exchange(line: TalkLine) -> bool:
+    axis = line.get(at.NETLI_AXIS)
+    if line.memory.I[at.DTK_BASE + axis * at.DTK_STRIDE + at.DTK_DRIVE_TYPE] != ARIES_TYPE:
+        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)  # whose language nobody knows
+        _end(line)
+    elif (exchange := _exchange(line)) is None:
+        _end(line)
+    else:
+        _send(line, exchange.text, axis if exchange.on_connector else None)
+    return True
+
+
+def _exchange(line: TalkLine) -> Exchange | None:
+    """The exchange that is next, or under way."""
+    rows = (at.NETLI_AXIS, at.NETLI_REQUEST, at.NETLI_SELECTION)
+    todo = exchanges(line.memory, *(line.get(row) for row in rows))
+    place = line.get(at.NETLI_EXCHANGE)
+    return todo[place] if place < len(todo) else None
+
+
+def _pass_on(line: TalkLine) -> bool:
+    """Send a line that a terminal has typed; the card puts the address in front."""
+    typed = line.text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT)
+    text, end, rest = typed.partition("\r")
+    if not end:
+        return False
+    line.put_text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT, rest)
+    if not text.strip():
+        return True
+    line.put(at.NETLI_REQUEST, PASSED_ON)
+    given, _ = split_address(text)
+    _send(line, text if given is not None else f"{address(line.get(at.NETLI_TALKS_TO))}_{text}")
+    return True
+
+
+# exchanges
+
+
+def _send(line: TalkLine, text: str, axis: int | None = None) -> None:
+    """Send a line and note what comes back, and when all of it has come."""
+    baud, bits = max(line.get(at.NETLI_BAUD), 1), line.get(at.NETLI_CHARACTER_BITS)
+    answers = rs485.exchange(line.memory, line.port, baud, bits, text, axis)
+    answer = answers[0] if len(answers) == 1 else ""
+    line.put(at.NETLI_ANSWERS, len(answers))
+    line.put_text(at.NETLI_ANSWER, at.NETLI_LENGTH, answer)
+    on_the_line_ms = 1000.0 * bits * (len(text) + 1 + len(answer)) / baud
+    line.due_tk = later_tk(line.memory, on_the_line_ms + THINKING_MS if answers else TIMEOUT_MS)
+
+
+def _finish(line: TalkLine, deliver: Deliver) -> None:
+    """Use the answer, or say why there is none."""
+    is_passed_on = line.get(at.NETLI_REQUEST) == PASSED_ON
+    axis = line.get(at.NETLI_TALKS_TO if is_passed_on else at.NETLI_AXIS)
+    text = line.text(at.NETLI_ANSWER, at.NETLI_LENGTH)
+    is_answered = _judge(line, axis)
+    if is_passed_on:
+        line.put(at.NETLI_REQUEST, 0)
+        if line.get(at.NETLI_CHANNEL):
+            deliver(line.get(at.NETLI_CHANNEL) - 1, text)
+    elif not is_answered or not pending(line.memory, axis) & line.get(at.NETLI_REQUEST):
+        _end(line)
+    else:
+        exchange = _exchange(line)
+        if exchange is not None and not exchange.take(text) and exchange.text.endswith("ADDR"):
+            line.flag(at.DTSF_STREAM_ADDRESS_ERROR)
+        line.put(at.NETLI_EXCHANGE, line.get(at.NETLI_EXCHANGE) + 1)
+
+
+def _judge(line: TalkLine, axis: int) -> bool:
+    """Whether exactly one drive has answered; the flags of the stream tell what else it was."""
+    answers, known = line.get(at.NETLI_ANSWERS), at.NETDI_BASE + axis * at.NETDI_STRIDE
+    if answers > 1:
+        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)
+    elif not answers:
+        line.flag(at.DTSF_STREAM_DRIVE_TIMEOUT)
+        if line.memory.I[known]:
+            line.flag(at.DTSF_STREAM_DRIVE_LOST)
+    line.memory.I[known] = int(answers == 1)
+    return answers == 1
+
+
+def _end(line: TalkLine) -> None:
+    """The request is done with; its flag clears itself."""
+    axis = line.get(at.NETLI_AXIS)
+    line.memory.I[at.DTCF_WORD + axis] &= ~line.get(at.NETLI_REQUEST)
+    line.put(at.NETLI_REQUEST, 0)
+
+
+# axes without a line, and the drives' own look at themselves
+
+
+def _give_up(memory: Memory, axis: int) -> None:
+    """Requests of an axis that no open line serves end after a second."""
+    limit = _limit(axis)
+    if not pending(memory, axis) or line_of(memory, axis) is not None:
+        memory.F[limit] = 0.0
+    elif not memory.F[limit]:
+        memory.F[limit] = later_tk(memory, TIMEOUT_MS)
+    elif memory.F[limit] <= tick_of(memory):
+        memory.F[limit] = 0.0
+        memory.I[at.DTCF_WORD + axis] &= ~pending(memory, axis)
+
+
+def _limit(axis: int) -> int:
+    return at.NETDF_BASE + axis * at.NETDF_STRIDE + at.NETDF_LIMIT_TK
+
+
+_LOOK = at.NETF_BASE + at.NETF_LOOK_TK
+
+
+def _look_for_errors(memory: Memory) -> None:
+    """Let drives that log errors look for them every now and then."""
+    logging = [drive for drive in aries.drives(memory) if drive.whole(at.BUSDI_SELECTION)]
+    if memory.F[_LOOK] <= tick_of(memory):
+        for drive in logging:
+            aries.notice_errors(drive)
+        memory.F[_LOOK] = later_tk(memory, LOOK_MS) if logging else 0.0

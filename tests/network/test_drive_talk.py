@@ -1,0 +1,460 @@
+"""Drive Talk: opening a line, addresses, requests, what goes wrong, and how long it takes."""
+
+import pytest
+from tests.network.talk import (
+    ADDRESS_ERROR,
+    COM2,
+    LOST,
+    TIMEOUT,
+    VELOCITY,
+    Bench,
+    control,
+    talking,
+)
+
+from openacr.map import flag
+from openacr.map import numbers as at
+from openacr.map.tables.drivetalk import CONFIGURATION, STATUS_ITEMS
+from openacr.plant.aries import SETTINGS
+
+AUTO, GET, SEND, ERRORL, DATA = range(5)
+TPE, STATUS_1, STATUS_2 = 9, 28, 29
+
+
+@pytest.mark.req("ACR-DTALK-01")
+def test_open_takes_the_port_and_close_gives_it_back() -> None:
+    bench = Bench(talking(0, address=1))
+    assert bench.type("DTALK X") == "Device not open"
+    bench.open(0)
+    bench.request(0, GET)
+    assert bench.card.p[28674] == 2
+    assert bench.type("PROG1", 'OPEN "COM2:" AS #1') == "Device in use"
+    assert bench.type("PROG0", "CLOSE #1", "DTALK X") == "Device not open"
+    assert bench.type("PROG1", 'OPEN "COM2:" AS #1', "CLOSE #1") == ""
+    bench.card.p[28674] = 0
+    bench.request(0, GET)
+    assert bench.card.p[28674] == 0, "nobody carries it any more"
+
+
+@pytest.mark.req("ACR-DTALK-01")
+@pytest.mark.parametrize("device", ["COM3:", "LPT1:", "COM2:9601,N,8,1", "STREAM1:", "FIFO:", "?"])
+def test_ports_without_drive_talk_are_refused(device: str) -> None:
+    assert Bench(axes=1).type(f'OPEN DTALK "{device}" AS #1') == "Invalid device"
+
+
+@pytest.mark.req("ACR-DTALK-01")
+def test_close_waits_for_what_is_under_way() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.card.bit[control(0, GET)] = True
+    bench.type("CLOSE #1")
+    assert bench.card.p[28674] == 0
+    bench.card.advance(seconds=0.5)
+    assert bench.card.p[28679] == 0 and bench.card.p[28678] == 1.5
+    assert bench.type("DTALK X") == "Device not open"
+
+
+@pytest.mark.req("ACR-DTALK-02")
+def test_each_axis_names_its_device_and_the_type_of_its_drive() -> None:
+    bench = Bench(talking(0, address=1), talking(3, address=4, port="COM1"))
+    bench.open(0, number=1)
+    bench.open(3, device="COM1:9600,N,8,1", number=2)
+    assert (bench.card.p[28672], bench.card.p[29440]) == (1, 2)
+    for axis in (0, 3):
+        bench.request(axis, GET)
+        assert bench.card.p[28674 + 256 * axis] == 2
+    bench.card.p[29440] = 1  # not on that line
+    bench.request(3, GET)
+    assert bench.troubles() == [LOST, TIMEOUT]
+
+
+@pytest.mark.req("ACR-DTALK-02")
+def test_drives_of_another_type_are_not_understood() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.card.p[28673] = 1
+    bench.request(0, GET)
+    assert (bench.card.p[28674], bench.troubles()) == (0, [ADDRESS_ERROR])
+    assert bench.type("DTALK X") == "Not supported"
+
+
+@pytest.mark.req("ACR-DTALK-03")
+@pytest.mark.parametrize(
+    ("keys", "troubles"),
+    [
+        ({"connected_s": 0.0, "powered_s": 0.0}, []),
+        ({"connected_s": 0.1, "powered_s": 0.2}, []),
+        ({"connected_s": 0.2, "powered_s": 0.1}, [TIMEOUT]),
+        ({"connected_s": 99.0}, [TIMEOUT]),
+    ],
+)
+def test_a_drive_powered_before_it_is_connected_has_chosen_rs_232(
+    keys: dict[str, float], troubles: list[int]
+) -> None:
+    bench = Bench(talking(0, address=1, **keys))
+    bench.card.advance(seconds=0.5)
+    bench.open(0)
+    took_s = bench.request(0, GET)
+    assert bench.troubles() == troubles
+    assert (took_s > 1.0) is bool(troubles)
+
+
+@pytest.mark.req("ACR-DTALK-03")
+def test_switching_the_drive_off_and_on_mends_the_wrong_choice() -> None:
+    bench = Bench(talking(0, address=1, connected_s=0.2, powered_s=0.1, lost_s=1.0, back_s=2.0))
+    bench.card.advance(seconds=2.5)
+    bench.open(0)
+    bench.request(0, GET)
+    assert bench.troubles() == []
+
+
+@pytest.mark.req("ACR-DTALK-04")
+def test_auto_addressing_gives_each_drive_the_number_of_its_axis_plus_one() -> None:
+    bench = Bench(*(talking(axis) for axis in (0, 1, 4, 7)))
+    bench.open(0, 1, 4, 7)
+    bench.card.advance(seconds=2.0)
+    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [0] * 4, "nobody has asked for it"
+    for axis in (0, 1, 4, 7):
+        bench.request(axis, AUTO)
+    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [1, 2, 5, 8]
+    assert bench.troubles() == []
+
+
+@pytest.mark.req("ACR-DTALK-05")
+def test_a_drive_with_address_0_is_not_reached() -> None:
+    bench = Bench(talking(0))
+    bench.open(0)
+    bench.request(0, GET)
+    assert (bench.card.p[28674], bench.troubles()) == (0, [TIMEOUT])
+    bench.request(0, AUTO)
+    bench.card.bit[COM2 + TIMEOUT] = False
+    bench.request(0, GET)
+    assert (bench.card.p[28674], bench.troubles()) == (2, [])
+
+
+@pytest.mark.req("ACR-DTALK-06")
+@pytest.mark.parametrize(
+    "keys", [{"powered_s": 99.0}, {"connected_s": 99.0}, {"port": "COM1"}, {"baud": 19200}]
+)
+def test_only_drives_that_hear_get_an_address(keys: dict[str, object]) -> None:
+    bench = Bench(talking(0, **keys), talking(1))
+    bench.open(0, 1)
+    assert bench.request(0, AUTO) >= 1.0
+    bench.request(1, AUTO)
+    assert [bench.address(axis) for axis in (0, 1)] == [0, 2]
+    assert bench.troubles() == [TIMEOUT]
+
+
+@pytest.mark.req("ACR-DTALK-07")
+@pytest.mark.parametrize("axis", range(8))
+@pytest.mark.parametrize("index", [AUTO, GET, SEND, ERRORL, DATA])
+def test_requests_clear_themselves_with_a_drive_and_without(axis: int, index: int) -> None:
+    bench = Bench(talking(axis, address=axis + 1))
+    bench.open(axis)
+    bench.card.bit[control(axis, TPE)] = True
+    assert bench.request(axis, index) < 0.5
+    assert bench.troubles() == []
+    other = (axis + 1) % 8
+    bench.open(other)
+    bench.card.bit[control(other, TPE)] = True
+    assert 1.0 <= bench.request(other, index) < 1.1
+    assert bench.troubles() == [TIMEOUT]
+
+
+@pytest.mark.req("ACR-DTALK-07")
+def test_requests_without_an_open_line_time_out_too() -> None:
+    bench = Bench(talking(0, address=1))
+    assert 1.0 <= bench.request(0, GET) < 1.1
+
+
+@pytest.mark.req("ACR-DTALK-08")
+def test_the_configuration_is_empty_until_it_is_uploaded() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    configuration = range(28674, 28674 + len(CONFIGURATION))
+    assert [bench.card.p[number] for number in configuration] == [0.0] * 6
+    bench.request(0, GET)
+    assert [bench.card.p[number] for number in configuration] == [
+        2.0,
+        4000.0,
+        4000.0,
+        12.0,
+        1.5,
+        0.0,
+    ]
+    velocity = Bench(talking(0, address=1), motor=VELOCITY)
+    velocity.open(0)
+    velocity.request(0, GET)
+    assert [velocity.card.p[n] for n in configuration] == [4.0, 4000.0, 4000.0, 8.0, 0.0, 10.0]
+
+
+def test_card_and_drive_know_the_same_settings() -> None:
+    assert [word for word, _ in CONFIGURATION] == [setting.word for setting in SETTINGS]
+
+
+@pytest.mark.req("ACR-DTALK-09")
+def test_a_downloaded_configuration_changes_the_drive_and_its_motor() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.request(0, GET)
+    bench.card.p[28676], bench.card.p[28678] = 250.0, 3.0  # SMPER, DMTSCL
+    bench.request(0, SEND)
+    bench.card.p[28676] = bench.card.p[28678] = 0.0
+    bench.request(0, GET)
+    assert (bench.card.p[28676], bench.card.p[28678]) == (250.0, 3.0)
+    assert bench.troubles() == []
+    speeds = []
+    for made in (bench, Bench(talking(0, address=1))):
+        made.type("AXIS0 OFF")
+        made.card.p[6400] = 1.0  # a volt at the drive
+        made.card.advance(seconds=0.1)
+        speeds.append(made.card.memory.F[at.PLF_BASE + at.PLF_VELOCITY_CPS])
+    assert speeds[0] == pytest.approx(2 * speeds[1]) != 0.0
+
+
+@pytest.mark.req("ACR-DTALK-10")
+def test_selected_errors_are_logged_as_text_in_the_drive() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.type("PGAIN X0", "DTALK X")
+    bench.say("SMPER100")
+    bench.escape()
+    push(bench)
+    assert log(bench) == "*NO ERRORS", "nothing was selected"
+    bench.card.bit[8960 + 1] = True
+    bench.request(0, ERRORL)
+    assert bench.card.bit[8961]
+    push(bench)
+    found = log(bench)
+    assert found.startswith("*0:00:0") and found.endswith("POSITION ERROR")
+    assert bench.type("DTALK X") == ""
+    assert bench.say("ERRORL") == "*0100_0000_0000_0000_0000_0000_0000_0000"
+
+
+def push(bench: Bench) -> None:
+    """Push the axis out of its position error band and back."""
+    bench.card.drag(0, 500.0)
+    bench.card.advance(seconds=0.2)
+    bench.card.drag(0, -500.0)
+    bench.card.advance(seconds=0.2)
+
+
+def log(bench: Bench) -> str:
+    """The log of the first drive."""
+    bench.type("DTALK X")
+    said = bench.say("TERRLG", 0.4).removeprefix("TERRLG|")
+    bench.escape()
+    return said
+
+
+def test_flags_of_the_error_log_end_with_the_sixteenth_axis() -> None:
+    assert flag(8960).section == flag(9471).section == "Drive Talk Error-Log Flags"
+    assert flag(9472).section != flag(9471).section
+
+
+@pytest.mark.req("ACR-DTALK-11")
+@pytest.mark.parametrize("index", range(8, 26))
+def test_each_status_item_is_fetched_when_it_is_selected(index: int) -> None:
+    bench = Bench(talking(0, address=1, drive_temp_c=41.5, motor_temp_c=52.0, bus_v=310.0), axes=1)
+    bench.open(0)
+    bench.card.drag(0, 33.0)
+    bench.card.advance(seconds=1.2)
+    items = [28692 + place for place in range(len(STATUS_ITEMS))]
+    for number in items:
+        bench.card.p[number] = -77
+    bench.request(0, DATA)
+    assert {bench.card.p[number] for number in items} == {-77}, "nothing is selected"
+    bench.card.bit[control(0, index)] = True
+    bench.request(0, DATA)
+    changed = [number for number in items if bench.card.p[number] != -77]
+    assert changed == [28692 + index - 8]
+    assert bench.card.bit[control(0, index)], "the selection stays for the next time"
+
+
+@pytest.mark.req("ACR-DTALK-11")
+def test_status_items_tell_what_the_motor_does() -> None:
+    bench = Bench(
+        talking(0, address=1, drive_temp_c=41.5, motor_temp_c=52.0, bus_v=310.0),
+        axes=1, motor=VELOCITY,
+    )  # fmt: skip
+    bench.open(0)
+    bench.type("PPU X4000", "ACC 50 DEC 50 STP 50 VEL 5", "X1000")
+    bench.card.advance(seconds=1.0)
+    for index in range(8, 26):
+        bench.card.bit[control(0, index)] = True
+    bench.request(0, DATA)
+    found = {word: bench.card.p[28692 + place] for place, (word, _) in enumerate(STATUS_ITEMS)}
+    assert found["TVEL"] == pytest.approx(5.0, rel=0.01)
+    assert found["TVELC"] == pytest.approx(10.0 * found["TANI"], rel=0.02)
+    assert (found["TDTEMP"], found["TMTEMP"], found["TDBUS"]) == (41.5, 52.0, 310.0)
+    assert (found["TDHRS"], found["TDMIN"], found["TDSEC"]) == (0, 0, 1)
+    assert (found["TADDR"], found["DRIVE"], found["TDIMAX"]) == (1, 1, 8)
+
+
+@pytest.mark.req("ACR-DTALK-11")
+def test_positions_are_in_counts() -> None:
+    bench = Bench(talking(0, address=1), axes=1)
+    bench.open(0)
+    bench.type("PGAIN X0", "AXIS0 RES 100")
+    bench.card.drag(0, -33.0)
+    for index in (8, 9, 10):
+        bench.card.bit[control(0, index)] = True
+    bench.request(0, DATA)
+    assert [bench.card.p[28692 + place] for place in range(3)] == [100, 33, -33]
+
+
+@pytest.mark.req("ACR-DTALK-12")
+@pytest.mark.parametrize("axis", [0, 1, 7])
+def test_the_status_words_of_the_drive_are_fetched_into_flags(axis: int) -> None:
+    bench = Bench(talking(axis, address=axis + 1, drive_temp_c=95.0))
+    bench.open(axis)
+    bench.card.bit[control(axis, STATUS_1)] = True
+    bench.request(axis, DATA)
+    first, second = 9472 + 32 * axis, 9984 + 32 * axis
+    assert bench.card.bit[first] and bench.card.bit[first + 3], "enabled; something is wrong"
+    assert not any(bench.card.bit[second + bit] for bit in range(32))
+    bench.card.bit[control(axis, STATUS_2)] = True
+    bench.request(axis, DATA)
+    assert [bit for bit in range(32) if bench.card.bit[second + bit]] == [2]
+
+
+@pytest.mark.req("ACR-DTALK-14")
+def test_a_drive_that_is_lost_is_told_from_one_that_never_answered() -> None:
+    bench = Bench(talking(0, address=1, lost_s=2.0, back_s=4.0))
+    bench.open(0, 1)
+    bench.request(0, GET)
+    assert bench.troubles() == []
+    bench.card.advance(seconds=2.0)
+    bench.request(0, GET)
+    assert bench.troubles() == [LOST, TIMEOUT]
+    bench.type("CLR 11122", "CLR 11123", "CLR 11124")
+    bench.request(1, GET)
+    assert bench.troubles() == [TIMEOUT]
+    bench.type("CLR 11122", "CLR 11123", "CLR 11124")
+    bench.card.advance(seconds=2.0)
+    bench.request(0, GET)
+    assert bench.troubles() == []
+
+
+@pytest.mark.req("ACR-DTALK-14")
+def test_two_drives_with_one_address_are_an_address_error() -> None:
+    bench = Bench(talking(0, address=1), talking(1, address=1))
+    bench.open(0, 1)
+    bench.request(0, GET)
+    assert (bench.troubles(), bench.card.p[28674]) == ([ADDRESS_ERROR], 0)
+    bench.type("CLR 11124")
+    bench.request(1, AUTO)
+    bench.request(0, GET)
+    assert (bench.troubles(), bench.card.p[28674]) == ([], 2)
+
+
+@pytest.mark.req("ACR-DTALK-15")
+@pytest.mark.parametrize(
+    ("port", "first"),
+    [("COM1", 11072), ("COM2", 11104), ("STREAM3", 11168), ("STREAM4", 11200), ("STREAM5", 11232)],
+)
+def test_each_port_has_stream_flags_of_its_own(port: str, first: int) -> None:
+    bench = Bench(axes=2)
+    bench.open(0, device=f"{port}:")
+    bench.request(0, GET)
+    words = (11040, 11072, 11104, 11168, 11200, 11232)
+    assert {word: bench.troubles(word) for word in words if bench.troubles(word)} == {
+        first: [TIMEOUT]
+    }
+
+
+@pytest.mark.req("ACR-DTALK-15")
+@pytest.mark.parametrize(
+    ("first", "object_"),
+    [(11040, "LPT1"), (11072, "COM1"), (11104, "COM2"), (11168, "STREAM3"), (11200, "STREAM4"),
+     (11232, "STREAM5")],
+)  # fmt: skip
+def test_the_stream_flags_lie_where_the_guide_says(first: int, object_: str) -> None:
+    ends = flag(first), flag(first + 31)
+    assert [(end.section, end.object) for end in ends] == [("Drive Talk Stream Flags", object_)] * 2
+    names = [flag(first + index).name for index in (LOST, TIMEOUT, ADDRESS_ERROR)]
+    assert names == ["Stream Drive Lost", "Stream Drive Timeout", "Stream Address Error"]
+
+
+@pytest.mark.req("ACR-DTALK-16")
+def test_data_comes_slower_with_more_axes_and_faster_with_more_baud() -> None:
+    took_s = {}
+    for baud in (9600, 38400):
+        for axes in (1, 2, 4):
+            bench = Bench(*(talking(axis, address=axis + 1, baud=baud) for axis in range(4)))
+            bench.open(*range(axes), device=f"COM2:{baud},N,8,1")
+            for axis in range(axes):
+                for index in range(8, 26):
+                    bench.card.bit[control(axis, index)] = True
+                bench.card.bit[control(axis, DATA)] = True
+            begin = bench.card.tick
+            for axis in range(axes):
+                assert bench.card.until(control(axis, DATA), is_=False)
+            took_s[baud, axes] = (bench.card.tick - begin) * bench.card.period_s
+            assert bench.troubles() == []
+    for baud in (9600, 38400):  # the slow scan, in which requests are noticed, is always there
+        third_and_fourth_s = took_s[baud, 4] - took_s[baud, 2]
+        assert third_and_fourth_s == pytest.approx(2 * (took_s[baud, 2] - took_s[baud, 1]), rel=0.1)
+    assert took_s[9600, 4] > 2.5 * took_s[38400, 4]
+
+
+@pytest.mark.req("ACR-DTALK-22")
+def test_the_flag_of_the_stream_addresses_all_axes_of_its_device() -> None:
+    drives = (talking(0), talking(1), talking(4), talking(7, port="COM1"), talking(5))
+    bench = Bench(*drives)
+    bench.open(0, 1, 4)
+    bench.open(7, device="COM1:", number=2)
+    bench.card.bit[COM2] = True
+    assert bench.card.until(COM2, is_=False, timeout_s=2.0)
+    assert [bench.address(axis) for axis in range(8)] == [1, 2, 0, 0, 5, 0, 0, 0]
+    bench.card.bit[11072] = True
+    assert bench.card.until(11072, is_=False, timeout_s=2.0)
+    assert bench.address(7) == 8
+    assert not any(bench.card.bit[control(axis, AUTO)] for axis in range(8))
+
+
+def test_the_stream_flag_of_a_closed_port_clears_at_once() -> None:
+    bench = Bench(talking(0))
+    bench.card.bit[COM2] = True
+    assert bench.card.until(COM2, is_=False, timeout_s=0.1)
+    assert bench.address(0) == 0
+
+
+@pytest.mark.parametrize("device", ["COM2:19200,N,8,1", "COM2:9600,E,8,1", "COM2:9600,N,7,1"])
+def test_line_and_drive_have_to_agree_about_the_characters(device: str) -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0, device=device)
+    bench.request(0, GET)
+    assert bench.troubles() == [TIMEOUT]
+
+
+def test_what_the_line_was_opened_with_may_be_left_out() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0, device="COM2:")
+    bench.request(0, GET)
+    assert bench.troubles() == []
+
+
+def test_a_snapshot_in_the_middle_of_an_exchange_goes_on() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.card.bit[control(0, GET)] = True
+    bench.card.advance(seconds=0.06)
+    snapshot, digests = bench.card.snapshot(), []
+    for _ in range(2):
+        bench.card.restore(snapshot)
+        bench.card.advance(seconds=1.0)
+        digests.append(bench.card.digest())
+        assert bench.card.p[28678] == 1.5
+    assert digests[0] == digests[1]
+
+
+def test_drives_keep_addresses_and_settings_when_the_card_restarts() -> None:
+    bench = Bench(talking(0))
+    bench.open(0)
+    bench.request(0, AUTO)
+    bench.type("REBOOT", "ECHO 4", "PROG0")
+    assert bench.address(0) == 1
+    bench.open(0)
+    bench.request(0, GET)
+    assert (bench.card.p[28674], bench.troubles()) == (2, [])

@@ -1,0 +1,167 @@
+"""DTALK: a terminal that talks to a drive."""
+
+import pytest
+from tests.network.talk import TIMEOUT, Bench, control, talking
+
+from openacr.protocol.stream import StreamKind
+
+GET = 1
+DIALOGUE = (
+    'OPEN DTALK "COM2:9600,N,8,1" AS #1 : REM OPEN THE PORT',
+    "P28672=1 : REM MUST MATCH",
+    "P28673=0 : REM ARIES",
+    "CLR11122 CLR11123 CLR11124",
+    "SET11104",
+)
+
+
+def talking_bench() -> Bench:
+    """As the published dialogue begins, up to DTALK X."""
+    bench = Bench(talking(0))
+    bench.type("ECHO 1")
+    for line in DIALOGUE:
+        assert "rror" not in bench.say(line, 0.0)
+    assert bench.say("DTALK X") == "DTALK X"
+    return bench
+
+
+@pytest.mark.req("ACR-DTALK-17")
+def test_the_published_dialogue() -> None:
+    bench = talking_bench()
+    assert bench.say("TPE") == "TPE|*0"
+    bench.escape()
+    bench.type("PGAIN X0")
+    bench.card.drag(0, -2576.0)
+    assert bench.say("DTALK X") == "DTALK X"
+    assert bench.say("TPE") == "TPE|*2576"
+    assert bench.say("TREV") == "TREV||*Aries OS Revision 2.00"
+    assert bench.say("DMODE") == "DMODE|*2"
+    assert bench.escape() == "\r\nP00>"
+
+
+@pytest.mark.req("ACR-DTALK-18")
+def test_the_card_takes_no_commands_meanwhile() -> None:
+    bench = talking_bench()
+    bench.card.bit[130] = False
+    assert bench.say("SET 130") == "SET 130|*UNDEFINED COMMAND"
+    assert bench.say("P0 = 1") == "P0 = 1|*UNDEFINED COMMAND"
+    assert not bench.card.bit[130]
+    bench.escape()
+    bench.type("SET 130")
+    assert bench.card.bit[130]
+
+
+@pytest.mark.req("ACR-DTALK-19")
+def test_escape_ends_the_conversation_and_not_the_session() -> None:
+    bench = talking_bench()
+    bench.say("TPE")
+    assert bench.escape() == "\r\nP00>"
+    bench.request(0, GET)
+    assert (bench.card.p[28674], bench.troubles()) == (2, [])
+    assert bench.say("DTALK X") == "DTALK X"
+    assert bench.say("DMODE") == "DMODE|*2"
+
+
+@pytest.mark.req("ACR-DTALK-20")
+def test_programs_and_plcs_cannot_talk_to_a_drive_this_way() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    assert bench.type("10 DTALK X") == "Not valid at this level"
+    assert bench.type("SYS", "DIM PLC0(100)", "PLC0") == ""
+    assert bench.type("10 DTALK AXIS0") != ""
+    assert bench.type("LIST") == ""
+
+
+@pytest.mark.req("ACR-DTALK-21")
+def test_a_program_configures_a_drive_and_reads_its_status() -> None:
+    bench = Bench(talking(0, address=1))
+    bench.type("PGAIN X0")
+    bench.card.drag(0, -50.0)
+    assert bench.type("SYS", "DIM PROG0(3000)", "DIM P(5)", "PROG0", "PROGRAM") == ""
+    bench.type(
+        'OPEN DTALK "COM2:9600,N,8,1" AS #1', "P28672 = 1", "P28673 = 0",
+        "SET 10497", "INH -10497", "P0 = P28674", "P28676 = 123", "SET 10498", "INH -10498",
+        "P28676 = 0", "SET 10497", "INH -10497", "P1 = P28676",
+        "SET 10505", "SET 10500", "INH -10500", "P2 = P28693", "CLOSE #1", "ENDP",
+    )  # fmt: skip
+    bench.type("RUN")
+    bench.card.advance(seconds=3.0)
+    assert [bench.card.p[n] for n in range(3)] == [2.0, 123.0, 50.0]
+
+
+@pytest.mark.req("ACR-DTALK-21")
+def test_a_plc_has_its_drive_talk_done_by_a_program() -> None:
+    """Flags above 8191 are out of reach of a PLC line, the request to run a program is not."""
+    bench = Bench(talking(0, address=1))
+    bench.open(0)
+    bench.type("PGAIN X0", "SYS", "DIM PLC0(100)", "DIM PROG1(500)")
+    assert bench.type("PROG1", "PROGRAM", "SET 10505", "SET 10500", "ENDP", "PLC0") == ""
+    assert bench.type("10 LD 128", "20 SET 10500") != ""
+    assert bench.type("NEW", "10 LD 128", "20 OUT 1064", "RUN") == ""
+    bench.card.drag(0, -70.0)
+    bench.card.advance(seconds=0.5)
+    assert bench.card.p[28693] == 0
+    bench.card.bit[128] = True
+    bench.card.advance(seconds=0.1)
+    bench.card.bit[128] = False
+    bench.card.advance(seconds=0.5)
+    assert bench.card.p[28693] == 70
+
+
+def test_requests_wait_while_a_terminal_has_the_line() -> None:
+    bench = talking_bench()
+    bench.card.bit[control(0, GET)] = True
+    bench.card.advance(seconds=3.0)
+    assert bench.card.bit[control(0, GET)]
+    bench.escape()
+    assert bench.card.until(control(0, GET), is_=False, timeout_s=1.0)
+    assert bench.card.p[28674] == 2
+
+
+def test_only_one_terminal_at_a_time() -> None:
+    bench = talking_bench()
+    other = bench.card.open_stream(StreamKind.TERMINAL)
+    bench.card.receive(other, b"ECHO 4\rDTALK AXIS0\r")
+    assert b"Device in use" in bench.card.take_output(other)
+    bench.escape()
+    bench.card.receive(other, b"DTALK AXIS0\r")
+    bench.card.receive(other, b"TPE\r")
+    bench.card.advance(seconds=0.1)
+    assert b"*0" in bench.card.take_output(other)
+    bench.card.close_stream(other)
+    assert bench.say("DTALK X") == "DTALK X", "who is gone holds nothing"
+
+
+def test_typing_is_shown_and_can_be_corrected() -> None:
+    bench = talking_bench()
+    assert bench.card.send("TPX") == "TPX"
+    assert bench.card.send("\x08") == "\b \b"
+    assert bench.say("E") == "E|*0"
+    assert bench.say("") == ""
+    assert bench.say("x" * 200, 0.3).count("x") == 79
+
+
+def test_a_silent_drive_says_nothing_and_sets_the_flag() -> None:
+    bench = Bench(talking(0, powered_s=99.0))
+    bench.open(0)
+    bench.type("DTALK X")
+    assert bench.say("TPE", 1.2) == "", "with ECHO 4 not even what is typed"
+    assert bench.troubles() == [TIMEOUT]
+    assert bench.escape() == "\r\n"
+    assert bench.type("?1") == "1"
+
+
+def test_lines_typed_ahead_are_sent_one_after_the_other() -> None:
+    bench = talking_bench()
+    bench.card.send("TPE\rDMODE\rTADDR\r")
+    bench.card.advance(seconds=0.3)
+    assert bench.card.take_output(bench.card.console).decode().split() == ["*0", "*2", "*1"]
+
+
+def test_commands_of_one_line_are_answered_together() -> None:
+    bench = talking_bench()
+    assert bench.say("TADDR:DMODE:FOO:") == "TADDR:DMODE:FOO:|*1|*2|*UNDEFINED COMMAND|"
+    assert bench.say("SMPER-4") == "SMPER-4|*INVALID DATA"
+    assert bench.say("DMODE4") == "DMODE4|*INVALID DATA"
+    assert bench.say("1_TADDR") == "1_TADDR|*1"
+    assert bench.say("2_TADDR", 1.1) == "2_TADDR"
