@@ -4,15 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from openacr.cnc.library import (
-    FOLDER,
-    Part,
-    PartError,
-    names,
-    part_named,
-    prepared,
-    read_part,
-)
+from openacr.cnc.library import FOLDER, names, part_named, prepared
+from openacr.cnc.part import Part, PartError, read_part
 from openacr.errors import UserError
 from openacr.sysvar import Store
 

@@ -14,8 +14,9 @@ from tests.cnc.programs import unrolled
 from openacr.cnc.canonical import Arc, End, Entry, Line, Point, Rapid
 from openacr.cnc.hosts import VirtualMachine
 from openacr.cnc.interpreter import Interpreter, Options
-from openacr.cnc.library import FOLDER, Ready, names, part_named, prepared, read_part
+from openacr.cnc.library import FOLDER, Ready, names, part_named, prepared
 from openacr.cnc.load import Folders, load
+from openacr.cnc.part import read_part
 from openacr.sysvar import Store
 
 Spot = tuple[float, float]

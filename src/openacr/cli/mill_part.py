@@ -9,7 +9,8 @@ import typer
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
-    from openacr.cnc.library import Part, Ready
+    from openacr.cnc.library import Ready
+    from openacr.cnc.part import Part
 
 INCH, MM = "inch", "mm"
 # Cells of the store that say in which unit programs begin.

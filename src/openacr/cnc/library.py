@@ -1,109 +1,38 @@
 """Library parts: part programs with sizes to choose.
 
-    ;PART Keyhole plate
-    ;PARAM P200 "Length" in 4.0 0.1 24.0      unit, default, lowest, highest
-    ;CHECK P201*2 <= P200
-    ;START lower left corner
-
-Units are in, mm, deg and n (a plain number). Before a part runs, its sizes are set in
-their cells, lengths in the active unit; P224 is then the radius of the tool and P233 the
-lead-in radius of the store.
+Before a part runs, its sizes are set in their cells, lengths in the active unit; P224 is
+then the radius of the tool and P233 the lead-in radius of the store.
 """
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
-from openacr.cnc.expressions import ExpressionReader
 from openacr.cnc.findings import CodeError, Finding
-from openacr.cnc.formulas import Node
-from openacr.cnc.grammar import ACROMILL
 from openacr.cnc.hosts import Cells
+from openacr.cnc.part import (
+    INCH,
+    LEAD_IN,
+    MM,
+    TOOL_RADIUS,
+    Part,
+    PartError,
+    Rule,
+    head_lines,
+    read_part,
+    text_of,
+)
 from openacr.errors import UserError
 
 FOLDER = Path(__file__).parent / "library"
 SUFFIX = ".TXT"
-FIRST_CELL, LAST_CELL = 200, 233
-TOOL_RADIUS, LEAD_IN = 224, 233
 # Cells of the store: default unit, I/J of parts, lead-in radius, radius without D, feeds, D tables.
 UNITS, IJ_CODE, LEAD_IN_CELL, CMP_RAD = 250_001, 250_004, 250_005, 100_020
 START_FEED, CUT_SPEED = 100_021, 650_002
 D_RADIUS, D_WEAR, LAST_D = 1000, 1500, 400
 MM_PER_INCH = 25.4
-INCH, MM = "in", "mm"
 LENGTHS = frozenset((INCH, MM))
-UNIT_NAMES = (INCH, MM, "deg", "n")
 DIGITS = 12
-
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
-_SIZE = re.compile(rf'P(\d+)\s+"([^"]+)"\s+(\w+)\s+({_NUMBER})\s+({_NUMBER})\s+({_NUMBER})\s*')
-_HEAD = re.compile(r";\s*(PART|PARAM|CHECK|START)\b\s*(.*)", re.IGNORECASE)
-
-
-class PartError(UserError):
-    """A part that cannot be used, or sizes it cannot have."""
-
-    def __init__(self, findings: Iterable[Finding]) -> None:
-        self.findings = tuple(findings)
-        super().__init__("\n".join(map(str, self.findings)))
-
-
-@dataclass(frozen=True, slots=True)
-class Size:
-    """One parameter of a part, in its own unit."""
-
-    cell: int
-    text: str
-    unit: str
-    default: float
-    low: float
-    high: float
-    line: int
-
-    @property
-    def accepted(self) -> str:
-        """The values it takes, in words."""
-        unit = "" if self.unit == "n" else f" {self.unit}"
-        return f"{self.low:g} to {self.high:g}{unit}"
-
-    def __str__(self) -> str:
-        return f"P{self.cell} {self.text}"
-
-
-class Rule(NamedTuple):
-    """A condition between sizes."""
-
-    text: str
-    line: int
-    condition: Node
-
-
-@dataclass(frozen=True, slots=True)
-class Part:
-    """A part program with its head."""
-
-    path: Path
-    title: str
-    sizes: tuple[Size, ...]
-    rules: tuple[Rule, ...]
-    start: str
-    text: str
-
-    @property
-    def name(self) -> str:
-        """What it is called for."""
-        return self.path.stem.upper()
-
-    def size(self, wanted: str) -> Size:
-        """A size by its cell or its words."""
-        word = wanted.strip().casefold()
-        for size in self.sizes:
-            if word in (f"p{size.cell}", size.text.casefold()):
-                return size
-        known = ", ".join(map(str, self.sizes))
-        raise UserError(f"{self.name} has no size {wanted.strip()} (it has {known})")
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +81,7 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _is_part(path: Path) -> bool:
-    return any(kind == "PART" for kind, _, _ in _head(_text(path)))
+    return any(kind == "PART" for kind, _, _ in head_lines(text_of(path)))
 
 
 def part_named(name: str, folder: Path = FOLDER) -> Part:
@@ -162,76 +91,6 @@ def part_named(name: str, folder: Path = FOLDER) -> Part:
         if path.stem.upper() == wanted and _is_part(path):
             return read_part(path)
     raise UserError(f"there is no part {name} (there are {', '.join(names(folder))})")
-
-
-def read_part(path: Path) -> Part:
-    """The part in a file; PartError with all that is wrong in its head."""
-    text = _text(path)
-    findings: list[Finding] = []
-    title, start = "", ""
-    sizes: list[Size] = []
-    rules: list[Rule] = []
-    for kind, rest, line in _head(text):
-        try:
-            if kind == "PARAM":
-                sizes.append(_size(rest, line, sizes))
-            elif kind == "CHECK":
-                rules.append(Rule(rest, line, _condition(rest)))
-            elif kind == "PART":
-                title = rest
-            else:
-                start = rest
-        except CodeError as fault:
-            findings.append(fault.at(str(path), line, rest))
-    if not title:
-        findings.append(
-            CodeError("E108", hint=";PART and a title are missing").at(str(path), 1, "")
-        )
-    if findings:
-        raise PartError(findings)
-    return Part(path, title, tuple(sizes), tuple(rules), start, text)
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8", errors="replace")
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read: {error.strerror}") from None
-
-
-def _head(text: str) -> Iterator[tuple[str, str, int]]:
-    """Kind, rest and line of the lines that describe the part."""
-    for line, raw in enumerate(text.splitlines(), 1):
-        if raw.strip() and not raw.lstrip().startswith(";"):
-            return
-        found = _HEAD.fullmatch(raw.strip())
-        if found:
-            yield found[1].upper(), found[2].strip(), line
-
-
-def _size(text: str, line: int, others: Iterable[Size]) -> Size:
-    found = _SIZE.fullmatch(text)
-    if not found:
-        raise CodeError("E108", hint=';PARAM P200 "Length" in default lowest highest')
-    cell, words, unit = int(found[1]), found[2], found[3].lower()
-    default, low, high = (float(found[k]) for k in (4, 5, 6))
-    if not FIRST_CELL <= cell <= LAST_CELL or cell in (TOOL_RADIUS, LEAD_IN):
-        raise CodeError("E211", hint="sizes are P200 to P232, but P224")
-    if any(cell == other.cell for other in others):
-        raise CodeError("E202", detail=f"P{cell}")
-    if unit not in UNIT_NAMES:
-        raise CodeError("E108", hint=f"the unit is one of {', '.join(UNIT_NAMES)}")
-    if not low <= default <= high:
-        raise CodeError("E222", detail=f"the default {default:g} is not {low:g} to {high:g}")
-    return Size(cell, words, unit, default, low, high, line)
-
-
-def _condition(text: str) -> Node:
-    reader = ExpressionReader(text, ACROMILL)
-    condition = reader.expression()
-    if reader.peek():
-        raise reader.fault("E104")
-    return condition
 
 
 # --- preparing --------------------------------------------------------------------------

@@ -16,8 +16,9 @@ from typing import Any
 
 from openacr.errors import MapError, UserError
 from openacr.sysvar import lookup, password, rules, values
+from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import Kind, Parameter
-from openacr.sysvar.store import AT_START, UNITS, Store
+from openacr.sysvar.store import AT_START, Store
 from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
 
 LAYOUT = 1

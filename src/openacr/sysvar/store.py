@@ -23,15 +23,14 @@ from openacr.errors import MapError, StoreError
 from openacr.sysvar import lookup, rules, values
 from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
 from openacr.sysvar.database import Database
+from openacr.sysvar.held import FIRST_SYSTEM, UNITS, Held
 from openacr.sysvar.homes import Home, home_of
 from openacr.sysvar.schema import AXIS_CELLS, At, Parameter
 from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
 
 LOOK_S = 0.05  # the counter is not believed for longer
 NEVER = b""  # no counter ever reads like this
-UNITS = 250_001  # 0 inch, 1 mm
 AXIS_NAME = 200_008
-FIRST_SYSTEM = 100_000
 AT_START = {1998: 0.0, 1999: 0.0, 4000: 0.0, 4001: 0.0, 240: 5.0, 241: 0.0, 244: 0.0}
 
 Listener = Callable[[frozenset[int]], None]
@@ -58,15 +57,12 @@ class Store:
         self._memory = self._counter.memory
         self._seen = NEVER
         self._until = 0.0
-        self._numbers: dict[int, float] = {}
-        self._texts: dict[int, str] = {}
-        self._stored: set[int] = set()
-        self._defaults: set[int] = set()
+        self._held = Held()
+        self._numbers = self._held.numbers
         self._before: dict[int, Value | None] = {}  # values to go back to, in a transaction
         self._depth = 0
         self._token = 0
         self._version = -1
-        self._factor = 1.0
         self._listeners: list[Listener] = []
         try:
             self._database = Database(self.path, is_used=self._counter.has_counted)
@@ -118,7 +114,7 @@ class Store:
     def read_text(self, n: int) -> str:
         """The text in a cell."""
         self._refresh()
-        found = self._texts.get(n)
+        found = self._held.texts.get(n)
         return self._first_text(n) if found is None else found
 
     def value(self, n: int) -> Value:
@@ -134,13 +130,15 @@ class Store:
         if isinstance(first, str):
             return first
         if parameter.is_length:
-            return values.scaled(parameter, float(first), self._factor, self.letter_of(parameter))
+            return values.scaled(
+                parameter, float(first), self._held.factor, self.letter_of(parameter)
+            )
         return float(first)
 
     def is_set(self, n: int) -> bool:
         """Whether a value was written, be it that of the default."""
         self._refresh()
-        return n in self._stored
+        return n in self._held.stored
 
     def parameter(self, n: int) -> Parameter:
         """What a cell means; MapError if there is none."""
@@ -165,9 +163,7 @@ class Store:
         parameter = self.parameter(n)
         if parameter.is_text:
             raise MapError(f"{parameter} holds text")
-        found = self._numbers[n] = float(self.default(n))
-        self._defaults.add(n)
-        return found
+        return self._held.keep_default(n, float(self.default(n)))
 
     def _first_text(self, n: int) -> str:
         parameter = self.parameter(n)
@@ -188,10 +184,8 @@ class Store:
     def reset(self, n: int) -> None:
         """Give a cell its default again."""
         with self.transaction():
-            if n in self._stored:
-                self._keep(n)
-                self._forget(n)
-                self._forget_defaults(n)
+            if n in self._held.stored:
+                self._put(n, None)
 
     @contextmanager
     def transaction(self, *, is_durable: bool = True) -> Iterator[None]:
@@ -243,25 +237,24 @@ class Store:
         parameter = self.parameter(n)
         if parameter.row.is_fixed:
             raise SettingError(parameter, value, "it is fixed")
-        new = values.checked(parameter, value, self._factor)
+        new = values.checked(parameter, value, self._held.factor)
         self._refresh()
-        if n in self._stored and new == self._raw(n):
+        if n in self._held.stored and new == self._held.raw(n):
             return
         with self.transaction(is_durable=n >= FIRST_SYSTEM):
             if n == UNITS and new != self.read(UNITS):
                 self._convert(MM_PER_INCH if new else 1.0 / MM_PER_INCH)
             self._put(n, new)
 
-    def _put(self, n: int, value: Value) -> None:
+    def _put(self, n: int, value: Value | None) -> None:
         self._keep(n)
-        self._hold(n, value)
-        self._forget_defaults(n)
+        self._held.hold(n, value)
 
     def _convert(self, factor: float) -> None:
         """All stored lengths in the other unit; the machine stays the same."""
         for parameter in lookup.parameters():
             n = parameter.number
-            if parameter.is_per_length or (parameter.is_length and n in self._stored):
+            if parameter.is_per_length or (parameter.is_length and n in self._held.stored):
                 letter = self.letter_of(parameter)
                 self._put(n, values.scaled(parameter, self.read(n), factor, letter))
 
@@ -286,7 +279,7 @@ class Store:
             return
         rules.check(self, self._before, self._was_running)
         token = self._token + 1  # all before it was read when the transaction began
-        self._database.put((n, self._raw(n), token) for n in self._before)
+        self._database.put((n, self._held.raw(n), token) for n in self._before)
         self._counter.begin()
         try:
             self._database.commit()
@@ -298,46 +291,13 @@ class Store:
     def _give_up(self) -> None:
         self._database.rollback()
         for n, value in self._before.items():
-            self._forget(n) if value is None else self._hold(n, value)
-            self._forget_defaults(n)
+            self._held.hold(n, value)
         self._before = {}
 
     def _keep(self, n: int) -> None:
         """Remember what a cell held before this transaction."""
         if n not in self._before:
-            self._before[n] = self._raw(n)
-
-    # --- the cells in memory ----------------------------------------------------------
-
-    def _raw(self, n: int) -> Value | None:
-        """What was stored in a cell, None for its default."""
-        if n not in self._stored:
-            return None
-        return self._texts[n] if n in self._texts else self._numbers[n]
-
-    def _hold(self, n: int, value: Value) -> None:
-        self._stored.add(n)
-        self._defaults.discard(n)
-        if isinstance(value, str):
-            self._texts[n] = value
-        else:
-            self._numbers[n] = value
-        if n == UNITS:
-            self._factor = MM_PER_INCH if value else 1.0
-
-    def _forget(self, n: int) -> None:
-        self._stored.discard(n)
-        self._numbers.pop(n, None)
-        self._texts.pop(n, None)
-        if n == UNITS:
-            self._factor = 1.0
-
-    def _forget_defaults(self, n: int) -> None:
-        """Defaults may follow system parameters."""
-        if n >= FIRST_SYSTEM:
-            for known in self._defaults:
-                del self._numbers[known]
-            self._defaults.clear()
+            self._before[n] = self._held.raw(n)
 
     # --- other processes --------------------------------------------------------------
 
@@ -363,11 +323,9 @@ class Store:
     def _take(self, rows: Iterable[tuple[int, Value | None, int]]) -> frozenset[int]:
         changed = set()
         for n, value, token in rows:
-            self._forget(n) if value is None else self._hold(n, _of_the_kind(n, value))
+            self._held.hold(n, None if value is None else _of_the_kind(n, value))
             self._token = max(self._token, token)
             changed.add(n)
-        if changed:
-            self._forget_defaults(max(changed))
         return frozenset(changed)
 
     # --- news -------------------------------------------------------------------------

@@ -1,0 +1,62 @@
+"""The cells of a store in memory: what was stored, and defaults that were asked for."""
+
+from openacr.sysvar.values import MM_PER_INCH, Value
+
+UNITS = 250_001  # 0 inch, 1 mm
+FIRST_SYSTEM = 100_000
+
+
+class Held:
+    """Cells by number. `numbers` holds defaults, too, once they were computed."""
+
+    def __init__(self) -> None:
+        self.numbers: dict[int, float] = {}
+        self.texts: dict[int, str] = {}
+        self.stored: set[int] = set()
+        self.factor = 1.0  # of lengths declared in inches
+        self._defaults: set[int] = set()
+
+    def raw(self, n: int) -> Value | None:
+        """What was stored in a cell, None for its default."""
+        if n not in self.stored:
+            return None
+        return self.texts[n] if n in self.texts else self.numbers[n]
+
+    def hold(self, n: int, value: Value | None) -> None:
+        """Keep what was stored in a cell, None for its default."""
+        if value is None:
+            self._forget(n)
+        else:
+            self._keep(n, value)
+        if n >= FIRST_SYSTEM:
+            self._forget_defaults()
+
+    def keep_default(self, n: int, value: float) -> float:
+        """Remember the default of a cell as long as no system parameter changes."""
+        self.numbers[n] = value
+        self._defaults.add(n)
+        return value
+
+    def _keep(self, n: int, value: Value) -> None:
+        self.stored.add(n)
+        self._defaults.discard(n)
+        if isinstance(value, str):
+            self.texts[n] = value
+        else:
+            self.numbers[n] = value
+        if n == UNITS:
+            self.factor = MM_PER_INCH if value else 1.0
+
+    def _forget(self, n: int) -> None:
+        self.stored.discard(n)
+        self._defaults.discard(n)
+        self.numbers.pop(n, None)
+        self.texts.pop(n, None)
+        if n == UNITS:
+            self.factor = 1.0
+
+    def _forget_defaults(self) -> None:
+        """Defaults may follow system parameters."""
+        for n in self._defaults:
+            del self.numbers[n]
+        self._defaults.clear()
