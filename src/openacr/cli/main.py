@@ -122,7 +122,7 @@ COMMANDS: dict[str, Entry | Family] = {
         {
             "get": Entry("sysvar", "get", "Show parameters with value, unit, default and range."),
             "set": Entry(
-                "sysvar",
+                "sysvar_change",
                 "set_values",
                 "Change parameters: all of them, or none when one is refused.",
             ),
@@ -130,15 +130,15 @@ COMMANDS: dict[str, Entry | Family] = {
                 "sysvar", "list_values", "List what was changed, or all parameters of a tab."
             ),
             "export": Entry(
-                "sysvar", "export_values", "Write the settings that were changed as TOML."
+                "sysvar_change", "export_values", "Write the settings that were changed as TOML."
             ),
             "import": Entry(
-                "sysvar",
+                "sysvar_change",
                 "import_values",
                 "Read settings from TOML: all of them, or none when one is refused.",
             ),
             "password": Entry(
-                "sysvar",
+                "sysvar_change",
                 "change_password",
                 "Guard the system parameters with a password, or guard them no more.",
             ),
