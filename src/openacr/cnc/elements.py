@@ -1,8 +1,8 @@
-"""Elements: straight and circular moves in program coordinates.
+"""Elements: straight and circular moves as cutter radius compensation takes and gives them.
 
-Between the blocks of a program and its canonical moves stands one form of move: from a
-start to an end, after scaling and rotation, before work offsets. The cutter radius
-compensation takes elements and gives elements; what is behind it only shifts them.
+Scaling and rotation are behind them. Offsets only shift, so that it makes no difference to
+the compensation whether elements are in front of those or, as the interpreter makes them,
+in machine coordinates.
 """
 
 from dataclasses import dataclass

@@ -27,6 +27,7 @@ from openacr.cnc.canonical import (
     WaitBit,
 )
 from openacr.cnc.codes import DIALECTS
+from openacr.cnc.compensation import Watch
 from openacr.cnc.coordinates import ORIGIN
 from openacr.cnc.findings import BlockError, CodeError, Finding, found
 from openacr.cnc.flow import Flow, Frame, Level
@@ -66,6 +67,7 @@ class Options:
     is_service: bool = False  # system parameters may be assigned
     is_library_part: bool = False  # I, J, K by the setting for library parts
     collects_errors: bool = False  # go on behind errors of the geometry, to find them all
+    watch: Watch | None = None  # sees compensated contours; else, collecting, they are checked
 
 
 class Interpreter:
@@ -459,9 +461,13 @@ class Interpreter:
             raise b.fault("E230", detail=f"{bow.start_radius:.5g} and {bow.end_radius:.5g}")
 
     def refuse_compensation(self, b: Turn, code: str) -> None:
-        """An error while cutter radius compensation is on."""
+        """An error while cutter radius compensation is on.
+
+        Behind a G40 that nothing has moved after, the program goes on from where the tool is.
+        """
         if self.modal.compensation != OFF:
             raise b.fault(code)
+        self.offset_path.stop()
 
     def switch_compensation(self, b: Turn, code: int) -> None:
         """G40, G41, G42."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import BlockEnd, Entry
-from openacr.cnc.compensation import Compensator, Rules, Side
+from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.elements import Element
 from openacr.cnc.turn import Turn
 
@@ -35,7 +35,10 @@ class OffsetPath:
         rules = Rules(
             read(EPSILON), read(SWEEP_EPSILON), int(read(ROOT_EPSILON)), read(GOUGE_STOP) != 0.0
         )
-        return Compensator(rules, self._report)
+        watch = self._run.options.watch
+        if watch is None and self._run.options.collects_errors:
+            watch = ChainCheck(rules.epsilon, self._report)
+        return Compensator(rules, self._report, watch)
 
     def begin(self) -> None:
         """A program starts: tolerances are read, nothing is on."""
@@ -105,9 +108,9 @@ class OffsetPath:
         self._hand_on(self._compensator.stop())
         run.path.elements = None
         if place is not None:
-            plane, placed = run.modal.plane_axes, list(run.path.placed)
-            placed[plane.first], placed[plane.second] = place
-            run.path.stand(run.path.coordinates.to_machine(tuple(placed)))
+            plane, target = run.modal.plane_axes, list(run.path.target)
+            target[plane.first], target[plane.second] = place
+            run.path.stand(tuple(target))
 
     def _hand_on(self, things: list[Entry | Element]) -> None:
         for thing in things:

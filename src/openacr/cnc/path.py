@@ -1,8 +1,9 @@
 """Where the program is, and the moves it makes from there.
 
 Three views of one point: `program` as the words say, `placed` after scaling and rotation,
-`target` in machine coordinates. Moves are made of placed points; what lies behind the
-cutter radius compensation only shifts them.
+`target` in machine coordinates. What lies between the last two only shifts, so that the
+cutter radius compensation may take machine points: elements that wait in it stay where
+they are when an offset changes.
 """
 
 from __future__ import annotations
@@ -142,13 +143,12 @@ class Path:
 
     def _straight(self, b: Turn, end: Point, placed: Point, pace: Pace | None) -> None:
         b.has_moved = True
-        start, self.program, self.placed = self.placed, end, placed
+        self.program, self.placed = end, placed
+        start, target = self.target, self.coordinates.to_machine(placed)
         if self.elements is not None:
-            plane = self._modal.plane_axes
-            self.target = self.coordinates.to_machine(placed)
-            self.elements(Element(b.source, plane, start, placed, pace))
+            self.target = target
+            self.elements(Element(b.source, self._modal.plane_axes, start, target, pace))
             return
-        target = self.coordinates.to_machine(placed)
         if target != self.target:
             self._issue_straight(b.source, target, pace)
             self.target = target
@@ -172,15 +172,14 @@ class Path:
     def arc(self, b: Turn, end: Point, bow: Bow, pace: Pace) -> None:
         """An arc; `bow` and `end` are given behind scaling and rotation and in front of it."""
         b.has_moved = True
-        start, self.program = self.placed, end
+        self.program = end
         self.placed = self.coordinates.forward(end)
-        target = self.coordinates.to_machine(self.placed)
+        start, target = self.target, self.coordinates.to_machine(self.placed)
         if self.elements is not None:
             self.target = target
-            plane = self._modal.plane_axes
-            self.elements(
-                Element(b.source, plane, start, self.placed, pace, bow.centre, bow.sweep_rad)
-            )
+            plane, shift = self._modal.plane_axes, self.coordinates.shift
+            centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
+            self.elements(Element(b.source, plane, start, target, pace, centre, bow.sweep_rad))
             return
         self._issue_arc(b.source, target, bow, pace)
         self.target = target
@@ -217,16 +216,16 @@ class Path:
 
     def issue(self, element: Element) -> None:
         """A compensated element as a canonical move."""
-        target = self.coordinates.to_machine(element.end)
         flags = element.is_inserted, element.is_compensated
         if element.centre is None or element.pace is None:
-            self._issue_straight(element.source, target, element.pace, *flags)
+            self._issue_straight(element.source, element.end, element.pace, *flags)
             return
         first, second = element.plane.first, element.plane.second
+        shift = self.coordinates.shift
         bow = Bow(
-            element.centre,
+            (element.centre[0] - shift[first], element.centre[1] - shift[second]),
             element.sweep_rad,
             math.dist((element.start[first], element.start[second]), element.centre),
             math.dist((element.end[first], element.end[second]), element.centre),
         )
-        self._issue_arc(element.source, target, bow, element.pace, *flags)
+        self._issue_arc(element.source, element.end, bow, element.pace, *flags)

@@ -35,7 +35,7 @@ def test_the_largest_radius_of_a_step_is_found() -> None:
     assert compensate(path.elements, largest * 0.999).findings == []
     trace = compensate(path.elements, largest * 1.001)
     assert trace.codes == ["E322"]
-    assert f"(largest radius {largest:.6g})" in trace.findings[0][1]
+    assert f"(largest radius {largest:.5g})" in trace.findings[0][1]
 
 
 def test_an_inside_arc_not_larger_than_the_tool_is_refused() -> None:

@@ -15,18 +15,19 @@ what can be issued by then, elements and the things that were held between them:
 `report(code, text, element)` takes what is found; the source of the element is the place.
 Codes with E are errors: what is issued behind one is for looking at, not for running.
 
-Elements are in program coordinates, behind scaling and rotation; so are the results, with
-`is_compensated`, and `is_inserted` for the moves at corners, which carry the source of the
-block behind the corner. Moves outside the plane (a Z move, a rotary axis) may be given to
-`add` like any other: they wait and come out where the tool then stands. While `place` is
-not None the tool rests there in the plane and not at the programmed point.
+Results are in the coordinates of what came in, with `is_compensated`, and `is_inserted` for
+the moves at corners, which carry the source of the block behind the corner. Moves outside
+the plane (a Z move, a rotary axis) may be given to `add` like any other: they wait and come
+out where the tool then stands. While `place` is not None the tool rests there in the plane
+and not at the programmed point.
 
-`ChainCheck` as `watch` compares whole chains: a move that comes too near to any element.
+A `Watch` sees contours beside their ways. `ChainCheck` is one: it compares whole chains and
+finds moves that come too near to any element.
 """
 
 from openacr.cnc.compensation.compensator import Compensator
 from openacr.cnc.compensation.listing import listing
-from openacr.cnc.compensation.rules import Report, Rules, Side
+from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
 from openacr.cnc.compensation.whole import ChainCheck
 
-__all__ = ["ChainCheck", "Compensator", "Report", "Rules", "Side", "listing"]
+__all__ = ["ChainCheck", "Compensator", "Report", "Rules", "Side", "Watch", "listing"]

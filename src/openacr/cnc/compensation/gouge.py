@@ -38,7 +38,7 @@ def gouge_text(
     line, away = piece.element.source.line, abs(table.F[piece.row + AWAY])
     largest = largest_radius(table, before, piece, after, rules)
     return (
-        f"gouge: line {line} cannot be reached with radius {away:g} (largest radius {largest:.6g})"
+        f"gouge: line {line} cannot be reached with radius {away:g} (largest radius {largest:.5g})"
     )
 
 

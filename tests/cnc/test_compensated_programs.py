@@ -1,0 +1,233 @@
+"""Cutter radius compensation as part programs switch it."""
+
+from math import hypot
+
+import pytest
+from tests.cnc.programs import STORE, Run, errors, run
+
+from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Rapid, Sync
+from openacr.cnc.interpreter import Options
+from openacr.cnc.load import load
+from openacr.cnc.shadow import Shadow
+from openacr.cnc.survey import Survey, survey
+
+RADIUS = {1001: 0.25}
+
+
+def surveyed(text: str, cells: dict[int, float]) -> Survey:
+    shadow = Shadow(STORE)
+    for n, value in cells.items():
+        shadow.write(n, value)
+    return survey(load(text, shadow), shadow)
+
+
+def inserted(done: Run) -> list[Entry]:
+    return [e for e in done.entries if isinstance(e, Rapid | Line | Arc) and e.is_inserted]
+
+
+@pytest.mark.req("MILL-COMP-09", "MILL-COMP-27")
+def test_27_a_pocket_narrower_than_the_tool_is_refused_with_its_lines() -> None:
+    text = "G0 X0.5 Y0.2\nG42 D1 G1 F10 X0.5 Y0.4\nX1\nY0\nX0\nY0.4\nX0.5\nG40 X0.5 Y0.2\nM2"
+    found = [f for f in surveyed(text, RADIUS).errors if f.code == "E322"]
+    assert [f.line for f in found] == [4, 6]
+    assert found[0].text == (
+        "gouge: line 4 cannot be reached with radius 0.25 (largest radius 0.2)"
+    )
+    assert found[0].block == "Y0"
+    assert run(text, RADIUS).error is not None
+
+
+@pytest.mark.req("MILL-COMP-16")
+@pytest.mark.parametrize(("geometry", "wear"), [(0.25, 0.0), (0.2, 0.05), (0.3, -0.05)])
+def test_geometry_and_wear_of_d_are_added(geometry: float, wear: float) -> None:
+    text = "G41 D7 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    done = run(text, {1007: geometry, 1507: wear}, start=(0, 1, 0))
+    assert done.moves == ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]
+
+
+@pytest.mark.req("MILL-COMP-26")
+def test_d_changed_on_the_way_acts_from_the_next_block_on() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX1\nD2 Y1\nG40 X0 Y1"
+    done = run(text, {1001: 0.25, 1002: 0.4}, start=(0, 1, 0))
+    assert done.moves == ["L Y0.25", "L X0.6 Y0.25", "L X0.6 Y1", "L Y1"]
+
+
+def test_the_radius_of_the_setup_holds_without_d() -> None:
+    text = "G41 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    assert run(text, {100_020: 0.25}, start=(0, 1, 0)).moves[1] == "L X0.75 Y0.25"
+
+
+@pytest.mark.req("MILL-COMP-14")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G41 D1 F10 G2 X2 I1 J0",
+        "G41 D1 F10 G1 X2\nX4\nG40 G3 X6 I1 J0",
+        "G41 D1 F10\nG2 X2 I1 J0",
+        "G41 D1 F10 G1 X2\nX4\nG40\nG3 X6 I1 J0",
+    ],
+)
+def test_compensation_begins_and_ends_with_lines(text: str) -> None:
+    assert errors(text, RADIUS) == ["E313"]
+
+
+@pytest.mark.req("MILL-COMP-12", "MILL-COMP-13")
+def test_the_tool_comes_and_goes_off_the_part() -> None:
+    text = "G0 X-1 Y1\nG41 D1 G1 F10 X0 Y0\nX2\nG40 X3 Y1"
+    assert run(text, RADIUS).moves == ["R X-1 Y1", "L Y0.25", "L X2 Y0.25", "L X3 Y1"]
+
+
+@pytest.mark.req("MILL-COMP-15")
+def test_a_negative_radius_cuts_on_the_other_side_with_a_warning() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    done = run(text, {1001: -0.25}, start=(0, -1, 0))
+    assert done.moves[0] == "L Y-0.25"
+    assert "W310" in done.codes
+
+
+@pytest.mark.req("MILL-COMP-17")
+def test_the_triangle_is_rounded_at_the_top_and_at_the_lower_right() -> None:
+    """From above left to the base, around the notch, to the top, to the right corner, back."""
+    text = (
+        "G0 X-1 Y1\nG41 D1 G1 F20 X0 Y0\nY2\nG3 Y4 I0 J1 G200 F1\nG1 Y6\nX6 Y0\nX-1\nG40 X-2 Y1\nM2"
+    )
+    done = run(text, RADIUS)
+    corners = inserted(done)
+    centres = [each.centre for each in corners if isinstance(each, Arc)]
+    assert len(corners) == len(centres)
+    assert centres == [(0, 2), (0, 4), (0, 6), (6, 0)]  # both ends of the notch, too
+    assert done.error is None
+    for line in done.entries:
+        if isinstance(line, Line) and line.is_compensated and not line.is_inserted:
+            assert line.end[2] == 0
+
+
+@pytest.mark.req("MILL-COMP-22")
+def test_a_program_compensated_by_cam_runs_unchanged() -> None:
+    text = "G40\nG1 F10 X1\nG2 X2 Y1 I1 J0 G200 F1\nG1 X3 Y3"
+    assert run(text, RADIUS).moves == run(text.replace("G40\n", "")).moves
+
+
+@pytest.mark.req("MILL-COMP-23")
+@pytest.mark.parametrize(
+    ("plane", "moves"),
+    [
+        ("G17", ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]),
+        ("G18", ["L X0.25", "L X0.25 Z0.75", "L X1 Z0.75", "L X1"]),
+        ("G19", ["L Z0.25", "L Y0.75 Z0.25", "L Y0.75 Z1", "L Z1"]),
+    ],
+)
+def test_all_planes(plane: str, moves: list[str]) -> None:
+    first, second = {"G17": ("X", "Y"), "G18": ("Z", "X"), "G19": ("Y", "Z")}[plane]
+    text = f"{plane} G41 D1 F10 G1 {first}0 {second}0\n{first}1\n{second}1\nG40 {first}0 {second}1"
+    start = {"G17": (0, 1, 0), "G18": (1, 0, 0), "G19": (0, 0, 1)}[plane]
+    assert run(text, RADIUS, start=start).moves == moves
+
+
+def test_a_z_move_on_the_way_is_made_where_the_tool_is() -> None:
+    text = "G42 D1 F10 G1 X0 Y0\nX1\nZ-1\nM8\nY1\nG40 X0 Y1"
+    done = run(text, RADIUS, start=(0, -1, 0))
+    assert done.story[1:5] == [
+        "L X1 Y-0.25",
+        "L X1 Y-0.25 Z-1",
+        "coolant 01",
+        "A X1.25 Z-1 about 1,0 90",
+    ]
+
+
+def test_a_length_offset_on_the_way_moves_nothing_that_waits() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX1\nG43 H1\nY1\nZ0\nG40 X0 Y1"
+    done = run(text, {1001: 0.25, 2001: 3.0}, start=(0, 1, 0))
+    assert done.moves == [
+        "L Y0.25",
+        "L X0.75 Y0.25",
+        "L X0.75 Y1",
+        "L X0.75 Y1 Z3",
+        "L Y1 Z3",
+    ]
+
+
+def test_a_work_offset_on_the_way_moves_nothing_that_waits() -> None:
+    text = "G54 G41 D1 F10 G1 X0 Y0\nX1\nG55\nY-9\nG40 X-10 Y-9"
+    done = run(text, {1001: 0.25, 920: 10.0, 921: 10.0}, start=(0, 1, 0))
+    assert done.moves == ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]
+
+
+def test_behind_a_lone_g40_another_plane_begins_where_the_tool_is() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX2\nG40\nG18\nZ1\nX3"
+    done = run(text, RADIUS, start=(0, 1, 0))
+    assert done.moves == ["L Y0.25", "L X2 Y0.25", "L X2 Y0.25 Z1", "L X3 Y0.25 Z1"]
+
+
+def test_behind_a_lone_g40_a_reference_move_begins_where_the_tool_is() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX2\nG40\nG28 Z1\nZ0"
+    done = run(text, {1001: 0.25, 282: 5.0}, start=(0, 1, 0))
+    assert done.moves[2:] == ["R X2 Y0.25 Z1", "R X2 Y0.25 Z5", "L X2 Y0.25"]
+
+
+@pytest.mark.parametrize(
+    ("code", "error"),
+    [
+        ("G53", "E310"),
+        ("G18", "E311"),
+        ("G51 X0 Y0 P2", "E311"),
+        ("G68 X0 Y0 R45", "E311"),
+        ("G28 X0", "E312"),
+        ("G81 Z-1 R0", "E312"),
+        ("G31 X9", "E243"),
+    ],
+)
+def test_what_compensation_forbids(code: str, error: str) -> None:
+    text = f"G41 D1 F10 G1 X0 Y0\nX2\n{code}\nX3\nM2\n$I CYCLES.TXT"
+    assert errors(text, RADIUS) == [error]
+
+
+def test_a_stop_on_the_way_breaks_the_chain() -> None:
+    text = "G42 D1 F10 G1 X0 Y0\nX1\nM0\nY1\nG40 X0 Y1"
+    done = run(text, RADIUS, start=(0, -1, 0))
+    assert done.story[1:4] == ["L X1 Y-0.25", "M0", "A X1.25 about 1,0 90"]
+    kinds = [type(e) for e in done.entries]
+    assert Sync in kinds[2:5]
+
+
+def test_single_block_stops_behind_the_inserted_move() -> None:
+    text = "G42 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
+    done = run(text, RADIUS, start=(0, -1, 0), options=Options(has_block_ends=True))
+    steps = [
+        e.source.line if isinstance(e, BlockEnd) else type(e).__name__
+        for e in done.entries
+        if isinstance(e, BlockEnd | Line | Arc)
+    ]
+    assert steps == ["Line", 1, "Line", "Arc", 2, "Line", 3, "Line", 4]
+
+
+def test_the_check_finds_a_neck_between_distant_lines() -> None:
+    text = "G0 X-1 Y2\nG41 D1 G1 F10 X0 Y0\nX3\nY1\nX4\nY.3\nX6\nY3\nX2.7\nY.7\nX0\nG40 X-1 Y.3\nM2"
+    found = surveyed(text, {1001: 0.2})
+    near = [f for f in found.warnings if f.code == "W323"]
+    assert ("tool comes to 0.1 from line 4, its radius is 0.2", 10) in [
+        (f.text, f.line) for f in near
+    ]
+    assert "W323" not in {f.code for f in surveyed(text, {1001: 0.05}).warnings}
+
+
+def test_with_gouge_stop_off_the_program_runs_without_what_cannot_be_reached() -> None:
+    text = "G41 D1 F10 G1 X0 Y0\nX1\nX1.1 Y.1\nY2\nG40 X0 Y2"
+    done = run(text, {1001: 0.5, 250_130: 0}, start=(0, 2, 0))
+    assert done.moves == ["L Y0.5", "L X0.6 Y0.5", "L X0.6 Y2", "L Y2"]
+    assert "W322" in done.codes
+
+
+def test_the_feed_is_that_of_the_tool_centre() -> None:
+    text = "G42 D1 F10 G1 X0 Y0\nX1\nF20 Y1\nG40 X0 Y1"
+    done = run(text, RADIUS, start=(0, -1, 0))
+    feeds = [e.pace.feed_upm for e in done.entries if isinstance(e, Line | Arc)]
+    assert feeds == [10, 10, 20, 20, 20]
+
+
+def test_everything_keeps_the_radius_from_a_round_part() -> None:
+    text = "G0 X3 Y0\nG42 D1 G1 F10 X2 Y0\nG3 X2 Y0 I0 J0 G200 F2\nG40 G1 X3\nM2"
+    done = run(text, RADIUS)
+    (arc,) = done.of(Arc)
+    assert isinstance(arc, Arc)
+    assert arc.start_radius == arc.end_radius == hypot(2.25, 0)
