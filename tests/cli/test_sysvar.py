@@ -111,6 +111,16 @@ def test_a_store_can_be_named(path: Path, tmp_path: Path) -> None:
     assert "P150 Global 150 = 0" in run("get", "P150").output
 
 
+def test_looking_makes_no_file(path: Path, tmp_path: Path) -> None:
+    assert "Cut Speed = 10 in/min" in run("get", "cut speed").output
+    assert "everything is as in a new store" in run("list").output
+    assert 'unit = "inch"' in run("export").output
+    assert not path.exists()
+    result = run("get", "cut speed", "--store", str(tmp_path / "slip.db"))
+    assert result.exit_code == 2
+    assert "slip.db is not there" in result.output
+
+
 def test_names_are_completed() -> None:
     assert complete_name("Max M") == ["Max Machine Speed"]
     assert "SPEEDS" in complete_name("sp")

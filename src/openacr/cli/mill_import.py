@@ -62,14 +62,13 @@ def import_drawing(
     """Make a part program of a DXF drawing: a path, or holes to drill."""
     from openacr.cli.output import require_writable, write_whole
     from openacr.cnc.dxf import Options, Pattern, convert
-    from openacr.sysvar import Store
-    from openacr.sysvar.location import default_path
+    from openacr.sysvar.location import open_to_read
 
     target = out or file.with_suffix(".TXT")
     if target.exists() and not is_forced:
         raise UserError(f"{target} is there already (--force overwrites it, -o names another)")
     require_writable(target)
-    with Store(store or default_path()) as cells:
+    with open_to_read(store) as cells:
         options = Options(
             pattern=Pattern.DRILL if is_drill else Pattern.PATH,
             is_counter_clockwise=direction in (Direction.CCW, Direction.ONE),

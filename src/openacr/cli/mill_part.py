@@ -91,11 +91,10 @@ def _ready(
     store: Path | None,
 ) -> "Ready":
     from openacr.cnc.library import prepared
-    from openacr.sysvar import Store
-    from openacr.sysvar.location import default_path
+    from openacr.sysvar.location import open_to_read
 
     given = dict(_given(part, text) for text in sizes)
-    with Store(store or default_path()) as cells:
+    with open_to_read(store) as cells:
         is_metric = _is_metric(unit, cells)
         return prepared(part, given, cells, is_metric=is_metric, d_number=tool, feed=feed)
 

@@ -52,7 +52,9 @@ Names = Annotated[
 
 def get(names: Names, store: AtStore = None, unit: InUnit = None, as_json: AsJson = False) -> None:
     """Show parameters with value, unit, default and range."""
-    with opened(store) as cells:
+    from openacr.sysvar.location import open_to_read
+
+    with open_to_read(store) as cells:
         found = {each.number: each for name in names for each in cells.find(name)}
         _show(cells, list(found.values()), unit, as_json)
 
@@ -67,10 +69,11 @@ def list_values(
     as_json: AsJson = False,
 ) -> None:
     """List what was changed, or all parameters of a tab."""
+    from openacr.sysvar.location import open_to_read
     from openacr.sysvar.lookup import in_tab, parameters, tab_named
     from openacr.sysvar.tabs import TABS
 
-    with opened(store) as cells:
+    with open_to_read(store) as cells:
         if tab is None:
             _show(cells, [each for each in parameters() if _is_changed(cells, each)], unit, as_json)
             return
@@ -81,14 +84,6 @@ def list_values(
 
 
 # --- pieces -----------------------------------------------------------------------------
-
-
-def opened(path: Path | None) -> "Store":
-    """The store that is meant."""
-    from openacr.sysvar import Store
-    from openacr.sysvar.location import default_path
-
-    return Store(path or default_path())
 
 
 def _is_changed(cells: "Store", parameter: "Parameter") -> bool:

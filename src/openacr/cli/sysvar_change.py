@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.cli.sysvar import MM, AtStore, InUnit, complete_name, is_metric_in, opened, sentence
+from openacr.cli.sysvar import MM, AtStore, InUnit, complete_name, is_metric_in, sentence
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -38,9 +38,10 @@ def set_values(
     password: Password = None,
 ) -> None:
     """Change parameters: all of them, or none when one is refused."""
+    from openacr.sysvar.location import open_to_write
     from openacr.sysvar.lookup import one
 
-    with opened(store) as cells:
+    with open_to_write(store) as cells:
         changes = [(one(name), text) for name, text in map(_split, settings)]
         _require_service(cells, [parameter for parameter, _ in changes], password)
         with cells.transaction():
@@ -60,10 +61,11 @@ def export_values(
     """Write the settings that were changed as TOML."""
     from openacr.cli.output import require_writable, write_whole
     from openacr.sysvar.exchange import exported
+    from openacr.sysvar.location import open_to_read
 
     if file is not None:
         require_writable(file)
-    with opened(store) as cells:
+    with open_to_read(store) as cells:
         text = exported(cells, everything=everything)
     if file is None:
         typer.echo(text, nl=False)
@@ -79,9 +81,10 @@ def import_values(
     """Read settings from TOML: all of them, or none when one is refused."""
     from openacr.sysvar import parameter
     from openacr.sysvar.exchange import imported
+    from openacr.sysvar.location import open_to_write
 
     text = _read(file)
-    with opened(store) as cells:
+    with open_to_write(store) as cells:
         first = parameter(FIRST_SYSTEM)
         _require_service(cells, [] if first is None else [first], password)
         count = imported(cells, text, str(file))
@@ -97,10 +100,11 @@ def change_password(
 ) -> None:
     """Guard the system parameters with a password, or guard them no more."""
     from openacr.sysvar import parameter
+    from openacr.sysvar.location import open_to_write
     from openacr.sysvar.password import CELL, change
 
     guarded = parameter(CELL)
-    with opened(store) as cells:
+    with open_to_write(store) as cells:
         _require_service(cells, [] if guarded is None else [guarded], password)
         if new is None:
             new = typer.prompt(
