@@ -7,94 +7,27 @@ with its line. A line typed at a prompt takes the same way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TypeAlias
 
 from openacr.basic import opcodes_cy as vm
-from openacr.basic.arith_cy import (
-    FN_NEGATE,
-    FN_NOT,
-    OP_ADD,
-    OP_AND,
-    OP_DIVIDE,
-    OP_EQUAL,
-    OP_GREATER,
-    OP_GREATER_EQUAL,
-    OP_LESS,
-    OP_LESS_EQUAL,
-    OP_MOD,
-    OP_MULTIPLY,
-    OP_NAND,
-    OP_NOR,
-    OP_OR,
-    OP_POWER,
-    OP_SHIFT_LEFT,
-    OP_SHIFT_RIGHT,
-    OP_SUBTRACT,
-    OP_UNEQUAL,
-    OP_XNOR,
-    OP_XOR,
-)
+from openacr.basic.assembly import Place
 from openacr.basic.code import Chunk
-from openacr.basic.levels import CompileError, Level, Levels, unclosed
+from openacr.basic.expression_code import ExpressionEmitter
+from openacr.basic.levels import Level, Levels, unclosed
 from openacr.basic.nodes import (
-    Alias,
-    Apply,
-    Binary,
     Block,
-    Element,
     Expr,
-    Flag,
     Line,
-    Local,
-    LocalKind,
     Move,
-    Number,
-    Op,
-    Parameter,
     Statement,
-    Unary,
-    is_text,
-    resolved,
 )
-from openacr.map.memory import kind_table
-from openacr.map.numbers import FLAG_LAST, KIND_FP32, KIND_LONG, KIND_NONE, PUBLIC_COUNT
 from openacr.messages import (
     DUPLICATE_LABEL,
-    INVALID_BIT,
-    INVALID_PARAMETER,
     LABEL_NOT_FOUND,
     LINE_NOT_FOUND,
-    STACK_OVERFLOW,
-    TYPE_MISMATCH,
     Message,
 )
-
-DEEPEST_EXPRESSION = 90
-FLAG_WORDS = 4096
-HIGHEST_INDEX = 2147483646
-
-OPERATORS = {
-    Op.PLUS: OP_ADD, Op.MINUS: OP_SUBTRACT, Op.TIMES: OP_MULTIPLY, Op.DIVIDE: OP_DIVIDE,
-    Op.MOD: OP_MOD, Op.POWER: OP_POWER,
-    Op.EQUAL: OP_EQUAL, Op.UNEQUAL: OP_UNEQUAL, Op.LESS: OP_LESS, Op.GREATER: OP_GREATER,
-    Op.LESS_EQUAL: OP_LESS_EQUAL, Op.GREATER_EQUAL: OP_GREATER_EQUAL,
-    Op.AND: OP_AND, Op.NAND: OP_NAND, Op.OR: OP_OR, Op.NOR: OP_NOR, Op.XOR: OP_XOR,
-    Op.XNOR: OP_XNOR, Op.LEFT: OP_SHIFT_LEFT, Op.RIGHT: OP_SHIFT_RIGHT,
-}  # fmt: skip
-_KINDS = kind_table()
-
-
-@dataclass(slots=True)
-class Place:
-    """A place in the code that operations may refer to before it is known."""
-
-    at: int = -1
-    users: list[int] = field(default_factory=list)
-
-
-Word: TypeAlias = int | Place
 
 
 @dataclass(slots=True, eq=False)
@@ -122,17 +55,15 @@ def compile_line(line: Line) -> Chunk:
     return emitter.finish()
 
 
-class Emitter:
+class Emitter(ExpressionEmitter):
     """Writes byte code; commands with `emit=` in their row use it."""
 
     def __init__(self, chunk: Chunk | None = None) -> None:
-        self.chunk = chunk or Chunk()
-        self.line_number = 0
+        super().__init__(chunk)
         self.levels = Levels[CodeLevel]()
         self._labels: dict[str, Place] = {}
         self._lines: dict[int, Place] = {}
         self._is_first = True
-        self._depth = 0
 
     # lines and statements
 
@@ -198,30 +129,7 @@ class Emitter:
         for number in sorted(self.chunk.starts):
             self.op(number, self.chunk.starts[number])
 
-    def error(self, message: Message, detail: object = "") -> CompileError:
-        """The error to raise for the present line."""
-        return CompileError(message, self.line_number, detail)
-
     # code
-
-    def op(self, *words: Word) -> None:
-        """Append an operation with its operands."""
-        for word in words:
-            if isinstance(word, Place):
-                word.users.append(len(self.chunk.code))
-                self.chunk.code.append(word.at)
-            else:
-                self.chunk.code.append(word)
-
-    def put(self, place: Place) -> None:
-        """Fix a place: it is here."""
-        place.at = len(self.chunk.code)
-        for user in place.users:
-            self.chunk.code[user] = place.at
-
-    def place(self) -> Place:
-        """A place that is not known yet."""
-        return Place()
 
     def open(self, kind: int) -> CodeLevel:
         """Begin a level of IF, FOR or WHILE."""
@@ -236,168 +144,3 @@ class Emitter:
     def numbered(self, line: int) -> Place:
         """The place of a line."""
         return self._lines.setdefault(line, Place())
-
-    def fail(self, message: Message) -> None:
-        """An error that is raised when execution gets here."""
-        self.op(vm.DO_FAIL, message.number, 0)
-
-    def push(self, value: float) -> None:
-        """Push a constant."""
-        self._grow(1)
-        nums = self.chunk.nums
-        self.op(vm.DO_PUSH, len(nums))
-        nums.append(float(value))
-
-    def _grow(self, count: int) -> None:
-        self._depth += count
-        if self._depth > DEEPEST_EXPRESSION:
-            raise self.error(STACK_OVERFLOW)
-
-    # expressions
-
-    def expression(self, node: Expr) -> None:
-        """Code that pushes the value of a numeric expression."""
-        match node:
-            case Number(value):
-                self.push(value)
-            case Alias(_, target):
-                self.expression(target)
-            case Unary(Op.PLUS, operand):
-                self.expression(operand)
-            case Unary(op, Number(value)) if op is Op.MINUS:
-                self.push(-value if value else 0.0)
-            case Unary(op, operand):
-                self.expression(operand)
-                self.op(vm.DO_FUNCTION, FN_NEGATE if op is Op.MINUS else FN_NOT)
-            case Binary(op, left, right) if not is_text(left):
-                self._binary(op, left, right)
-            case Apply(function, (argument,)) if function.code is not None:
-                self.expression(argument)
-                self.op(vm.DO_FUNCTION, function.code)
-            case Binary() | Apply():
-                self._grow(1)
-                self.op(vm.DO_CALL, len(self.chunk.operands))
-                self.chunk.operands.append(node)
-            case _:
-                self._load(node)
-
-    def _binary(self, op: Op, left: Expr, right: Expr) -> None:
-        self.expression(left)
-        self.expression(right)
-        self._depth -= 1
-        if op is Op.PLUS:
-            self.op(vm.DO_ADD)
-        elif op is Op.LESS:
-            self.op(vm.DO_LESS)
-        else:
-            self.op(vm.DO_OPERATOR, OPERATORS[op])
-
-    def _load(self, node: Expr) -> None:
-        match node:
-            case Parameter(index):
-                self._parameter(index, None)
-            case Flag(index):
-                self._flag(index, None)
-            case Local(kind, index):
-                self._local(kind, index, None)
-            case Element(kind, array, index):
-                self.expression(array)
-                self.expression(index)
-                self._depth -= 1
-                self.op(vm.DO_LOAD_ELEMENT, kind)
-            case _:
-                raise self.error(TYPE_MISMATCH)
-
-    def store(self, target: Expr, value: Callable[[], None]) -> None:
-        """Code that stores into a variable what the code written by `value` pushes."""
-        match resolved(target):
-            case Parameter(index):
-                self._parameter(index, value)
-            case Flag(index):
-                self._flag(index, value)
-            case Local(kind, index):
-                self._local(kind, index, value)
-            case Element(kind, array, index):
-                self.expression(array)
-                self.expression(index)
-                value()
-                self._depth -= 3
-                self.op(vm.DO_STORE_ELEMENT, kind)
-            case _:
-                raise self.error(TYPE_MISMATCH)
-
-    def drop(self, count: int) -> None:
-        """Note that the operation just written takes `count` numbers from the stack."""
-        self._depth -= count
-
-    def _parameter(self, index: Expr, value: Callable[[], None] | None) -> None:
-        number = _literal(index)
-        if number is None:
-            self._indexed(vm.DO_LOAD_PARAMETER, vm.DO_STORE_PARAMETER, index, value)
-            return
-        kind = _KINDS[number] if number < PUBLIC_COUNT else KIND_NONE
-        if kind == KIND_NONE:
-            self.fail(INVALID_PARAMETER)
-        elif kind == KIND_LONG:
-            self._direct(vm.DO_LOAD_LONG, vm.DO_STORE_LONG, (number,), value)
-        elif kind == KIND_FP32:
-            self._direct(vm.DO_LOAD_SINGLE, vm.DO_STORE_SINGLE, (number,), value)
-        else:
-            self._direct(vm.DO_LOAD_USER, vm.DO_STORE_USER, (number,), value)
-
-    def _flag(self, index: Expr, value: Callable[[], None] | None) -> None:
-        number = _literal(index)
-        if number is None:
-            self._indexed(vm.DO_LOAD_FLAG, vm.DO_STORE_FLAG, index, value)
-        elif number > FLAG_LAST:
-            self.fail(INVALID_BIT)
-        else:
-            word, bit = divmod(number, 32)
-            mask = 1 << bit if bit < 31 else -(1 << 31)
-            self._direct(vm.DO_LOAD_BIT, vm.DO_STORE_BIT, (FLAG_WORDS + word, mask), value)
-
-    def _local(self, kind: LocalKind, index: Expr, value: Callable[[], None] | None) -> None:
-        number = _literal(index)
-        if kind is LocalKind.LONG and number is not None:
-            self._direct(vm.DO_LOAD_LV, vm.DO_STORE_LV, (number,), value)
-        else:
-            self._indexed(vm.DO_LOAD_LOCAL, vm.DO_STORE_LOCAL, index, value, kind)
-
-    def _direct(
-        self, load: int, store: int, operands: tuple[int, ...], value: Callable[[], None] | None
-    ) -> None:
-        if value is None:
-            self._grow(1)
-            self.op(load, *operands)
-        else:
-            value()
-            self.op(store, *operands)
-            self._depth -= 1
-
-    def _indexed(
-        self, load: int, store: int, index: Expr, value: Callable[[], None] | None, *operands: int
-    ) -> None:
-        self.expression(index)
-        if value is None:
-            self.op(load, *operands)
-        else:
-            value()
-            self.op(store, *operands)
-            self._depth -= 2
-
-
-def _literal(index: Expr) -> int | None:
-    """The number of a literal index that can stand in the code."""
-    node = resolved(index)
-    if isinstance(node, Number) and 0 <= node.value <= HIGHEST_INDEX:
-        return int(node.value)
-    return None
-
-
-def compile_expression(chunk: Chunk, node: Expr) -> int:
-    """Append the code that computes an expression to a chunk; where it begins."""
-    emitter = Emitter(chunk)
-    at = len(chunk.code)
-    emitter.expression(node)
-    emitter.op(vm.DO_RESULT)
-    return at
