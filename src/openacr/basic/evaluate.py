@@ -27,7 +27,7 @@ from openacr.map import numbers as at
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TYPE_MISMATCH
 
 if TYPE_CHECKING:
-    from openacr.basic.executor import Executor
+    from openacr.basic.computing import Computing
 
 LONGEST_STRING = 255
 RELATIONS = {
@@ -51,7 +51,7 @@ class Blocked(Exception):  # noqa: N818 - no error, the statement is tried again
 class Operands:
     """Computes what contains strings, for one thread at a time."""
 
-    def __init__(self, executor: Executor) -> None:
+    def __init__(self, executor: Computing) -> None:
         self._executor = executor
 
     def text(self, thread: int, node: Expr) -> str:

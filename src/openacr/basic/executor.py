@@ -8,8 +8,6 @@ scheduler is called again for the same tick.
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -17,25 +15,23 @@ from openacr.basic import commands as _commands  # noqa: F401 - registers the co
 from openacr.basic import opcodes_cy as vm
 from openacr.basic import registry
 from openacr.basic import scheduler_cy as scheduler
-from openacr.basic.code import Chunk, CodeSpace
-from openacr.basic.compiler import Emitter, compile_line, compile_program
-from openacr.basic.evaluate import Blocked, Operands
+from openacr.basic.code import Chunk
+from openacr.basic.compiler import compile_line, compile_program
+from openacr.basic.computing import WHOLE_LINE, Computing
+from openacr.basic.evaluate import Blocked
 from openacr.basic.levels import CompileError
-from openacr.basic.nodes import Expr, Line, Move, Statement, is_text, resolved
+from openacr.basic.nodes import Line, Move, Statement
 from openacr.basic.registry import Level
 from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.basic.vm_cy import vm_run
+from openacr.basic.threads import ENDS_WITH_PROGRAM, PROGRAMS
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.messages import LABEL_NOT_FOUND, LINE_NOT_FOUND, MESSAGES, PROGRAM_IS_RUNNING
+from openacr.messages import LINE_NOT_FOUND, PROGRAM_IS_RUNNING
 
 if TYPE_CHECKING:
     from openacr.basic.session import Session
     from openacr.basic.system import System
-
-PROGRAMS = 16
-WHOLE_LINE = 255  # no line holds more statements
 
 _SHOWN = {
     Show.NOTHING: 0,
@@ -44,25 +40,8 @@ _SHOWN = {
     Show.MOVE_PENDING: at.PF_MOVE_PENDING,
 }
 _HOLDS = at.PF_BLOCK_MODE | at.PF_PAUSE_MODE
-_ENDS_WITH_PROGRAM = (
-    at.PF_PROGRAM_RUNNING
-    | at.PF_PROGRAM_DWELLING
-    | at.PF_PROGRAM_INHIBITED
-    | at.PF_MOVE_PENDING
-    | at.PF_BLOCK_MODE_WAITING
-    | at.PF_PAUSE_MODE_WAITING
-    | at.PF_STEP_REQUEST_FLAG
-)
-_CLEARED_BY_START = (
-    at.THI_SP,
-    at.THI_DEPTH,
-    at.THI_LINE,
-    at.THI_PASSED,
-    at.THI_SPARE_FLAGS,
-    at.THI_ERROR,
-)
 _CLEARED_BY_RUN = (
-    _ENDS_WITH_PROGRAM
+    ENDS_WITH_PROGRAM
     | _HOLDS
     | at.PF_PROGRAM_MODIFIED
     | at.PF_BLOCK_CONTROL
@@ -73,19 +52,12 @@ _CLEARED_BY_RUN = (
 )
 
 
-class Executor:
+class Executor(Computing):
     """Executes the programs of a card and the lines typed on its channels."""
 
     def __init__(self, system: System) -> None:
-        self.system = system
-        self.memory = system.card.memory
-        self.space = CodeSpace(self.memory)
-        self.operands = Operands(self)
-        self._runs: list[Run | None] = [None] * at.TH_COUNT
-        self._sources: list[Any] = [None] * at.TH_COUNT
-        self.failures: dict[int, str] = {}  # of programs that an error has ended
+        super().__init__(system)
         self._advance = pick(scheduler.advance)
-        self._vm_run = pick(vm_run)
         self._step = pick(scheduler.scheduler_step)
 
     # programs
@@ -164,11 +136,6 @@ class Executor:
 
     # time
 
-    @property
-    def tick(self) -> int:
-        """The present tick."""
-        return self.system.card.tick
-
     def step(self, tick: int) -> None:
         """Let all threads do what is due in this tick (for use without the engine loop)."""
         while called := self._step(*self._views(), tick):
@@ -199,14 +166,6 @@ class Executor:
         if wait is not None:
             self._wait(thread, wait, at_trap=wait.retry)
 
-    def _push_operand(self, thread: int) -> None:
-        node = self.space.chunks[thread].operands[self._row(thread, at.THI_TRAP)]
-        value = self.operands.number(thread, node)
-        depth = self._row(thread, at.THI_SP)
-        self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_STACK + depth] = value
-        self.set_row(thread, at.THI_SP, depth + 1)
-        self.set_row(thread, at.THI_PC, self._row(thread, at.THI_PC) + 2)
-
     def _hold(self, thread: int) -> None:
         """Stop before a line in pause or block mode; show its number in trace mode."""
         word = at.PF_WORD + thread
@@ -223,14 +182,6 @@ class Executor:
             flags |= at.PF_BLOCK_MODE_WAITING | at.PF_STEP_FIRST_BLOCK
         self.memory.I[word] = flags
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_HELD)
-
-    def _error(self, thread: int) -> CardError:
-        """The error the VM has stopped with."""
-        message = MESSAGES[self._row(thread, at.THI_ERROR)]
-        detail = int(self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_ERROR_DETAIL])
-        if message is LABEL_NOT_FOUND:
-            return CardError(message, self.space.chunks[thread].names[detail])
-        return CardError(message, detail)
 
     def _wait(self, thread: int, wait: Wait, *, at_trap: bool) -> None:
         """Let a thread wait; `at_trap`: the statement is executed again afterwards."""
@@ -280,140 +231,6 @@ class Executor:
             return row.handler(run, *indices, *values)
         finally:
             run.prefix = outer
-
-    # expressions
-
-    def value(self, thread: int, node: Expr) -> float:
-        """The number of an expression, computed by the VM with the variables of the thread."""
-        chunk = self.space.chunks[thread]
-        known = chunk.computed.get(id(node))
-        if known is None:
-            known = node, self._append(thread, lambda e: e.expression(node))
-            chunk.computed[id(node)] = known
-        return self._compute(thread, known[1])
-
-    def text(self, thread: int, node: Expr) -> str:
-        """The string of an expression."""
-        return self.operands.text(thread, node)
-
-    def assign(self, thread: int, target: Expr, value: float | str) -> None:
-        """Store into a variable, parameter, flag or array element."""
-        if isinstance(value, str) or is_text(target):
-            self.operands.assign_text(thread, resolved(target), str(value))
-            return
-
-        def store(e: Emitter) -> None:
-            e.store(target, lambda: e.push(value))
-            e.push(0)
-
-        chunk = self.space.chunks[thread]
-        code, nums = len(chunk.code), len(chunk.nums)
-        start = self._append(thread, store)
-        try:
-            self._compute(thread, start)
-        finally:
-            del chunk.code[code:], chunk.nums[nums:]
-
-    def _append(self, thread: int, build: Callable[[Emitter], None]) -> int:
-        """Compile something more into the chunk of a thread; where it begins."""
-        chunk = self.space.chunks[thread]
-        code, nums = len(chunk.code), len(chunk.nums)
-        emitter = Emitter(chunk)
-        build(emitter)
-        emitter.op(vm.DO_RESULT)
-        self.space.refresh(thread, code, nums)
-        return code
-
-    def _compute(self, thread: int, start: int) -> float:
-        with self._aside(thread):
-            self.set_row(thread, at.THI_PC, start)
-            event = vm.VM_CALL
-            while event == vm.VM_CALL:
-                event = self._vm_run(*self._views(), thread, WHOLE_LINE, self.tick)
-                if event == vm.VM_CALL:
-                    self._push_operand(thread)
-            if event == vm.VM_ERROR:
-                raise self._error(thread)
-        return self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_RESULT]
-
-    @contextmanager
-    def _aside(self, thread: int) -> Iterator[None]:
-        """Let the VM compute something in the middle of a statement."""
-        rows = at.THI_PC, at.THI_SP, at.THI_BUDGET, at.THI_TRAP
-        kept = [self._row(thread, row) for row in rows]
-        try:
-            yield
-        finally:
-            for row, value in zip(rows, kept, strict=True):
-                self.set_row(thread, row, value)
-
-    # threads
-
-    def _views(self) -> tuple[Any, Any, Any, Any, Any]:
-        memory, space = self.memory, self.space
-        return memory.F, memory.I, memory.S, space.code, space.nums
-
-    def _row(self, thread: int, row: int) -> int:
-        return self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row]
-
-    def set_row(self, thread: int, row: int, value: int) -> None:
-        """Write one int32 row of a thread."""
-        self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row] = value
-
-    def run_of(self, thread: int) -> Run:
-        """The context of what a thread executes."""
-        run = self._runs[thread]
-        if run is None:
-            raise LookupError(f"thread {thread} executes nothing")
-        return run
-
-    def _start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
-        self.space.put(thread, chunk)
-        self._runs[thread] = run
-        self.failures.pop(thread, None)
-        for row in _CLEARED_BY_START:
-            self.set_row(thread, row, 0)
-        self.set_row(thread, at.THI_PC, start)
-        self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
-        self.set_row(thread, at.THI_STATE, scheduler.THREAD_READY)
-        self._mark(thread, active=True)
-
-    def _mark(self, thread: int, *, active: bool) -> None:
-        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
-        bit = 1 << thread % PROGRAMS
-        mask = self.memory.I[at.SCHI_BASE + row]
-        self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
-
-    def _forget(self, thread: int) -> None:
-        self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
-        self.set_row(thread, at.THI_DEPTH, 0)
-        self._mark(thread, active=False)
-        self._runs[thread] = None
-        self._sources[thread] = None
-
-    def _end(self, thread: int, error: CardError | None) -> None:
-        """A thread is done, or stopped by an error: tell who wants to know."""
-        session = self.run_of(thread).channel
-        self._forget(thread)
-        if session is not None:
-            session.finished(error)
-            return
-        self.memory.I[at.PF_WORD + thread] &= ~_ENDS_WITH_PROGRAM
-        if error is not None:
-            self._fail(thread, self._row(thread, at.THI_LINE), error)
-        self.system.listeners.ended(thread)
-
-    def _fail(self, program: int, line: int, error: CardError) -> None:
-        """Note and report the error that has ended a program."""
-        self.set_row(program, at.THI_ERROR, error.message.number)
-        self.failures[program] = error.text
-        self.system.listeners.error(program, line, error.text)
-
-    def reset(self) -> None:
-        """Forget what all threads execute (REBOOT)."""
-        self.failures.clear()
-        for thread in range(at.TH_COUNT):
-            self._forget(thread)
 
     # snapshot
 
