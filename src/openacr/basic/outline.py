@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from openacr.basic import flow_cy as flow
-from openacr.basic.commands.program_flow import Conditional
 from openacr.basic.compiler import Emitter
+from openacr.basic.flow_forms import Conditional
 from openacr.basic.levels import STRUCTURE, CompileError, Level, Levels
 from openacr.basic.nodes import Block, Line, Statement
 from openacr.lang.lexer import Kind, Token
