@@ -15,6 +15,7 @@ from tests.network.rig import (
 )
 
 from openacr.controller import Controller
+from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.plant import bus
 
@@ -114,8 +115,10 @@ def test_the_blocks_begin_where_the_guide_says() -> None:
 def test_twelve_inputs_of_node_two_are_two_bytes() -> None:
     world = node(1) + node(2) + node(3, digital_inputs=12)
     made = running(world, 1, 2, 3)
-    for terminal in range(16):
+    for terminal in range(12):
         made.set_input(13568 + terminal, True)
+    with pytest.raises(UserError, match="input 13580: no CANopen node"):
+        made.set_input(13568 + 12, True)
     made.advance(seconds=0.01)
     assert made.p[4520] == 0xFFF
     assert made.p[33057] == 2
@@ -224,10 +227,11 @@ def test_an_overflow_is_shown_and_loses_what_arrived(kind: str, flag: int) -> No
     assert not made.bit[flag], "the next start clears it"
 
 
-def test_ports_of_nodes_that_are_not_on_the_bus_stay_silent() -> None:
+def test_nodes_the_machine_does_not_have_are_told_of() -> None:
     made = running()
-    made.set_input(DI[1], True)  # there is no second node
-    made.advance(seconds=0.1)
+    for flag in (DI[0] + 12, DI[1], DI[3] + 511):
+        with pytest.raises(UserError, match=f"input {flag}: no CANopen node"):
+            made.set_input(flag, True)
     made.bit[DO[1]] = True
     made.advance(seconds=0.1)
     assert not output(made, 0, 0)

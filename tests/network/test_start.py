@@ -184,8 +184,12 @@ def test_a_cycle_that_is_too_short_is_an_overflow() -> None:
     assert made.bit[FAILED]
     expect(made, 1, cycle_ms=5)
     assert start(made) == 2
-    expect(made, 1, cycle_ms=-1)
-    assert start(made) == 9
+    for extreme in (0, -1, -(2**31)):
+        expect(made, 1, cycle_ms=extreme)
+        assert start(made) == 9
+    expect(made, 1, cycle_ms=2**31 - 1)
+    assert start(made) == 2
+    assert made.p[32773] == 2**31 - 1
 
 
 @pytest.mark.req(

@@ -351,8 +351,10 @@ class Controller:
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input that no part of the world drives, onboard or at a CANopen node."""
-        if not bus.switch(self.memory, bit, on):
+        if bus.input_terminal(bit) is None:
             self.memory.set_bit(bit, on)
+        elif not bus.switch(self.memory, bit, on):
+            raise UserError(f"input {bit}: no CANopen node of the machine has it")
         self._note(Entered.INPUT, bit, on)
 
     def _note(

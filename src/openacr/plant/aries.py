@@ -231,6 +231,7 @@ SETTINGS = (
     Setting("DMTSCL", 1e4, at.PLF_ACCEL_PER_VOLT),
     Setting("DMVSCL", 1e4, at.PLF_SPEED_PER_VOLT_CPS),
 )
+SMALLEST_SCALE = 0.001
 DMODE, ERES, SMPER, DMTIP, DMTSCL, DMVSCL = range(len(SETTINGS))
 
 
@@ -242,7 +243,7 @@ def change_setting(drive: Drive, index: int, value: float) -> bool:
     if not 0.0 <= value <= setting.highest:
         return False
     if setting.motor_row is not None:
-        if not present or not value:
+        if not present or value < SMALLEST_SCALE:
             return False  # nothing this kind of drive has
         row = at.PLF_BASE + drive.axis * at.PLF_STRIDE + setting.motor_row
         drive.memory.F[row] *= value / present

@@ -177,7 +177,8 @@ def _take_down(master: Master, slave: int) -> None:
 def _conclude(master: Master) -> None:
     """Report the totals and go operational, unless something does not fit."""
     cycle_ms = master.get(at.NETMI_CYCLE_MS)
-    _show_setting(master, at.CAN_HEALTH_PERIOD, min(figures.HEALTH_CYCLES * cycle_ms, 2**31 - 1))
+    health_ms = min(max(figures.HEALTH_CYCLES * cycle_ms, 0), 2**31 - 1)
+    _show_setting(master, at.CAN_HEALTH_PERIOD, health_ms)
     totals = [
         sum(master.shown_slave(slave, row) for slave in master.slaves()) for row in FOUND_ROWS[:4]
     ]
