@@ -17,6 +17,7 @@ ORDER = (
     "terminal_latency",
     "packets",
     "compensate",
+    "sysvar",
     "moves",
 )
 
