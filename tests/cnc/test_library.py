@@ -97,6 +97,16 @@ def test_the_radius_of_the_tool_is_that_of_d_with_wear_or_cmp_rad(part: Part) ->
         prepared(part, {}, store, is_metric=True, d_number=401)
 
 
+def test_a_part_may_use_p224_for_a_size_of_its_own(tmp_path: Path) -> None:
+    path = tmp_path / "X.TXT"
+    path.write_text(HEAD.replace("P204", "P224"))
+    store = Store()
+    store.write(100_020, 3.0)
+    ready = prepared(read_part(path), {}, store, is_metric=True)
+    assert ready.values[224] == 10
+    assert "P224=10 ; Bore" in ready.program
+
+
 def test_sizes_out_of_range_are_all_named_with_e222(part: Part) -> None:
     with pytest.raises(PartError) as refusal:
         prepared(part, {200: 25.0, 204: 0.5}, Store(), is_metric=False)
@@ -156,8 +166,8 @@ def test_conditions_may_ask_for_cells_of_the_store(tmp_path: Path) -> None:
         (';PARAM P205 "Length" in 1 0', "E108"),
         (';PARAM P205 "Length" cm 1 0 2', "the unit is one of in, mm, deg, n"),
         (';PARAM P205 "Length" in 3 0 2', "the default 3 is not 0 to 2"),
-        (';PARAM P150 "Length" in 1 0 2', "sizes are P200 to P232, but P224"),
-        (';PARAM P233 "Lead" in 1 0 2', "sizes are P200 to P232, but P224"),
+        (';PARAM P150 "Length" in 1 0 2', "sizes are P200 to P232"),
+        (';PARAM P233 "Lead" in 1 0 2', "sizes are P200 to P232"),
         (';PARAM P200 "Again" in 1 0 2', "E202 word given twice: P200"),
         (";CHECK P201 <=", "E105"),
         (";CHECK P201 P202", "E104"),

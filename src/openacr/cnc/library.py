@@ -53,8 +53,8 @@ class Ready:
         lines += [f"G200 F{self.ij_code}", f"F{_plain(self.feed)}"]
         if self.d_number:
             lines.append(f"D{self.d_number}")
-        names = {size.cell: size.text for size in self.part.sizes}
-        names |= {TOOL_RADIUS: "radius of the tool", LEAD_IN: "radius of the lead-in"}
+        names = {TOOL_RADIUS: "radius of the tool", LEAD_IN: "radius of the lead-in"}
+        names |= {size.cell: size.text for size in self.part.sizes}
         for cell, value in self.values.items():
             lines.append(f"P{cell}={_plain(value)} ; {names[cell]}")
         return "\n".join(lines) + "\n" + self.part.text
@@ -120,7 +120,8 @@ def prepared(
             detail = f"{size} = {value:g} ({size.accepted})"
             findings.append(CodeError("E222", detail=detail).at(str(part.path), size.line, ""))
         values[size.cell] = in_unit(value, size.unit, active)
-    values[TOOL_RADIUS] = in_unit(_tool_radius(cells, d_number), store_unit, active)
+    radius = in_unit(_tool_radius(cells, d_number), store_unit, active)
+    values.setdefault(TOOL_RADIUS, radius)  # a part may use that cell for a size of its own
     values[LEAD_IN] = in_unit(cells.read(LEAD_IN_CELL), store_unit, active)
     if not findings:
         findings = [

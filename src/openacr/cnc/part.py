@@ -20,8 +20,7 @@ from openacr.cnc.formulas import Node
 from openacr.cnc.grammar import ACROMILL
 from openacr.errors import UserError
 
-FIRST_CELL, LAST_CELL = 200, 233
-TOOL_RADIUS, LEAD_IN = 224, 233
+FIRST_CELL, TOOL_RADIUS, LEAD_IN = 200, 224, 233
 INCH, MM = "in", "mm"
 UNIT_NAMES = (INCH, MM, "deg", "n")
 
@@ -149,8 +148,8 @@ def _size(text: str, line: int, others: Iterable[Size]) -> Size:
         raise CodeError("E108", hint=';PARAM P200 "Length" in default lowest highest')
     cell, words, unit = int(found[1]), found[2], found[3].lower()
     default, low, high = (float(found[k]) for k in (4, 5, 6))
-    if not FIRST_CELL <= cell <= LAST_CELL or cell in (TOOL_RADIUS, LEAD_IN):
-        raise CodeError("E211", hint="sizes are P200 to P232, but P224")
+    if not FIRST_CELL <= cell < LEAD_IN:
+        raise CodeError("E211", hint="sizes are P200 to P232")
     if any(cell == other.cell for other in others):
         raise CodeError("E202", detail=f"P{cell}")
     if unit not in UNIT_NAMES:
