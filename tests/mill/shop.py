@@ -9,9 +9,10 @@ from openacr.controller import Controller
 from openacr.map.numbers import AX_BASE, AX_CURRENT_POSITION, AX_STRIDE
 from openacr.mill.host import RunHost
 from openacr.mill.machine import Machine
-from openacr.mill.runner import Options, Runner, State
+from openacr.mill.runner import Runner
 from openacr.mill.settings import Settings
 from openacr.mill.setup import prepare
+from openacr.mill.states import Options, State
 from openacr.sysvar import Store
 
 FILE = "TEST.TXT"

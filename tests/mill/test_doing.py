@@ -4,7 +4,7 @@ import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.runner import State
+from openacr.mill.states import State
 
 CW, CCW, SPINDLE_DAC = 40, 41, 3
 SPINDLE = {

@@ -7,7 +7,7 @@ import pytest
 from tests.mill.shop import Shop, at, end, line
 
 from openacr.controller import Controller
-from openacr.mill.runner import State
+from openacr.mill.states import State
 
 MACHINE = Path(__file__).parents[2] / "examples" / "homing_xyz" / "machine.toml"
 HOME = 300_000

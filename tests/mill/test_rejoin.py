@@ -6,7 +6,7 @@ import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.runner import State
+from openacr.mill.states import State
 
 RADIUS = 0.25
 

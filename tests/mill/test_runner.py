@@ -7,7 +7,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill.runner import Options, State
+from openacr.mill.states import Options, State
 
 
 def test_a_square_is_followed_to_the_pulse() -> None:

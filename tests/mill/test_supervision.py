@@ -6,7 +6,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 from openacr.cnc import canonical as c
 from openacr.cnc.findings import BlockError, Finding
 from openacr.mill.alarms import AlarmError
-from openacr.mill.runner import State
+from openacr.mill.states import State
 
 ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
 

@@ -174,7 +174,7 @@ def _show_replay(replay: "Replay", start: "Start") -> None:
 
 def _attend(shop: "Workshop") -> None:
     """Where the machine waits for somebody: nobody on a virtual one, the terminal else."""
-    from openacr.mill.runner import State
+    from openacr.mill.states import State
 
     if shop.is_virtual:
         shop.carry_on()

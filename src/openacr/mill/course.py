@@ -16,7 +16,7 @@ from openacr.mill.limits import first_excess
 from openacr.mill.machine import Look
 from openacr.mill.panel import Panel
 from openacr.mill.probing import Probing
-from openacr.mill.rejoin import Place, lead_in, place, rest_of
+from openacr.mill.rejoin import Place, lead_in, place, rest_of, straight_back
 from openacr.mill.tracking import Tracker
 
 PULSES_OFF = 2.0  # further away the machine has been moved
@@ -135,6 +135,13 @@ class Course:
         if any(first_excess(job, self.settings) for job in leading):
             leading = self._jobs(lead_in(left, here, 0.0), here)
         feed.replace([*leading, *jobs])
+
+    def come_back(self, target: c.Point) -> None:
+        """Back to a point the machine rested at, straight, before anything else."""
+        here, source = self.host.position(), self.tracker.source or c.Source("", 1, "")
+        jobs = self._jobs(straight_back(source, here, target, c.Plane.XY.drill), here)
+        if self._feed is not None and jobs:
+            self._feed.replace(jobs)
 
     def drop_moves(self) -> Steps:
         """Drop what the card holds and count from zero again."""

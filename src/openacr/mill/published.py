@@ -1,10 +1,21 @@
 """What other programs read of a run: cells of the store and variables of the card."""
 
+from typing import NamedTuple
+
 from openacr.mill.machine import Machine
 from openacr.mill.settings import Store
 
 EXECUTING_LINE, RUN_STATE, PARTS, LAST_ALARM, FEED_PERCENT, RUN_TIME = range(243, 249)
 CARD_SPEED, CARD_SPINDLE, CARD_LINE, CARD_STATE = 92, 93, 94, 95
+
+
+class Facts(NamedTuple):
+    """What there is to be read of a run."""
+
+    line: float
+    state: int
+    last_alarm: int
+    run_s: float
 
 
 class Published:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Rapid
+from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Rapid, Source
 from openacr.mill.encoding import Job, Motion
 
 RIGHT_ANGLE = 0.5 * math.pi
@@ -73,13 +73,12 @@ def _tangent(job: Job, here: Point, plane: Plane) -> tuple[float, float] | None:
 def lead_in(left: Place, here: Point, radius_u: float) -> Iterator[Motion]:
     """The moves from where the machine stands now to the place where it left the path."""
     plane, source, target = left.plane, left.job.entry.source, left.point
+    if left.tangent is None or radius_u <= 0.0 or isinstance(left.job.entry, Rapid):
+        yield from straight_back(source, here, target, plane.drill)
+        return
     drill = plane.drill
     up = _with(here, drill, max(here[drill], target[drill]))
     yield Rapid(source, up, is_inserted=True)
-    if left.tangent is None or radius_u <= 0.0 or isinstance(left.job.entry, Rapid):
-        yield Rapid(source, _with(target, drill, up[drill]), is_inserted=True)
-        yield Rapid(source, target, is_inserted=True)
-        return
     (tx, ty), pace = left.tangent, _pace(left.job)
     dx, dy = here[plane.first] - target[plane.first], here[plane.second] - target[plane.second]
     side = -1.0 if tx * dy - ty * dx < 0.0 else 1.0
@@ -95,6 +94,14 @@ def lead_in(left: Place, here: Point, radius_u: float) -> Iterator[Motion]:
         source, target, plane, centre, side * RIGHT_ANGLE, radius_u, radius_u, pace,
         is_inserted=True,
     )  # fmt: skip
+
+
+def straight_back(source: Source, here: Point, target: Point, drill: int) -> Iterator[Rapid]:
+    """To a point in rapids: the drill axis up first if it has to, and down last."""
+    level = max(here[drill], target[drill])
+    yield Rapid(source, _with(here, drill, level), is_inserted=True)
+    yield Rapid(source, _with(target, drill, level), is_inserted=True)
+    yield Rapid(source, target, is_inserted=True)
 
 
 def _pace(job: Job) -> Pace:

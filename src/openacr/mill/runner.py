@@ -6,8 +6,7 @@ machine and seconds on a virtual one.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from enum import IntEnum
+from dataclasses import replace
 
 from openacr.client import ConnectionLostError
 from openacr.cnc import canonical as c
@@ -15,55 +14,22 @@ from openacr.errors import UserError
 from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
+from openacr.mill.console import Console
 from openacr.mill.course import Course, Entries
 from openacr.mill.doing import Doing
 from openacr.mill.feeding import Halt
 from openacr.mill.homing import home
+from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Look, Machine
-from openacr.mill.overrides import Override, Overrides
+from openacr.mill.overrides import Overrides
 from openacr.mill.panel import Panel
-from openacr.mill.published import (
-    CARD_LINE,
-    CARD_SPEED,
-    CARD_SPINDLE,
-    CARD_STATE,
-    EXECUTING_LINE,
-    FEED_PERCENT,
-    LAST_ALARM,
-    PARTS,
-    RUN_STATE,
-    RUN_TIME,
-    Published,
-)
+from openacr.mill.published import Facts
 from openacr.mill.rejoin import Place
 from openacr.mill.script import Script
 from openacr.mill.settings import Settings, Store
+from openacr.mill.states import Options, State
 from openacr.mill.times import Times
 from openacr.mill.watching import Edges, Watch
-
-OVERRIDES_S = 0.05
-PUBLISH_S = 0.5
-
-
-class State(IntEnum):
-    """What the machine is doing; the values are those of P244."""
-
-    IDLE = 0
-    RUN = 1
-    PAUSED = 2
-    WAIT = 3
-    HOLD = 4
-    ALARM = 5
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """How a program is run."""
-
-    is_dry: bool = False
-    is_single: bool = False
-    stops_optionally: bool = False
-    is_mdi: bool = False  # blocks typed one by one: what is on stays on behind them
 
 
 class Runner:
@@ -82,12 +48,14 @@ class Runner:
         self.panel = Panel(machine, self.settings)
         self.doing = Doing(self.panel, store, say)
         self.alarms = alarm_list or Alarms()
-        self.overrides = Overrides(self.settings)
+        self._console = Console(self.panel, self.doing.spindle, store)
         self.state = State.IDLE
         self.reason = ""  # what a WAIT or HOLD is for
         self.options = Options()
         self.has_operator = True  # somebody answers and starts again
         self.asking: c.Ask | None = None
+        self.jogging = Jogging(self.panel)
+        self._by_hand = Script()
         self._is_homing = False
         self.passes = 0  # ends of the program reached
         self.course = Course(self.panel, self.doing, depth)
@@ -96,9 +64,13 @@ class Runner:
         self._entries: Entries | None = None
         self._script = Script()
         self._left: Place | None = None  # where a feed hold has come to rest
-        self._factors = (1.0, 1.0)
+        self._rest: c.Point | None = None  # where a stop of the program came to rest
         self._times = Times()
-        self._published = Published(store, machine)
+
+    @property
+    def overrides(self) -> Overrides:
+        """The three override switches."""
+        return self._console.overrides
 
     # --- commands ---------------------------------------------------------------------
 
@@ -107,6 +79,7 @@ class Runner:
         if self.alarms.bars_start:
             raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
         self._require(State.IDLE, "start a program")
+        self._require_rest()
         self.options = options or Options()
         self._entries = entries
         self._begin_pass()
@@ -125,18 +98,32 @@ class Runner:
         if self.alarms.bars_start:
             raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
         self._require(State.IDLE, "home")
+        self._require_rest()
         self._script.begin(home(self.panel, axes))
         self.state = State.WAIT
         self._is_homing = True
         self._times.restart()
+
+    def jog(self, move: Callable[[Jogging], object]) -> None:
+        """Let somebody move axes by hand: in IDLE, or while a program is held."""
+        if self.state not in (State.IDLE, State.PAUSED, State.HOLD):
+            raise UserError(f"cannot jog: the state is {self.state.name}")
+        if self.alarms.bars_start:
+            raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
+        move(self.jogging)
+        if not self._by_hand.is_active:
+            self._by_hand.begin(self.jogging.settle())
 
     def start(self) -> None:
         """START, Cycle Start: go on from a pause or hold."""
         if self.state is State.PAUSED:
             self.resume()
         elif self.state is State.HOLD:
+            self._require_rest()
             self.state, self.reason = State.RUN, ""
             self.course.go_on()
+            if self._rest is not None:
+                self.course.come_back(self._rest)
         else:
             self._require(State.HOLD, "go on")
 
@@ -156,6 +143,7 @@ class Runner:
     def resume(self) -> None:
         """RESUME: the way goes on where it was held."""
         self._require(State.PAUSED, "resume")
+        self._require_rest()
         if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
             raise UserError("the feed hold input is active")
         left, self._left = self._left, None
@@ -189,6 +177,10 @@ class Runner:
             self.state = State.IDLE
         return left
 
+    def _require_rest(self) -> None:
+        if self._by_hand.is_active:
+            raise UserError("an axis is being jogged")
+
     def _require(self, state: State, what: str) -> None:
         if self.state is not state:
             raise UserError(f"cannot {what}: the state is {self.state.name}, not {state.name}")
@@ -207,11 +199,12 @@ class Runner:
         self._supervise(look)
         self._switches(look)
         self._note_place(look)
+        self._by_hand.play(look, self._times.step_s)
         if self.state is not State.PAUSED:
             self._play(look)
         if self.state is State.RUN and not self._script.is_active:
             self._advance(look)
-        self._publish()
+        self._console.keep(look, self._times, self._facts)
 
     def _note_place(self, look: Look) -> None:
         """Where a feed hold has come to rest on the path."""
@@ -220,8 +213,10 @@ class Runner:
 
     @property
     def is_busy(self) -> bool:
-        """A program runs, waits, is held, or is being ended."""
-        return self.state not in (State.IDLE, State.ALARM) or self._script.is_active
+        """A program runs, waits, is held or being ended, or an axis is jogged."""
+        if self.state not in (State.IDLE, State.ALARM):
+            return True
+        return self._script.is_active or self._by_hand.is_active
 
     @property
     def source(self) -> c.Source | None:
@@ -289,13 +284,15 @@ class Runner:
     def _hold(self, halt: c.Stop | c.BlockEnd) -> None:
         text = halt.text if isinstance(halt, c.Stop) else ""
         self.state = State.HOLD
+        is_by_hand = isinstance(halt, c.Stop) and halt.pause is c.Pause.HAND_RETRACT
+        self._rest = None if is_by_hand else self.course.host.position()
         self.reason = text or (halt.pause.value if isinstance(halt, c.Stop) else "block")
 
     def _end_of_text(self) -> None:
         """M2 or the end: over, or once more where the store says so."""
         if not self.options.is_mdi:
             self.passes += 1
-            self._published.cell(PARTS, self.passes)
+            self._console.count_part(self.passes)
         if self.settings.repeats and not self.options.is_mdi:
             self._begin_pass()
             return
@@ -383,36 +380,8 @@ class Runner:
             State.HOLD,
         ):
             self.start()
-        if self._times.is_due("overrides", OVERRIDES_S):
-            self._send_overrides(look)
 
-    def _send_overrides(self, look: Look) -> None:
-        self.overrides.read(lambda number: self.panel.is_in(look, number))
-        factors = (self.overrides.factor(Override.FEED), self.overrides.factor(Override.RAPID))
-        if factors != self._factors:
-            self.machine.override(*factors)
-            self._factors = factors
-        self.doing.spindle.set_override(self.overrides.factor(Override.SPINDLE))
-
-    def _publish(self) -> None:
-        """What other programs read of the run."""
-        if not self._times.is_due("cells", PUBLISH_S):
-            return
-        line, spindle = float(self.source.line) if self.source else 0.0, self.doing.spindle
-        cells = {
-            EXECUTING_LINE: line,
-            RUN_STATE: float(self.state),
-            LAST_ALARM: float(self.alarms.last_code),
-            FEED_PERCENT: 100.0 * self._factors[0],
-            RUN_TIME: self.run_s,
-        }
-        variables = {
-            CARD_SPEED: spindle.rpm,
-            CARD_SPINDLE: float(spindle.state),
-            CARD_LINE: line,
-            CARD_STATE: float(self.state),
-        }
-        for number, value in cells.items():
-            self._published.cell(number, value)
-        for number, value in variables.items():
-            self._published.variable(number, value)
+    def _facts(self) -> Facts:
+        """What other programs may read of the run."""
+        line = float(self.source.line) if self.source else 0.0
+        return Facts(line, self.state, self.alarms.last_code, self.run_s)

@@ -208,6 +208,10 @@ class Settings:
             jog_stp_ups2=self._real(JOG, 4, a),
         )
 
+    def real(self, tab: int, k: int, axis: int = 0) -> float:
+        """One cell of a tab."""
+        return self._real(tab, k, axis)
+
     def home(self, a: int) -> HomeSettings:
         """How axis `a` is homed."""
         return HomeSettings(

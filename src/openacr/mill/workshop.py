@@ -23,9 +23,10 @@ from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
 from openacr.mill.host import RunHost
 from openacr.mill.machine import Machine
-from openacr.mill.runner import Options, Runner, State
+from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare
+from openacr.mill.states import Options, State
 
 POLL_S = 0.01
 ALL_AXES = 255

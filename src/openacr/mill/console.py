@@ -1,0 +1,75 @@
+"""The console beside the program: override switches, and what others read of the run."""
+
+from collections.abc import Callable
+
+from openacr.mill.actions import Spindle
+from openacr.mill.machine import Look
+from openacr.mill.overrides import Override, Overrides
+from openacr.mill.panel import Panel
+from openacr.mill.published import (
+    CARD_LINE,
+    CARD_SPEED,
+    CARD_SPINDLE,
+    CARD_STATE,
+    EXECUTING_LINE,
+    FEED_PERCENT,
+    LAST_ALARM,
+    PARTS,
+    RUN_STATE,
+    RUN_TIME,
+    Facts,
+    Published,
+)
+from openacr.mill.settings import Store
+from openacr.mill.times import Times
+
+OVERRIDES_S, PUBLISH_S = 0.05, 0.5
+
+
+class Console:
+    """Reads the override switches and tells the world about the run."""
+
+    def __init__(self, panel: Panel, spindle: Spindle, store: Store) -> None:
+        self.overrides = Overrides(panel.settings)
+        self._panel = panel
+        self._spindle = spindle
+        self._published = Published(store, panel.machine)
+        self._factors = (1.0, 1.0)
+
+    def keep(self, look: Look, times: Times, facts: Callable[[], Facts]) -> None:
+        """Do what is due at this look."""
+        if times.is_due("overrides", OVERRIDES_S):
+            self._send_overrides(look)
+        if times.is_due("cells", PUBLISH_S):
+            self._publish(facts())
+
+    def count_part(self, passes: int) -> None:
+        """One more end of the program."""
+        self._published.cell(PARTS, passes)
+
+    def _send_overrides(self, look: Look) -> None:
+        self.overrides.read(lambda number: self._panel.is_in(look, number))
+        factors = (self.overrides.factor(Override.FEED), self.overrides.factor(Override.RAPID))
+        if factors != self._factors:
+            self._panel.machine.override(*factors)
+            self._factors = factors
+        self._spindle.set_override(self.overrides.factor(Override.SPINDLE))
+
+    def _publish(self, facts: Facts) -> None:
+        cells = {
+            EXECUTING_LINE: facts.line,
+            RUN_STATE: float(facts.state),
+            LAST_ALARM: float(facts.last_alarm),
+            FEED_PERCENT: 100.0 * self._factors[0],
+            RUN_TIME: facts.run_s,
+        }
+        variables = {
+            CARD_SPEED: self._spindle.rpm,
+            CARD_SPINDLE: float(self._spindle.state),
+            CARD_LINE: facts.line,
+            CARD_STATE: float(facts.state),
+        }
+        for number, value in cells.items():
+            self._published.cell(number, value)
+        for number, value in variables.items():
+            self._published.variable(number, value)
