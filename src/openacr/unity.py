@@ -67,6 +67,7 @@ ORDER = (
     "basic/flow_cy.py",
     "basic/waits_cy.py",
     "basic/vm_cy.py",
+    "basic/kinematics_cy.py",
     "basic/scheduler_cy.py",
     "plant/drive_cy.py",
     "plant/wiring_cy.py",

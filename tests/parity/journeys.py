@@ -51,6 +51,10 @@ JOURNEYS: dict[str, tuple[Step, ...]] = {
         "SPLINE END", 300, "NURB MODE 1", "NURB RANK 3", "X0 Y0 NW 2", "X0.2 Y0", "X0.2 Y0.2",
         "X0 Y0.3 NK -2", 200,
     ),
+    "joints": (
+        "PROG1", "PROGRAM", "P12361=SIN(P12360*9)", "P12617=COS(P12360)*P12616", "ENDP", "PROG0",
+        "INVK PROG1", "INVK ON", "X0.2 Y0.1", 160, "JRK 2000", "X0.1", 200, "INVK OFF", "X0.1", 90,
+    ),
     "together": (
         "TANG ON Z", "CIRCCW X(0,0.1) Y(0,0)", 200, "TANG OFF", "PROG2", "ATTACH MASTER2",
         'ATTACH SLAVE0 AXIS3 "A"', "ACC 50 DEC 50 STP 50 VEL 5", "SYNC ON MASTER0 MASTER2", "A1",

@@ -23,11 +23,13 @@ from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Line, Move, Statement
 from openacr.basic.registry import Level
 from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.basic.threads import ENDS_WITH_PROGRAM, PROGRAMS
+from openacr.basic.threads import ENDS_WITH_PROGRAM, KINEMATICS, PROGRAMS
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import LINE_NOT_FOUND, PROGRAM_IS_RUNNING
+from openacr.motion import kinematics
+from openacr.motion.rows import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.session import Session
@@ -104,6 +106,43 @@ class Executor(Computing):
     def is_running(self, program: int) -> bool:
         """Whether a program executes, waits or is held."""
         return self._row(program, at.THI_STATE) != scheduler.THREAD_IDLE
+
+    # kinematics
+
+    def load_kinematics(self, master: int, program: int) -> None:
+        """Compile the text of a program as the kinematics of a master."""
+        lines = [(stored.number, stored.tree) for stored in self.system.programs.lines(program)]
+        chunk = compile_program(lines)
+        thread = KINEMATICS + master
+        self._start(thread, chunk, self._kinematics_run(master), 0)
+        self.set_row(thread, at.THI_LOCALS, program)
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
+        self._sources[thread] = lines
+
+    def forget_kinematics(self, master: int) -> None:
+        """Forget the kinematics of a master."""
+        self._forget(KINEMATICS + master)
+
+    def _kinematics_run(self, master: int) -> Run:
+        """In the context of the master: the axes are those of its program."""
+        program = self.system.card.attachments.program(master)
+        listeners, card = self.system.listeners, self.system.card
+        write = partial(listeners.print, master if program is None else program)
+        thread = KINEMATICS + master
+        return Run(card, thread, program, Level.PROG, True, self, write, system=self.system)
+
+    def _end(self, thread: int, error: CardError | None) -> None:
+        """A thread is done or has failed; kinematics that fail kill the moves of their master."""
+        if thread < KINEMATICS:
+            super()._end(thread, error)
+            return
+        program, line = self._row(thread, at.THI_LOCALS), self._row(thread, at.THI_LINE)
+        master = thread - KINEMATICS
+        kinematics.switch_off(self.system.card, master)
+        self.forget_kinematics(master)
+        self.memory.I[master_word(master)] |= at.MF1_KILL_ALL_MOVES_REQUEST
+        if error is not None:
+            self.system.listeners.error(program, line, error.text)
 
     # typed lines
 
@@ -248,6 +287,9 @@ class Executor(Computing):
             elif thread < PROGRAMS:
                 self.space.chunks[thread] = compile_program(source)
                 self._runs[thread] = self._program_run(thread)
+            elif thread >= KINEMATICS:
+                self.space.chunks[thread] = compile_program(source)
+                self._runs[thread] = self._kinematics_run(thread - KINEMATICS)
             else:
                 self.space.chunks[thread] = compile_line(source)
                 self._runs[thread] = self._session_run(self._session(thread))

@@ -9,6 +9,7 @@ served at the beginning of every slice, so that hosts are answered at once.
 deal with that thread (row event says why) and is then called again for the same tick.
 """
 
+from openacr.basic.kinematics_cy import kinematics_step
 from openacr.basic.opcodes_cy import (
     VM_END,
     VM_SLICE,
@@ -28,6 +29,8 @@ from openacr.basic.waits_cy import (
 )
 from openacr.cmath import rint
 from openacr.map.numbers import (
+    KRI_BASE,
+    KRI_KINEMATICS,
     PF_BLOCK_MODE,
     PF_BLOCK_MODE_WAITING,
     PF_MOVE_PENDING,
@@ -99,6 +102,10 @@ def scheduler_step(F: F64, I: I32, S: F32, code: I32, nums: F64, tick: int) -> i
     thread: int = 0
     called: int = 0
     if I[SCHI_BASE + SCHI_PHASE] == PHASE_TICK:
+        if I[KRI_BASE + KRI_KINEMATICS]:
+            thread = kinematics_step(F, I, S, code, nums, tick)
+            if thread:
+                return thread + 1
         if I[SCHI_BASE + SCHI_PROGRAMS] == 0 and I[SCHI_BASE + SCHI_CHANNELS] == 0:
             I[SCHI_BASE + SCHI_TICKS_LEFT] = 0
             return 0

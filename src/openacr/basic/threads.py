@@ -1,4 +1,4 @@
-"""The threads of a card: 16 programs and the command channels, as rows of the memory.
+"""The threads of a card: programs, command channels and kinematics, as rows of the memory.
 
 Where a thread stands lies in its rows; what it executes, and for whom, lies here.
 """
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from openacr.basic.system import System
 
 PROGRAMS = 16
+KINEMATICS = 32  # first thread of the kinematics of masters
 
 ENDS_WITH_PROGRAM = (
     at.PF_PROGRAM_RUNNING
@@ -84,6 +85,8 @@ class Threads:
         self._mark(thread, active=True)
 
     def _mark(self, thread: int, *, active: bool) -> None:
+        if thread >= KINEMATICS:
+            return  # started anew by the scheduler whenever a tool has moved
         row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
         bit = 1 << thread % PROGRAMS
         mask = self.memory.I[at.SCHI_BASE + row]

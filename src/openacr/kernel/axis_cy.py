@@ -1,6 +1,6 @@
 """Per axis: the words of an axis, resets of its registers, and the setpoint sums.
 
-    primary setpoint   = coordinated + gear + jog + cam
+    primary setpoint   = coordinated (with INVK: joint) + gear + jog + cam
     secondary setpoint = primary + ballscrew + backlash
 
 All parts are float64 pulses inside; the LONG parameters show them rounded. A shown value
@@ -37,6 +37,7 @@ from openacr.map.numbers import (
     AXF_GEAR_CNT,
     AXF_JOG_CNT,
     AXF_JOG_ORIGIN_CNT,
+    AXF_KINEMATICS_CNT,
     AXF_PEAK_VELOCITY_CPS,
     AXF_POSITION_CNT,
     AXF_PSP_CNT,
@@ -66,6 +67,8 @@ from openacr.map.numbers import (
     FOI_BASE,
     FOI_LEADER,
     FOI_STRIDE,
+    KRI_BASE,
+    KRI_KINEMATICS,
     MSF_BASE,
     MSF_STRIDE,
     MSF_TARGET_CNT,
@@ -93,7 +96,10 @@ def axis_sum(F: F64, n: int) -> None:
     """Form primary and secondary setpoint from their parts."""
     a: int = AXF_BASE + n * AXF_STRIDE
     psp: float = (
-        F[a + AXF_POSITION_CNT] + F[a + AXF_GEAR_CNT] + F[a + AXF_JOG_CNT] + F[a + AXF_CAM_CNT]
+        (F[a + AXF_POSITION_CNT] + F[a + AXF_KINEMATICS_CNT])
+        + F[a + AXF_GEAR_CNT]
+        + F[a + AXF_JOG_CNT]
+        + F[a + AXF_CAM_CNT]
     )
     F[a + AXF_PSP_CNT] = psp
     F[a + AXF_SSP_CNT] = psp + F[a + AXF_BALLSCREW_CNT] + F[a + AXF_BACKLASH_CNT]
@@ -103,7 +109,8 @@ def axis_offsets(F: F64, n: int) -> float:
     """What the secondary setpoint is beyond the coordinated position."""
     a: int = AXF_BASE + n * AXF_STRIDE
     return (
-        F[a + AXF_GEAR_CNT]
+        F[a + AXF_KINEMATICS_CNT]
+        + F[a + AXF_GEAR_CNT]
         + F[a + AXF_JOG_CNT]
         + F[a + AXF_CAM_CNT]
         + F[a + AXF_BALLSCREW_CNT]
@@ -165,6 +172,7 @@ def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
     """RES: the axis stands at `position_cnt` and all offsets are 0 (the encoder is set apart)."""
     a: int = AXF_BASE + n * AXF_STRIDE
     F[a + AXF_POSITION_CNT] = position_cnt
+    F[a + AXF_KINEMATICS_CNT] = 0.0
     F[a + AXF_GEAR_CNT] = 0.0
     F[a + AXF_CAM_CNT] = 0.0
     F[a + AXF_BALLSCREW_CNT] = 0.0
@@ -180,6 +188,7 @@ def axis_renew(F: F64, I: I32, n: int) -> None:
     a: int = AXF_BASE + n * AXF_STRIDE
     actual: float = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
     psp: float = actual - F[a + AXF_BALLSCREW_CNT] - F[a + AXF_BACKLASH_CNT]
+    psp -= F[a + AXF_KINEMATICS_CNT]
     F[a + AXF_POSITION_CNT] = psp - F[a + AXF_GEAR_CNT] - F[a + AXF_JOG_CNT] - F[a + AXF_CAM_CNT]
     F[a + AXF_ERROR_OLD_CNT] = 0.0
     axis_settled(F, I, n)
@@ -222,13 +231,16 @@ def axis_take_written(F: F64, I: I32, n: int) -> bool:
     a: int = AXF_BASE + n * AXF_STRIDE
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
+    joint: float = F[a + AXF_POSITION_CNT] + F[a + AXF_KINEMATICS_CNT]
     if I[p + AX_CURRENT_POSITION] != I[i + AXI_SHOWN_CURRENT]:
         F[a + AXF_POSITION_CNT] = I[p + AX_CURRENT_POSITION]
         F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+        axis_keep_joint(F, I, n, joint)
         axis_target_changed(F, I, n)
     elif I[p + AX_TARGET_POSITION] != I[i + AXI_SHOWN_TARGET]:
         F[a + AXF_TARGET_CNT] = I[p + AX_TARGET_POSITION]
         F[a + AXF_POSITION_CNT] = F[a + AXF_TARGET_CNT]
+        axis_keep_joint(F, I, n, joint)
         axis_target_changed(F, I, n)
     if I[p + AX_GEAR_OFFSET] != I[i + AXI_SHOWN_GEAR]:
         F[a + AXF_GEAR_CNT] = I[p + AX_GEAR_OFFSET]
@@ -239,6 +251,14 @@ def axis_take_written(F: F64, I: I32, n: int) -> bool:
     if I[p + AX_BALLSCREW_OFFSET] != I[i + AXI_SHOWN_BALLSCREW]:
         F[a + AXF_BALLSCREW_CNT] = I[p + AX_BALLSCREW_OFFSET]
     return wrap32(I[p + AX_ACTUAL_POSITION]) != I[i + AXI_SHOWN_ACTUAL]
+
+
+def axis_keep_joint(F: F64, I: I32, n: int, joint_cnt: float) -> None:
+    """With INVK a written position says where the tool is; the joint stays."""
+    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+    if m >= 0 and I[KRI_BASE + KRI_KINEMATICS] & (1 << m):
+        a: int = AXF_BASE + n * AXF_STRIDE
+        F[a + AXF_KINEMATICS_CNT] = joint_cnt - F[a + AXF_POSITION_CNT]
 
 
 def axis_target_changed(F: F64, I: I32, n: int) -> None:

@@ -60,6 +60,7 @@ from openacr.map.numbers import (
     AXF_GEAR_CNT,
     AXF_JOG_CNT,
     AXF_JOG_TARGET_CNT,
+    AXF_KINEMATICS_CNT,
     AXF_POSITION_CNT,
     AXF_PSP_CNT,
     AXF_PSP_VELOCITY_CPS,
@@ -391,9 +392,8 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) ->
         cam_step(F, I, S, n, rate_hz)
         if I[FLI_BASE + n * FLI_STRIDE + FLI_ON]:
             filter_step(F, I, S, n)
-        psp: float = (
-            F[a + AXF_POSITION_CNT] + F[a + AXF_GEAR_CNT] + F[a + AXF_JOG_CNT] + F[a + AXF_CAM_CNT]
-        )
+        psp: float = F[a + AXF_POSITION_CNT] + F[a + AXF_KINEMATICS_CNT]
+        psp = psp + F[a + AXF_GEAR_CNT] + F[a + AXF_JOG_CNT] + F[a + AXF_CAM_CNT]
         backlash_step(F, S, n, psp, dt)
         ballscrew_step(F, I, S, n, psp)
     if I[axis_word2(n)] & AF2_DIR_LIMIT_ACTIVATE:

@@ -35,6 +35,11 @@ from openacr.map.numbers import (
     AF1_CAM_ACTIVATE,
     AF1_GEAR_ACTIVE,
     AF1_JOG_ACTIVE,
+    AXF_BASE,
+    AXF_JOINT_CNT,
+    AXF_KINEMATICS_CNT,
+    AXF_POSITION_CNT,
+    AXF_STRIDE,
     AXI_BASE,
     AXI_MASTER,
     AXI_ON,
@@ -47,6 +52,7 @@ from openacr.map.numbers import (
     HWI_STRIDE,
     KRI_AXES,
     KRI_BASE,
+    KRI_KINEMATICS,
     KRI_MASTERS,
     KRI_MISSING_ADCS,
     KRI_MISSING_DACS,
@@ -115,6 +121,22 @@ def locked_advance(F: F64, I: I32, S: F32, axes: int, period_s: float, rate_hz: 
     locks_couple(F, I, S)
 
 
+def joints_keep(F: F64, I: I32, axes: int) -> None:
+    """INVK: note the joint positions before the masters go on."""
+    for n in range(axes):
+        a: int = AXF_BASE + n * AXF_STRIDE
+        F[a + AXF_JOINT_CNT] = F[a + AXF_POSITION_CNT] + F[a + AXF_KINEMATICS_CNT]
+
+
+def joints_stay(F: F64, I: I32, axes: int) -> None:
+    """INVK: the joints are where the last evaluation has put them, not where the path is."""
+    for n in range(axes):
+        m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+        if m >= 0 and I[KRI_BASE + KRI_KINEMATICS] & (1 << m):
+            a: int = AXF_BASE + n * AXF_STRIDE
+            F[a + AXF_KINEMATICS_CNT] = F[a + AXF_JOINT_CNT] - F[a + AXF_POSITION_CNT]
+
+
 def tick(F: F64, I: I32, S: F32) -> None:
     """Everything the card does in one servo period."""
     period_s: float = F[SYSF_BASE + SYSF_PERIOD_S]
@@ -151,8 +173,12 @@ def tick(F: F64, I: I32, S: F32) -> None:
             limits_step(F, I, S, n)
     if I[KRI_BASE + KRI_SYNCED]:
         sync_step(F, I, S, masters)
+    if I[KRI_BASE + KRI_KINEMATICS]:
+        joints_keep(F, I, axes)
     for m in range(masters):
         master_step(F, I, S, m, period_s)
+    if I[KRI_BASE + KRI_KINEMATICS]:
+        joints_stay(F, I, axes)
     for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON] and lock_leader(I, n) < 0:
             axis_advance(F, I, S, n, period_s, rate_hz)

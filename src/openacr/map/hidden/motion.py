@@ -165,6 +165,8 @@ MASTER = HiddenBlock(
         "manner",  # of the present move: what speed is not carried over from or to
         "paced",  # path time is not simply time: another source, or TOV
         "tang_axis",  # TANG: axis + 1
+        "invk_program",  # INVK: program + 1 that computes the joints
+        "invk_moving",  # In Motion when the joints were last looked at
         "sync_go",  # SYNC: the move at the head may begin
         "sync_start",  # SYNC MDI: a cycle start has come
         ("rotate_slave", 2),  # the plane of ROTATE
@@ -202,6 +204,9 @@ AXIS = HiddenBlock(
         "cam_cnt",
         "ballscrew_cnt",
         "backlash_cnt",
+        "kinematics_cnt",  # INVK: joint position minus coordinated position
+        "joint_cnt",  # INVK: joint position before the master has gone on
+        "seen_cnt",  # INVK: coordinated position for which the joints are known
         "psp_cnt",
         "ssp_cnt",
         "ssp_old_cnt",
@@ -312,6 +317,7 @@ KERNEL = HiddenBlock(
         "adc_mode",
         "adc_channels",
         "moves_waiting",
+        "kinematics",  # mask of the masters with INVK ON
         "synced",  # some masters are synchronised
         "sync_manual",  # SYNC MDI
         "sync_killed",  # a kill on a member has been seen

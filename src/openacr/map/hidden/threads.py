@@ -1,7 +1,8 @@
 """Hidden rows of the execution of AcroBASIC: threads and their time slices.
 
-Threads 0-15 are the programs, 16-31 the command channels. All a thread knows lies in its
-rows, so a snapshot taken at any tick continues where it was.
+Threads 0-15 are the programs, 16-31 the command channels, 32-47 the kinematics of masters
+(INVK). All a thread knows lies in its rows, so a snapshot taken at any tick continues where
+it was.
 """
 
 from openacr.map.hidden.block import HiddenBlock
@@ -11,7 +12,7 @@ DEPTH = 64  # FOR, WHILE, GOSUB and IF levels open at a time
 
 THREAD = HiddenBlock(
     prefix="TH",
-    count=32,
+    count=48,
     doubles=(
         "result",  # of an expression computed for a command
         "error_detail",
