@@ -19,6 +19,7 @@ ORDER = (
     "compensate",
     "sysvar",
     "moves",
+    "interpret",
 )
 
 

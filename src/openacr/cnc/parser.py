@@ -129,12 +129,25 @@ class _Parser(ExpressionReader):
         char = self.peek()
         if not char or char == ";":
             return False
+        if self._plain_word(block):
+            return True
         if char == "(":
             self._remark(block)
         elif char == "#":
             self._assignment(block, "#")
         elif not self._statement(block):
             self._word(block, char)
+        return True
+
+    def _plain_word(self, block: Block) -> bool:
+        """A word with a number, if that is what comes next."""
+        found = _PLAIN_WORDS.match(self.text, self.pos)
+        if found is None or self.text[found.end() : found.end() + 1] in (".", "="):
+            return False
+        letter, sign, digits = found.groups()
+        number = -float(digits) if sign == "-" else float(digits)
+        block.words.append(Word(letter, Number(number), found.start() + 1))
+        self.pos = found.end()
         return True
 
     def _remark(self, block: Block) -> None:
@@ -198,6 +211,8 @@ class _Parser(ExpressionReader):
     # --- statements -----------------------------------------------------------------------
 
     def _statement(self, block: Block) -> bool:
+        if self.text[self.pos] not in _FIRST_LETTERS:
+            return False
         for keyword, read in _STATEMENTS:
             if keyword in self.grammar.statements and self.text.startswith(keyword, self.pos):
                 if block.words or block.assignments:
@@ -302,6 +317,9 @@ _STATEMENTS: tuple[tuple[str, Callable[[_Parser, int], Statement]], ...] = (
     ("INPUT", _Parser.input_),
     ("$I", _Parser.include),
 )
+
+
+_FIRST_LETTERS = frozenset(keyword[0] for keyword, _ in _STATEMENTS)
 
 
 def _input_test(condition: Node) -> InputTest | None:
