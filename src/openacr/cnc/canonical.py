@@ -141,11 +141,15 @@ class Polyline:
 
 @dataclass(frozen=True, slots=True)
 class Probe:
-    """G31: a line at feed that ends where the probe trips; a Sync follows."""
+    """G31: a line at feed that ends where the probe trips; a Sync follows.
+
+    `is_away`: it starts with the probe tripped and ends where that is over.
+    """
 
     source: Source
     end: Point
     pace: Pace
+    is_away: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,7 @@ from openacr.cnc.grammar import Grammar
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Entry
     from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.parameters import Parameters
     from openacr.cnc.turn import Turn
 
 Handler = Callable[["Interpreter", "Turn"], "Iterator[Entry] | None"]
@@ -244,7 +245,10 @@ class Dialect:
     start: dict[str, object] = field(default_factory=dict)  # of Modal, beside the start set
     assigns_last: bool = False  # assignments act behind the reading of the block
     labels: bool = True  # N words are targets
-    aliases: dict[int, int] = field(default_factory=dict)  # numbers that mean another cell
+    parameters: type[Parameters] | None = None  # where numbers mean something else
+    has_own_cycles: bool = False  # without $I
+    rises_first: bool = False  # cycles that begin below R go up to it
+    clearance_inch: float | None = None  # of G73 and G83; None: as in the store
     radius_tolerance: tuple[float, float] | None = None  # of arcs: inch, share; None any
     has_custom: bool = True  # M codes from files
 

@@ -21,10 +21,16 @@ from openacr.cnc.hosts import Cells
 from openacr.cnc.modal import Modal
 
 COMMON, LOCAL, FLOATING, FIXTURES = 900, 990, 801, 952_000
+LAST_SYSTEM, NINTH_SYSTEM = 8, 840
 HOLE = 10  # numbers from one system to the next
 LENGTH, LENGTH_WEAR = 4000, 4001
 LENGTH_SIGN = {43: 1.0, 44: -1.0, 49: 0.0}
 ORIGIN: Point = (0.0,) * AXES
+
+
+def system_base(n: int) -> int:
+    """The first cell of work system n; the ninth (G59.3) has its own."""
+    return COMMON + HOLE * n if n <= LAST_SYSTEM else NINTH_SYSTEM
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +82,7 @@ class Coordinates:
             self.shift = ORIGIN
             return
         read = self._cells.read
-        base = COMMON + HOLE * modal.work
+        base = system_base(modal.work)
         shift = [
             read(COMMON + a) + read(base + a) + read(LOCAL + a) + read(FLOATING + a)
             for a in range(AXES)
@@ -95,6 +101,11 @@ class Coordinates:
             vector[self._z] = 0.0
         vector[self._z] += LENGTH_SIGN[modal.length] * (read(LENGTH) + read(LENGTH_WEAR))
         return tuple(v + a for v, a in zip(vector, self.added, strict=True))
+
+    def add_length(self, length: float) -> None:
+        """One more length on Z."""
+        z = self._z
+        self.added = (*self.added[:z], self.added[z] + length, *self.added[z + 1 :])
 
     def forward(self, program: Point) -> Point:
         """Steps 2 and 3."""

@@ -76,6 +76,7 @@ TEXTS = {
     "W324": "chain broken by a waiting block",
     "A33": "axis not homed",
     "A35": "probe already active",
+    "A36": "probe did not trip",
     "A61": "answer missing",
     "A62": "endless loop",
 }

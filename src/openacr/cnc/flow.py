@@ -70,6 +70,12 @@ class Flow:
             self.next, self.place = self._nodes.at(self.place), None
         return self.next
 
+    def behind(self, node: Node) -> Node | None:
+        """The line behind another one."""
+        if node.next is None:
+            node.next = self._nodes.behind(node)
+        return node.next
+
     def ahead(self) -> Place | None:
         """The place of a line that was not looked at yet, in the same text; else None."""
         last = self.last

@@ -116,8 +116,8 @@ class Parameter:
         if isinstance(self.index, Number):
             n = self.index.number
             if self.is_hash and 1 <= n <= LOCALS:
-                return f"(values[{int(n)}] if values[0] else {_read(n, at)})"
-            return _read(n, at)
+                return f"(values[{int(n)}] if values[0] else {_read(n, at, self.is_hash)})"
+            return _read(n, at, self.is_hash)
             if at.is_card_cell(n):
                 return f"card({int(n)})"
         return f"{'read_hash' if self.is_hash else 'read_p'}({index})"
@@ -128,11 +128,13 @@ class Parameter:
         return False
 
 
-def _read(n: float, at: Names) -> str:
-    """The shortest way to parameter Pn."""
+def _read(n: float, at: Names, is_hash: bool) -> str:
+    """The shortest way to a parameter."""
     if at.is_plain_cell(n):
         return f"cell({int(n)})"
-    return f"card({int(n)})" if at.is_card_cell(n) else f"read_p({n!r})"
+    if at.is_card_cell(n):
+        return f"card({int(n)})"
+    return f"read_hash({n!r})" if is_hash else f"read_p({n!r})"
 
 
 @dataclass(frozen=True, slots=True)

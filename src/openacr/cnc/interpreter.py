@@ -8,7 +8,7 @@ handed out first: when the reader asks for the entry behind it, the machine is a
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from openacr.cnc import dialects as _dialects  # noqa: F401  registers the languages
 from openacr.cnc.arcs import Bow
@@ -26,22 +26,24 @@ from openacr.cnc.canonical import (
     Sync,
     WaitBit,
 )
-from openacr.cnc.codes import DIALECTS
+from openacr.cnc.codes import DIALECTS, Dialect
 from openacr.cnc.compensation import Watch
 from openacr.cnc.coordinates import ORIGIN
 from openacr.cnc.findings import BlockError, CodeError, Finding, found
 from openacr.cnc.flow import Flow, Frame, Level
 from openacr.cnc.formulas import LOCALS
-from openacr.cnc.gcodes.cycles import Drilling
+from openacr.cnc.gcodes.cycles import CLEARANCE, RETRACT, Drilling
 from openacr.cnc.gcodes.macros import ModalMacro
 from openacr.cnc.gcodes.motion import MOTIONS, Motions
 from openacr.cnc.hosts import Cells, Machine
 from openacr.cnc.load import planner_of
 from openacr.cnc.modal import Modal, reset
+from openacr.cnc.ngc.owords import OWords
 from openacr.cnc.offset_path import OffsetPath
 from openacr.cnc.parameters import RADIUS_CELLS, NotAtRestError, Parameters
 from openacr.cnc.path import Path
-from openacr.cnc.program import Node, Program
+from openacr.cnc.plan import Planner
+from openacr.cnc.program import Node, Part, Program
 from openacr.cnc.ready import Quick, Ready, ready, values_of
 from openacr.cnc.scanning import Scanner
 from openacr.cnc.statements import shown
@@ -51,6 +53,7 @@ MOST_IDLE = 100_000
 _WAITS = Motion | Dwell | WaitBit | Stop
 _ARITHMETIC = (ArithmeticError, ValueError)
 OFF = 40
+INVERSE_TIME = 93
 LENGTH_CELLS = (4000, 4001)
 RADIUS, RADIUS_WEAR = RADIUS_CELLS
 RADIUS_WITHOUT_D = 100_020
@@ -89,11 +92,14 @@ class Interpreter:
         self.modal = Modal()
         self.warnings: list[Finding] = []
         self.planner = planner_of(cells, self.dialect, program)
+        own = DIALECTS["acromill"]
+        self._cycle_language = own, planner_of(cells, own)
         self.flow = Flow(program)
         self.out: list[Entry] = []
         letters = self.planner.axes
         self.path = Path(cells, self.modal, letters, self.move)
-        self.parameters = Parameters(self)
+        self.parameters = (self.dialect.parameters or Parameters)(self)
+        self.o_words = OWords(self)
         self.offset_path = OffsetPath(self)
         self.scanner = Scanner(self)
         self.errors: list[Finding] = []  # where they are collected
@@ -253,7 +259,9 @@ class Interpreter:
         self.drilling = None
         self.motions = MOTIONS
         self.path.shape = None
-        self.parameters.swap([0.0] * (LOCALS + 1))
+        self.parameters.reset()
+        for name, value in self.dialect.start.items():
+            setattr(self.modal, name, value)
         self.path.coordinates.scale = self.path.coordinates.rotation = None
         self.path.coordinates.added = ORIGIN
         for cell in (RADIUS_WEAR, *LENGTH_CELLS):
@@ -448,7 +456,12 @@ class Interpreter:
 
     def feed_pace(self, b: Turn, end: Point, bow: Bow | None) -> Pace:
         """How a feed move to a program point runs."""
-        return self.path.pace(b)
+        if self.modal.feed_mode != INVERSE_TIME:
+            return self.path.pace(b)
+        if "F" not in b.words:
+            raise b.fault("E222", detail="F missing in G93")
+        length = self.path.distance(end, bow, self.modal.plane_axes)
+        return replace(self.path.pace(b), feed_upm=b.words["F"] * length)
 
     def check_radii(self, b: Turn, bow: Bow) -> None:
         """Radii of an arc may differ as far as the dialect allows."""
@@ -473,14 +486,27 @@ class Interpreter:
         """G40, G41, G42."""
         self.offset_path.switch(b, code)
 
+    def clearances(self) -> tuple[float, float]:
+        """Retract of G73 and clearance of G83."""
+        inch = self.dialect.clearance_inch
+        if inch is not None:
+            return self.path.inches(inch), self.path.inches(inch)
+        return self.cells.read(RETRACT), self.cells.read(CLEARANCE)
+
+    def language(self, part: Part) -> tuple[Dialect, Planner]:
+        """In what a text is written: cycles have their own."""
+        if part.is_cycles and self.dialect.has_own_cycles:
+            return self._cycle_language
+        return self.dialect, self.planner
+
     def check_cycles(self, b: Turn) -> None:
         """An error without the text of the cycles."""
-        if not self.program.has_cycles:
+        if not (self.program.has_cycles or self.dialect.has_own_cycles):
             raise b.fault("E251", hint="$I CYCLES.TXT behind M2")
 
     def cycle_start(self, label: int, b: Turn) -> Node:
         """The first line of a cycle."""
-        return self.flow.find(label, self.program.main, b.plan.column(""))
+        return self.flow.find(label, self.program.cycles, b.plan.column(""))
 
     # --- calls ------------------------------------------------------------------------
 

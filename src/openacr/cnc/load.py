@@ -11,15 +11,16 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 
-from openacr.cnc.blocks import Assignment, Block, Gosub, Goto, If, Include, Print, Word
+from openacr.cnc.blocks import Assignment, Block, Gosub, Goto, If, Include, OWord, Print, Word
 from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect
 from openacr.cnc.findings import MOST, CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.hosts import Cells
 from openacr.cnc.labels import Labels, Place
+from openacr.cnc.ngc.owords import KINDS, NEEDS_VALUE
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, Planner
-from openacr.cnc.program import CYCLES_FILE, Part, Program
+from openacr.cnc.program import CYCLES_FILE, OPlace, Part, Program
 from openacr.cnc.scanning import Skimmer
 from openacr.cnc.text import Kept, Text, decoded
 
@@ -97,6 +98,7 @@ class Loader:
         self._dialect = dialect
         self._folders = folders
         self._planner = planner_of(cells, dialect)
+        self._end = dialect.table.mcodes[2.0].act
         self._skimmer = Skimmer(self._planner.axes)
         self._findings: list[Finding] = []
         self._jumps: list[tuple[Part, int, str, int, int]] = []
@@ -111,7 +113,9 @@ class Loader:
         program = Program(Part(text), folder)
         self._program = program
         self._read(program.main, depth=0)
-        if self._cells.read(AUTO_CYCLES) and not program.has_cycles:
+        if self._dialect.has_own_cycles:
+            program.own_cycles = cycle_part()
+        elif self._cells.read(AUTO_CYCLES) and not program.has_cycles:
             self._add_cycles(program.main)
         self._check_last()
         self._check_labels()
@@ -206,7 +210,7 @@ class Loader:
         names = {code.name for code in plan.codes}
         self._seen.codes |= names
         if place.part is self._program.main:
-            self._seen.has_end |= "M2" in names or ("M30" in names and self._m30_ends)
+            self._seen.has_end |= any(code.act is self._end for code in plan.codes)
             if not block.is_empty and not self._seen.has_end:
                 self._seen.last, self._seen.last_place = plan, (place.line, self._where[2])
         return plan
@@ -246,8 +250,18 @@ class Loader:
                 label = round(statement.label.number)
                 _, line, raw = self._where
                 self._jumps.append((place.part, line, raw, statement.column, label))
+        elif isinstance(statement, OWord):
+            self._o_word(statement, place)
         elif isinstance(statement, Include):
             self._include(statement, place, after, depth)
+
+    def _o_word(self, word: OWord, place: Place) -> None:
+        if word.kind not in KINDS or (word.kind in NEEDS_VALUE and len(word.values) != 1):
+            raise CodeError("E108", word.column, word.kind)
+        places = self._program.o_words.setdefault(word.name, [])
+        if word.kind == "SUB" and any(one.kind == "SUB" for one in places):
+            raise CodeError("E221", word.column, f"O{word.name}")
+        places.append(OPlace(word.kind, place))
 
     def _include(self, statement: Include, place: Place, after: int, depth: int) -> None:
         is_main = place.part is self._program.main
@@ -300,13 +314,13 @@ class Loader:
             self._check_assignment(assignment)
 
     def _home_error(self, parameter: Parameter) -> str | None:
-        if not isinstance(parameter.index, Number) or self._dialect.aliases:
+        if not isinstance(parameter.index, Number) or self._dialect.parameters:
             return None
         return self._cells.home(int(parameter.index.number)).read_error
 
     def _check_assignment(self, assignment: Assignment) -> None:
         index = assignment.index
-        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.aliases:
+        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.parameters:
             return
         home = self._cells.home(int(index.number))
         error = home.write_error()
@@ -345,7 +359,9 @@ class Loader:
     def _check_last(self) -> None:
         last = self._seen.last
         is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
-        if is_m30 and not self._m30_ends and self._dialect.has_custom:
+        codes = self._dialect.table.mcodes
+        is_output = codes[30.0].act is not codes[2.0].act
+        if is_m30 and not self._m30_ends and is_output:
             line, raw = self._seen.last_place
             self._where = (self._program.main.text.name, line, raw)
             self._warn("W216", 1)
@@ -382,6 +398,25 @@ class Loader:
 
 def _first_at(place: Place) -> str:
     return f"first in line {place.line} of {place.part.text.name}"
+
+
+def cycle_part() -> Part:
+    """The supplied cycles with their labels."""
+    part = Part(supplied_cycles(), is_cycles=True)
+    add_labels(part)
+    return part
+
+
+def add_labels(part: Part) -> None:
+    """Note the labels of a text that is known to be right."""
+    grammar = DIALECTS["acromill"].grammar
+    offset, line = part.text.begin, 0
+    while (taken := part.text.line(offset)) is not None:
+        line += 1
+        block = parse(decoded(taken[0]), grammar)
+        if block.label is not None:
+            part.labels.add(block.label, Place(part, offset, line))
+        offset = taken[1]
 
 
 def supplied_cycles() -> Text:

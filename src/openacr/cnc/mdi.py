@@ -8,8 +8,7 @@ from openacr.cnc.blocks import Goto, If, Include
 from openacr.cnc.canonical import Entry
 from openacr.cnc.findings import BlockError, CodeError
 from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.labels import Place
-from openacr.cnc.load import supplied_cycles
+from openacr.cnc.load import add_labels, supplied_cycles
 from openacr.cnc.parser import parse
 from openacr.cnc.program import Node, Part
 
@@ -32,13 +31,7 @@ class Mdi:
         if program.has_cycles:
             return
         part = Part(supplied_cycles(), program.main.labels, is_cycles=True)
-        offset, line = part.text.begin, 0
-        while (taken := part.text.line(offset)) is not None:
-            line += 1
-            block = parse(taken[0].decode(), self._run.dialect.grammar)
-            if block.label is not None:
-                part.labels.add(block.label, Place(part, offset, line))
-            offset = taken[1]
+        add_labels(part)
         program.parts.append(part)
         program.has_cycles = True
 

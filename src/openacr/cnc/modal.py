@@ -14,7 +14,13 @@ from openacr.cnc.canonical import PathMode, Plane, Spin
 from openacr.cnc.hosts import Cells
 
 PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}
-MODES = {61: PathMode.EXACT, 62: PathMode.CORNER, 63: PathMode.LOCKED, 64: PathMode.FREE}
+MODES = {
+    60: PathMode.EXACT,  # without the wait for position
+    61: PathMode.EXACT,
+    62: PathMode.CORNER,
+    63: PathMode.LOCKED,
+    64: PathMode.FREE,
+}
 START_CHOSEN = 100_010
 CUT_SPEED, SETUP_FEED = 650_002, 100_021
 COMPATIBILITY = 700_000

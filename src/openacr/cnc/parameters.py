@@ -64,12 +64,17 @@ class Parameters:
         self._run = run
         self._cells = run.cells
         self._modal = run.modal
-        self._aliases = run.dialect.aliases
         self._read_cell = run.cells.read
         # #1 to #33 of the call in force; #0, which no program can name, is 1 inside a call.
         self.values: list[float] = [0.0] * (LOCALS + 1)
         self.names: dict[str, float] = {}  # of this call
         self.global_names: dict[str, float] = {}
+        self.reset()
+
+    def reset(self) -> None:
+        """A program starts: no call is in force."""
+        self.values[:] = [0.0] * len(self.values)
+        self.names = {}
 
     @property
     def is_in_call(self) -> bool:
@@ -88,7 +93,7 @@ class Parameters:
         """Whether a parameter is nothing but a cell of the store."""
         k = int(n)
         is_stored = FIRST_STORED <= k <= LAST_STORED and k == n
-        return is_stored and k not in SHOWN and k != FEED_CELL and not self._aliases
+        return is_stored and k not in SHOWN and k != FEED_CELL
 
     def is_free_cell(self, n: float) -> bool:
         """Whether a program may write it, and nothing follows from that."""
@@ -96,7 +101,7 @@ class Parameters:
 
     def is_card_cell(self, n: float) -> bool:
         """Whether a parameter is a variable of the card that programs may write."""
-        return 0 <= n <= LAST_CARD and n == int(n) and not self._aliases
+        return 0 <= n <= LAST_CARD and n == int(n)
 
     def read_card(self, k: int) -> float:
         """A variable of the card."""
@@ -137,8 +142,6 @@ class Parameters:
         k = int(n)
         if k != n:
             k = number(n)
-        if self._aliases:
-            k = self._aliases.get(k, k)
         if FIRST_STORED <= k <= LAST_STORED and k not in SHOWN and k != FEED_CELL:
             return self._read_cell(k)
         return self._read_rare(k)
@@ -203,7 +206,6 @@ class Parameters:
 
     def write_p(self, k: int, value: float) -> None:
         """Assign a parameter by number."""
-        k = self._aliases.get(k, k)
         home = self._cells.home(k)
         error = home.write_error(is_service=self._run.options.is_service)
         if error:

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from openacr.cnc.arcs import Bow
-from openacr.cnc.canonical import Arc, Entry, Line, Pace, PathMode, Point, Rapid, Source
+from openacr.cnc.canonical import Arc, Entry, Line, Pace, PathMode, Plane, Point, Rapid, Source
 from openacr.cnc.codes import ROTARY
 from openacr.cnc.coordinates import ORIGIN, Coordinates
 from openacr.cnc.elements import Element
@@ -33,6 +33,7 @@ class Path:
         self, cells: Cells, modal: Modal, letters: dict[str, int], emit: Callable[[Entry], None]
     ) -> None:
         self._cells = cells
+        self._rotary = {axis for letter, axis in letters.items() if letter in ROTARY}
         self._modal = modal
         self._emit = emit
         self.coordinates = Coordinates(cells, letters)
@@ -82,7 +83,7 @@ class Path:
             modal = self._modal
             mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
             is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
-            pace = self._pace = Pace(modal.feed, mode, is_locked, mode is PathMode.EXACT)
+            pace = self._pace = Pace(modal.feed, mode, is_locked, modal.path == 61)
         return pace
 
     # --- places ------------------------------------------------------------------------
@@ -99,6 +100,16 @@ class Path:
                 value = value * times / per
             p[axis] = p[axis] + value if is_incremental else value
         return tuple(p)
+
+    def distance(self, end: Point, bow: Bow | None, plane: Plane) -> float:
+        """The length of a move from here; of rotary axes alone the largest turn."""
+        delta = [b - a for a, b in zip(self.program, end, strict=True)]
+        linear = [d for axis, d in enumerate(delta) if axis not in self._rotary]
+        if bow is not None:
+            beside = [d for axis, d in enumerate(delta) if axis in (plane.drill, 6, 7)]
+            mean = 0.5 * (bow.start_radius + bow.end_radius)
+            return math.hypot(mean * bow.sweep_rad, *beside)
+        return math.hypot(*linear) or max(map(abs, delta))
 
     def begin(self, machine: Point) -> None:
         """The machine stands here."""

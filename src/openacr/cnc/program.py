@@ -50,6 +50,14 @@ class Node:
         self.source = Source(part.text.name, line, raw)
 
 
+@dataclass(frozen=True, slots=True)
+class OPlace:
+    """An O-word and where it stands."""
+
+    kind: str
+    place: Place
+
+
 @dataclass(slots=True, eq=False)
 class Program:
     """Texts with their labels, includes and M codes of the user."""
@@ -61,11 +69,18 @@ class Program:
     customs: dict[int, Part] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     has_cycles: bool = False
+    own_cycles: Part | None = None  # those of a dialect that needs no $I
+    o_words: dict[str, list[OPlace]] = field(default_factory=dict)
 
     @property
     def errors(self) -> list[Finding]:
         """Why it cannot be started."""
         return [finding for finding in self.findings if finding.is_error]
+
+    @property
+    def cycles(self) -> Part:
+        """The text whose labels lead to the cycles."""
+        return self.own_cycles or self.main
 
     @property
     def line_cnt(self) -> int:

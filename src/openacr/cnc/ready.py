@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from openacr.cnc.blocks import Assignment, Block, Input
+from openacr.cnc.blocks import Assignment, Block, Input, OWord
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes import Code, Limit
 from openacr.cnc.findings import CodeError
@@ -44,24 +44,29 @@ class Ready:
 
 def ready(node: Node, run: Interpreter) -> Ready:
     """Read and plan the line of a node."""
-    block = parse(node.raw, run.dialect.grammar)
+    dialect, planner = run.language(node.part)
+    block = parse(node.raw, dialect.grammar)
     if block.is_percent:
         block = type(block)()
-    plan = run.planner.plan(block)
+    plan = planner.plan(block)
     assigns = tuple(_assign(one, run) for one in block.assignments)
     late: tuple[Assign, ...] = ()
-    if run.dialect.assigns_last:
+    if dialect.assigns_last:
         assigns, late = (), _together(block.assignments, run)
     statement = statement_of(block.statement, run, node) if block.statement else None
     values: tuple[tuple[str, Formula], ...] = ()
     if plan.numbers is None:
-        values = tuple((k, Formula(w.value, run.parameters)) for k, w in plan.words.items()
-                       if w.parameter is None)  # fmt: skip
+        transfers = any(code.letter == "T#" for code in plan.acts)
+        values = tuple(
+            (letter, Formula(word.value, run.parameters))
+            for letter, word in plan.words.items()
+            if word.parameter is None or not transfers
+        )
     acts = tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
     limits = tuple(limit for code in plan.acts for limit in code.limits) if values else ()
     beside = block.messages or late
     quick: Quick | None = None
-    if statement is not None and not isinstance(block.statement, Input) and not beside:
+    if statement is not None and not isinstance(block.statement, Input | OWord) and not beside:
         quick = _Statement(statement)
     elif _are_quick(block) and assigns and not (beside or statement):
         quick = _Quick(block.assignments, assigns, run.parameters)
@@ -182,19 +187,21 @@ def _lines(one: Assignment, parameters: Parameters) -> list[str]:
     if isinstance(index, Number):
         n = index.number
         if one.kind == "#" and 1 <= n <= LOCALS:
-            store = _store(n, parameters)
+            store = _store(one.kind, n, parameters)
             return [*lines, f"if values[0]: values[{int(n)}] = v", f"else: {store}"]
-        return [*lines, _store(n, parameters)]
+        return [*lines, _store(one.kind, n, parameters)]
     return [*lines, f"write({kind}, {index.source(parameters)}, v)"]
 
 
-def _store(n: float, parameters: Parameters) -> str:
-    """The shortest way to write parameter Pn."""
+def _store(kind: str, n: float, parameters: Parameters) -> str:
+    """The shortest way to write a parameter."""
     if parameters.is_free_cell(n):
         return f"keep({int(n)}, v)"
     if parameters.is_plain_cell(n):
         return f"put({int(n)}, v)"
-    return f"set_card({int(n)}, v)" if parameters.is_card_cell(n) else f"write('P', {n!r}, v)"
+    if parameters.is_card_cell(n):
+        return f"set_card({int(n)}, v)"
+    return f"write({kind!r}, {n!r}, v)"
 
 
 def _switch(one: Assignment, value: Formula, run: Interpreter) -> Assign:

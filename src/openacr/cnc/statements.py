@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from openacr.cnc.blocks import Gosub, Goto, If, Include, Input, Print, Return, Statement
+from openacr.cnc.blocks import Gosub, Goto, If, Include, Input, OWord, Print, Return, Statement
 from openacr.cnc.canonical import Ask, Entry, Say
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Formula, Number
@@ -119,6 +119,10 @@ def _include(statement: Include, run: Interpreter, node: Node) -> Act:
     return lambda node: None  # the added text follows by itself
 
 
+def _o_word(statement: OWord, run: Interpreter, node: Node) -> Act:
+    return run.o_words.act(statement, node)
+
+
 _MAKERS: dict[type[Any], Callable[..., Act]] = {
     Goto: _goto,
     Gosub: _gosub,
@@ -127,4 +131,5 @@ _MAKERS: dict[type[Any], Callable[..., Act]] = {
     Print: _print,
     Input: _input,
     Include: _include,
+    OWord: _o_word,
 }

@@ -1,5 +1,5 @@
 """The languages; importing the package registers them."""
 
-from openacr.cnc.dialects import acromill
+from openacr.cnc.dialects import acromill, rs274ngc
 
-__all__ = ["acromill"]
+__all__ = ["acromill", "rs274ngc"]

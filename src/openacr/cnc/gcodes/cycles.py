@@ -85,6 +85,10 @@ def drill(run: Interpreter, b: Turn) -> Iterator[Entry]:
     r, bottom = drilling.levels
     if bottom > r:
         run.warn(b, "W214", "Z")
+    if run.dialect.rises_first and drilling.initial < r:
+        up = list(run.path.program)
+        up[plane.drill] = drilling.initial = r
+        run.path.rapid(b, tuple(up))
     repeat_cnt = b.whole("L", 1, "E250")
     for left in range(repeat_cnt, 0, -1):
         run.path.rapid(b, _hole(run, b, plane))
@@ -164,8 +168,7 @@ def _cells(run: Interpreter, drilling: Drilling, left: int) -> list[float]:
         drilling.words.get("P", 0.0),
         path.shown(modal.feed),
         float(left),
-        path.shown(read(RETRACT)),
-        path.shown(read(CLEARANCE)),
+        *[path.shown(x) for x in run.clearances()],
         signs[0] * q,
         signs[1] * q,
         float(modal.spin.value),

@@ -27,14 +27,14 @@ def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     yield from probed(run, b)
 
 
-def probed(run: Interpreter, b: Turn) -> Iterator[Entry]:
+def probed(run: Interpreter, b: Turn, *, is_away: bool = False) -> Iterator[Entry]:
     """The move, and what it found."""
     path, machine = run.path, run.machine
     end = path.end(b)
     target = path.coordinates.to_machine(path.coordinates.forward(end))
     pace = Pace(run.modal.feed, PathMode.EXACT)
     b.has_moved = True
-    run.move(Probe(b.source, target, pace))
+    run.move(Probe(b.source, target, pace, is_away))
     yield from run.sync(b.source)
     trip = machine.tripped()
     with run.cells.transaction():

@@ -1,0 +1,59 @@
+"""The `rs274ngc` dialect: programs of other controls."""
+
+from openacr.cnc.codes import DIALECTS, Dialect, Step
+from openacr.cnc.grammar import RS274NGC as GRAMMAR
+from openacr.cnc.ngc import gcodes, mcodes  # noqa: F401  fill the table
+from openacr.cnc.ngc.parameters import NgcParameters
+from openacr.cnc.tables import RS274NGC
+
+ORDER = (
+    Step.FEED_MODE,
+    Step.FEED,
+    Step.SPEED,
+    Step.TOOL,
+    Step.TOOL_CHANGE,
+    Step.SPINDLE,
+    Step.SPINDLE_OFF,
+    Step.COOLANT,
+    Step.COOLANT_OFF,
+    Step.SWITCHES,
+    Step.DWELL,
+    Step.PLANE,
+    Step.UNIT,
+    Step.RADIUS,
+    Step.COMPENSATION,
+    Step.LENGTH,
+    Step.WORK,
+    Step.PATH,
+    Step.DISTANCE,
+    Step.CENTRES,
+    Step.RETURN_LEVEL,
+    Step.DATA,
+    Step.ZERO,
+    Step.CYCLE_OFF,
+    Step.MOTION,
+    Step.STOP,
+)
+DIALECTS["rs274ngc"] = Dialect(
+    "rs274ngc",
+    GRAMMAR,
+    RS274NGC,
+    ORDER,
+    start={
+        "motion": 1,
+        "plane": 17,
+        "distance": 90,
+        "unit": 20,
+        "work": 1,
+        "path": 64,
+        "return_level": 98,
+        "centres": 1,
+    },
+    assigns_last=True,
+    labels=False,
+    parameters=NgcParameters,
+    has_own_cycles=True,
+    rises_first=True,
+    clearance_inch=0.010,
+    radius_tolerance=(0.0005, 0.001),
+)

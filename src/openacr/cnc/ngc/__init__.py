@@ -1,0 +1,1 @@
+"""What only the rs274ngc dialect has: its codes, parameters and O-words."""

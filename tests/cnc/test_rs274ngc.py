@@ -1,0 +1,157 @@
+"""Programs of other controls: the rs274ngc dialect."""
+
+import math
+from pathlib import Path
+
+import pytest
+from tests.cnc.programs import Bench, Run, errors, run
+
+from openacr.cnc.canonical import Arc, Line, Probe
+from openacr.cnc.load import Folders
+
+
+def ngc(text: str, cells: dict[int, float] | None = None, **more: object) -> Run:
+    return run(text, cells, dialect="rs274ngc", **more)  # type: ignore[arg-type]
+
+
+def wrong(text: str) -> list[str]:
+    return errors(text, dialect="rs274ngc")
+
+
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        ("G1 F10 X[1+2*3] Y[2**3]", ["L X7 Y8"]),
+        ("#1=3 G1 F10 X#1", ["L 0"][:0]),
+        ("#1=3|#2=#1|G1 F10 X#1 Y[#2*2]", ["L X3 Y6"]),
+        ("#<r>=2|#<_g>=3|G1 F10 X#<r> Y#<_G>", ["L X2 Y3"]),
+        ("G1 F10 X[ATAN[1]/[1]] Y[SIN[30]]", ["L X45 Y0.5"]),
+        ("G1 F10 X[EXISTS[#<a>]] Y[1 LT 2]", ["L Y1"]),
+        ("G1 F10 X[5 MOD 3] Y[-1 MOD 3] (comment)", ["L X2 Y2"]),
+        ("G1 F10 X-[2] YABS[-4]", ["L X-2 Y4"]),
+        ("(P is no parameter)|G4 P2|G1 F10 X1", ["L X1"]),
+        ("G20 F10 G1 X1|G53 G0 X2|X3", ["L X1", "R X2", "R X3"]),
+        ("G0 G90 X1|G91 X1", ["R X1", "R X2"]),
+        ("G2 F10 X2 I1 J0", ["A X2 about 1,0 -180"]),
+        ("G90.1|G2 F10 X2 I1 J0", ["A X2 about 1,0 -180"]),
+        ("G3 F10 X2 R1", ["A X2 about 1,0 180"]),
+        ("G43.1 Z1|G0 Z0|G49|G0 Z0", ["R Z1", "R 0"]),
+        ("G10 L2 P2 X1|G55 G0 X0", ["R X1"]),
+        ("G10 L2 P9 X1|G59.3 G0 X0|G54 X0", ["R X1", "R 0"]),
+        ("G0 X5|G92 X0|G0 X1|G92.1|G0 X1", ["R X5", "R X6", "R X1"]),
+        ("G0 X5|G92 X0|G92.2|G0 X1|G92.3|X1", ["R X5", "R X1", "R X6"]),
+        ("G28.1|G0 X5 Y5|G28 X6", ["R X5 Y5", "R X6 Y5", "R Y5"]),
+        ("G80|G0 X1|G81 R.1 Z-1 X2|M30|X9",
+         ["R X1", "R X1 Z0.1", "R X2 Z0.1", "L X2 Z-1", "R X2 Z0.1"]),
+    ],
+)  # fmt: skip
+def test_programs_move_as_they_say(text: str, moves: list[str]) -> None:
+    assert ngc(text.replace("|", "\n")).moves == moves
+
+
+def test_assignments_act_behind_the_block() -> None:
+    done = ngc("#1=5\n#1=6 #2=#1\nG1 F10 X#1 Y#2")
+    assert done.moves == ["L X6 Y5"]
+
+
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        ("O1 sub|G1 F10 X#1 Y#2|O1 endsub|O1 call [3] [4]|O1 call [5]|M2", ["L X3 Y4", "L X5"]),
+        ("F10|#1=0|O2 while [#1 LT 3]|#1=[#1+1]|G1 X#1|O2 endwhile|M2", ["L X1", "L X2", "L X3"]),
+        ("F10|#1=0|O2 do|#1=[#1+1]|G1 X#1|O2 while [#1 LT 2]|M2", ["L X1", "L X2"]),
+        ("F10 G91|O3 repeat [3]|G1 X1|O3 endrepeat|M2", ["L X1", "L X2", "L X3"]),
+        ("F10|O4 if [0]|G1 X1|O4 elseif [1]|X2|O4 else|X3|O4 endif|Y1", ["L X2", "L X2 Y1"]),
+        ("F10|O4 if [0]|G1 X1|O4 elseif [0]|X2|O4 else|X3|O4 endif|Y1", ["L X3", "L X3 Y1"]),
+        ("F10|O4 if [1]|G1 X1|O4 elseif [1]|X2|O4 else|X3|O4 endif|Y1", ["L X1", "L X1 Y1"]),
+        ("O<box> sub|G1 F10 X#1|O<box> return [7]|X99|O<box> endsub|O<box> call [2]|Y#<_value>",
+         ["L X2", "L X2 Y7"]),
+        ("F10|#1=0|O5 while [1]|#1=[#1+1]|O6 if [#1 GT 2]|O5 break|O6 endif|G1 X#1|O5 endwhile|Y1",
+         ["L X1", "L X2", "L X2 Y1"]),
+        ("F10 G91|O1 repeat [2]|O2 repeat [2]|X1|O2 endrepeat|Y1|O1 endrepeat",
+         ["L X1", "L X2", "L X2 Y1", "L X3 Y1", "L X4 Y1", "L X4 Y2"]),
+        ("O7 sub|G1 F10 X1|M99|O7 endsub|M98 P7|M2", ["L X1"]),
+    ],
+)  # fmt: skip
+def test_o_words_steer_the_program(text: str, moves: list[str]) -> None:
+    assert ngc(text.replace("|", "\n")).moves == moves
+
+
+def test_subroutines_have_parameters_and_names_of_their_own() -> None:
+    text = "#1=9\n#<a>=1\nO1 sub\n#1=5\n#<a>=2\nO1 endsub\nO1 call\nG1 F10 X#1 Y#<a>"
+    assert ngc(text).moves == ["L X9 Y1"]
+
+
+def test_parameters_of_a_run_do_not_touch_the_store() -> None:
+    done = ngc("#150=7\n#905=3\nG1 F10 X#150 Y#905")
+    assert done.moves == ["L X7 Y3"]
+    assert done.cells.read(150) == 0
+    assert not done.machine.parameters
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("G65 P1", "E203"), ("G27 X1", "E203"), ("G70", "E203"), ("G76 X1", "E203"),
+        ("G95", "E203"), ("M12", "E205"), ("M595", "E205"), ("IF 1 THEN GOTO 5", "E104"),
+        ("X(1)", "E105"), ("O1 sub\nX", "E105"), ("O1 jump", "E108"), ("O1 while", "E108"),
+        ("G80\nX1", "E206"), ("G30 P2 X1", "E206"), ("G4 F1", "E222"), ("G93 G1 X1", "E222"),
+        ("G2 F10 X2 I1.1 J0", "E230"), ("O9 call", "E220"), ("G10 L2 P10 X1", "E241"),
+        ("#5999=1", "E212"), ("#6001=1", "E211"), ("X#<none>", "E211"),
+        ("O1 sub\nO1 endsub\nO1 sub", "E221"),
+        ("O1 while [1]\nX1\nM2", ""), ("F10 O1 do", "E104"),
+    ],
+)  # fmt: skip
+def test_what_the_dialect_does_not_know_is_an_error(text: str, code: str) -> None:
+    assert wrong(text) == ([code] if code else [])
+
+
+def test_inverse_time_gives_the_feed_by_the_length() -> None:
+    (line,) = ngc("G93 G1 X3 Y4 F2").of(Line)
+    assert isinstance(line, Line)
+    assert line.pace.feed_upm == 10
+    (arc,) = ngc("G93 G2 X2 I1 J0 F2").of(Arc)
+    assert isinstance(arc, Arc)
+    assert arc.pace.feed_upm == pytest.approx(2 * math.pi)
+
+
+def test_probing_reports_in_program_coordinates() -> None:
+    text = "G10 L2 P1 X1\nG38.2 X5 F10\nG1 Y#5061 Z#5070"
+    done = ngc(text, machine=Bench(trip=(3.0, 0, 0, 0, 0, 0, 0, 0)))
+    assert done.moves == ["P X6", "L X3 Y2 Z1"]
+    assert errors("F10 G38.2 X5", dialect="rs274ngc") == ["A36"]
+    (probe,) = ngc("F10 G38.5 X5").of(Probe)
+    assert isinstance(probe, Probe)
+    assert probe.is_away
+
+
+def test_m5_acts_before_the_motion_and_m30_ends() -> None:
+    story = ngc("S100 M3\nG1 F10 X1 M5\nM30\nX5").story
+    assert story == ["M3 S100", "M5 S100", "L X1", "end"]
+
+
+def test_switches_are_outputs_and_inputs() -> None:
+    assert ngc("M64 P3\nM63 P3\nM66 P2 L3").story[:3] == ["out 35 1", "out 35 0", "wait 2 1"]
+
+
+def test_peck_cycles_use_the_fixed_clearance() -> None:
+    done = ngc("G0 Z1\nG83 X0 Y0 R.1 Z-.5 Q.3 F10")
+    assert [end[2] for end in done.ends] == [1, 0.1, -0.2, 0.1, -0.19, -0.5, 1]
+
+
+def test_m_codes_of_the_user_are_files(tmp_path: Path) -> None:
+    (tmp_path / "M123.TXT").write_text("G1 F10 X[#1*2]\nM99\n")
+    done = ngc("M123 X4\nY1", folders=Folders(customs=tmp_path))
+    assert done.moves == ["L X8", "L X8 Y1"]
+
+
+def test_the_same_text_means_what_its_dialect_says() -> None:
+    text = "F10 G2 X2 Y0 I1 J0"
+    (here,) = run(text).of(Arc)
+    (there,) = ngc(text).of(Arc)
+    assert isinstance(here, Arc)
+    assert isinstance(there, Arc)
+    assert here.centre == there.centre == (1, 0)
+    moves = ngc("F10 G1 X1\nG2 X3 I1 J0").moves
+    assert moves == ["L X1", "A X3 about 2,0 -180"]
+    assert run("F10 G1 X1\nG2 X3 I1 J1").moves == ["L X1", "A X3 about 1,1 -297"]
