@@ -56,6 +56,7 @@ ORDER = (
     "kernel/limits_cy.py",
     "kernel/drive_cy.py",
     "kernel/commutator_cy.py",
+    "kernel/maintain_cy.py",
     "kernel/servo_cy.py",
     "kernel/clock_cy.py",
     "kernel/fast_status_cy.py",

@@ -16,7 +16,7 @@ from openacr.errors import CardError
 from openacr.kernel import source_cy
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import attach, buffer, filters, settings, sources, time_base
+from openacr.motion import attach, buffer, filters, maintenance, settings, sources, time_base
 from openacr.motion.card import SLAVES, Card
 from openacr.motion.rows import axis_ints, master_parameter, master_reals, master_word2
 
@@ -265,6 +265,7 @@ _TABLE = (
     _per_master("LOOK", buffer.looks, lambda card, m, on: buffer.switch_look(card, m, on=on)),
     _per_master("LOOK ANG", _read_angles, _write_angles),
     _per_master("SRC", time_base.source_text, _write_source),
+    _per_axis("PM ON", maintenance.is_on, lambda card, a, on: maintenance.switch(card, a, on=on)),
     _per_axis("AXIS # ON", settings.is_axis_on, _write_axis_on),
     _row("ADC MODE", at.KRI_ADC_MODE, lambda card: 1),
     _row("ADC MAX", at.KRI_ADC_CHANNELS, lambda card: card.model.adcs),

@@ -17,6 +17,7 @@ from openacr.cmath import fabs, rint
 from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.commutator_cy import commutator_step, dac_put
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, encoder_row
+from openacr.kernel.maintain_cy import maintain_step
 from openacr.kernel.words_cy import round32
 from openacr.map.numbers import (
     AF1_BIQUAD_FILTER_ACTIVATE,
@@ -75,6 +76,7 @@ from openacr.map.numbers import (
     AXF_IDLE_S,
     AXF_INTEGRAL_V,
     AXF_PEAK_ERROR_CNT,
+    AXF_PM_CNT,
     AXF_SSP_ACCEL_CPS2,
     AXF_SSP_CNT,
     AXF_SSP_VELOCITY_CPS,
@@ -87,6 +89,7 @@ from openacr.map.numbers import (
     AXI_DERIVATIVE_SMOOTH,
     AXI_DERIVATIVE_TICKS,
     AXI_ON,
+    AXI_PM_ON,
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
     AXI_SIGNAL_INDEX,
@@ -293,7 +296,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
     if I[i + AXI_SIGNAL_SOURCE] == TO_STEPPER:
-        stepper_step(F, I, S, n)
+        stepper_step(F, I, S, n, period_s)
         return
     error: float = F[a + AXF_SSP_CNT] - I[p + AX_ACTUAL_POSITION]
     I[p + AX_FOLLOWING_ERROR] = round32(error)
@@ -324,14 +327,17 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
         commutator_step(I, S, n, k, output)
 
 
-def stepper_step(F: F64, I: I32, S: F32, n: int) -> None:
+def stepper_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     """A stepper axis puts out its setpoint as steps; its own count is its feedback."""
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
     k: int = I[i + AXI_SIGNAL_INDEX]
     if 0 <= k < 16 and not I[KRI_BASE + KRI_MISSING_STEPPERS] >> k & 1:
         row: int = STPR_BASE + k * STPR_STRIDE
+        if I[i + AXI_PM_ON]:
+            maintain_step(F, I, S, n, period_s)
         setpoint: float = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
+        setpoint += F[AXF_BASE + n * AXF_STRIDE + AXF_PM_CNT]
         I[row + STPR_STEPPER_COUNT] = round32(setpoint)
         S[row + STPR_STEPPER_SIGNAL] = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_VELOCITY_CPS]
         if I[i + AXI_POSITION_SOURCE] == 2 and I[i + AXI_POSITION_INDEX] == k:

@@ -14,6 +14,7 @@ from openacr.map.numbers import (
     AX_FILTER1_A0,
     AX_STRIDE,
     AXF_BASE,
+    AXF_PM_TIME_S,
     AXF_SCALE,
     AXF_STRIDE,
     AXI_BASE,
@@ -72,6 +73,7 @@ SCANNED_ADCS = 8
 DEFAULT_RAMP_UPS2 = 20000.0
 DEFAULT_VEL_UPS = 10000.0
 DEFAULT_LOOK_TO_DEG = 90.0
+DEFAULT_PM_TIME_S = 0.1
 
 _axis_show = pick(axis_cy.axis_show)
 _axis_take_written = pick(axis_cy.axis_take_written)
@@ -141,6 +143,7 @@ class Card:
         for bypass in (AX_FILTER0_A0, AX_FILTER1_A0):
             self.memory.S[AX_BASE + axis * AX_STRIDE + bypass] = 1.0
         self.memory.F[AXF_BASE + axis * AXF_STRIDE + AXF_SCALE] = 1.0
+        self.memory.F[AXF_BASE + axis * AXF_STRIDE + AXF_PM_TIME_S] = DEFAULT_PM_TIME_S
 
     def _default_master(self, master: int) -> None:
         reals = MSF_BASE + master * MSF_STRIDE

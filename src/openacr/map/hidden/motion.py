@@ -18,10 +18,11 @@ POINTS = 12  # of an unfinished curve
 KNOTS = 24
 
 # One motion profile: pieces of constant jerk, evaluated in order (kernel/profile_cy.py).
-# Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes.
+# Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes, 32-47 to their
+# position maintenance.
 PROFILE = HiddenBlock(
     prefix="PR",
-    count=32,
+    count=48,
     doubles=(
         ("seg_time_s", SEGMENTS),
         ("seg_jerk", SEGMENTS),
@@ -244,6 +245,13 @@ AXIS = HiddenBlock(
         "flz_u",
         "scale",
         "scale_center_u",
+        "pm_band_u",  # PM, see kernel/maintain_cy.py
+        "pm_vel_ups",
+        "pm_acc_ups2",
+        "pm_time_s",
+        "pm_off_s",  # how long the axis has been off
+        "pm_cnt",  # steps put out beyond the setpoint
+        "pm_from_cnt",  # the same when the present correction began
     ),
     ints=(
         "on",
@@ -262,6 +270,8 @@ AXIS = HiddenBlock(
         "jog_want",  # direction of a continuous jog
         "jog_replan",
         "jog_turning",  # slowing down first, to turn round
+        "pm_on",
+        "pm_sign",  # direction of the correction under way
         "kamr_old",
         "soft_old",
         "home_state",  # see kernel/homing_cy.py

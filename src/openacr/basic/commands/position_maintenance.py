@@ -1,0 +1,51 @@
+"""Axis limits: position maintenance of stepper axes."""
+
+from __future__ import annotations
+
+from openacr.basic.commands.axis_limits import GROUP, REF
+from openacr.basic.grammar import Axes, Axis
+from openacr.basic.registry import BY_OBJECT, PROG, command
+from openacr.basic.run import Run
+from openacr.basic.value_commands import Value, axis_values
+from openacr.map.numbers import AXF_PM_ACC_UPS2, AXF_PM_BAND_U, AXF_PM_TIME_S, AXF_PM_VEL_UPS
+from openacr.motion import maintenance
+from openacr.motion.settings import not_negative, of_axis_real
+
+
+@command("PM", group=GROUP, levels=PROG, ref=REF)
+def pm(run: Run) -> None:
+    """Report for which axes of the program position maintenance is on."""
+    for axis in run.axes():
+        run.print(f"{axis.name} {'ON' if maintenance.is_on(run.card, axis.number) else 'OFF'}")
+
+
+@command(
+    "PM ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF, default="OFF", saved=True
+)
+def pm_on(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Put out steps that stepper axes have lost, as their encoders say, when they rest."""
+    for axis in axes:
+        maintenance.switch(run.card, axis.number, on=True)
+
+
+@command("PM OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+def pm_off(run: Run, axes: tuple[Axis, ...]) -> None:
+    """Leave lost steps lost; a correction under way ends at once."""
+    for axis in axes:
+        maintenance.switch(run.card, axis.number, on=False)
+
+
+axis_values(
+    (
+        Value("PM DB", of_axis_real(AXF_PM_BAND_U, not_negative),
+              "Set the position error that needs no correction.", "units"),
+        Value("PM VEL", of_axis_real(AXF_PM_VEL_UPS, not_negative),
+              "Set the speed of corrections; 0 is JOG VEL.", "units/s"),
+        Value("PM ACC", of_axis_real(AXF_PM_ACC_UPS2, not_negative),
+              "Set the ramps of corrections; 0 is JOG ACC.", "units/s2"),
+        Value("PM TIME", of_axis_real(AXF_PM_TIME_S, not_negative),
+              "Set for how long an error has to last before it is corrected.", "s", "0.1"),
+    ),
+    group=GROUP,
+    ref=REF,
+)  # fmt: skip
