@@ -1,0 +1,216 @@
+"""JOG, HOME and SPEEDS settings of the store, as the machine moves by them."""
+
+import itertools
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from tests.mill.shop import Shop, at, end, line, rapid
+from tests.mill.test_homing import MACHINE, homing_shop
+
+from openacr.controller import Controller
+from openacr.map import numbers as n
+from openacr.mill.states import State
+
+JOG, HOME, SPEEDS = 350_000, 300_000, 650_000
+
+
+def speeds(shop: Shop, seconds: float) -> list[float]:
+    """Commanded speed of axis 0, tick by tick, units per second."""
+    found = []
+    for tick in range(round(seconds / shop.controller.period_s)):
+        shop.controller.advance(seconds=shop.controller.period_s)
+        if tick % 10 == 0:
+            shop.runner.step()
+        found.append(shop.controller.axis(0).velocity_ups)
+    return found
+
+
+def ramp(found: list[float], period_s: float, *, is_up: bool) -> float:
+    """The largest change of speed per second in one direction."""
+    changes = [(b - a) / period_s for a, b in itertools.pairwise(found)]
+    return max(changes) if is_up else -min(changes)
+
+
+# --- jog --------------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-SYS-JOG-FEED", "MILL-SYS-JOG-RAPID")
+@pytest.mark.parametrize(
+    ("cells", "is_fast", "speed"),
+    [
+        ({}, False, 10 / 60),
+        ({}, True, 100 / 60),
+        ({f"P{JOG}": 30}, False, 0.5),
+        ({f"P{JOG + 1}": 240}, True, 4.0),
+    ],
+)
+def test_a_jog_goes_at_jog_feedrate_or_jog_rapid(
+    cells: dict[str, float], is_fast: bool, speed: float
+) -> None:
+    shop = Shop(**cells)
+    shop.runner.jog(lambda jog: jog.hold(0, 1, fast=is_fast))
+    assert speeds(shop, 0.3)[-1] == pytest.approx(speed, rel=1e-5)
+
+
+@pytest.mark.req("MILL-SYS-JOG-ACC", "MILL-SYS-JOG-DEC")
+@pytest.mark.parametrize(
+    ("cells", "up", "down"),
+    [({}, 150.0, 10.0), ({f"P{JOG + 2}": 40, f"P{JOG + 3}": 25}, 40.0, 25.0)],
+)
+def test_a_jog_ramps_as_the_tab_says(cells: dict[str, float], up: float, down: float) -> None:
+    shop = Shop(**cells)
+    period_s = shop.controller.period_s
+    shop.runner.jog(lambda jog: jog.hold(0, 1, fast=True))
+    assert ramp(speeds(shop, 0.2), period_s, is_up=True) == pytest.approx(up, rel=0.01)
+    shop.runner.jogging.release(0)
+    found = speeds(shop, 0.5)
+    assert ramp(found, period_s, is_up=False) == pytest.approx(down, rel=0.01)
+    assert found[-1] == 0.0
+
+
+@pytest.mark.req("MILL-SYS-JOG-DIR")
+@pytest.mark.parametrize(("is_turned", "sign"), [(0, 1), (1, -1)])
+def test_jog_direction_is_that_of_the_plus_key(is_turned: int, sign: int) -> None:
+    shop = Shop(**{f"P{JOG + 5}": is_turned})
+    shop.runner.jog(lambda jog: jog.hold(0, 1))
+    assert speeds(shop, 0.1)[-1] * sign > 0
+
+
+@pytest.mark.req(
+    "MILL-SYS-JOG-INC1",
+    "MILL-SYS-JOG-INC2",
+    "MILL-SYS-JOG-INC3",
+    "MILL-SYS-JOG-INC4",
+    "MILL-SYS-JOG-INC5",
+)
+@pytest.mark.parametrize(("preset", "pulses"), [(1, 10_000), (2, 1000), (3, 100), (4, 10), (5, 1)])
+def test_a_press_goes_one_increment(preset: int, pulses: int) -> None:
+    fast = {f"P{JOG}": 600.0, f"P{JOG + 3}": 150.0}
+    shop = Shop(**fast)
+    shop.runner.jog(lambda jog: jog.increment(0, 1, preset))
+    shop.pass_time(0.6)
+    assert shop.pulses()[0] == pulses
+    shop = Shop(**fast, **{f"P{JOG + 5 + preset}": 0.25})
+    shop.runner.jog(lambda jog: jog.increment(0, 1, preset))
+    shop.pass_time(0.6)
+    assert shop.pulses()[0] == 2500
+
+
+# --- home -------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Controller:
+    """Axes with switches and markers."""
+    shutil.copy(MACHINE, tmp_path)
+    return Controller.from_project(tmp_path)
+
+
+def homing_speeds(shop: Shop) -> list[float]:
+    shop.runner.home([0])
+    found = []
+    while shop.runner.state is State.WAIT:
+        found += speeds(shop, 0.05)
+    assert shop.runner.state is State.IDLE
+    return found
+
+
+def plateaus(found: list[float]) -> list[float]:
+    """Speeds that were held for 10 ms, in their order."""
+    held: list[float] = []
+    for k in range(20, len(found)):
+        same = all(abs(found[k] - found[j]) < 1e-6 for j in range(k - 20, k))
+        if same and abs(found[k]) > 0.01 and (not held or abs(held[-1] - found[k]) > 1e-6):
+            held.append(found[k])
+    return held
+
+
+@pytest.mark.req(
+    "MILL-SYS-HOME-FAST", "MILL-SYS-HOME-SLOW", "MILL-SYS-HOME-MARKER", "MILL-SYS-HOME-DIR"
+)
+@pytest.mark.parametrize("scale", [1.1])
+def test_homing_goes_fast_to_the_switch_slowly_off_it_and_on_to_the_marker(
+    world: Controller, scale: float
+) -> None:
+    fast, slow, marker = 1800.0 * scale, 300.0 * scale, 120.0 * scale
+    cells = {f"P{HOME + 3}": fast, f"P{HOME + 4}": slow, f"P{HOME + 5}": marker}
+    found = plateaus(homing_speeds(homing_shop(world, **cells)))
+    # Plus is the default direction: towards the switch, back off it, along to the marker.
+    assert found[:2] == pytest.approx([fast / 60, -slow / 60], rel=1e-4)
+    assert marker / 60 in [pytest.approx(abs(speed), rel=1e-4) for speed in found[2:]]
+
+
+@pytest.mark.req("MILL-SYS-HOME-ACC", "MILL-SYS-HOME-DEC")
+@pytest.mark.parametrize(("up", "down"), [(500.0, 500.0), (250.0, 800.0)])
+def test_homing_ramps_as_the_tab_says(world: Controller, up: float, down: float) -> None:
+    shop = homing_shop(world, **{f"P{HOME + 6}": up, f"P{HOME + 7}": down})
+    found = homing_speeds(shop)
+    top = found.index(max(found))
+    period_s = shop.controller.period_s
+    assert ramp(found[: top + 1], period_s, is_up=True) == pytest.approx(up, rel=0.01)
+    slowing = found[top : top + next(k for k, speed in enumerate(found[top:]) if speed <= 0)]
+    assert ramp(slowing, period_s, is_up=False) == pytest.approx(down, rel=0.01)
+
+
+@pytest.mark.req("MILL-SYS-HOME-PRESET", "MILL-SYS-HOME-INPUT")
+@pytest.mark.parametrize(
+    ("cells", "position"), [({}, 0.0), ({f"P{HOME + 1}": -7.5}, -7.5)], ids=["default", "preset"]
+)
+def test_the_homed_position_reads_the_preset(
+    world: Controller, cells: dict[str, float], position: float
+) -> None:
+    shop = homing_shop(world, **cells)
+    homing_speeds(shop)
+    assert shop.controller.p[n.AX_BASE + n.AX_CURRENT_POSITION] == position * 800
+    # On the input of the default nothing is wired here: there is nothing to find.
+    unwired = homing_shop(world, **{f"P{HOME + 2}": 16, f"P{HOME + 9}": 1, "P200000": 5,
+                                    "P200001": 0, "P200002": 0})  # fmt: skip
+    unwired.runner.home([0])
+    assert unwired.until(State.IDLE, State.ALARM) is State.ALARM
+
+
+@pytest.mark.req("MILL-SYS-HOME-PRIORITY")
+def test_priority_1_homes_before_2_and_0_is_left_out(world: Controller) -> None:
+    shop = homing_shop(world, **{f"P{HOME + 9}": 2, f"P{HOME + 1009}": 1})
+    shop.runner.home([0, 1])
+    shop.pass_time(0.3)
+    assert shop.runner.reason == "homing Y"
+    shop.until(State.IDLE)
+    assert shop.runner.settings.is_homed(0)
+    shop = homing_shop(world, **{f"P{HOME + 9}": 0})
+    shop.runner.home([0])
+    shop.until(State.IDLE, State.ALARM)
+    assert not shop.runner.settings.is_homed(0)
+
+
+# --- speeds -----------------------------------------------------------------------------
+
+
+def peak(entry: Callable[[], object], **cells: float) -> tuple[float, float]:
+    """Largest speed and acceleration of a move of two units."""
+    shop = Shop(**cells)
+    shop.start(entry(), end())  # type: ignore[arg-type]
+    found = speeds(shop, 1.2)
+    return max(found), ramp(found, shop.controller.period_s, is_up=True)
+
+
+@pytest.mark.req("MILL-SYS-SPEED-MAX")
+@pytest.mark.parametrize("most", [200.0, 120.0])
+def test_max_machine_speed_bounds_feed_and_rapid(most: float) -> None:
+    cells = {f"P{SPEEDS}": most}
+    assert peak(lambda: line(1, at(2.0), 6000.0), **cells)[0] == pytest.approx(most / 60)
+    assert peak(lambda: rapid(1, at(2.0)), **cells)[0] == pytest.approx(most / 60)
+
+
+@pytest.mark.req("MILL-SYS-SPEED-FEEDRAMP", "MILL-SYS-SPEED-RAPIDRAMP")
+@pytest.mark.parametrize(
+    ("cells", "of_rapid", "of_feed"),
+    [({}, 100.0, 100.0), ({f"P{SPEEDS + 7}": 80, f"P{SPEEDS + 8}": 30}, 80.0, 30.0)],
+)
+def test_rapids_and_feed_moves_have_ramps_of_their_own(
+    cells: dict[str, float], of_rapid: float, of_feed: float
+) -> None:
+    assert peak(lambda: rapid(1, at(2.0)), **cells)[1] == pytest.approx(of_rapid, rel=0.01)
+    assert peak(lambda: line(1, at(2.0), 300.0), **cells)[1] == pytest.approx(of_feed, rel=0.01)
