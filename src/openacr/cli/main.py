@@ -98,6 +98,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "time_program",
                 "Predict how long a part program runs, from the plan of its moves.",
             ),
+            "plot": Entry(
+                "mill_plot",
+                "plot_program",
+                "Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom.",
+            ),
             "run": Entry(
                 "mill_run",
                 "run_program",

@@ -1,0 +1,88 @@
+"""The tool path of a part program as a picture: what is shown, and in which form."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from openacr.mill.plot import Drawing, Kind
+
+# Okabe and Ito's palette: told apart with every common colour vision deficiency.
+TOOL_COLORS = ("#0072B2", "#009E73", "#E69F00", "#56B4E9", "#8C564B", "#000000")
+RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
+
+
+DENSE_CNT = 5000  # moves; so many are drawn thin, and shaded by their height
+BANDS = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A drawing with its names."""
+
+    drawing: Drawing
+    title: str
+    names: tuple[str, ...]
+    unit: str
+    has_errors: bool = False
+
+    @property
+    def has_contours(self) -> bool:
+        """Whether programmed contours are shown beside compensated ways."""
+        return bool(self.drawing.contours)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How moves of one kind and tool are drawn: dashes are lengths of dash and gap."""
+
+    label: str
+    color: str
+    width: float
+    dashes: tuple[float, ...] = ()
+
+
+def look_of(kind: Kind, tool: int, tools: list[int]) -> Look:
+    """Rapid moves are grey and dotted, compensated ones dashed, tools have colours."""
+    if kind is Kind.RAPID:
+        return Look("rapid", RAPID, 0.8, (1.5, 2.5))
+    if kind is Kind.INSERTED:
+        return Look("inserted at corners", INSERTED, 1.7)
+    color = TOOL_COLORS[tools.index(tool) % len(TOOL_COLORS)]
+    name = f" T{tool}" if tool else ""
+    if kind is Kind.COMPENSATED:
+        return Look(f"compensated{name}", color, 1.3, (5.0, 2.0))
+    return Look(f"feed{name}", color, 1.2)
+
+
+def bands_of(drawing: Drawing) -> int:
+    """How many shades of height a drawing needs to be readable."""
+    return BANDS if len(drawing.kinds) > DENSE_CNT and drawing.low[2] < drawing.high[2] else 1
+
+
+def shade(color: str, band: int, bands: int) -> str:
+    """A colour made darker in the depth, lighter in the height."""
+    if bands == 1:
+        return color
+    share = 2.0 * band / (bands - 1) - 1.0
+    to = 255.0 if share > 0.0 else 0.0
+    parts = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
+    mixed = [round(part + 0.65 * abs(share) * (to - part)) for part in parts]
+    return "#" + "".join(f"{part:02x}" for part in mixed)
+
+
+def tools_of(drawing: Drawing) -> list[int]:
+    """The tools that cut, in the order of their numbers."""
+    return sorted(
+        {tool for kind, tool in drawing.styles() if kind in (Kind.FEED, Kind.COMPENSATED)}
+    )
+
+
+def draw_path(scene: Scene, path: Path) -> None:
+    """Draw a scene in the form the name of the file asks for."""
+    if path.suffix.lower() == ".html":
+        from openacr.cli.plots.toolpath_page import write_page
+
+        write_page(scene, path)
+    else:
+        from openacr.cli.plots.toolpath_image import write_image
+
+        write_image(scene, path)

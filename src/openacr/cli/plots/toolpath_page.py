@@ -1,0 +1,64 @@
+"""Write a tool path as one self-contained HTML page: turn, zoom, step through, read lines."""
+
+import base64
+import html
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, tools_of
+from openacr.mill.plot import Array
+
+
+def write_page(scene: Scene, path: Path) -> None:
+    """Write the page; it refers to nothing outside itself."""
+    path.write_text(build_page(scene), encoding="utf-8")
+
+
+def build_page(scene: Scene) -> str:
+    """Put the moves into the page."""
+    template = files("openacr.cli.plots").joinpath("toolpath.html").read_text(encoding="utf-8")
+    # The name of a file must not be able to close the script it stands in.
+    data = msgspec.json.encode(page_data(scene)).decode().replace("</", "<\\/")
+    return template.replace("@TITLE@", html.escape(scene.title)).replace("@DATA@", data)
+
+
+def page_data(scene: Scene) -> dict[str, Any]:
+    """Collect what the script of the page draws: numbers as bytes, which is half the size."""
+    drawing = scene.drawing
+    tools = tools_of(drawing)
+    looks = [look_of(kind, tool, tools) for kind, tool in drawing.styles()]
+    return {
+        "title": scene.title,
+        "names": [*scene.names, *"   "][:3],
+        "unit": scene.unit,
+        "hasErrors": scene.has_errors,
+        "points": _bytes(drawing.points, "<f4"),
+        "style": _bytes(drawing.style_numbers(), "<u2"),
+        "lines": _bytes(drawing.lines, "<i4"),
+        "looks": [_look(look) for look in looks],
+        "bands": bands_of(drawing),
+        "contours": [_bytes(contour, "<f4") for contour in _joined(drawing.contours)],
+        "contourColor": CONTOUR,
+        "low": drawing.low.tolist(),
+        "high": drawing.high.tolist(),
+    }
+
+
+def _joined(contours: list[Array]) -> list[Array]:
+    """All contours as one, with NaN between them."""
+    if not contours:
+        return []
+    gap = np.full((1, 3), np.nan)
+    return [np.vstack([part for contour in contours for part in (contour, gap)])]
+
+
+def _look(look: Look) -> dict[str, Any]:
+    return {"label": look.label, "color": look.color, "width": look.width, "dashes": look.dashes}
+
+
+def _bytes(values: Array | np.ndarray[Any, Any], kind: str) -> str:
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
