@@ -82,6 +82,7 @@ def test_it_stops_at_a_soft_limit_and_comes_back() -> None:
 # time base of jogs
 
 
+@pytest.mark.req("ACR-CMD-JOG-SRC")
 def test_1000_source_pulses_are_a_second_of_the_jog() -> None:
     made = bench("JOG SRC X ENC10", "JOG ACC X0 : JOG DEC X0", "JOG INC X1").ticks(50)
     assert made.p(JOG) == 0
@@ -93,6 +94,7 @@ def test_1000_source_pulses_are_a_second_of_the_jog() -> None:
     assert (made.p(JOG), made.bit(ACTIVE)) == (1000, False)
 
 
+@pytest.mark.req("ACR-CMD-JOG-SRC", "ACR-HOME-07")
 def test_homing_needs_the_clock() -> None:
     made = bench("JOG SRC X ENC10")
     assert made.type("JOG HOME X1") == "Invalid source"
@@ -111,6 +113,7 @@ def test_a_kill_stops_by_the_clock() -> None:
 # filtered following
 
 
+@pytest.mark.req("ACR-CMD-FLT")
 def test_a_filter_spreads_each_delta_over_its_ticks() -> None:
     made = bench("FLT SRC X ENC10", "FLT COEF X4", "FLT ON X")
     assert made.bit(6404)

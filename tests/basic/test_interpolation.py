@@ -34,6 +34,20 @@ def test_a_move_ends_at_its_target_with_and_without_mov(line: str) -> None:
     assert run(bench(), line) == [10, 0, 0]
 
 
+@pytest.mark.req("ACR-CMD-MOV")
+def test_mov_makes_the_same_move_as_the_targets_alone() -> None:
+    ways = []
+    for line in ("MOV X10 Y5", "X10 Y5"):
+        made = bench().all("ACC 100 DEC 100 STP 100", line)
+        course = [(made.psp(0), made.psp(1))]
+        while made.bit(IN_MOTION):
+            made.ticks(1)
+            course.append((made.psp(0), made.psp(1)))
+        ways.append(course)
+    assert ways[0] == ways[1]
+    assert ways[0][-1] == (10, 5)
+
+
 @pytest.mark.req("ACR-MOT-06", "ACR-MOT-03")
 def test_axes_of_one_statement_end_at_the_same_instant() -> None:
     made = bench()

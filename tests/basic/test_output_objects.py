@@ -144,6 +144,18 @@ def test_a_limit_switch_needs_an_array_and_a_long_parameter() -> None:
 # output objects
 
 
+@pytest.mark.req("ACR-CMD-OOP")
+def test_an_output_switches_in_the_servo_period_of_the_crossing() -> None:
+    made = Bench("X").all("PPU X1", "ACC 0 DEC 0 STP 0 VEL 2000", "OOP0 POS (100,200)", "OOP0 ON")
+    made.all("X300")
+    while made.bit(516):
+        made.ticks(1)
+        # Outputs follow the encoder as it was read in this tick.
+        assert made.bit(32) == (100 <= made.p(12290) < 200)
+    assert not made.bit(32)
+
+
+@pytest.mark.req("ACR-CMD-OOP")
 def test_the_flag_is_set_within_the_window() -> None:
     made = Bench().all("OOP1 SRC ENC10", "OOP1 BIT 40", "OOP1 POS (10,20)", "OOP1 ON")
     seen = [place(made, position).bit(40) for position in (9, 10, 19, 20)]

@@ -48,7 +48,7 @@ def test_a_gain_is_its_parameter(word: str, row: int, default: str) -> None:
     [
         pytest.param("DZU", 12403, marks=pytest.mark.req("ACR-CMD-DZU")),
         pytest.param("DZL", 12404, marks=pytest.mark.req("ACR-CMD-DZL")),
-        ("FFVC", 12405),
+        pytest.param("FFVC", 12405, marks=pytest.mark.req("ACR-CMD-FFVC")),
     ],
 )
 def test_a_value_in_pulses_is_a_whole_number(word: str, row: int) -> None:
@@ -123,7 +123,7 @@ def test_dgain_puts_the_smoothing_into_effect() -> None:
     assert made.p(D_TERM) == pytest.approx(0.001 * -10 / 0.0005 / 4)
 
 
-@pytest.mark.req("ACR-CMD-FFVEL", "ACR-CMD-FFACC")
+@pytest.mark.req("ACR-CMD-FFVEL", "ACR-CMD-FFACC", "ACR-CMD-FFVC")
 def test_feedforward_follows_the_command() -> None:
     made = stalled("FFVEL X0.001 : FFACC X0.00001", "ACC 1000 VEL 100", "X1000").ticks(50)
     assert made.p(12355) == pytest.approx(0.01, rel=1e-3)

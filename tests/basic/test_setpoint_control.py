@@ -69,6 +69,41 @@ def test_a_malformed_jog_is_a_syntax_error(line: str) -> None:
 # continuous jogs
 
 
+@pytest.mark.req("ACR-CMD-JOG")
+def test_jogs_move_one_axis_whatever_the_others_do() -> None:
+    made = bench("JOG VEL X10 Y5 : JOG ACC X0 Y0 : JOG DEC X0 Y0", "JOG FWD X", "JOG ABS Y-2")
+    made.seconds(0.2)
+    assert (made.bit(792), made.bit(824)) == (True, True)
+    made.seconds(0.3).all("JOG OFF X").ticks(1)
+    assert not made.bit(792)
+    assert not made.bit(824)
+    assert not made.bit(516)  # nothing coordinated
+    assert made.type("JOG VEL X Y") == "10|5"
+
+
+@pytest.mark.req("ACR-HOME-18")
+def test_homing_speeds_up_with_ten_units_a_second_squared_by_default() -> None:
+    made = bench("JOG VEL X5", "JOG HOME X1").seconds(0.2)
+    moved = made.axis(0, at.AX_VELOCITY)
+    made.seconds(0.1)
+    scale = made.axis(0, at.AX_PPU)
+    assert (made.axis(0, at.AX_VELOCITY) - moved) / scale == pytest.approx(10 * 0.1)
+
+
+@pytest.mark.req("ACR-HOME-02")
+def test_homing_on_a_voltage_makes_its_register_zero() -> None:
+    made = bench("AXIS0 OFF", "ATTACH AXIS0 ADC3 DAC0", "AXIS0 ON", "JOG VEL X5")
+    made.memory.S[at.ADC_BASE + 3 * at.ADC_STRIDE + at.ADC_ADC_INPUT] = 2.5
+    made.ticks(2)
+    assert made.axis(0, at.AX_ACTUAL_POSITION) == 2500
+    made.all("JOG HOME X1").seconds(0.2)
+    made.all("SET 2")
+    made.until_clear(792)
+    made.ticks(200)
+    assert made.bit(16134)
+    assert made.axis(0, at.AX_ACTUAL_POSITION) == 0
+
+
 @pytest.mark.req("ACR-CMD-JOG-FWD", "ACR-CMD-JOG-OFF", "ACR-JOG-08")
 def test_a_forward_jog_shows_its_phases_in_the_flags() -> None:
     made = bench("JOG ACC X100 : JOG DEC X50 : JOG VEL X10", "JOG FWD X")

@@ -206,6 +206,7 @@ def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
     assert made.psp(0) == captured + 100
 
 
+@pytest.mark.req("ACR-CMD-HSINT")
 def test_hsint_takes_captures_in_its_window_only() -> None:
     made = hsint(bench(), "11,30,2,5,15", at_s=1.0)
     made.ticks(10)
@@ -224,6 +225,7 @@ def test_hsint_without_capture_goes_to_its_target() -> None:
     assert (made.psp(0), made.bit(REGISTERED)) == (4000, False)
 
 
+@pytest.mark.req("ACR-CMD-HSINT")
 def test_hsint_is_aborted_by_its_flag() -> None:
     made = bench(f"HSINT X(11,100,3,0,0,{FLAG})").ticks(ticks(1.0)).all(f"SET {FLAG}")
     assert smooth(speeds(made))

@@ -56,7 +56,7 @@ def notices(host: Host) -> str:
 # ESAVE, ELOAD, ERASE
 
 
-@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02")
+@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
 def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
     host = connected(*SETTINGS)
     before = answers(host)
@@ -67,7 +67,7 @@ def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
     assert host.type("ACC") == "123.456|P00>"
 
 
-@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02")
+@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
 def test_without_esave_parameters_are_defaults_after_reboot() -> None:
     host = connected(*SETTINGS, "SYS", 'IP "10.0.0.7"', "CONFIG NONE NONE NONE NONE")
     host.type("REBOOT", "PROG0")

@@ -18,8 +18,8 @@ initial = 0.0
 marker = {marker}
 travel = [-20.0, 20.0]
 drive = {{ mode = "ideal", revs_per_s_per_volt = 25.0 }}
-positive_limit = {{ at = 15.0 }}
-negative_limit = {{ at = -15.0 }}
+positive_limit = {{ at = 15.0{contact} }}
+negative_limit = {{ at = -15.0{contact} }}
 {home}
 """
 
@@ -54,9 +54,9 @@ LISTING = (
 )
 
 
-def console(x_home: str, y_home: str) -> Console:
-    text = AXIS.format(number=0, name="X", marker=0.3, home=x_home)
-    text += AXIS.format(number=1, name="Y", marker=0.3, home=y_home)
+def console(x_home: str, y_home: str, contact: str = "") -> Console:
+    text = AXIS.format(number=0, name="X", marker=0.3, home=x_home, contact=contact)
+    text += AXIS.format(number=1, name="Y", marker=0.3, home=y_home, contact=contact)
     made = Console()
     made.card = Controller(world=parse_world(text))
     made.card.send("ECHO 4\r")
@@ -81,6 +81,73 @@ def test_both_axes_home_and_x_then_stands_on_its_marker() -> None:
     assert card.p[12544] == 0  # Y: rest position of the search is 0
 
 
+GUIDE = (
+    "JOG VEL X10 Y10",
+    "JOG ACC X100 Y100",
+    "JOG DEC X100 Y100",
+    "HLBIT X0 Y3",
+    "HLIM X3 Y3",
+    "JOG HOMVF X0.1 Y0.1",
+    "SET 16144 SET 16145",
+    "SET 16176 SET 16177",
+    "CLR 16152 CLR 16184",
+    "CLR 16153 CLR 16185",
+    "CLR 16154 CLR 16186",
+    "JOG HOME X-1 Y1",
+    "WHILE (((NOT BIT 16134) AND (NOT BIT 16135)) {joint} ((NOT BIT 16166) AND (NOT BIT 16167)))",
+    "WEND",
+    "P38912=BIT16134 : P38913=BIT16166",
+    'IF (BIT 16166) THEN PRINT "Y HOMING SUCCESSFUL"',
+    "IF (BIT 16134)",
+    "MSEEK X(1,0)",
+    "INH -516",
+    "IF (BIT 777)",
+    'PRINT "X HOMING SUCCESSFUL"',
+    "ENDIF",
+    "ENDIF",
+)
+
+
+def guide(joint: str) -> Console:
+    """The homing example of the guide; its limit switches are closed at rest."""
+    closed = ', contact = "closed"'
+    x_home, y_home = "home = { between = [-4.0, -3.0] }", "home = { between = [8.0, 9.0] }"
+    made = console(x_home, y_home, closed)
+    made.type("ACC 10 DEC 10 STP 10 VEL 0.5", "NEW")
+    made.program(0, *[line.format(joint=joint) for line in GUIDE])
+    return made
+
+
+@pytest.mark.req("ACR-HOME-15", "ACR-HOME-16")
+def test_the_example_of_the_guide_waits_for_both_axes() -> None:
+    made = guide("OR")
+    assert made.listen(0, 30.0) == "Y HOMING SUCCESSFUL|X HOMING SUCCESSFUL"
+    assert (made.card.p[38912], made.card.p[38913]) == (-1, -1)
+
+
+@pytest.mark.req("ACR-HOME-16")
+def test_joined_by_and_its_loop_ends_with_the_first_axis() -> None:
+    made = guide("AND")
+    made.listen(0, 30.0)
+    assert (made.card.p[38912], made.card.p[38913]) == (-1, 0)
+
+
+@pytest.mark.req("ACR-MOT-14")
+def test_absolute_targets_count_from_the_home_position() -> None:
+    made = console("home = { between = [-4.0, -3.0] }", "home = { between = [3.0, 4.0] }")
+    made.listen(0, 12.0)
+    card = made.card
+
+    def stands_u() -> float:
+        return position_of(card.world.axis[0], card.memory.F[PLF_BASE + PLF_POSITION_CNT])
+
+    home_u = stands_u()
+    made.type("X2.5")
+    card.advance(seconds=8.0)
+    assert card.p[12288] == 2.5 * 4000
+    assert stands_u() - home_u == pytest.approx(2.5, abs=2 / 4000)
+
+
 @pytest.mark.req("ACR-APP-HOMING-02")
 def test_a_missing_home_switch_is_reported_for_its_axis() -> None:
     made = console("", "")
@@ -89,3 +156,16 @@ def test_a_missing_home_switch_is_reported_for_its_axis() -> None:
     assert "X HOMING UNSUCCESSFUL" in said
     assert not made.card.bit[128]
     assert not made.card.bit[129]
+
+
+@pytest.mark.req("ACR-SERVO-07")
+def test_a_step_of_one_unit_settles_with_the_default_gains() -> None:
+    made = console("", "")
+    made.type("ACC 0 DEC 0 STP 0 VEL 1E6", "X1")
+    made.card.advance(seconds=2.0)
+    errors = []
+    for _ in range(400):
+        made.card.advance(5)
+        errors.append(made.card.p[12291])
+    assert max(map(abs, errors)) <= 2
+    assert max(errors) - min(errors) <= 1
