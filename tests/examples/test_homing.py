@@ -6,7 +6,7 @@ from tests.examples.watches import HOMING, MISSING_SWITCH
 
 from openacr.controller import Controller
 from openacr.map.numbers import PLF_BASE, PLF_POSITION_CNT, PLF_STRIDE
-from openacr.plant.apply import position_of
+from openacr.plant.counts import position_of
 
 FOUND, FAILED, MARKER = 16134, 16135, 777
 X, Y, Z = range(3)

@@ -17,7 +17,7 @@ from tests.network.rig import (
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map import numbers as at
-from openacr.plant import bus
+from openacr.plant import terminals
 
 SYNC = at.NETMF_BASE + at.NETMF_SYNC_TK
 MESSAGE_S = 0.001  # 125 bits at 125 kbit/s
@@ -146,8 +146,8 @@ def test_each_analog_channel_has_its_block_of_sixteen(slave: int, channel: int) 
 def test_full_scale_is_that_of_sixteen_bits_for_any_resolution(bits: int) -> None:
     world = node(1, analog_inputs=3, analog_bits=bits, analog_values=[10.0, -10.0, 2.5])
     made = running(world)
-    assert bus.convert_inputs(made.memory, 0)[:2] == [32767, -32768]
-    counts = bus.convert_inputs(made.memory, 0)[2]
+    assert terminals.convert_inputs(made.memory, 0)[:2] == [32767, -32768]
+    counts = terminals.convert_inputs(made.memory, 0)[2]
     assert counts % 2 ** (16 - bits) == 0
     assert 0 <= 8192 - counts < max(2 ** (16 - bits), 2)
     made.advance(seconds=0.06)
@@ -161,7 +161,7 @@ def test_a_device_without_negative_values_uses_the_upper_half() -> None:
         output_range=[0.0, 10.0], analog_values=[-3.0, 0.0, 12.0],
     )  # fmt: skip
     made = running(world)
-    assert bus.convert_inputs(made.memory, 0) == [0, 0, 32767]
+    assert terminals.convert_inputs(made.memory, 0) == [0, 0, 32767]
     made.p[33280] = -5.0
     made.advance(seconds=0.06)
     assert converted(made, 0, 0) == 0
@@ -173,7 +173,7 @@ def test_seven_and_a_half_volts_are_24576_counts() -> None:
     made.p[33280] = 7.5
     made.advance(seconds=0.06)
     assert converted(made, 0, 0) == 24576
-    assert bus.output_value(made.memory, 0, 0) == pytest.approx(7.5, abs=0.001)
+    assert terminals.output_value(made.memory, 0, 0) == pytest.approx(7.5, abs=0.001)
 
 
 @pytest.mark.req("ACR-CANIO-05", "ACR-CANIO-06")
@@ -182,7 +182,7 @@ def test_an_output_stays_within_sixteen_bits() -> None:
     made.p[33280], made.p[33296] = 12.0, -12.0
     made.advance(seconds=0.06)
     assert [converted(made, 0, 0), converted(made, 0, 1)] == [32767, -32768]
-    assert bus.output_value(made.memory, 0, 1) == -10.0
+    assert terminals.output_value(made.memory, 0, 1) == -10.0
 
 
 @pytest.mark.req("ACR-CANIO-07")
@@ -235,3 +235,35 @@ def test_nodes_the_machine_does_not_have_are_told_of() -> None:
     made.bit[DO[1]] = True
     made.advance(seconds=0.1)
     assert not output(made, 0, 0)
+
+
+def signal(**keys: object) -> str:
+    """A signal in the words of machine.toml."""
+    return "\n".join(
+        ["[[canopen.signal]]", *(f"{key} = {value}" for key, value in keys.items()), ""]
+    )
+
+
+def test_an_analog_output_can_be_wired_to_an_analog_input() -> None:
+    made = running(PANEL + signal(input=33304, output=33280, scale=-0.5, offset=1.0))
+    made.p[33280] = 6.0
+    made.advance(seconds=0.2)
+    assert made.p[33304] == pytest.approx(-2.0, abs=0.001)
+    assert made.p[33288] == 0.0
+
+
+@pytest.mark.parametrize("direction", ["up", "down"])
+def test_a_distance_sensor_measures_an_axis(direction: str) -> None:
+    motor = (
+        "[[axis]]\nnumber = 2\nencoder_lines = 1000\nunits_per_rev = 10.0\ninitial = 50.0\n"
+        f'encoder_direction = "{direction}"\n'
+        'drive = {mode = "ideal", revs_per_s_per_volt = 25.0}\n'
+    )
+    sensor = signal(input=33288, axis=2, scale=0.05, offset=0.5)  # 0.05 V per mm
+    made = running(node(1, analog_inputs=1) + sensor + motor)
+    made.advance(seconds=0.2)
+    assert made.p[33288] == pytest.approx(3.0, abs=0.002)
+    made.send("AXIS2 OFF\rENC2 MULT 4\r")
+    made.drag(2, 4000.0 if direction == "up" else -4000.0)  # a revolution
+    made.advance(seconds=0.2)
+    assert made.p[33288] == pytest.approx(3.5, abs=0.002)

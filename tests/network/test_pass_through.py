@@ -165,3 +165,23 @@ def test_commands_of_one_line_are_answered_together() -> None:
     assert bench.say("DMODE4") == "DMODE4|*INVALID DATA"
     assert bench.say("1_TADDR") == "1_TADDR|*1"
     assert bench.say("2_TADDR", 1.1) == "2_TADDR"
+
+
+def test_a_snapshot_returns_to_the_middle_of_a_conversation() -> None:
+    bench = talking_bench()
+    bench.card.send("TADDR\r")
+    snapshot = bench.card.snapshot()
+    bench.escape()
+    bench.card.restore(snapshot)
+    bench.card.advance(seconds=0.1)
+    assert bench.card.take_output(bench.card.console) == b"*1\r\n"
+    assert bench.say("DMODE") == "DMODE|*2"
+    assert bench.escape() == "\r\nP00>"
+
+
+def test_a_restart_of_the_card_ends_a_conversation() -> None:
+    bench = talking_bench()
+    other = bench.card.open_stream(StreamKind.TERMINAL)
+    bench.card.receive(other, b"REBOOT\r")
+    assert bench.type("ECHO 4") != ""
+    assert bench.type("?1+1") == "2"

@@ -6,7 +6,8 @@ import pytest
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant.apply import apply_world, count_of, position_of
+from openacr.plant.apply import apply_world
+from openacr.plant.counts import count_of, position_of
 from openacr.plant.load import parse_world
 from openacr.plant.schema import default_world
 from openacr.plant.step_cy import plant_step

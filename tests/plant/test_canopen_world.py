@@ -8,6 +8,12 @@ from openacr.errors import SourceError, UserError
 from openacr.plant.load import parse_world
 
 
+def signal(**keys: object) -> str:
+    return "\n".join(
+        ["[[canopen.signal]]", *(f"{key} = {value}" for key, value in keys.items()), ""]
+    )
+
+
 def refusal(text: str) -> str:
     with pytest.raises(SourceError) as refused:
         parse_world(text)
@@ -42,6 +48,11 @@ def test_more_than_the_card_can_have_is_refused(text: str, says: str) -> None:
         (fault("noise", node=1), "has a node"),
         (node(1) + fault("lost", node=2), "there is no node 2"),
         (node(1) + fault("lost", node=1, at_s=3.0, until_s=2.0), "the fault ends at 2 s"),
+        (signal(input=33288, output=33280), "P33288 shows no analog input"),
+        (node(1, analog_inputs=1) + signal(input=33288), "one of axis and output"),
+        (node(1, analog_inputs=1) + signal(input=33288, axis=0, output=33280), "one of axis and"),
+        (node(1, analog_inputs=1) + signal(input=33288, axis=0), "there is no axis 0"),
+        (node(1, analog_inputs=1) + signal(input=33288, output=33280), "commands no analog output"),
         (node(1) + "colour = 3\n", "unknown key 'colour'"),
         ("[[wire]]\ninput = 11520\noutput = 32\n", "11520, which is not an input"),
         (node(1, digital_inputs=2) + "[[wire]]\ninput = 11522\noutput = 32\n", "11520 to 11521"),

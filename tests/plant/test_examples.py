@@ -8,7 +8,8 @@ import pytest
 from openacr import compiled
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant.apply import apply_world, count_of
+from openacr.plant.apply import apply_world
+from openacr.plant.counts import count_of
 from openacr.plant.load import load_world
 from openacr.plant.schema import World, switches
 from openacr.plant.step_cy import plant_step

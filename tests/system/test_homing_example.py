@@ -5,7 +5,7 @@ from tests.system.terminal import Console
 
 from openacr.controller import Controller
 from openacr.map.numbers import PLF_BASE, PLF_POSITION_CNT
-from openacr.plant.apply import position_of
+from openacr.plant.counts import position_of
 from openacr.plant.load import parse_world
 
 AXIS = """

@@ -66,7 +66,7 @@ from openacr.motion.card import Card
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
 from openacr.network.networks import Networks
-from openacr.plant import apply, bus, load, schema
+from openacr.plant import apply, load, schema, terminals
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
 from openacr.project import Project, find_project
@@ -351,9 +351,9 @@ class Controller:
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input that no part of the world drives, onboard or at a CANopen node."""
-        if bus.input_terminal(bit) is None:
+        if terminals.input_terminal(bit) is None:
             self.memory.set_bit(bit, on)
-        elif not bus.switch(self.memory, bit, on):
+        elif not terminals.switch(self.memory, bit, on):
             raise UserError(f"input {bit}: no CANopen node of the machine has it")
         self._note(Entered.INPUT, bit, on)
 
@@ -370,7 +370,7 @@ class Controller:
 
     def set_analog(self, parameter: int, value: float) -> None:
         """Bring a value, in its unit, to the analog input of a node that a parameter shows."""
-        place = bus.analog_input(self.memory, parameter)
+        place = terminals.analog_input(self.memory, parameter)
         if place is None:
             raise UserError(f"P{parameter} shows no analog input of a node")
         self.memory.F[place] = value

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import apply_networks, bus
+from openacr.plant import apply_networks, bus, terminals
+from openacr.plant.counts import count_of
 from openacr.plant.schema import (
     Axis,
     Contact,
@@ -101,18 +102,6 @@ def push(memory: Memory, motor: int, by_cnt: float) -> bool:
         return False
     memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_POSITION_CNT] += by_cnt
     return True
-
-
-def count_of(axis: Axis, position_u: float) -> float:
-    """Return the encoder count, with its fraction, at a position in user units."""
-    sign = 1 if axis.encoder_direction is Direction.UP else -1
-    return sign * (position_u - axis.initial) * axis.counts_per_unit + 0.5
-
-
-def position_of(axis: Axis, count: float) -> float:
-    """Return the position in user units at an encoder count."""
-    sign = 1 if axis.encoder_direction is Direction.UP else -1
-    return axis.initial + sign * (count - 0.5) / axis.counts_per_unit
 
 
 def _clear(memory: Memory) -> None:
@@ -351,16 +340,16 @@ def _all_but_last(sides: Iterable[_Side]) -> list[bool]:
 
 def _input(flag: int) -> tuple[int, int]:
     """Word and mask of what drives an input: of a node it is the level at its terminal."""
-    terminal = bus.input_terminal(flag)
+    terminal = terminals.input_terminal(flag)
     word, mask = _place(flag)
-    return (bus.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
+    return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
 
 
 def _output(flag: int) -> tuple[int, int]:
     """Word and mask of an output; of a node it is the level at its terminal."""
-    terminal = bus.output_terminal(flag)
+    terminal = terminals.output_terminal(flag)
     word, mask = _place(flag)
-    return (bus.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
+    return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
 
 
 def _place(flag: int) -> tuple[int, int]:

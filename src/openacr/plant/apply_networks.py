@@ -2,7 +2,8 @@
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import aries, bus
+from openacr.plant import aries, bus, terminals
+from openacr.plant.counts import position_of
 from openacr.plant.network_schema import (
     Coupler,
     DrivePort,
@@ -10,6 +11,7 @@ from openacr.plant.network_schema import (
     FaultKind,
     Health,
     Node,
+    Signal,
     TalkingDrive,
 )
 from openacr.plant.schema import Axis, TorqueDrive, VelocityDrive, World
@@ -28,12 +30,14 @@ PORTS = {DrivePort.COM1: 1, DrivePort.COM2: 2}
 REALS = (
     (at.BUSDF_BASE, at.BUSD_COUNT * at.BUSDF_STRIDE),
     (at.BUSNF_BASE, at.BUSN_COUNT * at.BUSNF_STRIDE),
+    (at.BUSSF_BASE, at.BUSS_COUNT * at.BUSSF_STRIDE),
     (at.BUSXF_BASE, at.BUSX_COUNT * at.BUSXF_STRIDE),
     (at.BUSF_BASE, at.BUSF_STRIDE),
 )
 INTS = (
     (at.BUSDI_BASE, at.BUSD_COUNT * at.BUSDI_STRIDE),
     (at.BUSNI_BASE, at.BUSN_COUNT * at.BUSNI_STRIDE),
+    (at.BUSSI_BASE, at.BUSS_COUNT * at.BUSSI_STRIDE),
     (at.BUSXI_BASE, at.BUSX_COUNT * at.BUSXI_STRIDE),
     (at.BUSI_BASE, at.BUSI_STRIDE),
 )
@@ -49,6 +53,9 @@ def write_nodes(memory: Memory, world: World) -> None:
         _write_node(memory, place, node)
     for place, fault in enumerate(world.canopen.fault):
         _write_fault(memory, place, fault, places)
+    axes = {axis.number: axis for axis in world.axis}
+    for place, signal in enumerate(world.canopen.signal):
+        _write_signal(memory, place, signal, axes)
     for place in places.values():
         bus.begin(memory, place, bus.NodeState.PRE_OPERATIONAL)
     bus.follow_power(memory)
@@ -67,7 +74,7 @@ def _write_node(memory: Memory, place: int, node: Node) -> None:
         at.BUSNI_ANALOG_BITS: node.analog_bits,
     }
     for row, number in ints.items():
-        memory.I[bus.ints(place) + row] = number
+        memory.I[terminals.ints(place) + row] = number
     reals = {
         at.BUSNF_INPUT_LOW: node.input_range[0],
         at.BUSNF_INPUT_HIGH: node.input_range[1],
@@ -76,7 +83,7 @@ def _write_node(memory: Memory, place: int, node: Node) -> None:
         **{at.BUSNF_MEASURED + n: value for n, value in enumerate(node.analog_values)},
     }
     for row, value in reals.items():
-        memory.F[bus.reals(place) + row] = value
+        memory.F[terminals.reals(place) + row] = value
 
 
 def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int]) -> None:
@@ -87,6 +94,22 @@ def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int
     memory.F[reals + at.BUSXF_FROM_S] = fault.at_s
     memory.F[reals + at.BUSXF_UNTIL_S] = bus.NEVER_S if fault.until_s is None else fault.until_s
     memory.F[reals + at.BUSXF_RATE] = fault.rate
+
+
+def _write_signal(memory: Memory, place: int, signal: Signal, axes: dict[int, Axis]) -> None:
+    """A position counts from the machine's own zero, in units of its axis."""
+    ints = at.BUSSI_BASE + place * at.BUSSI_STRIDE
+    scale, offset = signal.scale, signal.offset
+    memory.I[ints + at.BUSSI_INPUT] = terminals.analog_input(memory, signal.input) or 0
+    memory.I[ints + at.BUSSI_AXIS] = -1 if signal.axis is None else signal.axis
+    if signal.axis is not None:
+        axis = axes[signal.axis]
+        origin, unit = (position_of(axis, count) for count in (0.0, 1.0))
+        scale, offset = scale * (unit - origin), offset + scale * origin
+    elif output := terminals.analog_output(memory, signal.output or 0):
+        memory.I[ints + at.BUSSI_NODE], memory.I[ints + at.BUSSI_CHANNEL] = output
+    factors = at.BUSSF_BASE + place * at.BUSSF_STRIDE
+    memory.F[factors + at.BUSSF_SCALE], memory.F[factors + at.BUSSF_OFFSET] = scale, offset
 
 
 # -- drives --------------------------------------------------------------------------------

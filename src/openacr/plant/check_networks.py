@@ -3,11 +3,21 @@
 from collections.abc import Callable, Iterator
 
 from openacr.plant.complaint import Complaint, Path
-from openacr.plant.network_schema import FAULTS, NODES, Canopen, Fault, FaultKind, Node
+from openacr.plant.network_schema import (
+    FAULTS,
+    NODES,
+    SIGNALS,
+    Canopen,
+    Fault,
+    FaultKind,
+    Node,
+    Signal,
+)
 from openacr.plant.schema import World
 
 WITH_CANOPEN = ("ACR9000", "ACR9030", "ACR9040")
 FIRST_INPUT, FIRST_OUTPUT, FLAGS_PER_NODE = 11520, 12032, 1024
+FIRST_ANALOG_OUTPUT, FIRST_ANALOG_INPUT = 33280, 33288
 _OF_A_NODE = {FaultKind.SILENT, FaultKind.LOST}
 
 
@@ -39,10 +49,12 @@ def canopen_faults(world: World) -> Iterator[Complaint]:
     yield from _nodes(world.canopen)
     for place, fault in enumerate(world.canopen.fault):
         yield from _fault(("canopen", "fault", place), fault, world.canopen)
+    for place, signal in enumerate(world.canopen.signal):
+        yield from _signal(("canopen", "signal", place), signal, world)
 
 
 def _sizes(canopen: Canopen) -> Iterator[Complaint]:
-    for key, limit in (("node", NODES), ("fault", FAULTS)):
+    for key, limit in (("node", NODES), ("fault", FAULTS), ("signal", SIGNALS)):
         count = len(getattr(canopen, key))
         if count > limit:
             text = f"{count} {key}s are more than {limit}"
@@ -79,6 +91,30 @@ def _fault(path: Path, fault: Fault, canopen: Canopen) -> Iterator[Complaint]:
     if fault.until_s is not None and fault.until_s <= fault.at_s:
         text = f"the fault ends at {fault.until_s:g} s, but begins at {fault.at_s:g} s"
         yield Complaint((*path, "until_s"), text)
+
+
+def _signal(path: Path, signal: Signal, world: World) -> Iterator[Complaint]:
+    nodes = world.canopen.node if world.canopen else ()
+    inputs = [
+        FIRST_ANALOG_INPUT + 512 * place + 16 * channel
+        for place, node in enumerate(nodes)
+        for channel in range(node.analog_inputs)
+    ]
+    outputs = [
+        FIRST_ANALOG_OUTPUT + 512 * place + 16 * channel
+        for place, node in enumerate(nodes)
+        for channel in range(node.analog_outputs)
+    ]
+    if signal.input not in inputs:
+        text = f"P{signal.input} shows no analog input of a node"
+        yield Complaint((*path, "input"), text, "they are P33288 + 512 n + 16 k of node n")
+    if (signal.axis is None) == (signal.output is None):
+        yield Complaint(path, "a signal comes from one of axis and output")
+    elif signal.output is not None and signal.output not in outputs:
+        text = f"P{signal.output} commands no analog output of a node"
+        yield Complaint((*path, "output"), text, "they are P33280 + 512 n + 16 k of node n")
+    elif signal.axis is not None and signal.axis not in {axis.number for axis in world.axis}:
+        yield Complaint((*path, "axis"), f"there is no axis {signal.axis}")
 
 
 def drive_faults(world: World) -> Iterator[Complaint]:

@@ -14,6 +14,7 @@ NODES = 4
 DIGITAL = 512
 ANALOG = 32
 FAULTS = 16
+SIGNALS = 16
 
 DriveAxis = Annotated[int, Meta(ge=0, le=15)]
 Address = Annotated[int, Meta(ge=0, le=99)]
@@ -24,7 +25,8 @@ NodeId = Annotated[int, Meta(ge=1, le=127)]
 Digital = Annotated[int, Meta(ge=0, le=DIGITAL)]
 Analog = Annotated[int, Meta(ge=0, le=ANALOG)]
 AnalogBits = Annotated[int, Meta(ge=8, le=16)]
-Signal = Annotated[float, Meta(ge=-1e6, le=1e6)]
+Level = Annotated[float, Meta(ge=-1e6, le=1e6)]
+Parameter = Annotated[int, Meta(ge=33280, le=35327)]
 Moment = Annotated[float, Meta(ge=0, le=1e9)]
 Share = Annotated[float, Meta(gt=0, le=1)]
 
@@ -80,9 +82,9 @@ class Node(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     analog_inputs: Analog = 0
     analog_outputs: Analog = 0
     analog_bits: AnalogBits = 16
-    input_range: tuple[Signal, Signal] = (-10.0, 10.0)
-    output_range: tuple[Signal, Signal] = (-10.0, 10.0)
-    analog_values: tuple[Signal, ...] = ()
+    input_range: tuple[Level, Level] = (-10.0, 10.0)
+    output_range: tuple[Level, Level] = (-10.0, 10.0)
+    analog_values: tuple[Level, ...] = ()
 
 
 class Fault(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -95,11 +97,22 @@ class Fault(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     rate: Share = 0.5
 
 
+class Signal(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What comes to an analog input: the position of an axis or an analog output, scaled."""
+
+    input: Parameter
+    axis: DriveAxis | None = None
+    output: Parameter | None = None
+    scale: Level = 1.0
+    offset: Level = 0.0
+
+
 class Canopen(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The CANopen bus; a card in whose file it does not stand has no controller for it."""
 
     node: tuple[Node, ...] = ()
     fault: tuple[Fault, ...] = ()
+    signal: tuple[Signal, ...] = ()
 
 
 class DriveType(StrEnum):

@@ -49,6 +49,19 @@ FAULT = HiddenBlock(
     ints=("kind", "node"),
 )
 
+# What comes to an analog input from somewhere in the world: source * scale + offset.
+SIGNAL = HiddenBlock(
+    prefix="BUSS",
+    count=16,
+    doubles=("scale", "offset"),
+    ints=(
+        "input",  # index (into F) of what is at the input, 0: no such signal
+        "axis",  # the motor whose position it is, -1: an analog output
+        "node",  # of the output
+        "channel",
+    ),
+)
+
 BUS = HiddenBlock(
     prefix="BUS",
     count=1,

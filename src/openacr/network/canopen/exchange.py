@@ -10,7 +10,7 @@ from __future__ import annotations
 from openacr.map import numbers as at
 from openacr.network.canopen import figures, image
 from openacr.network.canopen.rows import BusState, Master, Phase
-from openacr.plant import bus
+from openacr.plant import bus, terminals
 
 # The error counter of a bus controller: 8 up for a message that was destroyed, 1 down for
 # one that came through; a warning from 96 on, off the bus from 256 on.
@@ -32,9 +32,10 @@ def begin(master: Master) -> None:
 def cycle(master: Master) -> None:
     """One synchronisation."""
     bit_rate, messages = master.get(at.NETMI_BIT_RATE), master.get(at.NETMI_FRAMES)
+    terminals.follow_signals(master.memory)
     for slave in _answering(master):
         _exchange_outputs(master, slave)
-        latched = bus.convert_inputs(master.memory, _node(master, slave))
+        latched = terminals.convert_inputs(master.memory, _node(master, slave))
         for number, counts in enumerate(latched):
             master.put_slave(slave, at.NETSI_LATCHED + number, counts)
     master.set_time(at.NETMF_SYNC_TK, master.get(at.NETMI_CYCLE_MS))
@@ -74,12 +75,14 @@ def _answering(master: Master) -> list[int]:
 
 def _exchange_outputs(master: Master, slave: int) -> None:
     node = _node(master, slave)
-    has = bus.ints(node)
+    has = terminals.ints(node)
     digital, analog = (
         master.memory.I[has + row] for row in (at.BUSNI_DIGITAL_OUTPUTS, at.BUSNI_ANALOG_OUTPUTS)
     )
     words = image.read_outputs(master, slave, digital)
-    bus.set_outputs(master.memory, node, words, image.dac_counts(master.memory, slave, analog))
+    terminals.set_outputs(
+        master.memory, node, words, image.dac_counts(master.memory, slave, analog)
+    )
 
 
 def _receives(master: Master) -> bool:
@@ -119,7 +122,7 @@ def receive_changes(master: Master) -> None:
 
 def _send_inputs(master: Master, slave: int) -> bool:
     """What a node sends is what is at its terminals now; whether it is something new."""
-    levels = bus.ints(_node(master, slave)) + at.BUSNI_LEVELS
+    levels = terminals.ints(_node(master, slave)) + at.BUSNI_LEVELS
     is_new = False
     for word in range(master.slave(slave, at.NETSI_WORDS)):
         level = master.memory.I[levels + word]
@@ -152,7 +155,7 @@ def check_health(master: Master) -> None:
 
 def _is_overrun(master: Master, slave: int, cycle_ms: int) -> bool:
     """Whether the cycle is too fast for a node; it is then too busy to say that it is alive."""
-    memory, rows = master.memory, bus.ints(_node(master, slave))
+    memory, rows = master.memory, terminals.ints(_node(master, slave))
     digital, analog = (
         sum(memory.I[rows + row] for row in pair)
         for pair in (
