@@ -139,3 +139,38 @@ def test_no_card_is_said_as_such(tmp_path: Path) -> None:
     code, text = mill("run", program(tmp_path, SQUARE), "--host", "127.0.0.1:1")
     assert code == 2
     assert "NO CARD FOUND" in text
+
+
+def batch_of(folder: Path, text: str) -> str:
+    (folder / "ONE.NC").write_text("F600\nG1 X1\n(MSG, one)\nM2\n")
+    (folder / "TWO.NC").write_text("F600\nG1 X0\n(MSG, two)\nM2\n")
+    file = folder / "SHIFT.BAT"
+    file.write_text(text)
+    return str(file)
+
+
+@pytest.mark.req("MILL-BATCH-ORDER")
+def test_a_batch_runs_its_programs_in_order(tmp_path: Path) -> None:
+    code, text = mill("batch", batch_of(tmp_path, "ONE.NC\nTWO.NC L2\nONE.NC\n"))
+    assert code == 0
+    said = [line for line in text.split() if line in ("one", "two")]
+    assert said == ["one", "two", "two", "one"]
+
+
+def test_a_batch_with_a_faulty_program_does_not_start(tmp_path: Path) -> None:
+    file = batch_of(tmp_path, "ONE.NC\nTWO.NC\n")
+    (tmp_path / "TWO.NC").write_text("QQ\n")
+    code, text = mill("batch", file)
+    assert code == 1
+    assert "TWO.NC:1" in text
+    assert "one" not in text.split()
+
+
+@pytest.mark.req("MILL-BATCH-ABORT")
+def test_what_ends_a_program_ends_its_batch(tmp_path: Path) -> None:
+    file = batch_of(tmp_path, "ONE.NC\nTWO.NC\n")
+    (tmp_path / "ONE.NC").write_text("P5=0\nF600\nG1 X(1/P5)\nM2\n")
+    code, text = mill("batch", file)
+    assert code == 1
+    assert "alarm 60" in text
+    assert "two" not in text.split()

@@ -175,6 +175,17 @@ def test_a_dry_run_moves_at_trial_speed() -> None:
     assert took_s == pytest.approx(1.0, abs=0.05)
 
 
+@pytest.mark.req("MILL-RUN-DRY-GOTOSTART")
+@pytest.mark.parametrize(("returns", "pulses"), [(1, (0, 0, 0)), (0, (20000, 0, 5000))])
+def test_a_dry_run_returns_to_its_start_where_the_store_says_so(
+    returns: int, pulses: tuple[int, int, int]
+) -> None:
+    shop = Shop(P250_006=returns)
+    shop.finish(line(1, at(2, 0, 0.5)), end(), options=Options(is_dry=True))
+    assert shop.pulses() == pulses
+
+
+@pytest.mark.req("MILL-RUN-REPEAT")
 def test_the_run_can_be_repeated_until_stopped() -> None:
     shop = Shop(P250_013=1)
     shop.start(line(1, at(1)), line(2, at(0)), end())

@@ -23,6 +23,7 @@ from openacr.cli.mill import (
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
+    from openacr.cnc.batch import Batch, Entry
     from openacr.cnc.canonical import Ask
     from openacr.cnc.program import Program
     from openacr.cnc.replay import Replay
@@ -70,14 +71,65 @@ def run_program(
 
     start = Start("", line, is_dry, is_skipping, stops_optionally, accepts_tool)
     with opened_store(store) as cells:
-        program, name = loaded(file, cells, dialect)
-        if program.errors:
-            show_findings(program.errors)
-            raise typer.Exit(FAILED)
+        program, name = _checked(file, cells, dialect)
         with _workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.course.host.answers.update(map(_answer, answers or []))
             _run(shop, program, _with_dialect(start, name), is_quiet or as_json)
             _report(shop, as_json, is_quiet)
+
+
+def run_batch(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Names of programs, one a line.")],
+    host: ToHost = None,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    is_dry: Dry = False,
+) -> None:
+    """Run the programs of a batch file one after the other.
+
+    All of them are checked before the first one starts; an alarm ends the batch.
+    """
+    from openacr.cnc.batch import read_batch
+
+    batch = read_batch(file)
+    with opened_store(store) as cells:
+        programs = {path: _checked(path, cells, dialect) for path in batch.programs}
+        with _workshop(host, cells) as shop:
+            for each in _runs(batch, repeats=shop.runner.settings.repeats):
+                program, name = programs[each.path]
+                typer.echo(each.path.name)
+                _run(shop, program, _single(name, is_dry=is_dry), is_quiet=False)
+                _end_with_alarms(shop)
+
+
+def _runs(batch: "Batch", *, repeats: bool) -> "Iterator[Entry]":
+    """The runs of a batch, over and over where the store says so."""
+    yield from batch.runs()
+    while repeats:
+        yield from batch.runs()
+
+
+def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program, str]":
+    """A program without errors, or the end with exit code 1."""
+    program, name = loaded(path, cells, dialect)
+    if program.errors:
+        show_findings(program.errors)
+        raise typer.Exit(FAILED)
+    return program, name
+
+
+def jog_axes(
+    ways: Annotated[list[str], typer.Argument(metavar="WAY...", help="X0.5 Y-1")],
+    host: AtHost,
+    store: AtStore = None,
+) -> None:
+    """Move axes of a card by hand: X0.5 Y-1."""
+    from openacr.mill.jogging import ways as ways_of
+
+    with opened_store(store) as cells, _workshop(host, cells) as shop:
+        names = [axis.name for axis in shop.runner.settings.axes]
+        shop.jog(ways_of(ways, names), _attend)
+        typer.echo(_place_text(shop, shop.runner.course.host.position()))
 
 
 def run_blocks(
@@ -126,6 +178,12 @@ def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "
         yield shop
     finally:
         shop.close()
+
+
+def _single(dialect: str, *, is_dry: bool) -> "Start":
+    from openacr.mill.workshop import Start
+
+    return Start(dialect, is_dry=is_dry, is_repeated=False)
 
 
 def _with_dialect(start: "Start", name: str) -> "Start":

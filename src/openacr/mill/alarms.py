@@ -6,6 +6,7 @@ bars START. The text, the effect and the number of each stand in one row here.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import datetime
 from enum import Enum
 from pathlib import Path
 
@@ -149,5 +150,9 @@ class Alarms:
     def _note(self, alarm: Alarm) -> None:
         if self._log is None:
             return
-        with self._log.open("a", encoding="utf-8") as log:
-            log.write(f"{alarm.at_s:.3f} s  alarm {alarm.kind.code}  {alarm.text}\n")
+        stamp = datetime.now().astimezone().isoformat(timespec="seconds")
+        try:
+            with self._log.open("a", encoding="utf-8") as log:
+                log.write(f"{stamp}  alarm {alarm.kind.code}  {alarm.text}\n")
+        except OSError:
+            self._log = None  # a full disk must not stop what an alarm has to do

@@ -37,14 +37,15 @@ class Course:
         self._probing = Probing(panel, self._send)
         self._encoder = Encoder(panel.settings)
         self._feed: Feed | None = None
+        self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
 
     def begin(self, entries: Entries, *, is_dry: bool, is_single: bool) -> None:
         """A program from its first block on."""
         self._machine.reset_counter()
         self.tracker.reset()
         self._encoder = Encoder(self.settings, is_dry=is_dry)
-        begin = self.host.position()
-        self._feed = Feed(entries(self.host), begin, self.settings, self._encoder)
+        self._begin = self.host.position()
+        self._feed = Feed(entries(self.host), self._begin, self.settings, self._encoder)
         self._feed.is_single = is_single
 
     def end(self) -> None:
@@ -142,6 +143,17 @@ class Course:
         jobs = self._jobs(straight_back(source, here, target, c.Plane.XY.drill), here)
         if self._feed is not None and jobs:
             self._feed.replace(jobs)
+
+    def return_to_begin(self) -> Steps:
+        """Straight to where the program was started, the drill axis up first."""
+        here = self.host.position()
+        source = self.tracker.source or c.Source("", 1, "")
+        for job in self._jobs(straight_back(source, here, self._begin, c.Plane.XY.drill), here):
+            self._send(job)
+        yield Until(
+            "back to the start",
+            lambda look: look.counter >= self.tracker.sent and not look.is_moving,
+        )
 
     def drop_moves(self) -> Steps:
         """Drop what the card holds and count from zero again."""

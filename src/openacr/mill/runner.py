@@ -251,6 +251,8 @@ class Runner:
                 self._hold(halt)
                 return
         elif isinstance(halt, c.End):
+            if self.options.is_dry and self.settings.returns_to_start:
+                yield from self.course.return_to_begin()
             self._end_of_text()
             return
         else:
@@ -293,7 +295,7 @@ class Runner:
         if not self.options.is_mdi:
             self.passes += 1
             self._console.count_part(self.passes)
-        if self.settings.repeats and not self.options.is_mdi:
+        if self.settings.repeats and self.options.is_repeated:
             self._begin_pass()
             return
         if not self.options.is_mdi:

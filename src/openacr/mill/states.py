@@ -22,4 +22,5 @@ class Options:
     is_dry: bool = False
     is_single: bool = False
     stops_optionally: bool = False
+    is_repeated: bool = True  # where the store says Repeat Forever
     is_mdi: bool = False  # blocks typed one by one: what is on stays on behind them

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain, repeat
+from pathlib import Path
 
 from openacr.client import Card
 from openacr.cnc import canonical as c
@@ -21,14 +22,21 @@ from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
+from openacr.map.numbers import P_FIRMWARE_VERSION
+from openacr.mill import alarms
+from openacr.mill.alarms import AlarmError, Alarms
 from openacr.mill.host import RunHost
+from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Machine
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare
 from openacr.mill.states import Options, State
+from openacr.sysvar import Store
 
 POLL_S = 0.01
+OLDEST_FIRMWARE = 11800
+NO_ERROR_FILE, LOG_NAME = 250_118, 100_006
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
 UNWIRED = (
@@ -46,6 +54,7 @@ class Start:
     is_dry: bool = False
     is_skipping: bool = False
     stops_optionally: bool = False
+    is_repeated: bool = True  # where the store says Repeat Forever
     accepts_tool: bool = False  # start at a line although another tool is in the spindle
 
 
@@ -53,7 +62,13 @@ class Workshop:
     """A card that is set up for the machine, and its runner."""
 
     def __init__(
-        self, card: Card, cells: Cells, say: Callable[[str], None], *, is_virtual: bool
+        self,
+        card: Card,
+        cells: Cells,
+        say: Callable[[str], None],
+        *,
+        is_virtual: bool,
+        folder: Path | None = None,
     ) -> None:
         self.cells = cells
         self.card = card
@@ -62,7 +77,8 @@ class Workshop:
         depth = prepare(card, settings)
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master)
-        self.runner = Runner(self.machine, cells, depth, say)
+        log = _error_log(cells, folder)
+        self.runner = Runner(self.machine, cells, depth, say, Alarms(log))
         self.runner.has_operator = not is_virtual
 
     @classmethod
@@ -81,9 +97,16 @@ class Workshop:
         return shop
 
     @classmethod
-    def real(cls, target: str, store: Cells, say: Callable[[str], None] = print) -> "Workshop":
+    def real(cls, target: str, store: Store, say: Callable[[str], None] = print) -> "Workshop":
         """A card at the other end of a link; drives are left as they are."""
-        return cls(Card.open(target), store, say, is_virtual=False)
+        card = Card.open(target)
+        try:
+            _check_firmware(card)
+            folder = store.path.parent if store.path else None
+            return cls(card, store, say, is_virtual=False, folder=folder)
+        except BaseException:
+            card.close()
+            raise
 
     def close(self) -> None:
         """Let go of the card."""
@@ -94,7 +117,11 @@ class Workshop:
     def start(self, program: Program, start: Start) -> Replay | None:
         """Begin a program; the replay of the lines before, when it begins later."""
         replay: Replay | None = None
-        options = Options(is_dry=start.is_dry, stops_optionally=start.stops_optionally)
+        options = Options(
+            is_dry=start.is_dry,
+            stops_optionally=start.stops_optionally,
+            is_repeated=start.is_repeated,
+        )
         host = self.runner.course.host
         host.is_skipping = host.is_skipping or start.is_skipping
         reading = self._interpreter(program, start)
@@ -130,11 +157,18 @@ class Workshop:
         typed = Mdi(Interpreter(program, self.cells, host, dialect))
         for block in blocks:
             entries = _ended(typed.execute(block))
-            self.runner.run(partial(_given, entries), Options(is_mdi=True))
+            self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
             self._finish(attend)
             yield host.position()
             if self.runner.alarms.bars_start:
                 return
+
+    def jog(self, ways: Iterable[tuple[str, float]], attend: Callable[["Workshop"], None]) -> None:
+        """Move axes by hand, each by a distance."""
+        numbers = {axis.name: axis.index for axis in self.runner.settings.axes}
+        for name, way in ways:
+            self.runner.jog(partial(Jogging.move, axis=numbers[name], way_u=way))
+        self._finish(attend)
 
     def home(self, names: str, attend: Callable[["Workshop"], None]) -> list[str]:
         """Find the reference points of the axes named, or of all that have a priority."""
@@ -164,6 +198,20 @@ class Workshop:
         runner.doing.changer.is_confirmed = True
         if runner.state is State.HOLD:
             runner.start()
+
+
+def _check_firmware(card: Card) -> None:
+    """Refuse a card that is older than what the packets of moves need."""
+    version = int(card.read(P_FIRMWARE_VERSION))
+    if version < OLDEST_FIRMWARE:
+        raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
+
+
+def _error_log(cells: Cells, folder: Path | None) -> Path | None:
+    """The file alarms are appended to, where the store wants one."""
+    if folder is None or cells.read(NO_ERROR_FILE):
+        return None
+    return folder / (cells.read_text(LOG_NAME) or "MILL.LOG")
 
 
 def _given(entries: Iterator[c.Entry], _host: RunHost) -> Iterator[c.Entry]:
