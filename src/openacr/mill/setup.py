@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
-from openacr.mill.settings import AxisSettings, Settings
+from openacr.mill.settings import AXES, AxisSettings, Settings
 
 GAIN_WORDS = (
     "PGAIN",
@@ -75,6 +75,7 @@ def lines(settings: Settings) -> Iterator[str]:
         yield f'ATTACH SLAVE{axis.index} AXIS{axis.index} "{axis.name}"'
     for axis in settings.axes:
         yield from _axis(axis)
+    yield from _spindle(settings)
     yield "VECDEF " + " ".join(f"{one.name}{int(one.name in LINEAR)}" for one in settings.axes)
     yield "FOV 1"
     yield "ROV 1"
@@ -97,6 +98,13 @@ def _axis(axis: AxisSettings) -> Iterator[str]:
     yield f"{word} JOG ACC {_number(axis.jog_acc_ups2)}"
     yield f"{word} JOG DEC {_number(axis.jog_dec_ups2)}"
     yield f"{word} ON"
+
+
+def _spindle(settings: Settings) -> Iterator[str]:
+    """The DAC of the spindle is its alone: the axis of the same number would write to it, too."""
+    dac = settings.spindle.dac
+    if 0 <= dac < AXES and all(axis.index != dac for axis in settings.axes):
+        yield f"AXIS{dac} OFF"
 
 
 def _modes(settings: Settings) -> Iterator[str]:
