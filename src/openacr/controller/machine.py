@@ -1,0 +1,176 @@
+"""A card with the world around it and everything that serves it, wired together.
+
+What comes from outside is noted in the journal here; power-up and REBOOT are here too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+
+from openacr.basic.control import ProgramControl
+from openacr.basic.executor import Executor
+from openacr.basic.parser import join_names
+from openacr.basic.plc_names import PlcNames
+from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.system import System
+from openacr.controller.journal import Entered, JournalEntry, Recorder
+from openacr.controller.packets import PacketHost
+from openacr.controller.persistence import Persistence
+from openacr.controller.ring import Ring
+from openacr.controller.streams import Streams
+from openacr.controller.views import Bits, Parameters
+from openacr.engine.watches import give_orders, take_orders
+from openacr.errors import CardError, UserError
+from openacr.lang.lexer import Token
+from openacr.map.numbers import (
+    ENGI_BASE,
+    P_CARD_SERIAL_NUMBER,
+    PLC_COUNT,
+)
+from openacr.models import MODELS, Model
+from openacr.motion import drive
+from openacr.motion.card import Card
+from openacr.network.networks import Networks
+from openacr.plant import apply, schema
+from openacr.plc.control import Plcs
+from openacr.plc.reader import PlcLine, read_line
+from openacr.protocol.terminal import ControlKey
+
+
+class Machine:
+    """The parts of a virtual card."""
+
+    def __init__(
+        self,
+        model: str | Model = "ACR9000",
+        *,
+        world: schema.World | None = None,
+        data: Path | None = None,
+    ) -> None:
+        self.model = _model(model)
+        self.world = world or schema.default_world(self.model)
+        self.card = Card(self.model)
+        self.memory = self.card.memory
+        self.system = System(self.card)
+        self.executor = Executor(self.system)
+        self.plcs = Plcs(self.memory, self._plc_text)
+        self.networks = Networks(self.memory, self._deliver)
+        self.control = ProgramControl(self.system, self.executor, self.plcs)
+        self.system.control = self.control
+        self.system.runner = self.executor
+        self.system.reboot = self._ask_reboot
+        self.system.read_plc = self._read_plc
+        self.streams = Streams(self.system.sessions, PacketHost(self.card), self._press)
+        self.p = Parameters(self.memory, partial(self._note, Entered.PARAMETER))
+        self.bit = Bits(self.memory, partial(self._note, Entered.FLAG))
+        self.journal: list[JournalEntry] = []
+        self.is_journalled = True
+        self.recorder: Recorder | Ring | None = None
+        self._wants_reboot = False
+        self._lived_before_tk = 0
+        self._apply_world()
+        self.nonvolatile = Persistence.open(self.system, data)
+        self.nonvolatile.power_up()
+        self._start_boot_programs()
+
+    @property
+    def tick(self) -> int:
+        """Servo interrupts since power-up."""
+        return self.card.tick
+
+    @property
+    def lived_tk(self) -> int:
+        """Ticks this card has lived altogether; restarting it does not begin anew."""
+        return self._lived_before_tk + self.tick
+
+    @property
+    def time_s(self) -> float:
+        """Simulated seconds since power-up."""
+        return self.tick * self.period_s
+
+    @property
+    def period_s(self) -> float:
+        """Length of a tick [s]."""
+        return self.card.period_s
+
+    def _note(
+        self, what: Entered, number: int, value: float = 0.0, *, text: str = "", name: str = ""
+    ) -> None:
+        """Enter something that comes from outside into the journals."""
+        if self.is_journalled or self.recorder is not None:
+            entry = JournalEntry(self.lived_tk, what, number, text, float(value), name)
+            if self.is_journalled:
+                self.journal.append(entry)
+            if self.recorder is not None:
+                self.recorder.note(entry)
+
+    def _press(self, key: ControlKey) -> None:
+        if key is ControlKey.CTRL_Y:
+            drive.clear_kills(self.card)
+            return
+        for program in range(PROGRAMS):
+            self.executor.halt_program(program)
+        for plc in range(PLC_COUNT):
+            self.plcs.halt(plc)
+        drive.kill_all(self.card)
+        if key is ControlKey.CTRL_Z:
+            drive.disable_all(self.card)
+
+    def _apply_world(self) -> None:
+        apply.apply_world(self.world, self.memory)
+        self.card.set_period(self.world.card.period_s)
+        self.memory.I[P_CARD_SERIAL_NUMBER] = self.model.serial_number
+        self.networks.power_up()
+
+    def _ask_reboot(self) -> None:
+        self._wants_reboot = True
+
+    def _reboot(self) -> None:
+        """Restart as at power-up; the world outside stays as it is."""
+        self._wants_reboot = False
+        self._lived_before_tk += self.tick
+        orders = take_orders(self.memory)
+        outside = apply.take_state(self.memory)
+        self.executor.reset()
+        self.system.restart(keeps_memory=self.nonvolatile.battery.is_on)
+        self.executor.space.rebuild()  # the rows that say whose code lies where are gone
+        self._apply_world()
+        apply.put_state(self.memory, outside)
+        give_orders(self.memory, orders)
+        self.nonvolatile.restart()
+        self.streams.moves.clear()
+        self.streams.disconnect_all()
+        self._start_boot_programs()
+
+    def _start_boot_programs(self) -> None:
+        with suppress(CardError):  # nobody is connected who could be told
+            self.system.start_boot_programs()
+
+    def _plc_text(self, plc: int) -> Iterator[tuple[int, PlcLine]]:
+        for line in self.system.programs.lines(PROGRAMS + plc):
+            yield line.number, line.tree
+
+    def _read_plc(self, found: list[Token]) -> tuple[PlcLine | None, int]:
+        join_names(found, self.system.aliases.numbered)
+        line = read_line(found, PlcNames(self.system.aliases.nodes))
+        return line, line.count if line else 0
+
+    def _set_engine(self, row: int, value: int) -> None:
+        self.memory.I[ENGI_BASE + row] = value
+
+    def _deliver(self, channel: int, text: str) -> None:
+        """Write something on a channel by its number."""
+        for session in self.system.sessions.values():
+            if session.index == channel:
+                session.write(text)
+
+
+def _model(model: str | Model) -> Model:
+    if isinstance(model, Model):
+        return model
+    if model not in MODELS:
+        raise UserError(f"controller model {model}: known are {', '.join(MODELS)}")
+    return MODELS[model]

@@ -1,0 +1,172 @@
+"""The life of a card: ticks pass in the compiled engine, what it leaves is done here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from openacr.compiled import pick
+from openacr.controller.machine import Machine
+from openacr.controller.trace import Reals, Trace, build_trace
+from openacr.engine import loop_cy
+from openacr.engine.watches import Watch, set_watches
+from openacr.map.numbers import (
+    ENGI_BASE,
+    ENGI_STOP,
+    ENGI_TICKS_LEFT,
+    ENGI_TRACE_EVERY,
+    ENGI_TRACE_PEAKS,
+    ENGI_TRACE_ROW,
+    ENGI_TRACE_ROWS,
+    ENGI_TRACE_WAIT,
+    ENGI_UNTIL_MASK,
+    ENGI_UNTIL_STATE,
+    ENGI_UNTIL_WORD,
+    ENGI_WATCH_COUNT,
+)
+from openacr.models import Model
+from openacr.motion.permits import scale_of
+from openacr.plant import schema
+from openacr.views import F64
+
+TRACE_CHUNK_ROWS = 65536
+
+_engine_run = pick(loop_cy.engine_run)
+_NO_TRACE = memoryview(bytearray(8)).cast("d")
+
+
+class Running(Machine):
+    """Lets time pass, and records the axes meanwhile."""
+
+    def __init__(
+        self,
+        model: str | Model = "ACR9000",
+        *,
+        world: schema.World | None = None,
+        data: Path | None = None,
+    ) -> None:
+        super().__init__(model, world=world, data=data)
+        self._look: Callable[[], bool] | None = None
+        self._trace_parts: list[Reals] = []
+        self._trace_buffer: Reals | None = None
+        self._trace_view = _NO_TRACE
+
+    def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
+        """Let the card live for so many ticks (or seconds), or until a watch ends it."""
+        self._live(ticks + round(seconds / self.period_s))
+
+    def until(
+        self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
+    ) -> bool:
+        """Let the card live until a flag has this state; False if it has not in time."""
+        if self.memory.bit(bit) == is_:
+            return True
+        self._set_engine(ENGI_UNTIL_WORD, 4096 + (bit >> 5))
+        self._set_engine(ENGI_UNTIL_MASK, 1 << bit % 32 if bit % 32 < 31 else -(1 << 31))
+        self._set_engine(ENGI_UNTIL_STATE, int(is_))
+        limit = round(timeout_s / self.period_s) if ticks is None else ticks
+        reason = self._live(limit)
+        self._set_engine(ENGI_UNTIL_WORD, 0)
+        return reason == loop_cy.UNTIL_MET
+
+    def _live(self, ticks: int) -> int:
+        """Run the engine, with a stop wherever the journal wants a digest; why it ended."""
+        while True:
+            step = ticks
+            if self.recorder is not None:
+                step = min(ticks, self.recorder.next_tk - self.lived_tk)
+            before = self.lived_tk
+            self._set_engine(ENGI_TICKS_LEFT, step)
+            reason = self._run()
+            ticks -= self.lived_tk - before
+            if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
+                self.recorder.mark()
+            if reason != loop_cy.DONE or ticks <= 0 or self.recorder is None:
+                self.nonvolatile.battery.follow_in_time()
+                return reason
+
+    def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:
+        """End `advance` and `until` early from now on, behind the tick in which it happened.
+
+        It ends when a watch has changed, or when `look`, which is asked behind every tick in
+        which statements were performed that can print or answer, returns True.
+        """
+        set_watches(self.memory, watches)
+        self._look = look
+
+    def _run(self) -> int:
+        """Run the engine to the end of its ticks or until what was awaited; why it ended."""
+        memory, space = self.memory, self.executor.space
+        while True:
+            reason = _engine_run(
+                memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view
+            )
+            if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
+                return reason
+            if reason == loop_cy.STOPPED:
+                if self._look is not None and self._look():
+                    return reason
+            elif reason == loop_cy.TRACE_FULL:
+                self._next_trace_part()
+            else:
+                self._attend(reason)
+                if self._wants_reboot:
+                    self._reboot()
+                    if self._look is not None or memory.I[ENGI_BASE + ENGI_WATCH_COUNT]:
+                        return loop_cy.WATCH
+
+    def _attend(self, reason: int) -> None:
+        """Do what the engine leaves to Python."""
+        if reason == loop_cy.REQUESTS:
+            self.control.scan()
+        elif reason == loop_cy.ROOM:
+            self.streams.moves.drain()
+        elif reason == loop_cy.NETWORKS:
+            self.networks.attend()
+            self.streams.settle()
+        else:
+            self.executor.attend(reason - loop_cy.THREAD)
+            self.streams.settle()
+        if self._look is not None:
+            self._set_engine(ENGI_STOP, 1)
+
+    def record(self, every_tk: int = 1, *, keep_peaks: bool = False) -> None:
+        """Record all axes every so many ticks from now on.
+
+        With `keep_peaks` no peak of velocity or following error between two samples is lost:
+        every other sample has the lowest value since the one before, the next the highest.
+        """
+        self._trace_parts = []
+        self._set_engine(ENGI_TRACE_PEAKS, int(keep_peaks))
+        self._set_engine(ENGI_TRACE_EVERY, every_tk)
+        self._set_engine(ENGI_TRACE_WAIT, 1)
+        self._new_trace_buffer()
+
+    def trace(self) -> Trace:
+        """What has been recorded so far."""
+        columns = self._trace_columns
+        parts = [part.reshape(-1, columns) for part in self._trace_parts]
+        if self._trace_buffer is not None:
+            used = self.memory.I[ENGI_BASE + ENGI_TRACE_ROW]
+            parts.append(self._trace_buffer.reshape(-1, columns)[:used])
+        samples = np.concatenate(parts) if parts else np.empty((0, columns))
+        scales = [scale_of(self.card, axis) for axis in range(self.model.axes)]
+        return build_trace(samples, scales)
+
+    @property
+    def _trace_columns(self) -> int:
+        return loop_cy.TRACE_HEAD + loop_cy.TRACE_AXIS * self.model.axes
+
+    def _new_trace_buffer(self) -> None:
+        self._trace_buffer = np.zeros(TRACE_CHUNK_ROWS * self._trace_columns)
+        self._trace_view = cast(F64, self._trace_buffer.data)
+        self._set_engine(ENGI_TRACE_ROW, 0)
+        self._set_engine(ENGI_TRACE_ROWS, TRACE_CHUNK_ROWS)
+
+    def _next_trace_part(self) -> None:
+        if self._trace_buffer is not None:
+            self._trace_parts.append(self._trace_buffer)
+        self._new_trace_buffer()
