@@ -51,8 +51,10 @@ def least_distance(
 ) -> tuple[float, float]:
     """How near the tool comes to the contour, and by how much that may be wrong."""
     near = uncertain = 0.0
-    for step in (0.1, 0.003):
-        near = shapely.distance(line_of(ways, step), line_of(contour, step))
+    for step in (0.2, 0.01):
+        chords = line_of(contour, step)
+        shapely.prepare(chords)
+        near = shapely.distance(chords, line_of(ways, step))
         uncertain = sagitta(ways, step) + sagitta(contour, step)
         if near < radius - uncertain:
             break

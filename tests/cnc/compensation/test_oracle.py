@@ -24,7 +24,7 @@ from tests.cnc.compensation.tools import EXACT, Path, Trace, compensate
 from openacr.cnc.compensation import Rules, Side
 from openacr.cnc.elements import Element
 
-BUNDLES = 5
+BUNDLES = 8
 CONTOURS = 400  # in a bundle
 CLOSE = 2e-6
 ADJUSTED = {"E320", "E321", "E322", "W320"}

@@ -6,6 +6,7 @@ from openacr.cnc.canonical import Plane
 from openacr.cnc.compensation.curve_cy import (
     AWAY,
     AX,
+    AY,
     BX,
     BY,
     GOUGES,
@@ -84,9 +85,10 @@ class Chain(Generic[Held]):
 
     def rest(self, thing: Held | Element) -> None:
         """Issue something where the tool is."""
-        if self.at is not None and isinstance(thing, Element):
-            thing = at_place(thing, self.at)
-        self.ready.append(thing)
+        if self.at is None or not isinstance(thing, Element):
+            self.ready.append(thing)
+        elif (element := at_place(thing, self.at)) is not None:
+            self.ready.append(element)
 
     def begin(self, element: Element) -> None:
         """The way in: a line from where the tool is to beside the start of the next element."""
@@ -166,7 +168,9 @@ class Chain(Generic[Held]):
             return
         F, j = self._table.F, piece.row
         meets = meet(F, last.row, j, *self._tolerances, self._root, False) % FIT_STEP
-        if meets not in (JOINED, ROUND, BRIDGE):
+        if meets == JOINED and (F[j + AX], F[j + AY]) == self.at:
+            return
+        if meets not in (ROUND, BRIDGE):
             self._report("W324", "the chain is broken by a waiting block", piece.element)
             meets = BRIDGE
             place(F, j, F[j + AWAY])

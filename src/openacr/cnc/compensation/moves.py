@@ -1,7 +1,6 @@
 """From the rows of a chain back to elements: what is issued for a piece and between pieces."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from math import ceil, cos, pi, sin
 
@@ -103,14 +102,15 @@ def _around(start: Place, corner: Place, sweep: float) -> Iterator[Place]:
         yield corner[0] + c * x - s * y, corner[1] + s * x + c * y
 
 
-def at_place(element: Element, place: tuple[float, float]) -> Element:
-    """An element without motion in the plane, where the tool stands."""
-    return replace(
-        element,
-        start=moved(element.start, element.plane, *place),
-        end=moved(element.end, element.plane, *place),
-        is_compensated=True,
+def at_place(element: Element, place: tuple[float, float]) -> Element | None:
+    """An element without motion in the plane, where the tool stands; None without any."""
+    start, end = (
+        moved(element.start, element.plane, *place),
+        moved(element.end, element.plane, *place),
     )
+    if start == end:
+        return None
+    return tool_element(element.source, element.plane, start, end, element.pace)
 
 
 def is_motion(element: Element) -> bool:
