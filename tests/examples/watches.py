@@ -19,5 +19,29 @@ _NOT_EXCESS = (769, 801, 833, 865, 897, 929, 961, 993)
 EXCESS = Watch("plc_excess_error", (32, MOTION, *_NOT_EXCESS, 1536), 8)
 _PANEL, _GATE = (256, 257, 288, 289), (320, 321, 352)
 CANOPEN = Watch("canopen_io", (*_PANEL, *_GATE, MOTION, 11265, 11269, 11271, 1024), 1)
+CIRCLES = Watch("circles", (MOTION, 1024), 2)
+HELIX = Watch("helix", (MOTION, 1024), 3)
+SPLINE = Watch("spline_curve", (128, 129, MOTION, 1024, 5129, 5131), 2)
+AIRFOIL = Watch("nurb_airfoil", (MOTION, 1024, 5141, 5146, 5147), 2)
+ARM = Watch("invk_arm", (MOTION, KILL_MOVES, 1024), 2)
+GEARS = Watch("gear_box", (MOTION, 792, 814, 820, 821, 1024), 2)
+SHEAR = Watch("cam_flying_shear", (32, 792, 822, 1024), 2)
 
-ALL = (GANTRY, SQUARE, DIAMONDS, BASIC_MOTION, HOMING, MISSING_SWITCH, ERRORS, EXCESS, CANOPEN)
+ALL = (
+    GANTRY,
+    SQUARE,
+    DIAMONDS,
+    BASIC_MOTION,
+    HOMING,
+    MISSING_SWITCH,
+    ERRORS,
+    EXCESS,
+    CANOPEN,
+    CIRCLES,
+    HELIX,
+    SPLINE,
+    AIRFOIL,
+    ARM,
+    GEARS,
+    SHEAR,
+)
