@@ -56,7 +56,7 @@ def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
     assert shop.pulses() == (10000, 0, 0)
 
 
-@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCLESTART")
+@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART")
 def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
     shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
     shop.start(*long_way())
