@@ -98,6 +98,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "time_program",
                 "Predict how long a part program runs, from the plan of its moves.",
             ),
+            "list": Entry(
+                "mill_list",
+                "list_program",
+                "List a part program; lines with <ins> are moves inserted at corners.",
+            ),
             "plot": Entry(
                 "mill_plot",
                 "plot_program",

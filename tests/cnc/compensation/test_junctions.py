@@ -6,7 +6,7 @@ import pytest
 from tests.cnc.compensation.tools import EXACT, FEED, Path, compensate
 
 from openacr.cnc.canonical import Plane
-from openacr.cnc.compensation import Rules, Side, listing
+from openacr.cnc.compensation import Rules, Side
 
 
 def near(point: tuple[float, float]) -> object:
@@ -31,26 +31,6 @@ def test_the_tool_rolls_around_an_outside_corner() -> None:
     assert corner.sweep_rad == pytest.approx(pi / 2)
     assert corner.pace is FEED
     assert corner.source.line == 3
-
-
-@pytest.mark.req("MILL-COMP-10")
-def test_an_inserted_move_is_listed_with_its_mark() -> None:
-    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    (corner,) = compensate(path.elements, 0.25, Side.RIGHT).inserted
-    assert listing(corner) == "<ins> G3 X1.25 Y0 I1 J0"
-
-
-def test_an_inserted_move_is_listed_with_the_words_of_its_plane() -> None:
-    path = Path(0, -1, plane=Plane.ZX).to(0, 0).to(1, 0).to(1, 1.23456).to(0, 1)
-    (corner,) = compensate(path.elements, 0.125, Side.RIGHT).inserted
-    assert listing(corner, is_metric=True) == "<ins> G3 X0 Z1.125 I0 K1"
-
-
-def test_an_inserted_line_is_listed_as_a_line() -> None:
-    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25, Side.RIGHT)
-    straight = trace.elements[1]
-    assert listing(straight) == "<ins> G1 X1 Y-0.25"
 
 
 @pytest.mark.req("MILL-COMP-04")

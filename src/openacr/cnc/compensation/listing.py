@@ -1,35 +1,44 @@
 """Inserted moves as lines of a part program."""
 
-from openacr.cnc.canonical import Plane
-from openacr.cnc.elements import Element
+from openacr.cnc.canonical import Arc, Line, Plane, Point, Rapid
 
 MARK = "<ins>"
 AXIS_WORDS = "XYZ"
 CENTRE_WORDS = "IJK"
 INCH_DIGITS = 4
 MM_DIGITS = 3
+ORIGIN: Point = (0.0,) * 8
 
 
-def listing(element: Element, *, is_metric: bool = False, axis_words: str = AXIS_WORDS) -> str:
-    """The line of an inserted move: `<ins> G3 X1.25 Y0 I1 J0`, everything absolute."""
+def listing(
+    move: Rapid | Line | Arc,
+    plane: Plane,
+    *,
+    shift: Point = ORIGIN,
+    scale: float = 1.0,
+    is_metric: bool = False,
+) -> str:
+    """The line of an inserted move: `<ins> G3 X1.25 Y0 I1 J0`, everything absolute.
+
+    `shift` leads from program to machine coordinates, `scale` from default to active unit.
+    """
     digits = MM_DIGITS if is_metric else INCH_DIGITS
-    plane = element.plane
-    numbers = {plane.first: element.end[plane.first], plane.second: element.end[plane.second]}
-    words = [axis_words[axis] + _short(numbers[axis], digits) for axis in sorted(numbers)]
-    if element.centre is not None:
-        words += _centre(plane, element.centre, digits)
-    return " ".join([MARK, _code(element), *words])
+
+    def words(letters: str, values: dict[int, float]) -> list[str]:
+        shown = {axis: (value - shift[axis]) * scale for axis, value in values.items()}
+        return [letters[axis] + _short(shown[axis], digits) for axis in sorted(shown)]
+
+    axes = (plane.first, plane.second)
+    parts = [MARK, _code(move), *words(AXIS_WORDS, {axis: move.end[axis] for axis in axes})]
+    if isinstance(move, Arc):
+        parts += words(CENTRE_WORDS, dict(zip(axes, move.centre, strict=True)))
+    return " ".join(parts)
 
 
-def _code(element: Element) -> str:
-    if element.centre is not None:
-        return "G3" if element.sweep_rad > 0.0 else "G2"
-    return "G0" if element.pace is None else "G1"
-
-
-def _centre(plane: Plane, centre: tuple[float, float], digits: int) -> list[str]:
-    numbers = dict(zip((plane.first, plane.second), centre, strict=True))
-    return [CENTRE_WORDS[axis] + _short(numbers[axis], digits) for axis in sorted(numbers)]
+def _code(move: Rapid | Line | Arc) -> str:
+    if isinstance(move, Arc):
+        return "G3" if move.sweep_rad > 0.0 else "G2"
+    return "G0" if isinstance(move, Rapid) else "G1"
 
 
 def _short(value: float, digits: int) -> str:
