@@ -4,7 +4,11 @@ import pytest
 from tests.basic.bench import Bench
 
 from openacr.basic import registry
+from openacr.basic.parser import Scope, parse_line
+from openacr.basic.registry import Level
+from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
+from openacr.messages import UNDEFINED_SYMBOL, UNKNOWN_COMMAND
 from openacr.models import ACR9000
 
 
@@ -229,3 +233,30 @@ def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:
 def test_the_expansion_analog_board_is_missing(bench: Bench) -> None:
     for line in ("ADCX", "ADCX ON", "ADCX OFF", "ADCX MODE 1", "ADCX MAX 8"):
         assert bench.type(line) == "Not supported|SYS>"
+
+
+AREAS = """
+ALM BLM EXC HLBIT HLDEC HLIM IPB ITB JLM MAXVEL PM SLDEC SLIM SLM TLM CLOSE DTALK INPUT OPEN PRINT
+TALK DRIVE EPLC HSINT INTCAP MSEEK MULT NORM OOP PPU REN RES ROTARY ADC ADCX AXIS CIP CMT DAC ENC
+FSTAT LIMIT MASTER PLS RATCH SAMP STEPPER CIRCCW CIRCW INT INVK MOV NURB SINE SPLINE TANG TARC TRJ
+CLR DWL IHPOS INH MASK SET TRG CLEAR DIM MEM BRESET ELOAD ERASE ESAVE FIRMWARE FLASH PBOOT PROM
+ATTACH CONFIG CPU DEF #DEFINE DETACH DIAG ECHO HELP IP MODE PASSWORD PERIOD PLC PROG REBOOT STREAM
+SYS VER AUT BLK HALT LIST LISTEN LRUN NEW PAUSE REM RESUME RUN STEP TROFF TRON BREAK END ENDP FOR
+NEXT GOSUB GOTO IF ELSE ELSEIF ENDIF PROGRAM RETURN WHILE WEND DGAIN DIN DIP DWIDTH DZL DZU FBVEL
+FFACC FFVC FFVEL FLT IDELAY IGAIN ILIMIT KVF KVI KVP LOPASS NOTCH PGAIN BKL BSC CAM GEAR HDW JOG
+LOCK UNLOCK FLZ OFFSET ROTATE SCALE ACC DEC F FOV FVEL IVEL JRK LOOK MBUF ROV SRC STP SYNC TMOV TOV
+VECDEF VECTOR VEL
+"""
+
+
+@pytest.mark.req("ACR-CMD-HELP")
+def test_help_lists_every_command(bench: Bench) -> None:
+    assert set(AREAS.split()) <= set(bench.type("HELP").replace("|", " ").split())
+
+
+@pytest.mark.parametrize("word", sorted(AREAS.split()))
+def test_no_command_of_the_manual_is_unknown(word: str) -> None:
+    try:
+        parse_line(word, Scope(Level.PROG))
+    except CardError as error:  # its arguments are missing, or it belongs to programs
+        assert error.message not in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from openacr.basic.grammar import Group, Int
 from openacr.basic.number_format import Kind, number_text
 from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
+from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import check_number
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -65,7 +65,7 @@ def fstat_entry(run: Run, number: int, chosen: tuple[float, ...] | None) -> None
     if chosen is None:
         run.print(",".join(_copies(run, number)))
         return
-    code, index, kind = map(int, chosen)
+    code, index, kind = map(whole, chosen)
     if (code, index) not in packet_groups() or kind not in TYPES:
         raise CardError(INVALID_ARGUMENT)
     _write(run, number, code, index, kind)
