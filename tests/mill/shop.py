@@ -5,6 +5,9 @@ from typing import Any
 
 from openacr.client import Card
 from openacr.cnc import canonical as c
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.interpreter import Options as Reading
+from openacr.cnc.load import load
 from openacr.controller import Controller
 from openacr.map.numbers import AX_BASE, AX_CURRENT_POSITION, AX_STRIDE
 from openacr.mill.host import RunHost
@@ -76,6 +79,23 @@ class Shop:
             yield from entries
 
         self.runner.run(all_of, options)
+
+    def load(self, text: str, options: Options | None = None) -> None:
+        """Start a program written as text."""
+        program = load(text, self.store)
+        assert program.errors == [], program.errors
+        options = options or Options()
+        reading = Reading(is_dry=options.is_dry, has_block_ends=True)
+        host = self.runner.course.host
+        run = Interpreter(program, self.store, host, options=reading)
+        self.runner.run(lambda _host: run.entries(), options)
+
+    def run_text(self, text: str, options: Options | None = None) -> float:
+        """Run a program written as text to its end; how long it took on the card."""
+        before = self.controller.tick
+        self.load(text, options)
+        assert self.until(State.IDLE) is State.IDLE
+        return (self.controller.tick - before) * self.controller.period_s
 
     def pass_time(self, seconds: float) -> None:
         """So many seconds of card time, looked at every 5 ms."""

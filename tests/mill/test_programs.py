@@ -1,0 +1,388 @@
+"""Programs written as text, run on the virtual machine: what the operator sees of them."""
+
+import math
+from itertools import pairwise
+
+import pytest
+from tests.mill.shop import Shop
+
+from openacr.errors import UserError
+from openacr.mill.overrides import Override
+from openacr.mill.states import Options, State
+
+DAC_VALUE = 6400 + 16 * 3
+SPINDLE = {"P800_001": 0.00333, "P800_002": 3.0, "P800_005": 40.0, "P800_006": 41.0}
+COOLANT = {"P800_009": 42.0, "P800_010": 43.0, "P800_011": 44.0}
+
+
+def volts(shop: Shop) -> float:
+    shop.pass_time(0.05)
+    return float(shop.controller.p[DAC_VALUE])
+
+
+@pytest.mark.req("MILL-RUN-RUN", "MILL-RUN-END", "MILL-SYS-SPINDLE-CWOUT")
+def test_run_moves_at_the_programmed_feed_with_m_codes_active_and_can_be_repeated() -> None:
+    shop = Shop(**SPINDLE)
+    for _ in range(2):
+        shop.load("G90 F60\nM3 S1000\nG1 X1\nX0\nM2\n")
+        shop.pass_time(0.5)
+        assert shop.outputs((40,)) == [True]
+        assert shop.controller.axis(0).velocity_ups == pytest.approx(1.0)
+        shop.until(State.IDLE)
+        assert shop.outputs((40,)) == [False]
+
+
+@pytest.mark.req("MILL-RUN-DRY", "MILL-RUN-DRY-SPEED")
+def test_a_dry_run_moves_at_trial_speed_and_switches_nothing_on() -> None:
+    shop = Shop(**SPINDLE, **COOLANT)
+    shop.load("G90 F6\nM3 S1000\nM8\nM12\nG1 X5\nM2\n", Options(is_dry=True))
+    shop.pass_time(1.0)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(100 / 60, rel=1e-6)
+    assert not any(shop.outputs(range(32, 64)))
+    shop.until(State.IDLE)
+
+
+@pytest.mark.req("MILL-RUN-FEEDDEFAULT")
+@pytest.mark.parametrize(("setup", "speed"), [(0.0, 10.0), (30.0, 30.0)])
+def test_a_program_without_f_runs_at_cut_speed_or_that_of_the_run_setup(
+    setup: float, speed: float
+) -> None:
+    shop = Shop(P100_021=setup)
+    shop.load("G90\nG1 X1\nM2\n")
+    shop.pass_time(0.5)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(speed / 60, rel=1e-6)
+
+
+@pytest.mark.req("MILL-RUN-BLOCK", "MILL-RUN-BLOCK-MID")
+def test_block_mode_runs_one_block_for_each_start() -> None:
+    shop = Shop()
+    shop.load("G90 F600\nG1 X1\nX2\nX3\nX4\nM2\n")
+    shop.pass_time(0.05)
+    shop.runner.block(True)
+    shop.until(State.HOLD)
+    assert shop.runner.reason == "block"
+    seen = []
+    while shop.runner.state is State.HOLD and len(seen) < 2:
+        seen.append(shop.pulses()[0])
+        shop.runner.start()
+        shop.until(State.HOLD, State.IDLE)
+    assert seen == [10000, 20000]
+    shop.runner.block(False)
+    shop.runner.start()
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 40000
+
+
+@pytest.mark.req("MILL-RUN-STOP", "MILL-RUN-RESUME")
+def test_stop_ramps_to_rest_and_resume_goes_to_the_same_end() -> None:
+    shop = Shop()
+    shop.load("G90 F600\nG1 X8 Y6\nM2\n")
+    shop.pass_time(0.3)
+    shop.runner.stop()
+    shop.pass_time(0.01)
+    assert 0 < shop.controller.axis(0).velocity_ups < 8  # a ramp, no jump
+    shop.pass_time(0.5)
+    assert shop.runner.state is State.PAUSED
+    assert shop.controller.axis(0).velocity_ups == 0
+    shop.runner.resume()
+    shop.path.clear()
+    shop.until(State.IDLE)
+    assert all(y == pytest.approx(0.75 * x, abs=2e-4) for x, y, _ in shop.path)
+    assert shop.pulses() == (80000, 60000, 0)
+
+
+@pytest.mark.req("MILL-RUN-ABORT", "MILL-COOL-ABORT")
+def test_abort_ends_the_program_and_the_next_run_starts_at_its_beginning() -> None:
+    shop = Shop(**COOLANT)
+    text = "G90 F600\nM8\nG1 X5\nX0\nM2\n"
+    shop.load(text)
+    shop.pass_time(0.2)
+    assert shop.outputs((43,)) == [True]
+    shop.runner.abort()
+    shop.until(State.IDLE)
+    assert shop.outputs((43,)) == [False]
+    shop.load(text)
+    shop.pass_time(0.1)
+    assert shop.runner.source is not None
+    assert shop.runner.source.line == 3
+    shop.until(State.IDLE)
+    assert shop.pulses() == (0, 0, 0)
+
+
+@pytest.mark.req("MILL-RUN-RESUME-OFFPATH")
+def test_a_tool_moved_aside_in_a_pause_comes_back_with_the_lead_in_radius() -> None:
+    shop = Shop(P250_005=0.5)
+    shop.load("G90 F600\nG1 X10\nM2\n")
+    shop.pass_time(0.4)
+    shop.runner.stop()
+    shop.pass_time(0.5)
+    left = shop.place()[0]
+    shop.runner.jog(lambda jog: jog.move(1, 2.0, fast=True))
+    shop.pass_time(3.0)
+    shop.runner.resume()
+    shop.path.clear()
+    shop.until(State.IDLE)
+    on_arc = [p for p in shop.path if p[0] < left - 1e-3 and 1e-3 < p[1] < 0.499]
+    assert len(on_arc) > 5
+    assert all(math.hypot(x - left, y - 0.5) == pytest.approx(0.5, abs=5e-4) for x, y, _ in on_arc)
+    assert shop.pulses()[0] == 100000
+
+
+@pytest.mark.req("MILL-RUN-OPTSTOP")
+@pytest.mark.parametrize("is_on", [True, False])
+def test_m1_stops_only_with_the_optional_stop_input(is_on: bool) -> None:
+    shop = Shop(P400_001=9)
+    shop.controller.set_input(9, is_on)
+    shop.load("F600\nG1 X1\nM1\nX2\nM2\n")
+    assert shop.until(State.HOLD, State.IDLE) is (State.HOLD if is_on else State.IDLE)
+    assert shop.pulses()[0] == (10000 if is_on else 20000)
+
+
+@pytest.mark.req("MILL-RUN-BLKSKIP")
+@pytest.mark.parametrize("is_on", [True, False])
+def test_blocks_with_a_slash_are_skipped_with_the_input(is_on: bool) -> None:
+    shop = Shop(P400_000=9)
+    shop.controller.set_input(9, is_on)
+    shop.pass_time(0.02)
+    shop.run_text("F600\nG1 X1\n/X2\nY1\nM2\n")
+    assert shop.pulses() == ((10000 if is_on else 20000), 10000, 0)
+
+
+@pytest.mark.req("MILL-RUN-NOGAP", "MILL-LOOK-TANGENT")
+def test_tangent_moves_run_into_each_other_at_the_feed() -> None:
+    shop = Shop()
+    points = [(5 * math.sin(n / 100), 5 - 5 * math.cos(n / 100)) for n in range(1, 315)]
+    text = "G90 F300\n" + "".join(f"G1 X{x:.6f} Y{y:.6f}\n" for x, y in points) + "M2\n"
+    speeds: list[float] = []
+    shop.load(text)
+    while shop.runner.state is State.RUN:
+        shop.pass_time(0.005)
+        axes = [shop.controller.axis(n).velocity_ups for n in (0, 1)]
+        speeds.append(math.hypot(*axes))
+    moving = speeds[30:-40]
+    assert min(moving) > 0.95 * 5
+    assert max(moving) < 1.01 * 5
+
+
+@pytest.mark.req("MILL-RUN-FOV", "MILL-RUN-ROV", "MILL-RUN-MAXSPEED")
+def test_each_override_acts_on_its_own_moves_and_never_beyond_the_machine() -> None:
+    shop = Shop(P650_000=300.0, P450_017=15)  # 150 % of 240 would be 360
+    shop.load("F240\nG1 X20\nG0 X0\nM2\n")
+    shop.pass_time(0.5)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(5.0)
+    shop.runner.overrides.choose(Override.FEED, 5)  # 50 %
+    shop.pass_time(0.5)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(2.0)
+    shop.runner.overrides.choose(Override.RAPID, 10)  # 60 %
+    shop.pass_time(0.2)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(2.0)
+    while shop.controller.axis(0).velocity_ups >= 0:
+        shop.pass_time(0.1)
+    shop.pass_time(0.3)
+    assert shop.controller.axis(0).velocity_ups == pytest.approx(-3.0)
+
+
+@pytest.mark.req(
+    "MILL-RUN-SOV", "MILL-SPINDLE-1500", "MILL-SPINDLE-CLAMP", "MILL-SYS-SPINDLE-SCALING"
+)
+def test_the_spindle_voltage_follows_s_and_its_override() -> None:
+    shop = Shop(**SPINDLE)
+    shop.load("S1500 M3\nM0\nS3000\nM0\nS9999\nM0\nS1000\nM0\nM2\n")
+    seen = []
+    for click in (10, 10, 10, 0):
+        shop.runner.overrides.choose(Override.SPINDLE, click)
+        shop.until(State.HOLD)
+        shop.pass_time(0.1)
+        seen.append(volts(shop))
+        shop.runner.start()
+    assert seen == pytest.approx([5.0, 10.0, 10.0, 1.665], abs=0.02)
+
+
+@pytest.mark.req("MILL-RUN-NOTLOADED")
+def test_nothing_loaded_nothing_runs() -> None:
+    shop = Shop()
+    with pytest.raises(UserError):
+        shop.runner.start()
+    assert shop.pulses() == (0, 0, 0)
+
+
+@pytest.mark.req(
+    "MILL-SPINDLE-BIT1", "MILL-SPINDLE-BIT2", "MILL-SYS-SPINDLE-ATSPEED", "MILL-SPINDLE-CODE6"
+)
+@pytest.mark.parametrize(("code", "level"), [(2, False), (6, True)])
+def test_m3_waits_for_the_level_of_the_speed_signal(code: int, level: bool) -> None:
+    shop = Shop(P800_000=code, P800_004=11, **SPINDLE)
+    shop.controller.set_input(11, not level)
+    shop.load("F600\nM3 S500\nG1 X1\nM5\nM2\n")
+    shop.pass_time(1.0)
+    assert shop.pulses()[0] == 0
+    shop.controller.set_input(11, level)
+    shop.until(State.IDLE)  # code 6 does not wait for zero speed
+    assert shop.pulses()[0] == 10000
+
+
+@pytest.mark.req("MILL-SPINDLE-BIT3", "MILL-SPINDLE-BIT4", "MILL-SYS-SPINDLE-ATZERO")
+@pytest.mark.parametrize(("code", "level"), [(8, False), (24, True)])
+def test_m5_waits_for_the_level_of_the_zero_signal(code: int, level: bool) -> None:
+    shop = Shop(P800_000=code, P800_003=10, **SPINDLE)
+    shop.controller.set_input(10, not level)
+    shop.load("F600\nM3 S500\nM5\nG1 X1\nM2\n")
+    shop.pass_time(1.0)
+    assert shop.pulses()[0] == 0
+    assert volts(shop) == 0.0
+    shop.controller.set_input(10, level)
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 10000
+
+
+@pytest.mark.req("MILL-SPINDLE-NOINPUT")
+def test_without_the_inputs_nothing_is_waited_for() -> None:
+    shop = Shop(P800_000=31, **SPINDLE)
+    assert shop.run_text("F600\nM3 S500\nG1 X1\nM5\nM2\n") < 1.0
+
+
+@pytest.mark.req("MILL-SPINDLE-BIT0", "MILL-SYS-SPINDLE-CCWOUT", "MILL-SYS-SPINDLE-CODE")
+@pytest.mark.parametrize(("code", "sign"), [(0, 1.0), (1, -1.0)])
+def test_the_sign_of_the_voltage_is_the_direction_with_bit_0(code: int, sign: float) -> None:
+    shop = Shop(P800_000=code, **SPINDLE)
+    shop.load("M4 S1000\nM0\nM2\n")
+    shop.until(State.HOLD)
+    assert volts(shop) == pytest.approx(sign * 3.33)
+    assert shop.outputs((40, 41)) == [False, True]
+
+
+@pytest.mark.req("MILL-SYS-SPINDLE-OFFOUT")
+def test_the_off_output_is_driven_when_the_spindle_is_switched_off() -> None:
+    shop = Shop(P800_007=45, **SPINDLE)
+    shop.load("M3 S100\nM0\nM5\nM0\nM2\n")
+    shop.until(State.HOLD)
+    assert shop.outputs((45,)) == [False]
+    shop.runner.start()
+    shop.pass_time(0.1)
+    shop.until(State.HOLD)
+    assert shop.outputs((45,)) == [True]
+
+
+@pytest.mark.req("MILL-SYS-SPINDLE-DAC", "MILL-SPINDLE-DACINDEX")
+@pytest.mark.parametrize("dac", [4, 7])
+def test_the_spindle_is_on_the_dac_the_store_names(dac: int) -> None:
+    shop = Shop(P800_001=0.00333, P800_002=dac)
+    shop.load("M3 S1000\nM0\nM2\n")
+    shop.until(State.HOLD)
+    assert shop.controller.p[6400 + 16 * dac] == pytest.approx(3.33)
+
+
+@pytest.mark.req("MILL-SPINDLE-ORIENT")
+def test_fine_boring_orients_the_spindle_and_checks_that_it_is_there() -> None:
+    shop = Shop(P800_012=46, P800_013=12, P250_142=0, **SPINDLE)
+    shop.load("F600 G90 G0 Z1\nM3 S500\nG76 X1 Y0 Z-.5 R.1 Q.1\nG80\nM2\n$I CYCLES.TXT\n")
+    shop.until(State.WAIT)
+    shop.pass_time(0.5)
+    assert shop.runner.reason == "spindle oriented"
+    assert shop.outputs((46, 40)) == [True, False]
+    assert shop.pulses()[2] == -5000
+    shop.controller.set_input(12, True)
+    shop.until(State.IDLE)
+    assert shop.outputs((46,)) == [False]
+    assert shop.pulses() == (10000, 0, 10000)
+
+
+@pytest.mark.req("MILL-COOL-MIST", "MILL-COOL-FLOOD", "MILL-COOL-OFF")
+def test_coolant_codes_switch_their_outputs() -> None:
+    shop = Shop(**COOLANT)
+    shop.load("M7\nM0\nM8\nM0\nM9\nM0\nM2\n")
+    seen = []
+    for _ in range(3):
+        shop.until(State.HOLD)
+        seen.append(shop.outputs((42, 43, 44)))
+        shop.runner.start()
+        shop.pass_time(0.05)
+    assert seen == [[True, False, False], [True, True, False], [False, False, True]]
+
+
+@pytest.mark.req("MILL-COOL-UNSET")
+def test_coolant_without_outputs_does_nothing() -> None:
+    shop = Shop()
+    shop.run_text("M7\nM8\nM9\nM2\n")
+    assert not any(shop.outputs(range(32, 64)))
+
+
+@pytest.mark.req("MILL-TOOL-MANUAL-SEQ", "MILL-SYS-TOOL-CHANGEDIN", "MILL-SYS-TOOL-CHANGEOUT")
+@pytest.mark.parametrize(
+    ("is_manual", "reason"),
+    [
+        pytest.param(1, "load tool 5", marks=pytest.mark.req("MILL-SYS-TOOL-MANUAL")),
+        pytest.param(0, "tool 5 is changed", marks=pytest.mark.req("MILL-TOOL-AUTO-SEQ")),
+    ],
+)
+def test_a_tool_change_signals_waits_and_goes_on(is_manual: int, reason: str) -> None:
+    shop = Shop(P900_000=14, P900_001=47, P900_002=is_manual)
+    shop.load("F600 T5 M6\nG1 X1\nM2\n")
+    shop.pass_time(0.5)
+    assert shop.runner.reason == reason
+    assert shop.outputs((47,)) == [True]
+    shop.controller.set_input(14, True)
+    shop.pass_time(0.1)
+    assert shop.outputs((47,)) == [False]
+    shop.controller.set_input(14, False)
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 10000
+    assert shop.store.read(235) == 5
+
+
+@pytest.mark.req("MILL-TOOL-NOINPUT")
+def test_without_a_signal_a_manual_change_is_confirmed_by_hand() -> None:
+    shop = Shop(P900_001=47)
+    shop.load("F600 T5 M6\nG1 X1\nM2\n")
+    shop.pass_time(1.0)
+    assert shop.runner.state is State.WAIT
+    shop.runner.doing.changer.is_confirmed = True
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 10000
+
+
+@pytest.mark.req("MILL-TOOL-ABORT")
+def test_abort_in_a_tool_change_leaves_the_old_tool() -> None:
+    shop = Shop(P900_001=47)
+    shop.store.write(235, 2)
+    shop.load("T5 M6\nM2\n")
+    shop.pass_time(0.2)
+    shop.runner.abort()
+    shop.until(State.IDLE)
+    assert shop.store.read(235) == 2
+    assert shop.outputs((47,)) == [False]
+
+
+@pytest.mark.req("MILL-TOOL-G28")
+def test_reference_change_and_back_is_the_tool_change_sequence() -> None:
+    shop = Shop(P900_000=14, P200_003=0.001)
+    shop.store.write(280, 0.0)
+    shop.store.write(282, 3.0)
+    shop.load("G90 F600 G0 X1 Z1\nT5\nG28 X1 Z2\nM6\nG29 X1 Z1\nM2\n")
+    shop.until(State.WAIT)
+    while shop.runner.reason != "load tool 5":
+        shop.pass_time(0.05)
+    assert shop.pulses() == (0, 0, 30000)
+    shop.controller.set_input(14, True)
+    shop.pass_time(0.1)
+    shop.controller.set_input(14, False)
+    shop.path.clear()
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10000, 0, 10000)
+    assert any(z == pytest.approx(2.0, abs=2e-3) for _, _, z in shop.path)
+
+
+@pytest.mark.req("MILL-LOOK-ACCEL")
+def test_no_axis_exceeds_the_acceleration_of_the_machine_within_moves() -> None:
+    shop = Shop(P250_010=1.0, P250_011=90.0, P650_003=12.0, P650_008=40.0)
+    shop.load("G90 F300 G62\nG1 X1\nG2 X2 Y-1 I1 J-1\nG3 X3 Y-2 I3 J-1\nX4 Y-2.2\nM2\n")
+    speeds = []
+    while shop.runner.is_busy:
+        shop.pass_time(0.005)
+        speeds.append((shop.controller.axis(0).velocity_ups, shop.controller.axis(1).velocity_ups))
+    steps = [
+        max(abs(a - b) for a, b in zip(now, before, strict=True)) / 0.005
+        for before, now in pairwise(speeds)
+    ]
+    steps.sort()
+    assert steps[int(0.97 * len(steps))] <= 40.0 * 1.02  # the junctions are the rest
