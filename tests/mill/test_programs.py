@@ -61,7 +61,7 @@ def test_block_mode_runs_one_block_for_each_start() -> None:
     shop.runner.block(True)
     shop.until(State.HOLD)
     assert shop.runner.reason == "block"
-    seen = []
+    seen: list[float] = []
     while shop.runner.state is State.HOLD and len(seen) < 2:
         seen.append(shop.pulses()[0])
         shop.runner.start()
