@@ -117,7 +117,8 @@ def shown(entry: Entry) -> str:
         case Probe():
             return f"P {at(entry.end)}"
         case Arc():
-            centre = f"{entry.centre[0]:g},{entry.centre[1]:g}"
+            x, y = (round(value, 6) + 0.0 for value in entry.centre)
+            centre = f"{x:g},{y:g}"
             return f"A {at(entry.end)} about {centre} {round(entry.sweep_rad * 57.29577951308232)}"
         case Spindle():
             return f"M{entry.spin.value} S{entry.rpm:g}"

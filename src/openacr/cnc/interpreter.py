@@ -7,11 +7,13 @@ handed out first: when the reader asks for the entry behind it, the machine is a
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from openacr.cnc import dialects as _dialects  # noqa: F401  registers the languages
 from openacr.cnc.arcs import Bow
+from openacr.cnc.blocks import Message
 from openacr.cnc.canonical import (
     BlockEnd,
     Dwell,
@@ -50,6 +52,7 @@ from openacr.cnc.statements import shown
 from openacr.cnc.turn import Turn
 
 MOST_IDLE = 100_000
+_PARAMETER = re.compile(r"([#Pp])(\d{1,7})")
 _WAITS = Motion | Dwell | WaitBit | Stop
 _ARITHMETIC = (ArithmeticError, ValueError)
 OFF = 40
@@ -341,7 +344,8 @@ class Interpreter:
                             break
             else:
                 yield from self._block(node, block)
-            if self.options.has_block_ends and not self.flow.is_within(Level.CYCLE):
+            is_cycle = frame is not None and frame.level is Level.CYCLE
+            if self.options.has_block_ends and not is_cycle:
                 self.tell(BlockEnd(node.source))
             if out:
                 yield from out
@@ -414,7 +418,7 @@ class Interpreter:
     def _block(self, node: Node, block: Ready) -> Iterator[Entry]:
         """One block: read and check everything, then act."""
         for message in block.plan.block.messages:
-            self.tell(Say(node.source, self._text(message.text, message.has_values)))
+            yield from self._say(node.source, message)
         done = 0
         words: dict[str, float] = {}
         while True:
@@ -449,8 +453,20 @@ class Interpreter:
                 if self.is_ended:
                     return
 
-    def _text(self, text: str, has_values: bool) -> str:
-        return text
+    def _say(self, source: Source, message: Message) -> Iterator[Entry]:
+        """Show a text; values in it are those of the moment."""
+        text = message.text
+        while message.has_values:
+            try:
+                text = _PARAMETER.sub(self._value, message.text)
+                break
+            except NotAtRestError:
+                yield from self.sync(source)
+        self.tell(Say(source, text))
+
+    def _value(self, found: re.Match[str]) -> str:
+        read = self.parameters.read_hash if found[1] == "#" else self.parameters.read_p
+        return shown(read(float(found[2])))
 
     # --- what codes need --------------------------------------------------------------
 

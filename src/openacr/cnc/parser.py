@@ -144,6 +144,8 @@ class _Parser(ExpressionReader):
         found = _PLAIN_WORDS.match(self.text, self.pos)
         if found is None or self.text[found.end() : found.end() + 1] in (".", "="):
             return False
+        if not self.raw[found.start() : found.end()].isascii():
+            return False  # a printed minus
         letter, sign, digits = found.groups()
         number = -float(digits) if sign == "-" else float(digits)
         block.words.append(Word(letter, Number(number), found.start() + 1))

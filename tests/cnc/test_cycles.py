@@ -1,0 +1,359 @@
+"""Canned cycles, macros, probing and floating zeros."""
+
+from pathlib import Path
+
+import pytest
+from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, run
+
+from openacr.cnc.canonical import Dwell, Line, Orient, Probe, Rapid, Spindle
+from openacr.cnc.gcodes.work import clear_zero, preset_zero
+from openacr.cnc.interpreter import Options
+from openacr.cnc.load import load
+
+Z2 = (0.0, 0.0, 2.0)
+
+
+def story(text: str, start: tuple[float, ...] = Z2, **more: object) -> list[str]:
+    return run(text + CYCLES, start=start, **more).story[:-1]  # type: ignore[arg-type]
+
+
+def levels(done: Run) -> str:
+    """Motion along Z and what stands between, as `R0.1 F-1 M5`."""
+    shown = []
+    for entry in done.entries:
+        if isinstance(entry, Rapid | Line):
+            kind = "F" if isinstance(entry, Line) else "R"
+            shown.append(f"{kind}{round(entry.end[2], 6):g}")
+        elif isinstance(entry, Spindle):
+            shown.append(f"M{entry.spin.value}")
+        elif isinstance(entry, Dwell):
+            shown.append(f"dwell{entry.seconds:g}")
+        elif isinstance(entry, Orient):
+            shown.append("orient" if entry.is_on else "release")
+    return " ".join(shown)
+
+
+def drilled(words: str, before: str = "", **more: object) -> str:
+    text = f"{before}\n{words} F10{CYCLES}"
+    return levels(run(text, start=Z2, **more))  # type: ignore[arg-type]
+
+
+BODIES = [
+    ("G81 Z-1 R.1", "", "R0.1 F-1 R2"),
+    ("G99 G81 Z-1 R.1", "", "R0.1 F-1 R0.1"),
+    ("G82 Z-1 R.1 P2", "", "R0.1 F-1 dwell2 R2"),
+    ("G99 G82 Z-1 R.1 P2", "", "R0.1 F-1 dwell2 R0.1"),
+    ("G85 Z-1 R.1", "", "R0.1 F-1 F0.1 R2"),
+    ("G99 G85 Z-1 R.1", "", "R0.1 F-1 F0.1"),
+    ("G86 Z-1 R.1", "M3", "M3 R0.1 F-1 R2"),
+    ("G89 Z-1 R.1 P1", "", "R0.1 F-1 dwell1 R2"),
+    ("G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4 R2"),
+    ("G99 G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4"),
+    ("G84 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 M4 dwell1 F0.1 M3 R2"),
+    ("G76 Z-1 R.1 Q.2", "M3", "M3 R0.1 F-1 orient F-1 R2 R2 release M3"),
+    ("G87 Z-1 R-2 Q.2", "M3", "M3 orient R2 R-2 R-2 release M3 M3 F-1 orient R-1 R2 R2 release M3"),
+    ("G88 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 dwell1 M5 R2 release M3"),
+]
+REQUIRED = {
+    "G81 Z-1 R.1": ("MILL-G81", "MILL-CYC-SIXSTEP"),
+    "G82 Z-1 R.1 P2": ("MILL-G82",),
+    "G85 Z-1 R.1": ("MILL-G85",),
+    "G86 Z-1 R.1": ("MILL-G86",),
+    "G89 Z-1 R.1 P1": ("MILL-G89",),
+    "G74 Z-1 R.1": ("MILL-G74", "MILL-G74-SYNC"),
+    "G84 Z-1 R.1 P1": ("MILL-G84",),
+    "G76 Z-1 R.1 Q.2": ("MILL-G76", "MILL-G76-ORIENT"),
+    "G87 Z-1 R-2 Q.2": ("MILL-G87",),
+    "G88 Z-1 R.1 P1": ("MILL-G88",),
+}
+
+
+@pytest.mark.parametrize(
+    ("words", "before", "wanted"),
+    [
+        pytest.param(*row, marks=pytest.mark.req(*REQUIRED[row[0]])) if row[0] in REQUIRED else row
+        for row in BODIES
+    ],
+)
+def test_each_cycle_has_its_steps(words: str, before: str, wanted: str) -> None:
+    assert drilled(words, before) == wanted
+
+
+@pytest.mark.req("MILL-G84-OVERRIDE")
+def test_tapping_locks_the_feed_override() -> None:
+    for words, before in (("G84 Z-1 R.1", "M3"), ("G74 Z-1 R.1", "M4")):
+        done = run(f"{before}\n{words} F10\nG80 X5{CYCLES}", start=Z2)
+        locks = [e.pace.is_locked for e in done.of(Line) if isinstance(e, Line)]
+        assert locks == [True, True, False]
+
+
+def test_tapping_turns_the_spindle_the_right_way_first() -> None:
+    done = run("M4\nG84 Z-1 R.1 F10" + CYCLES, start=Z2)
+    assert levels(done).startswith("M4 M3 R0.1")
+    assert "W215" in done.codes
+
+
+@pytest.mark.req("MILL-G76")
+@pytest.mark.parametrize(
+    ("direction", "shift"), [(0, "X1.2 Y1"), (1, "X0.8 Y1"), (2, "X1 Y1.2"), (3, "X1 Y0.8")]
+)
+def test_fine_boring_shifts_in_its_direction(direction: int, shift: str) -> None:
+    told = story("M3\nG76 X1 Y1 Z-1 R.1 Q.2 F10", cells={250_142: direction})
+    assert told[4:7] == ["orient 1", f"L {shift} Z-1", f"R {shift} Z2"]
+    assert told[7] == "R X1 Y1 Z2"
+
+
+@pytest.mark.req("MILL-G87-G98")
+def test_back_boring_always_returns_to_the_initial_level() -> None:
+    assert drilled("G99 G87 Z-1 R-2 Q.2", "M3").split()[-3:] == ["R2", "release", "M3"]
+
+
+def test_the_hand_retract_goes_on_from_where_the_axes_are() -> None:
+    machine = Bench()
+    text = "M3\nG88 X1 Z-1 R.1 F10" + CYCLES
+    machine.where = None
+    done = run(text, start=Z2, machine=machine)
+    assert "M585" in done.story
+
+
+@pytest.mark.parametrize(
+    ("plane", "words", "ends"),
+    [
+        pytest.param("G17", "X1 Y2 Z-1", [(1, 2, 0), (1, 2, -1)],
+                     marks=pytest.mark.req("MILL-CYC-PLANE-G17")),
+        pytest.param("G18", "Z1 X2 Y-1", [(2, 0, 1), (2, -1, 1)],
+                     marks=pytest.mark.req("MILL-CYC-PLANE-G18")),
+        pytest.param("G19", "Y1 Z2 X-1", [(0, 1, 2), (-1, 1, 2)],
+                     marks=pytest.mark.req("MILL-CYC-PLANE-G19")),
+    ],
+)  # fmt: skip
+def test_cycles_drill_across_the_plane(
+    plane: str, words: str, ends: list[tuple[float, ...]]
+) -> None:
+    done = run(f"{plane} G81 {words} R0 F10" + CYCLES)
+    assert done.ends == [ends[0], ends[1], ends[0]]
+
+
+@pytest.mark.req("MILL-CYC-INCLUDE", "MILL-CYC-INCLUDE-POS")
+def test_cycles_need_their_text_behind_the_end() -> None:
+    assert errors("G81 X1 Z-1 R0") == ["E251"]
+    assert errors("$I CYCLES.TXT\nG81 X1 Z-1 R0\nM2") == ["E262"]
+    assert errors("G81 X1 Z-1 R0" + CYCLES) == []
+    assert errors("G81 X1 Z-1 R0", {700_006: 1.0}) == []
+
+
+@pytest.mark.req("MILL-CYC-LABELS")
+@pytest.mark.parametrize("label", [70_001, 81_000, 999_999])
+def test_labels_above_70000_are_those_of_the_cycles(label: int) -> None:
+    codes = {e.code for e in load(f"N{label} X1 F10" + CYCLES, STORE).errors}
+    assert codes & {"E263", "E221"}
+    assert not load(f"N{label} X1 F10", STORE).errors
+    assert not load("N70000 X1 F10" + CYCLES, STORE).errors
+
+
+def test_programs_may_not_jump_into_a_cycle() -> None:
+    assert errors("GOTO 81000" + CYCLES) == ["E264"]
+
+
+@pytest.mark.req("MILL-CYC-VARS", "MILL-CYC-WORDS")
+def test_cells_249_to_270_hold_the_cycle() -> None:
+    done = run("G99 M3\nG83 X1 Y2 Z-1 R.5 Q.3 P4 F10" + CYCLES, start=Z2)
+    cells = [done.p(249 + k) for k in range(22)]
+    assert cells[:9] == pytest.approx([83, 1, 2, -1, 0.5, 2, 0.5, 0.3, 4])
+    assert cells[9:13] == pytest.approx([10, 1, 0.02, 0.05])
+    assert cells[15:19] == [3, 99, 17, 90]
+    assert cells[21] == 1
+
+
+@pytest.mark.req("MILL-CYC-INITIAL")
+def test_the_initial_level_is_where_the_cycle_is_called() -> None:
+    done = run("G0 Z5\nG81 X1 Z-1 R0 F10\nX2" + CYCLES)
+    high = [move for move in done.moves if move.endswith("Z5")]
+    assert high == ["R Z5", "R X1 Z5", "R X1 Z5", "R X2 Z5", "R X2 Z5"]
+
+
+@pytest.mark.req("MILL-G80", "MILL-CYC-MODAL")
+def test_a_cycle_ends_with_g80_or_a_motion_code() -> None:
+    assert run("G81 X1 Z-1 R0 F10\nG80 X2" + CYCLES).moves[3:] == ["L X2"]
+    assert run("G81 X1 Z-1 R0 F10\nG0 X2" + CYCLES).moves[3:] == ["R X2"]
+    repeated = run("G81 X1 Z-1 R0 F10\nM8\nF5\nY1" + CYCLES)
+    assert repeated.moves[3:] == ["R X1 Y1", "L X1 Y1 Z-1", "R X1 Y1"]
+
+
+def test_a_plane_change_ends_a_cycle_with_a_warning() -> None:
+    done = run("G81 X1 Z-1 R0 F10\nG18\nX2" + CYCLES)
+    assert "W213" in done.codes
+    assert done.moves[3:] == ["L X2"]
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        ("G81 X1 R0", "E250"), ("G81 X1 Z-1", "E250"), ("G73 X1 Z-1 R0", "E250"),
+        ("G83 X1 Z-1 R0 Q0", "E250"), ("G83 X1 Z-1 R0 Q-1", "E250"), ("G76 X1 Z-1 R0", "E252"),
+        ("G87 X1 Z-1 R0", "E252"), ("G81 X1 Z-1 R0 L-1", "E250"), ("G41 D1\nG81 X1 Z-1 R0", "E312"),
+    ],
+)  # fmt: skip
+def test_cycles_need_their_words(words: str, code: str) -> None:
+    assert errors(words + CYCLES) == [code]
+
+
+def test_drilling_backward_is_done_with_a_warning() -> None:
+    done = run("G81 X1 Z1 R0 F10" + CYCLES)
+    assert "W214" in done.codes
+    assert done.moves == ["R X1", "L X1 Z1", "R X1"]
+
+
+@pytest.mark.req("MILL-CYC-DRYRUN")
+def test_cycles_run_dry_without_the_spindle() -> None:
+    done = run("M3\nG76 X1 Z-1 R.1 Q.2 P1 F10" + CYCLES, start=Z2, options=Options(is_dry=True))
+    assert not done.of(Spindle)
+    assert not done.of(Orient)
+    assert "L X1.2 Z-1" in done.moves
+
+
+def test_rotation_and_scale_act_on_holes_and_levels() -> None:
+    text = "G68 X0 Y0 R90\nG51 X0 Y0 Z0 P2\nG81 X1 Z-1 R.5 F10" + CYCLES
+    assert run(text, start=Z2).moves == ["R Y2 Z2", "R Y2 Z1", "L Y2 Z-2", "R Y2 Z2"]
+
+
+def test_single_block_stops_at_every_hole() -> None:
+    options = Options(has_block_ends=True)
+    done = run("G91 G81 X1 Z-1 R0 L3 F10" + CYCLES, options=options)
+    assert done.story.count("BlockEnd") == 4  # three holes and M2
+    assert done.story[3] == "BlockEnd"
+
+
+def test_the_users_own_cycles_come_first(tmp_path: Path) -> None:
+    (tmp_path / "CYCLES.TXT").write_text("N81000 G1 Z(P252)\nRET\n")
+    (tmp_path / "P.NC").write_text("G81 X1 Z-1 R0 F10" + CYCLES)
+    from tests.cnc.programs import made
+
+    done = made("M2")
+    program = load(tmp_path / "P.NC", done.cells)
+    interpreter = type(done.interpreter)(program, done.cells, Bench())
+    kinds = [type(e).__name__ for e in interpreter.entries()]
+    assert kinds == ["Rapid", "Line", "End"]
+
+
+# --- macros -------------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-G65-EXPR")
+def test_arguments_may_be_expressions() -> None:
+    text = "P150=2\nG65 P5 X(P150+1) Y-P150\nM2\nN5 F10 X#1 Y#2\nRET"
+    assert run(text).moves == ["L X3 Y-2"]
+
+
+@pytest.mark.req("MILL-G66", "MILL-G66-NOMOVE", "MILL-G67")
+def test_a_modal_macro_follows_every_move() -> None:
+    text = "F10 G66 P5 A1\nX1\nM8\nP200=0\nX2\nG67\nX3\nM2\nN5 G91 G1 Z#4\nG90\nRET"
+    text = text.replace("F10 G66", "F10\nG66")
+    done = run(text, axes=4)
+    assert [s for s in done.story if s.startswith("L")] == [
+        "L X1", "L X1 Z1", "L X2 Z1", "L X2 Z2", "L X3 Z2",
+    ]  # fmt: skip
+
+
+def test_locals_come_back_behind_a_call() -> None:
+    text = (
+        "G65 P5 X1\nM2\nN5 #1=#1+10\nG65 P6 X99\nP200=#1\nGOSUB 7\nRET\n"
+        "N6 #1=5\nRET\nN7 P201=#1\nRET"
+    )
+    done = run(text)
+    assert (done.p(200), done.p(201)) == (11, 11)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [("G65 X1", "E222"), ("G65 P5 L0", "E222"), ("G65 P9", "E220"), ("G1 G65 P5", "E201"),
+     ("G65 P5 P6", "E202")],
+)  # fmt: skip
+def test_calls_need_their_label(text: str, code: str) -> None:
+    assert errors(text + "\nM2\nN5 RET") == [code]
+
+
+# --- G31 ----------------------------------------------------------------------------------
+
+
+def tripped(x: float, y: float = 0.0) -> Bench:
+    return Bench(trip=(x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+@pytest.mark.req("MILL-G31-NOTRIG", "MILL-G31-ONESHOT")
+def test_without_a_trip_the_move_ends_at_its_target() -> None:
+    done = run("F10 G31 X5\nX6\nP200=P329", {101: 9.0})
+    assert done.moves == ["P X5", "L X6"]
+    assert (done.p(101), done.p(200)) == (9, 0)
+
+
+@pytest.mark.req("MILL-G31-G91")
+def test_increments_count_from_the_trip() -> None:
+    assert run("F10 G31 G91 X100\nY50", machine=tripped(60)).moves == ["P X100", "L X60 Y50"]
+
+
+@pytest.mark.req("MILL-G31-G90")
+def test_positions_are_reached_straight_from_the_trip() -> None:
+    done = run("F10 G31 G90 X200\nX300 Y100", machine=tripped(60))
+    assert done.moves == ["P X200", "L X300 Y100"]
+
+
+@pytest.mark.req("MILL-G31-STORE", "MILL-G31-USE")
+def test_the_trip_is_stored_in_machine_coordinates() -> None:
+    text = "G21 F10 G31 X100\nP200=P101 P201=P330 P202=P329\nG10 L2 P1 X#101\nG0 X0"
+    done = run(text, {910: 1.0}, machine=tripped(3.0))
+    assert done.p(200) == pytest.approx(3 * 25.4)
+    assert done.p(201) == pytest.approx(2 * 25.4)
+    assert done.p(202) == 1
+    assert done.p(910) == pytest.approx(3.0)
+    assert done.moves[-1] == "R X3"
+
+
+def test_a_probe_input_is_needed() -> None:
+    class NoProbe(Bench):
+        def has_probe(self) -> bool:
+            return False
+
+    assert errors("G31 X1", machine=NoProbe()) == ["E243"]
+
+
+def test_the_probe_runs_at_feed_to_rest() -> None:
+    (probe,) = run("F10 G31 X1").of(Probe)
+    assert isinstance(probe, Probe)
+    assert probe.pace.feed_upm == 10
+    assert probe.pace.mode.value == "G61"
+
+
+# --- floating zero --------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-ZERO-SET", "MILL-ZERO-CLR", "MILL-ZERO-FLZ", "MILL-ZERO-PARAM")
+def test_set_zero_reads_zero_and_clr_zero_what_it_was() -> None:
+    done = run("G0 X1.588 Y-2.12")
+    interpreter = done.interpreter
+    preset_zero(interpreter, {0: 0.0, 1: 0.0})
+    assert interpreter.position[:2] == (0, 0)
+    assert (done.p(800), done.p(801), done.p(802)) == (1, 1.588, -2.12)
+    clear_zero(interpreter)
+    assert interpreter.position[:2] == pytest.approx((1.588, -2.12))
+    assert done.p(800) == 0
+    preset_zero(interpreter, {0: 5.0})
+    assert interpreter.position[0] == pytest.approx(5)
+
+
+def test_g92_keeps_what_was_there_before() -> None:
+    done = run("G0 X2\nG92 X5\nG0 X6\nG92 X0", {801: 1.0})
+    assert done.moves == ["R X3", "R X4"]
+    assert (done.p(801), done.p(809), done.p(817), done.p(825)) == (4, 0, -2, 4)
+
+
+def test_g92_alone_is_set_zero() -> None:
+    done = run("G0 X2 Y3\nG92\nX1")
+    assert done.moves == ["R X2 Y3", "R X3 Y3"]
+
+
+def test_g92_reads_right_under_scaling_and_rotation() -> None:
+    done = run("F10 G51 X0 Y0 Z0 P2\nX1\nG92 X5\nX6")
+    assert done.moves == ["L X2", "L X4"]
+    done = run("F10 G68 X0 Y0 R90\nX1\nG92 X5 Y0\nX6")
+    assert done.moves == ["L Y1", "L Y2"]

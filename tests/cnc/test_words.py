@@ -1,0 +1,323 @@
+"""Words, labels, statements, comments: what a line may say."""
+
+from pathlib import Path
+
+import pytest
+from tests.cnc.programs import CYCLES, STORE, Bench, errors, made, run
+
+from openacr.cnc.canonical import Line, Sync
+from openacr.cnc.findings import BlockError
+from openacr.cnc.interpreter import Options
+from openacr.cnc.load import load
+from openacr.cnc.text import Text
+
+
+@pytest.mark.parametrize(
+    ("letter", "axis"),
+    [
+        pytest.param(letter, axis, marks=pytest.mark.req(f"MILL-WORD-{letter}"))
+        for axis, letter in enumerate("XYZABCUV")
+    ],
+)
+def test_axis_words_take_numbers_and_expressions(letter: str, axis: int) -> None:
+    done = run(f"F10 {letter}1.5\n{letter}(P200*2)\n{letter.lower()}-.25", {200: 2.0}, axes=8)
+    assert done.moves == [f"L {letter}1.5", f"L {letter}4", f"L {letter}-0.25"]
+    assert {len(e.end) for e in done.entries if hasattr(e, "end")} == {8}
+
+
+def test_an_axis_that_is_not_configured_is_refused() -> None:
+    assert errors("F10 U5", axes=3) == ["E207"]
+
+
+@pytest.mark.req("MILL-WORD-I", "MILL-WORD-J", "MILL-WORD-K")
+def test_i_j_k_are_centres_scales_and_arguments() -> None:
+    assert run("G18 G2 F10 X2 I1 K0").moves == ["A X2 about 0,1 -180"]
+    assert run("G51 X0 Y0 Z0 I2 J3 K4\nG0 X1 Y1 Z1").moves == ["R X2 Y3 Z4"]
+    done = run("G65 P5 I1 J2 K3\nM2\nN5 G0 X#12 Y#13 Z#14\nRET")
+    assert done.moves == ["R X1 Y2 Z3"]
+
+
+@pytest.mark.req("MILL-WORD-P")
+def test_p_is_a_parameter_and_in_cycles_the_dwell() -> None:
+    text = "P150=.5\nG82 X1 Z-1 R0 P P150 F10" + CYCLES
+    assert "dwell 0.5" in run(text).story
+    assert "dwell 2" in run("G82 X1 Z-1 R0 P2 F10" + CYCLES).story
+
+
+@pytest.mark.req("MILL-WORD-S")
+def test_s_is_the_speed_of_the_spindle() -> None:
+    assert run("S1500 M3\nS2000\nM5").story == ["M3 S1500", "M3 S2000", "M5 S2000", "end"]
+
+
+@pytest.mark.req("MILL-WORD-N")
+def test_labels_do_not_move() -> None:
+    assert run("N10 F10\nN20 X1\nN30").moves == ["L X1"]
+
+
+@pytest.mark.req("MILL-WORD-T")
+def test_t_p_transfers_a_parameter_to_the_card() -> None:
+    assert run("P3=55555\nT P3").story == ["P3=55555", "end"]
+    assert run("P150=7\nT #150").story == ["P150=7", "end"]
+    assert run("P150=3 P3=9\nT PP150").story == ["P3=9", "end"]
+
+
+@pytest.mark.req("MILL-WORD-T-MIX")
+def test_t_stands_beside_other_codes() -> None:
+    story = run("T5 M6 G0 X1 M3 S10").story
+    assert story == ["SetCell", "tool 5", "M3 S10", "R X1", "end"]
+
+
+@pytest.mark.req("MILL-WORD-Q")
+def test_q_is_the_peck() -> None:
+    done = run("G83 Z-1 R0 Q.5 F10" + CYCLES, {250_141: 0.1})
+    assert [end[2] for end in done.ends] == [-0.5, 0, -0.4, -1, 0]
+
+
+@pytest.mark.req("MILL-WORD-L")
+def test_l_repeats() -> None:
+    assert len(run("G91 G81 X1 Z-1 R0 L3 F10" + CYCLES).of(type(run("F1 X1").entries[0]))) == 3
+    assert run("G65 P5 L3\nM2\nN5 P200=P200+1\nRET", {200: 0}).p(200) == 3
+
+
+@pytest.mark.req("MILL-WORD-NUMFMT")
+@pytest.mark.parametrize(
+    ("word", "x"),
+    [("X-1", -1), ("X.5", 0.5), ("X 5", 5), ("X5.", 5), ("X+2", 2), ("X007", 7), ("x\t3", 3),
+     ("X - 4", -4), ("X-.25", -0.25)],
+)  # fmt: skip
+def test_numbers_may_be_written_in_many_ways(word: str, x: float) -> None:
+    assert run(f"G1F10{word}").ends[0][0] == x
+
+
+@pytest.mark.parametrize("text", ["G1X\u2212\u22121 F10", "G1X\u20131 F10", "G1X--1 F10"])
+def test_printed_minus_signs_count_as_one_with_a_warning(text: str) -> None:
+    done = run(text)
+    assert done.moves == ["L X-1"]
+    assert "W102" in done.codes
+
+
+@pytest.mark.req("MILL-WORD-ORDER")
+@pytest.mark.parametrize("text", ["G1 X1 Y2 F10 M8", "M8 F10 Y2 X1 G1", "X1 M8 G1 F10 Y2"])
+def test_words_may_stand_in_any_order(text: str) -> None:
+    assert run(text).story == ["coolant 01", "L X1 Y2", "end"]
+
+
+@pytest.mark.req("MILL-WORD-COMMENT")
+@pytest.mark.parametrize(
+    "text",
+    ["F10 (X5) X1 (Y5)", "F10 X1 ; X5", "F10 X1(Y(5)", "(a)F10(b)X1(c);d", "F10 X1\nREM X5",
+     "O1234\nF10 X1", "%\nF10 X1\n%\nX5", "F10 X1\n\x1aX5", "F\x0010 X\x7f1", "\ufeffF10 X1"],
+)  # fmt: skip
+def test_comments_and_marks_are_left_out(text: str) -> None:
+    assert run(text).moves == ["L X1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "column"),
+    [
+        ("X1 (open", "E103", 4),
+        ("G1 X", "E105", 5),
+        ("G1 XY", "E105", 5),
+        ("X5-3", "E104", 3),
+        ("?", "E104", 1),
+        ("PRINT hello", "E109", 7),
+        ("IF P1=1 GOTO 5", "E108", 9),
+        ("GOTO", "E108", 5),
+        ("N1 GOTO 1 X5", "E108", 11),
+        ("X1 GOTO 1", "E108", 4),
+        ("N0 X1", "E222", 2),
+        ("N1000000", "E222", 2),
+        ("X" + "1" * 256, "E101", 257),
+        ("P20488=1", "E211", 1),
+        ("X P1003425", "E211", 1),
+        ("P100000=1", "E212", 1),
+        ("P95=1", "E212", 1),
+    ],
+)
+def test_an_error_has_its_code_and_column(text: str, code: str, column: int) -> None:
+    (error,) = load(text, STORE, name="BAD.NC").errors
+    assert (error.code, error.line, error.column) == (code, 1, column)
+    assert str(error).startswith(f"BAD.NC:1:{column}: {code} ")
+    assert error.caret.endswith("\n" + " " * (column - 1) + "^")
+
+
+@pytest.mark.req("MILL-LOAD-ERR")
+def test_all_errors_are_found_at_most_a_hundred() -> None:
+    assert len(load("X1 X2\n" * 7, STORE).errors) == 7
+    assert len(load("X1 X2\n" * 500, STORE).errors) == 100
+
+
+# --- flow ---------------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-FLOW-N")
+def test_a_label_may_stand_anywhere_but_once() -> None:
+    (error,) = load("N5 X1 F10\nN6\nN0005 X2", STORE).errors
+    assert (error.code, error.line) == ("E221", 3)
+    assert "line 1" in error.hint
+
+
+@pytest.mark.req("MILL-FLOW-GOTO")
+def test_jumps_find_their_labels() -> None:
+    assert run("F10 X1\nGOTO 7\nX2\nN7 X3").moves == ["L X1", "L X3"]
+    assert run("F10\nGOTO (3+4)\nX2\nN0007 X3").moves == ["L X3"]
+    assert errors("GOTO 7") == ["E220"]
+    assert errors("GOTO (3+4)") == ["E220"]
+
+
+@pytest.mark.req("MILL-FLOW-IF", "MILL-FLOW-IF-P", "MILL-FLOW-CASE")
+@pytest.mark.parametrize(
+    "text",
+    ["If P200=5 THEN GOTO 100", "IF P200 = 5 then goto 100", "if(P200=5)Then GOTO100"],
+)
+def test_if_jumps_where_its_condition_holds(text: str) -> None:
+    program = f"F10\n{text}\nX1\nN100 X2"
+    assert run(program, {200: 5}).moves == ["L X2"]
+    assert run(program, {200: 4}).moves == ["L X1", "L X2"]
+
+
+def test_if_calls_and_returns() -> None:
+    text = "F10\nIF P200>0 THEN GOSUB 5\nX9\nM2\nN5 X1\nIF P200>0 THEN RET\nX2\nRET"
+    assert run(text, {200: 1}).moves == ["L X1", "L X9"]
+
+
+@pytest.mark.parametrize("text", ["IF P1=1 THEN GOTO 100", "IF (#1)=1 THEN GOTO 100"])
+def test_other_forms_are_no_input_test(text: str) -> None:
+    program = f"F10\n{text}\nX1\nN100 X2"
+    assert run(program, machine=Bench(bits={1})).moves == ["L X1", "L X2"]
+    assert run(program, {1: 1}).moves == ["L X2"]
+
+
+def test_the_input_test_can_be_switched_off() -> None:
+    program = "F10\nIF #1=1 THEN GOTO 100\nX1\nN100 X2"
+    done = run(program, {700_001: 0, 1: 1})
+    assert done.moves == ["L X2"]
+    assert "W211" not in done.codes
+    assert "W211" in run(program).codes
+    assert run("F10\nIF INP(1)=1 THEN GOTO 9\nX1\nN9", machine=Bench(bits={1})).moves == []
+
+
+@pytest.mark.req("MILL-FLOW-GOSUB")
+def test_subs_return_behind_their_call() -> None:
+    assert run("F10\nGOSUB 5\nX2\nM2\nN5 X1\nRET").moves == ["L X1", "L X2"]
+
+
+@pytest.mark.req("MILL-FLOW-NEST10")
+@pytest.mark.parametrize(("depth", "codes"), [(10, []), (11, ["E260"])])
+@pytest.mark.parametrize("call", ["GOSUB", "G65 P"])
+def test_ten_levels_may_be_nested(depth: int, codes: list[str], call: str) -> None:
+    subs = [f"N{k}\n{call}{k + 1}\nRET" for k in range(1, depth)]
+    text = "\n".join([f"{call}1", "M2", *subs, f"N{depth} P200=1", "RET"])
+    assert errors(text) == codes
+
+
+def test_a_jump_out_of_a_sub_keeps_its_level() -> None:
+    text = "F10\nGOSUB 5\nX2\nM2\nN5 X1\nGOTO 6\nN6 X3\nRET"
+    assert run(text).moves == ["L X1", "L X3", "L X2"]
+
+
+@pytest.mark.req("MILL-M2-INCLUDE", "MILL-M2")
+def test_text_behind_m2_is_reached_by_jumps_only() -> None:
+    assert run("F10 X1\nM2\nX5\nN9 X6").moves == ["L X1"]
+    done = run("F10 X1 M2")
+    assert done.story == ["L X1", "end"]
+
+
+def test_an_endless_loop_is_stopped() -> None:
+    assert errors("N1 P200=1\nGOTO 1") == ["A62"]
+
+
+@pytest.mark.req("MILL-MATH-REALTIME")
+def test_values_of_the_card_wait_for_the_motion() -> None:
+    done = made("F10 X1\nX(P6144)\nX3")
+    kinds = [type(entry).__name__ for entry in done.interpreter.entries()]
+    assert kinds == ["Line", "Sync", "Line", "Line", "End"]
+
+
+def test_a_value_of_the_card_is_read_behind_the_sync() -> None:
+    done = made("F10 X1\nX(P6144)")
+    ends = []
+    for entry in done.interpreter.entries():
+        if isinstance(entry, Sync):
+            done.machine.parameters[6144] = 7.0
+        if isinstance(entry, Line):
+            ends.append(entry.end[0])
+    assert ends == [1, 7]
+
+
+def test_block_skip_leaves_out_slashed_lines() -> None:
+    text = "F10\n/X1\n/3 X2\nX3"
+    assert run(text).moves == ["L X1", "L X2", "L X3"]
+    assert run(text, machine=Bench(is_skipping=True)).moves == ["L X3"]
+
+
+def test_texts_for_the_operator() -> None:
+    done = run('(MSG, hello there)\nP200=2.5\nPRINT "a="; P200; ";b"\n(DEBUG, p is P200)')
+    assert done.story == ["say hello there", "say a=2.5;b", "say p is 2.5", "end"]
+
+
+def test_input_asks_and_stores() -> None:
+    text = 'INPUT "how many", P200\nG0 X(P200)'
+    done = run(text, machine=Bench(answers={200: 4.0}))
+    assert done.moves == ["R X4"]
+    assert errors(text) == ["A61"]
+
+
+def test_block_ends_are_marked_where_wanted() -> None:
+    done = run("F10 X1\n\nN5\n(c)\nX2 M8", options=Options(has_block_ends=True))
+    assert done.story == ["L X1", "BlockEnd", "coolant 01", "L X2", "BlockEnd", "end"]
+
+
+# --- added texts ----------------------------------------------------------------------------
+
+
+def test_added_texts_stand_as_if_written_there(tmp_path: Path) -> None:
+    (tmp_path / "MAIN.NC").write_text("F10\nGOSUB 5\nM2\n$I sub.txt\nX3\nRET")
+    (tmp_path / "SUB.TXT").write_text("N5 X1\nX2\n")
+    done = made("M2")
+    program = load(tmp_path / "MAIN.NC", STORE)
+    assert not program.errors
+    run_ = type(done.interpreter)(program, done.cells, Bench())
+    ends = [entry.end[0] for entry in run_.entries() if hasattr(entry, "end")]
+    assert ends == [1, 2, 3]
+
+
+@pytest.mark.parametrize("text", ["$I CYCLES.TXT\nM2", "M2\n$I NOTHERE.TXT"])
+def test_added_texts_have_to_be_there_and_behind_m2(text: str) -> None:
+    assert errors(text) == ["E262"]
+
+
+def test_texts_added_in_a_circle_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "A.NC").write_text("M2\n$I A.NC\n")
+    assert {e.code for e in load(tmp_path / "A.NC", STORE).errors} == {"E262"}
+
+
+def test_a_line_longer_than_a_window_is_an_error_not_a_crash() -> None:
+    text = Text.of("X1\n" + "A" * 3_000_000 + "\nX2", "LONG")
+    offset, lengths = text.begin, []
+    while (taken := text.line(offset)) is not None:
+        lengths.append(len(taken[0]))
+        offset = taken[1]
+    assert lengths == [2, 3_000_000, 2]
+
+
+def test_windows_cut_behind_whole_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+    for size in range(1, 12):
+        monkeypatch.setattr("openacr.cnc.text.WINDOW", size)
+        text = Text.of(b"X1\r\nY2\rZ3\n\nA4\r\n\rB5")
+        offset, lines = text.begin, []
+        while (taken := text.line(offset)) is not None:
+            lines.append(taken[0])
+            offset = taken[1]
+        assert lines == [b"X1", b"Y2", b"Z3", b"", b"A4", b"", b"B5"], size
+
+
+def test_an_error_at_run_time_leaves_the_block_undone() -> None:
+    done = made("F10 X1\nM3 X2 G30 P(9)\nX3")
+    story = []
+    with pytest.raises(BlockError) as caught:
+        for entry in done.interpreter.entries():
+            story.append(type(entry).__name__)
+    assert story == ["Line"]
+    assert (caught.value.finding.line, caught.value.finding.code) == (2, "E242")
+    assert caught.value.finding.block == "M3 X2 G30 P(9)"
