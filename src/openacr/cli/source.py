@@ -261,7 +261,8 @@ class Reader:
         if message in (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE):
             names = {*self.axes.get(self.number, ()), *self.aliases}
             close = get_close_matches(word, sorted(names), n=1)
-            close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
+            if len(word) > 1:  # one letter is an axis, not a command with a letter missing
+                close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
             if close and close[0] != word.upper():
                 return f"did you mean {close[0]}?"
         if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and self.level is Level.PROG:
