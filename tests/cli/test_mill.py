@@ -47,7 +47,7 @@ def test_check_counts_moves_lengths_and_extents(tmp_path: Path) -> None:
     assert found["moves"] == {"rapid": 1, "feed": 2, "arc": 1, "dwell": 0}
     assert found["length"]["rapid"] == pytest.approx(2**0.5)
     assert found["length"]["feed"] == pytest.approx(2 + 0.5 * 3.14159265)
-    assert found["extents"] == {"min": [0.0, 0.0, 0.0], "max": [2.0, 2.0, 0.0]}
+    assert found["extents"] == {"min": [1.0, 1.0, 0.0], "max": [2.0, 2.0, 0.0]}
     assert found["end"] == {"X": 1.0, "Y": 1.0, "Z": 0.0}
 
 
@@ -69,7 +69,7 @@ def test_time_is_that_of_the_run_within_a_percent(tmp_path: Path) -> None:
 def test_run_ends_where_the_program_ends(tmp_path: Path) -> None:
     code, text = mill("run", program(tmp_path, SQUARE))
     assert code == 0
-    assert "X1.0000 Y1.0000 Z0.0000" in text
+    assert "X   1.0000 Y   1.0000 Z   0.0000" in text
 
 
 def test_a_program_with_errors_is_not_run(tmp_path: Path) -> None:

@@ -32,6 +32,23 @@ def test_arcs_reach_farther_than_their_ends() -> None:
     assert found.low[:2] == pytest.approx([-1, 0])
 
 
+@pytest.mark.parametrize(
+    ("text", "low", "high"),
+    [
+        ("G0 X10 Y5\nG1 Z-1 F10\nX12\nM2", (10, 5, -1), (12, 5, 0)),  # Z is cut from 0 on
+        ("G0 X10 Y5\nG0 Z2\nG1 Z-1 F10\nX12\nM2", (10, 5, -1), (12, 5, 2)),
+        ("G91 F10\nX1\nY1\nX-1\nM2", (0, 0, 0), (1, 1, 0)),  # the cut begins at zero
+        ("G0 X4\nG3 F10 X6 Y2 I4 J2\nM2", (4, 0, 0), (6, 2, 0)),
+        ("G0 X-5\nX5\nM2", (-5, 0, 0), (5, 0, 0)),
+    ],
+)
+def test_extents_begin_where_the_program_brings_the_axes(
+    text: str, low: tuple[float, ...], high: tuple[float, ...]
+) -> None:
+    found = of(text)
+    assert [*found.low[:3], *found.high[:3]] == pytest.approx([*low, *high])
+
+
 def test_the_data_are_complete() -> None:
     data = of("G1 X1 F10 G0\nX1").data()
     assert data["lines"] == 2

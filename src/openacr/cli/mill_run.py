@@ -294,8 +294,10 @@ def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
 
 
 def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
-    axes = shop.runner.settings.axes
-    return " ".join(f"{axis.name}{place[axis.index]:.4f}" for axis in axes)
+    from openacr.mill.readout import Readout
+
+    axes = [axis.index for axis in shop.runner.settings.axes]
+    return Readout(shop.cells).line(axes, place)
 
 
 def _end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:

@@ -25,7 +25,7 @@ from openacr.cnc.program import Program
 from openacr.cnc.shadow import Shadow
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 LINEAR = "XYZUV"
 _QUARTER = math.pi / 2.0
@@ -33,7 +33,11 @@ _QUARTER = math.pi / 2.0
 
 @dataclass(slots=True)
 class Survey:
-    """Counts, lengths, extents and findings of a program; lengths in default units."""
+    """Counts, lengths, extents and findings of a program; lengths in default units.
+
+    Extents are where the program brings the axes. Where an axis stands before its first move
+    belongs to them only if that move cuts: a rapid comes from anywhere.
+    """
 
     letters: dict[str, int]
     line_cnt: int = 0
@@ -126,6 +130,7 @@ class _Count:
         self._run = run
         self._at: Point = run.path.target
         self._linear = [axis for letter, axis in found.letters.items() if letter in LINEAR]
+        self._unplaced = set(found.letters.values())  # axes that did not move yet
 
     def all(self, look: Callable[[Entry], None] | None) -> None:
         """The whole program."""
@@ -138,6 +143,9 @@ class _Count:
         except BlockError as error:
             found.findings.append(error.finding)
         found.end = self._at
+        if any(found.low[axis] < math.inf for axis in found.letters.values()):
+            for axis in self._unplaced:
+                found.low[axis] = found.high[axis] = self._at[axis]
 
     def _entries(self) -> Iterator[Entry]:
         return self._run.entries()
@@ -165,15 +173,23 @@ class _Count:
         found = self._found
         found.move_cnts[kind] += 1
         found.lengths[kind] += math.sqrt(sum((end[a] - self._at[a]) ** 2 for a in self._linear))
-        self._reach(self._at)
+        self._place(end, is_start_cut=kind != "rapid")
         self._reach(end)
         self._at = end
 
-    def _reach(self, point: Point) -> None:
+    def _place(self, end: Point, *, is_start_cut: bool) -> None:
+        """Axes that move for the first time have a place from now on."""
+        first = [axis for axis in self._unplaced if end[axis] != self._at[axis]]
+        self._unplaced.difference_update(first)
+        if is_start_cut:
+            self._reach(self._at, first)
+
+    def _reach(self, point: Point, axes: Iterable[int] | None = None) -> None:
         low, high = self._found.low, self._found.high
-        for axis, value in enumerate(point):
-            low[axis] = min(low[axis], value)
-            high[axis] = max(high[axis], value)
+        for axis in self._found.letters.values() if axes is None else axes:
+            if axis not in self._unplaced:
+                low[axis] = min(low[axis], point[axis])
+                high[axis] = max(high[axis], point[axis])
 
     def _many(self, entry: Polyline) -> None:
         import numpy as np
@@ -183,6 +199,8 @@ class _Count:
         all_points = np.vstack([np.asarray(self._at), ends])
         steps = np.diff(all_points[:, self._linear], axis=0)
         found.lengths["feed"] += float(np.sqrt((steps**2).sum(axis=1)).sum())
+        moved = np.where(np.ptp(all_points, axis=0) > 0.0, np.inf, self._at)
+        self._place(tuple(moved.tolist()), is_start_cut=True)
         self._reach(tuple(map(float, all_points.min(axis=0))))
         self._reach(tuple(map(float, all_points.max(axis=0))))
         self._at = tuple(map(float, ends[-1]))
@@ -194,10 +212,11 @@ class _Count:
         bow = 0.5 * (arc.start_radius + arc.end_radius) * abs(arc.sweep_rad)
         rise = [arc.end[a] - self._at[a] for a in self._linear if a not in plane_axes(plane)]
         found.lengths["feed"] += math.sqrt(bow * bow + sum(d * d for d in rise))
-        for point in extremes(arc, self._at):
+        self._unplaced.difference_update(plane_axes(plane))
+        self._reach(self._at, plane_axes(plane))
+        self._place(arc.end, is_start_cut=True)
+        for point in (*extremes(arc, self._at), arc.end):
             self._reach(point)
-        self._reach(self._at)
-        self._reach(arc.end)
         self._at = arc.end
 
 

@@ -20,7 +20,7 @@ HOMED = 271  # cell with the mask of homed axes
 GENERAL, SERVO, AXIS, CONTROL, HOME, JOG, IO, FOV, ROV, SOV, PROBE, SPEEDS, COMPATIBILITY = range(
     13
 )
-SPINDLE, TOOL, OFFSETS = 14, 16, 17
+SPINDLE, DISPLAY, TOOL, OFFSETS, MESSAGES = 14, 15, 16, 17, 18
 
 
 class Store(Protocol):
