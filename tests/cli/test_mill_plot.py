@@ -9,10 +9,12 @@ import pytest
 from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
+from openacr.cli import mill_plot
 from openacr.cli.main import app
+from openacr.cli.mill import loaded, opened_store
 from openacr.cli.plots.toolpath import RAPID, Scene, shade
 from openacr.cli.plots.toolpath_image import build_figure
-from openacr.mill.plot import ToolPath
+from openacr.mill.view import COLORS
 
 pytest.importorskip("matplotlib")
 
@@ -50,16 +52,13 @@ def plotted(*words: object) -> tuple[int, str]:
     return result.exit_code, result.output
 
 
-def scene_of(part: Path) -> Scene:
-    """The scene the command draws."""
-    from openacr.cli.mill import loaded, opened_store
-    from openacr.cli.mill_plot import _surveyed
-
+def scene_of(part: Path, **settings: float) -> Scene:
+    """The scene the command draws, with some settings of the store changed."""
     with opened_store(None) as cells:
+        for name, value in settings.items():
+            cells.write(int(name.removeprefix("P")), value)
         program, name = loaded(part, cells, None)
-        _, path = _surveyed(program, cells, name)
-    assert isinstance(path, ToolPath)
-    return Scene(path.finished(), part.name, ("X", "Y", "Z"), "inch")
+        return mill_plot.scene_of(program, cells, name)[0]
 
 
 def lines_of(scene: Scene) -> list[Line2D]:
@@ -80,7 +79,7 @@ def test_an_svg_names_what_is_drawn(part: Path, tmp_path: Path) -> None:
     picture = tmp_path / "part.svg"
     assert plotted(part, picture)[0] == 0
     text = picture.read_text()
-    for label in ("rapid", "feed T3", "compensated T3", "inserted at corners", "programmed"):
+    for label in ("rapid", "feed", "compensated", "inserted at corners", "programmed"):
         assert label in text
     assert "X  -2 … 6.25 inch" in text
 
@@ -118,11 +117,12 @@ def test_a_page_holds_everything_itself(part: Path) -> None:
     data = json.loads(found.group(1))
     assert [look["label"] for look in data["looks"]] == [
         "rapid",
-        "feed T3",
-        "compensated T3",
+        "feed",
+        "compensated",
         "inserted at corners",
     ]
     assert data["low"] == pytest.approx([-2, -0.25, -0.2])
+    assert data["view"] == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     assert len(data["contours"]) == 1
 
 
@@ -152,6 +152,71 @@ def test_other_forms_are_refused_before_anything_is_read(part: Path, tmp_path: P
     code, text = plotted(part, tmp_path / "part.gif")
     assert code == 2
     assert "pictures end in .png, .svg or .html" in text
+
+
+def colors_of(scene: Scene) -> set[str]:
+    return {str(line.get_color()) for line in lines_of(scene)}
+
+
+@pytest.mark.req("MILL-GFX-PATHCOLOR")
+def test_the_path_color_is_that_of_the_store(part: Path) -> None:
+    assert COLORS[10] in colors_of(scene_of(part))
+    assert COLORS[4] in colors_of(scene_of(part, P250114=4))
+    assert COLORS[10] not in colors_of(scene_of(part, P250114=4))
+
+
+@pytest.mark.req("MILL-SYS-DISP-DCOLOR")
+def test_tools_have_colors_when_the_store_says_so(tmp_path: Path) -> None:
+    part = tmp_path / "TOOLS.NC"
+    part.write_text("F10\nT1 M6\nX1\nT2 M6\nX2\nT18 M6\nY1\nM2\n")
+    off = scene_of(part)
+    assert {COLORS[n] for n in (1, 2, 4, 10)} & colors_of(off) == {COLORS[10]}
+    on = scene_of(part, P850020=1, P901001=4)
+    assert {COLORS[n] for n in (1, 2, 4, 10)} & colors_of(on) == {COLORS[4], COLORS[2]}
+    assert [look.get_label() for look in build_figure(on).legends[0].get_lines()][:3] == [
+        "feed T1",
+        "feed T2",
+        "feed T18",
+    ]
+
+
+def seen(scene: Scene, point: tuple[float, float, float]) -> tuple[float, float]:
+    """Where the view from above shows a point: right and up, in pixels."""
+    figure = build_figure(scene)
+    figure.canvas.draw()
+    top = figure.axes[1]
+    across, up = (scene.view.axis_on(direction)[0] for direction in (0, 1))
+    place = top.transData.transform((point[across], point[up]))
+    return float(place[0]), float(place[1])
+
+
+@pytest.mark.req(
+    "MILL-SYS-DISP-FLIPX", "MILL-SYS-DISP-FLIPY", "MILL-SYS-DISP-XCHG", "MILL-SYS-DISP-COMBINE"
+)
+@pytest.mark.parametrize(
+    ("cells", "x_goes", "y_goes"),
+    [
+        ({}, (1, 0), (0, 1)),
+        ({"P850021": 1}, (-1, 0), (0, 1)),
+        ({"P850022": 1}, (1, 0), (0, -1)),
+        ({"P850021": 1, "P850022": 1}, (-1, 0), (0, -1)),
+        ({"P850023": 1}, (0, 1), (1, 0)),
+        ({"P850021": 1, "P850023": 1}, (0, -1), (1, 0)),
+        ({"P850021": 1, "P850022": 1, "P850023": 1}, (0, -1), (-1, 0)),
+    ],
+)
+def test_flips_and_exchange_turn_the_drawing_alone(
+    part: Path, cells: dict[str, float], x_goes: tuple[int, int], y_goes: tuple[int, int]
+) -> None:
+    scene = scene_of(part, **cells)
+    origin, x, y = (seen(scene, point) for point in ((0, 0, 0), (1, 0, 0), (0, 1, 0)))
+    assert np.sign(np.round(np.subtract(x, origin))).tolist() == list(x_goes)
+    assert np.sign(np.round(np.subtract(y, origin))).tolist() == list(y_goes)
+    # The space view and the page turn by the same matrix; numbers stay those of the machine.
+    assert (np.array([1.0, 0, 0]) @ scene.view.matrix)[:2].tolist() == list(x_goes)
+    assert (np.array([0, 1.0, 0]) @ scene.view.matrix)[:2].tolist() == list(y_goes)
+    assert scene.drawing.points[-1] == pytest.approx([-2, 1, 0.5])
+    assert (scene.low, scene.high) == ((-2, -0.25, -0.2), (6.25, 6.25, 0.5))
 
 
 def test_shades_go_from_dark_to_light() -> None:

@@ -35,11 +35,13 @@ class ToolPath:
     """The way of the tool, and the contours it was compensated from.
 
     `tolerance` is how far chords may be off their arcs, in units of length; very large and
-    very small arcs get chords of 1 to 5 degrees.
+    very small arcs get chords of 1 to 5 degrees. Without `has_tools` no tool is told from
+    another.
     """
 
     axes: tuple[int, ...]
     tolerance: float
+    has_tools: bool = True
     start: Point = (0.0,) * 8
     contours: list[list[Point]] = field(default_factory=list)
     _at: Point = (0.0,) * 8
@@ -121,10 +123,11 @@ class ToolPath:
         parts = self._parts
         ends = [self._drawn(np.asarray(ends)) for ends, _, _, _ in parts]
         sizes = [len(each) for each in ends]
+        tools = [tool if self.has_tools else 0 for _, _, tool, _ in parts]
         return Drawing(
             np.vstack([self._drawn(np.array([self.start])), *ends]),
             np.repeat(np.array([kind for _, kind, _, _ in parts], dtype=np.uint8), sizes),
-            np.repeat(np.array([tool for _, _, tool, _ in parts], dtype=np.int64), sizes),
+            np.repeat(np.array(tools, dtype=np.int64), sizes),
             np.concatenate([lines for _, _, _, lines in parts] or [np.zeros(0, dtype=np.int64)]),
             [self._drawn(np.array(points)) for points in self.contours],
         )

@@ -1,12 +1,11 @@
 """The tool path of a part program as a picture: what is shown, and in which form."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from openacr.mill.plot import Drawing, Kind
+from openacr.mill.view import View
 
-# Okabe and Ito's palette: told apart with every common colour vision deficiency.
-TOOL_COLORS = ("#0072B2", "#009E73", "#E69F00", "#56B4E9", "#8C564B", "#000000")
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
 
 
@@ -16,12 +15,16 @@ BANDS = 16
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A drawing with its names."""
+    """A drawing with its names; `low` and `high` are the extents of the program."""
 
     drawing: Drawing
     title: str
     names: tuple[str, ...]
     unit: str
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    view: View = field(default_factory=View)
+    digits: tuple[int, ...] = (4, 4, 4)  # behind the point, by axis
     has_errors: bool = False
 
     @property
@@ -40,13 +43,13 @@ class Look:
     dashes: tuple[float, ...] = ()
 
 
-def look_of(kind: Kind, tool: int, tools: list[int]) -> Look:
-    """Rapid moves are grey and dotted, compensated ones dashed, tools have colours."""
+def look_of(kind: Kind, tool: int, view: View) -> Look:
+    """Rapid moves are grey and dotted, compensated ones dashed; the view has the colours."""
     if kind is Kind.RAPID:
         return Look("rapid", RAPID, 0.8, (1.5, 2.5))
     if kind is Kind.INSERTED:
         return Look("inserted at corners", INSERTED, 1.7)
-    color = TOOL_COLORS[tools.index(tool) % len(TOOL_COLORS)]
+    color = view.color(tool)
     name = f" T{tool}" if tool else ""
     if kind is Kind.COMPENSATED:
         return Look(f"compensated{name}", color, 1.3, (5.0, 2.0))
@@ -67,13 +70,6 @@ def shade(color: str, band: int, bands: int) -> str:
     parts = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
     mixed = [round(part + 0.65 * abs(share) * (to - part)) for part in parts]
     return "#" + "".join(f"{part:02x}" for part in mixed)
-
-
-def tools_of(drawing: Drawing) -> list[int]:
-    """The tools that cut, in the order of their numbers."""
-    return sorted(
-        {tool for kind, tool in drawing.styles() if kind in (Kind.FEED, Kind.COMPENSATED)}
-    )
 
 
 def draw_path(scene: Scene, path: Path) -> None:

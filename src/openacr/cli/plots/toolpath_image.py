@@ -16,8 +16,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, shade, tools_of
-from openacr.mill.plot import Array, Drawing, thinned
+from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, shade
+from openacr.mill.plot import Array, thinned
 
 WIDTH_INCHES, HEIGHT_INCHES, DPI = 13.0, 7.6, 120
 PIXELS = 1600  # more than any view is wide, so that thinning cannot be seen
@@ -47,7 +47,7 @@ def write_image(scene: Scene, path: Path) -> None:
 
 def build_figure(scene: Scene) -> Figure:
     """Lay the views out and fill them."""
-    size = scene.drawing.high - scene.drawing.low
+    size = np.abs((scene.drawing.high - scene.drawing.low) @ scene.view.matrix)
     figure = Figure(figsize=(WIDTH_INCHES, HEIGHT_INCHES), layout="constrained")
     if size[2] > FLAT:
         panels = figure.subplot_mosaic(
@@ -78,7 +78,7 @@ def _headline(figure: Figure, scene: Scene) -> None:
         ha="left",
         color="#B00020" if scene.has_errors else "black",
     )
-    handles = [_handle(look) for _, _, look in _looks(scene.drawing)]
+    handles = [_handle(look) for _, _, look in _looks(scene)]
     if scene.has_contours:
         handles.append(Line2D([], [], color=CONTOUR, linewidth=0.8, label="programmed contour"))
     handles.append(
@@ -98,9 +98,8 @@ def _dashes(look: Look) -> Any:
     return (0, look.dashes) if look.dashes else "-"
 
 
-def _looks(drawing: Drawing) -> list[tuple[Any, int, Look]]:
-    tools = tools_of(drawing)
-    return [(kind, tool, look_of(kind, tool, tools)) for kind, tool in drawing.styles()]
+def _looks(scene: Scene) -> list[tuple[Any, int, Look]]:
+    return [(kind, tool, look_of(kind, tool, scene.view)) for kind, tool in scene.drawing.styles()]
 
 
 # --- views --------------------------------------------------------------------------------
@@ -115,7 +114,7 @@ def _draw(panel: Axes, scene: Scene, to: npt.NDArray[np.float64], scale: float) 
         seen = thinned(contour @ to, step)
         panel.plot(*seen.T, color=CONTOUR, linewidth=0.8 * scale)
     bands = bands_of(drawing)
-    for kind, tool, look in _looks(drawing):
+    for kind, tool, look in _looks(scene):
         for band in range(bands):
             seen = thinned(drawing.strokes(kind, tool, band, bands) @ to, step)
             panel.plot(
@@ -131,15 +130,22 @@ def _draw(panel: Axes, scene: Scene, to: npt.NDArray[np.float64], scale: float) 
     panel.set_aspect("equal", adjustable="datalim")
 
 
-def _flat_view(panel: Axes, scene: Scene, axes: tuple[int, int], title: str) -> None:
+def _flat_view(panel: Axes, scene: Scene, directions: tuple[int, int], title: str) -> None:
+    """Two directions of the screen; the numbers along a flipped axis run the other way."""
+    (across, across_flips), (up, up_flips) = map(scene.view.axis_on, directions)
     to = np.zeros((3, 2))
-    to[axes[0], 0] = to[axes[1], 1] = 1.0
+    to[across, 0] = to[up, 1] = 1.0
     _draw(panel, scene, to, 0.8)
+    panel.xaxis.set_inverted(across_flips)
+    panel.yaxis.set_inverted(up_flips)
     panel.grid(visible=True)
-    names = (*scene.names, "", "")
-    panel.set_xlabel(f"{names[axes[0]]} [{scene.unit}]")
-    panel.set_ylabel(f"{names[axes[1]]} [{scene.unit}]")
+    panel.set_xlabel(f"{_name(scene, across)} [{scene.unit}]")
+    panel.set_ylabel(f"{_name(scene, up)} [{scene.unit}]")
     panel.set_title(title, loc="left", color=QUIET)
+
+
+def _name(scene: Scene, axis: int) -> str:
+    return (*scene.names, "", "", "")[axis]
 
 
 def projection(azimuth_deg: float, elevation_deg: float) -> npt.NDArray[np.float64]:
@@ -149,7 +155,7 @@ def projection(azimuth_deg: float, elevation_deg: float) -> npt.NDArray[np.float
 
 
 def _space_view(panel: Axes, scene: Scene) -> None:
-    to = projection(AZIMUTH_DEG, ELEVATION_DEG)
+    to = scene.view.matrix @ projection(AZIMUTH_DEG, ELEVATION_DEG)
     panel.set_axis_off()
     panel.margins(0.02)
     _box(panel, scene, to)
@@ -158,27 +164,35 @@ def _space_view(panel: Axes, scene: Scene) -> None:
 
 def _box(panel: Axes, scene: Scene, to: npt.NDArray[np.float64]) -> None:
     """The extents: a box whose three edges in front carry their axis, from and to."""
-    low, high = scene.drawing.low, scene.drawing.high
-    corners = np.array(
-        [[(low, high)[bit >> axis & 1][axis] for axis in range(3)] for bit in range(8)]
-    )
+    corners = np.array([_corner(scene, bits) for bits in range(8)])
     for one in range(8):
-        for axis in range(3):
-            if not one >> axis & 1:
-                seen = corners[[one, one | 1 << axis]] @ to
+        for direction in range(3):
+            if not one >> direction & 1:
+                seen = corners[[one, one | 1 << direction]] @ to
                 panel.plot(*seen.T, color=BOX, linewidth=0.7, zorder=0)
-    # Edges at the outline: X along the front, Y along the right side, Z at the left.
-    for axis, corner, across, side in ((0, 0, "top", "right"), (1, 1, "top", "left")):
-        _size(panel, scene, axis, corners[[corner, corner | 1 << axis]] @ to, (across, side))
-    if high[2] - low[2] > FLAT:
+    # Edges at the outline: along the front, along the right side, up at the left.
+    for direction, corner, across, side in ((0, 0, "top", "right"), (1, 1, "top", "left")):
+        edge = corners[[corner, corner | 1 << direction]] @ to
+        _size(panel, scene, direction, edge, (across, side))
+    if scene.high[2] - scene.low[2] > FLAT:
         _size(panel, scene, 2, corners[[0, 4]] @ to, ("center", "right"))
 
 
-def _size(panel: Axes, scene: Scene, axis: int, edge: Array, place: tuple[str, str]) -> None:
-    low, high = scene.drawing.low[axis], scene.drawing.high[axis]
+def _corner(scene: Scene, bits: int) -> list[float]:
+    """A corner of the extents; bits say where it lies along the directions of the screen."""
+    corner = [0.0, 0.0, 0.0]
+    for direction in range(3):
+        axis, is_flipped = scene.view.axis_on(direction)
+        is_far = bool(bits >> direction & 1) != is_flipped
+        corner[axis] = (scene.high if is_far else scene.low)[axis]
+    return corner
+
+
+def _size(panel: Axes, scene: Scene, direction: int, edge: Array, place: tuple[str, str]) -> None:
+    axis, _ = scene.view.axis_on(direction)
     x, y = edge.mean(axis=0)
     panel.annotate(
-        f"{scene.names[axis]}  {low:.4g} … {high:.4g} {scene.unit}",
+        f"{_name(scene, axis)}  {scene.low[axis]:.4g} … {scene.high[axis]:.4g} {scene.unit}",
         (x, y),
         xytext=(-8 if place[1] == "right" else 8, -6 if place[0] == "top" else 0),
         textcoords="offset points",

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, tools_of
+from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of
 from openacr.mill.plot import Array
 
 
@@ -29,8 +29,7 @@ def build_page(scene: Scene) -> str:
 def page_data(scene: Scene) -> dict[str, Any]:
     """Collect what the script of the page draws: numbers as bytes, which is half the size."""
     drawing = scene.drawing
-    tools = tools_of(drawing)
-    looks = [look_of(kind, tool, tools) for kind, tool in drawing.styles()]
+    looks = [look_of(kind, tool, scene.view) for kind, tool in drawing.styles()]
     return {
         "title": scene.title,
         "names": [*scene.names, *"   "][:3],
@@ -43,8 +42,10 @@ def page_data(scene: Scene) -> dict[str, Any]:
         "bands": bands_of(drawing),
         "contours": [_bytes(contour, "<f4") for contour in _joined(drawing.contours)],
         "contourColor": CONTOUR,
-        "low": drawing.low.tolist(),
-        "high": drawing.high.tolist(),
+        "low": scene.low,
+        "high": scene.high,
+        "view": scene.view.matrix.tolist(),
+        "digits": scene.digits,
     }
 
 
