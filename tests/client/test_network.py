@@ -252,7 +252,11 @@ def test_a_serial_line_carries_text_and_packets() -> None:
             assert card.command("MODE") == ["1"]
             card.p[4097] = 0x12130411
             assert card.read_many([4097, "axis0.ppu"]) == [0x12130411, 1]
+            card.command("MODE 0")  # now 0x11 and 0x13 of a packet would be taken for XON, XOFF
+        with Card.open(os.ttyname(far_2)) as card:
+            assert card.read_many([4097, "axis0.ppu"]) == [0x12130411, 1]
             card.p[4097] = 0
+            card.command("MODE 1")
 
         async def scenario(card: AsyncCard) -> None:
             assert await card.read("axis0.ppu") == 1

@@ -247,6 +247,35 @@ def test_nothing_is_lost_and_nothing_waits_when_a_host_sends_as_fast_as_it_can()
     assert sender.card.p[COUNTER] == 500
 
 
+def test_only_the_sender_of_too_many_moves_is_held_back() -> None:
+    sender = Sender()
+    other = Host(sender.card, StreamKind.PACKETS)
+    step = 0
+    while sender.card.accepts_input(sender.host.stream):
+        step += 1
+        sender.move({0: 10 * step}, vel=10.0)
+    assert step > 1000
+    assert sender.card.accepts_input(other.stream)
+    assert other.raw(bytes.fromhex("00 88 01 10")) == bytes.fromhex("00 88 01 10 00 00 00 00")
+    sender.ticks(10)
+    assert sender.card.accepts_input(sender.host.stream)
+
+
+def test_keys_and_packets_pass_moves_that_wait() -> None:
+    sender = Sender()
+    text = Host(sender.card)
+    packets = b"".join(Move.of({0: 1000 * n}, vel=10.0).encode() for n in range(1, 201))
+    get = bytes.fromhex("00 88 00 20")
+    sender.card.receive(text.stream, packets + get)
+    assert sender.card.take_output(text.stream)[:4] == get
+    sender.ticks(100)
+    assert sender.card.bit[IN_MOTION]
+    text.send("\x18")
+    sender.ticks(400)
+    assert not sender.card.bit[IN_MOTION]
+    assert sender.at[0] < 5000
+
+
 def test_a_chain_of_waiting_moves_runs_without_a_gap() -> None:
     sender = Sender()
     for step in range(1, 61):

@@ -69,6 +69,11 @@ class FakeCard:
                     stream.terminal.send_text("ok\r\nSYS>")
                     self._pump(stream)
 
+    def wake(self) -> None:
+        """Let all lines that sleep be answered with the next tick."""
+        for stream in self.streams.values():
+            stream.answer_tick = self.tick
+
     def _pump(self, stream: Stream) -> None:
         while (event := stream.terminal.next_event()) is not NEED_DATA:
             assert not isinstance(event, type(NEED_DATA))

@@ -4,6 +4,7 @@ import asyncio
 import os
 import select
 import sys
+import threading
 import time
 
 import pytest
@@ -12,6 +13,7 @@ from tests.io.fake_card import FakeCard
 from openacr.errors import UserError
 from openacr.io.serial_port import LineSettings
 from openacr.io.server import CardServer
+from openacr.protocol.terminal import XOFF, XON
 
 if sys.platform == "win32":
     pytest.skip("pseudo terminals are a POSIX thing", allow_module_level=True)
@@ -69,6 +71,52 @@ def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
         await asyncio.wait_for(running, 5)
 
     card = FakeCard()
+    asyncio.run(body())
+
+
+def test_a_host_that_sends_too_much_is_told_to_wait_and_loses_nothing() -> None:
+    lines = 25_000  # 100 000 bytes: more than waits for a line that is being executed
+
+    def flood(fd: int) -> None:
+        """As a host with XON/XOFF does: send, but nothing behind XOFF until XON."""
+        rest = memoryview(b"SLEEP 99999999\r" + b"LEN\r" * lines)
+        while rest:
+            may_send.wait()
+            rest = rest[os.write(fd, rest[:512]) :]
+
+    def listen(fd: int) -> bytes:
+        seen, deadline = b"", time.monotonic() + 20.0
+        while seen.count(b"SYS>") < lines + 1 and time.monotonic() < deadline:
+            part = os.read(fd, 65536)
+            for byte in part:
+                if byte == XOFF:
+                    may_send.clear()
+                    card.wake()
+                elif byte == XON:
+                    may_send.set()
+            seen += part
+        return seen
+
+    async def body() -> None:
+        ours, theirs = pty.openpty()
+        tty.setraw(theirs)
+        server, stop = CardServer(card), asyncio.Event()
+        server.open_serial(os.ttyname(theirs), LineSettings())
+        running = asyncio.create_task(server.run(stop))
+        writing = asyncio.create_task(asyncio.to_thread(flood, ours))
+        seen = await asyncio.to_thread(listen, ours)
+        await asyncio.wait_for(writing, 5)
+        assert (seen.count(bytes((XOFF,))), seen.count(bytes((XON,)))) == (1, 1)
+        assert seen.index(XOFF) < seen.index(XON)
+        assert seen.count(b"3\r\nSYS>") == lines
+        stop.set()
+        await asyncio.wait_for(running, 5)
+        os.close(ours)
+        os.close(theirs)
+
+    card = FakeCard()
+    may_send = threading.Event()
+    may_send.set()
     asyncio.run(body())
 
 

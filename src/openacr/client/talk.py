@@ -113,6 +113,12 @@ class Talk:
         """A program is being followed."""
         return self.session.is_listening
 
+    @property
+    def uses_packets(self) -> bool:
+        """Parameters are read with packets; not where XON and XOFF would be taken out of them."""
+        is_clean = self.kind is not StreamKind.SERIAL or self.session.mode.prefixes
+        return self.options.uses_packets and is_clean
+
     def set_echo(self, echo: EchoMode) -> None:
         """Work in another ECHO mode from the next request on."""
         if echo != self.session.echo:

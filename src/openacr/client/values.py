@@ -66,7 +66,7 @@ def read(talk: Talk, what: What) -> Op[Number]:
 def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
     """Several parameters in their order; those of one packet group with one packet."""
     numbers = tuple(parameter_number(what) for what in whats)
-    plan = _plan(numbers if talk.options.uses_packets else ())
+    plan = _plan(numbers if talk.uses_packets else ())
     found: dict[int, Number] = {}
     for part in plan:
         got = yield from _fetch(talk, part.packets, part.kinds)
@@ -112,7 +112,7 @@ def _packets(numbers: Iterable[int]) -> list[DataRequest]:
 
 def _packet_kind(talk: Talk, number: int) -> Kind | None:
     """How a packet carries a parameter without loss; None where only text does."""
-    return _kind(number) if talk.options.uses_packets else None
+    return _kind(number) if talk.uses_packets else None
 
 
 def _kind(number: int) -> Kind | None:

@@ -2,8 +2,9 @@
 
 A packet is not answered, so nothing may be lost: what does not fit waits here in the order
 of arrival, and the engine comes back in the tick in which a buffer has room again. While
-MOST moves of a master wait, the streams read nothing more; the sender is held back by its
-transport. A refused move (killed, at a limit) takes those behind it along, since they would
+MOST moves of a master wait, nothing more is read from streams that sent some of them: these
+senders are held back by their transport, and nobody else is. Until then packets and control
+keys that come behind waiting moves act at once. A refused move (killed, at a limit) takes those behind it along, since they would
 lead from the wrong place.
 """
 
@@ -24,7 +25,7 @@ from openacr.protocol.move import Code1, Code3, Curve, Move
 from openacr.protocol.packet import PacketError
 
 log = logging.getLogger(__name__)
-MOST = 64
+MOST = 1024
 _FAMILIES = {Curve.NURB: Family.NURB, Curve.SPLINE: Family.SPLINE}
 _WAITING = KRI_BASE + KRI_MOVES_WAITING
 
@@ -36,10 +37,9 @@ class MoveQueue:
         self._card = card
         self._waiting: dict[int, deque[Move]] = {}
 
-    @property
-    def is_full(self) -> bool:
-        """Whether the senders have to be held back."""
-        return any(len(waiting) >= MOST for waiting in self._waiting.values())
+    def is_full(self, master: int) -> bool:
+        """Whether those who send moves of a master have to be held back."""
+        return len(self._waiting.get(master, ())) >= MOST
 
     def add(self, move: Move) -> None:
         """Issue a move, behind those that wait already."""

@@ -10,6 +10,7 @@ from openacr.basic.session import Session
 from openacr.controller.packets import PacketHost
 from openacr.protocol.escape import BinaryMode
 from openacr.protocol.execute import execute
+from openacr.protocol.move import Move
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import (
     NEED_DATA,
@@ -40,6 +41,7 @@ class Stream:
 
     terminal: Terminal
     session: Session | None
+    moves_of: int | None = None  # the master its latest move packet was for
 
 
 class Streams:
@@ -103,7 +105,10 @@ class Streams:
 
     def accepts_input(self, number: int) -> bool:
         """False while the sender should be held back."""
-        return self._open[number].terminal.accepts_input and not self.moves.is_full
+        stream = self._open[number]
+        if stream.moves_of is not None and self.moves.is_full(stream.moves_of):
+            return False
+        return stream.terminal.accepts_input
 
     def is_busy(self, number: int) -> bool:
         """Whether a line of the stream is still being executed."""
@@ -166,6 +171,8 @@ class Streams:
     def _deal(self, stream: Stream, event: Event) -> None:
         session = stream.session
         if isinstance(event, Received):
+            if isinstance(event.packet, Move):
+                stream.moves_of = event.packet.master
             reply = execute(self._host, event.packet)
             if reply:
                 stream.terminal.send_packet(reply)

@@ -1,13 +1,16 @@
 """A serial port as a stream of the card, with the same rules as a connection.
 
 pyserial blocks, so one thread reads and one writes; both only hand bytes to and from the
-loop. XON/XOFF is the card's own business (`protocol.terminal`), not the driver's.
+loop. XON/XOFF is the card's own business, not the driver's: what a host sends is acted on in
+`protocol.terminal`; what holds the host back leaves from here, ahead of all output that
+waits, but never inside a write, where it could be taken for a byte of a packet.
 """
 
 import asyncio
 import logging
 import queue
 import threading
+from collections import deque
 from dataclasses import dataclass
 
 import serial
@@ -15,6 +18,7 @@ import serial
 from openacr.errors import UserError
 from openacr.io.peers import SEND_LIMIT_BYTES, Switchboard
 from openacr.protocol.stream import StreamKind
+from openacr.protocol.terminal import XOFF, XON
 
 log = logging.getLogger(__name__)
 
@@ -82,7 +86,8 @@ class SerialPeer:
         self._board = board
         self._loop = loop
         self._port = open_port(path, line)
-        self._outgoing: queue.Queue[bytes] = queue.Queue()
+        self._outgoing: queue.Queue[bytes | None] = queue.Queue()  # None: the end
+        self._urgent: deque[int] = deque()  # XON and XOFF, ahead of all that waits
         self._queued = self._sent = 0  # bytes; one counter per thread, so no lock
         self._unheld = threading.Event()
         self._unheld.set()
@@ -104,18 +109,22 @@ class SerialPeer:
         self._outgoing.put(data)
 
     def hold(self, held: bool) -> None:
-        """Stop or resume reading."""
+        """Stop or resume reading, and tell the host with XOFF or XON."""
+        if held != self._unheld.is_set():
+            return
         if held:
             self._unheld.clear()
         else:
             self._unheld.set()
+        self._urgent.append(XOFF if held else XON)
+        self._outgoing.put(b"")
 
     def close(self) -> None:
         """Free the stream; both threads end within READ_WAIT_S."""
         if not self._open:
             return
         self._open = False
-        self._outgoing.put(b"")
+        self._outgoing.put(None)
         self._board.left(self)
 
     def _read(self) -> None:
@@ -138,9 +147,12 @@ class SerialPeer:
 
     def _write(self) -> None:
         try:
-            while data := self._outgoing.get():
-                self._port.write(data)
-                self._sent += len(data)
+            while (data := self._outgoing.get()) is not None:
+                while self._urgent:
+                    self._port.write(bytes((self._urgent.popleft(),)))
+                if data:
+                    self._port.write(data)
+                    self._sent += len(data)
         except (serial.SerialException, OSError, TypeError) as failure:
             self._failed(failure)
 

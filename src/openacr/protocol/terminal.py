@@ -35,6 +35,7 @@ from openacr.protocol.stream import EchoMode, StreamKind
 
 LINE_LIMIT = 255
 BACKLOG_LIMIT_BYTES = 1 << 16
+RESUME_BYTES = BACKLOG_LIMIT_BYTES // 2  # so that a sender is not held and let go all the time
 BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
 CRLF = b"\r\n"
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
@@ -179,6 +180,7 @@ class Terminal:
         self._segments: deque[_Segment] = deque()
         self._lines: deque[Line | LineTooLong] = deque()
         self._backlog = 0
+        self._is_full = False
         self._typing = _Typing()
         self._after_cr = False
         self._reader = PacketReader(dpcb=kind is StreamKind.DPCB)
@@ -215,6 +217,7 @@ class Terminal:
                 self._enqueue(event)
             elif event is not None:
                 return event
+        self._is_full = self._backlog >= (RESUME_BYTES if self._is_full else BACKLOG_LIMIT_BYTES)
         return NEED_DATA
 
     def _enqueue(self, line: Line | LineTooLong) -> None:
@@ -229,7 +232,7 @@ class Terminal:
     @property
     def accepts_input(self) -> bool:
         """False while so much waits that the sender should be held back."""
-        return self._backlog < BACKLOG_LIMIT_BYTES
+        return not self._is_full
 
     @property
     def waiting_lines(self) -> int:
