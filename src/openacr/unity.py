@@ -61,6 +61,7 @@ ORDER = (
     "kernel/clock_cy.py",
     "kernel/fast_status_cy.py",
     "kernel/slow_cy.py",
+    "kernel/fast_flags_cy.py",
     "kernel/tick_cy.py",
     "basic/arith_cy.py",
     "basic/opcodes_cy.py",

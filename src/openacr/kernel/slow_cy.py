@@ -105,7 +105,15 @@ def inside(S: F32, plus: int, minus: int, value: float) -> bool:
     return S[minus] <= value <= S[plus]
 
 
-def axis_bands(F: F64, I: I32, S: F32, n: int) -> None:
+def axis_bands(F: F64, I: I32, S: F32, n: int, chosen: int) -> None:
+    """Refresh the chosen ones of the limit flags of axis n, and answer an excess error."""
+    flags: int = band_flags(F, I, S, n) & chosen
+    I[axis_word(n)] = (I[axis_word(n)] & ~chosen) | flags
+    if chosen & AF1_NOT_EXCESS_ERROR and not flags & AF1_NOT_EXCESS_ERROR:
+        excess_response(I, n)
+
+
+def band_flags(F: F64, I: I32, S: F32, n: int) -> int:
     """Limit flags of axis n: bands of following error, command position and output."""
     p: int = AX_BASE + n * AX_STRIDE
     scale: float = axis_scale(S, n)
@@ -126,9 +134,7 @@ def axis_bands(F: F64, I: I32, S: F32, n: int) -> None:
         flags |= AF1_NOT_TORQUE_LIMIT
     if not inside(S, p + AX_PLUS_TORQUE_BAND, p + AX_MINUS_TORQUE_BAND, output):
         flags |= AF1_NOT_IN_TORQUE_BAND
-    I[axis_word(n)] = (I[axis_word(n)] & ~AXIS_BANDS) | flags
-    if not flags & AF1_NOT_EXCESS_ERROR:
-        excess_response(I, n)
+    return flags
 
 
 def excess_response(I: I32, n: int) -> None:
@@ -220,7 +226,7 @@ def axis_request(F: F64, I: I32, n: int) -> None:
 def slow_scan(F: F64, I: I32, S: F32, axes: int, masters: int) -> None:
     """One slow scan over all axes and masters."""
     for n in range(axes):
-        axis_bands(F, I, S, n)
+        axis_bands(F, I, S, n, AXIS_BANDS)
         axis_marker(I, n)
         if I[axis_word(n)] & AF1_REN_REQUEST_FLAG:
             axis_request(F, I, n)

@@ -8,6 +8,7 @@ from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written,
 from openacr.kernel.capture_cy import capture_step
 from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
+from openacr.kernel.fast_flags_cy import fast_flags_step
 from openacr.kernel.fast_status_cy import fast_status_step
 from openacr.kernel.feedback_cy import encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
@@ -60,6 +61,7 @@ from openacr.map.numbers import (
     KRI_MISSING_STEPPERS,
     KRI_SLOW_TICKS,
     KRI_SYNCED,
+    MC1_ENABLE_FAST_FLAGS_UPDATE_MODE,
     MF1_IN_MOTION,
     MO_SAMPLE_TRIGGER_ARMED,
     OBI_BASE,
@@ -75,6 +77,7 @@ from openacr.map.numbers import (
     SYSI_BASE,
     SYSI_SLOW_PHASE,
     W_FSTAT,
+    W_MISC_CONTROL_1,
     W_MISC_OUTPUTS,
 )
 from openacr.views import F32, F64, I32
@@ -195,6 +198,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
         fast_status_step(F, I, S, period_s)
     if I[KRI_BASE + KRI_MISSING_DACS]:
         missing_outputs_step(I, S)
+    if I[W_MISC_CONTROL_1] & MC1_ENABLE_FAST_FLAGS_UPDATE_MODE:
+        fast_flags_step(F, I, S, axes)
     slow: int = I[SYSI_BASE + SYSI_SLOW_PHASE] + 1
     if slow >= I[KRI_BASE + KRI_SLOW_TICKS]:
         slow = 0

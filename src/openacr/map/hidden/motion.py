@@ -322,6 +322,7 @@ KERNEL = HiddenBlock(
     ints=(
         "inputs_old",
         "slow_ticks",
+        "fast_group",  # group of limit flags refreshed last (kernel/fast_flags_cy.py)
         "axes",
         "masters",
         "adc_mode",

@@ -93,13 +93,13 @@ AXIS_2.row(15, "Gear Min", NS, "Set while the lower gear limit is hit; self clea
 AXIS_2.row(17, "3D ARC")
 AXIS_2.row(22, "Don't use capture Register", RW, "For steppers: capture the commanded position.")
 AXIS_2.row(23, "Stepper FeedBack", NS, "Open-loop stepper with an encoder used for captures only.")
-AXIS_2.row(24, "Fast EXC Flags", RW, "With BIT5632: Not Excess Error each tick.")
-AXIS_2.row(25, "Fast IPB Flags", RW, "With BIT5632: Not In Position each tick.")
-AXIS_2.row(26, "Fast ALM Flags", RW, "With BIT5632: Within A Limit each tick.")
-AXIS_2.row(27, "Fast BLM Flags", RW, "With BIT5632: Not Within B Limit each tick.")
-AXIS_2.row(28, "Fast TLM Flags", RW, "With BIT5632: Not Torque Limit each tick.")
-AXIS_2.row(29, "Fast TIB Flags", RW, "With BIT5632: Not In Torque Band each tick.")
-AXIS_2.row(31, "Fast Master Flags", RW, "With BIT5632: limit flags of the master each tick.")
+AXIS_2.row(24, "Fast EXC Flags", RW, "With BIT5632: Not Excess Error in the servo interrupt.")
+AXIS_2.row(25, "Fast IPB Flags", RW, "With BIT5632: Not In Position in the servo interrupt.")
+AXIS_2.row(26, "Fast ALM Flags", RW, "With BIT5632: Within A Limit in the servo interrupt.")
+AXIS_2.row(27, "Fast BLM Flags", RW, "With BIT5632: Not Within B Limit in the servo interrupt.")
+AXIS_2.row(28, "Fast TLM Flags", RW, "With BIT5632: Not Torque Limit in the servo interrupt.")
+AXIS_2.row(29, "Fast TIB Flags", RW, "With BIT5632: Not In Torque Band in the servo interrupt.")
+AXIS_2.row(31, "Fast Master Flags", RW, "With BIT5632: limit flags of its master, too.")
 
 AXIS_3 = FlagBlock(
     "Tertiary Axis Flags",

@@ -146,7 +146,7 @@ MISC_CONTROL_1 = FlagBlock(
     ident="MISC_CONTROL_1",
 )
 MISC_CONTROL_1.row(
-    0, "Enable Fast Flags Update Mode", RW, "Limit flags chosen as fast change each tick."
+    0, "Enable Fast Flags Update Mode", RW, "Refresh fast limit flags, one group each tick."
 )
 MISC_CONTROL_1.row(1, "STD Baud Rate")
 MISC_CONTROL_1.row(2, "FBT")
