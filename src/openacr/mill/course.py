@@ -16,9 +16,10 @@ from openacr.mill.limits import first_excess
 from openacr.mill.machine import Look
 from openacr.mill.panel import Panel
 from openacr.mill.probing import Probing
-from openacr.mill.rejoin import Place, lead_in, place, rest_of, straight_back
+from openacr.mill.rejoin import Place, first_of, lead_in, place, rest_of, straight_back
 from openacr.mill.tracking import Tracker
 
+KILL_S = 0.5  # longest wait for a card at rest to take notice
 PULSES_OFF = 2.0  # further away the machine has been moved
 Entries = Callable[[RunHost], Iterator[c.Entry]]
 
@@ -43,6 +44,7 @@ class Course:
         """A program from its first block on."""
         self._machine.reset_counter()
         self.tracker.reset()
+        self.tracker.trail.restart([])
         self._encoder = Encoder(self.settings, is_dry=is_dry)
         self._begin = self.host.position()
         self._feed = Feed(entries(self.host), self._begin, self.settings, self._encoder)
@@ -77,7 +79,10 @@ class Course:
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
                 pass  # none of them waits
-        return feed.halt if feed.is_empty and is_at_rest else None
+        halt = feed.halt if feed.is_empty and is_at_rest else None
+        if isinstance(halt, c.Tool):
+            self.tracker.trail.bar(self.tracker.current)
+        return halt
 
     def go_on(self) -> None:
         """What the program had come to is done."""
@@ -121,8 +126,17 @@ class Course:
             return
         self._machine.hold()
         yield Until("stops", lambda look: look.is_held or not look.is_moving)
-        feed.replace(self._taken_back(self.host.position()))
+        yield from self.put_back(self.host.position())
+
+    def put_back(self, here: c.Point) -> Steps:
+        """Take the rest of the way back from the card, for a machine that is held at `here`."""
+        self.make_first(self._taken_back(here))
         yield from self.drop_moves()
+
+    def make_first(self, jobs: list[Job]) -> None:
+        """These moves come before everything the program still has to make."""
+        if self._feed is not None:
+            self._feed.replace(jobs)
 
     def rejoin(self, left: Place) -> Steps:
         """Back to the path on an arc that touches it, then the rest of the way."""
@@ -159,6 +173,7 @@ class Course:
         """Drop what the card holds and count from zero again."""
         self._machine.stop()
         yield Until("moves end", lambda look: not look.is_moving)
+        yield Until("kill is seen", lambda look: look.is_killed, KILL_S)
         self._machine.clear_kill()
         self._machine.reset_counter()
         self.tracker.reset()
@@ -173,10 +188,19 @@ class Course:
 
     def _taken_back(self, here: c.Point) -> list[Job]:
         """The rest of the move that is held at `here`, and those behind it."""
-        jobs = self.tracker.take_back()
-        if not jobs or jobs[0].count > self.tracker.started:
-            return jobs
-        first = jobs[0]
-        rest = self._encoder.job(rest_of(first.entry, first.begin, here), here)
-        rest.block = first.block
-        return [rest, *jobs[1:]] if rest.length_u > 0.0 else jobs[1:]
+        jobs, held, rest = self.tracker.take_back(), None, []
+        if jobs and 0 < jobs[0].count <= self.tracker.started:
+            held = jobs.pop(0)
+            first = first_of(held.entry, held.begin, here)
+            for piece in self.pieces_of(held, first, held.begin):
+                self.tracker.trail.add(piece)
+            rest = self.pieces_of(held, rest_of(held.entry, held.begin, here), here)
+        if self._feed is not None:
+            self._feed.count_anew(jobs, held, rest[0] if rest else None)
+        return rest + jobs
+
+    def pieces_of(self, whole: Job, entry: Motion, begin: c.Point) -> list[Job]:
+        """A part of a move as a move of its own, or nothing where it has no length."""
+        part = self._encoder.job(entry, begin)
+        part.block = whole.block
+        return [part] if part.length_u > 0.0 else []

@@ -29,7 +29,7 @@ from openacr.mill.alarms import Kind
 from openacr.mill.encoding import BeyondPulsesError, Encoder, Job
 from openacr.mill.limits import first_excess, unhomed
 from openacr.mill.planning import CornerRules, Planner
-from openacr.mill.settings import Settings
+from openacr.mill.settings import Settings, Speeds
 from openacr.mill.tracking import Tracker
 
 READ_TOGETHER = 32
@@ -71,11 +71,9 @@ class Feed:
         self._entries = entries
         self._settings = settings
         self._encoder = encoder
-        speeds = settings.speeds
-        rules = CornerRules(
-            speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
+        self._planner: Planner[Job] = Planner(
+            corner_rules(settings.speeds), settings.forward_threshold
         )
-        self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
         self._waits = any(axis.in_position_u > 0.0 for axis in settings.axes)
         self._has_begun = False
         self._last: Job | None = None
@@ -209,8 +207,31 @@ class Feed:
     def replace(self, jobs: list[Job]) -> None:
         """Make these moves, then those that have been read and have not left yet."""
         self._again = deque([*jobs, *self._planner.clear(), *self._again])
-        self._halt_behind, self.halt = self.halt, None
+        if self._halt_behind is None:
+            self._halt_behind = self.halt
+        self.halt = None
         self._has_begun = True
+
+    def count_anew(self, jobs: list[Job], held: Job | None, rest: Job | None) -> None:
+        """The card counts from zero: `rest` is left of the held move, `jobs` come behind it."""
+        for job in jobs:
+            job.count = 0
+        for _ in range(len(self.notes)):
+            note = self.notes.popleft()
+            is_held = held is not None and note.behind is held
+            self.notes.append(Note(note.entry, rest if is_held else _if_ahead(note.behind)))
+
+
+def _if_ahead(job: Job | None) -> Job | None:
+    """A move that has no number of a packet, so it is not done."""
+    return job if job is not None and not job.count else None
+
+
+def corner_rules(speeds: Speeds) -> CornerRules:
+    """How corners are taken."""
+    return CornerRules(
+        speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
+    )
 
 
 def _fault_of(error: BlockError) -> Fault:

@@ -11,14 +11,25 @@ touches the path at the point P where it was left:
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Rapid, Source
 from openacr.mill.encoding import Job, Motion
 
 RIGHT_ANGLE = 0.5 * math.pi
+Path = TypeVar("Path", bound=Motion)
 
 
-def rest_of(entry: Motion, begin: Point, here: Point) -> Motion:
+def first_of(entry: Path, begin: Point, here: Point) -> Path:
+    """A move up to a point on it."""
+    if not isinstance(entry, Arc):
+        return replace(entry, end=here)
+    first, second = entry.plane.first, entry.plane.second
+    radius = math.dist((here[first], here[second]), entry.centre)
+    return replace(entry, end=here, sweep_rad=_turned(entry, begin, here), end_radius=radius)
+
+
+def rest_of(entry: Path, begin: Point, here: Point) -> Path:
     """A move from a point on it on."""
     if not isinstance(entry, Arc):
         return entry

@@ -25,6 +25,7 @@ from openacr.mill.overrides import Overrides
 from openacr.mill.panel import Panel
 from openacr.mill.published import Facts
 from openacr.mill.rejoin import Place
+from openacr.mill.retracing import Retrace
 from openacr.mill.script import Script
 from openacr.mill.settings import Settings, Store
 from openacr.mill.states import Options, State
@@ -59,6 +60,7 @@ class Runner:
         self._is_homing = False
         self.passes = 0  # ends of the program reached
         self.course = Course(self.panel, self.doing, depth)
+        self.retrace = Retrace(self.panel, self.course, depth)
         self._watch = Watch(self.panel)
         self._edges = Edges(self.panel)
         self._entries: Entries | None = None
@@ -108,6 +110,8 @@ class Runner:
         """Let somebody move axes by hand: in IDLE, or while a program is held."""
         if self.state not in (State.IDLE, State.PAUSED, State.HOLD):
             raise UserError(f"cannot jog: the state is {self.state.name}")
+        if self.retrace.is_active:
+            raise UserError("cannot jog: the path is being traced")
         if self.alarms.bars_start:
             raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
         move(self.jogging)
@@ -147,13 +151,28 @@ class Runner:
         if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
             raise UserError("the feed hold input is active")
         left, self._left = self._left, None
+        is_taken_back = self.retrace.has_left
+        if is_taken_back:
+            left = self.retrace.finish()
         if left is None or not self.course.is_off(left):
-            self.machine.go_on()
+            if not is_taken_back:
+                self.machine.go_on()
         elif self._script.is_active:
             raise UserError("the machine was moved while an action waits: abort")
         else:
             self._script.begin(self.course.rejoin(left))
         self.state = State.RUN
+
+    def trace(self, direction: int) -> None:
+        """In a pause: back along the path (-1), forward again (1), or to rest (0)."""
+        if direction == 0:
+            self.retrace.stop()
+            return
+        self._require(State.PAUSED, "trace the path")
+        self._require_rest()
+        if self._left is None or self._script.is_active:
+            raise UserError("no move is held")
+        self.retrace.begin(direction, self._left)
 
     def abort(self) -> None:
         """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
@@ -180,6 +199,8 @@ class Runner:
     def _require_rest(self) -> None:
         if self._by_hand.is_active:
             raise UserError("an axis is being jogged")
+        if self.retrace.is_active:
+            raise UserError("the path is being traced")
 
     def _require(self, state: State, what: str) -> None:
         if self.state is not state:
@@ -200,6 +221,7 @@ class Runner:
         self._switches(look)
         self._note_place(look)
         self._by_hand.play(look, self._times.step_s)
+        self.retrace.play(look, self._times.step_s)
         if self.state is not State.PAUSED:
             self._play(look)
         if self.state is State.RUN and not self._script.is_active:
@@ -221,7 +243,7 @@ class Runner:
     @property
     def source(self) -> c.Source | None:
         """The block that is executed."""
-        return self.course.tracker.source
+        return self.retrace.source or self.course.tracker.source
 
     @property
     def run_s(self) -> float:
@@ -300,7 +322,7 @@ class Runner:
             return
         if not self.options.is_mdi:
             self.doing.off()
-        self.course.end()
+        self._end_course()
         self.state, self.reason = State.IDLE, ""
 
     # --- scripts ----------------------------------------------------------------------
@@ -323,10 +345,14 @@ class Runner:
 
     def _end_program(self, state: State) -> None:
         """The program is over: to rest, moves dropped, everything off."""
-        self.course.end()
+        self._end_course()
         self._left, self._is_homing = None, False
         self.state, self.reason = state, ""
         self._script.begin(self._ending())
+
+    def _end_course(self) -> None:
+        self.retrace.close()
+        self.course.end()
 
     def _ending(self) -> Steps:
         self.machine.hold()
@@ -365,7 +391,7 @@ class Runner:
         self.machine.kill()
         self.panel.output(self.settings.wiring.drive_enable, False)
         self._script.close()
-        self.course.end()
+        self._end_course()
         self._left, self._is_homing = None, False
         self.doing.off()
         self.state, self.reason = State.ALARM, ""
@@ -375,6 +401,7 @@ class Runner:
         wiring = self.settings.wiring
         self.course.host.is_skipping = self.panel.is_in(look, wiring.block_skip)
         if self.panel.is_in(look, wiring.feed_hold):
+            self.retrace.stop()
             if self.state in (State.RUN, State.WAIT):
                 self._pause()
         elif self._edges.rose(look, wiring.cycle_start) and self.state in (

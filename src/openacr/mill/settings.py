@@ -89,6 +89,7 @@ class Speeds:
 
     max_ups: float
     trial_ups: float
+    trace_ups: float
     rapid_ups: float
     rapid_acc_ups2: float
     feed_acc_ups2: float
@@ -233,6 +234,7 @@ class Settings:
         return Speeds(
             max_ups=most,
             trial_ups=self._per_s(SPEEDS, 1),
+            trace_ups=self._per_s(SPEEDS, 6) or self._per_s(SPEEDS, 2),
             rapid_ups=min(self._per_s(SPEEDS, 11) or most, most),
             rapid_acc_ups2=self._real(SPEEDS, 7),
             feed_acc_ups2=feed_acc,

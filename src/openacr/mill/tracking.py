@@ -7,8 +7,39 @@ pulse) counts with the one before it.
 
 from collections import deque
 
-from openacr.cnc.canonical import Source
+from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.mill.encoding import Job
+from openacr.mill.machine import Look
+
+MOST_TRAILED = 10_000
+
+
+class Trail:
+    """The lines and arcs that were made since the last rapid, probing or tool change."""
+
+    def __init__(self) -> None:
+        self._jobs: deque[Job] = deque(maxlen=MOST_TRAILED)
+        self._barrier: Job | None = None
+
+    def add(self, job: Job) -> None:
+        """A move is done."""
+        if job is self._barrier or isinstance(job.entry, Rapid | Probe):
+            self._jobs.clear()
+        else:
+            self._jobs.append(job)
+
+    def bar(self, last: Job | None) -> None:
+        """Nothing up to this move is gone back over."""
+        self._barrier = last
+        self._jobs.clear()
+
+    def path(self) -> list[Job]:
+        """The moves, in the order they were made."""
+        return list(self._jobs)
+
+    def restart(self, jobs: list[Job]) -> None:
+        """The tool stands at the end of these."""
+        self._jobs = deque(jobs, maxlen=MOST_TRAILED)
 
 
 class Tracker:
@@ -18,6 +49,7 @@ class Tracker:
         self.sent = 0  # packets
         self.started = 0
         self._jobs: deque[Job] = deque()  # sent and not known to be done
+        self.trail = Trail()  # done
 
     @property
     def waiting(self) -> int:
@@ -45,7 +77,11 @@ class Tracker:
         self.started = counter
         jobs = self._jobs
         while len(jobs) > 1 and jobs[1].count <= counter:
-            jobs.popleft()
+            self.trail.add(jobs.popleft())
+
+    def is_at_end(self, look: Look) -> bool:
+        """Whether everything that was sent has been made."""
+        return look.counter >= self.sent and not look.is_moving
 
     def is_done(self, job: Job | None, *, is_at_rest: bool) -> bool:
         """Whether a move has been executed; None stands for the beginning."""
