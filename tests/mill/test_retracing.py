@@ -108,7 +108,7 @@ def test_what_lies_behind_a_tool_change_is_not_gone_back_over() -> None:
 
 def test_outputs_are_not_switched_again_and_notes_come_once() -> None:
     shop = Shop(P400_101=40, P700_004=1)
-    paused(shop, "G90 F600\nG1 X1\nM12\nX2\n(MSG, two)\nX4\nM2\n", 0.3)
+    paused(shop, "G90 F600\nG1 X1\nM12\nX2\n(MSG, two)\nX4\nM2\n", 0.17)
     assert shop.outputs((40,)) == [True]
     shop.controller.bit[40] = False
     assert shop.said == []
