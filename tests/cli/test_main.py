@@ -3,6 +3,7 @@
 import resource
 import subprocess
 import sys
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 
@@ -12,14 +13,16 @@ from typer.testing import CliRunner
 from openacr.cli.main import COMMANDS, Entry, Family, app
 
 
-def all_entries() -> list[tuple[str, Entry]]:
+def all_entries(
+    table: Mapping[str, Entry | Family] = COMMANDS, before: str = ""
+) -> list[tuple[str, Entry]]:
     """The words of every command with its entry."""
     found = []
-    for name, entry in COMMANDS.items():
+    for name, entry in table.items():
         if isinstance(entry, Family):
-            found += [(f"{name} {member}", each) for member, each in entry.entries.items()]
+            found += all_entries(entry.entries, f"{before}{name} ")
         else:
-            found.append((name, entry))
+            found.append((before + name, entry))
     return found
 
 

@@ -32,7 +32,7 @@ class Family(NamedTuple):
     """Sub-commands under one name: `openacr mill run`."""
 
     summary: str
-    entries: dict[str, Entry]
+    entries: "dict[str, Entry | Family]"
 
 
 COMMANDS: dict[str, Entry | Family] = {
@@ -128,6 +128,26 @@ COMMANDS: dict[str, Entry | Family] = {
                 "mill_part",
                 "make_part",
                 "List the parts of the library, or make the program of one of them.",
+            ),
+            "ballscrew": Family(
+                "Tables that compensate what the screws of a machine get wrong.",
+                {
+                    "import": Entry(
+                        "mill_ballscrew",
+                        "import_table",
+                        "Check the table of an axis, keep it beside the store and switch it on.",
+                    ),
+                    "export": Entry(
+                        "mill_ballscrew",
+                        "export_table",
+                        "Write the table of an axis, which the store names, to a file.",
+                    ),
+                    "from-measurements": Entry(
+                        "mill_ballscrew",
+                        "make_table",
+                        "Make the table of an axis from measurements of its positions.",
+                    ),
+                },
             ),
         },
     ),

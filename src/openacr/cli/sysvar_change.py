@@ -43,7 +43,7 @@ def set_values(
 
     with open_to_write(store) as cells:
         changes = [(one(name), text) for name, text in map(_split, settings)]
-        _require_service(cells, [parameter for parameter, _ in changes], password)
+        require_service(cells, [parameter for parameter, _ in changes], password)
         with cells.transaction():
             for parameter, text in changes:
                 _set(cells, parameter, text, unit)
@@ -86,7 +86,7 @@ def import_values(
     text = _read(file)
     with open_to_write(store) as cells:
         first = parameter(FIRST_SYSTEM)
-        _require_service(cells, [] if first is None else [first], password)
+        require_service(cells, [] if first is None else [first], password)
         count = imported(cells, text, str(file))
     typer.echo(f"{count} settings were stored")
 
@@ -105,7 +105,7 @@ def change_password(
 
     guarded = parameter(CELL)
     with open_to_write(store) as cells:
-        _require_service(cells, [] if guarded is None else [guarded], password)
+        require_service(cells, [] if guarded is None else [guarded], password)
         if new is None:
             new = typer.prompt(
                 "New password", hide_input=True, confirmation_prompt=True, default=""
@@ -140,7 +140,7 @@ def _set(cells: "Store", parameter: "Parameter", text: str, unit: str | None) ->
         cells.write(parameter.number, value)
 
 
-def _require_service(
+def require_service(
     cells: "Store", parameters: Iterable["Parameter"], password: str | None
 ) -> None:
     """Ask for the password where system parameters change."""

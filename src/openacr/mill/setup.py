@@ -4,11 +4,12 @@ Axis order, axis index and slave index are the same, so that X, Y and Z are slav
 arc packets know only those. Drives are left as they are.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
+from openacr.mill.ballscrew import Table, install
 from openacr.mill.settings import AXES, AxisSettings, Settings
 
 GAIN_WORDS = (
@@ -34,12 +35,13 @@ MODE_FLAGS, FLAGS_PER_MASTER = 2048, 32
 VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
 
 
-def prepare(card: Card, settings: Settings) -> int:
-    """Set the card up for the machine; how many moves its buffer holds."""
+def prepare(card: Card, settings: Settings, tables: Mapping[int, Table] | None = None) -> int:
+    """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds."""
     _user_variables(card)
     program = settings.master
     for line in lines(settings):
         card.command(line, program=program)
+    install(card, settings, tables or {})
     return _buffer(card, program)
 
 

@@ -25,6 +25,7 @@ from openacr.errors import UserError
 from openacr.map.numbers import P_FIRMWARE_VERSION
 from openacr.mill import alarms
 from openacr.mill.alarms import AlarmError, Alarms
+from openacr.mill.ballscrew import tables_of
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Machine
@@ -68,21 +69,21 @@ class Workshop:
         say: Callable[[str], None],
         *,
         is_virtual: bool,
-        folder: Path | None = None,
+        folder: Path | None = None,  # of the store, for its files
     ) -> None:
         self.cells = cells
         self.card = card
         self.is_virtual = is_virtual
         settings = Settings(cells)
-        depth = prepare(card, settings)
+        depth = prepare(card, settings, tables_of(cells, settings, folder))
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master)
-        log = _error_log(cells, folder)
+        log = None if is_virtual else _error_log(cells, folder)
         self.runner = Runner(self.machine, cells, depth, say, Alarms(log))
         self.runner.has_operator = not is_virtual
 
     @classmethod
-    def virtual(cls, store: Cells, say: Callable[[str], None] = print) -> "Workshop":
+    def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "Workshop":
         """The virtual machine; what a program writes to the store is forgotten."""
         from openacr.controller import Controller
 
@@ -91,7 +92,7 @@ class Workshop:
         for cell in UNWIRED:
             cells.write(cell, NONE)
         cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
-        shop = cls(Card.open(Controller()), cells, say, is_virtual=True)
+        shop = cls(Card.open(Controller()), cells, say, is_virtual=True, folder=_folder_of(store))
         names = " ".join(axis.name for axis in shop.runner.settings.axes)
         shop.card.command(f"DRIVE ON {names}", program=shop.machine.master)
         return shop
@@ -102,8 +103,7 @@ class Workshop:
         card = Card.open(target)
         try:
             _check_firmware(card)
-            folder = store.path.parent if store.path else None
-            return cls(card, store, say, is_virtual=False, folder=folder)
+            return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
         except BaseException:
             card.close()
             raise
@@ -198,6 +198,10 @@ class Workshop:
         runner.doing.changer.is_confirmed = True
         if runner.state is State.HOLD:
             runner.start()
+
+
+def _folder_of(store: Store) -> Path | None:
+    return store.path.parent if store.path else None
 
 
 def _check_firmware(card: Card) -> None:
