@@ -21,7 +21,7 @@ from openacr.motion.host_moves import Arc, HostMove, HostPoint
 from openacr.motion.orders import Direction
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import master_ints
-from openacr.protocol.move import Code1, Code3, Curve, Move
+from openacr.protocol.move import Code1, Curve, Move
 from openacr.protocol.packet import PacketError
 
 log = logging.getLogger(__name__)
@@ -112,7 +112,7 @@ def _host_move(card: Card, move: Move) -> HostMove:
     return HostMove(
         master=move.master,
         targets_cnt=dict(_pulses(card, move, move.targets)),
-        relative=bool(move.code3 & Code3.INCREMENTAL_TARGET),
+        relative=move.is_relative,
         arc=_arc(card, move) if move.curve is Curve.ARC else None,
         vel_ups=move.vel,
         acc_ups2=move.acc,
@@ -122,8 +122,8 @@ def _host_move(card: Card, move: Move) -> HostMove:
         rapid=profile.rapid,
         override_locked=profile.override_locked,
         count=move.counter_step,
-        interrupt=bool(move.code1 & Code1.INTERRUPT),
-        block_skip=bool(move.code3 & Code3.BLOCK_SKIP),
+        interrupt=move.interrupts,
+        block_skip=move.is_block_skip,
     )
 
 
@@ -137,7 +137,7 @@ def _host_point(card: Card, move: Move) -> HostPoint:
         master=move.master,
         family=_FAMILIES[move.curve],
         targets_cnt=dict(_pulses(card, move, move.targets)),
-        relative=bool(move.code3 & Code3.INCREMENTAL_TARGET),
+        relative=move.is_relative,
         knot=knot,
         weight=weight if is_nurb and move.targets else None,
         vel_ups=move.vel,
@@ -161,11 +161,10 @@ def _arc(card: Card, move: Move) -> Arc:
     slaves = move.arc_slaves
     pair = ((slaves[0], move.centers[0]), (slaves[1], move.centers[1]))
     center = [value for _, value in _pulses(card, move, pair)]
-    is_ccw = bool(move.code1 & Code1.COUNTERCLOCKWISE)
     return Arc(
         slaves,
         (center[0], center[1]),
-        Direction.COUNTER_CLOCKWISE if is_ccw else Direction.CLOCKWISE,
-        relative_center=bool(move.code3 & Code3.INCREMENTAL_CENTER),
+        Direction.COUNTER_CLOCKWISE if move.is_counterclockwise else Direction.CLOCKWISE,
+        relative_center=move.has_relative_center,
         radius_scale=move.scaling or (1.0, 1.0),
     )

@@ -30,7 +30,10 @@ class Attachments:
 
     def program(self, master: int) -> int | None:
         """The program a master is attached to."""
-        return next((p for p, m in self._masters.items() if m == master), None)
+        for program, attached in self._masters.items():
+            if attached == master:
+                return program
+        return None
 
     def slaves(self, program: int) -> tuple[Slave, ...]:
         """Slaves of a program in slave order."""

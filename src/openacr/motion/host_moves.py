@@ -32,6 +32,7 @@ from openacr.map.numbers import (
     MSF_ACC_UPS2,
     MSF_DEC_UPS2,
     MSF_FVEL_UPS,
+    MSI_SLAVE_AXIS,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
 from openacr.motion import curve_modes
@@ -46,7 +47,7 @@ from openacr.motion.permits import (
     scale_of,
 )
 from openacr.motion.records import Way, append
-from openacr.motion.rows import master_parameter, master_reals, master_word2
+from openacr.motion.rows import master_ints, master_parameter, master_reals, master_word2
 
 LONGEST_COUNT = 2**31 - 1
 
@@ -115,10 +116,11 @@ def has_rapid_modes(card: Card, master: int) -> bool:
 
 def slave_axis(card: Card, master: int, slave: int) -> int:
     """The axis of a slave; `Undefined symbol` if nothing is attached there."""
-    for one in card.attachments.slaves(_program(card, master)):
-        if one.number == slave:
-            return one.axis
-    raise CardError(UNDEFINED_SYMBOL)
+    _program(card, master)
+    axis = card.memory.I[master_ints(master) + MSI_SLAVE_AXIS + slave]
+    if axis < 0:
+        raise CardError(UNDEFINED_SYMBOL)
+    return axis
 
 
 def _program(card: Card, master: int) -> int:

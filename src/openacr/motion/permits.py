@@ -88,15 +88,17 @@ def needs_rest(card: Card, axis: int) -> None:
 def needs_no_kill(card: Card, axis: int) -> None:
     """Refuse while KAMR is set on the axis or on another axis of its master."""
     master = master_of(card, axis)
-    axes = [axis] if master is None else axes_of(card, master)
+    _needs_none_killed(card, [axis] if master is None else axes_of(card, master))
+
+
+def _needs_none_killed(card: Card, axes: list[int]) -> None:
     if any(card.memory.I[AF4_WORD + other] & AF4_KILL_ALL_MOTION_REQUEST for other in axes):
         raise CardError(SLAVE_KILL_ACTIVE)
 
 
 def needs_moves(card: Card, master: int) -> None:
     """Refuse coordinated moves while a kill is set on the master or one of its axes."""
-    for axis in axes_of(card, master):
-        needs_no_kill(card, axis)
+    _needs_none_killed(card, axes_of(card, master))
     if card.memory.I[master_word(master)] & MF1_KILL_ALL_MOVES_REQUEST:
         raise CardError(MASTER_KILL_ACTIVE)
 

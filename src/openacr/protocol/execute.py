@@ -185,7 +185,7 @@ def _rov(host: Host, packet: RapidOverride) -> None:
 
 
 def _move(host: Host, packet: Move) -> None:
-    for _, value in packet.numbers():
+    for value in packet.values():
         _finite(value)
     host.issue_move(packet)
 

@@ -60,7 +60,10 @@ class Code3(IntFlag):
 
 
 MASTER_BIT_3 = 0x08  # of header code 4
-CODE_3_PRESENT, EXTENDED = Code0.CODE_3_PRESENT.value, Code3.EXTENDED.value  # quick integers
+# Plain integers are much quicker than flags, and moves come by the thousand.
+CODE_3_PRESENT, VEL, ACC = Code0.CODE_3_PRESENT.value, Code0.VEL.value, Code0.ACC.value
+ARC, FVEL, SCALING = Code1.ARC.value, Code3.FVEL.value, Code3.SCALING.value
+FLOATING_POINT, EXTENDED = Code3.FLOATING_POINT.value, Code3.EXTENDED.value
 
 
 class Curve(IntEnum):
@@ -97,12 +100,17 @@ class _Header:
     master: int
     curve: Curve
     counter_step: int
+    is_relative: bool
+    has_relative_center: bool
+    is_counterclockwise: bool
+    is_block_skip: bool
+    interrupts: bool
+    fields: struct.Struct  # of the data, in wire order
 
     @property
-    def words(self) -> int:
-        """Data fields in all."""
-        single = self.vel + self.fvel + self.acc
-        return single + len(self.slaves) + 2 * self.centers + 2 * self.scaling
+    def size(self) -> int:
+        """Bytes of the whole packet."""
+        return self.length + self.fields.size
 
 
 @lru_cache(maxsize=1024)
@@ -112,18 +120,29 @@ def _header(codes: bytes) -> _Header:
     present = codes[2] | codes[6] << 8
     curve = _curve(code1, code3)
     step = -1 if code0 & Code0.COUNT_DOWN else 1
+    slaves = tuple(slave for slave in range(SLAVES) if present >> slave & 1)
+    vel, fvel, acc = bool(code0 & Code0.VEL), bool(code3 & Code3.FVEL), bool(code0 & Code0.ACC)
+    centers, scaling = curve is Curve.ARC, bool(code3 & Code3.SCALING)
+    position = "f" if code3 & Code3.FLOATING_POINT else "i"
+    positions = position * (len(slaves) + 2 * centers)
     return _Header(
         length=_header_length(code0, code3),
-        slaves=tuple(slave for slave in range(SLAVES) if present >> slave & 1),
-        vel=bool(code0 & Code0.VEL),
-        fvel=bool(code3 & Code3.FVEL),
-        acc=bool(code0 & Code0.ACC),
-        centers=curve is Curve.ARC,
-        scaling=bool(code3 & Code3.SCALING),
+        slaves=slaves,
+        vel=vel,
+        fvel=fvel,
+        acc=acc,
+        centers=centers,
+        scaling=scaling,
         floating=bool(code3 & Code3.FLOATING_POINT),
         master=(8 if codes[4] & MASTER_BIT_3 else 0) | int(code1 & Code1.MASTER),
         curve=curve,
         counter_step=step if code0 & Code0.COUNTER else 0,
+        is_relative=bool(code3 & Code3.INCREMENTAL_TARGET),
+        has_relative_center=bool(code3 & Code3.INCREMENTAL_CENTER),
+        is_counterclockwise=bool(code1 & Code1.COUNTERCLOCKWISE),
+        is_block_skip=bool(code3 & Code3.BLOCK_SKIP),
+        interrupts=bool(code1 & Code1.INTERRUPT),
+        fields=struct.Struct("<" + "f" * (vel + fvel + acc) + positions + "ff" * scaling),
     )
 
 
@@ -197,18 +216,18 @@ class Move(Packet):
         the slaves present are entered into the codes.
         """
         positions = [*targets.values(), *(centers or ())]
-        code0 |= (Code0.VEL if vel is not None else 0) | (Code0.ACC if acc is not None else 0)
-        code1 |= (master & 7) | (Code1.ARC if centers is not None else 0)
-        code3 |= (Code3.FVEL if fvel is not None else 0) | (Code3.SCALING if scaling else 0)
-        if any(isinstance(value, float) for value in positions):
-            code3 |= Code3.FLOATING_POINT
+        code0 |= (VEL if vel is not None else 0) | (ACC if acc is not None else 0)
+        code1 |= (master & 7) | (ARC if centers is not None else 0)
+        code3 |= (FVEL if fvel is not None else 0) | (SCALING if scaling else 0)
+        if float in map(type, positions):
+            code3 |= FLOATING_POINT
         present = sum(1 << slave for slave in targets)
         if present >> SLAVES or not 0 <= master < 16:
             raise PacketError(f"slaves {sorted(targets)} of master {master}: both are 0..15")
         if master > 7 or present > 0xFF:
-            code3 |= Code3.EXTENDED
+            code3 |= EXTENDED
         if code3:
-            code0 |= Code0.CODE_3_PRESENT
+            code0 |= CODE_3_PRESENT
         code4 = MASTER_BIT_3 if master > 7 else 0
         codes = bytes((code0, code1, present & 0xFF, code3, code4, 0, present >> 8, 0))
         return cls(codes, vel, fvel, acc, tuple(sorted(targets.items())), centers, scaling)
@@ -219,50 +238,55 @@ class Move(Packet):
         header = _header(_codes(prefix))
         if len(prefix) < header.length:
             return header.length
-        return header.length + WORD_BYTES * header.words
+        return header.size
 
     @classmethod
     def decode(cls, data: bytes) -> Self:
         """The move in exactly these bytes."""
         codes = _codes(data)
         header = _header(codes)
-        if len(data) < header.length or len(data) != cls.total_length(data):
+        if len(data) != header.size:
             raise PacketError(f"Move: {len(data)} bytes do not fit the header codes")
-        words = iter([data[at : at + 4] for at in range(header.length, len(data), WORD_BYTES)])
-        vel = _single(words) if header.vel else None
-        fvel = _single(words) if header.fvel else None
-        acc = _single(words) if header.acc else None
-        targets = tuple((slave, _position(words, header.floating)) for slave in header.slaves)
-        centers = scaling = None
-        if header.centers:
-            centers = (_position(words, header.floating), _position(words, header.floating))
-        if header.scaling:
-            scaling = (_single(words), _single(words))
+        values = iter(header.fields.unpack_from(data, header.length))
+        vel = next(values) if header.vel else None
+        fvel = next(values) if header.fvel else None
+        acc = next(values) if header.acc else None
+        targets = tuple((slave, next(values)) for slave in header.slaves)
+        centers = (next(values), next(values)) if header.centers else None
+        scaling = (next(values), next(values)) if header.scaling else None
         return cls(codes, vel, fvel, acc, targets, centers, scaling)
 
     def encode(self) -> bytes:
         """Header as long as the codes announce, then the fields."""
         head = self.HEADER + self.codes
         header = _header(self.codes)
-        data = b"".join(pack_word(value) for _, value in self.numbers())
-        if len(data) != WORD_BYTES * header.words:
+        data = b"".join([pack_word(value) for value in self.values()])
+        if len(data) != header.fields.size:
             raise PacketError("Move: the fields are not those that the header codes announce")
         return head[: header.length] + data
 
-    def numbers(self) -> Iterator[tuple[str, int | float]]:
-        """Name and value of every data field, in wire order and wire type."""
-        for name, value in (("VEL", self.vel), ("FVEL", self.fvel), ("ACC", self.acc)):
+    def values(self) -> Iterator[int | float]:
+        """The data fields in wire order and wire type."""
+        header = _header(self.codes)
+        kind = float if header.floating else int
+        for value in (self.vel, self.fvel, self.acc):
             if value is not None:
-                yield name, float(value)
-        for slave, target in self.targets:
-            yield f"slave {slave}", self._wire_position(target)
-        for name, center in zip(("primary", "secondary"), self.centers or (), strict=False):
-            yield f"{name} center", self._wire_position(center)
-        for name, scale in zip(("primary", "secondary"), self.scaling or (), strict=False):
-            yield f"{name} scaling", float(scale)
+                yield float(value)
+        for _, target in self.targets:
+            yield kind(target)
+        for center in self.centers or ():
+            yield kind(center)
+        for scale in self.scaling or ():
+            yield float(scale)
 
-    def _wire_position(self, value: int | float) -> int | float:
-        return float(value) if _header(self.codes).floating else int(value)
+    def names(self) -> list[str]:
+        """What the data fields are, in wire order."""
+        profile = (("VEL", self.vel), ("FVEL", self.fvel), ("ACC", self.acc))
+        names = [name for name, value in profile if value is not None]
+        names += [f"slave {slave}" for slave, _ in self.targets]
+        for what, pair in (("center", self.centers), ("scaling", self.scaling)):
+            names += [f"primary {what}", f"secondary {what}"] if pair else []
+        return names
 
     @property
     def code0(self) -> Code0:
@@ -302,6 +326,31 @@ class Move(Packet):
         """What this move adds to the master move counter: 0, 1 or -1."""
         return _header(self.codes).counter_step
 
+    @property
+    def is_relative(self) -> bool:
+        """Targets count from the end of the move before."""
+        return _header(self.codes).is_relative
+
+    @property
+    def has_relative_center(self) -> bool:
+        """Centers count from the beginning of the arc."""
+        return _header(self.codes).has_relative_center
+
+    @property
+    def is_counterclockwise(self) -> bool:
+        """The sense of an arc."""
+        return _header(self.codes).is_counterclockwise
+
+    @property
+    def is_block_skip(self) -> bool:
+        """The move is left out while block skip is on."""
+        return _header(self.codes).is_block_skip
+
+    @property
+    def interrupts(self) -> bool:
+        """The card interrupts the PC at this move."""
+        return _header(self.codes).interrupts
+
     def profile(self, rapid_move_modes: bool) -> Profile:
         """Ramps and override, with Enable Rapid Move Modes of the master set or clear."""
         return _profile(self.codes[0], rapid_move_modes)
@@ -315,7 +364,7 @@ class Move(Packet):
             Part(data[at : at + 1], f"header code {at - 1}", _code_text(at - 1, data[at]))
             for at in range(1, start)
         ]
-        for n, (name, value) in enumerate(self.numbers()):
+        for n, (name, value) in enumerate(zip(self.names(), self.values(), strict=True)):
             at = start + WORD_BYTES * n
             parts.append(Part(data[at : at + WORD_BYTES], name, value))
         return parts
@@ -325,16 +374,6 @@ def _code_text(number: int, value: int) -> str:
     kinds: dict[int, type[IntFlag]] = {0: Code0, 1: Code1, 3: Code3}
     kind = kinds.get(number)
     return f"0x{value:02X}" if kind is None else str(kind(value).name or f"0x{value:02X}")
-
-
-def _single(words: Iterator[bytes]) -> float:
-    value: float = struct.unpack("<f", next(words))[0]
-    return value
-
-
-def _position(words: Iterator[bytes], floating: bool) -> int | float:
-    value: int | float = struct.unpack("<f" if floating else "<i", next(words))[0]
-    return value
 
 
 def unpadded(segment: bytes) -> bytes | None:
@@ -348,6 +387,6 @@ def unpadded(segment: bytes) -> bytes | None:
     header = _header(_codes(segment))
     if header.length != MIDDLE_HEADER:
         return None
-    if len(segment) != PADDED_HEADER + WORD_BYTES * header.words:
+    if len(segment) != PADDED_HEADER + header.fields.size:
         return None
     return segment[:MIDDLE_HEADER] + segment[PADDED_HEADER:]
