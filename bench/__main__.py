@@ -20,6 +20,7 @@ ORDER = (
     "sysvar",
     "moves",
     "interpret",
+    "mill_run",
 )
 
 

@@ -3,13 +3,16 @@
 import math
 from collections.abc import Iterable
 
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from tests.mill.shop import PULSES, at, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.encoding import BeyondPulsesError, Encoder, Job
+from openacr.mill.encoding import Encoder, Job
 from openacr.mill.planning import CornerRules, Planner
-from openacr.mill.settings import Settings
+from openacr.mill.settings import AXIS, Settings, cell
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
 
@@ -104,8 +107,11 @@ def test_positions_are_rounded_half_away_from_zero(position: float, pulses: int)
 
 
 def test_a_position_beyond_32_bits_is_refused() -> None:
-    with pytest.raises(BeyondPulsesError, match="E403"):
-        encoder().pulses(at(2**31 / PULSES))
+    coder = encoder()
+    inside, beyond = at((2**31 - 1) / PULSES), at(2**31 / PULSES)
+    assert coder.beyond_pulses(coder.job(line(1, inside), at())) is None
+    refusal = coder.beyond_pulses(coder.job(line(1, beyond), at()))
+    assert refusal is not None and "E403 axis 0: 214748" in refusal
 
 
 def test_an_arc_is_slowed_to_what_the_machine_gives_across() -> None:
@@ -124,3 +130,38 @@ def test_rotary_axes_alone_move_at_degrees_per_minute() -> None:
     assert job.length_u == 90.0
     assert job.feed_ups == pytest.approx(10.0)
     assert job.start is None
+
+
+WAYS = st.lists(
+    st.tuples(*[st.sampled_from((0.0, 0.00004, 0.25, -1.5, 3.33333))] * 4), min_size=1, max_size=6
+)
+
+
+@given(WAYS, st.floats(1.0, 9000.0), st.booleans())
+@settings(deadline=None, max_examples=60)
+def test_a_polyline_is_planned_and_sent_like_its_lines_one_by_one(
+    ways: list[tuple[float, ...]], feed: float, is_limited: bool
+) -> None:
+    cells = {"P100_001": 4.0, "P650_000": 6000.0, "P650_010": 720.0}
+    if is_limited:
+        cells |= {f"P{cell(AXIS, 15, 0)}": 120.0, f"P{cell(AXIS, 16, 1)}": 7.0}
+    coder = encoder(**cells)
+    begin, ends, point = at(1.0, -2.0), [], np.array(at(1.0, -2.0))
+    for way in ways:
+        point = point + np.array([*way, 0.0, 0.0, 0.0, 0.0])
+        ends.append(tuple(point.tolist()))
+    pace = c.Pace(feed)
+    many = c.Polyline(src(1), np.array(ends), np.arange(1, len(ends) + 1), pace)
+    singly, here = [], begin
+    for number, end in enumerate(ends, start=1):
+        singly.append(coder.job(c.Line(src(number), end, pace), here))
+        here = end
+    for one, other in zip(coder.jobs(many, begin), singly, strict=True):
+        assert (one.begin, one.finish) == (other.begin, other.finish)
+        assert (list(one.begin_cnt), list(one.finish_cnt)) == (other.begin_cnt, other.finish_cnt)
+        assert one.length_u == pytest.approx(other.length_u, rel=1e-12)
+        assert one.feed_ups == pytest.approx(other.feed_ups, rel=1e-12)
+        assert one.ramp_ups2 == pytest.approx(other.ramp_ups2, rel=1e-12)
+        assert one.start == (other.start and pytest.approx(other.start, rel=1e-12))
+        assert one.entry.source.line == other.entry.source.line
+        assert coder.packet(one) == coder.packet(other)

@@ -131,6 +131,7 @@ class Polyline:
     """Many plain lines at once, for long programs: `ends` is n x 8, `lines` n numbers of lines.
 
     All of them have the same pace; the text of each block can be read again from the file.
+    Each line is a block of its own: no BlockEnd says so.
     """
 
     source: Source  # of the first one

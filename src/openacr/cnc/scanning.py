@@ -106,7 +106,6 @@ class Scanner:
             and modal.cycle == 80
             and path.coordinates.is_plain
             and run.motions is MOTIONS
-            and not run.options.has_block_ends
             and not run.is_replaying
         )
 

@@ -4,7 +4,7 @@ The course knows the moves; what the runner decides (hold, go on, take back, joi
 happens to them here.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc import canonical as c
 from openacr.mill.actions import Steps, Until
@@ -73,8 +73,7 @@ class Course:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
-        for job in feed.take(room):
-            self._send(job)
+        self._send(feed.take(room))
         is_at_rest = look.counter >= self.tracker.sent and not look.is_moving
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
@@ -89,12 +88,16 @@ class Course:
         if self._feed is not None:
             self._feed.go_on()
 
-    def _send(self, job: Job) -> None:
-        packet = self._encoder.packet(job)
-        self.tracker.add(job, has_packet=packet is not None)
-        if packet is not None:
-            self._machine.send([packet])
-            self.moves += 1
+    def _send(self, jobs: Iterable[Job]) -> None:
+        packets = []
+        for job in jobs:
+            packet = self._encoder.packet(job)
+            self.tracker.add(job, has_packet=packet is not None)
+            if packet is not None:
+                packets.append(packet)
+        if packets:
+            self._machine.send(packets)
+            self.moves += len(packets)
 
     def probe(self, entry: c.Probe) -> Steps:
         """G31, from rest to rest."""
@@ -162,8 +165,7 @@ class Course:
         """Straight to where the program was started, the drill axis up first."""
         here = self.host.position()
         source = self.tracker.source or c.Source("", 1, "")
-        for job in self._jobs(straight_back(source, here, self._begin, c.Plane.XY.drill), here):
-            self._send(job)
+        self._send(self._jobs(straight_back(source, here, self._begin, c.Plane.XY.drill), here))
         yield Until(
             "back to the start",
             lambda look: look.counter >= self.tracker.sent and not look.is_moving,

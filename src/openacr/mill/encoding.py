@@ -6,17 +6,19 @@ float cannot hold 0.00001 inch over 200 inches.
 """
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from openacr.cnc.canonical import Arc, Line, PathMode, Plane, Point, Polyline, Probe, Rapid
+from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Polyline, Probe, Rapid
 from openacr.mill.geometry import Geometry, Way
+from openacr.mill.lines import columns, lines
 from openacr.mill.planning import Stretch
 from openacr.mill.settings import S_PER_MIN, Settings
 from openacr.protocol.move import Code0, Code1, Code3, Move
 
 Motion = Rapid | Line | Arc | Probe
-LONG_MIN, LONG_MAX = -(1 << 31), (1 << 31) - 1
+Pulses = Sequence[int]  # of a machine position, one value per axis that is there
+LONG_MAX = (1 << 31) - 1
 
 # How a move ends, in the two mode bits of header code 0 (Enable Rapid Move Modes is set).
 CONTINUOUS = 0
@@ -28,10 +30,6 @@ PLANES = {Plane.XY: 0, Plane.YZ: int(Code1.PLANE_BIT_0), Plane.ZX: int(Code1.PLA
 CARD_PLANE_AXES = (0, 1, 2)
 
 
-class BeyondPulsesError(ValueError):
-    """E403: a position does not fit 32 bits of pulses."""
-
-
 @dataclass(slots=True, kw_only=True)
 class Job(Stretch):
     """One move on its way to the card: how it is planned, and where it goes."""
@@ -39,6 +37,8 @@ class Job(Stretch):
     entry: Motion
     begin: Point  # machine positions
     finish: Point
+    begin_cnt: Pulses
+    finish_cnt: Pulses
     count: int = 0  # the number of its packet, 0 while it has none
     block: int = 0  # blocks that end before it
 
@@ -50,12 +50,40 @@ class Encoder:
         self._settings = settings
         self._speeds = settings.speeds
         self._geometry = Geometry(settings)
+        self._axes = [axis.index for axis in settings.axes]
         self._scale = [0.0] * 8
         for axis in settings.axes:
             self._scale[axis.index] = axis.pulses_per_unit
         self._is_dry = is_dry
 
     # --- planning ---------------------------------------------------------------------
+
+    def jobs(self, entry: Motion | Polyline, begin: Point) -> Iterator[Job]:
+        """A canonical move as the moves that the card will make."""
+        if isinstance(entry, Polyline):
+            yield from self._lines(entry, begin)
+            return
+        for piece in self._pieces(entry, begin):
+            yield self.job(piece, begin)
+            begin = piece.end
+
+    def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
+        found = columns(entry, begin, self._settings, self._line_speed(entry.pace))
+        mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
+        begin_cnt: Pulses = self.pulses(begin)
+        rows = zip(
+            lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
+            found.ramp_ups2.tolist(), found.direction.tolist(), found.pulses[1:].tolist(),
+            strict=True,
+        )  # fmt: skip
+        for line, length, feed, ramp, direction, finish_cnt in rows:
+            heading = direction if any(direction) else None
+            yield Job(
+                length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
+                mode=mode, entry=line, begin=begin, finish=line.end,
+                begin_cnt=begin_cnt, finish_cnt=finish_cnt,
+            )  # fmt: skip
+            begin, begin_cnt = line.end, finish_cnt
 
     def job(self, entry: Motion, begin: Point) -> Job:
         """One move as the planner sees it."""
@@ -73,6 +101,8 @@ class Encoder:
             entry=entry,
             begin=begin,
             finish=entry.end,
+            begin_cnt=self.pulses(begin),
+            finish_cnt=self.pulses(entry.end),
         )
 
     def _way(self, entry: Motion, begin: Point) -> Way:
@@ -86,25 +116,26 @@ class Encoder:
         speeds = self._speeds
         if isinstance(entry, Rapid):
             wanted = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
-        elif self._is_dry:
-            wanted = speeds.trial_ups
         else:
-            wanted = entry.pace.feed_upm / S_PER_MIN
+            wanted = self._line_speed(entry.pace)
         if isinstance(entry, Arc):
             # An arc needs v^2 / r across: it may not be more than the machine gives.
             radius = min(entry.start_radius, entry.end_radius)
             wanted = min(wanted, math.sqrt(speeds.arc_acc_ups2 * radius))
         return min(wanted, self._geometry.speed_limit(way))
 
+    def _line_speed(self, pace: Pace) -> float:
+        """The speed a feed move asks for."""
+        return self._speeds.trial_ups if self._is_dry else pace.feed_upm / S_PER_MIN
+
     # --- packets ----------------------------------------------------------------------
 
     def packet(self, job: Job) -> Move | None:
         """The bytes of a move; None when it ends on the pulse where it begins."""
         entry = job.entry
-        begin, finish = self.pulses(job.begin), self.pulses(job.finish)
-        moved = {axis: end for axis, end in finish.items() if end != begin[axis]}
-        if isinstance(entry, Arc):
-            moved |= {axis: finish[axis] for axis in (entry.plane.first, entry.plane.second)}
+        ends = zip(self._axes, job.begin_cnt, job.finish_cnt, strict=True)
+        in_plane = (entry.plane.first, entry.plane.second) if isinstance(entry, Arc) else ()
+        moved = {axis: end for axis, begin, end in ends if end != begin or axis in in_plane}
         if not moved:
             return None
         mode, fvel = _ending(job)
@@ -130,26 +161,27 @@ class Encoder:
         centre = (self._pulse(first, entry.centre[0]), self._pulse(second, entry.centre[1]))
         return PLANES[entry.plane] | turn, centre
 
-    def pulses(self, point: Point) -> dict[int, int]:
+    def pulses(self, point: Point) -> Pulses:
         """A machine position in pulses of the axes that are there."""
-        axes = (axis.index for axis in self._settings.axes)
-        return {axis: self._pulse(axis, point[axis]) for axis in axes}
+        return [self._pulse(axis, point[axis]) for axis in self._axes]
 
     def _pulse(self, axis: int, position_u: float) -> int:
         exact = position_u * self._scale[axis]
         nearest = math.floor(abs(exact) + 0.5)  # half away from zero
-        if nearest > LONG_MAX:
-            raise BeyondPulsesError(f"E403 axis {axis}: {position_u:g} is beyond 32 bits of pulses")
         return nearest if exact >= 0 else -nearest
+
+    def beyond_pulses(self, job: Job) -> str | None:
+        """E403: what does not fit the 32 bits of pulses that a packet has for an axis."""
+        for axis, end in zip(self._axes, job.finish_cnt, strict=True):
+            if abs(end) > LONG_MAX:
+                return f"E403 axis {axis}: {job.finish[axis]:g} is beyond 32 bits of pulses"
+        return None
 
     # --- forms the card knows ---------------------------------------------------------
 
-    def pieces(self, entry: Motion | Polyline, begin: Point) -> Iterator[Motion]:
+    def _pieces(self, entry: Motion, begin: Point) -> Iterator[Motion]:
         """A canonical move in forms the card can run: arcs it does not know become chords."""
-        if isinstance(entry, Polyline):
-            for end, line in zip(entry.ends.tolist(), entry.lines.tolist(), strict=True):
-                yield Line(replace(entry.source, line=line, text=""), tuple(end), entry.pace)
-        elif isinstance(entry, Arc) and not self._runs(entry):
+        if isinstance(entry, Arc) and not self._runs(entry):
             yield from self._chords(entry, begin)
         else:
             yield entry

@@ -26,7 +26,7 @@ from openacr.cnc.canonical import (
 from openacr.cnc.findings import BlockError
 from openacr.mill import alarms
 from openacr.mill.alarms import Kind
-from openacr.mill.encoding import BeyondPulsesError, Encoder, Job
+from openacr.mill.encoding import Encoder, Job
 from openacr.mill.limits import first_excess, unhomed
 from openacr.mill.planning import CornerRules, Planner
 from openacr.mill.settings import Settings, Speeds
@@ -81,6 +81,7 @@ class Feed:
         self.block = 0  # blocks read
         self.halt: Halt | None = None
         self.notes: deque[Note] = deque()
+        self._lines: Iterator[Job] = iter(())  # of the polyline that is being read
         self._again: deque[Job] = deque()  # taken back from the card, still to be made
         self._halt_behind: Halt | None = None
         self.is_single = False
@@ -103,6 +104,8 @@ class Feed:
     def _read_one(self) -> None:
         if self._again:
             self._repeat(self._again.popleft())
+        elif (job := next(self._lines, None)) is not None:
+            self._read_line(job)
         else:
             self._read_entry()
 
@@ -123,8 +126,12 @@ class Feed:
             return
         if entry is None:
             self.halt = Fault(alarms.PROGRAM_ERROR, "the program has no end")
-        elif isinstance(entry, Rapid | Line | Arc | Polyline):
+        elif isinstance(entry, Polyline):
+            self._lines = self._encoder.jobs(entry, self.position)
+        elif isinstance(entry, Rapid | Line | Arc):
             self._move(entry)
+        elif isinstance(entry, Probe):
+            self.halt = self._fault(self.probe(entry)) or entry
         elif isinstance(entry, BlockEnd):
             self.block += 1
             if self.is_single:
@@ -136,15 +143,42 @@ class Feed:
         else:
             self.halt = entry
 
-    def _move(self, entry: Rapid | Line | Arc | Polyline) -> None:
-        for piece in self._encoder.pieces(entry, self.position):
-            job = self._encoder.job(piece, self.position)
-            self.halt = self._fault(job)
+    def _move(self, entry: Rapid | Line | Arc) -> None:
+        for job in self._encoder.jobs(entry, self.position):
+            self._take_up(job)
             if self.halt is not None:
                 return
-            self._append(job)
-        if self._waits and not isinstance(entry, Rapid) and entry.pace.is_confirmed:
+        if isinstance(entry, Line | Arc):
+            self._confirm(entry)
+
+    def _read_line(self, job: Job) -> None:
+        """One line of a polyline: a block of its own."""
+        self._take_up(job)
+        self.block += 1
+        if self.halt is None and isinstance(job.entry, Line):
+            self._confirm(job.entry)
+        if self.is_single and not isinstance(self.halt, Fault):
+            end = BlockEnd(job.entry.source)
+            if self.halt is None:
+                self.halt = end
+            else:
+                self._halt_behind = end
+
+    def _confirm(self, entry: Line | Arc) -> None:
+        """G9 and G61 wait until all axes are in position, where a band says what that is."""
+        if self._waits and entry.pace.is_confirmed:
             self.halt = InPosition(entry.source)
+
+    def _take_up(self, job: Job) -> None:
+        """One more move, or why it may not be made."""
+        self.halt = self._fault(job)
+        if self.halt is not None:
+            return
+        job.block = self.block
+        self.position = job.finish
+        if job.length_u > 0.0:
+            self._last = job
+            self._planner.add(job)
 
     def _fault(self, job: Job) -> Fault | None:
         """Why a move may not be made at all."""
@@ -155,18 +189,10 @@ class Feed:
         excess = first_excess(job, self._settings)
         if excess is not None:
             return Fault(alarms.TARGET_BEYOND, f"line {source.line}, {excess}", source)
-        try:
-            self._encoder.pulses(job.finish)
-        except BeyondPulsesError as error:
-            return Fault(alarms.PROGRAM_ERROR, f"line {source.line}: {error}", source)
+        beyond = self._encoder.beyond_pulses(job)
+        if beyond is not None:
+            return Fault(alarms.PROGRAM_ERROR, f"line {source.line}: {beyond}", source)
         return None
-
-    def _append(self, job: Job) -> None:
-        job.block = self.block
-        self.position = job.finish
-        if job.length_u > 0.0:
-            self._last = job
-            self._planner.add(job)
 
     def probe(self, entry: Probe) -> Job:
         """The job of a probing move; it is sent by itself."""

@@ -56,8 +56,8 @@ class Predictor:
     def add(self, entry: c.Entry) -> None:
         """One more entry of the program."""
         if isinstance(entry, MOTIONS):
-            for piece in self._encoder.pieces(entry, self._position):
-                self._move(self._encoder.job(piece, self._position))
+            for job in self._encoder.jobs(entry, self._position):
+                self._move(job)
             if isinstance(entry, c.Probe):
                 self.rest()
         elif isinstance(entry, c.Say | c.SetCell | c.BlockEnd):

@@ -20,7 +20,7 @@ CAPTURE_BIT = n.AF1_CAPTURE_COMPLETE.bit_length() - 1
 class Probing:
     """Probing moves of one machine; `point` is where the last one tripped, None if nowhere."""
 
-    def __init__(self, panel: Panel, send: Callable[[Job], None]) -> None:
+    def __init__(self, panel: Panel, send: Callable[[list[Job]], None]) -> None:
         self._panel = panel
         self._machine = panel.machine
         self._send = send
@@ -33,7 +33,7 @@ class Probing:
         if wiring.is_probe_checked and self._is_active():
             raise AlarmError(alarms.PROBE_ACTIVE)
         self._arm()
-        self._send(job)
+        self._send([job])
         yield Until("probing", lambda look: self._has_tripped(look) or is_over(look, job))
         if not self._is_captured():
             if self._is_active():
@@ -46,7 +46,7 @@ class Probing:
         self.point = self._captured(job)
         back = Line(job.entry.source, self.point, _pace_back(job, wiring.probe_back_ups))
         returning = job_to(back, self._commanded(position))
-        self._send(returning)
+        self._send([returning])
         yield Until("back to the probed point", lambda look: is_over(look, returning))
 
     def _is_active(self) -> bool:

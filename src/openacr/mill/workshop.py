@@ -35,7 +35,7 @@ from openacr.mill.setup import prepare
 from openacr.mill.states import Options, State
 from openacr.sysvar import Store
 
-POLL_S = 0.01
+POLL_S = 0.02
 OLDEST_FIRMWARE = 11800
 NO_ERROR_FILE, LOG_NAME = 250_118, 100_006
 ALL_AXES = 255

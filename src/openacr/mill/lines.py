@@ -1,0 +1,71 @@
+"""Many straight moves at once: a polyline as jobs, computed column by column.
+
+The formulas are those of `geometry` and `encoding`, for n moves in one go: programs of
+free-formed surfaces are millions of short lines.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from openacr.cnc.canonical import Line, Polyline, Source
+from openacr.mill.geometry import Point
+from openacr.mill.settings import Settings
+from openacr.mill.setup import LINEAR
+
+Column = NDArray[np.float64]
+MOST_PULSES = float(1 << 62)  # beyond any card; keeps the conversion to integers defined
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """What is planned of n straight moves, one row each."""
+
+    length_u: Column
+    feed_ups: Column
+    ramp_ups2: Column
+    direction: NDArray[np.float64]  # n x linear axes; unit vectors, 0 without linear motion
+    pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, from the beginning on
+
+
+def columns(polyline: Polyline, begin: Point, settings: Settings, wanted_ups: float) -> Columns:
+    """Lengths, tangents, limits and pulses of the lines of a polyline."""
+    axes, speeds = settings.axes, settings.speeds
+    points = np.vstack((np.asarray(begin, float), polyline.ends))
+    delta = np.diff(points, axis=0)
+    linear = [axis.index for axis in axes if axis.name in LINEAR]
+    rotary = [axis.index for axis in axes if axis.name not in LINEAR]
+    along = np.sqrt(np.sum(delta[:, linear] ** 2, axis=1))
+    turned = np.max(np.abs(delta[:, rotary]), axis=1, initial=0.0)
+    is_linear = along > 0.0
+    length = np.where(is_linear, along, turned)
+    per = np.where(length > 0.0, length, 1.0)[:, None]
+    share = np.abs(delta) / per
+    feed = np.where(is_linear, min(wanted_ups, speeds.max_ups), wanted_ups)
+    ramp = np.full(len(length), speeds.feed_acc_ups2)
+    for axis in axes:
+        goes = share[:, axis.index]
+        rotary_ups = speeds.rotary_max if axis.index in rotary else 0.0
+        feed = _limited(_limited(feed, axis.max_speed_ups, goes), rotary_ups, goes)
+        ramp = _limited(ramp, axis.max_acceleration_ups2, goes)
+    scale = np.array([axis.pulses_per_unit for axis in axes])
+    exact = np.clip(points[:, [axis.index for axis in axes]] * scale, -MOST_PULSES, MOST_PULSES)
+    pulses = np.copysign(np.floor(np.abs(exact) + 0.5), exact).astype(np.int64)
+    return Columns(length, feed, ramp, delta[:, linear] / per, pulses)
+
+
+def _limited(vector: Column, limit: float, share: Column) -> Column:
+    """A speed or ramp along the path that gives an axis no more than its limit; 0 is none."""
+    if limit <= 0.0:
+        return vector
+    with np.errstate(divide="ignore"):
+        return np.minimum(vector, np.where(share > 0.0, limit / share, np.inf))
+
+
+def lines(polyline: Polyline) -> Iterator[Line]:
+    """The moves one by one; their text can be read again from the file."""
+    file, pace = polyline.source.file, polyline.pace
+    for end, line in zip(polyline.ends.tolist(), polyline.lines.tolist(), strict=True):
+        yield Line(Source(file, line, ""), tuple(end), pace)
