@@ -44,21 +44,14 @@ ARCS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("plane", "centre", "end", "shown"),
-    [
-        pytest.param(*row, marks=pytest.mark.req("MILL-G2", f"MILL-G2-{row[0]}", f"MILL-{row[0]}"))
-        for row in ARCS
-    ],
-)
+@pytest.mark.req("MILL-G2", "MILL-G2-G17", "MILL-G2-G18", "MILL-G2-G19")
+@pytest.mark.parametrize(("plane", "centre", "end", "shown"), ARCS)
 def test_g2_turns_clockwise_in_each_plane(plane: str, centre: str, end: str, shown: str) -> None:
     assert run(f"{plane} G2 F10 {end} {centre}").moves == [f"A {shown} -180"]
 
 
-@pytest.mark.parametrize(
-    ("plane", "centre", "end", "shown"),
-    [pytest.param(*row, marks=pytest.mark.req("MILL-G3", f"MILL-G3-{row[0]}")) for row in ARCS],
-)
+@pytest.mark.req("MILL-G3", "MILL-G3-G17", "MILL-G3-G18", "MILL-G3-G19")
+@pytest.mark.parametrize(("plane", "centre", "end", "shown"), ARCS)
 def test_g3_turns_counter_clockwise(plane: str, centre: str, end: str, shown: str) -> None:
     assert run(f"{plane} G3 F10 {end} {centre}").moves == [f"A {shown} 180"]
 
@@ -204,10 +197,9 @@ def test_the_reading_at_the_start_is_a_setting(setting: int, centre: str) -> Non
 # --- work systems, offsets ----------------------------------------------------------------
 
 
+@pytest.mark.req("MILL-G54", "MILL-G55", "MILL-G56", "MILL-G57", "MILL-G58", "MILL-G59")
 @pytest.mark.parametrize(
-    ("code", "n"),
-    [pytest.param(f"G{53 + n}", n, marks=pytest.mark.req(f"MILL-G{53 + n}")) for n in range(1, 7)]
-    + [("G59.1", 7), ("G59.2", 8)],
+    ("code", "n"), [*((f"G{53 + n}", n) for n in range(1, 7)), ("G59.1", 7), ("G59.2", 8)]
 )
 def test_work_systems_shift_the_path(code: str, n: int) -> None:
     cells = {900 + 10 * n: float(n), 901 + 10 * n: -1.0}

@@ -12,13 +12,16 @@ from openacr.cnc.load import Folders, load
 DRY = Options(is_dry=True)
 
 
-@pytest.mark.parametrize(
-    "k",
-    [
-        pytest.param(k, marks=pytest.mark.req(f"MILL-M{11 + k}", f"MILL-M{24 + k}"))
-        for k in range(1, 14)
-    ],
-)
+OUTPUT_IDS = (
+    "MILL-M12", "MILL-M13", "MILL-M14", "MILL-M15", "MILL-M16", "MILL-M17", "MILL-M18", "MILL-M19",
+    "MILL-M20", "MILL-M21", "MILL-M22", "MILL-M23", "MILL-M24", "MILL-M25", "MILL-M26", "MILL-M27",
+    "MILL-M28", "MILL-M29", "MILL-M30", "MILL-M31", "MILL-M32", "MILL-M33", "MILL-M34", "MILL-M35",
+    "MILL-M36", "MILL-M37",
+)  # fmt: skip
+
+
+@pytest.mark.req(*OUTPUT_IDS)
+@pytest.mark.parametrize("k", range(1, 14))
 def test_discrete_outputs_go_on_and_off(k: int) -> None:
     cells = {400_100 + k: 40.0 + k}
     assert run(f"M{11 + k}\nM{24 + k}", cells).story == [

@@ -11,14 +11,14 @@ from openacr.cnc.interpreter import Options
 from openacr.cnc.load import load
 from openacr.cnc.text import Text
 
+AXIS_IDS = (
+    "MILL-WORD-X", "MILL-WORD-Y", "MILL-WORD-Z", "MILL-WORD-A",
+    "MILL-WORD-B", "MILL-WORD-C", "MILL-WORD-U", "MILL-WORD-V",
+)  # fmt: skip
 
-@pytest.mark.parametrize(
-    ("letter", "axis"),
-    [
-        pytest.param(letter, axis, marks=pytest.mark.req(f"MILL-WORD-{letter}"))
-        for axis, letter in enumerate("XYZABCUV")
-    ],
-)
+
+@pytest.mark.req(*AXIS_IDS)
+@pytest.mark.parametrize(("axis", "letter"), list(enumerate("XYZABCUV")))
 def test_axis_words_take_numbers_and_expressions(letter: str, axis: int) -> None:
     done = run(f"F10 {letter}1.5\n{letter}(P200*2)\n{letter.lower()}-.25", {200: 2.0}, axes=8)
     assert done.moves == [f"L {letter}1.5", f"L {letter}4", f"L {letter}-0.25"]
