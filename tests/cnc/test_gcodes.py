@@ -1,7 +1,7 @@
 """G codes: what each one does to the path."""
 
 import pytest
-from tests.cnc.programs import Bench, Run, errors, run
+from tests.cnc.programs import CYCLES, Bench, Run, errors, run
 
 from openacr.cnc.canonical import Arc, Check, Confirm, Dwell, Line, PathMode, Rapid
 
@@ -54,6 +54,34 @@ def test_g2_turns_clockwise_in_each_plane(plane: str, centre: str, end: str, sho
 @pytest.mark.parametrize(("plane", "centre", "end", "shown"), ARCS)
 def test_g3_turns_counter_clockwise(plane: str, centre: str, end: str, shown: str) -> None:
     assert run(f"{plane} G3 F10 {end} {centre}").moves == [f"A {shown} 180"]
+
+
+@pytest.mark.req("MILL-G17", "MILL-G18", "MILL-G19")
+@pytest.mark.parametrize(
+    ("code", "axes", "centre"), [(17, "XYZ", "I1 J0"), (18, "ZXY", "K1 I0"), (19, "YZX", "J1 K0")]
+)
+def test_a_plane_holds_for_arcs_compensation_rotation_and_cycles(
+    code: int, axes: str, centre: str
+) -> None:
+    u, v, w = list(axes)
+    blocks = {
+        f"G2 F10 {u}2 {centre}": f"A {u}2 about 1,0 -180",
+        f"G3 F10 {u}2 {centre}": f"A {u}2 about 1,0 180",
+        f"G41 D1 G1 F10 {u}1\n{u}2\nG40 {v}1": f"L {placed(**{u: 2, v: 0.25})}",
+        f"G68 R90\nG1 F10 {u}1": f"L {v}1",
+        f"G81 {u}1 {v}2 {w}-1 R0 F10": f"L {placed(**{u: 1, v: 2, w: -1})}",
+    }
+    for other in {17, 18, 19} - {code}:
+        for words, shown in blocks.items():
+            done = run(f"G{other}\nG{code}\n{words}{CYCLES}", {1001: 0.25})
+            assert shown in done.moves, (words, done.moves)
+            done = run(f"G{code}\nG{other}\nG0 X0\nG{code}\n{words}{CYCLES}", {1001: 0.25})
+            assert shown in done.moves
+
+
+def placed(**axes: float) -> str:
+    """Axis words as moves show them."""
+    return " ".join(f"{axis}{axes[axis]:g}" for axis in "XYZ" if axis in axes)
 
 
 @pytest.mark.req("MILL-G2-HELIX", "MILL-G3-HELIX")
