@@ -5,6 +5,8 @@ from tests.mill.shop import PULSES, Shop
 
 from openacr.map import numbers as n
 from openacr.mill.states import State
+from openacr.sysvar import Store
+from openacr.sysvar.values import SettingError
 
 DAC_VALUE = 6400 + 16 * 3
 CW, CCW, OFF, MIST, FLOOD, NONE_FLOWS = 40, 41, 45, 42, 43, 44
@@ -298,3 +300,35 @@ def test_t_p_puts_a_parameter_on_the_card() -> None:
     shop = Shop()
     shop.run_text("P3=55555\nT P3\nM2\n")
     assert shop.controller.p[3] == 55555
+
+
+# --- numbers of outputs -------------------------------------------------------------------
+
+OUTPUTS = (400_011, 400_013, 400_019, *range(400_101, 400_114), *range(800_005, 800_008),
+           *range(800_009, 800_013), 900_001)  # fmt: skip
+
+
+@pytest.mark.req("MILL-M-OUTPUTS")
+@pytest.mark.parametrize("cell", OUTPUTS)
+def test_outputs_are_32_to_63_or_none(cell: int) -> None:
+    store = Store()
+    for number in (31, 64, 1, 999):
+        with pytest.raises(SettingError, match=r"32 to 63|-1 to 63"):
+            store.write(cell, number)
+    for number in (32, 63, -1):
+        store.write(cell, number)
+        assert store.read(cell) == number
+
+
+@pytest.mark.req("MILL-M-ACR2000")
+def test_the_acr2000_has_16_inputs_and_16_outputs() -> None:
+    store = Store()
+    store.write(400_101, 48)
+    with pytest.raises(SettingError, match="P400101"):
+        store.write_text(100_002, "ACR2000")
+    store.write(400_101, 47)
+    store.write_text(100_002, "ACR2000")
+    for cell, good, bad in ((400_102, 47, 48), (800_005, 32, 63), (400_002, 15, 16)):
+        with pytest.raises(SettingError, match="of the card are"):
+            store.write(cell, bad)
+        store.write(cell, good)

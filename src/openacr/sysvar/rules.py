@@ -5,8 +5,8 @@ from collections.abc import Callable, Collection, Iterable
 from typing import Protocol
 
 from openacr.models import MODELS
-from openacr.sysvar.lookup import AXIS_LETTERS, known
-from openacr.sysvar.schema import AXES, AXIS_CELLS
+from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
+from openacr.sysvar.schema import AXES, AXIS_CELLS, Wire
 from openacr.sysvar.values import SettingError
 
 GUIDE_MODELS = ("ACR1200", "ACR1500", "ACR2000", "ACR8010", "ACR8020")
@@ -18,6 +18,9 @@ FIRST_AXIS, PLUS, MINUS, IS_OFF, NAME = 200_000, 0, 1, 2, 8
 TABLES, CLICKS = (450_000, 500_000, 550_000), 16
 DISPLAY, DISPLAY_FORMATS = 850_000, 2
 FIRST_SYSTEM = 100_000
+SMALL_CARD, SMALL_CARD_LINES = "ACR2000", 16
+CARD_LINES = 32
+FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
 
 
 class Reader(Protocol):
@@ -100,6 +103,26 @@ def _card_model(cells: Reader, changed: Iterable[int]) -> None:
         raise SettingError(known(MODEL), cells.read_text(MODEL), "one of " + ", ".join(CARD_MODELS))
 
 
+def _wires(cells: Reader, changed: Iterable[int]) -> None:
+    """Numbers of inputs and outputs are those the card has; another card, other numbers."""
+    is_small = cells.read_text(MODEL) == SMALL_CARD
+    count = SMALL_CARD_LINES if is_small else CARD_LINES
+    if MODEL in changed:
+        changed = [each.number for each in parameters() if each.row.wire]
+    for n in changed:
+        row = known(n).row
+        if row.wire is None or (value := cells.read(n)) in (-1, row.default):
+            continue
+        first = FIRST_LINE[row.wire]
+        if not first <= value < first + count:
+            raise SettingError(
+                known(n),
+                value,
+                f"{row.wire.value}s of the card are {first} to {first + count - 1}",
+                "-1 for none",
+            )
+
+
 def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
     for n in changed:
         axis, k = divmod(n - DISPLAY, AXIS_CELLS)
@@ -117,4 +140,5 @@ _RULES: tuple[Callable[[Reader, Collection[int]], None], ...] = (
     _override_tables,
     _card_model,
     _display_formats,
+    _wires,
 )

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import Any
 
 from openacr.errors import MapError
 
@@ -25,6 +26,13 @@ class Kind(Enum):
     BOOLEAN = "B"
     CHOICE = "E"
     TEXT = "S"
+
+
+class Wire(Enum):
+    """What the number in a cell is that of."""
+
+    INPUT = "input"
+    OUTPUT = "output"
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +70,7 @@ class Row:
     is_per_axis: bool = False
     is_motion: bool = False  # must not change while a program runs
     is_fixed: bool = False  # nobody writes it
+    wire: Wire | None = None  # the value is the number of an input or output of the card
 
     @property
     def is_series(self) -> bool:
@@ -176,6 +185,9 @@ class Tab:
 
 
 FALSE_TRUE = {0: "false", 1: "true"}
+DISABLE = {-1: "disable"}
+INPUT: dict[str, Any] = {"low": -1, "high": 31, "words": DISABLE, "wire": Wire.INPUT}
+OUTPUT: dict[str, Any] = {"low": -1, "high": 63, "words": DISABLE, "wire": Wire.OUTPUT}
 
 
 def _places(row: Row) -> Iterator[tuple[int, int | None, int]]:

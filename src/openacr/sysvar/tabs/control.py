@@ -1,6 +1,6 @@
 """GENERAL, CONTROL, COMPATIBILITY, COMMUNICATIONS and DISPLAY: how the front end behaves."""
 
-from openacr.sysvar.schema import Tab
+from openacr.sysvar.schema import OUTPUT, Tab
 
 _CODES = {"doc": "Code chosen for the start of programs."}
 _IJ = {0: "negative", 1: "positive", 2: "absolute"}
@@ -60,9 +60,7 @@ CONTROL.real(
 CONTROL.real(11, "Acute Angle2", "deg", typical="0", low=0, high=180, doc="Corners stop.")
 CONTROL.real(12, "Under Burn Distance", "u", typical="0", low=0, doc="Height sensing off before.")
 CONTROL.boolean(13, "Repeat Forever", typical="false", doc="Run the part in an endless loop.")
-CONTROL.integer(
-    14, "Under Burn Output", -1, low=-1, high=999, words={-1: "disable"}, doc="Its output."
-)
+CONTROL.integer(14, "Under Burn Output", -1, doc="Its output.", **OUTPUT)
 CONTROL.real(
     101,
     "Epsilon for Compensation",

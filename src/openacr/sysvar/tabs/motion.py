@@ -1,6 +1,6 @@
 """SERVO, AXES, HOME, JOG and SPEEDS: how the axes move."""
 
-from openacr.sysvar.schema import ANY, Tab
+from openacr.sysvar.schema import ANY, INPUT, OUTPUT, Tab
 
 SERVO = Tab("SERVO", 150_000, per_axis=True)
 SERVO.motion()
@@ -91,10 +91,8 @@ HOME.integer(
     "Home Switch Input",
     16,
     typical="16",
-    low=-1,
-    high=999,
-    words={-1: "disable"},
     doc="Input of the switch.",
+    **INPUT,
 )
 _SPEED = {"low": 0, "is_low_open": True, "high": 1e6}
 _RAMP = {"low": 0, "is_low_open": True, "high": 1e9}
@@ -145,6 +143,4 @@ SPEEDS.real(15, "Path jerk", "u/s3", low=0, high=1e12, doc="0: straight ramps.")
 SPEEDS.real(
     16, "Chord tolerance", "u", 0.0001, low=0, is_low_open=True, high=ANY, doc="Of chords for arcs."
 )
-SPEEDS.integer(
-    17, "Plasma output", -1, low=-1, high=999, words={-1: "disable"}, doc="Output of the plasma."
-)
+SPEEDS.integer(17, "Plasma output", -1, doc="Output of the plasma.", **OUTPUT)

@@ -1,25 +1,23 @@
 """I/O, FOV, ROV, SOV, PROBE, SPINDLE and TOOL: what is wired to what, and override tables."""
 
-from openacr.sysvar.schema import At, Tab
-
-_LINE = {"low": -1, "high": 999, "words": {-1: "disable"}}
+from openacr.sysvar.schema import INPUT, OUTPUT, At, Tab
 
 IO = Tab("I/O", 400_000)
 IO.motion()
-IO.integer(0, "Block Skip", -1, typical="user", doc="Input of the block-skip switch.", **_LINE)
-IO.integer(1, "Optional Stop", -1, typical="user", doc="Input of the switch.", **_LINE)
-IO.integer(2, "FeedHold Input", -1, typical="user", doc="Input of the feed hold.", **_LINE)
-IO.integer(3, "Cycle Start Input", -1, typical="user", doc="Input of cycle start.", **_LINE)
-IO.integer(4, "Emergency Stop", -1, typical="user", doc="Input; active stops.", **_LINE)
-IO.integer(5, "Soft Limits Input", -1, typical="user", doc="Maintenance key of jogging.", **_LINE)
-IO.integer(6, "Jog JoyStick Input", -1, typical="user", doc="First of four inputs.", **_LINE)
-IO.integer(10, "G27 Input", -1, typical="user", doc="Confirms the reference point.", **_LINE)
-IO.integer(11, "G27 Output", -1, typical="user", doc="On at the reference point.", **_LINE)
-IO.integer(12, "Lubrication Error", -1, typical="user", doc="Input of the contact.", **_LINE)
-IO.integer(13, "Drive enable output", -1, doc="Off at an emergency stop.", **_LINE)
-IO.integer(19, "G28 Error Output", -1, doc="On when the point is missed.", **_LINE)
+IO.integer(0, "Block Skip", -1, typical="user", doc="Input of the block-skip switch.", **INPUT)
+IO.integer(1, "Optional Stop", -1, typical="user", doc="Input of the switch.", **INPUT)
+IO.integer(2, "FeedHold Input", -1, typical="user", doc="Input of the feed hold.", **INPUT)
+IO.integer(3, "Cycle Start Input", -1, typical="user", doc="Input of cycle start.", **INPUT)
+IO.integer(4, "Emergency Stop", -1, typical="user", doc="Input; active stops.", **INPUT)
+IO.integer(5, "Soft Limits Input", -1, typical="user", doc="Maintenance key of jogging.", **INPUT)
+IO.integer(6, "Jog JoyStick Input", -1, typical="user", doc="First of four inputs.", **INPUT)
+IO.integer(10, "G27 Input", -1, typical="user", doc="Confirms the reference point.", **INPUT)
+IO.integer(11, "G27 Output", -1, typical="user", doc="On at the reference point.", **OUTPUT)
+IO.integer(12, "Lubrication Error", -1, typical="user", doc="Input of the contact.", **INPUT)
+IO.integer(13, "Drive enable output", -1, doc="Off at an emergency stop.", **OUTPUT)
+IO.integer(19, "G28 Error Output", -1, doc="On when the point is missed.", **OUTPUT)
 IO.integer(
-    101, "Discrete Output {}", -1, count=13, first=1, doc="On by M12.., off by M25.. .", **_LINE
+    101, "Discrete Output {}", -1, count=13, first=1, doc="On by M12.., off by M25.. .", **OUTPUT
 )
 
 CLICKS = 16
@@ -35,7 +33,7 @@ def _override(name: str, base: int, percents: tuple[int, ...], click: int) -> Ta
     tab.real(
         0, "Click {}", "%", percent, count=CLICKS, low=0, high=200, doc="Not below the one before."
     )
-    tab.integer(16, "Switch input", -1, doc="First of four inputs, binary.", **_LINE)
+    tab.integer(16, "Switch input", -1, doc="First of four inputs, binary.", **INPUT)
     tab.integer(17, "Click without switch", click, low=0, high=CLICKS - 1, doc="In use.")
     return tab
 
@@ -46,7 +44,7 @@ SOV = _override("SOV", 550_000, tuple(range(50, 130, 5)), 10)
 
 PROBE = Tab("PROBE", 600_000)
 PROBE.motion()
-PROBE.integer(0, "Probe Input", -1, doc="Input of the probe of G31.", **_LINE)
+PROBE.integer(0, "Probe Input", -1, doc="Input of the probe of G31.", **INPUT)
 PROBE.choice(1, "Edge", {0: "leading", 1: "trailing"}, doc="Edge that trips.")
 PROBE.choice(2, "Capture", {0: "hardware", 1: "software"}, doc="How positions are caught.")
 PROBE.real(3, "Back-up feed", "u/m", low=0, high=1e6, doc="Back to the trip point, 0 = F.")
@@ -69,23 +67,23 @@ SPINDLE.integer(
     words={-1: "none"},
     doc="Analog output of the spindle.",
 )
-SPINDLE.integer(3, "At Zero Input", -1, typical="user", doc="Zero speed reached.", **_LINE)
-SPINDLE.integer(4, "At Speed Input", -1, typical="user", doc="Speed reached.", **_LINE)
-SPINDLE.integer(5, "Spindle CW Output", -1, typical="user", doc="On clockwise.", **_LINE)
-SPINDLE.integer(6, "Spindle CCW Output", -1, typical="user", doc="On the other way.", **_LINE)
-SPINDLE.integer(7, "Spindle OFF Output", 0, typical="user", doc="On at rest, 0 none.", **_LINE)
-SPINDLE.integer(8, "Spindle Exception Input", -1, typical="user", doc="Fault.", **_LINE)
-SPINDLE.integer(9, "Coolant Mist Output", -1, doc="On by M7.", **_LINE)
-SPINDLE.integer(10, "Coolant Flood Output", -1, doc="On by M8.", **_LINE)
-SPINDLE.integer(11, "Coolant OFF Output", -1, doc="On by M9.", **_LINE)
-SPINDLE.integer(12, "Orient Output", -1, doc="On while the spindle is oriented.", **_LINE)
-SPINDLE.integer(13, "Oriented Input", -1, doc="Answers the orient output.", **_LINE)
+SPINDLE.integer(3, "At Zero Input", -1, typical="user", doc="Zero speed reached.", **INPUT)
+SPINDLE.integer(4, "At Speed Input", -1, typical="user", doc="Speed reached.", **INPUT)
+SPINDLE.integer(5, "Spindle CW Output", -1, typical="user", doc="On clockwise.", **OUTPUT)
+SPINDLE.integer(6, "Spindle CCW Output", -1, typical="user", doc="On the other way.", **OUTPUT)
+SPINDLE.integer(7, "Spindle OFF Output", 0, typical="user", doc="On at rest, 0 none.", **OUTPUT)
+SPINDLE.integer(8, "Spindle Exception Input", -1, typical="user", doc="Fault.", **INPUT)
+SPINDLE.integer(9, "Coolant Mist Output", -1, doc="On by M7.", **OUTPUT)
+SPINDLE.integer(10, "Coolant Flood Output", -1, doc="On by M8.", **OUTPUT)
+SPINDLE.integer(11, "Coolant OFF Output", -1, doc="On by M9.", **OUTPUT)
+SPINDLE.integer(12, "Orient Output", -1, doc="On while the spindle is oriented.", **OUTPUT)
+SPINDLE.integer(13, "Oriented Input", -1, doc="Answers the orient output.", **INPUT)
 SPINDLE.real(14, "Orient time", "s", 1, low=0, high=3600, doc="Without the input.")
 SPINDLE.real(15, "Spindle time-out", "s", 30, low=0, high=3600, doc="Of waits, 0 none.")
 
 TOOL = Tab("TOOL", 900_000)
-TOOL.integer(0, "Tool Changed Input", -1, doc="The tool is changed.", **_LINE)
-TOOL.integer(1, "Tool Change Output", -1, doc="A change is wanted.", **_LINE)
+TOOL.integer(0, "Tool Changed Input", -1, doc="The tool is changed.", **INPUT)
+TOOL.integer(1, "Tool Change Output", -1, doc="A change is wanted.", **OUTPUT)
 TOOL.boolean(2, "Manual Tool Change", 1, doc="False: automatic.")
 TOOL.real(3, "Tool change time-out", "s", low=0, high=86_400, doc="0 none.")
 TOOL.text(10, "Custom M folder", "mcodes", doc="Files Mnnn.TXT, beside the store.")
