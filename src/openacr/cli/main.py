@@ -129,6 +129,19 @@ COMMANDS: dict[str, Entry | Family] = {
                 "make_part",
                 "List the parts of the library, or make the program of one of them.",
             ),
+            "param": Entry(
+                "mill_param",
+                "operate_parameters",
+                "Show and change P0 to P99 of a card and P100 to P199 of the store.",
+            ),
+            "message": Family(
+                "Texts that are shown while an input, output or flag has a state.",
+                {
+                    "list": Entry("mill_message", "list_messages", "List the messages."),
+                    "set": Entry("mill_message", "set_message", "Define a message, or change it."),
+                    "remove": Entry("mill_message", "remove_message", "Forget a message."),
+                },
+            ),
             "ballscrew": Family(
                 "Tables that compensate what the screws of a machine get wrong.",
                 {

@@ -4,6 +4,7 @@ import json as json_format
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -20,6 +21,7 @@ from openacr.cli.mill import (
     opened_store,
     show_findings,
 )
+from openacr.cli.mill_message import show_message
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -172,6 +174,7 @@ def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "
 
     try:
         shop = Workshop.real(host, cells, say) if host else Workshop.virtual(cells, say)
+        shop.show_message = partial(show_message, to_stderr=to_stderr)
     except ConnectionLostError as lost:
         raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
     try:
@@ -283,6 +286,15 @@ def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
                 {"code": alarm.kind.code, "text": alarm.text, "at_s": alarm.at_s}
                 for alarm in runner.alarms.active
             ],
+            "messages": [
+                {
+                    "number": each.message.number,
+                    "text": each.message.shown,
+                    "at_s": each.at_s,
+                    "until_s": each.until_s,
+                }
+                for each in shop.messages.history
+            ],
         }
         typer.echo(json_format.dumps(record, indent=1))
     elif not is_quiet:
@@ -307,5 +319,5 @@ def _end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
     for alarm in active if is_shown else ():
         where = f" (line {source.line}: {source.text.strip()})" if source else ""
         typer.secho(f"alarm {alarm.kind.code}: {alarm.text}{where}", fg=typer.colors.RED, err=True)
-    if active:
+    if shop.runner.alarms.bars_start:
         raise typer.Exit(FAILED)

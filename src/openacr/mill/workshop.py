@@ -29,6 +29,8 @@ from openacr.mill.ballscrew import tables_of
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Machine
+from openacr.mill.messages import Message, Messages, definitions
+from openacr.mill.panel import FIRST_OUTPUT
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare
@@ -81,6 +83,11 @@ class Workshop:
         log = None if is_virtual else _error_log(cells, folder)
         self.runner = Runner(self.machine, cells, depth, say, Alarms(log))
         self.runner.has_operator = not is_virtual
+        self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
+        defined = [
+            each for each in definitions(cells) if not (is_virtual and each.bit < FIRST_OUTPUT)
+        ]
+        self.messages = Messages(self.runner.panel, defined, self._note_message)
 
     @classmethod
     def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "Workshop":
@@ -191,6 +198,13 @@ class Workshop:
         """Let a little time pass and do what is due."""
         self.machine.pause(POLL_S)
         self.runner.step()
+        self.messages.keep(self.machine.now_s)
+
+    def _note_message(self, message: Message, is_on: bool) -> None:
+        if is_on and message.is_alarm:
+            detail = f"{message.number}: {message.shown}"
+            self.runner.alarms.give(alarms.USER_MESSAGE, detail, self.machine.now_s)
+        self.show_message(message, is_on)
 
     def carry_on(self) -> None:
         """What an operator does who never hesitates: starts again, confirms tools."""
@@ -209,6 +223,10 @@ def _check_firmware(card: Card) -> None:
     version = int(card.read(P_FIRMWARE_VERSION))
     if version < OLDEST_FIRMWARE:
         raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
+
+
+def _say_message(say: Callable[[str], None], message: Message, is_on: bool) -> None:
+    say(f"message {message.number}: {message.shown}" + ("" if is_on else " (over)"))
 
 
 def _error_log(cells: Cells, folder: Path | None) -> Path | None:
