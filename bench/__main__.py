@@ -8,6 +8,7 @@ from bench.figures import print_head
 ORDER = (
     "gantry",
     "sixteen_axes",
+    "busy",
     "kernel_tick",
     "statements",
     "lexer",

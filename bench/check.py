@@ -33,6 +33,7 @@ SET_UP = (
     + "PROG0\nATTACH MASTER0\n"
     + "".join(f'ATTACH SLAVE{n} AXIS{n} "{name}"\n' for n, name in enumerate(AXES))
     + "DIM LV(100)\nDIM SV(100)\nDIM DV(100)\nDIM $V(100,80)\n"
+    "DIM LA(1)\nDIM LA0(400)\n"
 )
 _NUMBER = re.compile(r"(?<![A-Za-z&#\d.])\d+(?:\.\d+)?")
 _NAME = re.compile(r"(?i)(^\s*_|GOTO\s+_?|GOSUB\s+_?)([A-Za-z]\w*)")
