@@ -95,3 +95,24 @@ def test_keys_count_on_every_stream(axes: Host) -> None:
     assert kills(axes) == [True] * 3
     axes.send(CTRL_Y)
     assert kills(axes) == [False] * 3
+
+
+@pytest.mark.parametrize("wait", ["P0 = GETCH", "_L:P0 = ASC(INKEY$):IF (P0 = 0) THEN GOTO L"])
+def test_a_key_the_program_has_read_is_no_part_of_the_next_command(axes: Host, wait: str) -> None:
+    axes.type("SYS", "DIM P(1)", "PROG0")
+    store(axes, *wait.split(":", 1), "DWL 0.1")
+    axes.type("LRUN")
+    assert axes.send("k") == "k"
+    assert axes.after(500) == "P00>"
+    assert axes.ask("?P0") == "107"
+
+
+def test_a_command_begun_while_a_program_ends_is_typed_on_at_the_prompt(axes: Host) -> None:
+    axes.type("SYS", "DIM P(1)", "PROG0")
+    store(axes, "P0 = GETCH", "DWL 0.1")
+    axes.type("LRUN")
+    assert axes.send("k?1+") == "k?1+"
+    assert axes.after(500) == "P00>"
+    assert axes.send("1\r") == "1|2|P00>"
+    store(axes, "PRINT KBHIT")
+    assert axes.type("LRUN") + axes.after(100) == "0|P00>"

@@ -82,6 +82,7 @@ class Session:
     partner: str | None = None  # channel joined by TALK TO
     drive: int | None = None  # axis whose drive DTALK has joined
     echo_line_end: bool = True  # False while `INPUT;` reads a line
+    typed_ahead: str = ""  # what the program followed with LRUN has left of the line being typed
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
     _modes: list[int] = field(default_factory=lambda: [ECHO_CHARACTERS, 0])
     _output: bytearray = field(default_factory=bytearray)
@@ -179,7 +180,7 @@ class Session:
             self.busy = False
         self.stop_listening()
         self._leave_drive()
-        self.partner, self.capture = None, None
+        self.partner, self.capture, self.typed_ahead = None, None, ""
         self._output.clear()
 
     # input
@@ -291,6 +292,8 @@ class Session:
 
     def program_ended(self) -> None:
         """The program followed with LRUN has ended: back to the prompt, once."""
+        if self.listening_to is not None:
+            self.typed_ahead = self.system.devices.take_begun_line((self.listening_to, 0))
         self.stop_listening()
         if not self.busy:
             self._send_prompt()
@@ -330,6 +333,7 @@ class Session:
             "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
             "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
             "partner": self.partner, "drive": self.drive, "echo_line_end": self.echo_line_end,
+            "typed_ahead": self.typed_ahead,
         }  # fmt: skip
 
     def restore(self, state: dict[str, Any]) -> None:

@@ -195,7 +195,12 @@ class Streams:
         if session is None:
             return
         terminal.busy = session.busy
-        terminal.attention = _ATTENTION[session.attention]
+        attention = _ATTENTION[session.attention]
+        if (terminal.attention, attention) == (Attention.LISTENING, Attention.COMMANDS):
+            # What the program has read is no part of the next command.
+            terminal.begin_line(session.typed_ahead)
+            session.typed_ahead = ""
+        terminal.attention = attention
         terminal.echo = session.echo
         if terminal.mode != session.mode:
             terminal.mode = BinaryMode(session.mode)

@@ -355,6 +355,12 @@ class Terminal:
     def _hold(self) -> None:
         self.output.stopped = True
 
+    def begin_line(self, text: str) -> None:
+        """Go on with a line of which this much is typed (and has been echoed) already."""
+        self._typing.clear()
+        for byte in text.encode("latin-1"):
+            self._typing.add(byte)
+
     # --- output -----------------------------------------------------------------------
 
     def _echo(self, data: bytes) -> None:
