@@ -304,6 +304,34 @@ def test_talk_to_joins_two_channels_until_escape(bench: Bench) -> None:
     assert bench.type("TALK TO COM1") == "Invalid device|SYS>"
 
 
+def test_the_other_side_may_end_talk_to_as_well(bench: Bench) -> None:
+    other = bench.connect("COM2")
+    bench.type("TALK TO COM2")
+    other.escape()
+    assert bench.sent(other) == "|SYS>"
+    assert bench.sent() == "|SYS>", "the line that began it is answered, once"
+    assert bench.type("ECHO") == "1|SYS>"
+
+
+@pytest.mark.parametrize("who", ["caller", "called"])
+def test_a_lost_connection_ends_talk_to_for_the_one_who_stays(bench: Bench, who: str) -> None:
+    other = bench.connect("COM2")
+    bench.type("TALK TO COM2")
+    gone, left = (bench.session, other) if who == "caller" else (other, bench.session)
+    gone.disconnect()
+    gone.connect()
+    assert left.attention is gone.attention is Attention.COMMANDS
+    assert bench.sent(left) == ("" if who == "caller" else "|SYS>")
+
+
+def test_a_channel_that_talks_already_is_in_use(bench: Bench) -> None:
+    bench.connect("COM2")
+    third = bench.connect("FIFO")
+    bench.type("TALK TO COM2")
+    assert bench.type("TALK TO COM2", on=third) == "Device in use|SYS>"
+    assert bench.type("TALK TO COM1", on=third) == "Device in use|SYS>"
+
+
 def test_a_lost_connection_ends_listening_and_capture_and_starts_afresh(bench: Bench) -> None:
     bench.type("PROG 1", "PROGRAM", "DWL 1")
     bench.session.busy = True

@@ -116,3 +116,13 @@ def test_a_command_begun_while_a_program_ends_is_typed_on_at_the_prompt(axes: Ho
     assert axes.send("1\r") == "1|2|P00>"
     store(axes, "PRINT KBHIT")
     assert axes.type("LRUN") + axes.after(100) == "0|P00>"
+
+
+def test_what_is_typed_in_talk_to_arrives_at_once(axes: Host) -> None:
+    other = Host(axes.card)
+    other.send("PROG1\r")
+    assert axes.send("TALK TO STREAM3\r") == "TALK TO STREAM3|"
+    assert (axes.send("hello"), other.heard()) == ("", "hello")
+    assert (other.send("hi\r"), axes.heard()) == ("", "hi\r")
+    assert (other.send(ESC), axes.heard()) == ("|P01>", "|P00>")
+    assert (axes.ask("?1"), other.ask("?2")) == ("1", "2")

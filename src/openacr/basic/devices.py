@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from openacr.basic.session import FLAG_WORDS, Session
+from openacr.basic.channel_words import FLAG_WORDS
+from openacr.basic.session import Session
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory

@@ -10,18 +10,13 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
 from openacr.basic.entry import Entry
 from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.registry import Level
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    P_COM1_CHARACTER_BUFFER_COUNT,
-    P_COM2_CHARACTER_BUFFER_COUNT,
-    P_DPCB_CHARACTER_BUFFER_COUNT,
-    P_FIFO_CHARACTER_BUFFER_COUNT,
-)
-from openacr.messages import LINE_TOO_LONG
+from openacr.messages import DEVICE_IN_USE, LINE_TOO_LONG
 from openacr.network.drivetalk import lines
 
 if TYPE_CHECKING:
@@ -30,16 +25,6 @@ if TYPE_CHECKING:
 LINE_END = "\r\n"
 FIRST_CHANNEL_THREAD = 16
 PROGRAMS = 16
-ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
-LARGEST = 0x7FFFFFFF
-MODE_SHIFT = 20  # of the two flags Control Prefixing and High Bit Stripping
-COUNTS = {  # characters and lines waiting, free space, lines executed
-    "FIFO": P_FIFO_CHARACTER_BUFFER_COUNT,
-    "COM1": P_COM1_CHARACTER_BUFFER_COUNT,
-    "COM2": P_COM2_CHARACTER_BUFFER_COUNT,
-    "DPCB": P_DPCB_CHARACTER_BUFFER_COUNT,
-}
-FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
 
 
 class Attention(Enum):
@@ -80,12 +65,16 @@ class Session:
     until_end: bool = False  # LRUN: listen until the program ends
     opened_by: tuple[int, int] | None = None  # program and device number
     partner: str | None = None  # channel joined by TALK TO
+    has_called: bool = False  # TALK TO was typed here: its prompt is still to come
     drive: int | None = None  # axis whose drive DTALK has joined
     echo_line_end: bool = True  # False while `INPUT;` reads a line
     typed_ahead: str = ""  # what the program followed with LRUN has left of the line being typed
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
-    _modes: list[int] = field(default_factory=lambda: [ECHO_CHARACTERS, 0])
     _output: bytearray = field(default_factory=bytearray)
+    _words: ChannelWords = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self._words = ChannelWords(self.name, self.system.card.memory)
 
     @property
     def thread(self) -> int:
@@ -95,35 +84,20 @@ class Session:
     @property
     def echo(self) -> int:
         """ECHO mode: 1 echo characters, 2 no error reports, 4 no prompt."""
-        word = self._flag_word
-        return self._modes[0] if word is None else self._flags(word) & 7
+        return self._words.echo
 
     @echo.setter
     def echo(self, mode: int) -> None:
-        self._modes[0] = mode
-        if (word := self._flag_word) is not None:
-            self.system.card.memory.I[word] = self._flags(word) & ~7 | mode
+        self._words.echo = mode
 
     @property
     def mode(self) -> int:
         """MODE of binary data: 1 control prefixing, 2 high bit stripping."""
-        word = self._flag_word
-        return self._modes[1] if word is None else self._flags(word) >> MODE_SHIFT & 3
+        return self._words.mode
 
     @mode.setter
     def mode(self, mode: int) -> None:
-        self._modes[1] = mode
-        if (word := self._flag_word) is not None:
-            cleared = self._flags(word) & ~(3 << MODE_SHIFT)
-            self.system.card.memory.I[word] = cleared | mode << MODE_SHIFT
-
-    @property
-    def _flag_word(self) -> int | None:
-        """The flag word that is the mode of this channel; network streams have none."""
-        return FLAG_WORDS.get(self.name)
-
-    def _flags(self, word: int) -> int:
-        return self.system.card.memory.I[word]
+        self._words.mode = mode
 
     @property
     def program(self) -> int | None:
@@ -180,7 +154,8 @@ class Session:
             self.busy = False
         self.stop_listening()
         self._leave_drive()
-        self.partner, self.capture, self.typed_ahead = None, None, ""
+        self._leave_partner()
+        self.capture, self.typed_ahead = None, ""
         self._output.clear()
 
     # input
@@ -188,9 +163,7 @@ class Session:
     def feed_line(self, text: str) -> None:
         """Deal with one line; it is answered here, or by `finished` when it takes longer."""
         self.busy = True
-        if (row := COUNTS.get(self.name)) is not None:
-            memory = self.system.card.memory.I
-            memory[row + 3] = (memory[row + 3] + 1) & LARGEST
+        self._words.count_line()
         try:
             is_done = self._take(text)
         except CardError as error:
@@ -201,10 +174,7 @@ class Session:
 
     def show_waiting(self, characters: int, lines: int) -> None:
         """Put what waits in the buffer of the channel into its parameters."""
-        if (row := COUNTS.get(self.name)) is not None:
-            memory = self.system.card.memory.I
-            memory[row], memory[row + 1] = characters, lines
-            memory[row + 2] = max(self.system.storage.stream_size(self.name) - characters, 0)
+        self._words.show_waiting(characters, lines, self.system.storage.stream_size(self.name))
 
     def line_too_long(self) -> None:
         """Answer a line that was discarded for its length."""
@@ -300,12 +270,23 @@ class Session:
 
     def talk_to(self, other: Session) -> None:
         """TALK TO: what is typed here leaves there, and the other way round."""
+        if other.attention in (Attention.OPEN, Attention.PASS_THROUGH):
+            raise CardError(DEVICE_IN_USE)
         self.partner, other.partner = other.name, self.name
+        self.has_called = True
 
     def _leave_partner(self) -> None:
         if self.partner is not None:
-            self.system.sessions[self.partner].partner = None
-            self.partner = None
+            other = self.system.sessions[self.partner]
+            self.partner, self.has_called = None, False
+            other.partner_left()
+
+    def partner_left(self) -> None:
+        """The other side has ended TALK TO; the line that has begun it is answered now."""
+        if self.has_called:
+            self.write(LINE_END)
+            self._send_prompt()
+        self.partner, self.has_called = None, False
 
     def talk_to_drive(self, axis: int, port: int) -> None:
         """DTALK: what is typed here goes to the drive of an axis, over a Drive Talk line."""
@@ -321,7 +302,7 @@ class Session:
         """Begin as after power-up; the connection, if there is one, stays."""
         self.stop_listening()
         self.busy, self.capture, self.opened_by, self.partner = False, None, None, None
-        self.drive = None
+        self.drive, self.has_called = None, False
         self.reset()
 
     # snapshot
@@ -333,7 +314,7 @@ class Session:
             "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
             "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
             "partner": self.partner, "drive": self.drive, "echo_line_end": self.echo_line_end,
-            "typed_ahead": self.typed_ahead,
+            "typed_ahead": self.typed_ahead, "has_called": self.has_called,
         }  # fmt: skip
 
     def restore(self, state: dict[str, Any]) -> None:

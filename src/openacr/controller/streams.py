@@ -92,7 +92,10 @@ class Streams:
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
         stream.terminal.receive_data(data, tick)
+        joins = stream.session is not None and stream.session.partner is not None
         self._pump(stream)
+        if joins:
+            self.settle()  # what was typed goes to the other channel
 
     def settle(self) -> None:
         """Hand over what sessions have to say, and lines that were waiting for an answer."""

@@ -1,0 +1,75 @@
+"""What a channel shows of itself in parameters and flags, and keeps there: ECHO, MODE, counts."""
+
+from __future__ import annotations
+
+from openacr.map.memory import Memory
+from openacr.map.numbers import (
+    P_COM1_CHARACTER_BUFFER_COUNT,
+    P_COM2_CHARACTER_BUFFER_COUNT,
+    P_DPCB_CHARACTER_BUFFER_COUNT,
+    P_FIFO_CHARACTER_BUFFER_COUNT,
+)
+
+ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
+LARGEST = 0x7FFFFFFF
+ECHO_BITS, MODE_BITS = 7, 3
+MODE_SHIFT = 20  # of the two flags Control Prefixing and High Bit Stripping
+COUNTS = {  # characters and lines waiting, free space, lines executed
+    "FIFO": P_FIFO_CHARACTER_BUFFER_COUNT,
+    "COM1": P_COM1_CHARACTER_BUFFER_COUNT,
+    "COM2": P_COM2_CHARACTER_BUFFER_COUNT,
+    "DPCB": P_DPCB_CHARACTER_BUFFER_COUNT,
+}
+FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
+
+
+class ChannelWords:
+    """The words of one channel; a network stream has none and keeps its modes here."""
+
+    def __init__(self, name: str, memory: Memory) -> None:
+        self._memory = memory
+        self._counts = COUNTS.get(name)
+        self._flags = FLAG_WORDS.get(name)
+        self._own = ECHO_CHARACTERS
+
+    @property
+    def echo(self) -> int:
+        """ECHO mode: 1 echo characters, 2 no error reports, 4 no prompt."""
+        return self._word & ECHO_BITS
+
+    @echo.setter
+    def echo(self, mode: int) -> None:
+        self._word = self._word & ~ECHO_BITS | mode
+
+    @property
+    def mode(self) -> int:
+        """MODE of binary data: 1 control prefixing, 2 high bit stripping."""
+        return self._word >> MODE_SHIFT & MODE_BITS
+
+    @mode.setter
+    def mode(self, mode: int) -> None:
+        self._word = self._word & ~(MODE_BITS << MODE_SHIFT) | mode << MODE_SHIFT
+
+    @property
+    def _word(self) -> int:
+        return self._own if self._flags is None else self._memory.I[self._flags]
+
+    @_word.setter
+    def _word(self, word: int) -> None:
+        if self._flags is None:
+            self._own = word
+        else:
+            self._memory.I[self._flags] = word
+
+    def count_line(self) -> None:
+        """One more line has been executed."""
+        if self._counts is not None:
+            row = self._counts + 3
+            self._memory.I[row] = (self._memory.I[row] + 1) & LARGEST
+
+    def show_waiting(self, characters: int, lines: int, size: int) -> None:
+        """Show what waits in the buffer of the channel, and how much more it takes."""
+        if self._counts is not None:
+            shown = characters, lines, max(size - characters, 0)
+            for row, value in enumerate(shown, self._counts):
+                self._memory.I[row] = value
