@@ -17,6 +17,7 @@ ORDER = (
     "startup",
     "terminal_latency",
     "packets",
+    "pollers",
     "compensate",
     "sysvar",
     "moves",

@@ -1,9 +1,11 @@
 """A served card and a bare echo server, each a process of its own."""
 
+import os
 import re
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -84,10 +86,18 @@ class Served:
 
 
 @contextmanager
-def served_card() -> Iterator[Served]:
+def served_card(*options: str) -> Iterator[Served]:
     """A card of eight modelled axes in real time."""
     command = [sys.executable, "-c", SERVE, "serve", "--ascii-port", "0", "--binary-port", "0"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command += options
+    kept = tempfile.TemporaryDirectory()  # the journal, which is part of what is measured
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"OPENACR_JOURNALS": kept.name},
+    )
     if process.stdout is None:
         raise RuntimeError("no output to read")
     found = re.fullmatch(r"listening ascii=.*:(\d+) binary=.*:(\d+)\n", process.stdout.readline())
@@ -99,6 +109,7 @@ def served_card() -> Iterator[Served]:
     finally:
         process.terminate()
         served.pacing = process.communicate(timeout=WAIT_S)[1]
+        kept.cleanup()
 
 
 @contextmanager

@@ -9,6 +9,7 @@ from tests.io.served import serving
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.controller.ring import journals
 
 BLINK = "DIM P(2)\nPROG0\nPROGRAM\nPBOOT\n_L\nP0 = P0 + 1\nPRINT P0\nDWL 0.3\nGOTO L\nENDP\n"
 
@@ -126,7 +127,7 @@ def test_a_killed_card_has_its_data_and_its_last_minutes(tmp_path: Path) -> None
         host.ask("AXIS0 PPU 77")
         host.ask("ESAVE")
         host.ask("PBOOT")
-        (journal,) = (data / "journal").iterdir()
+        (journal,) = journals(data / "journal")
         await_digest(journal)
         assert int(host.value("?P1")) > 5
         served.process.kill()
@@ -137,7 +138,36 @@ def test_a_killed_card_has_its_data_and_its_last_minutes(tmp_path: Path) -> None
         assert host.value("AXIS0 PPU") == "77"
         assert host.value("?BIT1024") == "-1"  # PBOOT
         assert served.end()[0] == 0
-    assert len(list((data / "journal").iterdir())) == 2
+    assert len(journals(data / "journal")) == 2
+
+
+def test_a_served_card_keeps_its_last_minutes_without_being_asked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENACR_JOURNALS", str(tmp_path))
+    assert "no journals" in openacr("replay").output
+    with serving() as served, served.call() as host:
+        host.ask("?1")
+        assert served.end() == (0, "")
+    (journal,) = journals(tmp_path / "1")
+    assert str(journal) in openacr("replay").output.replace("\n", "")
+    result = openacr("replay", journal, "--check")
+    assert result.exit_code == 0, result.output
+    with serving("--no-journal") as served:
+        assert served.end() == (0, "")
+    assert journals(tmp_path / "1") == [journal]
+
+
+def test_a_card_is_served_where_no_journal_can_be_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("OPENACR_JOURNALS", str(tmp_path / "file"))
+    with serving() as served, served.call() as host:
+        assert host.value("?2") == "2"
+        code, error = served.end()
+    assert code == 0
+    assert "no journal is kept" in error
 
 
 def test_a_project_does_not_overwrite_what_the_card_has(blink: Path, tmp_path: Path) -> None:

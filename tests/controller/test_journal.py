@@ -12,9 +12,10 @@ from msgspec.structs import replace as replace_world
 from tests.controller.hosts import Host, at_axes, connected, store
 
 from openacr.controller import Controller
-from openacr.controller.journal import Entered, Recorder, read_journal
+from openacr.controller.journal import Entered, read_journal
+from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
-from openacr.controller.ring import Ring
+from openacr.controller.ring import Ring, journals, own_ring
 from openacr.errors import StoreError
 from openacr.plant.network_schema import Canopen, Node
 from openacr.plant.schema import default_world
@@ -222,11 +223,11 @@ def test_a_full_disk_ends_the_journal_and_not_the_card(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="No space left"):
         Recorder(card, full)
     card.recorder = recorder = Recorder(card, tmp_path / "a")
-    recorder._file.close()
-    recorder._file = full.open("wb", buffering=0)
+    recorder.records._file.close()
+    recorder.records._file = full.open("wb", buffering=0)
     assert card.send("?1\r").endswith("1\r\nSYS>")
-    assert "No space left" in recorder.failure
     card.close()
+    assert "No space left" in recorder.failure
 
 
 def test_watching_does_not_change_the_card(tmp_path: Path) -> None:
@@ -258,9 +259,55 @@ def test_a_ring_keeps_the_last_stretches_and_each_can_be_replayed(tmp_path: Path
             card.advance(seconds=1.1)
             host.send("\rLISTEN\r")
         card.close()
-    names = sorted(path.name for path in folder.iterdir())
+    names = [path.name for path in journals(folder)]
     assert names == ["000006.journal", "000007.journal", "000008.journal"]
     for name in names:
         again = Replay(read_journal(folder / name))
         again.run()
         assert (again.difference, again.equal >= 1) == (None, True)
+
+
+def test_a_ring_is_bounded_also_where_hosts_send_very_much(tmp_path: Path) -> None:
+    card = Controller()
+    host = Host(card, StreamKind.PACKETS)
+    card.recorder = Ring(card, tmp_path, most_bytes=100_000, files=2)
+    for _ in range(6):
+        for _ in range(400):
+            host.send(b"\x00\x30\x02\xff" * 50)
+        card.advance(seconds=1.0)
+    card.close()
+    kept = journals(tmp_path)
+    assert [path.stem for path in kept] == ["000006", "000007"]
+    assert sum(path.stat().st_size for path in kept) < 1_000_000
+    again = Replay(read_journal(kept[0]))
+    again.run()
+    assert (again.difference, again.equal >= 1) == (None, True)
+
+
+def test_a_folder_that_goes_away_leaves_the_card_without_a_journal_for_a_while(
+    tmp_path: Path,
+) -> None:
+    card = Controller()
+    folder = tmp_path / "ring"
+    card.recorder = Ring(card, folder, stretch_s=2.0)
+    folder.rename(tmp_path / "away")
+    card.advance(seconds=3.1)
+    assert card.send("?1\r").endswith("1\r\nSYS>")
+    folder.mkdir()
+    card.advance(seconds=3.0)
+    card.close()
+    assert journals(folder)
+
+
+def test_cards_that_have_no_folder_of_their_own_do_not_meet(tmp_path: Path) -> None:
+    one, two = Controller(), Controller()
+    one.recorder, two.recorder = own_ring(one, tmp_path), own_ring(two, tmp_path)
+    with pytest.raises(StoreError, match="in use by another card"):
+        Ring(Controller(), tmp_path / "1")
+    one.close()
+    three = Controller()
+    three.recorder = own_ring(three, tmp_path)
+    two.close()
+    three.close()
+    counts = [len(journals(tmp_path / name)) for name in ("1", "2")]
+    assert counts == [2, 1]

@@ -18,7 +18,8 @@ from tests.network.rig import (
 )
 
 from openacr.controller import Controller
-from openacr.controller.journal import Recorder, read_journal
+from openacr.controller.journal import read_journal
+from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 
 SETTINGS = (32768, 32769, 32770, 32771, 32772, *NODE_ID)

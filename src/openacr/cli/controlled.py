@@ -11,7 +11,7 @@ from openacr.cli import card_view
 from openacr.cli.plots import AxisCurves, BitCurve, Curves
 from openacr.cli.report import AxisReport
 from openacr.controller import Controller
-from openacr.controller.journal import Recorder
+from openacr.controller.recorder import Recorder
 from openacr.engine.watches import WATCHES
 from openacr.errors import SourceError, UserError
 from openacr.map.memory import Memory

@@ -17,8 +17,9 @@ DIFFERS = 1
 
 def replay(
     journal: Annotated[
-        Path, typer.Argument(help="Journal of `openacr run --journal` or of `openacr serve`.")
-    ],
+        Path | None,
+        typer.Argument(help="Journal of `openacr run` or `openacr serve`; default: list those."),
+    ] = None,
     until: Annotated[
         float | None,
         typer.Option(metavar="SECONDS", help="Stop so long after the beginning of the journal."),
@@ -30,10 +31,16 @@ def replay(
     """Replay a journal: the same inputs at the same ticks, the same states.
 
     Shows what programs print and, at the end, the state of the card. With --check it only
-    says whether every digest of the journal was met again.
+    says whether every digest of the journal was met again. Without a name it lists the
+    journals that served cards have left.
     """
     if until is not None and not 0.0 <= until < float("inf"):
         raise UserError(f"--until {until:g}: give a number of seconds, 0 or more")
+    if journal is None:
+        from openacr.cli.journals import listing
+
+        typer.echo(listing())
+        return
     from openacr.controller.journal import read_journal
     from openacr.controller.replay import Replay
 

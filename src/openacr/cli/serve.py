@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.errors import UserError
+from openacr.errors import StoreError, UserError
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
@@ -50,16 +50,20 @@ def serve(
         Path | None,
         typer.Option(help="Folder for the last minutes, to replay; default: in that of --data."),
     ] = None,
+    no_journal: Annotated[
+        bool, typer.Option("--no-journal", help="Keep no journal of the last minutes.")
+    ] = False,
 ) -> None:
     """Run a card in real time and let hosts talk to it over TCP and serial lines.
 
-    With --data saved parameters, user flash and battery-backed memory outlast the process,
-    and the journal of the last minutes can be replayed with `openacr replay`.
+    With --data saved parameters, user flash and battery-backed memory outlast the process.
+    The journal of the last minutes can be replayed with `openacr replay`.
     """
     guests = _guests(host, allow, is_open=insecure)
     card = _load(project, data)
     try:
-        _keep_journal(card, journal or (data / "journal" if data else None))
+        if not no_journal:
+            _keep_journal(card, journal or (data / "journal" if data else None))
         ports = Ports(host, ascii_port, binary_port, serial, _line(card, baud))
         asyncio.run(serve_card(card, ports, speed, guests))
     finally:
@@ -104,10 +108,17 @@ def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
 
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
-    if folder is not None:
-        from openacr.controller.ring import Ring
+    """Keep the last minutes in a folder, else in one of the user's that no other card uses."""
+    from openacr.cli.journals import ring_root
+    from openacr.controller.ring import Ring, own_ring
 
+    if folder is not None:
         card.recorder = Ring(card, folder)
+        return
+    try:
+        card.recorder = own_ring(card, ring_root())
+    except StoreError as failure:
+        log.warning("no journal is kept: %s", failure)
 
 
 def _load(path: Path | None, data: Path | None) -> "Controller":

@@ -215,6 +215,13 @@ class Controller(Running):
         give_orders(self.memory, orders)
         return digest
 
+    def image(self) -> bytes:
+        """A copy of the state that `digest` speaks of."""
+        orders = take_orders(self.memory)
+        image = self.memory.snapshot()
+        give_orders(self.memory, orders)
+        return image
+
     # snapshots
 
     def snapshot(self) -> snapshots.Snapshot:

@@ -16,22 +16,19 @@ A journal file is text, one record per line:
     [tick, "digest", fingerprint]           every simulated second
     [tick, "end", fingerprint]              the end of a journal that was closed
 
-Ticks count all the card has lived, restarts included. Records are written whole and at
-once; a last line that was cut off in the middle is left out by the reader.
+Ticks count all the card has lived, restarts included. A last line that was cut off in the
+middle is left out by the reader.
 """
 
 from __future__ import annotations
 
 import json
-import logging
-from base64 import b64decode, b64encode
+from base64 import b64decode
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from importlib.metadata import version
-from io import FileIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 
@@ -39,13 +36,7 @@ from openacr.controller import snapshot as snapshots
 from openacr.errors import StoreError
 from openacr.plant import schema
 
-if TYPE_CHECKING:
-    from openacr.controller.controller import Controller
-
-log = logging.getLogger(__name__)
-
 MAGIC = b"openacr journal 1\n"
-DIGEST_EVERY_S = 1.0
 
 
 class Entered(StrEnum):
@@ -125,73 +116,14 @@ class Journal:
         return snapshots.decode(b64decode(self.header.snapshot))
 
 
-class Recorder:
-    """Writes the journal of a card from now on, until `close`.
-
-    When the disk is full the journal ends with its last whole record and the card goes on.
-    """
-
-    def __init__(
-        self, card: Controller, path: Path, *, project: str = "", fingerprint: str = ""
-    ) -> None:
-        self._card = card
-        self.path = path
-        self.failure = ""  # why nothing is written any more
-        self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
-        self.next_tk = card.lived_tk + self.every_tk
-        header = Header(
-            version("openacr"),
-            snapshots.layout(),
-            card.model.name,
-            card.world,
-            card.lived_tk,
-            card.period_s,
-            card.digest(),
-            self.every_tk,
-            b64encode(snapshots.encode(card.snapshot())).decode(),
-            project,
-            fingerprint,
-        )
-        self._file = _begun(path, MAGIC + msgspec.json.encode(header) + b"\n")
-
-    def note(self, entry: JournalEntry) -> None:
-        """Write one entry."""
-        if self.failure:
-            return
-        try:
-            self._file.write(json.dumps(_record(entry)).encode() + b"\n")
-        except OSError as failure:  # the card goes on
-            self.failure = f"{self.path} is not complete: {failure.strerror}"
-            log.warning("%s", self.failure)
-
-    def mark(self) -> None:
-        """Write the digest that is due."""
-        card = self._card
-        self.note(JournalEntry(card.lived_tk, Entered.DIGEST, text=card.digest()))
-        self.next_tk = card.lived_tk + self.every_tk
-
-    def close(self) -> None:
-        """Write the last digest and close the file."""
-        card = self._card
-        self.note(JournalEntry(card.lived_tk, Entered.END, text=card.digest()))
-        self._file.close()
-
-
-def _begun(path: Path, head: bytes) -> FileIO:
-    """A new file that begins with these bytes; what is written to it is not held back."""
-    try:
-        file = path.open("wb", buffering=0)
-        try:
-            file.write(head)
-        except OSError:
-            file.close()
-            raise
-    except OSError as failure:
-        raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
-    return file
-
-
 # records
+
+
+def record_of(entry: JournalEntry) -> bytes:
+    """The line of an entry."""
+    if entry.what is Entered.BYTES:  # thousands a second
+        return msgspec.json.encode((entry.tick, "bytes", entry.number, entry.text)) + b"\n"
+    return json.dumps(_record(entry)).encode() + b"\n"
 
 
 def _record(entry: JournalEntry) -> list[Any]:
@@ -201,8 +133,6 @@ def _record(entry: JournalEntry) -> list[Any]:
     head.append(entry.number)
     if entry.what is Entered.OPEN:
         return [*head, entry.text, entry.name]
-    if entry.what is Entered.BYTES:
-        return [*head, entry.text]
     if entry.what in (Entered.CLOSE, Entered.KEY):
         return head
     return [*head, entry.value]

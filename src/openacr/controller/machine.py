@@ -16,9 +16,10 @@ from openacr.basic.parser import join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.system import System
-from openacr.controller.journal import Entered, JournalEntry, Recorder
+from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.packets import PacketHost
 from openacr.controller.persistence import Persistence
+from openacr.controller.recorder import Recorder
 from openacr.controller.ring import Ring
 from openacr.controller.streams import Streams
 from openacr.controller.views import Bits, Parameters

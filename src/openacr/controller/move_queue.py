@@ -4,8 +4,8 @@ A packet is not answered, so nothing may be lost: what does not fit waits here i
 of arrival, and the engine comes back in the tick in which a buffer has room again. While
 MOST moves of a master wait, nothing more is read from streams that sent some of them: these
 senders are held back by their transport, and nobody else is. Until then packets and control
-keys that come behind waiting moves act at once. A refused move (killed, at a limit) takes those behind it along, since they would
-lead from the wrong place.
+keys that come behind waiting moves act at once. A refused move (killed, at a limit) takes
+those behind it along, since they would lead from the wrong place.
 """
 
 import logging

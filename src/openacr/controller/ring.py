@@ -2,66 +2,112 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from openacr.controller.journal import JournalEntry, Recorder
+from openacr.controller.journal import JournalEntry
+from openacr.controller.recorder import Recorder
 from openacr.errors import StoreError
+from openacr.store.lock import FolderLock
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
 
+log = logging.getLogger(__name__)
+
 SUFFIX = ".journal"
+PLACES = 64  # cards that are served on one machine at once
 
 
 class Ring:
     """Keeps the last minutes of a card in a folder: a file for each stretch of time.
 
-    Every file begins with a snapshot, so each can be replayed without those before it.
+    Every file begins with a snapshot, so each can be replayed without those before it. A
+    file is also full when hosts have sent very much. A file that cannot be written is left
+    out; the card goes on.
     """
 
     def __init__(
-        self, card: Controller, folder: Path, *, stretch_s: float = 300.0, files: int = 3
+        self,
+        card: Controller,
+        folder: Path,
+        *,
+        stretch_s: float = 300.0,
+        files: int = 3,
+        most_bytes: int = 1 << 25,
     ) -> None:
         self._card, self._folder, self._files = card, folder, files
         self._stretch_tk = round(stretch_s / card.period_s)
+        self._most_bytes = most_bytes
+        self._lock = FolderLock(folder)
+        self._number = max(map(_number_of, journals(folder)), default=0)
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as failure:
-            raise StoreError(f"{folder} cannot be used: {failure.strerror}") from None
-        self._number = max(map(_number_of, self._paths()), default=0)
-        self._recorder = self._begin()
+            self._recorder: Recorder | None = self._begin()
+        except StoreError:
+            self._lock.release()
+            raise
 
     @property
     def next_tk(self) -> int:
         """When the next digest is due."""
-        return self._recorder.next_tk
+        return self._end_tk if self._recorder is None else self._recorder.next_tk
 
     def note(self, entry: JournalEntry) -> None:
-        """Write one entry."""
-        self._recorder.note(entry)
+        """Enter something."""
+        if self._recorder is not None:
+            self._recorder.note(entry)
+
+    def flush(self) -> None:
+        """Write what has been entered."""
+        if self._recorder is not None:
+            self._recorder.flush()
 
     def mark(self) -> None:
         """Write the digest that is due; when a stretch is over, begin the next file."""
-        self._recorder.mark()
-        if self._card.lived_tk >= self._end_tk:
-            self._recorder.close()
+        recorder = self._recorder
+        is_full = recorder is not None and recorder.size_bytes > self._most_bytes
+        if self._card.lived_tk < self._end_tk and not is_full:
+            if recorder is not None:
+                recorder.mark()
+            return
+        if recorder is not None:
+            recorder.end()
+        try:
             self._recorder = self._begin()
+        except StoreError as failure:
+            log.warning("no journal for the next minutes: %s", failure)
+            self._recorder = None
 
     def close(self) -> None:
-        """Close the present file."""
-        self._recorder.close()
+        """Close the present file and leave the folder to others."""
+        if self._recorder is not None:
+            self._recorder.close()
+        self._lock.release()
 
     def _begin(self) -> Recorder:
         self._number += 1
-        for path in self._paths()[: -self._files + 1 or None]:
-            path.unlink(missing_ok=True)
         self._end_tk = self._card.lived_tk + self._stretch_tk
+        for path in journals(self._folder)[: -self._files + 1 or None]:
+            path.unlink(missing_ok=True)
         return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}")
 
-    def _paths(self) -> list[Path]:
-        found = (path for path in self._folder.glob(f"*{SUFFIX}") if _number_of(path))
-        return sorted(found, key=_number_of)
+
+def own_ring(card: Controller, folder: Path) -> Ring:
+    """A ring in the first folder `folder/1`, `folder/2`, ... that no other card uses."""
+    failure = StoreError(f"{folder} has no free place")
+    for place in range(1, PLACES + 1):
+        try:
+            return Ring(card, folder / str(place))
+        except StoreError as taken:
+            failure = taken
+    raise failure
+
+
+def journals(folder: Path) -> list[Path]:
+    """The files of a ring, oldest first."""
+    found = (path for path in folder.glob(f"*{SUFFIX}") if _number_of(path))
+    return sorted(found, key=_number_of)
 
 
 def _number_of(path: Path) -> int:

@@ -77,6 +77,7 @@ class Running(Machine):
         while True:
             step = ticks
             if self.recorder is not None:
+                self.recorder.flush()
                 step = min(ticks, self.recorder.next_tk - self.lived_tk)
             before = self.lived_tk
             self._set_engine(ENGI_TICKS_LEFT, step)

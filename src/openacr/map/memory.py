@@ -99,7 +99,12 @@ class Memory:
 
     def digest(self) -> str:
         """Fingerprint of the state: equal digests, equal cards."""
-        return blake2b(self._buffer, digest_size=16).hexdigest()
+        return digest_of(self._buffer)
+
+
+def digest_of(image: bytes | memoryview) -> str:
+    """Fingerprint of the state in a snapshot."""
+    return blake2b(image, digest_size=16).hexdigest()
 
 
 def long_of(value: float) -> int:

@@ -2,5 +2,6 @@
 
 from openacr.store.database import Database
 from openacr.store.images import Image, Images, Scratch
+from openacr.store.lock import FolderLock
 
-__all__ = ["Database", "Image", "Images", "Scratch"]
+__all__ = ["Database", "FolderLock", "Image", "Images", "Scratch"]

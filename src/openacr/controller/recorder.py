@@ -1,0 +1,175 @@
+"""Writes the journal of a card while it lives.
+
+A card in real time has no milliseconds to spare for a fingerprint of its memory or for a
+compressed snapshot: of both only a copy is taken at the tick, the rest is done in a thread.
+Records keep their order; those behind an unfinished one wait for it. What has entered is
+written together whenever time passes, so a process that is killed loses the last tick.
+"""
+
+from __future__ import annotations
+
+import logging
+from base64 import b64encode
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from openacr.controller import snapshot as snapshots
+from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
+from openacr.errors import StoreError
+from openacr.map.memory import digest_of
+
+if TYPE_CHECKING:
+    from openacr.controller.controller import Controller
+
+log = logging.getLogger(__name__)
+
+DIGEST_EVERY_S = 1.0
+TOGETHER_BYTES = 1 << 16
+_WORKER = ThreadPoolExecutor(1, thread_name_prefix="journal")
+
+
+class Records:
+    """A file of records, in their order, some of which are still being worked out.
+
+    When the disk is full the file ends with its last whole record and the card goes on.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.failure = ""  # why nothing is written any more
+        self.size_bytes = 0
+        self._waiting: deque[bytes | Future[bytes]] = deque()
+        self._waiting_bytes = 0
+        try:
+            self._file = path.open("wb", buffering=0)
+        except OSError as failure:
+            raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
+        self.put(MAGIC)
+        self.flush()
+        if self.failure:
+            self._file.close()
+            raise StoreError(f"{path} cannot be written: {self.failure}")
+
+    def put(self, record: bytes) -> None:
+        """Append one record."""
+        self._waiting.append(record)
+        self._waiting_bytes += len(record)
+        if self._waiting_bytes > TOGETHER_BYTES:
+            self.flush()
+
+    def work_out(self, record: Callable[[], bytes]) -> None:
+        """Append a record that a thread works out."""
+        self._waiting.append(_WORKER.submit(record))
+
+    def flush(self, *, waits: bool = False) -> None:
+        """Write what is ready, or all there is."""
+        ready = bytearray()
+        while self._waiting and (waits or _is_ready(self._waiting[0])):
+            record = self._waiting.popleft()
+            ready += record if isinstance(record, bytes) else record.result()
+        self._waiting_bytes = 0
+        if ready and not self.failure:
+            self._write(ready)
+
+    def _write(self, data: bytearray) -> None:
+        rest = memoryview(data)
+        try:
+            while rest:
+                rest = rest[self._file.write(rest) :]
+        except OSError as failure:  # the card goes on
+            self.failure = failure.strerror or str(failure)
+            log.warning("%s is not complete: %s", self.path, self.failure)
+        self.size_bytes += len(data)
+
+    def end(self) -> None:
+        """Close the file as soon as everything is written; nothing is waited for."""
+        self.flush()
+        _WORKER.submit(self.close)
+
+    def close(self) -> None:
+        """Write everything and close the file."""
+        self.flush(waits=True)
+        self._file.close()
+
+
+def _is_ready(record: bytes | Future[bytes]) -> bool:
+    return isinstance(record, bytes) or record.done()
+
+
+class Recorder:
+    """Writes the journal of a card from now on, until `close`."""
+
+    def __init__(
+        self, card: Controller, path: Path, *, project: str = "", fingerprint: str = ""
+    ) -> None:
+        self._card = card
+        self.records = Records(path)
+        self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
+        self.next_tk = card.lived_tk + self.every_tk
+        image, kept = card.image(), card.snapshot()
+        model, world, period_s = card.model.name, card.world, card.period_s
+        tick, every_tk = card.lived_tk, self.every_tk
+
+        def header() -> bytes:
+            found = Header(
+                version("openacr"),
+                snapshots.layout(),
+                model,
+                world,
+                tick,
+                period_s,
+                digest_of(image),
+                every_tk,
+                b64encode(snapshots.encode(kept)).decode(),
+                project,
+                fingerprint,
+            )
+            return msgspec.json.encode(found) + b"\n"
+
+        self.records.work_out(header)
+
+    @property
+    def failure(self) -> str:
+        """Why nothing is written any more."""
+        return self.records.failure
+
+    @property
+    def size_bytes(self) -> int:
+        """Length of the file."""
+        return self.records.size_bytes
+
+    def note(self, entry: JournalEntry) -> None:
+        """Enter something; written before the card lives on."""
+        if not self.failure:
+            self.records.put(record_of(entry))
+
+    def flush(self) -> None:
+        """Write what has been entered."""
+        self.records.flush()
+
+    def mark(self) -> None:
+        """Write the digest that is due."""
+        self._note_digest(Entered.DIGEST)
+        self.next_tk = self._card.lived_tk + self.every_tk
+
+    def _note_digest(self, what: Entered) -> None:
+        if self.failure:
+            return
+        tick, image = self._card.lived_tk, self._card.image()
+        self.records.work_out(lambda: record_of(JournalEntry(tick, what, text=digest_of(image))))
+
+    def end(self) -> None:
+        """Write the last digest and close the file, as soon as a thread has done so."""
+        self._note_digest(Entered.END)
+        self.records.end()
+
+    def close(self) -> None:
+        """Write the last digest and close the file."""
+        self._note_digest(Entered.END)
+        self.records.close()

@@ -1,0 +1,35 @@
+"""One process at a time owns a folder; the lock ends with the process, however that ends."""
+
+from __future__ import annotations
+
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+from openacr.errors import StoreError
+
+FILE_NAME = "lock"
+
+
+class FolderLock:
+    """The ownership of a folder, until `release`; StoreError if another process has it."""
+
+    def __init__(self, folder: Path) -> None:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            # A database locks its file on every system, and nothing stays locked by a kill.
+            self._connection = sqlite3.connect(
+                folder / FILE_NAME, isolation_level=None, timeout=0.0, check_same_thread=False
+            )
+        except (OSError, sqlite3.Error) as failure:
+            raise StoreError(f"{folder} cannot be used: {failure}") from None
+        try:
+            self._connection.execute("BEGIN EXCLUSIVE")
+        except sqlite3.Error:
+            self._connection.close()
+            raise StoreError(f"{folder} is in use by another card") from None
+
+    def release(self) -> None:
+        """Let others have the folder."""
+        with closing(self._connection):
+            self._connection.rollback()
