@@ -359,3 +359,38 @@ def test_a_held_marker_seek_goes_on_with_cycle_start(tick: int) -> None:
     assert rig.bit(CAPTURED)
     assert abs(rig.zero_raw - rig.count(0.3)) <= 1
     assert abs(rig.machine_u - 0.3) < 2 / COUNTS
+
+
+NARROW = """
+[[axis]]
+number = 0
+counts_per_rev = 4000
+initial = {start}
+marker = 0.3
+drive = {{ mode = "ideal", revs_per_s_per_volt = 25.0, lag_s = 0.001 }}
+home = {{ between = [5.0, 5.002] }}
+positive_limit = {{ at = 12.0 }}
+negative_limit = {{ at = -2.0 }}
+"""
+
+
+@pytest.mark.parametrize("negative_edge", [False, True])
+@pytest.mark.parametrize("negative_final", [False, True])
+@pytest.mark.parametrize(("way", "start"), [(1, 0.0), (-1, 9.0)])
+def test_a_switch_narrower_than_a_servo_period_is_found_to_the_count(
+    way: int, start: float, negative_edge: bool, negative_final: bool
+) -> None:
+    """At 40 units/s a period is 0.02 units: the switch of 0.002 is never seen closed."""
+    rig = Home(start, NARROW.format(start=start), vel=40.0, acc=400.0, dec=400.0)
+    rig.F[at.AXF_BASE + at.AXF_HOMVF_UPS] = 10.0
+    options(rig, negative_edge, negative_final).home(way)
+    assert (rig.bit(FOUND), rig.bit(FAILED)) == (True, False)
+    edge = 5.0 if negative_edge else 5.002
+    assert rig.zero_raw - rig.count(0.0) == pytest.approx(edge * COUNTS, abs=1.0)
+
+
+def test_without_backup_a_switch_crossed_within_a_period_stops_the_search() -> None:
+    rig = Home(0.0, NARROW.format(start=0.0), vel=40.0, acc=400.0, dec=400.0)
+    rig.home(1)
+    assert rig.bit(FOUND)
+    assert rig.machine_u == pytest.approx(5.0 + 40.0**2 / 800, abs=0.2)  # and its lag

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
-from tests.kernel.rig import Reals, Rig, T, acceleration, examples, noise, velocity
+from tests.kernel.rig import Reals, Rig, T, acceleration, examples, jerk, noise, velocity
 
 from openacr.motion import moves
 
@@ -212,3 +212,55 @@ def disturbed(rig: Rig, shape: dict[str, float], data: st.DataObject | None) -> 
         else:
             moves.release(rig.card, 0)
     return np.array([*positions[:-1], *rig.record(limit=400_000)])
+
+
+END_RAMP = 514
+
+
+@pytest.mark.parametrize("jrk", [0.0, 1000.0])
+@pytest.mark.parametrize("fov", [0.1, 0.5, 0.95, 2.0])
+def test_an_override_changed_in_the_end_ramp_acts_and_the_end_stays_exact(
+    jrk: float, fov: float
+) -> None:
+    """A lower feed is reached with DEC, a higher one as far as the way left allows."""
+    times = []
+    for override in (1.0, fov):
+        rig = Rig(ppu=[1000.0]).master(acc=100, dec=200, stp=100, jrk=jrk, vel=20)
+        rig.move(10.0)
+        positions = [0.0]
+        while not rig.bit(END_RAMP) or rig.path_velocity > 12.0:
+            positions.append(rig.ticks().real("psp_cnt"))
+        rig.master(fov=override)
+        rest = rig.record()
+        units = np.array([*positions, *rest[1:]]) / 1000
+        assert units[-1] == 10.0
+        assert np.all(np.diff(units) >= -noise(units, 0))
+        assert np.abs(acceleration(units)).max() <= 200 * (1 + 1e-6)
+        if jrk:
+            assert np.abs(jerk(units)).max() <= jrk * (1 + 1e-5) + noise(units, 3)
+        times.append(len(units))
+        if override < 0.5:
+            late = velocity(units[-40:])
+            assert late.max() <= 20 * override * (1 + 1e-9)
+    if fov < 0.2 or (fov < 0.6 and not jrk):
+        assert times[1] > times[0]
+    elif not jrk:
+        assert times[1] == pytest.approx(times[0], abs=1)
+
+
+def test_a_hold_in_a_soft_end_ramp_comes_to_rest_before_the_target() -> None:
+    rig = Rig(ppu=[1000.0]).master(acc=100, dec=400, stp=50, vel=20)
+    rig.move(10.0)
+    positions = [0.0]
+    while not rig.bit(END_RAMP):
+        positions.append(rig.ticks().real("psp_cnt"))
+    moves.hold(rig.card, 0)
+    for _ in range(400):
+        positions.append(rig.ticks().real("psp_cnt"))
+    assert rig.bit(519)
+    rested = positions[-1] / 1000
+    assert rested == pytest.approx(10.0 - 20.0**2 / 100 + 20.0**2 / 800, abs=0.02)
+    moves.release(rig.card, 0)
+    units = np.array([*positions, *rig.record()[1:]]) / 1000
+    assert units[-1] == 10.0
+    assert np.abs(acceleration(units)).max() <= 400 * (1 + 1e-6)

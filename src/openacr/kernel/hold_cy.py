@@ -132,8 +132,8 @@ def master_settle(F: F64, I: I32, S: F32, m: int) -> None:
 def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     """Slow the path to rest with DEC (STP if DEC is 0); the move itself stays loaded.
 
-    Where the end ramp of the move is already running, or the ramp would pass a target at
-    which the path stops anyway, the move simply ends at its target.
+    Where an end ramp no softer than that is already running, or the ramp would pass a target
+    at which the path stops anyway, the move simply ends at its target.
     """
     i: int = MSI_BASE + m * MSI_STRIDE
     I[i + MSI_HOLD] = FEEDHOLDING
@@ -141,11 +141,11 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     if not I[i + MSI_MOVING]:
         return
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
-    if master_stopping(I, m):
-        return
     rate: float = F[q + MQF_DEC_UPS2]
     if rate <= 0.0:
         rate = F[q + MQF_STP_UPS2]
+    if master_stopping(I, m) and (rate <= F[q + MQF_STP_UPS2] or ends_early(I, m)):
+        return
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]
     flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_active(I, m)
@@ -167,12 +167,18 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
     if not I[i + MSI_MOVING] or master_stopping(I, m):
         return
-    passing: bool = I[i + MSI_HSINT_PHASE] == HSINT_PASSING
-    if I[i + MSI_SEEK_PHASE] == SEEK_STOPPING or passing or I[i + MSI_CUT]:
+    if ends_early(I, m):
         # Has found what it looked for, or is to go no farther: it ends here.
         profile_stop(F, I, m, F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE], 0.0, 0.0, STOPPING)
     else:
         master_plan(F, I, S, m)
+
+
+def ends_early(I: I32, m: int) -> bool:
+    """Whether the present move ends where it comes to rest: it has found what it looked for."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    passing: bool = I[i + MSI_HSINT_PHASE] == HSINT_PASSING
+    return I[i + MSI_SEEK_PHASE] == SEEK_STOPPING or passing or I[i + MSI_CUT] != 0
 
 
 def master_stopping(I: I32, m: int) -> bool:

@@ -53,6 +53,9 @@ from openacr.map.numbers import (
     AXI_HOME_SEARCH,
     AXI_HOME_STATE,
     AXI_STRIDE,
+    PLGI_BASE,
+    PLGI_FALLS,
+    PLGI_RISES,
 )
 from openacr.views import F32, F64, I32
 
@@ -67,6 +70,7 @@ HOME_STOP2 = 7
 
 HARD_LIMIT_HIT = 1
 SOFT_LIMIT_HIT = 2
+INPUTS = 32  # those whose edges within a tick are seen
 SLOW_SHARE = 0.1  # of JOG VEL, where HOMVF is 0
 
 
@@ -170,9 +174,11 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
     now: int = I[AF5_WORD + n] & AF5_HOME_INPUT
     old: int = I[i + AXI_HOME_INPUT_OLD]
     I[i + AXI_HOME_INPUT_OLD] = now
-    if now == old:
+    if now == old and not home_passed(I, n):
         return False
     same: bool = I[i + AXI_HOME_MOVING] == home_edge(I, n)
+    if now == old:  # of the two edges that were met, the one that counts
+        now = 0 if same else AF5_HOME_INPUT
     crossed: bool = now == 0 if same else now != 0
     backup: bool = I[AF5_WORD + n] & AF5_HOME_BACKUP_ENABLE != 0
     state = I[i + AXI_HOME_STATE]
@@ -187,6 +193,13 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
             return True
         home_brake(F, I, S, n, HOME_STOP2)
     return False
+
+
+def home_passed(I: I32, n: int) -> bool:
+    """Whether the home input has changed and changed back within this tick."""
+    number: int = I[AXI_BASE + n * AXI_STRIDE + AXI_HLBIT] + 2
+    both: int = I[PLGI_BASE + PLGI_RISES] & I[PLGI_BASE + PLGI_FALLS]
+    return 0 <= number < INPUTS and (both >> number) & 1 != 0
 
 
 def home_edge_position(F: F64, I: I32, n: int, now: int) -> float:

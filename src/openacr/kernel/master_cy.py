@@ -16,11 +16,11 @@ from openacr.kernel.hold_cy import (
     FEEDHOLDING,
     IN_FEEDHOLD,
     NOT_HELD,
+    ends_early,
     master_at_rest,
     master_drop,
     master_hold,
     master_settle,
-    master_stopping,
 )
 from openacr.kernel.hsint_cy import HSINT_NONE, hsint_begin, hsint_end, hsint_step
 from openacr.kernel.interrupt_cy import cut_end, interrupt_step, move_barred, response_period
@@ -455,9 +455,7 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
     if dirty and not I[MSI_BASE + m * MSI_STRIDE + MSI_CUT]:
         look_refresh(F, I, S, m)
     if (
-        not master_stopping(I, m)
-        and I[MSI_BASE + m * MSI_STRIDE + MSI_SEEK_PHASE] != SEEK_STOPPING
-        and not I[MSI_BASE + m * MSI_STRIDE + MSI_CUT]
+        not ends_early(I, m)
         and master_limit(F, I, S, m) != F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY]
     ):
         master_plan(F, I, S, m)
