@@ -20,9 +20,9 @@ from openacr.client.requests import (
 from openacr.client.session import Session
 from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode
+from openacr.protocol.events import NEED_DATA, ControlKey
 from openacr.protocol.parameter import GetLong
 from openacr.protocol.stream import EchoMode
-from openacr.protocol.terminal import NEED_DATA, ControlKey
 
 PLAIN, QUIET, NO_ECHO = EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0)
 REPLY = bytes.fromhex("00 88 00 30 E8 03 00 00")

@@ -11,10 +11,10 @@ from tests.controller.hosts import Host
 from openacr.controller import Controller
 from openacr.map import numbers as at
 from openacr.protocol.bits import SetBit
+from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Code0, Code1, Code3, Move
 from openacr.protocol.override import FeedrateOverride
 from openacr.protocol.stream import StreamKind
-from openacr.protocol.terminal import ControlKey
 
 IN_MOTION, RAPID_MODES, SPIRAL, BLOCK_SKIP_CHECK, BLOCK_SKIP_INPUT = 516, 2053, 2072, 2048, 2049
 VELOCITY, COUNTER = 8193, 8208

@@ -19,8 +19,8 @@ from openacr.controller.ring import Ring, journals, own_ring
 from openacr.errors import StoreError
 from openacr.plant.network_schema import Canopen, Node
 from openacr.plant.schema import default_world
+from openacr.protocol.events import ControlKey
 from openacr.protocol.stream import StreamKind
-from openacr.protocol.terminal import ControlKey
 
 WITH_A_NODE = replace_world(default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)))
 

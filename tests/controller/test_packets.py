@@ -5,10 +5,18 @@ import struct
 from pathlib import Path
 
 import pytest
-from tests.controller.hosts import Host
+from msgspec.structs import replace
+from tests.controller.hosts import Host, connected
 
 from openacr.controller import Controller
-from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
+from openacr.map.numbers import (
+    MA_BASE,
+    MA_FEEDRATE_OVERRIDE,
+    MA_RAPID_FEEDRATE_OVERRIDE,
+    MA_STRIDE,
+)
+from openacr.models import ACR9040
+from openacr.plant.schema import default_world
 from openacr.protocol.stream import StreamKind
 
 FOV, ROV = MA_BASE + MA_FEEDRATE_OVERRIDE, MA_BASE + MA_RAPID_FEEDRATE_OVERRIDE
@@ -61,6 +69,38 @@ def test_packets_that_set_something_have_no_reply_and_act_at_once(
     assert axes.card.p[row] == value
     axes.after(3000)
     assert axes.ask("?1") == "1"
+
+
+def overridden(*, is_short: bool, packet: str) -> dict[int, float]:
+    """The overrides of masters 0 to 8 that are not 1 any more after a packet."""
+    world = default_world(ACR9040)
+    card = replace(world.card, short_override_packets=is_short)
+    host = connected(model="ACR9040", world=replace(world, card=card))
+    assert host.raw(bytes.fromhex(packet)) == b""
+    return {m: host.card.p[at(m)] for m in range(9) if host.card.p[at(m)] != 1.0}
+
+
+def at(master: int) -> int:
+    return FOV + MA_STRIDE * master
+
+
+@pytest.mark.req("BIN-169")
+def test_a_card_takes_six_byte_overrides_or_eight_byte_ones() -> None:
+    six, eight = "07 08 00 00 00 3F", "07 08 00 00 00 00 00 3F"
+    high = "07 00 00 01 00 00 00 3F"  # behind a zero both forms have eight bytes
+    assert overridden(is_short=True, packet=six) == {3: 0.5}
+    assert overridden(is_short=False, packet=six) == {}
+    assert overridden(is_short=False, packet=eight) == {3: 0.5}
+    assert overridden(is_short=True, packet=eight) != {3: 0.5}
+    assert overridden(is_short=True, packet=high) == {8: 0.5}
+    assert overridden(is_short=False, packet=high) == {8: 0.5}
+    both = "07 05 6D E7 FB 3D 1F 02 00 00 00 3F 00 88 00 30"
+    world = default_world()
+    card = replace(world.card, short_override_packets=True)
+    host = connected(world=replace(world, card=card))
+    assert host.raw(bytes.fromhex(both)) == bytes.fromhex("00 88 00 30 00 00 00 00")
+    assert [host.card.p[at(m)] for m in range(3)] == pytest.approx([0.123, 1.0, 0.123])
+    assert host.card.p[ROV + 256] == 0.5
 
 
 def test_set_and_clear_change_a_flag(axes: Host) -> None:

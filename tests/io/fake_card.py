@@ -7,17 +7,9 @@ lines, `TICK` the tick, anything else `ok`. A data packet is answered by the tic
 from dataclasses import dataclass
 
 from openacr.protocol.data import DataRequest
+from openacr.protocol.events import NEED_DATA, Attention, Control, Escape, Event, Line, Received
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
-from openacr.protocol.terminal import (
-    NEED_DATA,
-    Attention,
-    Control,
-    Escape,
-    Event,
-    Line,
-    Received,
-    Terminal,
-)
+from openacr.protocol.terminal import Terminal
 
 PERIOD_S = 0.0005
 

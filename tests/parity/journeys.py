@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from openacr.controller import Controller
 from openacr.plant.load import parse_world
-from openacr.protocol.terminal import ControlKey
+from openacr.protocol.events import ControlKey
 
 WORLD = """
 [card]

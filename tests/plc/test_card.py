@@ -4,7 +4,7 @@ import pytest
 from tests.controller.hosts import Host
 
 from openacr.controller import Controller
-from openacr.protocol.terminal import ControlKey
+from openacr.protocol.events import ControlKey
 
 EXAMPLE = """\
 10 LD 0

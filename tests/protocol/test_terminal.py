@@ -9,10 +9,7 @@ from hypothesis import strategies as st
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest
 from openacr.protocol.escape import BinaryMode
-from openacr.protocol.move import Move
-from openacr.protocol.parameter import GetLong, SetLong
-from openacr.protocol.stream import EchoMode, StreamKind
-from openacr.protocol.terminal import (
+from openacr.protocol.events import (
     NEED_DATA,
     Attention,
     Control,
@@ -22,9 +19,12 @@ from openacr.protocol.terminal import (
     Line,
     LineTooLong,
     Received,
-    Terminal,
     Typed,
 )
+from openacr.protocol.move import Move
+from openacr.protocol.parameter import GetLong, SetLong
+from openacr.protocol.stream import EchoMode, StreamKind
+from openacr.protocol.terminal import Terminal
 
 TIMEOUT_TK = 100
 GET = bytes.fromhex("00 30 02 2C")

@@ -19,9 +19,9 @@ from openacr.client.requests import Follow, Level, Press
 from openacr.client.talk import Op, Options, Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number
+from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.packets import Packet
-from openacr.protocol.terminal import ControlKey
 
 T = TypeVar("T")
 

@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass
 from typing import Self, TypeAlias
 
+from openacr.protocol.events import ControlKey
 from openacr.protocol.packets import Packet
-from openacr.protocol.terminal import ControlKey
 
 _PROMPT = re.compile(r"(SYS|P|PLC)(\d*)>")
 _GO = re.compile(r"\s*(SYS|PROG|PLC)\s*(\d*)\s*", re.IGNORECASE)

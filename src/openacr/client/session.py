@@ -33,10 +33,11 @@ from openacr.client.requests import (
 )
 from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode, Decoder, encode_packet
+from openacr.protocol.events import NEED_DATA, NeedData
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import Packet
 from openacr.protocol.stream import EchoMode
-from openacr.protocol.terminal import NEED_DATA, NeedData, text_of
+from openacr.protocol.typed_line import text_of
 
 CR, CRLF, ESC = b"\r", b"\r\n", b"\x1b"
 ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))

@@ -31,9 +31,9 @@ from openacr.client.requests import (
 from openacr.client.session import Event, Session
 from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.events import NEED_DATA
 from openacr.protocol.packets import Packet
 from openacr.protocol.stream import EchoMode, StreamKind
-from openacr.protocol.terminal import NEED_DATA
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0

@@ -34,8 +34,8 @@ from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
 from openacr.plant import apply, load, schema, terminals
 from openacr.project import Project, find_project
+from openacr.protocol.events import ControlKey
 from openacr.protocol.stream import StreamKind
-from openacr.protocol.terminal import ControlKey
 
 RAW_COUNTS = 4  # of an encoder per line, at MULT 4
 

@@ -38,7 +38,7 @@ from openacr.network.networks import Networks
 from openacr.plant import apply, schema
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
-from openacr.protocol.terminal import ControlKey
+from openacr.protocol.events import ControlKey
 
 
 class Machine:
@@ -64,7 +64,8 @@ class Machine:
         self.system.runner = self.executor
         self.system.reboot = self._ask_reboot
         self.system.read_plc = self._read_plc
-        self.streams = Streams(self.system.sessions, PacketHost(self.card), self._press)
+        host = PacketHost(self.card, short_overrides=self.world.card.short_override_packets)
+        self.streams = Streams(self.system.sessions, host, self._press)
         self.p = Parameters(self.memory, partial(self._note, Entered.PARAMETER))
         self.bit = Bits(self.memory, partial(self._note, Entered.FLAG))
         self.journal: list[JournalEntry] = []

@@ -28,8 +28,9 @@ _TIMEOUTS = {
 class PacketHost:
     """Parameters, flags, overrides and memory of a card for `protocol.execute`."""
 
-    def __init__(self, card: Card) -> None:
+    def __init__(self, card: Card, *, short_overrides: bool = False) -> None:
         self._card = card
+        self.short_overrides = short_overrides
         self._space = AddressSpace(card.memory)
         self.moves = MoveQueue(card)
         self.read_parameter = card.memory.read

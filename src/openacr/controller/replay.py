@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from openacr.controller.controller import Controller
 from openacr.controller.journal import Entered, Journal, JournalEntry
 from openacr.errors import StoreError
+from openacr.protocol.events import ControlKey
 from openacr.protocol.stream import StreamKind
-from openacr.protocol.terminal import ControlKey
 
 
 @dataclass(frozen=True, slots=True)

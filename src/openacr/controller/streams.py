@@ -9,10 +9,7 @@ from openacr.basic import session as sessions
 from openacr.basic.session import Session
 from openacr.controller.packets import PacketHost
 from openacr.protocol.escape import BinaryMode
-from openacr.protocol.execute import execute
-from openacr.protocol.move import Move
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
-from openacr.protocol.terminal import (
+from openacr.protocol.events import (
     NEED_DATA,
     Attention,
     Control,
@@ -22,9 +19,12 @@ from openacr.protocol.terminal import (
     Line,
     LineTooLong,
     Received,
-    Terminal,
     Typed,
 )
+from openacr.protocol.execute import execute
+from openacr.protocol.move import Move
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
+from openacr.protocol.terminal import Terminal
 
 _NAMES = {
     StreamKind.TERMINAL: ("STREAM2", "STREAM3", "STREAM4", "STREAM5"),
@@ -68,7 +68,8 @@ class Streams:
             session.connect()
             session.mode = int(kind.startup_mode)
         number, self._next = self._next, self._next + 1
-        self._open[number] = Stream(Terminal(kind, timeout_tk=1), session)
+        terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
+        self._open[number] = Stream(terminal, session)
         self._settle(self._open[number])
         return number
 

@@ -71,6 +71,7 @@ class Card(_Table, frozen=True):
     model: ModelName = ModelName(DEFAULT_MODEL.name)
     period_s: Period = 0.0005
     dac_bits: DacBits = 16
+    short_override_packets: bool = False  # FOV and ROV packets as in the first edition
 
 
 class Motor(_Table, frozen=True):

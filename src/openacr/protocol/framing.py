@@ -3,11 +3,15 @@
 A packet may arrive in any number of pieces; when the gap between two bytes exceeds the
 time-out of the channel, what was received so far is thrown away and the next byte counts
 as the first one of something new. Time is an argument: this module knows no clock.
+
+Two packets have two lengths, which a stream cannot tell apart by itself: SET and CLR on a
+DPCB, FOV and ROV of hosts written after the first edition of the manual (`override`).
 """
 
 from dataclasses import dataclass, field
 
 from openacr.protocol.escape import BinaryMode, Decoder
+from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
 from openacr.protocol.packets import Packet, PacketError, decode, total_length
 
 DPCB_PADDED = frozenset((0x1C, 0x1D))
@@ -15,9 +19,13 @@ DPCB_PADDED = frozenset((0x1C, 0x1D))
 
 @dataclass(slots=True)
 class PacketReader:
-    """Collects one packet at a time; `dpcb` makes SET and CLR four bytes long."""
+    """Collects one packet at a time.
+
+    `dpcb` makes SET and CLR four bytes long, `short_overrides` most of FOV and ROV six.
+    """
 
     dpcb: bool = False
+    short_overrides: bool = False
     _data: bytearray = field(default_factory=bytearray)
     _decoder: Decoder = field(default_factory=lambda: Decoder(BinaryMode.PLAIN))
     _tick: int = 0
@@ -61,6 +69,8 @@ class PacketReader:
 
     def _complete(self) -> Packet | None:
         so_far = bytes(self._data)
+        if self.short_overrides and is_short(so_far):
+            return self._complete_short(so_far)
         try:
             length = total_length(so_far)
         except PacketError:
@@ -71,3 +81,10 @@ class PacketReader:
             return None
         self._data.clear()
         return decode(so_far[:length])
+
+    def _complete_short(self, so_far: bytes) -> Packet | None:
+        self._wanted = SHORT_BYTES
+        if len(so_far) < self._wanted:
+            return None
+        self._data.clear()
+        return decode(lengthened(so_far))

@@ -1,7 +1,10 @@
 """Feedrate and rapid feedrate override of several masters at once (UG2 ch. 6).
 
-Eight bytes in all. The first edition prints six (without the 16 master mask) and starts
-its ROV examples with the FOV header; the later guide corrects both (errata).
+Eight bytes in all. The first edition prints six where the mask in byte 1 is enough: the two
+bytes of the 16 master mask are there only behind a zero. It also starts its ROV examples
+with the FOV header. The later guide corrects both (errata) and lets byte 1 be set in eight
+bytes, so a card accepts one of the two forms: the later one, unless `machine.toml` says
+`short_override_packets = true`.
 """
 
 from collections.abc import Iterable
@@ -11,6 +14,8 @@ from typing import ClassVar, Self
 from openacr.protocol.packet import F32, U8, U16, Packet, PacketError, register
 
 MASTERS = 16
+SHORT_BYTES = 6
+MASK_16_AT, MASK_16_BYTES = 2, 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,3 +56,13 @@ class RapidOverride(_Override):
     """ROV: set the rapid feedrate override of the selected masters at once."""
 
     HEADER: ClassVar[bytes] = b"\x1f"
+
+
+def is_short(start: bytes) -> bool:
+    """Whether the first edition ends the packet that starts so behind six bytes."""
+    return start[:1] in (FeedrateOverride.HEADER, RapidOverride.HEADER) and start[1] != 0
+
+
+def lengthened(packet: bytes) -> bytes:
+    """The eight bytes of a packet of six."""
+    return packet[:MASK_16_AT] + bytes(MASK_16_BYTES) + packet[MASK_16_AT:]

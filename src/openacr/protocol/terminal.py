@@ -22,89 +22,35 @@ What the bytes mean (for TERMINAL and SERIAL streams):
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from enum import Enum, IntEnum
-from typing import Final, TypeAlias
+from dataclasses import dataclass
 
 from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.events import (
+    NEED_DATA,
+    Attention,
+    Control,
+    ControlKey,
+    Escape,
+    Event,
+    Line,
+    LineTooLong,
+    NeedData,
+    Received,
+    Typed,
+)
 from openacr.protocol.framing import PacketReader
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output
-from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
+from openacr.protocol.packets import HEADER_IDS, PacketError, decode
 from openacr.protocol.stream import EchoMode, StreamKind
+from openacr.protocol.typed_line import TypedLine
 
-LINE_LIMIT = 255
 BACKLOG_LIMIT_BYTES = 1 << 16
 RESUME_BYTES = BACKLOG_LIMIT_BYTES // 2  # so that a sender is not held and let go all the time
 BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
 CRLF = b"\r\n"
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
-
-
-class ControlKey(IntEnum):
-    """Keys that act on the whole card the moment they arrive."""
-
-    CTRL_X = 0x18  # stop programs, kill all motion
-    CTRL_Y = 0x19  # clear the kill flags
-    CTRL_Z = 0x1A  # as Ctrl-X, then drives off
-
-
-class Attention(Enum):
-    """Who gets what is typed."""
-
-    COMMANDS = "commands"  # the command interpreter, line by line
-    LISTENING = "listening"  # a program (LRUN, LISTEN); ESC ends it
-    PASS_THROUGH = "pass-through"  # another device (DTALK, TALK TO); not echoed, ESC ends it
-    OPEN = "open"  # a program holds the stream OPEN: every byte is data
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A complete line for the command interpreter, without its end."""
-
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class LineTooLong:
-    """A line of more than 255 characters ended; it was discarded."""
-
-
-@dataclass(frozen=True, slots=True)
-class Typed:
-    """One byte for the program or device that has the attention."""
-
-    byte: int
-
-
-@dataclass(frozen=True, slots=True)
-class Control:
-    """Ctrl-X, Ctrl-Y or Ctrl-Z."""
-
-    code: ControlKey
-
-
-@dataclass(frozen=True, slots=True)
-class Escape:
-    """ESC while listening or passing through: end that, send CR LF and one prompt."""
-
-
-@dataclass(frozen=True, slots=True)
-class Received:
-    """A complete binary packet."""
-
-    packet: Packet
-
-
-class NeedData(Enum):
-    """The answer when all received bytes are used up."""
-
-    NEED_DATA = "need data"
-
-
-NEED_DATA: Final = NeedData.NEED_DATA
-Event: TypeAlias = Line | LineTooLong | Typed | Control | Escape | Received
 
 
 @dataclass(slots=True)
@@ -120,55 +66,10 @@ class _Segment:
         return self.data[self.at :]
 
 
-@dataclass(slots=True)
-class _Typing:
-    """The line being typed; of an overlong one only the length is kept."""
-
-    kept: bytearray = field(default_factory=bytearray)
-    excess: int = 0
-
-    def add(self, byte: int) -> None:
-        if len(self.kept) < LINE_LIMIT and not self.excess:
-            self.kept.append(byte)
-        else:
-            self.excess += 1
-
-    def erase(self) -> bool:
-        """Take the last character back; False when there is none."""
-        if self.excess:
-            self.excess -= 1
-        elif self.kept:
-            self.kept.pop()
-        else:
-            return False
-        return True
-
-    def finish(self) -> Line | LineTooLong:
-        event = LineTooLong() if self.excess else Line(text_of(self.kept))
-        self.clear()
-        return event
-
-    def clear(self) -> None:
-        self.kept.clear()
-        self.excess = 0
-
-
-# Quotes and dashes of the Windows code page, in text that is not UTF-8.
-_TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
-
-
-def text_of(line: bytes | bytearray) -> str:
-    """Typed bytes as text: UTF-8 where they are, else one character per byte."""
-    try:
-        return line.decode("utf-8")
-    except UnicodeDecodeError:
-        return line.decode("latin-1").translate(_TYPOGRAPHIC)
-
-
 class Terminal:
     """One stream of the card, sans I/O; time is the tick given with the bytes."""
 
-    def __init__(self, kind: StreamKind, *, timeout_tk: int) -> None:
+    def __init__(self, kind: StreamKind, *, timeout_tk: int, short_overrides: bool = False) -> None:
         self.kind = kind
         self.echo = ECHO_CHARACTERS  # bits of EchoMode
         self.mode: BinaryMode = kind.startup_mode
@@ -181,9 +82,9 @@ class Terminal:
         self._lines: deque[Line | LineTooLong] = deque()
         self._backlog = 0
         self._is_full = False
-        self._typing = _Typing()
+        self._typing = TypedLine()
         self._after_cr = False
-        self._reader = PacketReader(dpcb=kind is StreamKind.DPCB)
+        self._reader = PacketReader(kind is StreamKind.DPCB, short_overrides)
         self._keys = self._key_table()
 
     def _key_table(self) -> dict[int, Callable[[], Event | None]]:

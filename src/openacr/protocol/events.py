@@ -1,0 +1,72 @@
+"""What a stream of a card makes of the bytes it receives."""
+
+from dataclasses import dataclass
+from enum import Enum, IntEnum
+from typing import Final, TypeAlias
+
+from openacr.protocol.packets import Packet
+
+
+class ControlKey(IntEnum):
+    """Keys that act on the whole card the moment they arrive."""
+
+    CTRL_X = 0x18  # stop programs, kill all motion
+    CTRL_Y = 0x19  # clear the kill flags
+    CTRL_Z = 0x1A  # as Ctrl-X, then drives off
+
+
+class Attention(Enum):
+    """Who gets what is typed."""
+
+    COMMANDS = "commands"  # the command interpreter, line by line
+    LISTENING = "listening"  # a program (LRUN, LISTEN); ESC ends it
+    PASS_THROUGH = "pass-through"  # another device (DTALK, TALK TO); not echoed, ESC ends it
+    OPEN = "open"  # a program holds the stream OPEN: every byte is data
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A complete line for the command interpreter, without its end."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class LineTooLong:
+    """A line of more than 255 characters ended; it was discarded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Typed:
+    """One byte for the program or device that has the attention."""
+
+    byte: int
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """Ctrl-X, Ctrl-Y or Ctrl-Z."""
+
+    code: ControlKey
+
+
+@dataclass(frozen=True, slots=True)
+class Escape:
+    """ESC while listening or passing through: end that, send CR LF and one prompt."""
+
+
+@dataclass(frozen=True, slots=True)
+class Received:
+    """A complete binary packet."""
+
+    packet: Packet
+
+
+class NeedData(Enum):
+    """The answer when all received bytes are used up."""
+
+    NEED_DATA = "need data"
+
+
+NEED_DATA: Final = NeedData.NEED_DATA
+Event: TypeAlias = Line | LineTooLong | Typed | Control | Escape | Received

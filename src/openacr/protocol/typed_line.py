@@ -1,0 +1,55 @@
+"""The line that is being typed on a stream."""
+
+from dataclasses import dataclass, field
+
+from openacr.protocol.events import Line, LineTooLong
+
+LINE_LIMIT = 255
+
+
+@dataclass(slots=True)
+class TypedLine:
+    """The line being typed; of an overlong one only the length is kept."""
+
+    kept: bytearray = field(default_factory=bytearray)
+    excess: int = 0
+
+    def add(self, byte: int) -> None:
+        """Append a character."""
+        if len(self.kept) < LINE_LIMIT and not self.excess:
+            self.kept.append(byte)
+        else:
+            self.excess += 1
+
+    def erase(self) -> bool:
+        """Take the last character back; False when there is none."""
+        if self.excess:
+            self.excess -= 1
+        elif self.kept:
+            self.kept.pop()
+        else:
+            return False
+        return True
+
+    def finish(self) -> Line | LineTooLong:
+        """End the line, and begin an empty one."""
+        event = LineTooLong() if self.excess else Line(text_of(self.kept))
+        self.clear()
+        return event
+
+    def clear(self) -> None:
+        """Forget what was typed."""
+        self.kept.clear()
+        self.excess = 0
+
+
+# Quotes and dashes of the Windows code page, in text that is not UTF-8.
+_TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
+
+
+def text_of(line: bytes | bytearray) -> str:
+    """Typed bytes as text: UTF-8 where they are, else one character per byte."""
+    try:
+        return line.decode("utf-8")
+    except UnicodeDecodeError:
+        return line.decode("latin-1").translate(_TYPOGRAPHIC)
