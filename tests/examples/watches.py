@@ -26,6 +26,7 @@ AIRFOIL = Watch("nurb_airfoil", (MOTION, 1024, 5141, 5146, 5147), 2)
 ARM = Watch("invk_arm", (MOTION, KILL_MOVES, 1024), 2)
 GEARS = Watch("gear_box", (MOTION, 792, 814, 820, 821, 1024), 2)
 SHEAR = Watch("cam_flying_shear", (32, 792, 822, 1024), 2)
+TUNING = Watch("tuning", (MOTION, 512, 513, 514, 1024), 1)
 
 ALL = (
     GANTRY,
@@ -44,4 +45,5 @@ ALL = (
     ARM,
     GEARS,
     SHEAR,
+    TUNING,
 )
