@@ -64,14 +64,36 @@ def test_a_misspelt_alias_is_suggested(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("lines", "fault"),
     [
-        ("SET 32\nGOTO nowhere", "3:6: Label not found: nowhere"),
-        ("GOTO 500", "2:6: Line not found: 500"),
-        ("NEXT", "2:1: NEXT without FOR"),
-        ("IF (P0)\nSET 32", "2:1: IF without ENDIF"),
-        ("_a\n_a", "3:1: Duplicate label: a"),
+        ("SET 32\nGOTO nowhere", "3:6: Label not found: nowhere (there are no labels)"),
+        ("_top\n_end\nGOTO edn", "4:6: Label not found: edn (did you mean end?)"),
+        ("_top\n_b\nGOSUB x", "4:7: Label not found: x (labels: b, top)"),
+        ("GOTO 500", "2:6: Line not found: 500 (the nearest: 30)"),
+        ("NEXT", "2:1: NEXT without FOR (no block is open here)"),
+        (
+            "FOR P0=1 TO 2\nIF (P0)\nWEND\nENDIF\nNEXT",
+            "4:1: WEND without WHILE (open here is the IF of line 3)",
+        ),
+        (
+            "WHILE (P0)\nIF (P0)\nWEND",
+            "3:1: IF without ENDIF (still open at the WEND of line 4)",
+        ),
+        ("IF (P0)\nSET 32", "2:1: IF without ENDIF (still open at the end)"),
+        ("_a\n_a", "3:1: Duplicate label: a (the first is in line 2)"),
+        ("X1,2", "2:3: Syntax error (behind a target come other axes, a command or `:`)"),
+        ("P0 = SQRT 4", "2:11: Syntax error (written: SQRT(number))"),
+        ('P0 = LEN(MID$("a"))', "2:10: Syntax error (written: MID$(string, number, {number}))"),
+        ("PRINT SIN(COS(1),2)", "2:7: Syntax error (written: SIN(number))"),
+        ("PRINT SIN(1 2)", "2:13: Syntax error (written: SIN(number))"),
+        ("VEL 5 6", "2:7: Syntax error (written: VEL {value})"),
+        (
+            'P0 = 3 + "4"',
+            "2:6: Type mismatch (STR$ makes text of a number, VAL a number of text)",
+        ),
+        ('P0 = SIN("4")', "2:6: Type mismatch (written: SIN(number))"),
     ],
 )
 def test_what_does_not_fit_together_is_found(tmp_path: Path, lines: str, fault: str) -> None:
+    write(tmp_path, "setup.8k", 'DIM P(1)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\n')
     path = write(tmp_path, "prog0.8k", f"PROGRAM\n{lines}\nENDP\n")
     result = check(path)
     assert result.exit_code == 1
@@ -81,8 +103,8 @@ def test_what_does_not_fit_together_is_found(tmp_path: Path, lines: str, fault: 
 def test_all_jumps_that_go_nowhere_are_listed(tmp_path: Path) -> None:
     path = write(tmp_path, "prog0.8k", "PROGRAM\nGOTO a\nSET 32\nGOSUB b\nENDP\n")
     assert [line for line in check(path).stdout.splitlines() if "prog0.8k" in line] == [
-        f"{path}:2:6: Label not found: a",
-        f"{path}:4:7: Label not found: b",
+        f"{path}:2:6: Label not found: a (there are no labels)",
+        f"{path}:4:7: Label not found: b (there are no labels)",
     ]
 
 

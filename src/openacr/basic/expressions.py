@@ -108,6 +108,12 @@ class ExpressionParser:
         """The error to raise at the cursor."""
         return StatementError(message, self.token.span, detail)
 
+    def error_from(self, start: int, message: Message) -> StatementError:
+        """The error to raise for all that was read since the position `start`."""
+        first, last = self.tokens[start], self.tokens[max(start, self.position - 1)]
+        length = last.column + len(last.text) - first.column
+        return StatementError(message, Span(first.span.line, first.column, length))
+
     # expressions
 
     def expression(self) -> Expr:
@@ -116,25 +122,28 @@ class ExpressionParser:
 
     def numeric(self) -> Expr:
         """An expression whose value must be a number."""
+        start = self.position
         node = self.expression()
         if is_text(node):
-            raise self.error(TYPE_MISMATCH)
+            raise self.error_from(start, TYPE_MISMATCH)
         return node
 
     def _binary(self, lowest: int) -> Expr:
+        start = self.position
         if lowest <= NOT_LEVEL and self.accept("NOT"):
-            left = self._checked(Op.NOT, self._binary(NOT_LEVEL))
+            left = self._checked(Op.NOT, self._binary(NOT_LEVEL), start)
         else:
             left = self._operand()
         while (level := self._level_here()) >= lowest:
             op = Op(self.advance().value)
-            left = self._joined(op, left, self._right(level))
+            left = self._joined(op, left, self._right(level), start)
         return left
 
     def _right(self, level: int) -> Expr:
         """The right operand; NOT is accepted there and takes the rest up to AND or OR."""
+        start = self.position
         if self.accept("NOT"):
-            return self._checked(Op.NOT, self._binary(NOT_LEVEL))
+            return self._checked(Op.NOT, self._binary(NOT_LEVEL), start)
         return self._binary(level + 1)
 
     def _level_here(self) -> int:
@@ -145,27 +154,29 @@ class ExpressionParser:
 
     def _operand(self) -> Expr:
         """A value with its signs and powers."""
+        start = self.position
         for sign in (Op.MINUS, Op.PLUS):
             if self.accept(sign.value):
                 if self.accept("NOT"):
-                    return self._checked(sign, self._checked(Op.NOT, self._binary(NOT_LEVEL)))
-                return self._checked(sign, self._operand())
+                    inverse = self._checked(Op.NOT, self._binary(NOT_LEVEL), start)
+                    return self._checked(sign, inverse, start)
+                return self._checked(sign, self._operand(), start)
         base = self._primary()
         if self.accept("**"):
-            return self._joined(Op.POWER, base, self._operand())
+            return self._joined(Op.POWER, base, self._operand(), start)
         return base
 
-    def _checked(self, op: Op, operand: Expr) -> Expr:
+    def _checked(self, op: Op, operand: Expr, start: int) -> Expr:
         if is_text(operand):
-            raise self.error(TYPE_MISMATCH)
+            raise self.error_from(start, TYPE_MISMATCH)
         if op is Op.MINUS and isinstance(operand, Number):
             return Number(-operand.value if operand.value else 0)
         return Unary(op, operand)
 
-    def _joined(self, op: Op, left: Expr, right: Expr) -> Expr:
+    def _joined(self, op: Op, left: Expr, right: Expr, start: int) -> Expr:
         texts = is_text(left) + is_text(right)
         if texts == 1 or (texts == 2 and op is not Op.PLUS and op.value not in _RELATIONS):
-            raise self.error(TYPE_MISMATCH)
+            raise self.error_from(start, TYPE_MISMATCH)
         return Binary(op, left, right)
 
     def _primary(self) -> Expr:
@@ -193,6 +204,7 @@ class ExpressionParser:
         raise self.error(SYNTAX_ERROR if word in registry.keywords() else UNDEFINED_SYMBOL)
 
     def _application(self, function: registry.Function) -> Expr:
+        start = self.position
         self.advance()
         arguments: list[Expr] = []
         if self.is_operator("(") or function.fewest:
@@ -202,9 +214,9 @@ class ExpressionParser:
                 arguments.append(self.expression())
             self.expect(")")
         if not function.fewest <= len(arguments) <= len(function.takes):
-            raise self.error(SYNTAX_ERROR)
+            raise self.error_from(start, SYNTAX_ERROR)
         if not function.accepts([is_text(argument) for argument in arguments]):
-            raise self.error(TYPE_MISMATCH)
+            raise self.error_from(start, TYPE_MISMATCH)
         return Apply(function, tuple(arguments))
 
     # variables

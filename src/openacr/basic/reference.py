@@ -22,8 +22,8 @@ from openacr.basic.lister import Lister
 from openacr.basic.loader import file_lines
 from openacr.basic.nodes import Block, Line, Statement
 from openacr.basic.parser import Parser, Scope
-from openacr.basic.registry import INDEX, Command, Function, Level
-from openacr.basic.written import levels, limits, reports, syntax
+from openacr.basic.registry import INDEX, Command, Level
+from openacr.basic.written import call, levels, limits, reports, syntax
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, tokens
 from openacr.map import flags, parameters
@@ -31,7 +31,6 @@ from openacr.map.lookup import Flag, Parameter
 from openacr.messages import MESSAGES
 
 _ANY_AXES = frozenset(("X", "Y", "Z", "A", "B", "C"))
-_TAKES = {"n": "number", "s": "string", "e": "value", "p": "number"}
 MADE_BY = "Written by `make docs` from the rows of the registry; do not edit."
 
 
@@ -109,7 +108,7 @@ def _functions() -> str:
     parts.append(_table(("binds", "operators"), _numbered(binding)))
     parts.append("## Functions")
     functions = sorted(registry.functions.values(), key=lambda function: function.name)
-    written = ((f"`{_call(function)}`", function.summary) for function in functions)
+    written = ((f"`{call(function)}`", function.summary) for function in functions)
     parts.append(_table(("function", "gives"), written))
     return "\n\n".join(parts)
 
@@ -120,16 +119,6 @@ _PRECEDENCE = "The tightest first; equal ones go from left to right, powers from
 def _numbered(binding: Mapping[int, list[str]]) -> Iterator[tuple[str, str]]:
     for place, level in enumerate(sorted(binding, reverse=True), start=1):
         yield str(place), " ".join(binding[level])
-
-
-def _call(function: Function) -> str:
-    names = [_TAKES[letter] for letter in function.takes]
-    optional = len(names) - function.fewest
-    if function.optional_first and optional:
-        names[0] = f"{{{names[0]}}}"
-    elif optional:
-        names[function.fewest :] = [f"{{{name}}}" for name in names[function.fewest :]]
-    return f"{function.name}({', '.join(names)})" if names else function.name
 
 
 # the map and the messages

@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable
 
 from openacr.basic import grammar as forms
-from openacr.basic.registry import INDEX, Command, Use, root
+from openacr.basic.registry import INDEX, Command, Function, Use, functions, root
 from openacr.basic.registry import Level as At
 from openacr.lang.lexer import Kind, Token
 
+_TAKES = {"n": "number", "s": "string", "e": "value", "p": "number"}
 _CODE = re.compile(r"`([^`]+)`")
 
 
@@ -20,6 +21,17 @@ def syntax(row: Command) -> str:
     return re.sub(r"\b([A-Z]+) n\b", r"\1n", " ".join(part for part in parts if part))
 
 
+def call(function: Function) -> str:
+    """A function with its arguments; `{}` may be left out."""
+    names = [_TAKES[letter] for letter in function.takes]
+    optional = len(names) - function.fewest
+    if function.optional_first and optional:
+        names[0] = f"{{{names[0]}}}"
+    elif optional:
+        names[function.fewest :] = [f"{{{name}}}" for name in names[function.fewest :]]
+    return f"{function.name}({', '.join(names)})" if names else function.name
+
+
 def command_before(found: Iterable[Token], column: int) -> Command | None:
     """The last command that begins at or before a column."""
     known = [token for token in found if token.column <= column]
@@ -27,6 +39,26 @@ def command_before(found: Iterable[Token], column: int) -> Command | None:
         if row := _command_at(known[place:]):
             return row
     return None
+
+
+def function_at(found: Iterable[Token], column: int) -> Function | None:
+    """The function whose call begins at a column, or in whose arguments it lies."""
+    open_calls: list[Function | None] = []
+    last = None
+    for token in found:
+        if token.column > column:
+            break
+        named = functions.get(str(token.value)) if token.kind is Kind.WORD else None
+        if named is not None and token.column == column:
+            return named
+        if token.column == column and token.value != "(":
+            break
+        if token.value == "(" and token.kind is Kind.OPERATOR:
+            open_calls.append(last)
+        elif token.value == ")" and token.kind is Kind.OPERATOR and open_calls:
+            open_calls.pop()
+        last = named
+    return last or next((each for each in reversed(open_calls) if each), None)
 
 
 def _command_at(found: list[Token]) -> Command | None:

@@ -7,10 +7,8 @@ entered with PROGRAM, the axis names of each program and the aliases. Nothing is
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
-from openacr.basic import registry
 from openacr.basic.aliases import check_name, numbered_names
 from openacr.basic.commands.operating_system import Definition
 from openacr.basic.expressions import StatementError
@@ -22,21 +20,15 @@ from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope, join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
-from openacr.basic.written import command_before, syntax
 from openacr.cli.faults import Fault
+from openacr.cli.hints import hint_for
 from openacr.cli.sizes import Sizes, undimensioned, variable
 from openacr.cli.structure import Structure
 from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.source import Span
-from openacr.messages import (
-    SYNTAX_ERROR,
-    UNDEFINED_SYMBOL,
-    UNDEFINED_VARIABLE,
-    UNKNOWN_COMMAND,
-    Message,
-)
+from openacr.messages import SYNTAX_ERROR, UNKNOWN_COMMAND
 from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
@@ -232,11 +224,8 @@ class Reader:
 
     def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
         span: Span | None = getattr(error, "span", None)
-        words = line.text.split()
-        word = line.text[span.column - 1 :][: span.length] if span else words[0]
-        hint = hint or self._hint(error.message, word, words[0])
-        if not hint and error.message is SYNTAX_ERROR and span:
-            hint = _usage(line.text, span.column)
+        names = {*self.axes.get(self.number, ()), *self.aliases}
+        hint = hint or hint_for(error.message, line.text, span, self.level, names)
         self._add(self._place(line, span), error.text, hint, "error")
 
     def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
@@ -253,21 +242,6 @@ class Reader:
         length = span.length if span else len(original)
         # Behind the end of the line stands what was joined to it.
         return line.number, min(column, len(original) + 1), length
-
-    def _hint(self, message: Message, word: str, first: str) -> str:
-        is_word_of_language = {word.upper(), first.upper()} & {*registry.keywords(), "PROGRAM"}
-        if message is UNKNOWN_COMMAND and self.level is Level.SYS and is_word_of_language:
-            return "not valid at the system level; `PROG n` goes to a program"
-        if message in (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE):
-            names = {*self.axes.get(self.number, ()), *self.aliases}
-            close = get_close_matches(word, sorted(names), n=1)
-            if len(word) > 1:  # one letter is an axis, not a command with a letter missing
-                close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
-            if close and close[0] != word.upper():
-                return f"did you mean {close[0]}?"
-        if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and self.level is Level.PROG:
-            return "no command, alias or axis of this program has this name"
-        return ""
 
 
 def listing(reader: Reader) -> Iterator[str]:
@@ -286,15 +260,6 @@ def ladders(reader: Reader) -> Iterator[str]:
         if level is Level.PLC:
             yield f"PLC{number}"
             yield from draw(text.rungs())
-
-
-def _usage(text: str, column: int) -> str:
-    """How the command is written that a line fails to be."""
-    try:
-        row = command_before(tokens(text), column)
-    except CardError:
-        return ""
-    return f"written: {syntax(row)}" if row else ""
 
 
 def _words(text: str) -> set[str]:

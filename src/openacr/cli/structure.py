@@ -7,6 +7,7 @@ from openacr.basic import flow_cy as flow
 from openacr.basic.expressions import StatementError
 from openacr.basic.levels import CompileError, Level, Levels, unclosed
 from openacr.basic.outline import KINDS, Event, OpenLevel, follow
+from openacr.cli.hints import lines_near, names_like
 from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token
@@ -39,6 +40,7 @@ class Structure:
         self.findings: list[Finding] = []
         self._levels = Levels[OpenLevel]()
         self._places: dict[str, Level | None] = {}  # of labels
+        self._label_lines: dict[str, int] = {}  # of the file
         self._jumps: list[_Jump] = []
         self._has_all_levels = not text.lost & _LEVEL_WORDS
 
@@ -50,7 +52,7 @@ class Structure:
             if line.outline.fault is not None:
                 self.findings.append(Finding(line.place, line.outline.fault))
         for level in self._levels.open if self._has_all_levels else ():
-            self._unclosed(level)
+            self._unclosed(level, "still open at the end")
         for jump in self._jumps:
             self._check_jump(jump)
         return self.findings
@@ -59,8 +61,11 @@ class Structure:
         level = self._levels.innermost
         if line.outline.has_label and (label := label_of(line.place.text, line.start)):
             if label in self._places:
-                self.findings.append(Finding(line.place, CardError(DUPLICATE_LABEL, label)))
+                hint = f"the first is in line {self._label_lines[label]}"
+                error = CardError(DUPLICATE_LABEL, label)
+                self.findings.append(Finding(line.place, error, hint=hint))
             self._places[label] = level
+            self._label_lines.setdefault(label, line.place.number)
         if self._has_all_levels:
             for event in line.outline.events:
                 self._follow(line, event)
@@ -76,17 +81,26 @@ class Structure:
         except CompileError as error:
             inner = self._levels.innermost
             if inner is not None and error.message is unclosed(inner).message:
-                self._unclosed(self._levels.open.pop())
+                hint = f"still open at the {event.word} of line {line.place.number}"
+                self._unclosed(self._levels.open.pop(), hint)
                 self._follow(line, event)
             else:
-                self._add(line, event.token, error)
+                self._add(line, event.token, error, self._open_here(inner))
 
-    def _unclosed(self, level: OpenLevel) -> None:
-        self._add(self.text.lines[level.line], level.token, unclosed(level))
+    def _open_here(self, inner: OpenLevel | None) -> str:
+        if inner is None:
+            return "no block is open here"
+        return f"open here is the {_NAMES[inner.kind]} of line {self._place_of(inner)}"
 
-    def _add(self, line: TextLine, place: int, error: CardError) -> None:
+    def _place_of(self, level: Level) -> int:
+        return self.text.lines[level.line].place.number
+
+    def _unclosed(self, level: OpenLevel, hint: str) -> None:
+        self._add(self.text.lines[level.line], level.token, unclosed(level), hint)
+
+    def _add(self, line: TextLine, place: int, error: CardError, hint: str) -> None:
         span = line.tokens[place].span
-        self.findings.append(Finding(line.place, StatementError(error.message, span)))
+        self.findings.append(Finding(line.place, StatementError(error.message, span), hint=hint))
 
     def _check_jump(self, jump: _Jump) -> None:
         target = jump.target
@@ -94,11 +108,19 @@ class Structure:
         lost = f"_{target.value}".upper() if is_label else str(target.value)
         known = self._places if is_label else self.text.lines
         if target.value not in known and lost not in self.text.lost:
-            message = LABEL_NOT_FOUND if is_label else LINE_NOT_FOUND
-            error = StatementError(message, target.span, target.value)
-            self.findings.append(Finding(jump.line.place, error))
+            self._add_lost_target(jump)
         elif jump.word == "GOTO" and is_label and jump.level and not self._is_inside(jump):
             self._warn(jump, jump.level)
+
+    def _add_lost_target(self, jump: _Jump) -> None:
+        target = jump.target
+        if isinstance(target.value, int):
+            message, hint = LINE_NOT_FOUND, lines_near(target.value, self.text.lines)
+        else:
+            message = LABEL_NOT_FOUND
+            hint = names_like(str(target.value), self._places, "labels")
+        error = StatementError(message, target.span, target.value)
+        self.findings.append(Finding(jump.line.place, error, hint=hint))
 
     def _is_inside(self, jump: _Jump) -> bool:
         """Whether the level around a jump is also around its target."""
@@ -108,8 +130,7 @@ class Structure:
         return around is not None
 
     def _warn(self, jump: _Jump, level: Level) -> None:
-        line = self.text.lines[level.line].place.number
-        text = f"GOTO out of the {_NAMES[level.kind]} of line {line}"
+        text = f"GOTO out of the {_NAMES[level.kind]} of line {self._place_of(level)}"
         self.findings.append(
             Finding(jump.line.place, None, jump.target.span, text, _WAYS_OUT[level.kind])
         )

@@ -68,9 +68,10 @@ class Assignment(Form):
         """Read both sides."""
         target = Lvalue().parse(p)
         p.expect("=")
+        start = p.position
         value = p.expression()
         if is_text(target) != is_text(value):
-            raise p.error(TYPE_MISMATCH)
+            raise p.error_from(start, TYPE_MISMATCH)
         return Assigned(target, value)
 
     def evaluate(self, run: Run, read: Any) -> Assigned:

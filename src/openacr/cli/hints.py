@@ -1,0 +1,100 @@
+"""What may help: a hint for each fault that `openacr check` finds."""
+
+from collections.abc import Collection, Iterable
+from difflib import get_close_matches
+
+from openacr.basic import registry
+from openacr.basic.registry import Level
+from openacr.basic.written import call, command_before, function_at, syntax
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.source import Span
+from openacr.messages import (
+    SYNTAX_ERROR,
+    TYPE_MISMATCH,
+    UNDEFINED_SYMBOL,
+    UNDEFINED_VARIABLE,
+    UNKNOWN_COMMAND,
+    Message,
+)
+
+MOST_NAMES = 5
+BEHIND_A_TARGET = "behind a target come other axes, a command or `:`"
+TEXT_AND_NUMBER = "STR$ makes text of a number, VAL a number of text"
+_WORDS = (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE)
+
+
+def hint_for(
+    message: Message, text: str, span: Span | None, level: Level, names: Collection[str]
+) -> str:
+    """What may help against a message about a line; `names` are the aliases and axes there."""
+    first = text.split()[0]
+    word = text[span.column - 1 :][: span.length] if span else first
+    if message is UNKNOWN_COMMAND and level is Level.SYS and _belongs_to_language(word, first):
+        return "not valid at the system level; `PROG n` goes to a program"
+    if message in _WORDS and (close := _close_word(word, names)):
+        return f"did you mean {close}?"
+    if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and level is Level.PROG:
+        return "no command, alias or axis of this program has this name"
+    if message is TYPE_MISMATCH:
+        return _called(text, span) or TEXT_AND_NUMBER
+    return _usage(text, span, names) if message is SYNTAX_ERROR and span else ""
+
+
+def _belongs_to_language(*words: str) -> bool:
+    return bool({word.upper() for word in words} & {*registry.keywords(), "PROGRAM"})
+
+
+def _close_word(word: str, names: Collection[str]) -> str:
+    if not word.rstrip("$").isalnum():
+        return ""  # a call, not a word
+    close = get_close_matches(word, sorted(names), n=1)
+    if len(word) > 1:  # one letter is an axis, not a command with a letter missing
+        close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
+    return close[0] if close and close[0] != word.upper() else ""
+
+
+def _usage(text: str, span: Span, names: Collection[str]) -> str:
+    """How the function or command is written that a line fails to be."""
+    if written := _called(text, span):
+        return written
+    try:
+        found = tokens(text)
+    except CardError:
+        return ""
+    row = command_before(found, span.column)
+    if row is not None:
+        return f"written: {syntax(row)}"
+    return BEHIND_A_TARGET if _begins_with_axis(found, names) else ""
+
+
+def _begins_with_axis(found: list[Token], names: Collection[str]) -> bool:
+    start = 1 if found[0].kind is Kind.NUMBER else 0
+    return found[start].text.upper() in names
+
+
+def _called(text: str, span: Span | None) -> str:
+    try:
+        function = function_at(tokens(text), span.column) if span else None
+    except CardError:
+        return ""
+    return f"written: {call(function)}" if function else ""
+
+
+def names_like(name: str, known: Iterable[str], what: str) -> str:
+    """The name that was meant, or those there are."""
+    there = sorted(known)
+    if close := get_close_matches(name, there, n=1):
+        return f"did you mean {close[0]}?"
+    if not there:
+        return f"there are no {what}"
+    shown = ", ".join(there[:MOST_NAMES])
+    return f"{what}: {shown}{', ...' if len(there) > MOST_NAMES else ''}"
+
+
+def lines_near(number: int, known: Iterable[int]) -> str:
+    """The lines around one that does not exist."""
+    before = max((each for each in known if each < number), default=None)
+    behind = min((each for each in known if each > number), default=None)
+    there = [str(each) for each in (before, behind) if each is not None]
+    return f"the nearest: {' and '.join(there)}" if there else "there are no other lines"
