@@ -76,8 +76,10 @@ class Axis:
         try:
             yield from self._switch()
             yield from self._marker()
-        finally:
-            self._jog(0.0)  # broken off: it stops on the ramps of homing, which stay then
+        except BaseException:  # broken off: by STOP, ABORT, or because nothing was found
+            self._ramps(self._row.acc_ups2, self._row.stp_ups2)
+            self._jog(0.0)
+            raise
         self._ramps(self._axis.jog_acc_ups2, self._axis.jog_dec_ups2)
         self._type(f"JOG RES {self._axis.name}0")
         self._type(f"RES {self._axis.name}{number_text(self._row.preset_u)}")

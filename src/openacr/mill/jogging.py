@@ -2,10 +2,16 @@
 
 A jog is an offset on the card; when it has ended the offset becomes position, so that the
 machine position is one number again. Where soft limits hold, a held jog goes to the limit
-and no further; nothing ever has to be stopped in time.
+and no further.
+
+While a control is held the card never has more than `LEASH_S` of way ahead at full speed,
+besides what it takes to ramp down; the target is moved on as long as somebody looks. So an
+axis comes to rest by itself when the host or the link to it is lost: nothing ever has to
+be stopped in time.
 """
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from openacr.client.values import number_text
 from openacr.errors import UserError
@@ -18,6 +24,16 @@ from openacr.mill.settings import JOG, AxisSettings
 
 FIRST_INCREMENT, INCREMENTS = 6, 5
 JOG_ACTIVE = n.AF1_JOG_ACTIVE
+LEASH_S, RENEW_S = 0.5, 0.1
+
+
+@dataclass(slots=True)
+class _Held:
+    """A control that is held."""
+
+    direction: int
+    reach_u: float  # way ahead of the axis
+    renewed_s: float
 
 
 class Jogging:
@@ -27,6 +43,7 @@ class Jogging:
         self._panel = panel
         self._machine = panel.machine
         self._moving: set[int] = set()
+        self._held: dict[int, _Held] = {}
 
     @property
     def is_active(self) -> bool:
@@ -35,22 +52,18 @@ class Jogging:
 
     def hold(self, axis: int, direction: int, *, fast: bool = False) -> None:
         """A control is held: the axis moves until `release`, at most to its soft limit."""
-        row = self._ready(axis, fast=fast)
+        row, speed_ups = self.ready(axis, fast=fast)
         direction = direction if not self._is_turned(axis) else -direction
-        limit = self._limit(row, direction)
-        if limit is None:
-            self._type(f"JOG {'FWD' if direction > 0 else 'REV'} {row.name}")
-        else:
-            way = limit - self._position(row)
-            if way * direction <= 0.0:
-                raise AlarmError(alarms.SOFT_LIMIT, row.name)
-            self._type(f"JOG INC {row.name}{number_text(way)}")
-        self._moving.add(axis)
+        if self._is_at_limit(row, direction):
+            raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        brake_u = 0.5 * speed_ups**2 / row.jog_dec_ups2 if row.jog_dec_ups2 else 0.0
+        self._held[axis] = _Held(direction, LEASH_S * speed_ups + brake_u, self._machine.now_s)
+        self._aim(row, self._held[axis])
 
     def release(self, axis: int) -> None:
         """The control is let go: the axis ramps to rest."""
-        row = self._panel.settings.axis(axis)
-        self._type(f"JOG OFF {row.name}")
+        self._held.pop(axis, None)
+        self._type(f"JOG OFF {self._panel.settings.axis(axis).name}")
 
     def increment(self, axis: int, direction: int, preset: int, *, fast: bool = False) -> float:
         """Exactly one of the five increments; how far that is."""
@@ -62,9 +75,9 @@ class Jogging:
 
     def move(self, axis: int, way_u: float, *, fast: bool = False) -> None:
         """By a distance, refused where it leads beyond a soft limit."""
-        row = self._ready(axis, fast=fast)
-        limit = self._limit(row, 1 if way_u > 0 else -1)
-        end = self._position(row) + way_u
+        row, _ = self.ready(axis, fast=fast)
+        limit = self.limit(row, 1 if way_u > 0 else -1)
+        end = self.position(row) + way_u
         if limit is not None and (end - limit) * way_u > 0.0:
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
         self._type(f"JOG INC {row.name}{number_text(way_u)}")
@@ -72,48 +85,92 @@ class Jogging:
 
     def settle(self) -> Steps:
         """Wait for rest, then make positions of the offsets."""
-        yield Until("jog", lambda _look: not self._is_moving())
+        yield Until("jog", lambda _look: not self._is_going_on())
         for axis in sorted(self._moving):
             self._type(f"JOG RES {self._panel.settings.axis(axis).name}")
         self._moving.clear()
 
     def stop_all(self) -> None:
-        """Every axis ramps to rest: a held control is lost, or an alarm is up."""
+        """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
         for axis in self._moving:
+            row = self._panel.settings.axis(axis)
+            self._type(f"JOG DEC {row.name}{number_text(row.jog_stp_ups2)}")
             self.release(axis)
 
     # --- pieces -----------------------------------------------------------------------
 
-    def _ready(self, axis: int, *, fast: bool) -> AxisSettings:
-        """The speed and ramps of jogs for an axis that may move."""
+    def _aim(self, row: AxisSettings, held: _Held) -> None:
+        """Move the target of a held jog on, at most to the soft limit."""
+        limit, way = self.limit(row, held.direction), held.reach_u
+        if limit is not None:
+            way = min(way, max((limit - self.position(row)) * held.direction, 0.0))
+        self.aim(row, self.position(row) + held.direction * way)
+        held.renewed_s = self._machine.now_s
+
+    def aim(self, row: AxisSettings, target_u: float) -> None:
+        """Set the machine position an axis is to go to."""
+        self._type(f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
+        self._moving.add(row.index)
+
+    def _is_going_on(self) -> bool:
+        """Whether axes are on their way; those of held controls get more of it."""
+        for axis, held in list(self._held.items()):
+            row = self._panel.settings.axis(axis)
+            if self._machine.now_s < held.renewed_s + RENEW_S:
+                continue
+            if self._is_at_limit(row, held.direction):
+                del self._held[axis]
+            else:
+                self._aim(row, held)
+        return bool(self._held) or self._is_moving()
+
+    def _is_at_limit(self, row: AxisSettings, direction: int) -> bool:
+        limit = self.limit(row, direction)
+        return limit is not None and (limit - self.position(row)) * direction <= 0.0
+
+    def ready(self, axis: int, *, fast: bool) -> tuple[AxisSettings, float]:
+        """Set the speed and ramps of jogs for an axis that may move; the speed."""
         settings = self._panel.settings
         row = settings.axis(axis)
         if row.is_home_required and not settings.is_homed(axis):
             raise AlarmError(alarms.NOT_HOMED, row.name)
-        speed = min(row.jog_rapid_ups if fast else row.jog_ups, settings.speeds.max_ups)
+        is_fast = fast and not self._is_key_turned()
+        speed = min(row.jog_rapid_ups if is_fast else row.jog_ups, settings.speeds.max_ups)
         self._type(
             f"JOG ACC {row.name}{number_text(row.jog_acc_ups2)}",
             f"JOG DEC {row.name}{number_text(row.jog_dec_ups2)}",
             f"JOG VEL {row.name}{number_text(speed)}",
         )
-        return row
+        return row, speed
+
+    def _is_key_turned(self) -> bool:
+        """Whether the maintenance key is turned: no soft limits, but never fast."""
+        number = self._panel.settings.wiring.soft_limits
+        is_wired = self._panel.has_input(number)
+        return is_wired and not self._panel.is_in(self._machine.look(), number)
 
     def _is_turned(self, axis: int) -> bool:
         """Whether Jog Direction turns the controls of an axis around."""
         return bool(self._panel.settings.real(JOG, 5, axis))
 
-    def _limit(self, row: AxisSettings, direction: int) -> float | None:
+    def limit(self, row: AxisSettings, direction: int) -> float | None:
+        """How far an axis may be moved by hand, None for as far as it goes."""
         if row.soft_limits is None or not self._panel.settings.is_homed(row.index):
+            return None
+        if self._is_key_turned():
             return None
         high, low = row.soft_limits
         return high if direction > 0 else low
 
-    def _position(self, row: AxisSettings) -> float:
+    def position(self, row: AxisSettings) -> float:
         """Where the axis is commanded to stand, with the jog that is not position yet."""
-        rows = (n.AX_CURRENT_POSITION, n.AX_JOG_OFFSET)
-        base = n.AX_BASE + row.index * n.AX_STRIDE
-        pulses = self._machine.card.read_many([base + each for each in rows])
-        return sum(map(float, pulses)) / row.pulses_per_unit
+        offset = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_JOG_OFFSET)
+        return self._current(row) + offset / row.pulses_per_unit
+
+    def _current(self, row: AxisSettings) -> float:
+        """Where the axis stands without the jog."""
+        pulses = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_CURRENT_POSITION)
+        return pulses / row.pulses_per_unit
 
     def _is_moving(self) -> bool:
         words = self._machine.card.read_many([n.AF1_WORD + axis for axis in self._moving])

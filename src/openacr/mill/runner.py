@@ -15,9 +15,11 @@ from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
 from openacr.mill.console import Console
+from openacr.mill.controls import Controls
 from openacr.mill.course import Course, Entries
 from openacr.mill.doing import Doing
 from openacr.mill.feeding import Halt
+from openacr.mill.handwheel import HandWheel
 from openacr.mill.homing import home
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Look, Machine
@@ -56,6 +58,8 @@ class Runner:
         self.has_operator = True  # somebody answers and starts again
         self.asking: c.Ask | None = None
         self.jogging = Jogging(self.panel)
+        self.controls = Controls(self.panel, self.jogging, self.jog)
+        self.wheel = HandWheel(self.panel, self.jogging)
         self._by_hand = Script()
         self._is_homing = False
         self.passes = 0  # ends of the program reached
@@ -108,15 +112,32 @@ class Runner:
 
     def jog(self, move: Callable[[Jogging], object]) -> None:
         """Let somebody move axes by hand: in IDLE, or while a program is held."""
-        if self.state not in (State.IDLE, State.PAUSED, State.HOLD):
-            raise UserError(f"cannot jog: the state is {self.state.name}")
-        if self.retrace.is_active:
-            raise UserError("cannot jog: the path is being traced")
-        if self.alarms.bars_start:
-            raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
+        self._require_free("jog")
+        if self.wheel.axes:
+            raise UserError("cannot jog: the hand wheel moves the machine")
         move(self.jogging)
         if not self._by_hand.is_active:
             self._by_hand.begin(self.jogging.settle())
+
+    def turn(self, axes: Sequence[int]) -> None:
+        """Let the hand wheel move these axes, and no others; none ends it."""
+        if not axes:
+            self.wheel.leave()
+            return
+        self._require_free("use the hand wheel")
+        if self.jogging.is_active and not self.wheel.axes:
+            raise UserError("cannot use the hand wheel: an axis is being jogged")
+        self.wheel.select(axes)
+        self._by_hand.begin(self.wheel.follow())
+
+    def _require_free(self, what: str) -> None:
+        """Nothing else may move the machine, and nothing may be wrong."""
+        if self.state not in (State.IDLE, State.PAUSED, State.HOLD):
+            raise UserError(f"cannot {what}: the state is {self.state.name}")
+        if self.retrace.is_active:
+            raise UserError(f"cannot {what}: the path is being traced")
+        if self.alarms.bars_start:
+            raise AlarmError(self.alarms.active[0].kind, self.alarms.active[0].detail)
 
     def start(self) -> None:
         """START, Cycle Start: go on from a pause or hold."""
@@ -132,7 +153,10 @@ class Runner:
             self._require(State.HOLD, "go on")
 
     def stop(self) -> None:
-        """STOP: feed hold."""
+        """STOP: feed hold; axes moved by hand ramp to rest."""
+        if self._by_hand.is_active:
+            self._stop_hands()
+            return
         if self.state not in (State.RUN, State.WAIT):
             raise UserError(f"nothing runs: the state is {self.state.name}")
         self._pause()
@@ -220,6 +244,7 @@ class Runner:
         self._supervise(look)
         self._switches(look)
         self._note_place(look)
+        self.controls.keep(look)
         self._by_hand.play(look, self._times.step_s)
         self.retrace.play(look, self._times.step_s)
         if self.state is not State.PAUSED:
@@ -375,8 +400,11 @@ class Runner:
     def _raise(self, kind: Kind, detail: str) -> None:
         is_new = not self.alarms.is_up(kind, detail)
         self.alarms.give(kind, detail, self.machine.now_s)
-        if not is_new:
+        if not is_new or kind.effect is Effect.NONE:
             return
+        if kind is not alarms.LINK_LOST:
+            self._stop_hands()
+            self.retrace.stop()
         if kind.effect is Effect.KILL:
             self._kill()
         elif not self.is_busy:
@@ -385,6 +413,11 @@ class Runner:
             self._end_program(State.ALARM)
         elif kind.effect is Effect.HOLD and self.state in (State.RUN, State.WAIT):
             self._pause()
+
+    def _stop_hands(self) -> None:
+        """Axes moved by hand ramp to rest."""
+        self.wheel.leave()
+        self.jogging.stop_all()
 
     def _kill(self) -> None:
         """All motion is killed, drives go off, the program is over."""

@@ -135,6 +135,8 @@ class Wiring:
     feed_hold: int
     cycle_start: int
     emergency_stop: int
+    soft_limits: int
+    joystick: int
     g27_input: int
     g27_output: int
     lubrication: int
@@ -276,6 +278,8 @@ class Settings:
             feed_hold=self._int(IO, 2),
             cycle_start=self._int(IO, 3),
             emergency_stop=self._int(IO, 4),
+            soft_limits=self._int(IO, 5),
+            joystick=self._int(IO, 6),
             g27_input=self._int(IO, 10),
             g27_output=self._int(IO, 11),
             lubrication=self._int(IO, 12),

@@ -1,0 +1,271 @@
+"""Axes moved by hand through keys, joystick and hand wheel."""
+
+from itertools import pairwise
+
+import pytest
+from tests.mill.shop import STEP_S, Shop, at, end, line
+
+from openacr.errors import UserError
+from openacr.map.numbers import ENC_BASE, ENC_STRIDE
+from openacr.mill.alarms import AlarmError
+from openacr.mill.states import State
+
+LIMITS = {"P200_000": 0.5, "P200_001": -0.5, "P200_002": 0.0, "P271": 1.0}
+STICK, KEY = 8, 13
+WHEEL = ENC_BASE + 10 * ENC_STRIDE
+
+
+def handy(**cells: float) -> Shop:
+    """Jogs at 1 unit/s, fast at 10; one wheel, encoder 10, for X and Y."""
+    rows = {"P200_009": 10.0, "P201_009": 10.0, "P201_010": 0.02}
+    for axis in range(3):
+        rows |= {f"P35{axis}_000": 60.0, f"P35{axis}_001": 600.0, f"P35{axis}_003": 150.0}
+    return Shop(**(rows | cells))
+
+
+def speed(shop: Shop, axis: int = 0) -> float:
+    return float(shop.controller.axis(axis).velocity_ups)
+
+
+def position(shop: Shop, axis: int = 0) -> float:
+    """With the jog that is not position yet."""
+    return float(shop.controller.axis(axis).commanded_u)
+
+
+def stick(shop: Shop, which: int, on: bool) -> None:
+    shop.controller.set_input(STICK + which, on)
+
+
+def turn(shop: Shop, clicks: int) -> None:
+    """A click every 10 ms."""
+    for _ in range(abs(clicks)):
+        shop.controller.p[WHEEL] += 4 if clicks > 0 else -4
+        shop.pass_time(0.01)
+
+
+# --- keys -------------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-JOG-LOSTLINK")
+def test_an_axis_stops_when_nobody_is_heard_of_who_holds_its_key() -> None:
+    shop = handy()
+    shop.runner.controls.press("screen 1", 0, 1)
+    for _ in range(10):
+        shop.pass_time(0.3)
+        shop.runner.controls.renew("screen 1")
+    assert speed(shop) == pytest.approx(1.0)
+    before = position(shop)
+    shop.pass_time(1.0)
+    assert speed(shop) == 0.0
+    assert position(shop) == pytest.approx(before + 0.5, abs=0.02)
+    assert not shop.runner.is_busy
+
+
+@pytest.mark.req("MILL-JOG-LOSTLINK")
+def test_an_axis_stops_by_itself_when_the_host_is_gone() -> None:
+    shop = handy()
+    shop.runner.jog(lambda jog: jog.hold(0, 1))
+    shop.pass_time(3.0)
+    assert speed(shop) == pytest.approx(1.0)
+    before = position(shop)
+    shop.controller.advance(seconds=2.0)  # nobody looks any more
+    assert speed(shop) == 0.0
+    assert before + 0.3 < position(shop) < before + 0.52
+
+
+def test_who_is_gone_lets_his_keys_go_and_nobody_elses() -> None:
+    shop = handy()
+    shop.runner.controls.press("screen 1", 0, 1)
+    shop.runner.controls.press("screen 2", 1, -1)
+    shop.pass_time(0.2)
+    shop.runner.controls.drop("screen 1")
+    shop.pass_time(0.1)
+    assert (speed(shop, 0), speed(shop, 1)) == pytest.approx((0.0, -1.0))
+
+
+@pytest.mark.req("MILL-SYS-JOG-STP")
+@pytest.mark.parametrize("ramp", [100.0, 25.0])
+def test_stop_ends_a_jog_on_its_stop_ramp_and_a_release_on_its_deceleration(ramp: float) -> None:
+    for stop, expected in ((True, ramp), (False, 10.0)):
+        shop = handy(P350_004=ramp, P350_003=10.0)
+        shop.runner.jog(lambda jog: jog.hold(0, 1, fast=True))
+        shop.pass_time(1.0)
+        if stop:
+            shop.runner.stop()
+        else:
+            shop.runner.jogging.release(0)
+        shop.pass_time(0.01)
+        first = speed(shop)
+        shop.pass_time(0.05)
+        assert (first - speed(shop)) / 0.05 == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.req("MILL-SYS-IO-SOFTLIM")
+@pytest.mark.parametrize(("key", "pulses"), [(True, 5000), (False, 10000)])
+def test_the_soft_limits_input_enforces_the_limits_of_hands(key: bool, pulses: int) -> None:
+    shop = handy(P400_005=KEY, **LIMITS)
+    shop.controller.set_input(KEY, key)
+    shop.pass_time(0.01)
+    shop.runner.jog(lambda jog: jog.hold(0, 1, fast=True))
+    shop.pass_time(0.3)
+    assert speed(shop) <= (10.0 if key else 1.0) + 1e-9  # never fast without limits
+    while position(shop) < 0.99 and speed(shop) > 0:
+        shop.pass_time(STEP_S)
+    shop.runner.jogging.release(0)
+    shop.pass_time(0.5)
+    assert shop.pulses()[0] == pytest.approx(pulses, abs=150)
+    if key:
+        assert shop.pulses()[0] == 5000
+        with pytest.raises(AlarmError, match="Soft limit axis X"):
+            shop.runner.jog(lambda jog: jog.hold(0, 1))
+
+
+@pytest.mark.req("MILL-SYS-IO-SOFTLIM")
+def test_programs_keep_to_the_limits_whatever_the_key_says() -> None:
+    shop = handy(P400_005=KEY, **LIMITS)
+    shop.start(line(1, at(0.6)), end())
+    assert shop.until(State.ALARM) is State.ALARM
+    assert shop.pulses()[0] == 0
+
+
+# --- joystick ---------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-JOY-BANK", "MILL-SYS-IO-JOYSTICK")
+@pytest.mark.parametrize(
+    ("which", "axis", "sign"), [(0, 0, 1.0), (1, 0, -1.0), (2, 1, 1.0), (3, 1, -1.0)]
+)
+def test_each_input_of_the_joystick_jogs_one_axis_one_way(
+    which: int, axis: int, sign: float
+) -> None:
+    shop = handy(P400_006=STICK)
+    shop.pass_time(0.02)
+    stick(shop, which, True)
+    shop.pass_time(1.0)
+    assert speed(shop, axis) == pytest.approx(sign)
+    assert speed(shop, 1 - axis) == 0.0
+
+
+@pytest.mark.req("MILL-JOY-RELEASE")
+def test_an_axis_ramps_to_rest_when_the_stick_is_let_go() -> None:
+    shop = handy(P400_006=STICK, P350_003=2.0)
+    shop.pass_time(0.02)
+    stick(shop, 0, True)
+    shop.pass_time(1.0)
+    stick(shop, 0, False)
+    shop.pass_time(0.25)
+    assert 0.4 < speed(shop) < 0.6  # 2 units/s2
+    shop.pass_time(0.5)
+    assert speed(shop) == 0.0
+    assert shop.place()[0] == pytest.approx(position(shop), abs=1e-4)
+
+
+@pytest.mark.req("MILL-JOY-DISABLED")
+def test_without_a_joystick_its_inputs_do_nothing() -> None:
+    shop = handy()
+    for which in range(4):
+        stick(shop, which, True)
+    shop.pass_time(0.5)
+    assert position(shop, 0) == position(shop, 1) == 0.0
+    assert not shop.runner.is_busy
+
+
+def test_the_stick_has_no_effect_while_a_program_runs() -> None:
+    shop = handy(P400_006=STICK)
+    shop.start(line(1, at(2)), end())
+    shop.pass_time(0.05)
+    stick(shop, 2, True)
+    shop.until(State.IDLE)
+    assert shop.pulses() == (20000, 0, 0)
+
+
+@pytest.mark.req("MILL-JOG-DEVICES")
+@pytest.mark.parametrize("device", ["key", "stick"])
+def test_keys_and_stick_have_the_same_speed_and_limits(device: str) -> None:
+    shop = handy(P400_006=STICK, **LIMITS)
+    shop.pass_time(0.02)
+    if device == "key":
+        shop.runner.controls.press("screen", 0, 1)
+    stick(shop, 0, device == "stick")
+    fastest = 0.0
+    for _ in range(200):
+        shop.pass_time(STEP_S)
+        shop.runner.controls.renew("screen")
+        fastest = max(fastest, speed(shop))
+    assert fastest == pytest.approx(1.0)
+    assert shop.pulses()[0] == 5000
+
+
+# --- hand wheel -------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-HW-SELECT", "MILL-HW-RATIO", "MILL-SYS-AXES-HWRATIO")
+@pytest.mark.parametrize("clicks", [7, -7])
+def test_the_wheel_moves_the_chosen_axes_by_their_ratios(clicks: int) -> None:
+    shop = handy()
+    shop.runner.turn([0, 1])
+    turn(shop, clicks)
+    shop.pass_time(0.5)
+    assert position(shop, 0) == pytest.approx(clicks * 0.005)  # the default
+    assert position(shop, 1) == pytest.approx(clicks * 0.02)
+    shop.runner.turn([1])
+    turn(shop, clicks)
+    shop.pass_time(0.5)
+    assert position(shop, 0) == pytest.approx(clicks * 0.005)
+    assert position(shop, 1) == pytest.approx(2 * clicks * 0.02)
+    assert position(shop, 2) == 0.0
+
+
+@pytest.mark.req("MILL-HW-SOURCE", "MILL-SYS-AXES-HWSRC")
+def test_the_wheel_is_the_encoder_of_the_store_or_none() -> None:
+    shop = handy(P200_009=11)
+    with pytest.raises(UserError, match="no hand wheel is installed for axis Z"):
+        shop.runner.turn([0, 2])
+    shop.runner.turn([0])
+    turn(shop, 5)  # encoder 10
+    assert position(shop) == 0.0
+    shop.controller.p[ENC_BASE + 11 * ENC_STRIDE] += 40
+    shop.pass_time(0.5)
+    assert position(shop) == pytest.approx(0.05)
+
+
+@pytest.mark.req("MILL-HW-LEAVE")
+def test_leaving_the_wheel_disconnects_it_without_a_jump() -> None:
+    shop = handy()
+    shop.runner.turn([0])
+    turn(shop, 20)
+    shop.runner.turn([])
+    places = []
+    for _ in range(100):
+        shop.controller.p[WHEEL] += 4
+        shop.pass_time(STEP_S)
+        places.append(position(shop))
+    assert shop.pulses()[0] == 1000  # what was turned before, and it has become position
+    assert max(b - a for a, b in pairwise(places)) < 10 * STEP_S
+    assert not shop.runner.is_busy
+
+
+@pytest.mark.req("MILL-HW-LIMITS")
+def test_the_wheel_ends_at_a_soft_limit_and_turns_back_from_it_at_once() -> None:
+    shop = handy(P200_010=0.1, **LIMITS)
+    shop.runner.turn([0])
+    turn(shop, 12)
+    shop.pass_time(1.0)
+    assert position(shop) == 0.5
+    turn(shop, -1)
+    shop.pass_time(0.5)
+    assert position(shop) == pytest.approx(0.4)
+
+
+def test_one_hand_at_a_time() -> None:
+    shop = handy()
+    shop.runner.turn([0])
+    with pytest.raises(UserError, match="the hand wheel moves the machine"):
+        shop.runner.jog(lambda jog: jog.hold(1, 1))
+    with pytest.raises(UserError, match="being jogged"):
+        shop.start(end())
+    shop.runner.stop()
+    shop.pass_time(0.05)
+    shop.runner.jog(lambda jog: jog.hold(1, 1))
+    with pytest.raises(UserError, match="an axis is being jogged"):
+        shop.runner.turn([0])
