@@ -49,6 +49,12 @@ _NETWORK = ("STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 _CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
 _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
+# Boards of the front end's guide; what is not written here they have like the others.
+ACR1200 = Model(name="ACR1200", card_type=1200, axes=2, masters=8, streams=_BOX_STREAMS)
+ACR1500 = Model(name="ACR1500", card_type=1500, axes=4, masters=8, streams=_CARD_STREAMS)
+ACR2000 = Model(name="ACR2000", card_type=2000, axes=4, masters=8, streams=_CARD_STREAMS)
+ACR8000 = Model(name="ACR8000", card_type=8000, axes=8, masters=8, streams=_CARD_STREAMS)
+ACR8010 = Model(name="ACR8010", card_type=8010, axes=8, masters=8, streams=_CARD_STREAMS)
 ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS, has_battery=True)
 ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)
 ACR9000 = Model(
@@ -63,6 +69,9 @@ ACR7000 = Model(
     has_digits_in_names=True,
 )  # fmt: skip
 
-_ALL = (ACR1505, ACR7000, ACR8020, ACR9000, ACR9030, ACR9040)
+_ALL = (
+    ACR1200, ACR1500, ACR1505, ACR2000, ACR7000, ACR8000, ACR8010, ACR8020, ACR9000, ACR9030,
+    ACR9040,
+)  # fmt: skip
 MODELS = {model.name: model for model in _ALL}
 DEFAULT_MODEL = ACR9000

@@ -135,6 +135,7 @@ def test_the_dialect_may_stand_in_the_file(tmp_path: Path) -> None:
     assert "dialect elvish: known are" in text
 
 
+@pytest.mark.req("MILL-START-NOCARD")
 def test_no_card_is_said_as_such(tmp_path: Path) -> None:
     code, text = mill("run", program(tmp_path, SQUARE), "--host", "127.0.0.1:1")
     assert code == 2
@@ -174,3 +175,33 @@ def test_what_ends_a_program_ends_its_batch(tmp_path: Path) -> None:
     assert code == 1
     assert "alarm 60" in text
     assert "two" not in text.split()
+
+
+def mdi(typed: str | None, *words: str) -> tuple[int, list[str]]:
+    result = CliRunner().invoke(app, ["mill", "mdi", *words], input=typed)
+    return result.exit_code, result.output.splitlines()
+
+
+def test_mdi_blocks_run_on_the_virtual_machine_one_by_one() -> None:
+    code, places = mdi(None, "G91 F600 G1 X1", "X1 Y-0.5")
+    assert code == 0
+    assert [place.split()[:4] for place in places] == [
+        ["X", "1.0000", "Y", "0.0000"],
+        ["X", "2.0000", "Y", "-0.5000"],
+    ]
+
+
+def test_mdi_blocks_can_be_piped_in_and_kept_as_a_program(tmp_path: Path) -> None:
+    kept = tmp_path / "KEPT.NC"
+    code, places = mdi("G90 F600\n\nG1 X1.5\n", "--save", str(kept))
+    assert (code, len(places)) == (0, 2)
+    assert kept.read_text() == "G90 F600\nG1 X1.5\n"
+    assert as_json("run", str(kept))["end"]["X"] == 1.5
+
+
+def test_a_bad_mdi_block_is_refused_and_the_good_ones_before_it_are_kept(tmp_path: Path) -> None:
+    kept = tmp_path / "KEPT.NC"
+    code, lines = mdi(None, "G1 F600 X1", "G1 Q", "--save", str(kept))
+    assert code != 0
+    assert "MDI:1:" in lines[-1]
+    assert kept.read_text() == "G1 F600 X1\n"

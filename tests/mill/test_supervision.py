@@ -1,14 +1,23 @@
 """What goes wrong in a run: alarms, what they do, and that the machine stops safely."""
 
+import re
+from pathlib import Path
+
 import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.cnc.findings import BlockError, Finding
+from openacr.controller import Controller
 from openacr.mill.alarms import AlarmError
 from openacr.mill.states import State
+from openacr.mill.workshop import Workshop
+from openacr.sysvar import Store
 
 ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
+
+
+ESTOP_CELL = 400_004
 
 
 def codes(shop: Shop) -> list[int]:
@@ -19,7 +28,7 @@ def long_way() -> tuple[c.Entry, ...]:
     return (line(1, at(50)), end())
 
 
-@pytest.mark.req("MILL-SYS-IO-ESTOP")
+@pytest.mark.req("MILL-SYS-IO-ESTOP", "MILL-RUN-ESTOP")
 def test_the_emergency_stop_kills_everything() -> None:
     shop = Shop(**{ESTOP: 5, "P800_005": 40, "P800_009": 41})
     shop.start(
@@ -38,8 +47,27 @@ def test_the_emergency_stop_kills_everything() -> None:
     before = shop.place()
     shop.pass_time(0.5)
     assert shop.place() == before
+    shop.controller.set_input(5, False)
+    shop.pass_time(1.0)
+    assert shop.place() == before
+    assert shop.runner.state is State.ALARM
 
 
+@pytest.mark.req("MILL-RUN-ESTOP")
+def test_the_emergency_stop_ends_a_dwell() -> None:
+    shop = Shop(**{ESTOP: 5})
+    shop.load("G4 F100\nG1 F600 X1\nM2\n")
+    shop.pass_time(0.5)
+    shop.controller.set_input(5, True)
+    shop.pass_time(0.1)
+    shop.controller.set_input(5, False)
+    shop.pass_time(0.1)
+    assert shop.runner.acknowledge() == []
+    shop.run_text("G1 F600 Y1\nM2\n")
+    assert shop.pulses() == (0, 10000, 0)
+
+
+@pytest.mark.req("MILL-ALM-CLEAR", "MILL-ALM-STOPRUN")
 def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
     shop = Shop(**{ESTOP: 5})
     shop.controller.set_input(5, True)
@@ -56,7 +84,7 @@ def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
     assert shop.pulses() == (10000, 0, 0)
 
 
-@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART")
+@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART", "MILL-RUN-FEEDHOLD")
 def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
     shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
     shop.start(*long_way())
@@ -151,3 +179,73 @@ def test_exact_stops_wait_for_the_in_position_band(width: float, state: State) -
     shop.start(c.Line(src(1), at(1), pace), rapid(2, at(0)), end())
     assert shop.until(state) is state
     assert codes(shop) == ([24] if state is State.ALARM else [])
+
+
+TURNS = "M3 S500\nG1 F60 X50\nM2\n"
+CUTS = "G1 F60 X50\nM2\n"
+
+
+@pytest.mark.req("MILL-ALM-SOURCES")
+@pytest.mark.parametrize(
+    ("cells", "text", "input_number", "code"),
+    [
+        pytest.param({ESTOP: 5}, CUTS, 5, 10, id="emergency stop"),
+        pytest.param({LUBRICATION: 5}, CUTS, 5, 43, id="lubrication error"),
+        pytest.param({"P800_008": 5}, TURNS, 5, 41, id="spindle exception"),
+        pytest.param({"P400_010": 6}, "G27 X1 Y0 Z0\nM2\n", None, 31, id="G27 unconfirmed"),
+        pytest.param({"P280": 1.0, "P150_000": 0.0001}, "G28 X1\nM2\n", None, 32, id="G28 missed"),
+        pytest.param({"P200_004": 0.0005}, "G1 F6000 X5\nM2\n", None, 11, id="excess error"),
+        pytest.param(
+            {"P200_000": 2.0, "P200_001": -2.0, "P200_002": 0, "P271": 1},
+            "G1 F600 X3\nM2\n", None, 21, id="soft limit",
+        ),
+    ],
+)  # fmt: skip
+def test_what_goes_wrong_is_an_alarm(
+    cells: dict[str, float], text: str, input_number: int | None, code: int
+) -> None:
+    shop = Shop(**cells)
+    shop.load(text)
+    shop.pass_time(0.5)
+    if input_number is not None:
+        assert codes(shop) == []
+        shop.controller.set_input(input_number, True)
+    shop.until(State.ALARM, State.PAUSED)
+    assert code in codes(shop)
+
+
+@pytest.mark.req("MILL-ALM-SOURCES")
+def test_a_hardware_limit_is_an_alarm() -> None:
+    shop = Shop()
+    shop.card.command("HLBIT X 8", program=0)
+    shop.card.command("HLIM X 3", program=0)
+    shop.load(CUTS)
+    shop.pass_time(0.5)
+    shop.controller.set_input(8, True)
+    shop.until(State.ALARM)
+    assert 13 in codes(shop)
+    shop.pass_time(1.0)
+    place = shop.place()
+    shop.pass_time(0.5)
+    assert shop.place() == place
+
+
+@pytest.mark.req("MILL-ALM-LOG")
+@pytest.mark.parametrize("is_off", [False, True])
+def test_alarms_are_logged_with_their_time_unless_the_store_forbids_it(
+    tmp_path: Path, is_off: bool
+) -> None:
+    store = Store(tmp_path / "sysvar.db")
+    store.write(250_118, is_off)
+    store.write(ESTOP_CELL, 5)
+    controller = Controller()
+    shop = Workshop.real(controller, store, say=print)
+    controller.set_input(5, True)
+    for _ in range(5):
+        shop.step()
+    assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [10]
+    logs = [file.read_text() for file in tmp_path.glob("*.LOG")]
+    if is_off:
+        assert logs == []
+    else:
+        assert re.fullmatch(r"\d{4}-\d\d-\d\dT\S+  alarm 10  Emergency stop\n", logs[0])

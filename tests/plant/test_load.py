@@ -16,8 +16,9 @@ TORQUE = 'drive = { mode = "torque", amps_per_volt = 1.0, peak_amps = 9.0 }\n'
 MOTOR = "motor = { inertia_kgm2 = 1e-5, torque_nm_per_a = 0.5 }\n"
 FAULTS = {
     "[card]\nmodel = 'ACR90'\n":
-        'machine.toml:2:1: card.model is "ACR90"; it must be one of "ACR1505", "ACR7000", '
-        '"ACR8020", "ACR9000", "ACR9030", "ACR9040"',
+        'machine.toml:2:1: card.model is "ACR90"; it must be one of "ACR1200", "ACR1500", '
+        '"ACR1505", "ACR2000", "ACR7000", "ACR8000", "ACR8010", "ACR8020", "ACR9000", "ACR9030", '
+        '"ACR9040"',
     "[card]\nperiod_s = 0.5\n":
         "machine.toml:2:1: card.period_s is 0.5; it must be a number from 0.0001 to 0.005",
     "[card]\ndac_bits = 16.5\n":

@@ -152,16 +152,6 @@ def test_a_cell_can_be_given_its_default_again(tmp_path: Path) -> None:
             assert (each.read(650_002), each.is_set(650_002)) == (10.0, False)
 
 
-def test_values_in_use_are_forgotten_at_the_start() -> None:
-    store = Store()
-    for n in (1998, 1999, 4000, 4001):
-        store.write(n, 0.5)
-    store.write(244, 1)
-    store.write(2001, 0.5)
-    store.start()
-    assert [store.read(n) for n in (1998, 1999, 4000, 4001, 244, 2001)] == [0, 0, 0, 0, 0, 0.5]
-
-
 # --- rules between settings -------------------------------------------------------------
 
 

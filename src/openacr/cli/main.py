@@ -117,7 +117,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "mill_run", "run_batch", "Run the programs of a batch file one after the other."
             ),
             "jog": Entry("mill_run", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
-            "mdi": Entry("mill_run", "run_blocks", "Run single blocks on a card."),
+            "mdi": Entry(
+                "mill_run",
+                "run_blocks",
+                "MDI: run single blocks on the virtual machine, or on a card.",
+            ),
             "home": Entry("mill_run", "home_axes", "Find the reference points of axes on a card."),
             "import": Entry(
                 "mill_import",

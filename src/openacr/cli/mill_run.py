@@ -135,16 +135,47 @@ def jog_axes(
 
 
 def run_blocks(
-    blocks: Annotated[list[str], typer.Argument(metavar="BLOCK...", help='"G0 X1" "M3 S500"')],
-    host: AtHost,
+    blocks: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[BLOCK]...", help='"G0 X1" "M3 S500"; without any they are read.'),
+    ] = None,
+    host: ToHost = None,
     store: AtStore = None,
     dialect: Dialect = None,
+    save: Annotated[
+        Path | None, typer.Option("--save", metavar="FILE", help="Keep the blocks as a program.")
+    ] = None,
 ) -> None:
-    """Run single blocks on a card."""
+    """MDI: run single blocks on the virtual machine, or on a card.
+
+    Blocks are those of the command line, or lines of the terminal until an empty one.
+    """
+    from openacr.cli.output import require_writable, write_whole
+
+    if save is not None:
+        require_writable(save)
     with opened_store(store) as cells, _workshop(host, cells) as shop:
-        for place in shop.run_blocks(blocks, dialect or "acromill", _attend):
-            typer.echo(_place_text(shop, place))
+        try:
+            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", _attend):
+                typer.echo(_place_text(shop, place))
+        finally:
+            if save is not None:
+                text = "".join(f"{block}\n" for block in shop.typed)
+                write_whole(save, lambda partial: _fill(partial, text))
         _end_with_alarms(shop)
+
+
+def _fill(partial: Path, text: str) -> None:
+    partial.write_text(text)
+
+
+def _typed() -> "Iterator[str]":
+    """Lines of the terminal, or of what is piped in."""
+    if sys.stdin.isatty():
+        while line := typer.prompt("MDI", default="", show_default=False):
+            yield line
+    else:
+        yield from filter(None, map(str.strip, sys.stdin))
 
 
 def home_axes(
@@ -315,9 +346,9 @@ def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
 def _end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
     """Say what went wrong; exit code 1 when anything did."""
     active = shop.runner.alarms.active
-    source = shop.runner.source
+    block = shop.block
     for alarm in active if is_shown else ():
-        where = f" (line {source.line}: {source.text.strip()})" if source else ""
+        where = f" (line {block[0]}: {block[1]})" if block else ""
         typer.secho(f"alarm {alarm.kind.code}: {alarm.text}{where}", fg=typer.colors.RED, err=True)
     if shop.runner.alarms.bars_start:
         raise typer.Exit(FAILED)

@@ -33,6 +33,16 @@ class Part:
         """The first line."""
         return Place(self, self.text.begin, 1)
 
+    def line(self, number: int) -> str:
+        """A line by its number; empty behind the last one."""
+        found, after = None, self.text.begin
+        for _ in range(number):
+            found = self.text.line(after)
+            if found is None:
+                return ""
+            after = found[1]
+        return decoded(found[0]) if found else ""
+
 
 class Node:
     """One line in use: its text, what it does once that is known, and the line behind it."""
@@ -86,6 +96,16 @@ class Program:
     def line_cnt(self) -> int:
         """Lines of the main text."""
         return self.main.line_cnt
+
+    def text_of(self, source: Source) -> str:
+        """The line an entry comes from; entries of long ways do not carry it."""
+        if source.text:
+            return source.text
+        others = (*self.parts, *self.includes.values(), *self.customs.values())
+        for part in (self.main, *others):
+            if part.text.name == source.file:
+                return part.line(source.line)
+        return ""
 
 
 class Nodes:

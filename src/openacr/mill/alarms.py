@@ -47,7 +47,7 @@ def _alarm(code: int, text: str, effect: Effect) -> Kind:
 NO_CARD = _alarm(1, "NO CARD FOUND", Effect.REFUSE)
 OLD_FIRMWARE = _alarm(2, "Firmware older than 1.18: {}", Effect.REFUSE)
 LINK_LOST = _alarm(3, "Link lost", Effect.ABORT)
-LACKS_FUNCTION = _alarm(4, "Card model lacks function {}", Effect.REFUSE)
+LACKS_FUNCTION = _alarm(4, "Card model lacks function: {}", Effect.REFUSE)
 EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.KILL)
 EXCESS_ERROR = _alarm(11, "Excess following error axis {}", Effect.KILL)
 DRIVE_FAULT = _alarm(12, "Drive fault axis {}", Effect.KILL)

@@ -12,6 +12,7 @@ from itertools import chain, repeat
 from pathlib import Path
 
 from openacr.client import Card
+from openacr.client.links import Host
 from openacr.cnc import canonical as c
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter
@@ -22,7 +23,7 @@ from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
-from openacr.map.numbers import P_FIRMWARE_VERSION
+from openacr.map import numbers as n
 from openacr.mill import alarms
 from openacr.mill.alarms import AlarmError, Alarms
 from openacr.mill.ballscrew import tables_of
@@ -35,11 +36,12 @@ from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare
 from openacr.mill.states import Options, State
-from openacr.sysvar import Store
+from openacr.models import Model
+from openacr.sysvar import AT_START, Store
 
 POLL_S = 0.02
 OLDEST_FIRMWARE = 11800
-NO_ERROR_FILE, LOG_NAME = 250_118, 100_006
+NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
 UNWIRED = (
@@ -76,6 +78,11 @@ class Workshop:
         self.cells = cells
         self.card = card
         self.is_virtual = is_virtual
+        self.program: Program | None = None
+        self.typed: list[str] = []  # blocks run in MDI: the text of a program
+        with cells.transaction():
+            for number, value in AT_START.items():
+                cells.write(number, value)
         settings = Settings(cells)
         depth = prepare(card, settings, tables_of(cells, settings, folder))
         axes = [axis.index for axis in settings.axes]
@@ -99,17 +106,23 @@ class Workshop:
         for cell in UNWIRED:
             cells.write(cell, NONE)
         cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
-        shop = cls(Card.open(Controller()), cells, say, is_virtual=True, folder=_folder_of(store))
+        controller = Controller(store.read_text(CARD_MODEL))
+        _check_axes(controller.model, Settings(cells))
+        card = Card.open(controller)
+        shop = cls(card, cells, say, is_virtual=True, folder=_folder_of(store))
         names = " ".join(axis.name for axis in shop.runner.settings.axes)
         shop.card.command(f"DRIVE ON {names}", program=shop.machine.master)
         return shop
 
     @classmethod
-    def real(cls, target: str, store: Store, say: Callable[[str], None] = print) -> "Workshop":
+    def real(
+        cls, target: str | Host, store: Store, say: Callable[[str], None] = print
+    ) -> "Workshop":
         """A card at the other end of a link; drives are left as they are."""
         card = Card.open(target)
         try:
             _check_firmware(card)
+            _check_rest(card, Settings(store).master)
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
         except BaseException:
             card.close()
@@ -121,9 +134,19 @@ class Workshop:
 
     # --- programs ---------------------------------------------------------------------
 
+    @property
+    def block(self) -> tuple[int, str] | None:
+        """Line and text of the block that is executed."""
+        source = self.runner.source
+        if source is None:
+            return None
+        text = self.program.text_of(source) if self.program else source.text
+        return source.line, text.strip()
+
     def start(self, program: Program, start: Start) -> Replay | None:
         """Begin a program; the replay of the lines before, when it begins later."""
         replay: Replay | None = None
+        self.program = program
         options = Options(
             is_dry=start.is_dry,
             stops_optionally=start.stops_optionally,
@@ -162,6 +185,7 @@ class Workshop:
         host = self.runner.course.host
         program = load(b"", self.cells, dialect, name="MDI")
         typed = Mdi(Interpreter(program, self.cells, host, dialect))
+        self.typed = typed.text
         for block in blocks:
             entries = _ended(typed.execute(block))
             self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
@@ -220,13 +244,27 @@ def _folder_of(store: Store) -> Path | None:
 
 def _check_firmware(card: Card) -> None:
     """Refuse a card that is older than what the packets of moves need."""
-    version = int(card.read(P_FIRMWARE_VERSION))
+    version = int(card.read(n.P_FIRMWARE_VERSION))
     if version < OLDEST_FIRMWARE:
         raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
 
 
 def _say_message(say: Callable[[str], None], message: Message, is_on: bool) -> None:
     say(f"message {message.number}: {message.shown}" + ("" if is_on else " (over)"))
+
+
+def _check_axes(model: Model, settings: Settings) -> None:
+    """Refuse a machine with axes that its card model does not have."""
+    beyond = [axis.name for axis in settings.axes if axis.index >= model.axes]
+    if beyond:
+        lacking = f"{model.name}: axis {' '.join(beyond)}, it has {model.axes} axes"
+        raise AlarmError(alarms.LACKS_FUNCTION, lacking)
+
+
+def _check_rest(card: Card, master: int) -> None:
+    """Refuse a machine that moves: setting it up would break off what another program does."""
+    if int(card.read(n.MF1_WORD + master)) & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED):
+        raise UserError("the machine moves: another program runs it; wait for its end or stop it")
 
 
 def _error_log(cells: Cells, folder: Path | None) -> Path | None:

@@ -9,8 +9,6 @@ from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
 from openacr.sysvar.schema import AXES, AXIS_CELLS, Wire
 from openacr.sysvar.values import SettingError
 
-GUIDE_MODELS = ("ACR1200", "ACR1500", "ACR2000", "ACR8010", "ACR8020")
-CARD_MODELS = tuple(sorted({*GUIDE_MODELS, *MODELS}))
 MODEL, RUN_STATE = 100_002, 244
 RUNNING = frozenset((1, 2, 3, 4))  # run, paused, wait, stop
 ANGLE1, ANGLE2 = 250_010, 250_011
@@ -99,8 +97,8 @@ def _override_tables(cells: Reader, changed: Iterable[int]) -> None:
 
 
 def _card_model(cells: Reader, changed: Iterable[int]) -> None:
-    if MODEL in changed and cells.read_text(MODEL) not in CARD_MODELS:
-        raise SettingError(known(MODEL), cells.read_text(MODEL), "one of " + ", ".join(CARD_MODELS))
+    if MODEL in changed and cells.read_text(MODEL) not in MODELS:
+        raise SettingError(known(MODEL), cells.read_text(MODEL), "one of " + ", ".join(MODELS))
 
 
 def _wires(cells: Reader, changed: Iterable[int]) -> None:

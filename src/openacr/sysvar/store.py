@@ -31,6 +31,7 @@ from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
 LOOK_S = 0.05  # the counter is not believed for longer
 NEVER = b""  # no counter ever reads like this
 AXIS_NAME = 200_008
+# The state at the start of the front end: no offset in use, spindle off, idle.
 AT_START = {1998: 0.0, 1999: 0.0, 4000: 0.0, 4001: 0.0, 240: 5.0, 241: 0.0, 244: 0.0}
 
 Listener = Callable[[frozenset[int]], None]
@@ -216,12 +217,6 @@ class Store:
         finally:
             self._tell(foreign)
             self._tell(changed)
-
-    def start(self) -> None:
-        """The state at the start of the front end: no offset in use, spindle off, idle."""
-        with self.transaction():
-            for n, value in AT_START.items():
-                self.write(n, value)
 
     def begin_metric(self) -> None:
         """Make a store that is still empty metric: its defaults are numbers of millimetres."""
