@@ -161,13 +161,14 @@ MODELS = {
         is_metric=True,
     ),
     "FRAME": Model(keeps=frame, changes=({}, {200: 3, 201: 3, 202: 0.25})),
-    "POCKET": Model(clears=lambda p: disc(p[200]), changes=({}, {200: 0.75, 203: 0.05})),
+    "POCKET": Model(clears=lambda p: disc(p[200]), changes=({}, {200: 0.75, 203: 0.05}, {207: 3})),
     "RPOCKET": Model(
-        clears=lambda p: box(0, 0, p[200], p[201]), changes=({}, {200: 0.8, 201: 0.8, 203: 0.05})
+        clears=lambda p: box(0, 0, p[200], p[201]),
+        changes=({}, {200: 0.8, 201: 0.8, 203: 0.05}, {207: 5}),
     ),
-    "SLOT": Model(clears=capsule, changes=({}, {201: 2}, {200: 0.5, 201: 1})),
+    "SLOT": Model(clears=capsule, changes=({}, {201: 2}, {200: 0.5, 201: 1}, {207: 2})),
     "ARCSLOT": Model(
-        clears=arc_slot, changes=({}, {202: 200, 204: 300}, {200: 3, 201: 1.5, 204: 60})
+        clears=arc_slot, changes=({}, {202: 200, 204: 300}, {200: 3, 201: 1.5, 204: 60}, {207: 1})
     ),
     "HELIBORE": Model(keeps=lambda p: disc(p[200] + 4).difference(disc(p[200])), rim=bore),
     "FACE": Model(covers=lambda p: box(0, 0, p[200], p[201]), changes=({}, {203: 0.7}, {201: 0.3})),

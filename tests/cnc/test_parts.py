@@ -159,6 +159,28 @@ def _rounded(hole: Spot) -> Spot:
     return (round(hole[0], 6) + 0.0, round(hole[1], 6) + 0.0)
 
 
+@pytest.mark.parametrize("angle", [1.0, 10.0])
+@pytest.mark.parametrize("name", ["POCKET", "RPOCKET", "SLOT", "ARCSLOT"])
+def test_a_ramp_goes_down_no_steeper_than_its_angle(name: str, angle: float) -> None:
+    store = Store()
+    ready = ready_for(name, {207: angle}, 0.125, store)
+    program = load(ready.program, store, folders=Folders(library=FOLDER), name=name)
+    entries = Interpreter(
+        program, store, VirtualMachine(), options=Options(is_library_part=True)
+    ).entries()
+    here: Point = (0.0,) * 8
+    reached = 0.0  # what is open already
+    for entry in unrolled(iter(entries)):
+        if not isinstance(entry, Rapid | Line | Arc):
+            continue
+        if not isinstance(entry, Rapid) and entry.end[2] < reached:
+            way = LineString([_flat(here), *_points(entry, here)])
+            fall = reached - entry.end[2]
+            assert fall <= way.length * math.tan(math.radians(angle)) + 1e-4, entry.source
+        reached, here = min(reached, entry.end[2]), entry.end
+    assert reached == pytest.approx(-0.25)
+
+
 @pytest.mark.parametrize("name", ["CIRCLE", "LBRACKET", "WASHER"])
 def test_without_d_the_tool_is_that_of_the_run_set_up(name: str) -> None:
     store, model = Store(), MODELS[name]
