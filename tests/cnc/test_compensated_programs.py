@@ -231,3 +231,15 @@ def test_everything_keeps_the_radius_from_a_round_part() -> None:
     (arc,) = done.of(Arc)
     assert isinstance(arc, Arc)
     assert arc.start_radius == arc.end_radius == hypot(2.25, 0)
+
+
+def test_ways_to_and_from_a_closed_contour_are_no_edges_of_it() -> None:
+    """Quarters of a circle touch the contour at one point, which the tool has to pass."""
+    around = "F10 G0 X2.4 Y0\nG41 D1 G1 X2.5 Y-.5\nG3 X3 Y0 I2.5 J0\nG1 {}\n"
+    around += "G3 X2.5 Y.5 I2.5 J0\nG40 G1 X2.4 Y0\nM2"
+    closed = surveyed(around.format("Y3\nX-3\nY-3\nX3\nY0"), RADIUS)
+    assert closed.findings == []
+    spike = "X-3\nY1\nX2.6 Y.8\nX-3 Y.6\nY-3"  # its tip is too near to the other side
+    narrow = surveyed(around.format(f"Y3\n{spike}\nX3\nY0"), RADIUS)
+    assert narrow.errors == []
+    assert {f.code for f in narrow.warnings} == {"W323"}

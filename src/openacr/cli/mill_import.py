@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from openacr.sysvar import Store
 
 # Cells of the store that say how drawings are imported.
-EPSILON, SAFE_HEIGHT, DRILL_Z, DRILL_R, DRILL_F = 250_101, 250_120, 250_121, 250_122, 250_123
+EPSILON, SAFE_HEIGHT, DRILL_Z, DRILL_R, DRILL_F, LEAD_IN = (
+    250_101, 250_120, 250_121, 250_122, 250_123, 250_005,
+)  # fmt: skip
 
 
 class Direction(StrEnum):
@@ -51,6 +53,13 @@ def import_drawing(
     feed: Annotated[
         float | None, typer.Option("--feed", help="F of the path, or of the holes.")
     ] = None,
+    tool: Annotated[
+        int,
+        typer.Option("--tool", metavar="D", help="Compensate closed chains for radius D; 0: not."),
+    ] = 0,
+    lead: Annotated[
+        float | None, typer.Option("--lead", help="Radius of ways in and out, with --tool.")
+    ] = None,
     store: Annotated[
         Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
     ] = None,
@@ -62,6 +71,7 @@ def import_drawing(
     """Make a part program of a DXF drawing: a path, or holes to drill."""
     from openacr.cli.output import require_writable, write_whole
     from openacr.cnc.dxf import Options, Pattern, convert
+    from openacr.cnc.library import tool_radius
     from openacr.sysvar.location import open_to_read
 
     target = out or file.with_suffix(".TXT")
@@ -80,6 +90,9 @@ def import_drawing(
             drill_level=_given(drill_r, cells, DRILL_R),
             drill_feed=_positive("--feed", _given(feed, cells, DRILL_F)),
             feed=None if feed is None else _positive("--feed", feed),
+            d_number=tool,
+            radius=tool_radius(cells, tool) if tool else 0.0,
+            lead=_positive("--lead", _given(lead, cells, LEAD_IN)),
         )
     conversion = convert(file, options)
     write_whole(target, lambda partial: _write(partial, conversion.text))

@@ -120,7 +120,7 @@ def prepared(
             detail = f"{size} = {value:g} ({size.accepted})"
             findings.append(CodeError("E222", detail=detail).at(str(part.path), size.line, ""))
         values[size.cell] = in_unit(value, size.unit, active)
-    radius = in_unit(_tool_radius(cells, d_number), store_unit, active)
+    radius = in_unit(tool_radius(cells, d_number), store_unit, active)
     values.setdefault(TOOL_RADIUS, radius)  # a part may use that cell for a size of its own
     values[LEAD_IN] = in_unit(cells.read(LEAD_IN_CELL), store_unit, active)
     if not findings:
@@ -144,7 +144,8 @@ def in_unit(value: float, unit: str, active: str) -> float:
     return float(f"{converted:.{DIGITS}g}")
 
 
-def _tool_radius(cells: Cells, d_number: int) -> float:
+def tool_radius(cells: Cells, d_number: int) -> float:
+    """The radius of a D number with its wear, in default units; that of CMP RAD for 0."""
     if not d_number:
         return abs(cells.read(CMP_RAD))
     if not 1 <= d_number <= LAST_D:

@@ -8,7 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Polygon
 
-from openacr.cnc.dxf.chains import Chain, directed, in_order, joined
+from openacr.cnc.dxf.chains import Chain, directed, in_order, joined, turned
+from openacr.cnc.dxf.doubles import without_doubles
+from openacr.cnc.dxf.nesting import depths, parents
+from openacr.cnc.dxf.nesting import outline as outline_of
 from openacr.cnc.dxf.segments import Point, Segment, bulged, reverse_all
 
 EPSILON = 0.002
@@ -94,7 +97,8 @@ def test_an_open_path_comes_back_whole_and_runs_from_its_end_nearest_to_the_tool
     chains = joined(torn(segments, seed, EPSILON / 2), EPSILON)
     assert [chain.is_closed for chain in chains] == [False]
     last = segments[-1].end
-    (found,) = in_order(chains, tool=(last[0] * 1.1, last[1] * 1.1))
+    (single,) = chains
+    found = turned(single, (last[0] * 1.1, last[1] * 1.1))
     distances = [math.dist(found.start, last), math.dist(found.end, last)]
     assert min(distances) < EPSILON
     tool = (last[0] * 1.1, last[1] * 1.1)
@@ -112,7 +116,8 @@ def test_several_outlines_stay_apart_and_come_in_the_order_of_their_starts() -> 
         ]
         pieces += torn(moved, number, 0.0)
     random.Random(3).shuffle(pieces)
-    chains = in_order(joined(pieces, EPSILON))
+    apart = joined(pieces, EPSILON)
+    chains = [apart[number] for number in in_order(apart)]
     assert [chain.is_closed for chain in chains] == [True] * 3
     assert [round(chain.start[0] / 20) for chain in chains] == [0, 1, 2]
 
@@ -171,3 +176,45 @@ def test_ten_thousand_pieces_are_joined_quickly() -> None:
     begin = time.perf_counter()
     assert len(joined(torn(segments, 5, 1e-5), 2e-5)) >= 1
     assert time.perf_counter() - begin < 10.0
+
+
+def ring(x: float, y: float, radius: float) -> tuple[Segment, ...]:
+    """A full circle."""
+    return (Segment((x + radius, y), (x + radius, y), (x, y), 2 * math.pi),)
+
+
+def test_insides_come_before_outsides_and_the_nearest_of_them_first() -> None:
+    """Two plates, one with two holes of which one has an island, and a stroke in the other."""
+    stroke = (Segment((20.0, 0.0), (21.0, 0.0)),)
+    rings = ((0, 9), (5, 2), (-5, 3), (-5, 1), (20, 6))
+    pieces = [*(ring(x, 0, radius) for x, radius in rings), stroke]
+    chains = joined(pieces, EPSILON)
+    around = parents(chains, [outline_of(chain) for chain in chains])
+    order = [chains[number] for number in in_order(chains, parents=around)]
+    sizes = [round(chain.segments[0].radius) for chain in order]
+    assert sizes == [1, 3, 2, 9, 0, 6]  # a circle begins at its right
+    by_size = {round(chain.segments[0].radius): k for k, chain in enumerate(chains)}
+    deep = depths(around)
+    assert [deep[by_size[size]] for size in (9, 2, 3, 1, 6, 0)] == [0, 1, 1, 2, 0, 1]
+
+
+def test_what_is_drawn_twice_is_left_out_once() -> None:
+    line = (Segment((0.0, 0.0), (4.0, 0.0)),)
+    bow = (bulged((0.0, 0.0), (4.0, 0.0), 0.5),)
+    other = (bulged((0.0, 0.0), (4.0, 0.0), -0.5),)
+    near = (Segment((0.0005, 0.0), (4.0, 0.0005)),)
+    pieces = [line, bow, other, near, reverse_all(bow), ring(9, 9, 1), ring(9, 9, 1), ring(9, 9, 2)]
+    assert without_doubles(pieces, EPSILON) == [line, bow, other, pieces[5], pieces[7]]
+    assert len(without_doubles(pieces, 1e-5)) == 6  # `near` is a line of its own
+
+
+def test_two_thousand_nested_chains_are_ordered_quickly() -> None:
+    pieces = [ring(10.0 * (k % 50), 10.0 * (k // 50), 1 + (k % 3)) for k in range(1000)]
+    pieces += [ring(10.0 * (k % 50), 10.0 * (k // 50), 0.5) for k in range(1000)]
+    chains = joined(pieces, EPSILON)
+    around = parents(chains, [outline_of(chain) for chain in chains])
+    order = in_order(chains, parents=around)
+    assert sorted(order) == list(range(2000))
+    places = {number: place for place, number in enumerate(order)}
+    assert sum(1 for k in around if k >= 0) == 1000
+    assert all(places[k] < places[outer] for k, outer in enumerate(around) if outer >= 0)

@@ -1,11 +1,14 @@
 """DXF drawings as part programs: a path that is cut, or holes that are drilled."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from openacr.cnc.dxf.chains import directed, in_order, joined
+from openacr.cnc.dxf.chains import directed, joined
+from openacr.cnc.dxf.doubles import without_doubles
 from openacr.cnc.dxf.reading import Drawing2D, read
+from openacr.cnc.dxf.routing import Tool, routed
 from openacr.cnc.dxf.writing import Numbers, drill_program, nearest_first, path_program
 from openacr.errors import UserError
 
@@ -36,6 +39,9 @@ class Options:
     drill_level: float = 0.1
     drill_feed: float = 10.0
     feed: float | None = None
+    d_number: int = 0  # cutter compensation with this radius, 0 none
+    radius: float = 0.0  # of that tool
+    lead: float = 0.25  # radius of ways in and out
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,19 +79,34 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
 
     if not drawing.pieces:
         raise UserError(f"{path}: there is nothing to cut{_where(options)}")
-    chains = joined(drawing.pieces, unit(options.epsilon))
-    chains = in_order(directed(chains, is_counter_clockwise=options.is_counter_clockwise))
+    pieces = without_doubles(drawing.pieces, unit(options.epsilon))
+    if len(pieces) < len(drawing.pieces):
+        count = len(drawing.pieces) - len(pieces)
+        drawing.notes.append(f"drawn twice, left out: {count}")
+    chains = joined(pieces, unit(options.epsilon))
+    chains = directed(chains, is_counter_clockwise=options.is_counter_clockwise)
+    route = routed(chains, _tool(options, unit))
+    drawing.notes += route.notes
+    if not route.ways:
+        raise UserError(f"{path}: D{options.d_number} has no room anywhere")
     closed = sum(chain.is_closed for chain in chains)
-    summary = f"{len(chains)} chains ({closed} closed) of {len(drawing.pieces)} entities"
+    summary = f"{len(chains)} chains ({closed} closed) of {len(pieces)} entities"
     text = path_program(
-        chains,
+        route.ways,
         Numbers(drawing.is_metric),
         title=f"{_printable(path.name)}: {summary}",
         safe_height=unit(options.safe_height),
         feed=None if options.feed is None else unit(options.feed),
         straight=STRAIGHT_R * unit(options.epsilon),
+        d_number=options.d_number,
     )
     return text, summary
+
+
+def _tool(options: Options, unit: Callable[[float], float]) -> Tool | None:
+    if not options.d_number:
+        return None
+    return Tool(options.d_number, unit(options.radius), unit(options.lead))
 
 
 def _holes(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:

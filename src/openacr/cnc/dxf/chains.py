@@ -6,7 +6,7 @@ that goes on straightest, until it is back at its first node or nothing is left 
 """
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -17,6 +17,7 @@ from openacr.cnc.dxf.segments import Point, Segment, reverse_all
 
 Piece = tuple[Segment, ...]
 ORIGIN: Point = (0.0, 0.0)
+NOBODY = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,39 +65,66 @@ def directed(chains: Iterable[Chain], *, is_counter_clockwise: bool) -> list[Cha
     ]
 
 
-def in_order(chains: Sequence[Chain], tool: Point = ORIGIN) -> list[Chain]:
-    """The chains by the nearest start; open ones run from the end nearest to the tool."""
-    starts = Nearest([chain.start for chain in chains])
-    ends = Nearest([chain.start if chain.is_closed else chain.end for chain in chains])
-    ordered: list[Chain] = []
-    for _ in chains:
+def in_order(
+    chains: Sequence[Chain], tool: Point = ORIGIN, parents: Sequence[int] = ()
+) -> list[int]:
+    """The numbers of the chains by the nearest start; see `turned` for their direction.
+
+    With `parents`, which chain lies around which, a chain comes behind all that lie in it.
+    """
+    inside = Counter(parents)
+    ready = [number for number in range(len(chains)) if not inside[number]]
+    starts, ends = Nearest(), Nearest()
+    for number in ready:
+        _offer(number, chains[number], starts, ends)
+    ordered: list[int] = []
+    while len(ordered) < len(chains):
         (number, to_start), (other, to_end) = starts.to(tool), ends.to(tool)
-        if to_start <= to_end:
-            chain = chains[number]
-        else:
-            number, chain = other, chains[other].reversed()
+        number = number if to_start <= to_end else other
         starts.take(number)
         ends.take(number)
-        ordered.append(chain)
-        tool = chain.end
+        tool = turned(chains[number], tool).end
+        ordered.append(number)
+        around = parents[number] if parents else NOBODY
+        if around != NOBODY:
+            inside[around] -= 1
+            if not inside[around]:
+                _offer(around, chains[around], starts, ends)
     return ordered
 
 
-class Nearest:
-    """Points that are taken away one after the other.
+def turned(chain: Chain, tool: Point) -> Chain:
+    """An open chain from the end nearest to the tool; a closed one as it is."""
+    if chain.is_closed or math.dist(chain.start, tool) <= math.dist(chain.end, tool):
+        return chain
+    return chain.reversed()
 
-    Distances are squared: a comparison needs no root. When half of the points are gone, the
+
+def _offer(number: int, chain: Chain, starts: "Nearest", ends: "Nearest") -> None:
+    starts.put(number, chain.start)
+    ends.put(number, chain.start if chain.is_closed else chain.end)
+
+
+class Nearest:
+    """Points that come and are taken away one after the other, each with a number.
+
+    Distances are squared: a comparison needs no root. When half of the places are free, the
     rest moves together.
     """
 
-    def __init__(self, points: Sequence[Point]) -> None:
-        self._numbers = np.arange(len(points))
-        self._x = np.array([x for x, _ in points], dtype=float)
-        self._y = np.array([y for _, y in points], dtype=float)
-        self._place = dict(enumerate(range(len(points))))
+    def __init__(self, points: Iterable[Point] = ()) -> None:
+        self._numbers = np.empty(0, dtype=np.intp)
+        self._x, self._y = np.empty(0), np.empty(0)
+        self._place: dict[int, int] = {}
+        self._new: list[tuple[int, Point]] = list(enumerate(points))
+
+    def put(self, number: int, point: Point) -> None:
+        """One more point."""
+        self._new.append((number, point))
 
     def to(self, here: Point) -> tuple[int, float]:
         """The nearest one left, and the square of its distance."""
+        self._take_in()
         aside, up = self._x - here[0], self._y - here[1]
         squares = aside * aside + up * up
         place = int(squares.argmin())
@@ -104,12 +132,22 @@ class Nearest:
 
     def take(self, number: int) -> None:
         """Take one away."""
+        self._take_in()
         self._x[self._place.pop(number)] = math.inf
         if 2 * len(self._place) < len(self._x):
             left = np.isfinite(self._x)
             self._numbers = self._numbers[left]
             self._x, self._y = self._x[left], self._y[left]
             self._place = {int(each): place for place, each in enumerate(self._numbers)}
+
+    def _take_in(self) -> None:
+        if self._new:
+            count = len(self._x)
+            self._place.update((n, count + k) for k, (n, _) in enumerate(self._new))
+            self._numbers = np.append(self._numbers, [n for n, _ in self._new])
+            self._x = np.append(self._x, [point[0] for _, point in self._new])
+            self._y = np.append(self._y, [point[1] for _, point in self._new])
+            self._new.clear()
 
 
 class _Joiner:
@@ -121,7 +159,7 @@ class _Joiner:
     def __init__(self, pieces: Sequence[Piece], epsilon: float) -> None:
         self._pieces = pieces
         self._points = [end for piece in pieces for end in (piece[0].start, piece[-1].end)]
-        self._node = _clustered(self._points, epsilon)
+        self._node = clustered(self._points, epsilon)
         self._at: dict[int, list[int]] = defaultdict(list)
         for end, node in enumerate(self._node):
             self._at[node].append(end)
@@ -203,7 +241,7 @@ def _away(piece: Piece, end: int) -> Point:
     return (x, y) if end else (-x, -y)
 
 
-def _clustered(points: Sequence[Point], epsilon: float) -> list[int]:
+def clustered(points: Sequence[Point], epsilon: float) -> list[int]:
     """The node of every point: points closer than epsilon, directly or by way of others.
 
     A grid of cells as wide as epsilon keeps the search to the neighbourhood.

@@ -62,6 +62,16 @@ class Segment:
         x, y = at[0] - self.centre[0], at[1] - self.centre[1]
         return _unit(-y, x) if self.sweep_rad > 0 else _unit(y, -x)
 
+    def at(self, share: float) -> Point:
+        """The point at a share of the way."""
+        (x0, y0), (x1, y1) = self.start, self.end
+        if self.centre is None:
+            return (x0 + (x1 - x0) * share, y0 + (y1 - y0) * share)
+        angle = math.atan2(y0 - self.centre[1], x0 - self.centre[0]) + self.sweep_rad * share
+        radius = self.radius
+        x, y = self.centre
+        return (x + radius * math.cos(angle), y + radius * math.sin(angle))
+
     def reversed(self) -> "Segment":
         """The same way back."""
         return Segment(self.end, self.start, self.centre, -self.sweep_rad)

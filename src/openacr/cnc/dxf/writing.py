@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from openacr.cnc.dxf.chains import ORIGIN, Chain, Nearest
+from openacr.cnc.dxf.leads import Led, quarter
 from openacr.cnc.dxf.segments import Point, Segment
 
 DECIMALS = {False: 6, True: 5}  # inch, millimetres
@@ -33,23 +34,31 @@ class Numbers:
 
 
 def path_program(
-    chains: Sequence[Chain],
+    chains: Sequence[Chain | Led],
     numbers: Numbers,
     *,
     title: str,
     safe_height: float,
     feed: float | None,
     straight: float,
+    d_number: int = 0,
 ) -> str:
-    """The chains one after the other; arcs flatter than `straight` become lines."""
+    """The chains one after the other; arcs flatter than `straight` become lines.
+
+    Chains with a lead are compensated by the radius D.
+    """
     up = f"G0 {numbers.words('Z', [safe_height])}"
     lines = [*_head(title, numbers), "G200 F2"]
     if feed is not None:
         lines.append(numbers.words("F", [feed]))
-    for number, chain in enumerate(chains, 1):
+    for number, way in enumerate(chains, 1):
+        chain = way.chain if isinstance(way, Led) else way
         lines += [f"; chain {number}: {_described(chain, numbers)}", up]
-        lines += [f"G0 {numbers.words('XY', chain.start)}", "G1 Z0"]
-        lines += _moves(chain, numbers, straight)
+        if isinstance(way, Led):
+            lines += _compensated(way, numbers, straight, d_number)
+        else:
+            lines += [f"G0 {numbers.words('XY', chain.start)}", "G1 Z0"]
+            lines += _moves(chain, numbers, straight)
     return "\n".join([*lines, up, "M2", ""])
 
 
@@ -63,6 +72,18 @@ def _described(chain: Chain, numbers: Numbers) -> str:
     else:
         way = "open"
     return f"{way}, length {numbers.text(chain.length)}"
+
+
+def _compensated(led: Led, numbers: Numbers, straight: float, d_number: int) -> Iterator[str]:
+    """Beside the contour, on the lead circle to it, around, and away."""
+    chain, contact = led.chain, led.chain.start
+    into = quarter(led.first, contact, led.centre, led.is_left)
+    out = quarter(contact, led.last, led.centre, led.is_left)
+    yield f"G0 {numbers.words('XY', led.centre)}"
+    yield "G1 Z0"
+    yield f"G{41 if led.is_left else 42} D{d_number} G1 {numbers.words('XY', led.first)}"
+    yield from _moves(Chain((into, *chain.segments, out), is_closed=False), numbers, straight)
+    yield f"G40 G1 {numbers.words('XY', led.centre)}"
 
 
 def _moves(chain: Chain, numbers: Numbers, straight: float) -> Iterator[str]:

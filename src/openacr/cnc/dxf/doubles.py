@@ -1,0 +1,42 @@
+"""Entities that were drawn twice: one of them is enough."""
+
+import math
+from collections.abc import Sequence
+
+from openacr.cnc.dxf.chains import Piece, clustered
+from openacr.cnc.dxf.segments import Point
+
+
+def without_doubles(pieces: Sequence[Piece], epsilon: float) -> list[Piece]:
+    """The pieces without those that lie on another one, in the same or the other direction.
+
+    Alike are pieces with the same two nodes whose lengths and middles differ by no more than
+    epsilon.
+    """
+    ends = [end for piece in pieces for end in (piece[0].start, piece[-1].end)]
+    node = clustered(ends, epsilon)
+    kept: list[Piece] = []
+    by_nodes: dict[tuple[int, int], list[tuple[float, Point]]] = {}
+    for number, piece in enumerate(pieces):
+        first, last = sorted((node[2 * number], node[2 * number + 1]))
+        length = math.fsum(segment.length for segment in piece)
+        middle = _middle(piece, length)
+        others = by_nodes.setdefault((first, last), [])
+        if any(
+            abs(length - other) <= epsilon and math.dist(middle, place) <= epsilon
+            for other, place in others
+        ):
+            continue
+        others.append((length, middle))
+        kept.append(piece)
+    return kept
+
+
+def _middle(piece: Piece, length: float) -> Point:
+    """The point half way along."""
+    left = 0.5 * length
+    for segment in piece:
+        if left <= segment.length:
+            return segment.at(left / segment.length)
+        left -= segment.length
+    return piece[-1].end
