@@ -20,7 +20,7 @@ from openacr.compiled import pick
 def slow(text: str, **more: object) -> Run:
     """Every line by itself."""
     done = made(text, **more)  # type: ignore[arg-type]
-    done.interpreter.scanner = Never(done.interpreter)
+    done.interpreter.execution.scanner = Never(done.interpreter)
     return finished(done)
 
 

@@ -62,6 +62,15 @@ class OffsetPath:
         self._hand_on(self._compensator.switch(SIDES.get(code), self._radius()))
         self._look_whether_off()
 
+    def refuse(self, b: Turn, code: str) -> None:
+        """An error while compensation is on.
+
+        Behind a G40 that nothing has moved after, the program goes on from where the tool is.
+        """
+        if self._run.modal.compensation != OFF:
+            raise b.fault(code)
+        self.stop()
+
     def _is_arc(self, b: Turn) -> bool:
         """Whether the block moves on an arc."""
         chosen = [code.number for code in b.plan.codes if code.letter == "G" and code.number < 4]

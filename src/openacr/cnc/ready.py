@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from openacr.cnc.blocks import Assignment, Block, Input, OWord
+from openacr.cnc.blocks import Assignment, Block, Input, OWord, Print
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes import Code, Limit
 from openacr.cnc.findings import CodeError
@@ -38,7 +38,8 @@ class Ready:
     values: tuple[tuple[str, Formula], ...]
     limits: tuple[Limit, ...]  # of words that are formulas
     acts: tuple[Code, ...]
-    quick: Quick | None  # the block is one assignment, or a statement that never waits
+    quick: Quick | None  # the block is assignments, or a statement that never waits
+    bare: Quick | None  # the same, where it shows nothing and no switch skips it
     is_plain: bool  # the block is words and nothing else
 
 
@@ -71,8 +72,19 @@ def ready(node: Node, run: Interpreter) -> Ready:
     elif _are_quick(block) and assigns and not (beside or statement):
         quick = _Quick(block.assignments, assigns, run.parameters)
     is_plain = bool(block.words) and not (assigns or beside or statement)
+    is_bare = not (block.is_skippable or isinstance(block.statement, Print))
     return Ready(
-        plan, block.is_empty, assigns, late, statement, values, limits, acts, quick, is_plain
+        plan,
+        block.is_empty,
+        assigns,
+        late,
+        statement,
+        values,
+        limits,
+        acts,
+        quick,
+        quick if is_bare else None,
+        is_plain,
     )
 
 

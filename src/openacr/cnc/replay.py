@@ -170,7 +170,7 @@ def _rehearse(replay: Replay, line: int) -> None:
                 replay.bits[entry.bit] = entry
             case Tool():
                 pass
-    if not run.is_arrived:
+    if not run.execution.is_arrived:
         raise StartError(f"line {line} is never reached")
     if run.flow.frames:
         raise StartError(f"line {line} belongs to a subroutine")

@@ -19,7 +19,7 @@ FIRST_FIXTURE = 100
 @gcode(40, 41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION)
 def compensation(run: Interpreter, b: Turn) -> None:
     """Cutter radius compensation off, left or right of the path."""
-    run.switch_compensation(b, int(b.number))
+    run.offset_path.switch(b, int(b.number))
 
 
 @gcode(43, 44, step=Step.LENGTH, group=Group.LENGTH)

@@ -64,8 +64,9 @@ def no_cycle(run: Interpreter, b: Turn) -> None:
 )  # fmt: skip
 def cycle(run: Interpreter, b: Turn) -> Iterator[Entry]:
     """Drill, tap or bore at X Y from level R to Z; the cycle stays active until G80."""
-    run.refuse_compensation(b, "E312")
-    run.check_cycles(b)
+    run.offset_path.refuse(b, "E312")
+    if not (run.program.has_cycles or run.dialect.has_own_cycles):
+        raise b.fault("E251", hint="$I CYCLES.TXT behind M2")
     if run.modal.cycle == NONE or run.drilling is None:
         run.drilling = Drilling()
     run.drilling.initial = run.path.program[run.modal.plane_axes.drill]
@@ -75,7 +76,7 @@ def cycle(run: Interpreter, b: Turn) -> Iterator[Entry]:
 
 def drill(run: Interpreter, b: Turn) -> Iterator[Entry]:
     """The holes of one block."""
-    run.refuse_compensation(b, "E312")
+    run.offset_path.refuse(b, "E312")
     drilling = run.drilling
     if drilling is None:
         raise b.fault("E250")
@@ -139,9 +140,9 @@ def _one(run: Interpreter, b: Turn, drilling: Drilling, left: int) -> Iterator[E
         for n, value in enumerate(_cells(run, drilling, left), FIRST_CELL):
             run.cells.write(n, value)
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
-    start = run.cycle_start(kept[0] * LABELS, b)
+    start = run.flow.find(kept[0] * LABELS, run.program.cycles, b.plan.column(""))
     modal.cycle, modal.distance, run.motions = NONE, 90, IN_CYCLE
-    yield from run.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
+    yield from run.execution.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
     run.motions = kept[4]
     if not run.is_ended:
         modal.cycle, modal.motion, modal.distance, modal.path, _ = kept
@@ -168,7 +169,7 @@ def _cells(run: Interpreter, drilling: Drilling, left: int) -> list[float]:
         drilling.words.get("P", 0.0),
         path.shown(modal.feed),
         float(left),
-        *[path.shown(x) for x in run.clearances()],
+        *[path.shown(x) for x in _clearances(run)],
         signs[0] * q,
         signs[1] * q,
         float(modal.spin.value),
@@ -179,6 +180,14 @@ def _cells(run: Interpreter, drilling: Drilling, left: int) -> list[float]:
         0.0,
         1.0 if r >= bottom else -1.0,
     ]
+
+
+def _clearances(run: Interpreter) -> tuple[float, float]:
+    """Retract of G73 and clearance of G83."""
+    inch = run.dialect.clearance_inch
+    if inch is not None:
+        return run.path.inches(inch), run.path.inches(inch)
+    return run.cells.read(RETRACT), run.cells.read(CLEARANCE)
 
 
 def _level(run: Interpreter, plane: Plane, z: float) -> float:

@@ -76,6 +76,6 @@ def _macro(run: Interpreter, b: Turn) -> ModalMacro:
 
 def _calls(run: Interpreter, macro: ModalMacro, level: Level) -> Iterator[Entry]:
     for _ in range(macro.repeat_cnt):
-        yield from run.call(Frame(level), macro.start, list(macro.values))
+        yield from run.execution.call(Frame(level), macro.start, list(macro.values))
         if run.is_ended:
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from openacr.cnc import arcs
@@ -11,12 +12,14 @@ from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
-    from openacr.cnc.canonical import Entry
+    from openacr.cnc.arcs import Bow
+    from openacr.cnc.canonical import Entry, Pace, Point
     from openacr.cnc.interpreter import Interpreter
     from openacr.cnc.turn import Turn
 
 gcode, letter = ACROMILL.gcode, ACROMILL.letter
 NO_CYCLE, NO_MOTION = 80, 80
+INVERSE_TIME = 93
 CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
 _LENGTHS = "IJKR"
 
@@ -67,7 +70,28 @@ def line(run: Interpreter, b: Turn) -> None:
     if b.plan.modal_words:
         check_words(b, "")
     end = run.path.end(b)
-    run.path.line(b, end, run.feed_pace(b, end, None))
+    run.path.line(b, end, _pace(run, b, end, None))
+
+
+def _pace(run: Interpreter, b: Turn, end: Point, bow: Bow | None) -> Pace:
+    """How a feed move to a program point runs."""
+    if run.modal.feed_mode != INVERSE_TIME:
+        return run.path.pace(b)
+    if "F" not in b.words:
+        raise b.fault("E222", detail="F missing in G93")
+    length = run.path.distance(end, bow, run.modal.plane_axes)
+    return replace(run.path.pace(b), feed_upm=b.words["F"] * length)
+
+
+def _check_radii(run: Interpreter, b: Turn, bow: Bow) -> None:
+    """Radii of an arc may differ as far as the dialect allows."""
+    allowed = run.dialect.radius_tolerance
+    if allowed is None:
+        return
+    apart = abs(bow.end_radius - bow.start_radius)
+    inch, share = allowed
+    if apart > max(run.path.inches(inch), share * bow.start_radius):
+        raise b.fault("E230", detail=f"{bow.start_radius:.5g} and {bow.end_radius:.5g}")
 
 
 def _arc(run: Interpreter, b: Turn, direction: int) -> None:
@@ -77,9 +101,9 @@ def _arc(run: Interpreter, b: Turn, direction: int) -> None:
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
     epsilon = run.cells.read(arcs.EPSILON_CELL)
     bow = arcs.bow_of(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
-    run.check_radii(b, bow)
+    _check_radii(run, b, bow)
     bow = arcs.placed(b, bow, plane, path.coordinates, path.program)
-    path.arc(b, end, bow, run.feed_pace(b, end, bow))
+    path.arc(b, end, bow, _pace(run, b, end, bow))
 
 
 def clockwise(run: Interpreter, b: Turn) -> None:

@@ -21,7 +21,7 @@ def plane(run: Interpreter, b: Turn) -> None:
     """The plane of arcs, compensation, rotation and cycles: XY, ZX, YZ."""
     if run.modal.plane == b.number:
         return
-    run.refuse_compensation(b, "E311")
+    run.offset_path.refuse(b, "E311")
     if run.modal.cycle != 80:
         run.warn(b, "W213")
         run.modal.cycle = 80

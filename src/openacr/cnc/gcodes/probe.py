@@ -20,7 +20,7 @@ TRIPS, TRIPPED, PROGRAM_TRIPS = 101, 329, 330
 @gcode(31, step=Step.MOTION, axes=Axes.MOVE)
 def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     """Move at feed until the probe trips; P101 to P108 say where that was."""
-    run.refuse_compensation(b, "E243")
+    run.offset_path.refuse(b, "E243")
     if not run.machine.has_probe():
         raise b.fault("E243", hint="no probe input")
     yield from run.sync(b.source)

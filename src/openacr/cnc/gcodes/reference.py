@@ -77,7 +77,7 @@ def from_reference(run: Interpreter, b: Turn) -> None:
 
 
 def _refuse(run: Interpreter, b: Turn) -> None:
-    run.refuse_compensation(b, "E312")
+    run.offset_path.refuse(b, "E312")
     if not run.path.coordinates.is_plain:
         raise b.fault("E242", hint="not with scaling or rotation")
 

@@ -20,7 +20,7 @@ _AXES = 8
 @gcode(50, step=Step.SCALE, group=Group.SCALE)
 def no_scale(run: Interpreter, b: Turn) -> None:
     """Scaling off."""
-    run.refuse_compensation(b, "E311")
+    run.offset_path.refuse(b, "E311")
     run.path.coordinates.scale = None
     run.path.refresh()
 
@@ -28,7 +28,7 @@ def no_scale(run: Interpreter, b: Turn) -> None:
 @gcode(51, step=Step.SCALE, group=Group.SCALE, words="PIJK", takes="PIJK", axes=Axes.DATA)
 def scale(run: Interpreter, b: Turn) -> None:
     """Scale about a centre: P for all axes, or I, J, K for X, Y, Z; negative mirrors."""
-    run.refuse_compensation(b, "E311")
+    run.offset_path.refuse(b, "E311")
     separate = [letter for letter in _FACTORS if letter in b.words]
     if "P" in b.words and separate:
         raise b.fault("E206", separate[0], separate[0], "P or I J K")
@@ -55,7 +55,7 @@ def centre_of(run: Interpreter, b: Turn) -> tuple[float, ...]:
 @gcode(68, step=Step.ROTATION, group=Group.ROTATION, words="R", takes="R", axes=Axes.DATA)
 def rotate(run: Interpreter, b: Turn) -> None:
     """Rotate the plane by R degrees about a centre, + counter-clockwise."""
-    run.refuse_compensation(b, "E311")
+    run.offset_path.refuse(b, "E311")
     if "R" not in b.words:
         raise b.fault("E206", "", "R missing")
     plane = run.modal.plane_axes
@@ -71,6 +71,6 @@ def rotate(run: Interpreter, b: Turn) -> None:
 @gcode(69, step=Step.ROTATION, group=Group.ROTATION)
 def no_rotation(run: Interpreter, b: Turn) -> None:
     """Rotation off."""
-    run.refuse_compensation(b, "E311")
+    run.offset_path.refuse(b, "E311")
     run.path.coordinates.rotation = None
     run.path.refresh()

@@ -28,7 +28,7 @@ def work_system(run: Interpreter, b: Turn) -> None:
 @gcode(53, step=Step.WORK, group=Group.WORK)
 def machine_system(run: Interpreter, b: Turn) -> None:
     """Machine coordinates, until another system is chosen."""
-    run.refuse_compensation(b, "E310")
+    run.offset_path.refuse(b, "E310")
     select(run, 0)
     run.modal.has_work = False
 

@@ -25,4 +25,4 @@ def custom(run: Interpreter, b: Turn) -> Iterator[Entry]:
     part = run.program.customs[int(b.number)]
     start = run.flow.at(part.start)
     if start is not None:
-        yield from run.call(Frame(Level.CUSTOM), start, list(arguments(b.words)))
+        yield from run.execution.call(Frame(Level.CUSTOM), start, list(arguments(b.words)))

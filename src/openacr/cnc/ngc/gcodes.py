@@ -62,7 +62,7 @@ def cycle(run: Interpreter, b: Turn) -> Iterator[Entry]:
 @gcode(53, step=Step.MOTION, axes=Axes.MOVE)
 def in_machine(run: Interpreter, b: Turn) -> None:
     """The straight move of this block is in machine coordinates."""
-    run.refuse_compensation(b, "E310")
+    run.offset_path.refuse(b, "E310")
     if run.modal.motion not in (0, 1):
         raise b.fault("E206", hint="G53 goes with G0 or G1")
     target = list(run.path.target)
@@ -81,7 +81,7 @@ def work_system(run: Interpreter, b: Turn) -> None:
 @gcode(28, 30, step=Step.MOTION, axes=Axes.MOVE)
 def to_reference(run: Interpreter, b: Turn) -> None:
     """Through the words of the block to the stored point."""
-    run.refuse_compensation(b, "E312")
+    run.offset_path.refuse(b, "E312")
     point = [run.cells.read(REFERENCE_CELLS[int(b.number)] + axis) for axis in range(AXES)]
     if b.plan.axes:
         run.path.rapid(b, run.path.end(b))
@@ -101,7 +101,7 @@ def store_reference(run: Interpreter, b: Turn) -> None:
 @gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)
 def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     """Probe toward (.2 .3) or away (.4 .5); .2 and .4 have to trip."""
-    run.refuse_compensation(b, "E243")
+    run.offset_path.refuse(b, "E243")
     yield from run.sync(b.source)
     yield from probed(run, b, is_away=b.number > 38.35)
     is_needed = b.number in (38.2, 38.4)

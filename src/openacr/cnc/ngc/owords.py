@@ -185,7 +185,7 @@ class OWords:
         kept, run.parameters.names = run.parameters.names, {}
         run.parameters.global_names[RETURNED] = 0.0
         self._depth += 1
-        yield from run.call(Frame(Level.MACRO), behind, values[: LOCALS + 1])
+        yield from run.execution.call(Frame(Level.MACRO), behind, values[: LOCALS + 1])
         self._depth -= 1
         run.parameters.names = kept
 
