@@ -11,7 +11,8 @@ begins a comment.
 import re
 
 from openacr.cnc.findings import CodeError
-from openacr.cnc.formulas import NEGATE, NOT, Call, Named, Node, Number, Parameter, State
+from openacr.cnc.formulas import Call, Named, Node, Number, Parameter, State
+from openacr.cnc.functions import NEGATE, NOT
 from openacr.cnc.grammar import Grammar
 
 DEEPEST = 40

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from openacr.cnc import formulas as f
-from openacr.cnc.formulas import Function
+from openacr.cnc import functions as f
+from openacr.cnc.functions import Function
 
 
 @dataclass(frozen=True, slots=True)

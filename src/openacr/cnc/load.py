@@ -6,31 +6,37 @@ computed, values of expressions, geometry - is found then.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from importlib.resources import files
+from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
-from openacr.cnc.blocks import Assignment, Block, Gosub, Goto, If, Include, OWord, Print, Word
+from openacr.cnc.blocks import Block, Gosub, Goto, If, Include, OWord, Word
+from openacr.cnc.checks import (
+    FIRST_CYCLE_LABEL,
+    M30_ENDS,
+    Checks,
+    Report,
+    double_labels,
+    first_at,
+    labels_of_cycles,
+)
 from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect
-from openacr.cnc.findings import MOST, CodeError, Finding, found
-from openacr.cnc.formulas import Call, Node, Number, Parameter, State
+from openacr.cnc.findings import MOST, CodeError, found
+from openacr.cnc.formulas import Number
 from openacr.cnc.hosts import Cells
-from openacr.cnc.labels import Labels, Place
+from openacr.cnc.labels import Place
 from openacr.cnc.ngc.owords import KINDS, NEEDS_VALUE
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, Planner
 from openacr.cnc.program import CYCLES_FILE, OPlace, Part, Program
 from openacr.cnc.scanning import Skimmer
-from openacr.cnc.text import Kept, Text, decoded
+from openacr.cnc.supplied import cycle_part, found_in, supplied_cycles
+from openacr.cnc.text import Text, decoded
 
 MOST_LABELS = 1_000_000
 DEEPEST_INCLUDE = 8
-FIRST_CYCLE_LABEL = 70_000
-AXIS_COUNT_CELL, NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 100_001, 200_008, 200_012, 1000
-HASH_TEST, M30_ENDS, AUTO_CYCLES = 700_001, 700_002, 700_006
-MANUAL_CHANGE, CHANGED_INPUT, CUSTOM_FOLDER = 900_002, 900_000, 900_010
-START_FEED = 100_021
+NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 200_008, 200_012, 1000
+HASH_TEST, AUTO_CYCLES, CUSTOM_FOLDER = 700_001, 700_006, 900_010
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,20 +82,6 @@ def planner_of(cells: Cells, dialect: Dialect, program: Program | None = None) -
     return planner
 
 
-@dataclass(slots=True)
-class _Seen:
-    """What the lines so far have said."""
-
-    motion: float = 1
-    has_feed: bool = False
-    has_speed: bool = False
-    codes: set[str] = field(default_factory=set)
-    percent_cnt: int = 0
-    has_end: bool = False
-    last: Plan | None = None
-    last_place: tuple[int, str] = (0, "")
-
-
 class Loader:
     """One pass over all lines of a program."""
 
@@ -100,13 +92,12 @@ class Loader:
         self._planner = planner_of(cells, dialect)
         self._end = dialect.table.mcodes[2.0].act
         self._skimmer = Skimmer(self._planner.axes)
-        self._findings: list[Finding] = []
+        self._report = Report()
+        self._findings = self._report.findings
+        self._checks = Checks(self._report, cells, dialect)
+        self._seen = self._checks.seen
         self._jumps: list[tuple[Part, int, str, int, int]] = []
-        self._warned: set[str] = set()
         self._hash_tests = cells.read(HASH_TEST) != 0.0
-        self._m30_ends = cells.read(M30_ENDS) != 0.0
-        self._seen = _Seen(has_feed=cells.read(START_FEED) > 0.0)
-        self._where: tuple[str, int, str] = ("", 0, "")
 
     def load(self, text: Text, folder: Path | None) -> Program:
         """The program of a text."""
@@ -117,9 +108,9 @@ class Loader:
             program.own_cycles = cycle_part()
         elif self._cells.read(AUTO_CYCLES) and not program.has_cycles:
             self._add_cycles(program.main)
-        self._check_last()
+        self._checks.end(text.name)
         self._check_labels()
-        self._check_doubles()
+        self._findings.extend(islice(double_labels(program.parts), MOST))
         self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
         program.findings = self._findings[:MOST]
         return program
@@ -136,7 +127,7 @@ class Loader:
             line += 1
             self._line(Place(part, offset, line), decoded(taken[0]), taken[1], depth)
             offset = taken[1]
-            while self._seen.has_feed or "W218" in self._warned:
+            while self._seen.has_feed or "W218" in self._report.warned:
                 skimmed, offset = self._skim(part, offset, line)
                 line += skimmed
                 if not skimmed:
@@ -159,8 +150,7 @@ class Loader:
         return count, after
 
     def _line(self, place: Place, raw: str, after: int, depth: int) -> None:
-        self._where = (place.part.text.name, place.line, raw)
-        self._part = place.part
+        self._report.where = (place.part.text.name, place.line, raw)
         try:
             block = parse(raw, self._dialect.grammar)
             if block.is_percent:
@@ -169,10 +159,13 @@ class Loader:
             self._label(block, place)
             plan = self._planner_plan(block, place)
             self._statement(block, place, after, depth)
-            self._values(block, plan)
-            self._warnings(block, plan)
+            self._checks.values(block, plan)
+            for code, column in block.warnings:
+                self._report.warn(code, column)
+            if not place.part.is_cycles:
+                self._checks.doubts(plan)
         except CodeError as fault:
-            self._findings.append(fault.at(*self._where))
+            self._findings.append(fault.at(*self._report.where))
 
     def _percent(self, place: Place) -> None:
         self._seen.percent_cnt += 1
@@ -188,7 +181,7 @@ class Loader:
         labels = place.part.labels
         first = labels.get(label)
         if first is not None:
-            raise CodeError("E221", 1, f"N{label}", _first_at(first))
+            raise CodeError("E221", 1, f"N{label}", first_at(first))
         is_own = self._program.has_cycles and not place.part.is_cycles
         if is_own and label > FIRST_CYCLE_LABEL:
             raise CodeError("E263", 1, f"N{label}")
@@ -197,8 +190,8 @@ class Loader:
         labels.add(label, place)
 
     def _check_room(self, part: Part, count: int, line: int) -> None:
-        if len(part.labels) + count > MOST_LABELS and "E270" not in self._warned:
-            self._warned.add("E270")
+        if len(part.labels) + count > MOST_LABELS and "E270" not in self._report.warned:
+            self._report.warned.add("E270")
             self._findings.append(found("E270", part.text.name, line))
 
     def _planner_plan(self, block: Block, place: Place) -> Plan:
@@ -212,7 +205,7 @@ class Loader:
         if place.part is self._program.main:
             self._seen.has_end |= any(code.act is self._end for code in plan.codes)
             if not block.is_empty and not self._seen.has_end:
-                self._seen.last, self._seen.last_place = plan, (place.line, self._where[2])
+                self._seen.last, self._seen.last_place = plan, (place.line, self._report.where[2])
         return plan
 
     def _custom(self, word: Word) -> None:
@@ -222,14 +215,14 @@ class Loader:
         folder = self._custom_folder()
         if number in self._program.customs or folder is None:
             return
-        path = _found_in(folder, f"M{number}.TXT")
+        path = found_in(folder, f"M{number}.TXT")
         if path is not None:
             part = Part(Text.file(path))
             self._program.customs[number] = part
             self._planner.customs.add(number)
-            where = self._where
+            where = self._report.where
             self._read(part, depth=1)
-            self._where = where
+            self._report.where = where
 
     def _custom_folder(self) -> Path | None:
         if self._folders.customs is not None:
@@ -243,12 +236,12 @@ class Loader:
         statement = block.statement
         if isinstance(statement, If):
             if statement.test is not None and self._hash_tests:
-                self._warn("W211", statement.column, f"input {statement.test.number}")
+                self._report.warn("W211", statement.column, f"input {statement.test.number}")
             statement = statement.then
         if isinstance(statement, Goto | Gosub):
             if isinstance(statement.label, Number):
                 label = round(statement.label.number)
-                _, line, raw = self._where
+                _, line, raw = self._report.where
                 self._jumps.append((place.part, line, raw, statement.column, label))
         elif isinstance(statement, OWord):
             self._o_word(statement, place)
@@ -277,19 +270,12 @@ class Loader:
         self._program.has_cycles |= part.is_cycles
         self._program.includes[place.part.text.name, place.line] = part
         if part.is_cycles:
-            self._check_own_labels(place.part.labels)
+            self._findings.extend(labels_of_cycles(place.part.labels))
         self._read(part, depth + 1)
-
-    def _check_own_labels(self, labels: Labels) -> None:
-        for label, place in labels.above(FIRST_CYCLE_LABEL):
-            if not place.part.is_cycles:
-                self._findings.append(
-                    found("E263", place.part.text.name, place.line, detail=f"N{label}")
-                )
 
     def _text_named(self, name: str) -> Text | None:
         for folder in (self._program.folder, self._folders.library):
-            path = _found_in(folder, name) if folder else None
+            path = found_in(folder, name) if folder else None
             if path is not None:
                 return Text.file(path)
         return supplied_cycles() if Path(name).name.upper() == CYCLES_FILE else None
@@ -299,180 +285,9 @@ class Loader:
         self._program.has_cycles = True
         self._read(part, depth=1)
 
-    # --- what does not fit ------------------------------------------------------------
-
-    def _values(self, block: Block, plan: Plan) -> None:
-        """Parameters written as numbers: known, and writable where they are assigned."""
-        if plan.numbers is not None and not (block.assignments or block.statement):
-            return
-        for node, column in _formulas(block):
-            for parameter in _parameters(node):
-                error = self._home_error(parameter)
-                if error:
-                    raise CodeError(error, column, _shown(parameter))
-        for assignment in block.assignments:
-            self._check_assignment(assignment)
-
-    def _home_error(self, parameter: Parameter) -> str | None:
-        if not isinstance(parameter.index, Number) or self._dialect.parameters:
-            return None
-        return self._cells.home(int(parameter.index.number)).read_error
-
-    def _check_assignment(self, assignment: Assignment) -> None:
-        index = assignment.index
-        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.parameters:
-            return
-        home = self._cells.home(int(index.number))
-        error = home.write_error()
-        if error:
-            raise CodeError(error, assignment.column, f"P{index.number:g}")
-        if home.write_warning and not (assignment.kind == "#" and index.number <= 33):
-            self._warn(home.write_warning, assignment.column, f"P{index.number:g}")
-
-    def _warnings(self, block: Block, plan: Plan) -> None:
-        for code, column in block.warnings:
-            self._warn(code, column)
-        if self._part.is_cycles:
-            return
-        seen = self._seen
-        seen.has_speed |= "S" in plan.words
-        for act in plan.codes:
-            self._check_code(act.name)
-            if act.letter == "G" and act.number in (0, 1, 2, 3):
-                seen.motion = act.number
-        seen.has_feed |= "F" in plan.words and not {"G4", "G200"} & {c.name for c in plan.codes}
-        if plan.axes and seen.motion and not seen.has_feed and _is_plain(plan):
-            self._warn_once("W218", plan.column(plan.axes[0][1]))
-        if {"G90", "G91"} <= seen.codes:
-            self._warn_once("W212", 1)
-
-    def _check_code(self, name: str) -> None:
-        if name in ("M3", "M4") and not self._seen.has_speed:
-            self._warn_once("W217", 1)
-        if name == "M6" and self._is_change_impossible():
-            raise CodeError("E223", 1)
-
-    def _is_change_impossible(self) -> bool:
-        read = self._cells.read
-        return read(MANUAL_CHANGE) == 0.0 and read(CHANGED_INPUT) < 0.0
-
-    def _check_last(self) -> None:
-        last = self._seen.last
-        is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
-        codes = self._dialect.table.mcodes
-        is_output = codes[30.0].act is not codes[2.0].act
-        if is_m30 and not self._m30_ends and is_output:
-            line, raw = self._seen.last_place
-            self._where = (self._program.main.text.name, line, raw)
-            self._warn("W216", 1)
-
     def _check_labels(self) -> None:
         for part, line, raw, column, label in self._jumps:
             if part.labels.get(label) is None and len(self._findings) < MOST:
                 self._findings.append(
                     found("E220", part.text.name, line, column, f"N{label}", "", raw)
                 )
-
-    def _check_doubles(self) -> None:
-        """Labels of plain lines, of which whole blocks are taken over unseen."""
-        for part in {id(part.labels): part for part in self._program.parts}.values():
-            for label, first, second in part.labels.doubles():
-                if len(self._findings) >= MOST:
-                    return
-                text = second.part.text
-                taken = text.line(second.offset)
-                raw = decoded(taken[0]) if taken else ""
-                self._findings.append(
-                    found("E221", text.name, second.line, 1, f"N{label}", _first_at(first), raw)
-                )
-
-    def _warn(self, code: str, column: int, detail: str = "") -> None:
-        name, line, raw = self._where
-        self._findings.append(found(code, name, line, column, detail, "", raw))
-
-    def _warn_once(self, code: str, column: int) -> None:
-        if code not in self._warned:
-            self._warned.add(code)
-            self._warn(code, column)
-
-
-def _first_at(place: Place) -> str:
-    return f"first in line {place.line} of {place.part.text.name}"
-
-
-def cycle_part() -> Part:
-    """The supplied cycles with their labels."""
-    part = Part(supplied_cycles(), is_cycles=True)
-    add_labels(part)
-    return part
-
-
-def add_labels(part: Part) -> None:
-    """Note the labels of a text that is known to be right."""
-    grammar = DIALECTS["acromill"].grammar
-    offset, line = part.text.begin, 0
-    while (taken := part.text.line(offset)) is not None:
-        line += 1
-        block = parse(decoded(taken[0]), grammar)
-        if block.label is not None:
-            part.labels.add(block.label, Place(part, offset, line))
-        offset = taken[1]
-
-
-def supplied_cycles() -> Text:
-    """The canned cycles that come with the package."""
-    data = files("openacr.cnc").joinpath("CYCLES.TXT").read_bytes()
-    return Text(CYCLES_FILE, Kept(data))
-
-
-def _found_in(folder: Path, name: str) -> Path | None:
-    """A file of a folder, whatever the case of its name."""
-    path = folder / name
-    if path.is_file():
-        return path
-    if not path.parent.is_dir():
-        return None
-    wanted = path.name.upper()
-    return next((p for p in path.parent.iterdir() if p.name.upper() == wanted), None)
-
-
-def _is_plain(plan: Plan) -> bool:
-    """Whether the axis words of a block belong to the motion that is active."""
-    return any(act.letter == "MOTION" for act in plan.acts)
-
-
-def _shown(parameter: Parameter) -> str:
-    index = parameter.index
-    digits = f"{index.number:g}" if isinstance(index, Number) else "()"
-    return f"{'#' if parameter.is_hash else 'P'}{digits}"
-
-
-def _formulas(block: Block) -> Iterator[tuple[Node, int]]:
-    """Every expression of a block and the column of what it belongs to."""
-    for word in block.words:
-        yield word.value, word.column
-    for assignment in block.assignments:
-        yield assignment.value, assignment.column
-        if not isinstance(assignment.index, str):
-            yield assignment.index, assignment.column
-    statement = block.statement
-    if isinstance(statement, If):
-        yield statement.condition, statement.column
-    if isinstance(statement, Print):
-        for item in statement.items:
-            if not isinstance(item, str):
-                yield item, statement.column
-
-
-def _parameters(node: Node) -> Iterator[Parameter]:
-    """The parameters a formula reads."""
-    waiting = [node]
-    while waiting:
-        part = waiting.pop()
-        if isinstance(part, Parameter):
-            yield part
-            waiting.append(part.index)
-        elif isinstance(part, Call):
-            waiting.extend(part.operands)
-        elif isinstance(part, State):
-            waiting.append(part.index)

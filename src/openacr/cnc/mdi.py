@@ -8,9 +8,9 @@ from openacr.cnc.blocks import Goto, If, Include
 from openacr.cnc.canonical import Entry
 from openacr.cnc.findings import BlockError, CodeError
 from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import add_labels, supplied_cycles
 from openacr.cnc.parser import parse
 from openacr.cnc.program import Node, Part
+from openacr.cnc.supplied import add_labels, supplied_cycles
 
 FILE = "MDI"
 _REFUSED = Goto | If | Include

@@ -8,32 +8,20 @@ Nothing is decided here about what words mean together.
 """
 
 import re
-from collections.abc import Callable
 
 from openacr.cnc.blocks import (
     Assignment,
     Block,
-    Gosub,
-    Goto,
-    If,
-    Include,
-    Input,
-    InputTest,
-    Message,
     OWord,
-    Print,
-    Return,
-    Statement,
     Word,
 )
-from openacr.cnc.expressions import ExpressionReader
 from openacr.cnc.findings import CodeError
-from openacr.cnc.formulas import EQUAL, Call, Node, Number, Parameter
+from openacr.cnc.formulas import Node, Number, Parameter
 from openacr.cnc.grammar import Grammar
+from openacr.cnc.statement_reader import StatementReader
 
 LONGEST = 256
 LAST_LABEL = 999_999
-INPUTS = 32
 _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
 _O_WORD = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)\s*([A-Z]+)")
 _PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
@@ -70,7 +58,7 @@ def _checked_label(label: int, column: int) -> int:
     return label
 
 
-class _Parser(ExpressionReader):
+class _Parser(StatementReader):
     """Reads one line."""
 
     def block(self) -> Block:
@@ -120,7 +108,7 @@ class _Parser(ExpressionReader):
         while self.peek() == self.open:
             values.append(self.bracketed())
             self.gap()
-        self._end(block)
+        self.end(block)
         block.statement = OWord(name, found[3], tuple(values), at)
         return True
 
@@ -132,10 +120,10 @@ class _Parser(ExpressionReader):
         if self._plain_word(block):
             return True
         if char == "(":
-            self._remark(block)
+            self.remark(block)
         elif char == "#":
             self._assignment(block, "#")
-        elif not self._statement(block):
+        elif not self.statement(block):
             self._word(block, char)
         return True
 
@@ -151,13 +139,6 @@ class _Parser(ExpressionReader):
         block.words.append(Word(letter, Number(number), found.start() + 1))
         self.pos = found.end()
         return True
-
-    def _remark(self, block: Block) -> None:
-        text = self.comment()
-        kind, comma, rest = text.partition(",")
-        kind = kind.strip().upper()
-        if comma and kind in ("MSG", "DEBUG", "PRINT"):
-            block.messages.append(Message(rest.strip(), kind != "MSG"))
 
     def _word(self, block: Block, char: str) -> None:
         at = self.column
@@ -209,129 +190,3 @@ class _Parser(ExpressionReader):
         if not self.match("="):
             raise self.fault("E108")
         block.assignments.append(Assignment(kind, index, self.expression(), at))
-
-    # --- statements -----------------------------------------------------------------------
-
-    def _statement(self, block: Block) -> bool:
-        if self.text[self.pos] not in _FIRST_LETTERS:
-            return False
-        for keyword, read in _STATEMENTS:
-            if keyword in self.grammar.statements and self.text.startswith(keyword, self.pos):
-                if block.words or block.assignments:
-                    raise self.fault("E108", hint="a statement stands alone in its block")
-                at = self.column
-                self.pos += len(keyword)
-                block.statement = read(self, at)
-                self._end(block)
-                return True
-        return False
-
-    def _end(self, block: Block) -> None:
-        """Nothing but comments may follow."""
-        while self.peek() == "(":
-            self._remark(block)
-        if self.peek() not in ("", ";"):
-            raise self.fault("E108")
-
-    def target(self) -> Node:
-        """The label of GOTO and GOSUB."""
-        if self.peek() == self.open:
-            return self.bracketed()
-        if not self.peek().isdecimal():
-            raise self.fault("E108")
-        return Number(float(self.integer()))
-
-    def goto(self, at: int) -> Goto:
-        return Goto(self.target(), at)
-
-    def gosub(self, at: int) -> Gosub:
-        return Gosub(self.target(), at)
-
-    def back(self, at: int) -> Return:
-        return Return(at)
-
-    def if_(self, at: int) -> If:
-        is_bare = self.peek() == "#"
-        condition = self.expression()
-        test = _input_test(condition) if is_bare else None
-        if not self.match("THEN"):
-            raise self.fault("E108", hint="IF condition THEN GOTO n")
-        self.blanks()
-        start = self.column
-        for keyword, read in (("GOTO", _Parser.goto), ("GOSUB", _Parser.gosub)):
-            if self.match(keyword):
-                return If(condition, read(self, start), at, test)
-        if self.match("RET"):
-            return If(condition, Return(start), at, test)
-        raise self.fault("E108", hint="THEN GOTO n, THEN GOSUB n or THEN RET")
-
-    def print_(self, at: int) -> Print:
-        items: list[str | Node] = []
-        while self.peek() not in ("", ";"):
-            items.append(self.quoted() if self.peek() == '"' else self._printed())
-            self.gap()
-            if not self.match(";"):
-                break
-        return Print(tuple(items), at)
-
-    def _printed(self) -> Node:
-        start = self.column
-        try:
-            return self.expression()
-        except CodeError as fault:
-            code = "E109" if fault.code == "E104" else fault.code
-            raise CodeError(code, fault.column if code != "E109" else start) from None
-
-    def quoted(self) -> str:
-        """A text in quotes."""
-        if self.peek() != '"':
-            raise self.fault("E109")
-        end = self.raw.find('"', self.pos + 1)
-        if end < 0:
-            raise self.fault("E109")
-        text = self.raw[self.pos + 1 : end]
-        self.pos = end + 1
-        return text
-
-    def input_(self, at: int) -> Input:
-        text = self.quoted()
-        if not self.match(","):
-            raise self.fault("E108")
-        if not self.peek() or self.peek() not in self.grammar.parameters:
-            raise self.fault("E108")
-        self.pos += 1
-        return Input(text, self.index(), at)
-
-    def include(self, at: int) -> Include:
-        name = self.raw[self.pos :].split(";")[0].split("(")[0].strip()
-        if not name:
-            raise self.fault("E108", hint="$I file")
-        self.pos = len(self.raw)
-        return Include(name.strip('"'), at)
-
-
-_STATEMENTS: tuple[tuple[str, Callable[[_Parser, int], Statement]], ...] = (
-    ("IF", _Parser.if_),
-    ("GOTO", _Parser.goto),
-    ("GOSUB", _Parser.gosub),
-    ("RET", _Parser.back),
-    ("PRINT", _Parser.print_),
-    ("INPUT", _Parser.input_),
-    ("$I", _Parser.include),
-)
-
-
-_FIRST_LETTERS = frozenset(keyword[0] for keyword, _ in _STATEMENTS)
-
-
-def _input_test(condition: Node) -> InputTest | None:
-    """The condition as `#n = 0|1` with n an input."""
-    if not isinstance(condition, Call) or condition.function is not EQUAL:
-        return None
-    left, right = condition.operands
-    if not (isinstance(left, Parameter) and left.is_hash and isinstance(left.index, Number)):
-        return None
-    if not isinstance(right, Number) or right.number not in (0.0, 1.0):
-        return None
-    number = int(left.index.number)
-    return InputTest(number, int(right.number)) if number < INPUTS else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from openacr.cnc.blocks import Block, Word
 from openacr.cnc.codes import AXIS_LETTERS, Axes, Code, Dialect, Group, Limit
@@ -91,7 +91,10 @@ class Planner:
         words = {word.letter: word for word in block.words if word.letter not in "GM"}
         for limit in known.limits:
             _check_written(limit, words)
-        return replace(known.plan, block=block, words=words, numbers=_numbers(words))
+        plan = known.plan
+        return Plan(
+            block, plan.acts, words, _numbers(words), plan.axes, plan.codes, plan.modal_words
+        )
 
     def _remember(self, shape: Shape, plan: Plan) -> None:
         if len(self._known) >= MOST_SHAPES:

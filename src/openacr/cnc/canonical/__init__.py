@@ -1,0 +1,91 @@
+"""Canonical moves: what a part program comes down to.
+
+The interpreter yields these, in the order in which they have to happen; planner, preview,
+run-time estimate, checks and card driver read nothing else. Positions are machine
+positions in default units (degrees for rotary axes), feeds default units per minute,
+angles radians, times seconds.
+
+The list is pulled: an entry has happened when its reader asks for the one behind
+`Sync`, not before. Whoever only reads (check, plot) goes straight on.
+"""
+
+from openacr.cnc.canonical.actions import (
+    Ask,
+    BlockEnd,
+    Check,
+    Confirm,
+    Coolant,
+    Dwell,
+    End,
+    Orient,
+    Output,
+    Pause,
+    Say,
+    SetBit,
+    SetCell,
+    Spin,
+    Spindle,
+    Stop,
+    Sync,
+    Tool,
+    Transfer,
+    WaitBit,
+)
+from openacr.cnc.canonical.common import AXES, Pace, PathMode, Plane, Point, Source
+from openacr.cnc.canonical.moves import Arc, Line, Polyline, Probe, Rapid
+
+Motion = Rapid | Line | Arc | Polyline | Probe
+Action = (
+    Dwell
+    | Spindle
+    | Orient
+    | Coolant
+    | Output
+    | SetBit
+    | WaitBit
+    | Tool
+    | Transfer
+    | Confirm
+    | Say
+    | Ask
+    | Stop
+    | SetCell
+)
+Entry = Motion | Action | BlockEnd | Sync | End
+
+__all__ = [
+    "AXES",
+    "Action",
+    "Arc",
+    "Ask",
+    "BlockEnd",
+    "Check",
+    "Confirm",
+    "Coolant",
+    "Dwell",
+    "End",
+    "Entry",
+    "Line",
+    "Motion",
+    "Orient",
+    "Output",
+    "Pace",
+    "PathMode",
+    "Pause",
+    "Plane",
+    "Point",
+    "Polyline",
+    "Probe",
+    "Rapid",
+    "Say",
+    "SetBit",
+    "SetCell",
+    "Source",
+    "Spin",
+    "Spindle",
+    "Stop",
+    "Sync",
+    "Tool",
+    "Transfer",
+    "WaitBit",
+]

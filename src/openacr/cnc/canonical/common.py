@@ -1,0 +1,63 @@
+"""What moves and actions share: points, planes, where they come from, how they run."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+AXES = 8
+Point = tuple[float, ...]  # one value for each of the 8 axes
+
+
+class PathMode(Enum):
+    """How a move meets the one behind it."""
+
+    EXACT = "G61"
+    CORNER = "G62"
+    LOCKED = "G63"
+    FREE = "G64"
+
+
+class Plane(Enum):
+    """The plane of arcs, compensation and cycles: first, second and drill axis."""
+
+    XY = (0, 1, 2)
+    ZX = (2, 0, 1)
+    YZ = (1, 2, 0)
+
+    @property
+    def first(self) -> int:
+        """The axis angles are counted from."""
+        return self.value[0]
+
+    @property
+    def second(self) -> int:
+        """The axis angles are counted towards."""
+        return self.value[1]
+
+    @property
+    def drill(self) -> int:
+        """The axis across the plane."""
+        return self.value[2]
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Where in the text an entry comes from; `text` is the block as written."""
+
+    file: str
+    line: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How a feed move is run: feed, junction with the next move, locks.
+
+    The feed holds along the linear axes; where only rotary axes move, in degrees per
+    minute of the fastest one. `is_confirmed` adds the wait until all axes are in
+    position (G9, G61).
+    """
+
+    feed_upm: float
+    mode: PathMode = PathMode.FREE
+    is_locked: bool = False  # feed override has no effect (G63, tapping)
+    is_confirmed: bool = False

@@ -1,0 +1,195 @@
+"""What is found wrong or doubtful with lines while a program is loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from openacr.cnc.blocks import Assignment, Block, If, Print
+from openacr.cnc.codes import Dialect
+from openacr.cnc.findings import CodeError, Finding, found
+from openacr.cnc.formulas import Call, Node, Number, Parameter, State
+from openacr.cnc.hosts import Cells
+from openacr.cnc.labels import Labels, Place
+from openacr.cnc.plan import Plan
+from openacr.cnc.program import Part
+from openacr.cnc.text import decoded
+
+M30_ENDS, MANUAL_CHANGE, CHANGED_INPUT = 700_002, 900_002, 900_000
+START_FEED = 100_021
+FIRST_CYCLE_LABEL = 70_000
+
+
+class Report:
+    """Findings, each at the line that is read."""
+
+    def __init__(self) -> None:
+        self.findings: list[Finding] = []
+        self.where: tuple[str, int, str] = ("", 0, "")
+        self.warned: set[str] = set()
+
+    def warn(self, code: str, column: int, detail: str = "") -> None:
+        """Something doubtful in this line."""
+        name, line, raw = self.where
+        self.findings.append(found(code, name, line, column, detail, "", raw))
+
+    def warn_once(self, code: str, column: int) -> None:
+        """The same, only the first time."""
+        if code not in self.warned:
+            self.warned.add(code)
+            self.warn(code, column)
+
+
+@dataclass(slots=True)
+class Seen:
+    """What the lines so far have said."""
+
+    motion: float = 1
+    has_feed: bool = False
+    has_speed: bool = False
+    codes: set[str] = field(default_factory=set)
+    percent_cnt: int = 0
+    has_end: bool = False
+    last: Plan | None = None
+    last_place: tuple[int, str] = (0, "")
+
+
+class Checks:
+    """Checks line after line; what they have said so far is `seen`."""
+
+    def __init__(self, report: Report, cells: Cells, dialect: Dialect) -> None:
+        self._report = report
+        self._cells = cells
+        self._dialect = dialect
+        self._m30_ends = cells.read(M30_ENDS) != 0.0
+        self.seen = Seen(has_feed=cells.read(START_FEED) > 0.0)
+
+    def values(self, block: Block, plan: Plan) -> None:
+        """Parameters written as numbers: known, and writable where they are assigned."""
+        if plan.numbers is not None and not (block.assignments or block.statement):
+            return
+        for node, column in _formulas(block):
+            for parameter in _parameters(node):
+                error = self._home_error(parameter)
+                if error:
+                    raise CodeError(error, column, _shown(parameter))
+        for assignment in block.assignments:
+            self._check_assignment(assignment)
+
+    def _home_error(self, parameter: Parameter) -> str | None:
+        if not isinstance(parameter.index, Number) or self._dialect.parameters:
+            return None
+        return self._cells.home(int(parameter.index.number)).read_error
+
+    def _check_assignment(self, assignment: Assignment) -> None:
+        index = assignment.index
+        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.parameters:
+            return
+        home = self._cells.home(int(index.number))
+        error = home.write_error()
+        if error:
+            raise CodeError(error, assignment.column, f"P{index.number:g}")
+        if home.write_warning and not (assignment.kind == "#" and index.number <= 33):
+            self._report.warn(home.write_warning, assignment.column, f"P{index.number:g}")
+
+    def doubts(self, plan: Plan) -> None:
+        """What may not be meant as it is written."""
+        seen = self.seen
+        seen.has_speed |= "S" in plan.words
+        for act in plan.codes:
+            self._check_code(act.name)
+            if act.letter == "G" and act.number in (0, 1, 2, 3):
+                seen.motion = act.number
+        seen.has_feed |= "F" in plan.words and not {"G4", "G200"} & {c.name for c in plan.codes}
+        if plan.axes and seen.motion and not seen.has_feed and _is_plain(plan):
+            self._report.warn_once("W218", plan.column(plan.axes[0][1]))
+        if {"G90", "G91"} <= seen.codes:
+            self._report.warn_once("W212", 1)
+
+    def _check_code(self, name: str) -> None:
+        if name in ("M3", "M4") and not self.seen.has_speed:
+            self._report.warn_once("W217", 1)
+        if name == "M6" and self._is_change_impossible():
+            raise CodeError("E223", 1)
+
+    def _is_change_impossible(self) -> bool:
+        read = self._cells.read
+        return read(MANUAL_CHANGE) == 0.0 and read(CHANGED_INPUT) < 0.0
+
+    def end(self, name: str) -> None:
+        """The last line of the main text was read."""
+        last = self.seen.last
+        is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
+        codes = self._dialect.table.mcodes
+        is_output = codes[30.0].act is not codes[2.0].act
+        if is_m30 and not self._m30_ends and is_output:
+            line, raw = self.seen.last_place
+            self._report.where = (name, line, raw)
+            self._report.warn("W216", 1)
+
+
+def _is_plain(plan: Plan) -> bool:
+    """Whether the axis words of a block belong to the motion that is active."""
+    return any(act.letter == "MOTION" for act in plan.acts)
+
+
+def _shown(parameter: Parameter) -> str:
+    index = parameter.index
+    digits = f"{index.number:g}" if isinstance(index, Number) else "()"
+    return f"{'#' if parameter.is_hash else 'P'}{digits}"
+
+
+def _formulas(block: Block) -> Iterator[tuple[Node, int]]:
+    """Every expression of a block and the column of what it belongs to."""
+    for word in block.words:
+        yield word.value, word.column
+    for assignment in block.assignments:
+        yield assignment.value, assignment.column
+        if not isinstance(assignment.index, str):
+            yield assignment.index, assignment.column
+    statement = block.statement
+    if isinstance(statement, If):
+        yield statement.condition, statement.column
+    if isinstance(statement, Print):
+        for item in statement.items:
+            if not isinstance(item, str):
+                yield item, statement.column
+
+
+def _parameters(node: Node) -> Iterator[Parameter]:
+    """The parameters a formula reads."""
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, Parameter):
+            yield part
+            waiting.append(part.index)
+        elif isinstance(part, Call):
+            waiting.extend(part.operands)
+        elif isinstance(part, State):
+            waiting.append(part.index)
+
+
+# --- labels -------------------------------------------------------------------------------
+
+
+def double_labels(parts: list[Part]) -> Iterator[Finding]:
+    """Labels of plain lines, of which whole blocks are taken over unseen."""
+    for part in {id(part.labels): part for part in parts}.values():
+        for label, first, second in part.labels.doubles():
+            text = second.part.text
+            taken = text.line(second.offset)
+            raw = decoded(taken[0]) if taken else ""
+            yield found("E221", text.name, second.line, 1, f"N{label}", first_at(first), raw)
+
+
+def labels_of_cycles(labels: Labels) -> Iterator[Finding]:
+    """Labels of a program that belong to the cycles."""
+    for label, place in labels.above(FIRST_CYCLE_LABEL):
+        if not place.part.is_cycles:
+            yield found("E263", place.part.text.name, place.line, detail=f"N{label}")
+
+
+def first_at(place: Place) -> str:
+    """Where a label was met first."""
+    return f"first in line {place.line} of {place.part.text.name}"
