@@ -26,7 +26,8 @@ FAULTS = {
     "[card]\nperiode_s = 0.5\n":
         "machine.toml:2:1: unknown key 'periode_s' in [card] (did you mean 'period_s'?)",
     "[card]\nxyz = 1\n":
-        "machine.toml:2:1: unknown key 'xyz' in [card] (known keys: model, period_s, dac_bits, short_override_packets)",
+        "machine.toml:2:1: unknown key 'xyz' in [card]"
+        " (known keys: model, period_s, dac_bits, short_override_packets)",
     "card = 1\n": "machine.toml:1:1: card is 1; it must be a table",
     "[[axes]]\n": "machine.toml:1:3: unknown key 'axes' in the file (did you mean 'axis'?)",
     "[axis]\nnumber = 1\n": "machine.toml:1:2: axis is a table; it must be a list of tables",
