@@ -1,4 +1,4 @@
-"""The snippets of docs/client.md run."""
+"""The snippets of the pages for hosts run."""
 
 import re
 from collections.abc import Iterator
@@ -10,9 +10,14 @@ from tests.io.served import LOOPBACK, Served, serving
 from openacr.client import Card
 
 ROOT = Path(__file__).parents[2]
-SNIPPETS = re.findall(
-    r"^```python\n(.*?)^```", (ROOT / "docs/client.md").read_text(encoding="utf-8"), re.M | re.S
-)
+PAGES = ("client.md", "host-software.md")
+SNIPPETS = [
+    (page, snippet)
+    for page in PAGES
+    for snippet in re.findall(
+        r"^```python\n(.*?)^```", (ROOT / "docs" / page).read_text(encoding="utf-8"), re.M | re.S
+    )
+]
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +32,14 @@ def test_a_snippet_of_the_manual_runs(
 ) -> None:
     monkeypatch.chdir(ROOT)
     target = f"{LOOPBACK}:{served.ascii_port}"
+    page, snippet = SNIPPETS[number]
     with Card.open(target) as card:
-        exec(
-            compile(SNIPPETS[number], f"snippet {number}", "exec"), {"target": target, "card": card}
-        )
+        names = {"target": target, "card": card, "host": LOOPBACK}
+        names["binary_port"] = served.binary_port
+        exec(compile(snippet, f"snippet of {page}", "exec"), names)
     assert "Traceback" not in capsys.readouterr().out
 
 
 def test_the_manual_has_its_snippets() -> None:
-    assert len(SNIPPETS) >= 8
+    counts = {page: sum(page == each for each, _ in SNIPPETS) for page in PAGES}
+    assert all(count >= 7 for count in counts.values())

@@ -7,6 +7,7 @@ import sys
 import threading
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 
 import pytest
 from tests.client.cards import AXIS
@@ -15,6 +16,7 @@ from tests.io.served import Served, serving
 from openacr.client import AsyncCard, Card, ConnectionLostError, Level, Options, RefusedError
 from openacr.client.async_links import AsyncProcessLink, AsyncTcpLink, ThreadLink, for_asyncio
 from openacr.client.links import ProcessLink, SerialLink, TcpLink, link_to
+from openacr.client.values import next_due_s
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.protocol.stream import EchoMode
@@ -201,6 +203,40 @@ def test_a_cut_connection_comes_back_at_the_same_level(served: Served) -> None:
             card.command("SET 50")
         card.write_bit(50, True)
         assert card.bit[50]
+
+
+EIGHTY = [12288 + 256 * axis + row for axis in range(8) for row in range(10)]
+
+
+def test_a_subscription_survives_a_cut(served: Served) -> None:
+    with relay(served.ascii_port) as (port, cut), Card.open(f"{LOOPBACK}:{port}") as card:
+        for number, values in enumerate(card.watch(EIGHTY, every_s=0.01)):
+            assert len(values) == 80
+            if number == 3:
+                cut()
+            if number == 6:
+                break
+
+
+def test_a_subscription_keeps_its_rate_whatever_the_host_does_between() -> None:
+    with Card.open(Controller()) as card:
+        times_s = []
+        for _ in card.watch(EIGHTY, every_s=0.02):
+            times_s.append(card.now_s())
+            card.pause(0.011)
+            if len(times_s) == 12:
+                break
+    gaps_s = [b - a for a, b in pairwise(times_s)]
+    assert gaps_s == pytest.approx([0.02] * 11, abs=0.003)
+    assert times_s[-1] - times_s[0] == pytest.approx(0.22, abs=0.003)
+
+
+@pytest.mark.parametrize(
+    ("now_s", "due_s"), [(10.0, 10.5), (10.4, 10.5), (10.5, 11.0), (13.7, 14.0), (9.0, 10.5)]
+)
+def test_what_comes_late_does_not_shift_what_follows(now_s: float, due_s: float) -> None:
+    assert next_due_s(10.0, 0.5, now_s) == due_s
+    assert next_due_s(10.0, 0.0, now_s) == 10.0
 
 
 def test_asyncio_reconnects_as_well(served: Served) -> None:

@@ -17,7 +17,7 @@ from openacr.client.objects import Axis, Master
 from openacr.client.requests import Follow, Level, Press
 from openacr.client.talk import Op, Options, Talk
 from openacr.client.transfer import Progress, Report
-from openacr.client.values import Number
+from openacr.client.values import Number, next_due_s
 from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.packets import Packet
@@ -188,11 +188,12 @@ class Card:
     def watch(
         self, whats: Iterable[What], every_s: float = 0.1
     ) -> Generator[list[Number], None, None]:
-        """Read parameters again and again, for ever."""
-        chosen = list(whats)
+        """A subscription: parameters at a steady rate, also over a lost connection."""
+        chosen, due_s = list(whats), self.now_s()
         while True:
             yield self.read_many(chosen)
-            self.pause(every_s)
+            due_s = next_due_s(due_s, every_s, self.now_s())
+            self.pause(due_s - self.now_s())
 
     # --- programs ---------------------------------------------------------------------
 

@@ -132,6 +132,12 @@ def _layout(kinds: tuple[Kind, ...]) -> struct.Struct:
     return struct.Struct("<" + "".join("i" if kind is Kind.LONG else "f" for kind in kinds))
 
 
+def next_due_s(due_s: float, every_s: float, now_s: float) -> float:
+    """When the next sample is due; samples that were missed are not made up for."""
+    missed = max(0.0, (now_s - due_s) // every_s) if every_s > 0 else 0.0
+    return due_s + (missed + 1.0) * every_s
+
+
 def read_bit(talk: Talk, what: What) -> Op[bool]:
     """Whether a flag is set."""
     return (yield from read_bits(talk, [what]))[0]
