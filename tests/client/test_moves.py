@@ -8,7 +8,8 @@ from tests.client.cards import AXIS
 from openacr.client import AsyncCard, Card, MoveStream
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.protocol.move import Code0, Move
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code0
 
 IN_MOTION = 516
 

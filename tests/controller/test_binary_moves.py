@@ -12,7 +12,8 @@ from openacr.controller import Controller
 from openacr.map import numbers as at
 from openacr.protocol.bits import SetBit
 from openacr.protocol.events import ControlKey
-from openacr.protocol.move import Code0, Code1, Code3, Move
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code0, Code1, Code3
 from openacr.protocol.override import FeedrateOverride
 from openacr.protocol.stream import StreamKind
 

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openacr.protocol import packets
-from openacr.protocol.move import Code0, Code1, Code3, Curve, Move, Profile, unpadded
+from openacr.protocol.move import Move, unpadded
+from openacr.protocol.move_codes import Code0, Code1, Code3, Curve, Profile
 from openacr.protocol.packet import PacketError
 
 

@@ -10,13 +10,14 @@ from typing import Self, TypeVar
 from openacr.client import transfer, values
 from openacr.client.async_links import AsyncLink, for_asyncio
 from openacr.client.drive import carry_out_async
+from openacr.client.effects import Op
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import DEFAULT_BAUD, Host, link_to
 from openacr.client.moves import MoveStream
 from openacr.client.names import What
 from openacr.client.objects import Axis, Master
 from openacr.client.requests import Follow, Level, Press
-from openacr.client.talk import Op, Options, Talk
+from openacr.client.talk import Options, Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number, next_due_s
 from openacr.protocol.events import ControlKey

@@ -18,10 +18,11 @@ from openacr.basic import commands as _registered  # noqa: F401 - fills the regi
 from openacr.basic import registry
 from openacr.basic.grammar import AxisList, Either, Num
 from openacr.client import values
+from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
 from openacr.client.names import flag_number
 from openacr.client.requests import SYS, Level
-from openacr.client.talk import Op, Talk
+from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report, download, upload
 from openacr.errors import UserError
 

@@ -1,13 +1,38 @@
 """Carry a conversation out: do what its generator asks for, blocking or with asyncio."""
 
-from typing import TypeVar
+from typing import Generic, TypeVar, cast
 
 from openacr.client.async_links import AsyncLink
+from openacr.client.effects import Close, Effect, Op, Open, Pause, Receive, Send
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import Link
-from openacr.client.talk import Close, Effect, Op, Open, Pause, Receive, Send
 
 T = TypeVar("T")
+
+
+class _Course(Generic[T]):
+    """A conversation on its way: the effect that is wanted next, until there is a result."""
+
+    def __init__(self, op: Op[T]) -> None:
+        self._op = op
+        self._result: T | None = None
+        self.wanted: Effect | None = None
+        self.go_on(None)
+
+    def go_on(self, outcome: bytes | BaseException | None) -> None:
+        """Hand over what came of the effect: bytes, or why it failed."""
+        try:
+            if isinstance(outcome, BaseException):
+                self.wanted = self._op.throw(outcome)
+            else:
+                self.wanted = self._op.send(outcome)
+        except StopIteration as done:
+            self.wanted, self._result = None, done.value
+
+    @property
+    def result(self) -> T:
+        """What the conversation has come to, once nothing is wanted any more."""
+        return cast(T, self._result)
 
 
 def carry_out(op: Op[T], link: Link) -> T:
@@ -15,19 +40,15 @@ def carry_out(op: Op[T], link: Link) -> T:
 
     Ctrl-C is handed to the conversation like a broken link: it may have to tidy up.
     """
-    result: bytes | None = None
-    failure: ConnectionLostError | KeyboardInterrupt | None = None
-    while True:
+    course = _Course(op)
+    while course.wanted is not None:
+        outcome: bytes | BaseException | None
         try:
-            effect = op.throw(failure) if failure else op.send(result)
-        except StopIteration as done:
-            value: T = done.value
-            return value
-        result = failure = None
-        try:
-            result = _perform(effect, link)
+            outcome = _perform(course.wanted, link)
         except (ConnectionLostError, KeyboardInterrupt) as broken:
-            failure = broken
+            outcome = broken
+        course.go_on(outcome)
+    return course.result
 
 
 def _perform(effect: Effect, link: Link) -> bytes | None:
@@ -47,19 +68,15 @@ def _perform(effect: Effect, link: Link) -> bytes | None:
 
 async def carry_out_async(op: Op[T], link: AsyncLink) -> T:
     """The result of a conversation over an asyncio link."""
-    result: bytes | None = None
-    failure: ConnectionLostError | None = None
-    while True:
+    course = _Course(op)
+    while course.wanted is not None:
+        outcome: bytes | BaseException | None
         try:
-            effect = op.throw(failure) if failure else op.send(result)
-        except StopIteration as done:
-            value: T = done.value
-            return value
-        result = failure = None
-        try:
-            result = await _perform_async(effect, link)
+            outcome = await _perform_async(course.wanted, link)
         except ConnectionLostError as broken:
-            failure = broken
+            outcome = broken
+        course.go_on(outcome)
+    return course.result
 
 
 async def _perform_async(effect: Effect, link: AsyncLink) -> bytes | None:

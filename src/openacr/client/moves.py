@@ -13,10 +13,12 @@ from dataclasses import dataclass, replace
 from itertools import islice
 
 from openacr.client import values
-from openacr.client.talk import Op, Pause, Talk
+from openacr.client.effects import Op, Pause
+from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.map.numbers import MA_BASE, MA_MOVE_COUNTER, MA_STRIDE
-from openacr.protocol.move import Code0, Move
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code0
 
 DEPTH = 10  # moves that wait on a card with MBUF ON and no DIM MBUF
 POLL_S = 0.002

@@ -5,10 +5,10 @@ bytes, wait for bytes, pause - and is resumed with the result. A blocking and an
 shell drive the same generators (`card`, `async_card`); tests can drive them with neither.
 """
 
-from collections.abc import Generator, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TypeAlias, TypeVar
 
+from openacr.client.effects import Close, Op, Open, Pause, Receive, Send
 from openacr.client.errors import (
     ConnectionLostError,
     GarbledError,
@@ -37,42 +37,6 @@ from openacr.protocol.stream import EchoMode, StreamKind
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0
-
-
-@dataclass(frozen=True, slots=True)
-class Open:
-    """Open the link."""
-
-
-@dataclass(frozen=True, slots=True)
-class Close:
-    """Close the link."""
-
-
-@dataclass(frozen=True, slots=True)
-class Send:
-    """Send these bytes in one write."""
-
-    data: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class Receive:
-    """Wait for bytes (None: for ever); the result is empty when none came in time."""
-
-    wait_s: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class Pause:
-    """Let time pass."""
-
-    seconds: float
-
-
-Effect: TypeAlias = Open | Close | Send | Receive | Pause
-T = TypeVar("T")
-Op: TypeAlias = Generator[Effect, bytes | None, T]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

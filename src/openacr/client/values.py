@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
+from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
 from openacr.client.names import What, flag_number, parameter_number
 from openacr.client.requests import Ask, Level
-from openacr.client.talk import Op, Talk
+from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.map import parameters
 from openacr.map.block import FLAG_WORD_BASE, Kind

@@ -21,7 +21,8 @@ from openacr.motion.host_moves import Arc, HostMove, HostPoint
 from openacr.motion.orders import Direction
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import master_ints
-from openacr.protocol.move import Code1, Curve, Move
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code1, Curve
 from openacr.protocol.packet import PacketError
 
 log = logging.getLogger(__name__)

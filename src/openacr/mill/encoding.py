@@ -14,7 +14,8 @@ from openacr.mill.geometry import Geometry, Way
 from openacr.mill.lines import columns, lines
 from openacr.mill.planning import Stretch
 from openacr.mill.settings import S_PER_MIN, Settings
-from openacr.protocol.move import Code0, Code1, Code3, Move
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code0, Code1, Code3
 
 Motion = Rapid | Line | Arc | Probe
 Pulses = Sequence[int]  # of a machine position, one value per axis that is there

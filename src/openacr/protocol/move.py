@@ -8,173 +8,34 @@ count as zero. What bits 0 to 2 of code 0 mean depends on a flag of the master (
 Rapid Move Modes), so a decoded move keeps the codes and `profile()` reads them.
 """
 
-import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from enum import IntEnum, IntFlag
-from functools import lru_cache
 from typing import ClassVar, Self
 
+from openacr.protocol.move_codes import (
+    ACC,
+    ARC,
+    CODE_3_PRESENT,
+    EXTENDED,
+    FLOATING_POINT,
+    FVEL,
+    MASTER_BIT_3,
+    MIDDLE_HEADER,
+    PADDED_HEADER,
+    SCALING,
+    SLAVES,
+    VEL,
+    Code0,
+    Code1,
+    Code3,
+    Curve,
+    Profile,
+    all_codes,
+    code_text,
+    header_of,
+    profile_of,
+)
 from openacr.protocol.packet import WORD_BYTES, Packet, PacketError, Part, pack_word, register
-
-SLAVES = 16
-SHORT_HEADER, MIDDLE_HEADER, LONG_HEADER = 4, 5, 9
-PADDED_HEADER = 8
-
-
-class Code0(IntFlag):
-    """Header code 0; bits 0 to 2 have two definitions (`profile`)."""
-
-    FVEL_LOCKOUT = MOVE_MODE_BIT_1 = 0x01
-    OVERRIDE_LOCKOUT = 0x02
-    STP_RAMP = MOVE_MODE_BIT_0 = 0x04
-    CODE_3_PRESENT = 0x08
-    VEL = 0x10
-    ACC = 0x20
-    COUNT_DOWN = 0x40
-    COUNTER = 0x80
-
-
-class Code1(IntFlag):
-    """Header code 1; bits 5 to 7 are read differently for NURBs and splines."""
-
-    MASTER = 0x07
-    INTERRUPT = 0x08
-    COUNTERCLOCKWISE = 0x10
-    ARC = SPLINE_KNOTS = 0x20
-    PLANE_BIT_0 = NURB = 0x40
-    PLANE_BIT_1 = SPLINE = 0x80
-
-
-class Code3(IntFlag):
-    """Header code 3."""
-
-    INCREMENTAL_TARGET = 0x01
-    INCREMENTAL_CENTER = 0x02
-    FLOATING_POINT = 0x04
-    SCALING = 0x08
-    FVEL = 0x10
-    BLOCK_SKIP = 0x20
-    CURVE = 0x40
-    EXTENDED = 0x80
-
-
-MASTER_BIT_3 = 0x08  # of header code 4
-# Plain integers are much quicker than flags, and moves come by the thousand.
-CODE_3_PRESENT, VEL, ACC = Code0.CODE_3_PRESENT.value, Code0.VEL.value, Code0.ACC.value
-ARC, FVEL, SCALING = Code1.ARC.value, Code3.FVEL.value, Code3.SCALING.value
-FLOATING_POINT, EXTENDED = Code3.FLOATING_POINT.value, Code3.EXTENDED.value
-
-
-class Curve(IntEnum):
-    """The kind of path of one move."""
-
-    LINE = 0
-    ARC = 1
-    NURB = 2
-    SPLINE = 3
-
-
-@dataclass(frozen=True, slots=True)
-class Profile:
-    """What header code 0 says about speed: ramps at the end and which override applies."""
-
-    stop_ramp: bool  # STP := DEC for this move, else STP := 0
-    final_velocity_zero: bool  # FVEL 0 for this move
-    rapid: bool  # ROV instead of FOV
-    override_locked: bool  # the override counts as 1.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Header:
-    """What header codes say: which fields follow, and what kind of move it is."""
-
-    length: int
-    slaves: tuple[int, ...]
-    vel: bool
-    fvel: bool
-    acc: bool
-    centers: bool
-    scaling: bool
-    floating: bool
-    master: int
-    curve: Curve
-    counter_step: int
-    is_relative: bool
-    has_relative_center: bool
-    is_counterclockwise: bool
-    is_block_skip: bool
-    interrupts: bool
-    fields: struct.Struct  # of the data, in wire order
-
-    @property
-    def size(self) -> int:
-        """Bytes of the whole packet."""
-        return self.length + self.fields.size
-
-
-@lru_cache(maxsize=1024)
-def _header(codes: bytes) -> _Header:
-    """What eight header codes say; hosts send few different ones, but thousands a second."""
-    code0, code1, code3 = Code0(codes[0]), Code1(codes[1]), Code3(codes[3])
-    present = codes[2] | codes[6] << 8
-    curve = _curve(code1, code3)
-    step = -1 if code0 & Code0.COUNT_DOWN else 1
-    slaves = tuple(slave for slave in range(SLAVES) if present >> slave & 1)
-    vel, fvel, acc = bool(code0 & Code0.VEL), bool(code3 & Code3.FVEL), bool(code0 & Code0.ACC)
-    centers, scaling = curve is Curve.ARC, bool(code3 & Code3.SCALING)
-    position = "f" if code3 & Code3.FLOATING_POINT else "i"
-    positions = position * (len(slaves) + 2 * centers)
-    return _Header(
-        length=_header_length(code0, code3),
-        slaves=slaves,
-        vel=vel,
-        fvel=fvel,
-        acc=acc,
-        centers=centers,
-        scaling=scaling,
-        floating=bool(code3 & Code3.FLOATING_POINT),
-        master=(8 if codes[4] & MASTER_BIT_3 else 0) | int(code1 & Code1.MASTER),
-        curve=curve,
-        counter_step=step if code0 & Code0.COUNTER else 0,
-        is_relative=bool(code3 & Code3.INCREMENTAL_TARGET),
-        has_relative_center=bool(code3 & Code3.INCREMENTAL_CENTER),
-        is_counterclockwise=bool(code1 & Code1.COUNTERCLOCKWISE),
-        is_block_skip=bool(code3 & Code3.BLOCK_SKIP),
-        interrupts=bool(code1 & Code1.INTERRUPT),
-        fields=struct.Struct("<" + "f" * (vel + fvel + acc) + positions + "ff" * scaling),
-    )
-
-
-def _curve(code1: Code1, code3: Code3) -> Curve:
-    if code3 & Code3.CURVE:
-        return Curve.NURB if code1 & Code1.NURB else Curve.SPLINE
-    return Curve.ARC if code1 & Code1.ARC else Curve.LINE
-
-
-def _codes(prefix: bytes) -> bytes:
-    """The eight header codes at the start of a packet; those not present are zero."""
-    codes = prefix[1:LONG_HEADER]
-    if len(codes) > 0 and not codes[0] & CODE_3_PRESENT:
-        codes = codes[:3]
-    elif len(codes) > 3 and not codes[3] & EXTENDED:
-        codes = codes[:4]
-    return codes.ljust(8, b"\0")
-
-
-def _header_length(code0: int, code3: int) -> int:
-    if not code0 & Code0.CODE_3_PRESENT:
-        return SHORT_HEADER
-    return LONG_HEADER if code3 & Code3.EXTENDED else MIDDLE_HEADER
-
-
-@lru_cache(maxsize=512)
-def _profile(code0: int, rapid_move_modes: bool) -> Profile:
-    low, ramp = bool(code0 & 1), bool(code0 & 4)
-    locked = bool(Code0(code0) & Code0.OVERRIDE_LOCKOUT)
-    if not rapid_move_modes:
-        return Profile(ramp, low, rapid=False, override_locked=locked)
-    return Profile(ramp or low, low, rapid=low and ramp, override_locked=locked)
 
 
 @register
@@ -235,7 +96,7 @@ class Move(Packet):
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
         """Header as far as it is known, then one word per announced field."""
-        header = _header(_codes(prefix))
+        header = header_of(all_codes(prefix))
         if len(prefix) < header.length:
             return header.length
         return header.size
@@ -243,8 +104,8 @@ class Move(Packet):
     @classmethod
     def decode(cls, data: bytes) -> Self:
         """The move in exactly these bytes."""
-        codes = _codes(data)
-        header = _header(codes)
+        codes = all_codes(data)
+        header = header_of(codes)
         if len(data) != header.size:
             raise PacketError(f"Move: {len(data)} bytes do not fit the header codes")
         values = iter(header.fields.unpack_from(data, header.length))
@@ -259,7 +120,7 @@ class Move(Packet):
     def encode(self) -> bytes:
         """Header as long as the codes announce, then the fields."""
         head = self.HEADER + self.codes
-        header = _header(self.codes)
+        header = header_of(self.codes)
         data = b"".join([pack_word(value) for value in self.values()])
         if len(data) != header.fields.size:
             raise PacketError("Move: the fields are not those that the header codes announce")
@@ -267,7 +128,7 @@ class Move(Packet):
 
     def values(self) -> Iterator[int | float]:
         """The data fields in wire order and wire type."""
-        header = _header(self.codes)
+        header = header_of(self.codes)
         kind = float if header.floating else int
         for value in (self.vel, self.fvel, self.acc):
             if value is not None:
@@ -306,12 +167,12 @@ class Move(Packet):
     @property
     def master(self) -> int:
         """The master this move is for, 0 to 15."""
-        return _header(self.codes).master
+        return header_of(self.codes).master
 
     @property
     def curve(self) -> Curve:
         """Line, arc, NURB or spline."""
-        return _header(self.codes).curve
+        return header_of(self.codes).curve
 
     @property
     def arc_slaves(self) -> tuple[int, int]:
@@ -324,56 +185,50 @@ class Move(Packet):
     @property
     def counter_step(self) -> int:
         """What this move adds to the master move counter: 0, 1 or -1."""
-        return _header(self.codes).counter_step
+        return header_of(self.codes).counter_step
 
     @property
     def is_relative(self) -> bool:
         """Targets count from the end of the move before."""
-        return _header(self.codes).is_relative
+        return header_of(self.codes).is_relative
 
     @property
     def has_relative_center(self) -> bool:
         """Centers count from the beginning of the arc."""
-        return _header(self.codes).has_relative_center
+        return header_of(self.codes).has_relative_center
 
     @property
     def is_counterclockwise(self) -> bool:
         """The sense of an arc."""
-        return _header(self.codes).is_counterclockwise
+        return header_of(self.codes).is_counterclockwise
 
     @property
     def is_block_skip(self) -> bool:
         """The move is left out while block skip is on."""
-        return _header(self.codes).is_block_skip
+        return header_of(self.codes).is_block_skip
 
     @property
     def interrupts(self) -> bool:
         """The card interrupts the PC at this move."""
-        return _header(self.codes).interrupts
+        return header_of(self.codes).interrupts
 
     def profile(self, rapid_move_modes: bool) -> Profile:
         """Ramps and override, with Enable Rapid Move Modes of the master set or clear."""
-        return _profile(self.codes[0], rapid_move_modes)
+        return profile_of(self.codes[0], rapid_move_modes)
 
     def explain(self) -> list[Part]:
         """Header codes and data fields, one line each."""
         data = self.encode()
-        start = _header(self.codes).length
+        start = header_of(self.codes).length
         parts = [Part(data[:1], "header", "Move")]
         parts += [
-            Part(data[at : at + 1], f"header code {at - 1}", _code_text(at - 1, data[at]))
+            Part(data[at : at + 1], f"header code {at - 1}", code_text(at - 1, data[at]))
             for at in range(1, start)
         ]
         for n, (name, value) in enumerate(zip(self.names(), self.values(), strict=True)):
             at = start + WORD_BYTES * n
             parts.append(Part(data[at : at + WORD_BYTES], name, value))
         return parts
-
-
-def _code_text(number: int, value: int) -> str:
-    kinds: dict[int, type[IntFlag]] = {0: Code0, 1: Code1, 3: Code3}
-    kind = kinds.get(number)
-    return f"0x{value:02X}" if kind is None else str(kind(value).name or f"0x{value:02X}")
 
 
 def unpadded(segment: bytes) -> bytes | None:
@@ -384,7 +239,7 @@ def unpadded(segment: bytes) -> bytes | None:
     """
     if len(segment) < PADDED_HEADER or segment[5:PADDED_HEADER] != bytes(3):
         return None
-    header = _header(_codes(segment))
+    header = header_of(all_codes(segment))
     if header.length != MIDDLE_HEADER:
         return None
     if len(segment) != PADDED_HEADER + header.fields.size:
