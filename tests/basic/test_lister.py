@@ -1,5 +1,7 @@
 """LIST: stored lines in one spelling."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -7,6 +9,7 @@ from hypothesis import strategies as st
 import openacr.basic.commands
 import openacr.basic.strings  # noqa: F401 - both enter their words
 from openacr.basic.lister import Lister, literal
+from openacr.basic.loader import file_lines
 from openacr.basic.program_store import StoredLine
 from openacr.lang.lexer import Kind, tokens
 
@@ -87,6 +90,21 @@ def meaning(text: str) -> list[tuple[Kind, object]]:
 def test_a_listed_line_reads_back_as_the_same_tokens(typed: str) -> None:
     assert meaning(listed(typed)) == meaning(typed)
     assert listed(listed(typed)) == listed(typed)
+
+
+FILES = sorted(Path(__file__).parents[2].glob("examples/*/*.8k"))
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_every_line_of_the_examples_reads_back_as_the_same_tokens(path: Path) -> None:
+    defined = [line.split() for line in path.parent.joinpath("setup.8k").read_text().splitlines()]
+    lister = Lister([words[1] for words in defined if words[:1] == ["#DEFINE"]])
+    lines = [line.text for line in file_lines(path.read_bytes().decode("latin-1"))]
+    assert lines
+    for line in lines:
+        shown = lister.line(tokens(line))
+        assert meaning(shown) == meaning(line)
+        assert lister.line(tokens(shown)) == shown
 
 
 WORDS = st.sampled_from(

@@ -1,7 +1,10 @@
 """DTALK: a terminal that talks to a drive."""
 
+from pathlib import Path
+
 import pytest
-from tests.network.talk import TIMEOUT, Bench, control, talking
+from tests.io.served import Caller, serving
+from tests.network.talk import TIMEOUT, Bench, axis, control, talking
 
 from openacr.protocol.stream import StreamKind
 
@@ -185,3 +188,25 @@ def test_a_restart_of_the_card_ends_a_conversation() -> None:
     bench.card.receive(other, b"REBOOT\r")
     assert bench.type("ECHO 4") != ""
     assert bench.type("?1+1") == "2"
+
+
+@pytest.mark.req("ACR-CMD-DTALK")
+def test_a_terminal_on_the_network_talks_to_the_drive_of_its_axis(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text(axis(0) + talking(0, revision="2.05"))
+    set_up = 'PROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\n'
+    (tmp_path / "setup.8k").write_text(set_up)
+    with serving(str(tmp_path)) as server, Caller(server.ascii_port) as host:
+        assert host.ask("PROG0") == "PROG0\r\nP00>"
+        assert "Device not open" in host.ask("DTALK X")
+        for line in DIALOGUE:
+            assert host.ask(line).endswith("\r\nP00>")
+        host.ask("INH -11104")
+        host.send(b"DTALK X\r")
+        assert host.until(b"\r\n") == b"DTALK X\r\n"
+        host.send(b"TREV\r")
+        assert b"Aries OS Revision 2.05" in host.until(b"2.05\r\n")
+        host.send(b"?1+1\r")
+        assert b"UNDEFINED COMMAND" in host.until(b"COMMAND\r\n")
+        host.send(b"\x1b")
+        assert host.until(b">") == b"\r\nP00>"
+        assert host.value("?1+1") == "2"
