@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.controller import Controller
 
 BOX = """\
 DIM P(10)
@@ -309,3 +310,16 @@ def test_a_sparse_picture_keeps_its_peaks(box: Path, tmp_path: Path) -> None:
     peak = summary_of(box, "--for", "100")["axes"]["0"]["peak_following_error"]
     data = json.loads(path.read_text().split('type="application/json">')[1].split("</script>")[0])
     assert max(map(abs, data["axes"][0]["error"])) == pytest.approx(peak, rel=1e-3)
+
+
+def test_strings_and_remarks_are_shown_as_they_were_written(tmp_path: Path) -> None:
+    path = tmp_path / "text.8k"
+    path.write_text('PROG0\nPROGRAM\nPBOOT\nREM “zero” – naïve\nPRINT "20 µm, it’s"\nENDP\n')
+    listed = CliRunner().invoke(app, ["list", str(path)])
+    assert listed.stdout.splitlines()[3:5] == [" REM “zero” – naïve", ' PRINT "20 µm, it’s"']
+    assert run(path).stdout.splitlines()[0] == "20 µm, it’s"
+
+
+def test_typographic_text_may_be_typed_on_the_console() -> None:
+    card = Controller()
+    assert card.send("PRINT “3 – 1 = ”;3 – 1\r").endswith("\r\n3 \xe2\x80\x93 1 = 2\r\nSYS>")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import SourceError
+from openacr.lang.characters import readable
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.project import Place, Project, find_project, place_of, read_source
 
@@ -32,7 +33,7 @@ def list_file(
 
     reader = read(file, find_project(file))
     for line in ladders(reader) if ladder and not reader.faults else listing(reader):
-        typer.echo(line)
+        typer.echo(readable(line))
     if reader.faults:
         _show(reader.faults, on_stderr=True)
         raise typer.Exit(HAS_ERRORS)

@@ -14,6 +14,7 @@ from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import WATCHES
 from openacr.errors import SourceError, UserError
+from openacr.lang.characters import as_typed, readable
 from openacr.map.memory import Memory
 from openacr.project import Project
 from openacr.protocol.stream import StreamKind
@@ -95,7 +96,7 @@ class ControlledMachine:
 
         def take(program: int, text: str) -> None:
             self._was_heard = True
-            hear(text)
+            hear(readable(text))
 
         self._controller.listen(take)
         self._overhear = overhear
@@ -105,7 +106,7 @@ class ControlledMachine:
         name = stream or ""
         if name not in self._streams:
             self._streams[name] = self._open(stream)
-        self._controller.receive(self._streams[name], text.encode("latin-1", errors="replace"))
+        self._controller.receive(self._streams[name], as_typed(text))
         self._read_terminals()
 
     @contextmanager
@@ -132,7 +133,7 @@ class ControlledMachine:
         for stream in self._streams.values():
             if data := self._controller.take_output(stream):
                 self._was_heard = True
-                self._overhear(data.decode("latin-1"))
+                self._overhear(readable(data.decode("latin-1")))
 
     def start_all(self) -> None:
         """Start every stored program, as RUN ALL does."""
@@ -143,7 +144,7 @@ class ControlledMachine:
         system = self._controller.system
         stored = system.programs.texts[program].get(card_view.program_line(self.memory, program))
         text = Lister(system.aliases.nodes).line(stored.tokens) if stored else ""
-        return self._controller.executor.failures.get(program, "error"), text
+        return self._controller.executor.failures.get(program, "error"), readable(text)
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""

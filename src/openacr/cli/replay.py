@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import UserError
+from openacr.lang.characters import readable
 
 if TYPE_CHECKING:
     from openacr.controller.replay import Replay
@@ -58,7 +59,7 @@ def replay(
 
 
 def _show_text(program: int, text: str) -> None:
-    sys.stdout.write(text.replace("\r\n", "\n"))
+    sys.stdout.write(readable(text).replace("\r\n", "\n"))
 
 
 def _show_state(again: "Replay", wall_s: float) -> None:

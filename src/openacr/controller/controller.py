@@ -19,6 +19,7 @@ from openacr.controller.streams import CONSOLE
 from openacr.controller.views import AxisView
 from openacr.engine.watches import give_orders, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
+from openacr.lang.characters import as_typed
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AXF_PEAK_ERROR_CNT,
@@ -144,7 +145,7 @@ class Controller(Running):
 
     def send(self, text: str) -> str:
         """Type text on the console; what the card has answered so far."""
-        self.receive(self.console, text.encode("latin-1"))
+        self.receive(self.console, as_typed(text))
         return self.take_output(self.console).decode("latin-1")
 
     def press(self, key: ControlKey) -> None:
