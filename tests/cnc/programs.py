@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from openacr.cnc.canonical import (
     Arc,
@@ -149,7 +150,7 @@ def shown(entry: Entry) -> str:
 
 
 def made(
-    text: str,
+    text: str | Path,
     cells: dict[int, float] | None = None,
     *,
     start: tuple[float, ...] = (0.0, 0.0, 0.0),
@@ -178,7 +179,7 @@ def made(
 
 
 def run(
-    text: str,
+    text: str | Path,
     cells: dict[int, float] | None = None,
     *,
     start: tuple[float, ...] = (0.0, 0.0, 0.0),
@@ -220,7 +221,7 @@ def unrolled(entries: Iterator[Entry]) -> Iterator[Entry]:
             yield entry
 
 
-def errors(text: str, cells: dict[int, float] | None = None, **more: object) -> list[str]:
+def errors(text: str | Path, cells: dict[int, float] | None = None, **more: object) -> list[str]:
     """Codes of errors at load, or the one at run time."""
     done = made(text, cells, **more)  # type: ignore[arg-type]
     found = done.interpreter.program.errors

@@ -88,6 +88,16 @@ O103 endrepeat
 O100 call [1] [2]
 O104 do
 O104 while [0]
+#3=100
+O#3 call
+O[#3] call [1]
+O200
+M98 P200
+M99
+G41.1 D.5 X1
+G42 X2
+G40 X3
+(DEBUG, #1 #<_x> P1)
 G38.2 Z-1 F10
 G43.1 Z1
 G2 X1 Y1 R1

@@ -4,13 +4,13 @@ import math
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import Bench, Run, errors, run
+from tests.cnc.programs import Bench, Run, errors, run, shown
 
-from openacr.cnc.canonical import Arc, Line, Probe
+from openacr.cnc.canonical import Arc, Line, PathMode, Probe
 from openacr.cnc.load import Folders
 
 
-def ngc(text: str, cells: dict[int, float] | None = None, **more: object) -> Run:
+def ngc(text: str | Path, cells: dict[int, float] | None = None, **more: object) -> Run:
     return run(text, cells, dialect="rs274ngc", **more)  # type: ignore[arg-type]
 
 
@@ -75,6 +75,85 @@ def test_assignments_act_behind_the_block() -> None:
 )  # fmt: skip
 def test_o_words_steer_the_program(text: str, moves: list[str]) -> None:
     assert ngc(text.replace("|", "\n")).moves == moves
+
+
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        ("G2 F10 X1 Y1 R1", ["A X1 Y1 about 1,0 -90"]),
+        ("G3 F10 X2 R-1.25", ["A X2 about 1,-0.75 254"]),
+        ("G18 G2 F10 X2 I1", ["A X2 about 0,1 -180"]),
+        ("G19 G3 F10 Y2 J1 K0", ["A Y2 about 1,0 180"]),
+        ("G90.1|G1 F10 X1 Y1|G2 X3 Y1 I2 J1", ["L X1 Y1", "A X3 Y1 about 2,1 -180"]),
+        ("G91.1|G1 F10 X1 Y1|G2 X3 Y1 I1 J0", ["L X1 Y1", "A X3 Y1 about 2,1 -180"]),
+        ("G91 G91.1 F10|G1 X1|G2 X2 I1", ["L X1", "A X3 about 2,0 -180"]),
+        ("G1 F10 X[-2**2] Y[2*3**2] Z[7/2]", ["L X4 Y18 Z3.5"]),
+        ("G1 F10 X[ROUND[2.5]] Y[FIX[-2.5]] Z[FUP[2.1]]", ["L X3 Y-3 Z3"]),
+        ("#2=3|#3=7|G1 F10 X##2 Y#[1+1]", ["L X7 Y3"]),
+        ("#<Tool Size>=2|G1 F10 X#<toolsize>", ["L X2"]),
+        ("#<_x>=1|O1 sub|#<_x>=2|O1 endsub|O1 call|G1 F10 X#<_x>", ["L X2"]),
+        ("#31=4|O1 sub|#31=5|O1 endsub|O1 call|G1 F10 X#31", ["L X5"]),
+        ("#30=4|O1 sub|#30=5|O1 endsub|O1 call|G1 F10 X#30", ["L X4"]),
+        ("o<box> sub|g1 f10 x#1|o<box> endsub|o<BOX> call [3]|m2", ["L X3"]),
+        ("#3=101|o#3 call|o[#3+1] call|m2|o101 sub|g1 f10 x1|o101 endsub|o102 sub|y1|o102 endsub",
+         ["L X1", "L X1 Y1"]),
+        ("M98 P100 L2|M30|O100|G91 G1 F10 X1|M99", ["L X1", "L X2"]),
+        ("O1000|G1 F10 X1|M98 P7|X2|M30|O7 (sub)|Y1|M99", ["L X1", "L X1 Y1", "L X2 Y1"]),
+        ("O1 while [1]|#1=[#1+1]|O2 if [#1 gt 3]|O1 break|O2 endif|O3 if [#1 eq 2]|O1 continue|"
+         "O3 endif|G1 F10 X#1|O1 endwhile", ["L X1", "L X3"]),
+        ("O1 sub|O2 repeat [3]|G91 G1 F10 X1|O3 if [#1 EQ 1]|O1 return|O3 endif|O2 endrepeat|"
+         "O1 endsub|O1 call [1]|O1 call [0]", ["L X1", "L X2", "L X3", "L X4"]),
+        ("G20 G1 F10 X1|G21 X50.8", ["L X1", "L X2"]),
+        ("%|G1 F10 X1|%|X2", ["L X1"]),
+        ("N10 g1 f10 x 1 (a) y2 (b)|N10 z3 ; c", ["L X1 Y2", "L X1 Y2 Z3"]),
+        ("G41.1 D.5 G1 F10 X1|X2|G40 X3 Y1", ["L X1 Y0.25", "L X2 Y0.25", "L X3 Y1"]),
+        ("G42.1 D.5 G1 F10 X1|X2|G40 X3 Y1", ["L X1 Y-0.25", "L X2 Y-0.25", "L X3 Y1"]),
+        ("G41 D1 G1 F10 X1|X2|G40 X3", ["L X1 Y0.5", "L X2 Y0.5", "L X3"]),
+        ("T2 M6|G41 G1 F10 X1|X2|G40 X3", ["L X1 Y0.125", "L X2 Y0.125", "L X3"]),
+    ],
+)  # fmt: skip
+def test_programs_of_other_controls_are_read_as_meant(text: str, moves: list[str]) -> None:
+    assert ngc(text.replace("|", "\n"), {1001: 0.5, 1002: 0.125}).moves == moves
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("(MSG, hello #1)", "hello #1"), ("(msg,hello)", "hello"), ("(DEBUG, a #1 b)", "a 5 b"),
+        ("(print,#<_name>, #<Local> P1)", "2.5, 7 P1"), ("(DEBUG, #<none>)", "######"),
+    ],
+)  # fmt: skip
+def test_comments_speak(text: str, told: str) -> None:
+    done = ngc(f"#1=5\n#<_name>=2.5\n#<local>=7\n{text}\n(only a comment)\n(LOG, x)")
+    assert done.story == [f"say {told}", "end"]
+
+
+def test_subroutines_may_stand_in_files_of_their_own(tmp_path: Path) -> None:
+    (tmp_path / "square.ngc").write_text(
+        "o<square> sub\no1 repeat [2]\ng91 g1 x#1\no<step> call\no1 endrepeat\no<square> endsub\n"
+    )
+    (tmp_path / "STEP.NGC").write_text("o<step> sub\ng91 g1 y1\no<step> endsub\nm2\n")
+    program = tmp_path / "main.ngc"
+    program.write_text("f10\no1 repeat [2]\no<square> call [3]\no1 endrepeat\nm2\n")
+    done = ngc(program)
+    assert done.moves[-1] == "L X12 Y4"
+    assert len(done.moves) == 8
+    program.write_text("o<nowhere> call\n")
+    assert errors(program, dialect="rs274ngc") == ["E220"]
+
+
+def test_a_program_that_is_run_again_begins_its_loops_anew() -> None:
+    done = ngc("G91 F10\nO1 repeat [2]\nG1 X1\nM2\nO1 endrepeat")
+    assert done.moves == ["L X1"]
+    for n in range(2, 5):
+        assert [shown(entry) for entry in done.interpreter.entries()] == [f"L X{n}", "end"]
+
+
+@pytest.mark.parametrize("text", ["G64", "G64 P.01", "G64 P0.01 Q0.02"])
+def test_a_path_tolerance_is_taken(text: str) -> None:
+    (line,) = ngc(f"{text}\nG1 F10 X1").of(Line)
+    assert isinstance(line, Line)
+    assert line.pace.mode is PathMode.FREE
 
 
 def test_subroutines_have_parameters_and_names_of_their_own() -> None:

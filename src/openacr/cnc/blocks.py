@@ -107,6 +107,7 @@ class OWord:
     kind: str
     values: tuple[Node, ...]
     column: int
+    number: Node | None = None  # the name where it is computed: `O#1 call`
 
 
 Statement = Goto | Gosub | Return | If | Print | Input | Include | OWord
@@ -120,6 +121,7 @@ class Block:
     is_skippable: bool = False
     is_percent: bool = False
     title: str = ""
+    title_number: int = 0
     words: list[Word] = field(default_factory=list)
     assignments: list[Assignment] = field(default_factory=list)
     statement: Statement | None = None

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 MOST_IDLE = 100_000  # blocks without motion, dwell or wait
 MACRO = "MACRO"
-_PARAMETER = re.compile(r"([#Pp])(\d{1,7})")
+UNKNOWN = "######"  # a name without a value, in a text
+_PARAMETER = re.compile(r"([#Pp])(?:(\d{1,7})|<([^<>]*)>)")
 _ARITHMETIC = (ArithmeticError, ValueError)
 
 
@@ -258,6 +259,12 @@ class Execution:
         self._run.tell(Say(source, text))
 
     def _value(self, found: re.Match[str]) -> str:
-        parameters = self._run.parameters
-        read = parameters.read_hash if found[1] == "#" else parameters.read_p
-        return shown(read(float(found[2])))
+        parameters, grammar = self._run.parameters, self._run.dialect.grammar
+        kind, digits, name = found[1].upper(), found[2], found[3]
+        if kind not in grammar.parameters or (name and not grammar.has_names):
+            return found[0]
+        if digits is None:
+            name = name.replace(" ", "").upper()
+            return shown(parameters.read_named(name)) if parameters.has_named(name) else UNKNOWN
+        read = parameters.read_hash if kind == "#" else parameters.read_p
+        return shown(read(float(digits)))

@@ -43,6 +43,10 @@ class Sources(Protocol):
 class Names(Sources, Protocol):
     """The same for compiled formulas."""
 
+    @property
+    def last_local(self) -> int:
+        """#1 to this one belong to the call in force."""
+
     def is_plain_cell(self, n: float) -> bool:
         """Whether a parameter is nothing but a cell of the store."""
 
@@ -104,7 +108,7 @@ class Parameter:
         index = self.index.source(at)
         if isinstance(self.index, Number):
             n = self.index.number
-            if self.is_hash and 1 <= n <= LOCALS:
+            if self.is_hash and 1 <= n <= at.last_local:
                 return f"(values[{int(n)}] if values[0] else {_read(n, at, self.is_hash)})"
             return _read(n, at, self.is_hash)
         return f"{'read_hash' if self.is_hash else 'read_p'}({index})"

@@ -226,6 +226,7 @@ class Interpreter:
         self.offset_path.begin()
         self.path.begin(self.machine.position() or self.path.target)
         self.flow.start()
+        self.o_words.reset()
 
     def _reset(self, *, is_abort: bool = False) -> None:
         reset(self.modal, self.cells, is_abort=is_abort)

@@ -25,10 +25,10 @@ from openacr.cnc.findings import MOST, CodeError, found
 from openacr.cnc.formulas import Number
 from openacr.cnc.hosts import Cells
 from openacr.cnc.labels import Place
-from openacr.cnc.ngc.owords import KINDS, NEEDS_VALUE
+from openacr.cnc.ngc.owords import missing, note, note_title
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, Planner
-from openacr.cnc.program import CYCLES_FILE, OPlace, Part, Program
+from openacr.cnc.program import CYCLES_FILE, Part, Program
 from openacr.cnc.scanning import Skimmer
 from openacr.cnc.supplied import cycle_part, found_in, supplied_cycles
 from openacr.cnc.text import Text, decoded
@@ -104,6 +104,7 @@ class Loader:
         program = Program(Part(text), folder)
         self._program = program
         self._read(program.main, depth=0)
+        self._add_subroutines()
         if self._dialect.has_own_cycles:
             program.own_cycles = cycle_part()
         elif self._cells.read(AUTO_CYCLES) and not program.has_cycles:
@@ -157,6 +158,8 @@ class Loader:
                 self._percent(place)
                 return
             self._label(block, place)
+            if block.title_number and self._dialect.grammar.has_o_words:
+                note_title(self._program, block.title_number, place)
             plan = self._planner_plan(block, place)
             self._statement(block, place, after, depth)
             self._checks.values(block, plan)
@@ -244,17 +247,10 @@ class Loader:
                 _, line, raw = self._report.where
                 self._jumps.append((place.part, line, raw, statement.column, label))
         elif isinstance(statement, OWord):
-            self._o_word(statement, place)
+            if statement.number is None:
+                note(self._program, statement, place)
         elif isinstance(statement, Include):
             self._include(statement, place, after, depth)
-
-    def _o_word(self, word: OWord, place: Place) -> None:
-        if word.kind not in KINDS or (word.kind in NEEDS_VALUE and len(word.values) != 1):
-            raise CodeError("E108", word.column, word.kind)
-        places = self._program.o_words.setdefault(word.name, [])
-        if word.kind == "SUB" and any(one.kind == "SUB" for one in places):
-            raise CodeError("E221", word.column, f"O{word.name}")
-        places.append(OPlace(word.kind, place))
 
     def _include(self, statement: Include, place: Place, after: int, depth: int) -> None:
         is_main = place.part is self._program.main
@@ -279,6 +275,16 @@ class Loader:
             if path is not None:
                 return Text.file(path)
         return supplied_cycles() if Path(name).name.upper() == CYCLES_FILE else None
+
+    def _add_subroutines(self) -> None:
+        """Subroutines that are called and stand in files of their own, `name.ngc`."""
+        asked: set[str] = set()
+        while names := set(missing(self._program)) - asked:
+            asked |= names
+            for name in sorted(names):
+                text = self._text_named(f"{name}.NGC")
+                if text is not None:
+                    self._read(Part(text), depth=1)
 
     def _add_cycles(self, main: Part) -> None:
         part = Part(supplied_cycles(), main.labels, is_cycles=True)

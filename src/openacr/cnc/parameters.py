@@ -60,6 +60,8 @@ class NotAtRestError(Exception):
 class Parameters:
     """Reads and writes by number, name or state."""
 
+    last_local = LOCALS
+
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         self._cells = run.cells

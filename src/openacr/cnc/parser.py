@@ -22,8 +22,11 @@ from openacr.cnc.statement_reader import StatementReader
 
 LONGEST = 256
 LAST_LABEL = 999_999
+_DIGITS = re.compile(r"\d+")
 _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
-_O_WORD = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)\s*([A-Z]+)")
+_O_NAME = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)")
+_KEYWORD = re.compile(r"\s*([A-Z]+)")
+CALL = "CALL"
 _PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
 _PLAIN_LINE = re.compile(rf"[ \t]*(?:N[ \t]*(\d+)[ \t]*)?((?:{_PLAIN_WORD})*)", re.I | re.A)
 _PLAIN_WORDS = re.compile(_PLAIN_WORD, re.I | re.A)
@@ -94,23 +97,33 @@ class _Parser(StatementReader):
         rest = self.text[self.pos :]
         if _TITLE.match(rest):
             block.title = self.raw[self.pos :].strip()
+            block.title_number = int(_DIGITS.findall(rest)[0])
             return True
         if not self.grammar.has_o_words:
             return False
-        found = _O_WORD.match(rest)
-        if not found:
-            raise self.fault("E108")
         at = self.column
-        self.pos += found.end()
-        name = found[1].lstrip("0") or "0" if found[1] else found[2].replace(" ", "")
+        name, number = self._o_name(rest)
+        kind = _KEYWORD.match(self.text, self.pos)
+        if kind is None or (number and kind[1] != CALL):
+            raise self.fault("E108")
+        self.pos = kind.end()
         values = []
         self.gap()
         while self.peek() == self.open:
             values.append(self.bracketed())
             self.gap()
         self.end(block)
-        block.statement = OWord(name, found[3], tuple(values), at)
+        block.statement = OWord(name, kind[1], tuple(values), at, number)
         return True
+
+    def _o_name(self, rest: str) -> tuple[str, Node | None]:
+        """The name of an O-word, or the formula that gives it."""
+        found = _O_NAME.match(rest)
+        if found:
+            self.pos += found.end()
+            return found[1].lstrip("0") or "0" if found[1] else found[2].replace(" ", ""), None
+        self.pos += 1
+        return "", self.value()
 
     def _item(self, block: Block) -> bool:
         """One item; False at the end of the line."""

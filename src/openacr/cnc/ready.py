@@ -12,7 +12,7 @@ from openacr.cnc.blocks import Assignment, Block, Input, OWord, Print
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes import Code, Limit
 from openacr.cnc.findings import CodeError
-from openacr.cnc.formulas import HOT, LOCALS, Formula, Number, names_for
+from openacr.cnc.formulas import HOT, Formula, Number, names_for
 from openacr.cnc.parameters import NotAtRestError, Parameters, number
 from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, check_limit
@@ -198,7 +198,7 @@ def _lines(one: Assignment, parameters: Parameters) -> list[str]:
         return [*lines, f"write({kind}, {index!r}, v)"]
     if isinstance(index, Number):
         n = index.number
-        if one.kind == "#" and 1 <= n <= LOCALS:
+        if one.kind == "#" and 1 <= n <= parameters.last_local:
             store = _store(one.kind, n, parameters)
             return [*lines, f"if values[0]: values[{int(n)}] = v", f"else: {store}"]
         return [*lines, _store(one.kind, n, parameters)]

@@ -64,7 +64,12 @@ def transfer(run: Interpreter, b: Turn) -> Iterator[Entry]:
 @letter("D", step=Step.RADIUS, limits=(Limit("D", 0, 400, "E222", is_whole=True),))
 def radius(run: Interpreter, b: Turn) -> None:
     """Cutter radius and its wear by number; D0 is radius 0."""
-    n = run.modal.radius_number = b.whole("D")
+    select_radius(run, b.whole("D"))
+
+
+def select_radius(run: Interpreter, n: int) -> None:
+    """Copy radius n and its wear to the cells in use."""
+    run.modal.radius_number = n
     run.parameters.store(RADIUS, run.cells.read(RADII + n) if n else 0.0)
     run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
 

@@ -20,7 +20,14 @@ from openacr.cnc.gcodes.work import (
     show_zero,
 )
 from openacr.cnc.tables import ACROMILL, RS274NGC
-from openacr.cnc.words import LENGTHS, RADII, select_length
+from openacr.cnc.words import (
+    LENGTHS,
+    RADII,
+    RADIUS,
+    RADIUS_WEAR,
+    select_length,
+    select_radius,
+)
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter import Interpreter
@@ -31,7 +38,7 @@ AXES = 8
 REFERENCE_CELLS = {28: 280, 30: 290}
 RS274NGC.take(
     ACROMILL,
-    gcodes=(17, 18, 19, 20, 21, 40, 41, 42, 90, 91, 92, 98, 99, 0, 1, 2, 3),
+    gcodes=(17, 18, 19, 20, 21, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
     letters="F S T D MOTION CUSTOM",
 )
 
@@ -107,6 +114,25 @@ def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     is_needed = b.number in (38.2, 38.4)
     if is_needed and not run.cells.read(329) and not run.options.collects_errors:
         raise b.fault("A36")
+
+
+@gcode(41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION)
+def compensation(run: Interpreter, b: Turn) -> None:
+    """Cutter radius compensation left or right, with the radius of D or of the tool."""
+    tool = run.modal.tool_in_spindle
+    if "D" not in b.words and tool:
+        select_radius(run, tool)
+    run.offset_path.switch(b, int(b.number))
+
+
+@gcode(41.1, 42.1, step=Step.COMPENSATION, group=Group.COMPENSATION, takes="D",
+       limits=(Limit("D", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
+def compensation_by_diameter(run: Interpreter, b: Turn) -> None:
+    """Cutter radius compensation left or right; D is the diameter itself."""
+    run.modal.radius_number = 0
+    run.parameters.store(RADIUS, run.path.length(b.words["D"]) / 2.0)
+    run.parameters.store(RADIUS_WEAR, 0.0)
+    run.offset_path.switch(b, int(b.number))
 
 
 @gcode(43, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H",

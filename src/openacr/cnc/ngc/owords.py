@@ -17,7 +17,8 @@ from openacr.cnc.blocks import OWord
 from openacr.cnc.findings import CodeError
 from openacr.cnc.flow import Frame, Level
 from openacr.cnc.formulas import LOCALS, Formula
-from openacr.cnc.program import Node, OPlace
+from openacr.cnc.labels import Place
+from openacr.cnc.program import Node, OPlace, Program
 
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Entry
@@ -35,7 +36,33 @@ ENDS = {"WHILE": ("ENDWHILE",), "REPEAT": ("ENDREPEAT",), "SUB": ("ENDSUB",), "D
 BRANCHES = ("ELSEIF", "ELSE", "ENDIF")
 LOOPS = ("WHILE", "DO", "REPEAT")
 LOOP_ENDS = ("ENDWHILE", "ENDREPEAT", "WHILE")
+SUB, PROGRAM = "SUB", "PROGRAM"  # `O100 sub`, and a program O100 that M99 ends
+STARTS = (SUB, PROGRAM)
 VALUE, RETURNED = "_VALUE", "_VALUE_RETURNED"
+
+
+def note(program: Program, word: OWord, place: Place) -> None:
+    """Keep where an O-word stands; an error where it makes no sense."""
+    if word.kind not in KINDS or (word.kind in NEEDS_VALUE and len(word.values) != 1):
+        raise CodeError("E108", word.column, word.kind)
+    places = program.o_words.setdefault(word.name, [])
+    if word.kind == SUB and any(one.kind == SUB and one.place.part is place.part for one in places):
+        raise CodeError("E221", word.column, f"O{word.name}")
+    places.append(OPlace(word.kind, place))
+
+
+def note_title(program: Program, number: int, place: Place) -> None:
+    """`O100` alone: a program that M98 calls and M99 ends."""
+    program.o_words.setdefault(str(number), []).append(OPlace(PROGRAM, place))
+
+
+def missing(program: Program) -> list[str]:
+    """Names that are called and stand nowhere."""
+    return [
+        name
+        for name, words in program.o_words.items()
+        if any(one.kind == "CALL" for one in words) and not any(one.kind in STARTS for one in words)
+    ]
 
 
 class OWords:
@@ -44,6 +71,11 @@ class OWords:
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         self._left: dict[tuple[int, str], int] = {}  # passes left of REPEAT, by call and name
+        self._depth = 0
+
+    def reset(self) -> None:
+        """A program starts: no loop is in progress."""
+        self._left.clear()
         self._depth = 0
 
     def act(self, word: OWord, node: Node) -> Act:
@@ -63,19 +95,21 @@ class OWords:
 
     # --- places -----------------------------------------------------------------------
 
-    def _words(self, word: OWord) -> list[OPlace]:
-        return self._run.program.o_words.get(word.name, [])
+    def _words(self, word: OWord, node: Node) -> list[OPlace]:
+        """The words of a structure, all of which stand in one file."""
+        words = self._run.program.o_words.get(word.name, [])
+        return [one for one in words if one.place.part is node.part]
 
     def _next(self, word: OWord, node: Node, kinds: tuple[str, ...]) -> OPlace:
         """The next word of the structure of one of these kinds."""
-        for other in self._words(word):
+        for other in self._words(word, node):
             if other.place.line > node.line and other.kind in kinds:
                 return other
         raise CodeError("E108", word.column, f"O{word.name} {kinds[-1].lower()} missing")
 
     def _last(self, word: OWord, node: Node, kinds: tuple[str, ...]) -> OPlace | None:
         """The word of the structure before this line, if it is one of these kinds."""
-        before = [one for one in self._words(word) if one.place.line < node.line]
+        before = [one for one in self._words(word, node) if one.place.line < node.line]
         found = [one for one in before if one.kind in kinds]
         return found[-1] if found else None
 
@@ -168,12 +202,17 @@ class OWords:
 
     def _call(self, word: OWord, node: Node, values: list[Formula]) -> Iterator[Entry]:
         arguments = [value.now() for value in values]
-        return self.call(word.name, word.column, arguments)
+        if word.number is None:
+            return self.call(word.name, word.column, arguments)
+        number = round(Formula(word.number, self._run.parameters).now())
+        return self.call(str(number), word.column, arguments)
 
     def call(self, name: str, column: int, arguments: list[float]) -> Iterator[Entry]:
         """Run the subroutine of a name."""
         run = self._run
-        starts = [one for one in run.program.o_words.get(name, []) if one.kind == "SUB"]
+        here = run.execution.node
+        starts = [one for one in run.program.o_words.get(name, []) if one.kind in STARTS]
+        starts.sort(key=lambda one: here is None or one.place.part is not here.part)  # own file
         start = run.flow.at(starts[0].place) if starts else None
         if start is None:
             raise CodeError("E220", column, f"O{name}")
@@ -186,6 +225,7 @@ class OWords:
         run.parameters.global_names[RETURNED] = 0.0
         self._depth += 1
         yield from run.execution.call(Frame(Level.MACRO), behind, values[: LOCALS + 1])
+        self._left = {key: left for key, left in self._left.items() if key[0] < self._depth}
         self._depth -= 1
         run.parameters.names = kept
 

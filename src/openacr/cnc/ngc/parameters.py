@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 from openacr.cnc.findings import CodeError
-from openacr.cnc.formulas import LOCALS
 from openacr.cnc.parameters import SHOWN, Parameters, number
 
 AXES = 8
@@ -41,6 +40,8 @@ STATES = {5220: 998, 5400: 235}
 class NgcParameters(Parameters):
     """Reads and writes as the dialect numbers them."""
 
+    last_local = 30
+
     def reset(self) -> None:
         """The start of a program: nothing is set, and #1 to #30 are there."""
         super().reset()
@@ -58,7 +59,7 @@ class NgcParameters(Parameters):
     def read_hash(self, n: float) -> float:
         """Parameter #n; 0 where nothing was written."""
         k = number(n)
-        if 1 <= k <= LOCALS:
+        if 1 <= k <= self.last_local:
             return self.values[k]
         if k in CELLS:
             return self._read_cell(CELLS[k])
@@ -78,7 +79,7 @@ class NgcParameters(Parameters):
         k = number(n)
         if not math.isfinite(value):
             raise CodeError("E210")
-        if 1 <= k <= LOCALS:
+        if 1 <= k <= self.last_local:
             self.values[k] = value
         elif k in CELLS:
             self.store(CELLS[k], value)
