@@ -3,9 +3,9 @@
 import asyncio
 
 import pytest
-from tests.client.cards import AXIS
+from tests.client.cards import AXIS, WrappedLink
 
-from openacr.client import AsyncCard, Card, MoveStream
+from openacr.client import AsyncCard, Card, ConnectionLostError, MoveStream
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.protocol.move import Move
@@ -82,6 +82,39 @@ def test_a_move_of_another_master_is_refused_before_anything_is_sent() -> None:
     with pytest.raises(UserError, match="master 3"):
         card.send_moves([Move.of({0: 100}, master=3)])
     assert host.p[12288] == 0
+
+
+class BreaksInMoves(WrappedLink):
+    """A line that breaks when so many more packets with moves were sent."""
+
+    left = 1000
+
+    def write(self, data: bytes) -> None:
+        if data.startswith(Move.HEADER):
+            self.left -= 1
+            if not self.left:
+                self.close()
+                raise ConnectionLostError("the line broke")
+        super().write(data)
+
+
+def test_after_a_broken_connection_a_host_knows_where_to_go_on() -> None:
+    link = BreaksInMoves(Controller())
+    card = Card(link)
+    for line in (*AXIS, "MBUF ON", "ACC 0 DEC 0 STP 0"):
+        card.command(line)
+    moves, stream = steps(40), MoveStream()
+    card.send_moves(moves[:12], stream)
+    link.left = 4
+    with pytest.raises(ConnectionLostError):
+        card.send_moves(moves[12:], stream)
+    card.wait(lambda: not card.master(0).is_in_motion)
+    done = card.moves_started(stream)
+    assert 12 <= done < 40
+    assert card.axis(0).current_position == 100 * done
+    card.send_moves(moves[done:])
+    card.wait(lambda: not card.master(0).is_in_motion)
+    assert card.axis(0).current_position == 4000
 
 
 def test_the_asyncio_card_sends_moves_too() -> None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from tests.controller.hosts import Host
+from tests.controller.hosts import Host, connected
 
 from openacr.controller import Controller
 from openacr.map import numbers as at
@@ -71,6 +71,16 @@ def test_integers_are_pulses_and_floats_units() -> None:
     sender = Sender()
     assert sender.move({0: 1500, 1: -700}).rest().at == (1500, -700, 0)
     assert sender.move({0: 2.5, 2: 1.0}).rest().at == (2500, -700, 1000)
+
+
+def test_extended_codes_move_sixteen_slaves_of_a_high_master() -> None:
+    names = "XYZABCUVWDEGHKLM"
+    attach = [f'ATTACH SLAVE{n} AXIS{n} "{name}"' for n, name in enumerate(names)]
+    text = connected("PROG9", "ATTACH MASTER9", *attach, "ACC 0 DEC 0 STP 0", model="ACR9040")
+    packets = Host(text.card, StreamKind.PACKETS)
+    packets.send(Move.of({n: 100 * n for n in range(16)}, master=9, vel=5000.0).encode())
+    text.card.advance(4000)
+    assert [text.card.p[12288 + 256 * n] for n in range(16)] == [100 * n for n in range(16)]
 
 
 def test_relative_targets_count_from_the_end_of_the_move_before() -> None:

@@ -54,7 +54,7 @@ def test_the_card_takes_no_commands_meanwhile() -> None:
     assert bench.card.bit[130]
 
 
-@pytest.mark.req("ACR-DTALK-19")
+@pytest.mark.req("ACR-DTALK-19", "ACR-CMD-DTALK")
 def test_escape_ends_the_conversation_and_not_the_session() -> None:
     bench = talking_bench()
     bench.say("TPE")
