@@ -9,7 +9,7 @@ from openacr.protocol.move import Move
 
 MOVES, PER_S = 20000, 5000
 WARM_UP = 1000
-DEPTH = 100
+DEPTH = 400  # 80 ms: longer than a busy machine lets a host wait
 COUNTS, UNIT = 10, 10000  # of one move; per unit
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from bench.figures import at_least, at_most, percentile, value_only
 from bench.served import Line, served_card, start_moving
 
-COUNT, ROUNDS = 1000, 4
+COUNT, ROUNDS = 1000, 8
 TOGETHER = 50
 GET_LONG = bytes.fromhex("00 88 02 30")
 GET_GROUP = bytes.fromhex("00 30 02 FF")

@@ -15,6 +15,7 @@ from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
 from openacr.protocol.packets import Packet, PacketError, decode, total_length
 
 DPCB_PADDED = frozenset((0x1C, 0x1D))
+LONGEST_HEAD = 9  # bytes that tell the length of any packet: all codes of a move
 
 
 @dataclass(slots=True)
@@ -41,6 +42,19 @@ class PacketReader:
     def whole_bytes(self) -> int:
         """How many bytes may be fed together: 1 where they have to be converted."""
         return self._wanted - len(self._data) if self._is_plain else 1
+
+    def whole_packet(self, data: bytes, at: int) -> bytes:
+        """The packet at a place in plain data; empty unless all of it is surely there.
+
+        Hosts send packets whole, thousands a second: those need no collecting.
+        """
+        if self.dpcb or self.short_overrides:
+            return b""
+        try:
+            length = total_length(data[at : at + LONGEST_HEAD])
+        except PacketError:
+            return b""
+        return data[at : at + length] if at + length <= len(data) else b""
 
     def start(self, header: int, mode: BinaryMode, tick: int) -> None:
         """Begin with a header byte; the data behind it travel in `mode`."""

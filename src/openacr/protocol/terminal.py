@@ -41,7 +41,7 @@ from openacr.protocol.events import (
 from openacr.protocol.framing import PacketReader
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output
-from openacr.protocol.packets import HEADER_IDS, PacketError, decode
+from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
 from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.typed_line import TypedLine
 
@@ -173,13 +173,24 @@ class Terminal:
     # --- packets ----------------------------------------------------------------------
 
     def _packet_start(self, byte: int, segment: _Segment) -> Event | None:
-        if byte == Move.HEADER[0] and segment.at == 1 and not self.mode.prefixes:
-            documented = unpadded(segment.data)
-            if documented is not None:
-                self._skip(segment, len(segment.rest))
-                return Received(decode(documented))
+        if not self.mode.prefixes:
+            if byte == Move.HEADER[0] and segment.at == 1:
+                documented = unpadded(segment.data)
+                if documented is not None:
+                    self._skip(segment, len(segment.rest))
+                    return Received(decode(documented))
+            whole = self._reader.whole_packet(segment.data, segment.at - 1)
+            if whole:
+                return self._packet_at_once(whole, segment)
         self._reader.start(byte, self.mode, segment.tick)
         return None
+
+    def _packet_at_once(self, whole: bytes, segment: _Segment) -> Event | None:
+        self._skip(segment, len(whole) - 1)
+        try:
+            return self._received(decode(whole), segment)
+        except PacketError:
+            return None  # nobody could answer it
 
     def _packet_byte(self, byte: int, segment: _Segment) -> Event | None:
         if self.kind is StreamKind.SERIAL and byte in (XON, XOFF) and self.mode.prefixes:
@@ -188,8 +199,9 @@ class Terminal:
             packet = self._reader.feed(self._together(segment), segment.tick)
         except PacketError:
             return None  # nobody could answer it
-        if packet is None:
-            return None
+        return None if packet is None else self._received(packet, segment)
+
+    def _received(self, packet: Packet, segment: _Segment) -> Received:
         if packet.HEADER in (b"\x1c", b"\x1d") and segment.rest == b"\0":
             self._skip(segment, 1)  # padding of one host, see `bits`
         return Received(packet)
