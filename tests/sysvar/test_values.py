@@ -26,7 +26,7 @@ from openacr.sysvar.values import parsed, shown, unit_of
         (250_001, 2, "one of 0 (inch), 1 (mm)"),
         (250_103, 1, "Root Epsilon cannot be 1: a whole number from -12 to 0"),
         (800_000, 32, "Spindle Code cannot be 32"),
-        (400_004, -2, "a whole number from -1 to 31; -1 = disable"),
+        (400_004, -2, "a whole number from -1 to 511; -1 = disable"),
         (100_000, 2, "it is fixed"),
         (1000, 1, "D radius 0 cannot be 1"),
         (200_008, 1.0, "it takes text"),

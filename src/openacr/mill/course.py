@@ -59,6 +59,17 @@ class Course:
         """Whether a program is on its way."""
         return self._feed is not None
 
+    @property
+    def is_read_up(self) -> bool:
+        """Whether nothing comes behind the moves that are known, before the machine rests."""
+        return self._feed is None or self._feed.halt is not None
+
+    def ahead(self) -> Iterator[Job]:
+        """The move that is executed, and those known to come behind it."""
+        yield from self.tracker.jobs()
+        if self._feed is not None:
+            yield from self._feed.jobs()
+
     def set_single(self, on: bool) -> None:
         """Whether every block is followed by a stop."""
         if self._feed is not None:

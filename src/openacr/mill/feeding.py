@@ -209,6 +209,11 @@ class Feed:
             self._has_begun = True
             yield from self._planner.take(room, is_complete=is_complete)
 
+    def jobs(self) -> Iterator[Job]:
+        """The moves that have been read and have not left yet."""
+        yield from self._planner
+        yield from self._again
+
     @property
     def is_empty(self) -> bool:
         """Every move read so far has left."""

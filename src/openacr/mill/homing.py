@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from openacr.client.values import number_text
 from openacr.map import numbers as n
-from openacr.mill import alarms
+from openacr.mill import alarms, homed
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.machine import Look
@@ -177,8 +177,8 @@ def home(panel: Panel, axes: Iterable[int]) -> Steps:
     for group in groups(panel, axes):
         ways = [Axis(panel, panel.settings.axis(axis)).home() for axis in group]
         for axis in group:
-            panel.settings.mark_homed(axis, False)
+            homed.note(panel, axis, False)
         names = " ".join(panel.settings.axis(axis).name for axis in group)
         yield from together(ways, f"homing {names}")
         for axis in group:
-            panel.settings.mark_homed(axis, True)
+            homed.note(panel, axis, True)

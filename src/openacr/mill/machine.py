@@ -18,6 +18,7 @@ from openacr.protocol.override import FeedrateOverride, RapidOverride
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096
+FIRST_MODULE_FLAG = (n.XIOI_WORD - FIRST_FLAG_WORD) * BITS_PER_WORD
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ class Look:
     inputs: int
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
     limits: tuple[int, ...]  # quinary flag words
+    modules: tuple[int, ...] = ()  # inputs of the expansion modules
 
     @property
     def is_moving(self) -> bool:
@@ -57,8 +59,11 @@ class Look:
         return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST)
 
     def input(self, number: int) -> bool:
-        """The state of an input 0..31."""
-        return bool(self.inputs >> number & 1)
+        """The state of an input of the card (0..31) or of a module (256.. and up)."""
+        if number < BITS_PER_WORD:
+            return bool(self.inputs >> number & 1)
+        module, bit = divmod(number - FIRST_MODULE_FLAG, 2 * BITS_PER_WORD)
+        return bool(self.modules[module] >> bit & 1)
 
 
 class Machine:
@@ -74,6 +79,7 @@ class Machine:
         self._clock_ms: int | None = None
         self.is_dropping = False  # moves are killed on purpose
         self._is_clearing = False
+        self._modules = 0
 
     # --- seeing -----------------------------------------------------------------------
 
@@ -83,7 +89,13 @@ class Machine:
         limits = [n.AF5_WORD + axis for axis in self.axes]
         counter = n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
         head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, counter, n.W_INPUTS]
-        return head + drives + limits
+        modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
+        return head + drives + limits + modules
+
+    def watch_modules(self, count: int) -> None:
+        """Look at the inputs of so many expansion modules, too; before the first look."""
+        self._modules = count
+        self.__dict__.pop("_watched", None)
 
     def look(self) -> Look:
         """Ask the card how it stands."""
@@ -94,7 +106,8 @@ class Machine:
         if self._is_clearing and not master & n.MF1_KILL_ALL_MOVES_REQUEST:
             self.is_dropping = self._is_clearing = False
         count = len(self.axes)
-        return Look(clock, master, counter, inputs, tuple(words[:count]), tuple(words[count:]))
+        drives, limits, modules = words[:count], words[count : 2 * count], words[2 * count :]
+        return Look(clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules))
 
     @property
     def now_s(self) -> float:

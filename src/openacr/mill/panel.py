@@ -1,10 +1,17 @@
-"""Inputs and outputs of the machine by the numbers of the store: inversion, and none at all."""
+"""Inputs and outputs of the machine by the numbers of the store: inversion, and none at all.
+
+A number is that of the flag on the card: 0 to 31 and 32 to 63 on the card itself, 256 to 287
+and 288 to 319 on the first expansion module, 64 more on each one behind it.
+"""
+
+from collections.abc import Iterator
 
 from openacr.mill.machine import Look, Machine
 from openacr.mill.settings import Settings
 
 FIRST_OUTPUT, BEHIND_OUTPUTS = 32, 64
-INPUTS = 32
+INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, BEHIND_OUTPUTS)
+FIRST_EXPANSION, EXPANSION_FLAGS = 256, 64  # of each module: 32 inputs, then 32 outputs
 
 
 class Panel:
@@ -14,11 +21,15 @@ class Panel:
         self.machine = machine
         self.settings = settings
         self._out: dict[int, bool] = {}
-        self._inverted_in = {n for n in range(INPUTS) if settings.is_input_inverted(n)}
+        modules = settings.io_modules
+        machine.watch_modules(modules)
+        self.inputs = frozenset(_numbers(INPUTS, modules, 0))
+        self.outputs = frozenset(_numbers(OUTPUTS, modules, 32))
+        self._inverted_in = {n for n in self.inputs if settings.is_input_inverted(n)}
 
     def output(self, number: int, on: bool) -> None:
         """Switch an output; a number that is none does nothing."""
-        if not FIRST_OUTPUT <= number < BEHIND_OUTPUTS:
+        if number not in self.outputs:
             return
         self._out[number] = on
         self.machine.set_flag(number, on != self.settings.is_output_inverted(number))
@@ -29,8 +40,16 @@ class Panel:
 
     def has_input(self, number: int) -> bool:
         """Whether there is an input of this number."""
-        return 0 <= number < INPUTS
+        return number in self.inputs
 
     def is_in(self, look: Look, number: int) -> bool:
         """Whether an input is active; one that is not there is not."""
         return self.has_input(number) and look.input(number) != (number in self._inverted_in)
+
+
+def _numbers(own: range, modules: int, first: int) -> Iterator[int]:
+    """The inputs or outputs of the card and of its expansion modules."""
+    yield from own
+    for module in range(modules):
+        begin = FIRST_EXPANSION + EXPANSION_FLAGS * module + first
+        yield from range(begin, begin + len(own))

@@ -112,6 +112,9 @@ class Planner(Generic[Moves]):
     def __len__(self) -> int:
         return len(self._moves)
 
+    def __iter__(self) -> Iterator[Moves]:
+        return iter(self._moves)
+
     def add(self, move: Moves) -> None:
         """One more move behind the last one."""
         if self._moves:

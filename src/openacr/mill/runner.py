@@ -11,9 +11,10 @@ from dataclasses import replace
 from openacr.client import ConnectionLostError
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill import alarms
+from openacr.mill import alarms, homed
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
+from openacr.mill.burning import Burner
 from openacr.mill.console import Console
 from openacr.mill.controls import Controls
 from openacr.mill.course import Course, Entries
@@ -65,6 +66,7 @@ class Runner:
         self.passes = 0  # ends of the program reached
         self.course = Course(self.panel, self.doing, depth)
         self.retrace = Retrace(self.panel, self.course, depth)
+        self._burner = Burner(self.panel, self.course)
         self._watch = Watch(self.panel)
         self._edges = Edges(self.panel)
         self._entries: Entries | None = None
@@ -251,6 +253,8 @@ class Runner:
             self._play(look)
         if self.state is State.RUN and not self._script.is_active:
             self._advance(look)
+        is_cutting = not self.options.is_dry and not self.retrace.is_active
+        self._burner.keep(look, is_cutting=is_cutting and self.course.has_program)
         self._console.keep(look, self._times, self._facts)
 
     def _note_place(self, look: Look) -> None:
@@ -402,6 +406,8 @@ class Runner:
         self.alarms.give(kind, detail, self.machine.now_s)
         if not is_new or kind.effect is Effect.NONE:
             return
+        if kind is alarms.EXCESS_ERROR:
+            homed.lose(self.panel, detail)
         if kind is not alarms.LINK_LOST:
             self._stop_hands()
             self.retrace.stop()

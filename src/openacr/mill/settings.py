@@ -154,6 +154,16 @@ class Wiring:
     tool_time_out_s: float
 
 
+@dataclass(frozen=True, slots=True)
+class Burning:
+    """Outputs of burning machines, -1 where there is none."""
+
+    plasma: int
+    plasma_percent: float
+    under_burn: int
+    under_burn_u: float
+
+
 class Settings:
     """The settings of one run, read once when it starts."""
 
@@ -166,6 +176,11 @@ class Settings:
         self.speeds = self._speeds()
         self.spindle = self._spindle()
         self.wiring = self._wiring()
+        self.burning = Burning(
+            self._int(SPEEDS, 17), self._real(SPEEDS, 5), self._int(CONTROL, 14),
+            self._real(CONTROL, 12),
+        )  # fmt: skip
+        self.io_modules = self._int(CONTROL, 124)
         self.drip_threshold = self._int(CONTROL, 116)
         self.forward_threshold = self._int(CONTROL, 117)
         self.repeats = bool(self._int(CONTROL, 13))
@@ -223,7 +238,7 @@ class Settings:
             switch_input=self._int(HOME, 2, a),
             fast_ups=self._per_s(HOME, 3, a),
             slow_ups=self._per_s(HOME, 4, a),
-            marker_ups=self._per_s(HOME, 5, a),
+            marker_ups=self._real(SPEEDS, 4) or self._per_s(HOME, 5, a),
             acc_ups2=self._real(HOME, 6, a),
             dec_ups2=self._real(HOME, 7, a),
             stp_ups2=self._real(HOME, 8, a),
@@ -328,10 +343,12 @@ class Settings:
         """Whether the reference point of an axis is known."""
         return bool(int(self._store.read(HOMED)) >> axis & 1)
 
-    def mark_homed(self, axis: int, homed: bool) -> None:
-        """Note that the reference point of an axis is known, or not any more."""
-        mask = int(self._store.read(HOMED))
-        self._store.write(HOMED, mask | 1 << axis if homed else mask & ~(1 << axis))
+    def mark_homed(self, axis: int, homed: bool) -> int:
+        """Note that the reference point of an axis is known, or not any more; the mask of all."""
+        before = int(self._store.read(HOMED))
+        mask = before | 1 << axis if homed else before & ~(1 << axis)
+        self._store.write(HOMED, mask)
+        return mask
 
     def names(self) -> Iterator[str]:
         """The names of the configured axes."""

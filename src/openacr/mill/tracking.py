@@ -66,6 +66,10 @@ class Tracker:
         """The block that is executed."""
         return self.current.entry.source if self.current else None
 
+    def jobs(self) -> list[Job]:
+        """The move that is executed, or was last, and those behind it."""
+        return list(self._jobs)
+
     def add(self, job: Job, *, has_packet: bool) -> None:
         """A move has left for the card; one without packet counts with the one before it."""
         self.sent += has_packet

@@ -24,7 +24,7 @@ from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
 from openacr.map import numbers as n
-from openacr.mill import alarms
+from openacr.mill import alarms, homed
 from openacr.mill.alarms import AlarmError, Alarms
 from openacr.mill.ballscrew import tables_of
 from openacr.mill.host import RunHost
@@ -123,6 +123,7 @@ class Workshop:
         try:
             _check_firmware(card)
             _check_rest(card, Settings(store).master)
+            homed.agree(card, store)
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
         except BaseException:
             card.close()

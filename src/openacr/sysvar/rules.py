@@ -19,6 +19,7 @@ FIRST_SYSTEM = 100_000
 SMALL_CARD, SMALL_CARD_LINES = "ACR2000", 16
 CARD_LINES = 32
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
+MODULES, FIRST_MODULE_LINE, MODULE_LINES = 250_124, 256, 64
 
 
 class Reader(Protocol):
@@ -105,20 +106,27 @@ def _wires(cells: Reader, changed: Iterable[int]) -> None:
     """Numbers of inputs and outputs are those the card has; another card, other numbers."""
     is_small = cells.read_text(MODEL) == SMALL_CARD
     count = SMALL_CARD_LINES if is_small else CARD_LINES
-    if MODEL in changed:
+    modules = int(cells.read(MODULES))
+    if MODEL in changed or MODULES in changed:
         changed = [each.number for each in parameters() if each.row.wire]
     for n in changed:
         row = known(n).row
         if row.wire is None or (value := cells.read(n)) in (-1, row.default):
             continue
         first = FIRST_LINE[row.wire]
-        if not first <= value < first + count:
+        if not first <= value < first + count and not _is_on_module(value, row.wire, modules):
             raise SettingError(
                 known(n),
                 value,
                 f"{row.wire.value}s of the card are {first} to {first + count - 1}",
                 "-1 for none",
             )
+
+
+def _is_on_module(value: float, wire: Wire, modules: int) -> bool:
+    """Whether a line is on one of the expansion modules: 32 inputs, then 32 outputs of each."""
+    module, line = divmod(int(value) - FIRST_MODULE_LINE, MODULE_LINES)
+    return 0 <= module < modules and (line >= CARD_LINES) == (wire is Wire.OUTPUT)
 
 
 def _display_formats(cells: Reader, changed: Iterable[int]) -> None:

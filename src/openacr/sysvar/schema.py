@@ -186,8 +186,9 @@ class Tab:
 
 FALSE_TRUE = {0: "false", 1: "true"}
 DISABLE = {-1: "disable"}
-INPUT: dict[str, Any] = {"low": -1, "high": 31, "words": DISABLE, "wire": Wire.INPUT}
-OUTPUT: dict[str, Any] = {"low": -1, "high": 63, "words": DISABLE, "wire": Wire.OUTPUT}
+LAST_LINE = 511  # of the fourth expansion module
+INPUT: dict[str, Any] = {"low": -1, "high": LAST_LINE, "words": DISABLE, "wire": Wire.INPUT}
+OUTPUT: dict[str, Any] = {"low": -1, "high": LAST_LINE, "words": DISABLE, "wire": Wire.OUTPUT}
 
 
 def _places(row: Row) -> Iterator[tuple[int, int | None, int]]:
