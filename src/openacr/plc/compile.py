@@ -34,10 +34,15 @@ class Preload:
 
 @dataclass(slots=True)
 class Compiled:
-    """Code of one PLC: operation and operand in turn."""
+    """Code of one PLC: operation and operand of each instruction."""
 
-    code: list[int] = field(default_factory=list)
+    code: list[tuple[int, int]] = field(default_factory=list)
     preloads: list[Preload] = field(default_factory=list)
+
+    @property
+    def words(self) -> list[int]:
+        """The instructions as the scan reads them."""
+        return [operation | operand << scan.OPERAND_SHIFT for operation, operand in self.code]
 
 
 def compile_plc(lines: Iterable[tuple[int, PlcLine]]) -> Compiled:
@@ -89,9 +94,9 @@ class _Compiler:
         self.depth -= takes
 
     def _emit(self, operation: int, step: Step) -> None:
-        if len(self.result.code) >= 2 * INSTRUCTIONS:
+        if len(self.result.code) >= INSTRUCTIONS:
             raise CardError(PLC_TOO_LONG)
-        self.result.code += operation, step.number
+        self.result.code.append((operation, step.number))
         if step.preload is not None:
             preload = Preload(step.instruction.operand, step.number, step.preload)
             self.result.preloads.append(preload)

@@ -49,9 +49,9 @@ class Plcs:
 
     def _write_code(self, plc: int, compiled: Compiled) -> None:
         rows = at.PCI_BASE + plc * at.PCI_STRIDE
-        for place, value in enumerate(compiled.code):
-            self._memory.I[rows + at.PCI_CODE + place] = value
-        self._memory.I[rows + at.PCI_LENGTH] = len(compiled.code) // 2
+        for place, word in enumerate(compiled.words):
+            self._memory.I[rows + at.PCI_CODE + place] = word
+        self._memory.I[rows + at.PCI_LENGTH] = len(compiled.words)
 
     def _write_preload(self, preload: Preload) -> None:
         row, stride = _PRELOAD_ROWS[preload.operand]

@@ -59,7 +59,8 @@ from openacr.views import F64, I32
 
 __all__ = ["plc_scan", "plc_step"]
 
-# Operations; NEGATED is added where the operand (or the result) is inverted first.
+# An instruction is one word: its operation, NEGATED where the operand (or the result) is
+# inverted first, and above them the operand. The first four load or combine a flag.
 OP_START = 1  # LD at the start of a rung
 OP_LOAD = 2
 OP_AND = 3
@@ -73,7 +74,9 @@ OP_CLEAR = 10
 OP_TIMER = 11
 OP_COUNTER = 12
 OP_LATCH = 13
+OPERATION = 15
 NEGATED = 16
+OPERAND_SHIFT = 5
 
 INPUTS = (
     PLF_TIMER_INPUT
@@ -110,21 +113,20 @@ def plc_scan(I: I32, n: int) -> None:
     rows: int = PCI_BASE + n * PCI_STRIDE
     r: int = 0
     saved: int = 0
-    for k in range(I[rows + PCI_LENGTH]):
-        word: int = I[rows + PCI_CODE + 2 * k]
-        operand: int = I[rows + PCI_CODE + 2 * k + 1]
+    for k in range(rows + PCI_CODE, rows + PCI_CODE + I[rows + PCI_LENGTH]):
+        word: int = I[k]
+        op: int = word & OPERATION
+        operand: int = word >> OPERAND_SHIFT
         negated: int = 1 if word & NEGATED else 0
-        op: int = word & ~NEGATED
-        if op == OP_AND:
-            r &= plc_flag(I, operand) ^ negated
-        elif op == OP_OR:
-            r |= plc_flag(I, operand) ^ negated
-        elif op == OP_START:
-            saved = 0
-            r = plc_flag(I, operand) ^ negated
-        elif op == OP_LOAD:
-            saved = (saved << 1) | r
-            r = plc_flag(I, operand) ^ negated
+        if op <= OP_OR:
+            state: int = plc_flag(I, operand) ^ negated
+            if op == OP_AND:
+                r &= state
+            elif op == OP_OR:
+                r |= state
+            else:
+                saved = (saved << 1) | r if op == OP_LOAD else 0
+                r = state
         elif op == OP_OUT:
             plc_put_flag(I, operand, r ^ negated)
         elif op == OP_AND_BLOCK:
@@ -135,30 +137,33 @@ def plc_scan(I: I32, n: int) -> None:
             saved >>= 1
         elif op == OP_NOT:
             r ^= 1
-        elif op == OP_SET:
-            if r:
-                plc_put_flag(I, operand, 1)
-        elif op == OP_CLEAR:
-            if r:
-                plc_put_flag(I, operand, 0)
-        elif op == OP_TIMER:
-            plc_put_inputs(I, operand, PLF_TIMER_INPUT, PLF_TIMER_INPUT if r else 0)
-        elif op == OP_COUNTER:
-            plc_put_inputs(
-                I,
-                operand,
-                PLF_COUNTER_CLOCK | PLF_COUNTER_RESET,
-                (PLF_COUNTER_CLOCK if saved & 1 else 0) | (PLF_COUNTER_RESET if r else 0),
-            )
-            saved >>= 1
-        elif op == OP_LATCH:
-            plc_put_inputs(
-                I,
-                operand,
-                PLF_LATCH_SET | PLF_LATCH_RESET,
-                (PLF_LATCH_SET if saved & 1 else 0) | (PLF_LATCH_RESET if r else 0),
-            )
-            saved >>= 1
+        else:
+            plc_drive(I, op, operand, saved & 1, r)
+            if op == OP_COUNTER or op == OP_LATCH:
+                saved >>= 1
+
+
+def plc_drive(I: I32, op: int, operand: int, first: int, r: int) -> None:
+    """Set and clear a flag, or give an object its inputs; the first of two blocks is `first`."""
+    if op == OP_SET or op == OP_CLEAR:
+        if r:
+            plc_put_flag(I, operand, 1 if op == OP_SET else 0)
+    elif op == OP_TIMER:
+        plc_put_inputs(I, operand, PLF_TIMER_INPUT, PLF_TIMER_INPUT if r else 0)
+    elif op == OP_COUNTER:
+        plc_put_inputs(
+            I,
+            operand,
+            PLF_COUNTER_CLOCK | PLF_COUNTER_RESET,
+            (PLF_COUNTER_CLOCK if first else 0) | (PLF_COUNTER_RESET if r else 0),
+        )
+    elif op == OP_LATCH:
+        plc_put_inputs(
+            I,
+            operand,
+            PLF_LATCH_SET | PLF_LATCH_RESET,
+            (PLF_LATCH_SET if first else 0) | (PLF_LATCH_RESET if r else 0),
+        )
 
 
 def plc_timer(F: F64, I: I32, n: int, period_ms: float) -> None:

@@ -11,6 +11,6 @@ PLC = HiddenBlock(
     ints=(
         "length",  # instructions to scan
         "clock_old",  # counter clock of the tick before
-        ("code", 2 * INSTRUCTIONS),  # operation and operand, see plc/scan_cy.py
+        ("code", INSTRUCTIONS),  # operation and operand in one word, see plc/scan_cy.py
     ),
 )
