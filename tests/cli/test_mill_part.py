@@ -89,3 +89,19 @@ def test_slips_are_explained(arguments: list[str], words: str) -> None:
 
 def test_names_are_completed() -> None:
     assert complete_part("rec") == ["RECTANGLE"]
+
+
+@pytest.mark.req("MILL-LIB-RUN")
+def test_sizes_are_asked_for_until_they_can_be(tmp_path: Path) -> None:
+    file = tmp_path / "SLOT.TXT"
+    words = ["mill", "part", "slot", "--ask", "--set", "P201=0.75", "-o", str(file)]
+    answers = "3\n.2\nwide\n99\n0\n.1\n.1\n.5\n"
+    result = CliRunner().invoke(app, words, input=answers)
+    assert result.exit_code == 0
+    assert "P200 Distance of the centres (0.05 to 200 in)" in result.output
+    assert "error: --set P207=wide" in result.output
+    assert "error: P207 Ramp angle, 0 plunges = 99 (0 to 45 deg)" in result.output
+    text = file.read_text()
+    assert "P200=3 ;" in text
+    assert "P201=0.75 ;" in text
+    assert "P222=0.5 ;" in text

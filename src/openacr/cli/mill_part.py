@@ -40,6 +40,9 @@ def make_part(
     is_shown: Annotated[
         bool, typer.Option("--show", help="Describe the sizes instead of printing the program.")
     ] = False,
+    is_asked: Annotated[
+        bool, typer.Option("--ask", help="Ask for every size that is not --set.")
+    ] = False,
     out: Annotated[
         Path | None, typer.Option("--out", "-o", metavar="FILE.TXT", help="Write it to a file.")
     ] = None,
@@ -73,7 +76,10 @@ def make_part(
     if is_shown:
         _show(part, as_json)
         return
-    ready = _ready(part, sizes or [], tool, feed, unit, store)
+    given = dict(_given(part, text) for text in sizes or [])
+    if is_asked:
+        given |= _asked(part, given)
+    ready = _ready(part, given, tool, feed, unit, store)
     if out is not None:
         _write(out, ready)
     elif as_json:
@@ -84,7 +90,7 @@ def make_part(
 
 def _ready(
     part: "Part",
-    sizes: list[str],
+    given: dict[int, float],
     tool: int,
     feed: float | None,
     unit: str | None,
@@ -93,7 +99,6 @@ def _ready(
     from openacr.cnc.library import prepared
     from openacr.sysvar.location import open_to_read
 
-    given = dict(_given(part, text) for text in sizes)
     with open_to_read(store) as cells:
         is_metric = _is_metric(unit, cells)
         return prepared(part, given, cells, is_metric=is_metric, d_number=tool, feed=feed)
@@ -124,6 +129,25 @@ def _given(part: "Part", text: str) -> tuple[int, float]:
         return size.cell, in_unit(float(number.removesuffix(unit)), unit, size.unit)
     except ValueError:
         raise UserError(f"--set {text}: {size} takes {size.accepted}") from None
+
+
+def _asked(part: "Part", given: dict[int, float]) -> dict[int, float]:
+    """What the user says for the sizes that were not given; wrong answers are asked again."""
+    answers = {}
+    for size in part.sizes:
+        while size.cell not in given and size.cell not in answers:
+            question = f"P{size.cell} {size.text} ({size.accepted})"
+            text = typer.prompt(question, default=f"{size.default:g}", err=True)
+            try:
+                cell, value = _given(part, f"P{size.cell}={text}")
+            except UserError as error:
+                typer.echo(f"error: {error}", err=True)
+                continue
+            if size.low <= value <= size.high:
+                answers[cell] = value
+            else:
+                typer.echo(f"error: {size} = {value:g} ({size.accepted})", err=True)
+    return answers
 
 
 def _list(parts: list["Part"], as_json: bool) -> None:
