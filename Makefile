@@ -88,6 +88,7 @@ soak: $(BUILT)
 docs: $(BUILT)
 	$(PY) -m openacr.basic.reference docs/reference examples
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
+	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 
 clean:
 	rm -rf $(VENV) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \
