@@ -124,3 +124,19 @@ def test_homing_uses_its_own_ramps_and_gives_those_of_the_jog_back(world: Contro
     after = [shop.card.command(f"AXIS0 JOG {word}", program=0) for word in ("ACC", "DEC")]
     assert [float(lines[0]) for lines in during] == [500.0, 500.0]
     assert [float(lines[0]) for lines in after] == [1234.0, 1235.0]
+
+
+def test_an_axis_that_does_not_move_is_not_waited_for(world: Controller) -> None:
+    shop = homing_shop(world, P150_000=0.0, P150_004=0.0, P150_007=0.0)
+    assert home(shop, 0) is State.ALARM
+    assert "X: it does not move" in shop.runner.alarms.active[0].text
+    assert shop.runner.run_s < 5.0
+
+
+def test_a_homing_axis_stops_by_itself_when_nobody_looks_any_more(world: Controller) -> None:
+    shop = homing_shop(world, P300_000=1, P200_000=30.0, P200_001=0.0, P200_002=0)
+    shop.runner.home([0])
+    shop.pass_time(0.2)
+    shop.controller.advance(200_000)
+    assert abs(shop.controller.axis(0).velocity_ups) < 1e-9
+    assert abs(shop.controller.axis(0).actual_cnt) / 800 < 40.0

@@ -2,8 +2,8 @@
 
 import json as json_format
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -187,9 +187,23 @@ def home_axes(
 ) -> None:
     """Find the reference points of axes on a card."""
     with opened_store(store) as cells, _workshop(host, cells) as shop:
-        homed = shop.home(axes, _attend)
+        homed = shop.home(axes, _telling(_attend))
         typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
         _end_with_alarms(shop)
+
+
+def _telling(attend: "Callable[[Workshop], None]") -> "Callable[[Workshop], None]":
+    """Attend, and say each time what is waited for now."""
+    shown = ""
+
+    def watch(shop: "Workshop") -> None:
+        nonlocal shown
+        if shop.runner.reason and shop.runner.reason != shown:
+            shown = shop.runner.reason
+            typer.echo(shown, err=True)
+        attend(shop)
+
+    return watch
 
 
 # --- running ------------------------------------------------------------------------------
@@ -197,6 +211,7 @@ def home_axes(
 
 @contextmanager
 def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
+    from openacr.cli.signals import terminations_as_interrupts
     from openacr.client import ConnectionLostError
     from openacr.mill.workshop import Workshop
 
@@ -209,8 +224,15 @@ def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "
     except ConnectionLostError as lost:
         raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
     try:
-        yield shop
+        with terminations_as_interrupts():
+            yield shop
+    except KeyboardInterrupt:
+        _break_off(shop)
+        place = _place_text(shop, shop.runner.course.host.position())
+        typer.echo(f"interrupted: the machine is at rest at {place}", err=True)
+        raise typer.Exit(INTERRUPTED) from None
     finally:
+        _break_off(shop)
         shop.close()
 
 
@@ -240,19 +262,15 @@ def _run(shop: "Workshop", program: "Program", start: "Start", is_quiet: bool) -
     replay = shop.start(program, start)
     if replay is not None:
         _show_replay(replay, start)
-    try:
-        with progress_bar(Path(program.main.text.name).name) as show:
-            count = 0
-            while shop.runner.is_busy:
-                shop.step()
-                _attend(shop)
-                count += 1
-                source = shop.runner.source
-                if not is_quiet and source is not None and count % SHOW_EVERY == 0:
-                    show(source.line, program.line_cnt)
-    except KeyboardInterrupt:
-        _break_off(shop)
-        raise typer.Exit(INTERRUPTED) from None
+    with progress_bar(Path(program.main.text.name).name) as show:
+        count = 0
+        while shop.runner.is_busy:
+            shop.step()
+            _attend(shop)
+            count += 1
+            source = shop.runner.source
+            if not is_quiet and source is not None and count % SHOW_EVERY == 0:
+                show(source.line, program.line_cnt)
 
 
 def _show_replay(replay: "Replay", start: "Start") -> None:
@@ -294,11 +312,13 @@ def _answer_to(shop: "Workshop", ask: "Ask") -> None:
 
 
 def _break_off(shop: "Workshop") -> None:
-    """Ctrl-C: to rest on the path, then the program is over."""
-    if shop.runner.is_busy:
-        shop.runner.abort()
-    while shop.runner.is_busy:
-        shop.step()
+    """However the command ends, the machine does not go on moving by itself."""
+    from openacr.client import ConnectionLostError
+
+    with suppress(ConnectionLostError):
+        shop.runner.break_off()
+        while shop.runner.is_busy:
+            shop.step()
 
 
 # --- reports ------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ end the jog offset is folded into the position and the position is set to Home P
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import groupby
-from math import inf
+from math import copysign, inf
 from typing import TypeAlias
 
 from openacr.client.values import number_text
@@ -23,6 +23,8 @@ from openacr.mill.settings import AxisSettings, HomeSettings
 
 FIRST_MARKER = 0  # INTCAP mode: rising edge of the marker of the axis' own encoder
 TRAVEL_SHARE, TRAVEL_U = 1.1, 1000.0
+BEYOND_SHARE = 1.05  # of the longest travel an axis is sent
+STALLED_MS = 3000  # an axis that is told to move and does not
 
 Condition: TypeAlias = Callable[[Look], bool]
 
@@ -118,16 +120,24 @@ class Axis:
         return self._supervised(what, lambda look: self._panel.is_in(look, number) == is_on)
 
     def _supervised(self, what: str, is_met: Condition) -> Until:
-        """A condition that has to come within the longest travel."""
-        start = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        """A condition that has to come within the longest travel, and while the axis moves."""
+        start = last = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
         longest = self._longest_u() * self._axis.pulses_per_unit
+        moved_ms: int | None = None
 
         def check(look: Look) -> bool:
+            nonlocal last, moved_ms
             if is_met(look):
                 return True
             actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
             if abs(actual - start) > abs(longest) or self._is_barred(look):
                 raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no {what}")
+            if actual != last or moved_ms is None:
+                last, moved_ms = actual, look.clock_ms
+            elif look.clock_ms - moved_ms > STALLED_MS:
+                raise AlarmError(
+                    alarms.HOMING_FAILED, f"{self._axis.name}: it does not move (is its drive on?)"
+                )
             return False
 
         return Until(f"homing {self._axis.name}: {what}", check, inf)
@@ -151,13 +161,18 @@ class Axis:
         self._type(f"JOG DEC {self._axis.name}{number_text(dec_ups2)}")
 
     def _jog(self, speed_ups: float) -> None:
-        """Jog at a signed speed; 0 ramps down."""
+        """Jog at a signed speed; 0 ramps down.
+
+        The way is little more than the longest travel: the axis stops by itself when the
+        host or the link to it is lost.
+        """
         name = self._axis.name
         if speed_ups == 0.0:
             self._type(f"JOG OFF {name}")
             return
+        way_u = copysign(BEYOND_SHARE * self._longest_u(), speed_ups)
         self._type(f"JOG VEL {name}{number_text(abs(speed_ups))}")
-        self._type(f"JOG {'FWD' if speed_ups > 0 else 'REV'} {name}")
+        self._type(f"JOG INC {name}{number_text(way_u)}")
 
     def _type(self, line: str) -> None:
         self._machine.type([line])

@@ -206,6 +206,13 @@ class Runner:
             raise UserError("no program runs")
         self._end_program(State.IDLE)
 
+    def break_off(self) -> None:
+        """Whoever drives the machine leaves: everything that moves comes to rest."""
+        if self.jogging.is_active:
+            self.jogging.stop_all()
+        if self.state not in (State.IDLE, State.ALARM):
+            self.abort()
+
     def block(self, on: bool) -> None:
         """BLOCK: stop behind every block, also behind the one that is being executed."""
         self.options = replace(self.options, is_single=on)

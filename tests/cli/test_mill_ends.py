@@ -1,0 +1,62 @@
+"""Commands that move a real machine never leave it moving, however they end."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from openacr.client import Card
+from openacr.map.numbers import MF1_IN_MOTION, MF1_WORD
+
+SERVE = ["serve", "--ascii-port", "0", "--binary-port", "0", "--no-journal"]
+
+
+def openacr(*words: str, store: Path) -> "subprocess.Popen[str]":
+    return subprocess.Popen(
+        [sys.executable, "-m", "openacr", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "OPENACR_STORE": str(store)},
+    )
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    served = openacr(*SERVE, store=tmp_path / "none.db")
+    assert served.stdout is not None
+    found = re.search(r"ascii=(\S+)", served.stdout.readline())
+    assert found is not None
+    yield found[1]
+    served.terminate()
+    served.wait(20)
+    served.stdout.close()
+
+
+def is_moving(card: Card) -> bool:
+    return bool(int(card.read(MF1_WORD)) & MF1_IN_MOTION)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_run_that_is_told_to_end_brings_the_machine_to_rest(
+    tmp_path: Path, address: str, number: signal.Signals
+) -> None:
+    part = tmp_path / "PART.NC"
+    part.write_text("F60\nG1 X100\nM2\n")
+    run = openacr("mill", "run", str(part), "--host", address, store=tmp_path / "sysvar.db")
+    with Card.open(address) as card:
+        while not is_moving(card):
+            time.sleep(0.05)
+        run.send_signal(number)
+        output, _ = run.communicate(timeout=30)
+        assert (run.returncode, "the machine is at rest at X" in output) == (130, True)
+        places = {int(card.read(12288)) for _ in range(5)}
+    assert len(places) == 1
+    assert 0 < places.pop() < 1_000_000
