@@ -10,7 +10,7 @@ from openacr.cnc import canonical as c
 from openacr.mill.actions import Steps, Until
 from openacr.mill.doing import Doing
 from openacr.mill.encoding import Encoder, Job, Motion
-from openacr.mill.feeding import Feed, Halt
+from openacr.mill.feeding import Feed, Halt, Starved
 from openacr.mill.host import RunHost
 from openacr.mill.limits import first_excess
 from openacr.mill.machine import Look
@@ -19,9 +19,10 @@ from openacr.mill.probing import Probing
 from openacr.mill.rejoin import Place, first_of, lead_in, place, rest_of, straight_back
 from openacr.mill.tracking import Tracker
 
+SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
 KILL_S = 0.5  # longest wait for a card at rest to take notice
 PULSES_OFF = 2.0  # further away the machine has been moved
-Entries = Callable[[RunHost], Iterator[c.Entry]]
+Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
 
 
 class Course:
@@ -84,7 +85,7 @@ class Course:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
-        self._send(feed.take(room))
+        self._send(feed.take(room, is_urgent=feed.is_starved and self._is_short()))
         is_at_rest = look.counter >= self.tracker.sent and not look.is_moving
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
@@ -93,6 +94,16 @@ class Course:
         if isinstance(halt, c.Tool):
             self.tracker.trail.bar(self.tracker.current)
         return halt
+
+    def _is_short(self) -> bool:
+        """Whether the card soon has no moves any more."""
+        behind = self.tracker.jobs()[1:]
+        return sum(job.length_u / job.feed_ups for job in behind) < SHORT_S
+
+    @property
+    def is_starved(self) -> bool:
+        """Whether the program has to wait for its sender."""
+        return self._feed is not None and self._feed.is_starved
 
     def go_on(self) -> None:
         """What the program had come to is done."""

@@ -51,6 +51,11 @@ class InPosition:
     source: Source
 
 
+@dataclass(frozen=True, slots=True)
+class Starved:
+    """Nothing more of the program has arrived."""
+
+
 Halt = Entry | Fault | InPosition
 
 
@@ -66,7 +71,7 @@ class Feed:
     """The way of one program's entries to the card."""
 
     def __init__(
-        self, entries: Iterator[Entry], begin: Point, settings: Settings, encoder: Encoder
+        self, entries: Iterator[Entry | Starved], begin: Point, settings: Settings, encoder: Encoder
     ) -> None:
         self._entries = entries
         self._settings = settings
@@ -85,15 +90,17 @@ class Feed:
         self._again: deque[Job] = deque()  # taken back from the card, still to be made
         self._halt_behind: Halt | None = None
         self.is_single = False
+        self.is_starved = False
 
     # --- reading ----------------------------------------------------------------------
 
     def read(self, room: int) -> None:
         """Read on until `room` moves may leave, or something has to wait for rest."""
-        while self.halt is None and self._wants_more(room):
+        self.is_starved = False
+        while self.halt is None and not self.is_starved and self._wants_more(room):
             for _ in range(READ_TOGETHER):
                 self._read_one()
-                if self.halt is not None:
+                if self.halt is not None or self.is_starved:
                     break
 
     def _wants_more(self, room: int) -> bool:
@@ -124,7 +131,9 @@ class Feed:
         except BlockError as error:
             self.halt = _fault_of(error)
             return
-        if entry is None:
+        if isinstance(entry, Starved):
+            self.is_starved = True
+        elif entry is None:
             self.halt = Fault(alarms.PROGRAM_ERROR, "the program has no end")
         elif isinstance(entry, Polyline):
             self._lines = self._encoder.jobs(entry, self.position)
@@ -200,14 +209,19 @@ class Feed:
 
     # --- leaving ----------------------------------------------------------------------
 
-    def take(self, room: int) -> Iterator[Job]:
-        """Moves to be sent now, with the speed they end with."""
+    def take(self, room: int, *, is_urgent: bool = False) -> Iterator[Job]:
+        """Moves to be sent now, with the speed they end with.
+
+        `is_urgent`: the card runs out of moves, and nothing more arrives. The way ends at
+        rest then, as far as it is known, and goes on from there.
+        """
         is_complete = self.halt is not None
+        is_urgent = is_urgent and self.is_starved and self._has_begun
         if not self._has_begun and not is_complete:
             self._has_begun = len(self._planner) >= self._settings.drip_threshold
         if self._has_begun or is_complete:
             self._has_begun = True
-            yield from self._planner.take(room, is_complete=is_complete)
+            yield from self._planner.take(room, is_complete=is_complete or is_urgent)
 
     def jobs(self) -> Iterator[Job]:
         """The moves that have been read and have not left yet."""

@@ -27,6 +27,7 @@ from openacr.map import numbers as n
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import AlarmError, Alarms
 from openacr.mill.ballscrew import tables_of
+from openacr.mill.dripping import Drip
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Machine
@@ -90,6 +91,7 @@ class Workshop:
         log = None if is_virtual else _error_log(cells, folder)
         self.runner = Runner(self.machine, cells, depth, say, Alarms(log))
         self.runner.has_operator = not is_virtual
+        self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
         defined = [
             each for each in definitions(cells) if not (is_virtual and each.bit < FIRST_OUTPUT)
@@ -166,6 +168,13 @@ class Workshop:
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
         return replay
 
+    def start_drip(self, drip: Drip, start: Start) -> None:
+        """Begin a program that is still arriving."""
+        self.program, self._drip = drip.program, drip
+        self.runner.course.host.is_skipping |= start.is_skipping
+        options = Options(start.is_dry, stops_optionally=start.stops_optionally, is_repeated=False)
+        self.runner.run(drip.entries, options)
+
     def _interpreter(self, program: Program, start: Start) -> Interpreter:
         reading = Reading(is_dry=start.is_dry, has_block_ends=True)
         cells = Shadow(self.cells) if start.line > 1 else self.cells
@@ -222,6 +231,8 @@ class Workshop:
     def step(self) -> None:
         """Let a little time pass and do what is due."""
         self.machine.pause(POLL_S)
+        if self._drip is not None:
+            self._drip.poll()
         self.runner.step()
         self.messages.keep(self.machine.now_s)
 
