@@ -64,6 +64,7 @@ ORDER = (
     "kernel/fast_flags_cy.py",
     "kernel/tick_cy.py",
     "basic/arith_cy.py",
+    "basic/functions_cy.py",
     "basic/opcodes_cy.py",
     "basic/values_cy.py",
     "basic/flow_cy.py",

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.rig import Rig
 
-from openacr.basic import arith_cy
+from openacr.basic import arith_cy, functions_cy
 from openacr.compiled import counterpart, is_compiled
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -218,7 +218,7 @@ def test_random_numbers_are_uniform_and_repeatable() -> None:
         memory = Memory()
         numbers = []
         for _ in range(4000):
-            numbers.append(int(arith_cy.random_below(memory.I, limit)))
+            numbers.append(int(functions_cy.random_below(memory.I, limit)))
         return numbers
 
     assert draws(1000.0) == draws(1000.0)
@@ -349,7 +349,7 @@ def test_operators_give_the_same_bits_compiled(op: int, a: float, b: float) -> N
 def test_functions_give_the_same_bits_compiled(function: int, x: float) -> None:
     first, second = Memory(), Memory()
     first.F[at.USER_BASE] = second.F[at.USER_BASE] = x
-    plain = arith_cy.apply_function(first.F, first.I, function, at.USER_BASE)
-    fast = counterpart(arith_cy.apply_function)(second.F, second.I, function, at.USER_BASE)
+    plain = functions_cy.apply_function(first.F, first.I, function, at.USER_BASE)
+    fast = counterpart(functions_cy.apply_function)(second.F, second.I, function, at.USER_BASE)
     assert fast == plain
     assert first.digest() == second.digest()

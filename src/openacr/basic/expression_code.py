@@ -6,8 +6,6 @@ from collections.abc import Callable
 
 from openacr.basic import opcodes_cy as vm
 from openacr.basic.arith_cy import (
-    FN_NEGATE,
-    FN_NOT,
     OP_ADD,
     OP_AND,
     OP_DIVIDE,
@@ -30,6 +28,7 @@ from openacr.basic.arith_cy import (
     OP_XOR,
 )
 from openacr.basic.assembly import Assembler
+from openacr.basic.functions_cy import FN_NEGATE, FN_NOT
 from openacr.basic.nodes import (
     Alias,
     Apply,

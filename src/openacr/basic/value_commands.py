@@ -143,6 +143,20 @@ def _axis_value(row: Value) -> Callable[..., None]:
     return handler
 
 
+def set_or_print(
+    run: Run, axes: Iterable[AxisValue], places: Iterable[tuple[Setting, int]]
+) -> None:
+    """Store or print the setting each axis has of its own; all values are checked before."""
+    items = list(zip(axes, places, strict=True))
+    for item, (setting, _) in items:
+        check_all((item,), setting)
+    for item, (setting, number) in items:
+        if item.is_query:
+            run.print(value_text(setting, setting.read(run.card, number)))
+        else:
+            setting.write(run.card, number, item.value)
+
+
 def check_all(axes: Iterable[AxisValue], setting: Setting) -> None:
     """Refuse a statement before any of its values is stored."""
     for item in axes:

@@ -7,7 +7,6 @@ there. All state lies in the rows of the thread, so any stop can be continued la
 """
 
 from openacr.basic.arith_cy import (
-    apply_function,
     apply_operator,
     finite,
     long_word,
@@ -24,6 +23,7 @@ from openacr.basic.flow_cy import (
     return_level,
     unwind,
 )
+from openacr.basic.functions_cy import apply_function
 from openacr.basic.opcodes_cy import (
     DO_ADD,
     DO_BREAK,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic import arith_cy as arith
-from openacr.basic import strings
+from openacr.basic import functions_cy, strings
 from openacr.basic.grammar import Form, Lvalue
 from openacr.basic.nodes import Expr, Statement, is_text
 from openacr.basic.registry import ANY, command, function
@@ -20,31 +19,31 @@ if TYPE_CHECKING:
 STRING_FUNCTIONS = strings.__name__  # importing the module registers them
 
 for _name, _code, _summary in (
-    ("ABS", arith.FN_ABS, "Absolute value."),
-    ("SQRT", arith.FN_SQRT, "Square root."),
-    ("LN", arith.FN_LN, "Natural logarithm."),
-    ("LOG", arith.FN_LOG, "Base-10 logarithm."),
-    ("EXP", arith.FN_EXP, "e to the power x."),
-    ("SIN", arith.FN_SIN, "Sine of an angle in degrees."),
-    ("COS", arith.FN_COS, "Cosine of an angle in degrees."),
-    ("TAN", arith.FN_TAN, "Tangent of an angle in degrees."),
-    ("ASIN", arith.FN_ASIN, "Angle in degrees whose sine is x."),
-    ("ACOS", arith.FN_ACOS, "Angle in degrees whose cosine is x."),
-    ("ATAN", arith.FN_ATAN, "Angle in degrees, -90 to 90, whose tangent is x."),
-    ("SINH", arith.FN_SINH, "Hyperbolic sine."),
-    ("COSH", arith.FN_COSH, "Hyperbolic cosine."),
-    ("TANH", arith.FN_TANH, "Hyperbolic tangent."),
-    ("ASINH", arith.FN_ASINH, "Inverse hyperbolic sine."),
-    ("ACOSH", arith.FN_ACOSH, "Inverse hyperbolic cosine."),
-    ("ATANH", arith.FN_ATANH, "Inverse hyperbolic tangent."),
-    ("RND", arith.FN_RND, "Random integer 0 to n-1."),
-    ("CEIL", arith.FN_CEIL, "Next integer up."),
-    ("FLOOR", arith.FN_FLOOR, "Next integer down."),
-    ("INT", arith.FN_FLOOR, "Next integer down, as FLOOR."),
-    ("ROUND", arith.FN_ROUND, "Nearest integer, halves away from zero."),
-    ("TRUNC", arith.FN_TRUNC, "Integer part, toward zero."),
-    ("SGN", arith.FN_SGN, "Sign: -1, 0 or 1."),
-    ("FRAC", arith.FN_FRAC, "x without its integer part."),
+    ("ABS", functions_cy.FN_ABS, "Absolute value."),
+    ("SQRT", functions_cy.FN_SQRT, "Square root."),
+    ("LN", functions_cy.FN_LN, "Natural logarithm."),
+    ("LOG", functions_cy.FN_LOG, "Base-10 logarithm."),
+    ("EXP", functions_cy.FN_EXP, "e to the power x."),
+    ("SIN", functions_cy.FN_SIN, "Sine of an angle in degrees."),
+    ("COS", functions_cy.FN_COS, "Cosine of an angle in degrees."),
+    ("TAN", functions_cy.FN_TAN, "Tangent of an angle in degrees."),
+    ("ASIN", functions_cy.FN_ASIN, "Angle in degrees whose sine is x."),
+    ("ACOS", functions_cy.FN_ACOS, "Angle in degrees whose cosine is x."),
+    ("ATAN", functions_cy.FN_ATAN, "Angle in degrees, -90 to 90, whose tangent is x."),
+    ("SINH", functions_cy.FN_SINH, "Hyperbolic sine."),
+    ("COSH", functions_cy.FN_COSH, "Hyperbolic cosine."),
+    ("TANH", functions_cy.FN_TANH, "Hyperbolic tangent."),
+    ("ASINH", functions_cy.FN_ASINH, "Inverse hyperbolic sine."),
+    ("ACOSH", functions_cy.FN_ACOSH, "Inverse hyperbolic cosine."),
+    ("ATANH", functions_cy.FN_ATANH, "Inverse hyperbolic tangent."),
+    ("RND", functions_cy.FN_RND, "Random integer 0 to n-1."),
+    ("CEIL", functions_cy.FN_CEIL, "Next integer up."),
+    ("FLOOR", functions_cy.FN_FLOOR, "Next integer down."),
+    ("INT", functions_cy.FN_FLOOR, "Next integer down, as FLOOR."),
+    ("ROUND", functions_cy.FN_ROUND, "Nearest integer, halves away from zero."),
+    ("TRUNC", functions_cy.FN_TRUNC, "Integer part, toward zero."),
+    ("SGN", functions_cy.FN_SGN, "Sign: -1, 0 or 1."),
+    ("FRAC", functions_cy.FN_FRAC, "x without its integer part."),
 ):
     function(_name, code=_code, summary=_summary)
 

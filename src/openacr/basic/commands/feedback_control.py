@@ -22,7 +22,7 @@ from openacr.basic.grammar import (
 from openacr.basic.nodes import Expr
 from openacr.basic.registry import BY_OBJECT, PROG, command
 from openacr.basic.run import Run, Wait, whole
-from openacr.basic.value_commands import Value, axis_values, check_all, report_all, value_text
+from openacr.basic.value_commands import Value, axis_values, report_all, set_or_print
 from openacr.errors import CardError
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import AX_PPU, AXF_ROTARY_U, KIND_LONG
@@ -60,14 +60,8 @@ axis_values(
 )
 def mult(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set edges counted and direction of the position encoder of an axis: 0, 1, 2, 4, -1, ..."""
-    setting = settings.ENCODER_MULTIPLIER
-    check_all(axes, setting)
     encoders = [settings.position_encoder(run.card, item.axis.number) for item in axes]
-    for item, encoder in zip(axes, encoders, strict=True):
-        if item.is_query:
-            run.print(value_text(setting, setting.read(run.card, encoder)))
-        else:
-            setting.write(run.card, encoder, item.value)
+    set_or_print(run, axes, [(settings.ENCODER_MULTIPLIER, encoder) for encoder in encoders])
 
 
 @command("RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(optional=True),), ref=REF)

@@ -7,19 +7,17 @@ from typing import TYPE_CHECKING
 
 from openacr.basic import registry
 from openacr.basic.aliases import Aliases
-from openacr.basic.grammar import Form, Int, Num, Object, ObjectRef, Str, Word
+from openacr.basic.grammar import Form, Int, Num, Str, Word
 from openacr.basic.lister import Lister
 from openacr.basic.nodes import Alias, Expr, resolved
 from openacr.basic.number_format import double_text
-from openacr.basic.registry import ANY, IMMEDIATE, PROG, SYS, Level, command
+from openacr.basic.registry import ANY, IMMEDIATE, SYS, Level, command
 from openacr.basic.run import Run
 from openacr.errors import CardError
 from openacr.messages import (
     INVALID_ARGUMENT,
-    NOT_VALID_AT_THIS_LEVEL,
     NOT_VALID_WHILE_IN_MOTION,
 )
-from openacr.motion import attach as attachment
 from openacr.motion import filters
 from openacr.motion.permits import axis_moving
 
@@ -32,9 +30,6 @@ LEVELS = "PG Communication Levels"
 SHORTEST_PERIOD_S = 0.0001
 LONGEST_PERIOD_S = 0.005
 HELP_COLUMNS = 8
-
-_FEEDBACK = ("ENC", "ADC", "STEPPER")
-_SIGNAL = ("DAC", "STEPPER", "CMT")
 
 
 # levels of the channel
@@ -80,86 +75,6 @@ def mode_(run: Run, mode: int | None) -> None:
 def stream(run: Run) -> None:
     """Print the name of the own channel."""
     run.print(run.channel.name)
-
-
-# attachments
-
-
-@command("ATTACH", group=GROUP, levels=SYS | PROG, ref="PG Attachments")
-def attach(run: Run) -> None:
-    """Show the attachments of the program, at SYS those of all axes."""
-    if run.program is None:
-        lines = attachment.report_system(run.card)
-    else:
-        lines = attachment.report_program(run.card, run.program)
-    for line in lines:
-        run.print(line)
-
-
-@command("ATTACH MASTER #", group=GROUP, levels=PROG, ref="PG Attachments", saved=True)
-def attach_master(run: Run, number: int) -> None:
-    """Give the program a master."""
-    attachment.master(run.card, run.needed_program(), number)
-
-
-@command(
-    "ATTACH SLAVE #",
-    group=GROUP,
-    levels=PROG,
-    grammar=(Object("AXIS"), Str("name")),
-    ref="PG Attachments",
-    saved=True,
-)
-def attach_slave(run: Run, number: int, axis: ObjectRef, name: str) -> None:
-    """Give the master of the program an axis, under a name of one to four letters."""
-    attachment.slave(run.card, run.needed_program(), number, axis.number, name)
-
-
-@command(
-    "ATTACH AXIS #",
-    group=GROUP,
-    levels=ANY,
-    grammar=(Object(*_FEEDBACK), Object(*_SIGNAL), Object(*_FEEDBACK, optional=True)),
-    ref="PG Attachments",
-    saved=True,
-)
-def attach_axis(
-    run: Run, number: int, position: ObjectRef, signal: ObjectRef, velocity: ObjectRef | None
-) -> None:
-    """Choose position feedback, output and velocity feedback of an axis."""
-    attachment.axis(
-        run.card,
-        number,
-        (attachment.Feedback[position.word], position.number),
-        (attachment.Signal[signal.word], signal.number),
-        (attachment.Feedback[velocity.word], velocity.number) if velocity else None,
-    )
-
-
-@command("DETACH", group=GROUP, levels=ANY, ref="PG Attachments")
-def detach(run: Run) -> None:
-    """Free the master and all slaves of the program."""
-    if run.program is None:
-        raise CardError(NOT_VALID_AT_THIS_LEVEL)
-    attachment.detach(run.card, run.program)
-
-
-@command("DETACH SLAVE #", group=GROUP, levels=PROG, ref="PG Attachments")
-def detach_slave(run: Run, number: int) -> None:
-    """Free one slave of the program."""
-    attachment.detach_slave(run.card, run.needed_program(), number)
-
-
-@command("DETACH MASTER #", group=GROUP, levels=PROG, ref="PG Attachments")
-def detach_master(run: Run, number: int) -> None:
-    """Free a master and its slaves."""
-    attachment.detach_master(run.card, number)
-
-
-@command("DETACH ALL", group=GROUP, levels=ANY, ref="PG Attachments")
-def detach_all(run: Run) -> None:
-    """Free the masters and slaves of all programs."""
-    attachment.detach_all(run.card)
 
 
 # aliases

@@ -5,7 +5,7 @@ from __future__ import annotations
 from openacr.basic.grammar import AxisValue, AxisValues
 from openacr.basic.registry import BY_OBJECT, command
 from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, master_values, value_text
+from openacr.basic.value_commands import Value, master_values, set_or_print
 from openacr.map.numbers import (
     MA_FEEDRATE_OVERRIDE,
     MA_MANUAL_VECTOR,
@@ -68,11 +68,4 @@ master_values(
 def vecdef(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set the weight of axes in the length of a move; 0 leaves an axis out."""
     weights = [settings.vector_weight(run.card, item.axis.number) for item in axes]
-    for item, weight in zip(axes, weights, strict=True):
-        for value in item.values:
-            weight.check(value)
-    for item, weight in zip(axes, weights, strict=True):
-        if item.is_query:
-            run.print(value_text(weight, weight.read(run.card, 0)))
-        else:
-            weight.write(run.card, 0, item.value)
+    set_or_print(run, axes, [(weight, 0) for weight in weights])
