@@ -22,6 +22,7 @@ ORDER = (
     "sysvar",
     "moves",
     "interpret",
+    "big_file",
     "mill_run",
 )
 

@@ -4,11 +4,13 @@ import random
 from math import cos, pi, sin
 
 from bench.figures import at_least, best_s, value_only
+from bench.interpret import interpreted
 from openacr.cnc.canonical import Pace, Plane, Source
 from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.elements import Element
 
 SEGMENTS = 50_000
+LINES = 10_000
 RADIUS = 0.05
 TARGET = 100_000.0
 REST = (0.0,) * 6
@@ -44,12 +46,20 @@ def run(elements: list[Element], watch: ChainCheck | None = None) -> int:
     return count + len(compensator.stop())
 
 
+def program(lines: int) -> str:
+    """Straight lines of a contour under G41, as text."""
+    rows = [f"X{n / 10:.1f} Y{n % 2 / 100:.2f}" for n in range(1, lines)]
+    return "\n".join(["F100", "P1998=.05", "G41 G1 X0", *rows, "G40 Y5", "M2"])
+
+
 def main() -> None:
     elements = contour()
     seconds = best_s(lambda: run(elements), 3)
     at_least("segments compensated per second", len(elements) / seconds, TARGET, "1/s")
     seconds = best_s(lambda: run(elements, ChainCheck(1e-3, lambda *finding: None)), 1)
     value_only("segments compensated and checked as a whole", len(elements) / seconds, "1/s")
+    seconds = best_s(lambda: interpreted(program(LINES)), 1)
+    value_only("lines of a program read and compensated", LINES / seconds, "1/s")
 
 
 if __name__ == "__main__":

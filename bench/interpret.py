@@ -55,6 +55,7 @@ def _other_interpreter(path: Path, lines: int, ours: float) -> None:
     """The same program by the interpreter of LinuxCNC, where that is installed."""
     rs274 = shutil.which("rs274")
     if rs274 is None:
+        print("  rs274 of LinuxCNC (linuxcnc-uspace): not installed")
         return
     began = time.perf_counter()
     subprocess.run([rs274, "-g", str(path), "/dev/null"], check=False, capture_output=True)

@@ -6,11 +6,12 @@ from itertools import islice
 import pytest
 from tests.cnc.programs import Bench, made
 
-from openacr.cnc.canonical import Polyline
-from openacr.cnc.findings import TEXTS, BlockError
+from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Motion, Polyline, Probe, Rapid
+from openacr.cnc.findings import TEXTS, BlockError, Finding
 from openacr.cnc.interpreter import Options
 from openacr.cnc.mdi import Mdi
 
+MOVES = (Rapid, Line, Arc, Polyline, Probe)
 ACROMILL = """\
 N100 G90 G17 G1 X1.5 Y-2 F100 (note)
 G2 X3 Y0 I1 J.5
@@ -156,7 +157,7 @@ def attempt(text: str, dialect: str, chance: random.Random) -> None:
     )
     options = Options(
         is_dry=chance.random() < 0.2,
-        has_block_ends=chance.random() < 0.2,
+        has_block_ends=chance.random() < 0.4,
         collects_errors=chance.random() < 0.3,
     )
     cells = {1001: 0.1, 1002: -0.05, 2001: 1.0, 250_112: 3.0, 400_010: 3.0}
@@ -169,15 +170,29 @@ def attempt(text: str, dialect: str, chance: random.Random) -> None:
         assert finding.file != "PROGRAM" or finding.line <= max(last, 1)
     if run.program.errors:
         return
+    entries, block = run.entries(), list[Entry]()
     try:
-        for entry in islice(run.entries(), 3000):
+        for entry in islice(entries, 3000):
             if isinstance(entry, Polyline):
                 assert len(entry.ends) == len(entry.lines)
+            block.append(entry)
+            if isinstance(entry, BlockEnd):
+                block.clear()
     except BlockError as error:
         assert error.finding.code in TEXTS
         assert 1 <= error.finding.line
+        assert next(entries, None) is None
+        if options.has_block_ends and error.finding.code[0] == "E":
+            moves = [e for e in block if isinstance(e, MOVES) and here(e) == here(error.finding)]
+            assert not moves, f"{error} behind {moves} in\n{text}"
     except Exception as error:
         raise AssertionError(f"{error!r} from\n{text}") from error
+
+
+def here(what: Motion | Finding) -> tuple[str, int]:
+    """File and line."""
+    place = what if isinstance(what, Finding) else what.source
+    return place.file, place.line
 
 
 def typed(lines: list[str], dialect: str, chance: random.Random) -> None:

@@ -39,6 +39,11 @@ def test_m30_ends_the_program_where_that_is_chosen() -> None:
     assert "W216" in run("F10 X1\nM30").codes
 
 
+@pytest.mark.parametrize(("text", "is_doubtful"), [("M3", True), ("S0\nM3", False), ("M5", False)])
+def test_a_spindle_without_a_speed_is_doubtful(text: str, is_doubtful: bool) -> None:
+    assert ("W217" in run(text).codes) == is_doubtful
+
+
 def test_actions_stand_on_their_side_of_the_motion() -> None:
     told = run("M9 M5 M8 S5 M3 G1 X1 F10 M0").story
     assert told == ["M3 S5", "coolant 01", "L X1", "M5 S5", "coolant 00", "M0", "end"]

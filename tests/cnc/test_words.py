@@ -29,6 +29,22 @@ def test_an_axis_that_is_not_configured_is_refused() -> None:
     assert errors("F10 U5", axes=3) == ["E207"]
 
 
+def test_there_are_at_most_a_million_labels(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("openacr.cnc.targets.MOST_LABELS", 3)
+    assert errors("F10\nN1 X1\nN2 X2\nN3 X3") == []
+    assert errors("F10\nN1 (a) X1\nN2 (b) X2\nN3 (c) X3\nN4 (d) X4") == ["E270"]
+    plain = "F10\n" + "".join(f"N{n} X{n}\n" for n in range(1, 40))
+    assert errors(plain) == ["E270"]
+
+
+def test_labels_and_cycles_that_are_missing_are_found_before_anything_moves() -> None:
+    for call in ("G65 P7 X1", "G66 P7 X1", "GOSUB 7", "IF P200=1 THEN GOTO 7"):
+        found = made(f"F10 X1\n{call}\nM2\nN8 RET").interpreter.program.errors
+        assert [(finding.code, finding.line) for finding in found] == [("E220", 2)]
+    found = made("F10 X1\nG81 X1 Z-1 R.1\nX2\nM2").interpreter.program.errors
+    assert [(finding.code, finding.line) for finding in found] == [("E251", 2)]
+
+
 @pytest.mark.req("MILL-WORD-I", "MILL-WORD-J", "MILL-WORD-K")
 def test_i_j_k_are_centres_scales_and_arguments() -> None:
     assert run("G18 G2 F10 X2 I1 K0").moves == ["A X2 about 0,1 -180"]

@@ -302,6 +302,18 @@ def test_t_p_puts_a_parameter_on_the_card() -> None:
     assert shop.controller.p[3] == 55555
 
 
+@pytest.mark.req("MILL-WCS-TEACH")
+def test_the_position_of_the_machine_becomes_the_zero_of_a_work_system() -> None:
+    shop = Shop()
+    shop.runner.jog(lambda jog: jog.move(0, 1.5, fast=True))
+    shop.pass_time(2.0)
+    taught = shop.place()[0]
+    shop.run_text("G10 L20 P2 X0 Y0 Z0\nM2\n")
+    assert shop.store.read(920) == pytest.approx(taught)
+    shop.run_text("F600\nG55\nG1 X1\nX0\nM2\n")
+    assert shop.place()[0] == pytest.approx(taught)
+
+
 # --- numbers of outputs -------------------------------------------------------------------
 
 OUTPUTS = (400_011, 400_013, 400_019, *range(400_101, 400_114), *range(800_005, 800_008),

@@ -10,14 +10,10 @@ from openacr.cnc.codes import Dialect
 from openacr.cnc.findings import CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.hosts import Cells
-from openacr.cnc.labels import Labels, Place
 from openacr.cnc.plan import Plan
-from openacr.cnc.program import Part
-from openacr.cnc.text import decoded
 
 M30_ENDS, MANUAL_CHANGE, CHANGED_INPUT = 700_002, 900_002, 900_000
 START_FEED = 100_021
-FIRST_CYCLE_LABEL = 70_000
 
 
 class Report:
@@ -52,6 +48,8 @@ class Seen:
     has_end: bool = False
     last: Plan | None = None
     last_place: tuple[int, str] = (0, "")
+    asks_for_cycles: bool = False  # by $I, be it in vain
+    cycle: tuple[str, int, str] | None = None  # where the first canned cycle stands
 
 
 class Checks:
@@ -116,8 +114,12 @@ class Checks:
         read = self._cells.read
         return read(MANUAL_CHANGE) == 0.0 and read(CHANGED_INPUT) < 0.0
 
-    def end(self, name: str) -> None:
+    def end(self, name: str, *, has_cycles: bool) -> None:
         """The last line of the main text was read."""
+        if self.seen.cycle is not None and not has_cycles:
+            file, line, raw = self.seen.cycle
+            hint = "$I CYCLES.TXT behind M2"
+            self._report.findings.append(found("E251", file, line, 1, "", hint, raw))
         last = self.seen.last
         is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
         codes = self._dialect.table.mcodes
@@ -168,28 +170,3 @@ def _parameters(node: Node) -> Iterator[Parameter]:
             waiting.extend(part.operands)
         elif isinstance(part, State):
             waiting.append(part.index)
-
-
-# --- labels -------------------------------------------------------------------------------
-
-
-def double_labels(parts: list[Part]) -> Iterator[Finding]:
-    """Labels of plain lines, of which whole blocks are taken over unseen."""
-    for part in {id(part.labels): part for part in parts}.values():
-        for label, first, second in part.labels.doubles():
-            text = second.part.text
-            taken = text.line(second.offset)
-            raw = decoded(taken[0]) if taken else ""
-            yield found("E221", text.name, second.line, 1, f"N{label}", first_at(first), raw)
-
-
-def labels_of_cycles(labels: Labels) -> Iterator[Finding]:
-    """Labels of a program that belong to the cycles."""
-    for label, place in labels.above(FIRST_CYCLE_LABEL):
-        if not place.part.is_cycles:
-            yield found("E263", place.part.text.name, place.line, detail=f"N{label}")
-
-
-def first_at(place: Place) -> str:
-    """Where a label was met first."""
-    return f"first in line {place.line} of {place.part.text.name}"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.blocks import Message
 from openacr.cnc.canonical import BlockEnd, Entry, Say, Source
+from openacr.cnc.codes import Code
 from openacr.cnc.findings import CodeError
 from openacr.cnc.flow import Frame, Level
 from openacr.cnc.parameters import NotAtRestError
@@ -66,15 +67,9 @@ class Execution:
                     yield from run.sync(node.source)
                     self._is_done(node, block.quick)
             elif block.is_plain and (b := self._turn(node, block)) is not None:
-                for code in block.acts:
-                    if code.letter == MACRO and run.macro is None:
-                        continue
-                    b.number = code.number
-                    waiting = code.act(run, b)
-                    if waiting is not None:
-                        yield from waiting
-                        if run.is_ended:
-                            break
+                waiting = self._act(b, block.acts)
+                if waiting is not None:
+                    yield from waiting
             else:
                 yield from self._block(node, block)
             if has_block_ends:
@@ -220,9 +215,9 @@ class Execution:
                     block.assigns[done](node)
                     done += 1
                 if block.statement is not None:
-                    waiting = block.statement(node)
-                    if waiting is not None:
-                        yield from waiting
+                    asking = block.statement(node)
+                    if asking is not None:
+                        yield from asking
                 elif block.acts:
                     words = values_of(block)
                 for act in block.late:
@@ -232,20 +227,29 @@ class Execution:
                 yield from self._run.sync(node.source)
             except _ARITHMETIC as error:
                 raise CodeError("E210", 1, str(error)) from None
-        if block.acts:
-            yield from self._act(Turn(node, block.plan, words), block)
+        waiting = self._act(Turn(node, block.plan, words), block.acts)
+        if waiting is not None:
+            yield from waiting
 
-    def _act(self, b: Turn, block: Ready) -> Iterator[Entry]:
+    def _act(self, b: Turn, acts: tuple[Code, ...]) -> Iterator[Entry] | None:
+        """Let the codes act; what is left to be done from the first one on that waits."""
         run = self._run
-        for code in block.acts:
+        for place, code in enumerate(acts, 1):
             if code.letter == MACRO and run.macro is None:
                 continue
             b.number = code.number
             waiting = code.act(run, b)
             if waiting is not None:
-                yield from waiting
-                if run.is_ended:
-                    return
+                return self._go_on(waiting, b, acts[place:])
+        return None
+
+    def _go_on(self, waiting: Iterator[Entry], b: Turn, acts: tuple[Code, ...]) -> Iterator[Entry]:
+        """What a code waits for, then the codes behind it."""
+        yield from waiting
+        if not self._run.is_ended:
+            left = self._act(b, acts)
+            if left is not None:
+                yield from left
 
     def _say(self, source: Source, message: Message) -> Iterator[Entry]:
         """Show a text; values in it are those of the moment."""

@@ -75,7 +75,6 @@ TEXTS = {
     "W323": "path comes too near to another element",
     "W324": "chain broken by a waiting block",
     "A33": "axis not homed",
-    "A35": "probe already active",
     "A36": "probe did not trip",
     "A61": "answer missing",
     "A62": "endless loop",

@@ -12,16 +12,12 @@ from pathlib import Path
 
 from openacr.cnc.blocks import Block, Gosub, Goto, If, Include, OWord, Word
 from openacr.cnc.checks import (
-    FIRST_CYCLE_LABEL,
     M30_ENDS,
     Checks,
     Report,
-    double_labels,
-    first_at,
-    labels_of_cycles,
 )
-from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect
-from openacr.cnc.findings import MOST, CodeError, found
+from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect, Group
+from openacr.cnc.findings import MOST, CodeError
 from openacr.cnc.formulas import Number
 from openacr.cnc.hosts import Cells
 from openacr.cnc.labels import Place
@@ -31,9 +27,9 @@ from openacr.cnc.plan import Plan, Planner
 from openacr.cnc.program import CYCLES_FILE, Part, Program
 from openacr.cnc.scanning import Skimmer
 from openacr.cnc.supplied import cycle_part, found_in, supplied_cycles
+from openacr.cnc.targets import Targets, double_labels, labels_of_cycles
 from openacr.cnc.text import Text, decoded
 
-MOST_LABELS = 1_000_000
 DEEPEST_INCLUDE = 8
 NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 200_008, 200_012, 1000
 HASH_TEST, AUTO_CYCLES, CUSTOM_FOLDER = 700_001, 700_006, 900_010
@@ -91,12 +87,13 @@ class Loader:
         self._folders = folders
         self._planner = planner_of(cells, dialect)
         self._end = dialect.table.mcodes[2.0].act
+        self._cycle_off = dialect.table.gcodes[80.0].act
         self._skimmer = Skimmer(self._planner.axes)
         self._report = Report()
         self._findings = self._report.findings
         self._checks = Checks(self._report, cells, dialect)
         self._seen = self._checks.seen
-        self._jumps: list[tuple[Part, int, str, int, int]] = []
+        self._targets = Targets(self._report)
         self._hash_tests = cells.read(HASH_TEST) != 0.0
 
     def load(self, text: Text, folder: Path | None) -> Program:
@@ -109,8 +106,9 @@ class Loader:
             program.own_cycles = cycle_part()
         elif self._cells.read(AUTO_CYCLES) and not program.has_cycles:
             self._add_cycles(program.main)
-        self._checks.end(text.name)
-        self._check_labels()
+        has_cycles = program.has_cycles or self._seen.asks_for_cycles
+        self._checks.end(text.name, has_cycles=has_cycles)
+        self._findings.extend(islice(self._targets.missing(), MOST))
         self._findings.extend(islice(double_labels(program.parts), MOST))
         self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
         program.findings = self._findings[:MOST]
@@ -143,7 +141,7 @@ class Loader:
         labels = self._skimmer.labels
         if self._dialect.labels and len(labels):
             labels += (0, line + 1, offset)
-            self._check_room(part, len(labels), line + 1)
+            self._targets.make_room(part, len(labels), line + 1)
             part.labels.add_rows(part, labels)
         self._seen.last = None
         if self._skimmer.motion >= 0:
@@ -162,6 +160,7 @@ class Loader:
                 note_title(self._program, block.title_number, place)
             plan = self._planner_plan(block, place)
             self._statement(block, place, after, depth)
+            self._calls(plan, place)
             self._checks.values(block, plan)
             for code, column in block.warnings:
                 self._report.warn(code, column)
@@ -178,24 +177,8 @@ class Loader:
     def _label(self, block: Block, place: Place) -> None:
         if block.label is None or not self._dialect.labels:
             return
-        self._keep_label(block.label, place)
-
-    def _keep_label(self, label: int, place: Place) -> None:
-        labels = place.part.labels
-        first = labels.get(label)
-        if first is not None:
-            raise CodeError("E221", 1, f"N{label}", first_at(first))
         is_own = self._program.has_cycles and not place.part.is_cycles
-        if is_own and label > FIRST_CYCLE_LABEL:
-            raise CodeError("E263", 1, f"N{label}")
-        if len(labels) >= MOST_LABELS:
-            raise CodeError("E270", 1)
-        labels.add(label, place)
-
-    def _check_room(self, part: Part, count: int, line: int) -> None:
-        if len(part.labels) + count > MOST_LABELS and "E270" not in self._report.warned:
-            self._report.warned.add("E270")
-            self._findings.append(found("E270", part.text.name, line))
+        self._targets.keep(block.label, place, is_barred=is_own)
 
     def _planner_plan(self, block: Block, place: Place) -> Plan:
         """The plan of a block; M codes of the user are read from their files first."""
@@ -243,26 +226,36 @@ class Loader:
             statement = statement.then
         if isinstance(statement, Goto | Gosub):
             if isinstance(statement.label, Number):
-                label = round(statement.label.number)
-                _, line, raw = self._report.where
-                self._jumps.append((place.part, line, raw, statement.column, label))
+                self._targets.jump(place, statement.column, round(statement.label.number))
         elif isinstance(statement, OWord):
             if statement.number is None:
                 note(self._program, statement, place)
         elif isinstance(statement, Include):
             self._include(statement, place, after, depth)
 
+    def _calls(self, plan: Plan, place: Place) -> None:
+        """Labels and texts the codes of a block need."""
+        for code in plan.codes:
+            label = plan.words.get("P")
+            is_call = code.letter == "G" and code.takes_all
+            if is_call and label is not None and isinstance(label.value, Number):
+                self._targets.jump(place, label.column, round(label.value.number))
+            elif code.group is Group.CYCLE and code.act is not self._cycle_off:
+                self._seen.cycle = self._seen.cycle or self._report.where
+
     def _include(self, statement: Include, place: Place, after: int, depth: int) -> None:
+        is_cycles = Path(statement.name).name.upper() == CYCLES_FILE
+        self._seen.asks_for_cycles |= is_cycles
         is_main = place.part is self._program.main
         if is_main and not self._seen.has_end:
-            raise CodeError("E262", statement.column, "it stands behind M2")
+            raise CodeError("E262", statement.column, "it has to stand behind M2")
         if depth >= DEEPEST_INCLUDE:
             raise CodeError("E262", statement.column, "nested deeper than 8")
         text = self._text_named(statement.name)
         if text is None:
             raise CodeError("E262", statement.column, f"{statement.name} is not there")
         part = Part(text, place.part.labels, behind=Place(place.part, after, place.line + 1))
-        part.is_cycles = Path(statement.name).name.upper() == CYCLES_FILE
+        part.is_cycles = is_cycles
         self._program.has_cycles |= part.is_cycles
         self._program.includes[place.part.text.name, place.line] = part
         if part.is_cycles:
@@ -290,10 +283,3 @@ class Loader:
         part = Part(supplied_cycles(), main.labels, is_cycles=True)
         self._program.has_cycles = True
         self._read(part, depth=1)
-
-    def _check_labels(self) -> None:
-        for part, line, raw, column, label in self._jumps:
-            if part.labels.get(label) is None and len(self._findings) < MOST:
-                self._findings.append(
-                    found("E220", part.text.name, line, column, f"N{label}", "", raw)
-                )

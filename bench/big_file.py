@@ -1,0 +1,67 @@
+"""A part program of 100 MB: lines per second and the memory it takes."""
+
+import random
+import tempfile
+import time
+from pathlib import Path
+
+from bench.figures import at_least, at_most, value_only
+from openacr.cnc.canonical import Polyline
+from openacr.cnc.hosts import VirtualMachine
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.load import load
+from openacr.cnc.shadow import Shadow
+from openacr.sysvar import Store
+
+SIZE_MB = 100
+LINES_OF_A_PIECE = 100_000
+STATUS = Path("/proc/self/status")
+
+
+def written(path: Path) -> int:
+    """Write the program; how many lines it has."""
+    chance = random.Random(1)
+    rows = [
+        f"G1 X{chance.uniform(-9, 9):.4f} Y{chance.uniform(-9, 9):.4f} Z-{chance.random():.4f}"
+        for _ in range(LINES_OF_A_PIECE)
+    ]
+    piece = "\n".join(rows).encode() + b"\n"
+    pieces = SIZE_MB * 1_000_000 // len(piece) + 1
+    with path.open("wb") as file:
+        file.write(b"G90 G64 F1000\n")
+        for _ in range(pieces):
+            file.write(piece)
+        file.write(b"M2\n")
+    return pieces * LINES_OF_A_PIECE + 2
+
+
+def own_memory_mb() -> float:
+    """Memory of this process that is not a view of a file."""
+    for line in STATUS.read_text(encoding="ascii").splitlines():
+        if line.startswith("RssAnon"):
+            return int(line.split()[1]) / 1000
+    return 0.0
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "BIG.NC")
+        line_cnt = written(path)
+        cells = Shadow(Store())
+        before_mb = own_memory_mb() if STATUS.exists() else 0.0
+        began = time.process_time()
+        program = load(path, cells)
+        most_mb, moves = 0.0, 0
+        for entry in Interpreter(program, cells, VirtualMachine()).entries():
+            moves += len(entry.ends) if isinstance(entry, Polyline) else 1
+            if STATUS.exists():
+                most_mb = max(most_mb, own_memory_mb())
+        seconds = time.process_time() - began
+    value_only(f"moves of a file of {SIZE_MB} MB", moves, "moves")
+    at_least("lines of it loaded and interpreted per second", line_cnt / seconds, 700_000, "1/s")
+    if STATUS.exists():
+        at_most("memory it takes beside the file", most_mb - before_mb, 32.0, "MB")
+
+
+if __name__ == "__main__":
+    main()
