@@ -1,6 +1,7 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
 from openacr.kernel.bezier_cy import is_bezier
+from openacr.kernel.corner_cy import corner_drop
 from openacr.kernel.curveflags_cy import curve_drop
 from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
 from openacr.kernel.lookahead_cy import look_active
@@ -13,6 +14,7 @@ from openacr.kernel.profile_cy import (
     profile_reset,
     profile_stop,
 )
+from openacr.kernel.round_cy import round_hold_rate
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_STOPPING
 from openacr.map.numbers import (
     AXF_BASE,
@@ -54,6 +56,7 @@ from openacr.map.numbers import (
     MSI_HOLD,
     MSI_HSINT_PHASE,
     MSI_MOVING,
+    MSI_PIECE,
     MSI_QUEUED,
     MSI_SEEK_PHASE,
     MSI_SLAVE_AXIS,
@@ -92,6 +95,8 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     I[i + MSI_STRETCH] = 1
     I[i + MSI_TRIGGER] = 0
     I[i + MSI_TRIGGER_AXIS] = 0
+    I[i + MSI_PIECE] = 0
+    corner_drop(F, I, m)
     curve_drop(I, m)
     F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
     F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
@@ -151,6 +156,8 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_active(I, m)
     flows = flows or is_bezier(I, move_record(I, m))
     merged: bool = flows and I[i + MSI_QUEUED] > I[i + MSI_STRETCH]
+    merged = merged or I[i + MSI_PIECE] != 0
+    rate = round_hold_rate(F, I, m, rate)
     if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
         stp: float = F[q + MQF_STP_UPS2]
         if stp <= 0.0:

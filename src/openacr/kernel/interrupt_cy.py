@@ -19,6 +19,7 @@ from openacr.map.numbers import (
     MQF_BASE,
     MQF_DEC_UPS2,
     MQF_JRK_UPS3,
+    MQF_LENGTH_U,
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQI_BASE,
@@ -28,6 +29,7 @@ from openacr.map.numbers import (
     MQI_TRIGGER,
     MQI_TRIGGER_AXIS,
     MSF_BASE,
+    MSF_ORIGIN_U,
     MSF_STRETCH_U,
     MSF_STRIDE,
     MSF_TARGET_CNT,
@@ -35,6 +37,7 @@ from openacr.map.numbers import (
     MSI_CUT,
     MSI_FIRST,
     MSI_HEAD,
+    MSI_PIECE,
     MSI_QUEUED,
     MSI_RESPONSE,
     MSI_SIZE,
@@ -77,7 +80,11 @@ def master_cut(F: F64, I: I32, S: F32, m: int) -> None:
     rate: float = F[q + MQF_STP_UPS2]
     if rate <= 0.0:
         rate = F[q + MQF_DEC_UPS2]
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
+    f: int = MSF_BASE + m * MSF_STRIDE
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
+        I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE] = 0
+        F[f + MSF_STRETCH_U] = F[f + MSF_ORIGIN_U] + F[q + MQF_LENGTH_U]
+    end: float = F[f + MSF_STRETCH_U]
     profile_stop(F, I, m, end, rate, F[q + MQF_JRK_UPS3], STOPPING)
     I[MSI_BASE + m * MSI_STRIDE + MSI_CUT] = 1
 

@@ -41,6 +41,8 @@ from openacr.map.numbers import (
     MF4_WORD,
     MQF_ACC_UPS2,
     MQF_BASE,
+    MQF_CORNER_U,
+    MQF_CORNER_UPS,
     MQF_DEC_UPS2,
     MQF_FVEL_UPS,
     MQF_JRK_UPS3,
@@ -130,6 +132,8 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
     velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+    if F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U] > 0.0:  # rounded, see round_cy
+        return min(velocity, F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_UPS])
     if same_curve(I, a, b) or is_timed(I, a):
         return velocity
     if is_timed(I, b):
@@ -159,6 +163,8 @@ def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -
     if F[p + MQF_ACC_UPS2] != F[q + MQF_ACC_UPS2] or F[p + MQF_DEC_UPS2] != F[q + MQF_DEC_UPS2]:
         return False
     if F[p + MQF_JRK_UPS3] != F[q + MQF_JRK_UPS3]:
+        return False
+    if F[p + MQF_CORNER_U] > 0.0 or F[q + MQF_CORNER_U] > 0.0:
         return False
     rapid: int = I[MQI_BASE + a * MQI_STRIDE + MQI_RAPID]
     if rapid != I[MQI_BASE + b * MQI_STRIDE + MQI_RAPID]:
@@ -228,12 +234,13 @@ def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
             length += F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
             cap = min(cap, corner)
         else:
-            entry: float = ramp_start(
-                length, end, rate, F[MQF_BASE + b * MQF_STRIDE + MQF_JRK_UPS3]
-            )
+            length -= F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U]
+            jerk: float = F[MQF_BASE + b * MQF_STRIDE + MQF_JRK_UPS3]
+            entry: float = ramp_start(max(length, 0.0), end, rate, jerk)
             end = min(corner, min(entry, cap))
             rate = look_rate(F, a)
             length = F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+            length -= F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U]
             cap = look_speed(F, I, S, m, a)
         b = a
         k -= 1

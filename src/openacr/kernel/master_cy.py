@@ -11,6 +11,7 @@ in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), se
 
 from openacr.kernel.bezier_cy import is_timed
 from openacr.kernel.capture_cy import capture_arm
+from openacr.kernel.corner_cy import corner_drop, corner_pass
 from openacr.kernel.curveflags_cy import curve_show
 from openacr.kernel.hold_cy import (
     FEEDHOLDING,
@@ -129,8 +130,10 @@ from openacr.map.numbers import (
     MSI_MANNER,
     MSI_MOVING,
     MSI_PACED,
+    MSI_PIECE,
     MSI_QUEUED,
     MSI_RESPONSE,
+    MSI_ROUNDING,
     MSI_SEEK_PHASE,
     MSI_SIZE,
     MSI_STRETCH,
@@ -153,7 +156,7 @@ from openacr.views import F32, F64, I32
 __all__ = ["master_step"]
 
 BARS = MF1_START_MOVE_INHIBIT | MF1_TRG_PENDING
-MOVES_PER_TICK = 17  # a full ring of moves shorter than a tick, and a seek that turns back
+PIECES_PER_TICK = 51  # of a full ring of moves shorter than a tick, and a seek that turns back
 
 
 def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> None:
@@ -278,6 +281,8 @@ def move_end(F: F64, I: I32, S: F32, m: int) -> None:
     S[p + MA_DISTANCE_INTO_PATH] = S[p + MA_DISTANCE_INTO_PATH] + length
     S[p + MA_TOTAL_DISTANCE] = S[p + MA_TOTAL_DISTANCE] + length
     move_pop(I, m)
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
+        corner_pass(F, I, m, move_record(I, m))
 
 
 def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
@@ -383,7 +388,7 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         accel = F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2]
         F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
         F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
-    for _ in range(MOVES_PER_TICK):
+    for _ in range(PIECES_PER_TICK):
         if not I[i + MSI_MOVING]:
             if I[i + MSI_HOLD] == FEEDHOLDING and velocity <= 0.0:
                 master_at_rest(F, I, S, m)
@@ -412,6 +417,14 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         if master_short_of_target(F, I, m):
             master_at_rest(F, I, S, m)
             break
+        if I[i + MSI_PIECE]:
+            if I[i + MSI_HOLD] == FEEDHOLDING and velocity <= 0.0:
+                master_at_rest(F, I, S, m)
+                break
+            master_plan(F, I, S, m)
+            if I[i + MSI_HOLD] == FEEDHOLDING:
+                master_hold(F, I, S, m)
+            continue
         if I[i + MSI_SEEK_PHASE] != SEEK_NONE and seek_end(F, I, S, m):
             continue
         if I[i + MSI_HSINT_PHASE] != HSINT_NONE and hsint_end(F, I, S, m):
@@ -477,6 +490,9 @@ def master_idle(F: F64, I: I32, S: F32, m: int) -> None:
     )
     I[word] |= moving
     profile_reset(F, I, m, 0.0, 0.0)
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
+        I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING] = 0
+        corner_drop(F, I, m)
     p: int = MA_BASE + m * MA_STRIDE
     S[p + MA_DISTANCE_INTO_MOVE] = S[p + MA_VECTOR_LENGTH]
     S[p + MA_DISTANCE_TO_GO] = 0.0

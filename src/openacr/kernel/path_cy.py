@@ -11,6 +11,7 @@ which is exactly the target at s = L; those on a curve where curve_cy says.
 from openacr.cmath import atan2, fabs, sqrt
 from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.bezier_cy import is_bezier, is_timed
+from openacr.kernel.corner_cy import corner_enter, corner_place
 from openacr.kernel.curve_cy import (
     DEGREES,
     curve_longest_deg,
@@ -71,6 +72,8 @@ from openacr.map.numbers import (
     MSI_BASE,
     MSI_FIRST,
     MSI_HEAD,
+    MSI_PIECE,
+    MSI_ROUNDING,
     MSI_SLAVE_AXIS,
     MSI_STRETCH,
     MSI_STRIDE,
@@ -155,6 +158,9 @@ def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> 
 def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     """Lay the present move out from where the axes are; its path begins anew."""
     record: int = move_record(I, m)
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
+        corner_enter(F, I, m, record)
+    I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE] = 0
     move_shape(F, I, S, m, record, False)
     F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U] = 0.0
     length: float = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
@@ -284,9 +290,14 @@ def master_place(F: F64, I: I32, m: int) -> None:
     length: float = F[q + MQF_LENGTH_U]
     rest: float = 0.0
     gone: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE]
-    if gone < F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]:
-        rest = 1.0 - (gone - F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]) / length
+    origin: float = F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]
+    piece: bool = I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE] != 0
+    if piece or gone < F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]:
+        rest = 1.0 - (gone - origin) / length
     move_place(F, I, m, record, rest)
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
+        slaves: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES]
+        corner_place(F, I, m, slaves, gone - origin, length * rest)
 
 
 def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:

@@ -8,6 +8,7 @@ from openacr.kernel.lookahead_cy import (
 )
 from openacr.kernel.path_cy import master_limit, master_word, move_record
 from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan
+from openacr.kernel.round_cy import round_plan, round_through
 from openacr.map.numbers import (
     MF1_FVEL_ZERO_ACTIVE,
     MF4_LOOK_AHEAD_SLOWDOWN,
@@ -28,6 +29,7 @@ from openacr.map.numbers import (
     MSF_STRIDE,
     MSI_BASE,
     MSI_LOOK_DIRTY,
+    MSI_PIECE,
     MSI_QUEUED,
     MSI_STRETCH,
     MSI_STRIDE,
@@ -45,6 +47,10 @@ from openacr.views import F32, F64, I32
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the present move of master m from where it is."""
     record: int = move_record(I, m)
+    if round_through(F, I, m, record):
+        round_plan(F, I, S, m)
+        return
+    I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE] = 0
     if look_through(F, I, m, record):
         look_scan(F, I, S, m)
         look_plan(F, I, S, m)
@@ -127,6 +133,9 @@ def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:
     i: int = MSI_BASE + m * MSI_STRIDE
     f: int = MSF_BASE + m * MSF_STRIDE
     I[i + MSI_LOOK_DIRTY] = 0
+    if round_through(F, I, m, move_record(I, m)):
+        round_plan(F, I, S, m)
+        return
     if not look_through(F, I, m, move_record(I, m)):
         return
     end: float = F[f + MSF_STRETCH_U]

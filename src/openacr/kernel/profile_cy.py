@@ -338,8 +338,9 @@ def plan_forced(F: F64, I: I32, f: int, i: int, end: float, end_velocity: float)
     distance: float = end - F[f + PRF_DISTANCE]
     plan_start(F, I, f, i, 0.0)
     if distance > 0.0 and velocity > end_velocity:
-        rate: float = (velocity * velocity - end_velocity * end_velocity) / (2.0 * distance)
-        plan_ramp(F, I, f, i, end_velocity, rate, 0.0, STOPPING)
+        # By time: exact even where the two speeds differ in their last bits only.
+        time: float = 2.0 * distance / (velocity + end_velocity)
+        plan_append(F, I, f, i, time, (end_velocity - velocity) / time, 0.0, STOPPING)
     elif distance > 0.0 and velocity > 0.0:
         plan_append(F, I, f, i, distance / velocity, 0.0, 0.0, STOPPING)
         end_velocity = velocity

@@ -29,7 +29,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
-from openacr.motion import curve_modes, curve_points, replacing, tangent
+from openacr.motion import corners, curve_modes, curve_points, replacing, tangent
 from openacr.motion.card import Card
 from openacr.motion.curves import slave_of
 from openacr.motion.orders import FlagState, Part, Target, end_points
@@ -82,10 +82,12 @@ def issue(
     rapid: bool = False,
     interrupt: FlagState | None = None,
     replace: bool = False,
+    tolerance_u: float | None = None,
 ) -> None:
     """Start or buffer one move; the caller has made sure that there is room.
 
-    `interrupt` ends it early (INT); `replace` drops all other moves first (TRJ).
+    `interrupt` ends it early (INT); `replace` drops all other moves first (TRJ);
+    `tolerance_u` is its own path tolerance for the corner at its end.
     """
     master = needed_master(card, program)
     needs_moves(card, master)
@@ -98,7 +100,10 @@ def issue(
         return
     if replace:
         replacing.clear_the_way(card, master, ways)
-    rows = MQI_BASE + tangent.add(card, program, master, ways, parts) * MQI_STRIDE
+    record = tangent.add(card, program, master, ways, parts)
+    if tolerance_u is not None:
+        corners.set_of_move(card, master, record, tolerance_u)
+    rows = MQI_BASE + record * MQI_STRIDE
     card.memory.I[rows + MQI_RAPID] = int(rapid)
     card.memory.I[rows + MQI_INTERRUPT] = interrupt.signed if interrupt else 0
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import path_cy
+from openacr.kernel import path_cy, round_cy
 from openacr.map.numbers import (
     AXF_TARGET_CNT,
     MA_MOVE_TIME,
@@ -15,6 +15,8 @@ from openacr.map.numbers import (
     MF2_MASTER_IN_TMOV,
     MQF_ACC_UPS2,
     MQF_BASE,
+    MQF_CORNER_TURN,
+    MQF_CORNER_U,
     MQF_DEC_UPS2,
     MQF_DELTA_CNT,
     MQF_FVEL_UPS,
@@ -25,6 +27,7 @@ from openacr.map.numbers import (
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQF_TMOV_S,
+    MQF_TOLERANCE_U,
     MQF_TURN_DEG,
     MQF_VEL_UPS,
     MQF_WEIGHT,
@@ -48,11 +51,13 @@ from openacr.map.numbers import (
     MSF_JRK_UPS3,
     MSF_STP_UPS2,
     MSF_TARGET_CNT,
+    MSF_TOLERANCE_U,
     MSF_VECDEF,
     MSI_FIRST,
     MSI_HEAD,
     MSI_LOOK_DIRTY,
     MSI_QUEUED,
+    MSI_ROUNDING,
     MSI_SIZE,
     MSI_TRIGGER,
     MSI_TRIGGER_AXIS,
@@ -77,11 +82,13 @@ _COPIED = (
     (MSF_JRK_UPS3, MQF_JRK_UPS3),
     (MSF_FVEL_UPS, MQF_FVEL_UPS),
     (MSF_IVEL_UPS, MQF_IVEL_UPS),
+    (MSF_TOLERANCE_U, MQF_TOLERANCE_U),
 )
 _CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS, MQI_MARKS, MQI_TANG)
 _move_shape = pick(path_cy.move_shape)
 _move_directions = pick(path_cy.move_directions)
 _path_turn_deg = pick(path_cy.path_turn_deg)
+_round_between = pick(round_cy.round_between)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +184,11 @@ def _look_back(card: Card, master: int, record: int, queued: int) -> None:
         before = memory.I[rows + MSI_FIRST] + ring
         turn = _path_turn_deg(memory.F, before, record)
         memory.F[MQF_BASE + before * MQF_STRIDE + MQF_TURN_DEG] = turn
+        _round_between(memory.F, memory.I, memory.S, master, before, record)
+    memory.F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_U] = 0.0
+    memory.F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_TURN] = 0.0
+    if memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TOLERANCE_U] > 0.0:
+        memory.I[rows + MSI_ROUNDING] = 1
 
 
 def _take_trigger(card: Card, master: int, record: int) -> None:

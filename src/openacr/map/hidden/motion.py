@@ -66,6 +66,10 @@ MOVE = HiddenBlock(
         "maxvel_ups",  # bound by MAXVEL of the axes, 0 none
         "tmov_s",  # time it is to take, 0 as long as it needs
         "turn_deg",  # angle between its end and the beginning of the next
+        "tolerance_u",  # how far the path may stay off the corner at its end, 0 exact
+        "corner_u",  # from how far before that corner it is rounded, 0 not at all
+        "corner_turn",  # size of the change of direction there, 0 to 2
+        "corner_ups",  # highest speed in it
         "hsint_window_cnt",  # HSINT: captures count from `start` to `start + window`
         "hsint_start_cnt",
         "hsint_way_cnt",  # and lead this much farther
@@ -140,6 +144,15 @@ MASTER = HiddenBlock(
         "look_exit_ups",  # speed at its end
         "pace",  # path time per time in the last tick
         "tang_deg",  # TANG ANG
+        "tolerance_u",  # path tolerance of the moves to come (motion/corners.py)
+        "corner_in_turn",
+        "corner_in_ups",
+        "corner_out_turn",
+        "corner_out_ups",
+        "corner_in_u",  # the rounded corner behind the path, see kernel/corner_cy.py
+        ("corner_in_cnt", SLAVES),
+        "corner_out_u",  # the one it is coming to
+        ("corner_out_cnt", SLAVES),
         "rotate_deg",  # ROTATE of programmed paths (motion/transform.py)
         ("rotate_center_u", 2),
     ),
@@ -168,6 +181,11 @@ MASTER = HiddenBlock(
         "tang_axis",  # TANG: axis + 1
         "invk_program",  # INVK: program + 1 that computes the joints
         "invk_moving",  # In Motion when the joints were last looked at
+        "rounding",  # some corners are rounded: plans end within moves (kernel/round_cy.py)
+        "piece",  # the present plan ends within the present move
+        "corner_next",  # record + 1 that leaves the corner just passed
+        "corner_smooth_in",  # the corners are rounded for a jerk limit
+        "corner_smooth_out",
         "sync_go",  # SYNC: the move at the head may begin
         "sync_start",  # SYNC MDI: a cycle start has come
         ("rotate_slave", 2),  # the plane of ROTATE

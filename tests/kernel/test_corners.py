@@ -1,0 +1,206 @@
+"""Path tolerance: corners are rounded within it, at the acceleration limit, in less time."""
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.kernel.rig import Reals, Rig, T, examples
+
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.motion import corners, moves
+from openacr.motion.orders import Target
+
+settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
+settings.load_profile("kernel")
+
+IN_MOTION = 516
+PPU = 10_000.0
+Point = tuple[float, ...]
+
+
+def rig(tolerance: float, *, axes: int = 2, acc: float = 1000.0, jrk: float = 0.0) -> Rig:
+    """A card that looks ahead over ten moves at 100 units/s."""
+    made = Rig(axes, ppu=[PPU] * axes).master(acc=acc, dec=acc, stp=acc, jrk=jrk, vel=100)
+    made.depth(10)
+    made.I[at.MF4_WORD] |= at.MF4_LOOK_AHEAD_MODE
+    corners.set_tolerance(made.card, 0, tolerance)
+    return made
+
+
+def follow(
+    made: Rig, points: Sequence[Point], meanwhile: Callable[[int], None] | None = None
+) -> Reals:
+    """Positions of all axes, tick by tick, along the points."""
+    waiting, places, tick = list(points)[::-1], [], 0
+    rows = [at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_PSP_CNT for n in range(made.axes)]
+    places.append([made.F[row] / PPU for row in rows])
+    while waiting or made.bit(IN_MOTION):
+        while waiting and moves.has_room(made.card, 0):
+            made.move(*waiting.pop())
+        if meanwhile:
+            meanwhile(tick)
+        made.ticks()
+        places.append([made.F[row] / PPU for row in rows])
+        tick += 1
+        assert tick < 60_000
+    return np.array(places)
+
+
+def accelerations(places: Reals) -> Reals:
+    """Size of the vector acceleration of every tick, from rest to rest."""
+    still = np.vstack([places[:1], places[:1], places, places[-1:], places[-1:]])
+    return np.asarray(np.linalg.norm(np.diff(still, n=2, axis=0), axis=1) / T**2)
+
+
+def off_path(places: Reals, points: Sequence[Point]) -> float:
+    """The largest distance of a place from the polyline."""
+    corners_at = np.array([places[0], *points])
+    best = np.full(len(places), np.inf)
+    for a, b in pairwise(corners_at):
+        way = b - a
+        part = np.clip(((places - a) @ way) / max(way @ way, 1e-30), 0, 1)
+        best = np.minimum(best, np.linalg.norm(places - (a + part[:, None] * way), axis=1))
+    return float(best.max())
+
+
+SQUARE = [(20.0, 0.0), (20.0, 20.0), (0.0, 20.0), (0.0, 0.0)]
+
+
+def test_without_a_tolerance_the_corner_is_reached() -> None:
+    places = follow(rig(0.0), SQUARE)
+    assert np.min(np.linalg.norm(places - (20.0, 0.0), axis=1)) == 0.0
+
+
+@pytest.mark.parametrize("tolerance", [0.01, 0.1, 1.0])
+def test_a_corner_is_rounded_by_the_tolerance_at_the_acceleration_limit(tolerance: float) -> None:
+    exact, rounded = follow(rig(0.0), SQUARE), follow(rig(tolerance), SQUARE)
+    assert len(rounded) < len(exact)
+    assert tuple(rounded[-1]) == (0.0, 0.0)
+    nearest = [np.min(np.linalg.norm(rounded - corner, axis=1)) for corner in SQUARE[:3]]
+    assert nearest == pytest.approx([tolerance] * 3, rel=0.02)
+    assert off_path(rounded, SQUARE) <= tolerance
+    assert accelerations(rounded).max() <= 1000 * (1 + 1e-6)
+    assert accelerations(rounded).max() > 950
+
+
+def test_the_speed_in_a_corner_is_the_highest_that_the_limit_allows() -> None:
+    """A parabola with legs T = 4 tol / |u2 - u1| at v needs v^2 |u2 - u1| / 2T."""
+    made, slowest = rig(0.1), [100.0]
+
+    def watch(_: int) -> None:
+        if made.F[at.MSF_BASE + at.MSF_CORNER_OUT_U] > 0.0:
+            slowest.append(made.path_velocity)
+
+    follow(made, SQUARE, watch)
+    reach = 4 * 0.1 / math.sqrt(2)
+    assert min(slowest[1:]) == pytest.approx(
+        math.sqrt(0.98 * 1000 * 2 * reach / math.sqrt(2)), rel=1e-3
+    )
+
+
+def test_a_move_has_a_tolerance_of_its_own() -> None:
+    made = rig(0.0)
+    for point, own in zip(SQUARE, (None, 0.5, None, None), strict=True):
+        targets = [Target(n, value) for n, value in enumerate(point)]
+        moves.issue(made.card, 0, targets, tolerance_u=own)
+    places = follow(made, [])
+    nearest = [np.min(np.linalg.norm(places - corner, axis=1)) for corner in SQUARE[:3]]
+    assert nearest == pytest.approx([0.0, 0.5, 0.0], abs=0.01)
+
+
+def test_a_tolerance_is_a_length() -> None:
+    made = rig(0.25)
+    assert corners.tolerance(made.card, 0) == 0.25
+    for wrong in (-0.1, math.nan, math.inf):
+        with pytest.raises(CardError, match="Invalid argument"):
+            corners.set_tolerance(made.card, 0, wrong)
+
+
+def test_an_axis_that_takes_part_in_one_move_only_leaves_and_comes_smoothly() -> None:
+    made = rig(0.1, axes=3)
+    for targets in ([Target(0, 10.0)], [Target(2, 5.0)], [Target(1, 3.0)]):
+        moves.issue(made.card, 0, targets)
+    places = follow(made, [])
+    assert tuple(places[-1]) == (10.0, 3.0, 5.0)
+    assert accelerations(places).max() <= 1000 * (1 + 1e-6)
+
+
+def test_under_jerk_a_corner_is_rounded_where_that_is_quicker() -> None:
+    times = [len(follow(rig(tol, jrk=20_000.0), SQUARE)) for tol in (0.0, 0.01, 0.5)]
+    assert times[1] == times[0]
+    assert times[2] < times[0]
+    places = follow(rig(0.5, jrk=20_000.0), SQUARE)
+    still = np.vstack([places[:1]] * 3 + [places] + [places[-1:]] * 3)
+    jerks = np.linalg.norm(np.diff(still, n=3, axis=0), axis=1) / T**3
+    assert jerks.max() <= 20_000 * (1 + 1e-3)
+    assert off_path(places, SQUARE) <= 0.5
+
+
+def wave(segment: float) -> list[Point]:
+    """A surface line of short segments."""
+    return [(x, 3 * math.sin(x / 6)) for x in np.arange(segment, 60, segment)]
+
+
+def test_short_segments_keep_the_feed_and_the_acceleration() -> None:
+    points = wave(0.2)
+    places = follow(rig(0.01), points)
+    whole: list[Point] = [(0.0, 0.0), *points]
+    length = sum(math.dist(a, b) for a, b in pairwise(whole))
+    # ten moves of 0.2 are looked at: from sqrt(2 * 1000 * 2.0) = 63 units/s they can stop
+    assert len(places) * T < length / 60 + 0.1
+    assert accelerations(places).max() <= 1000 * (1 + 1e-6)
+    assert off_path(places, points) <= 0.01
+    assert tuple(places[-1]) == pytest.approx(points[-1], abs=1e-9)
+
+
+@st.composite
+def polylines(draw: st.DrawFn) -> list[Point]:
+    """Paths of long and short lines with all kinds of turns."""
+    x, y = 0.0, 0.0
+    points: list[Point] = []
+    for _ in range(draw(st.integers(2, 12))):
+        length = 10.0 ** draw(st.floats(-2.0, 1.0))
+        angle = draw(st.floats(0.0, 2 * math.pi))
+        x, y = x + length * math.cos(angle), y + length * math.sin(angle)
+        points.append((x, y))
+    return points
+
+
+EVENTS = st.lists(
+    st.tuples(st.integers(1, 150), st.sampled_from(["fov", "hold", "go"]), st.floats(0.0, 2.0)),
+    max_size=6,
+)
+
+
+@settings(max_examples=examples(250))
+@given(polylines(), st.floats(-4.0, 0.0).map(lambda e: 10.0**e), EVENTS)
+def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
+    points: list[Point], tolerance: float, events: list[tuple[int, str, float]]
+) -> None:
+    made = rig(tolerance)
+    due = {}
+    tick = 0
+    for wait, what, value in [*events, (200, "fov", 1.0), (1, "go", 0.0)]:
+        tick += wait
+        due[tick] = (what, value)
+
+    def disturb(now: int) -> None:
+        what, value = due.get(now, ("", 0.0))
+        if what == "fov":
+            made.master(fov=value)
+        elif what == "hold":
+            moves.hold(made.card, 0)
+        elif what == "go":
+            moves.release(made.card, 0)
+
+    places = follow(made, points, disturb)
+    assert tuple(places[-1] * PPU) == pytest.approx(tuple(np.array(points[-1]) * PPU), abs=1e-6)
+    assert off_path(places, points) <= tolerance * (1 + 1e-6) + 1e-9
+    assert accelerations(places).max() <= 1000 * (1 + 1e-4)
+    speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / T
+    assert speed.max() <= 200 * (1 + 1e-6)
