@@ -66,6 +66,10 @@ def test_a_program_that_is_there_is_kept(square: Path) -> None:
     [
         (["--epsilon", "0"], "--epsilon 0: it must be above 0"),
         (["--feed", "-1"], "--feed -1: it must be above 0"),
+        (["--safe-height", "inf"], "--safe-height inf: it must be a number"),
+        (["--drill-z", "nan"], "--drill-z nan: it must be a number"),
+        (["--tool", "401"], "D401: offsets are D1 to D400"),
+        (["--tool", "1", "--lead", "0"], "--lead 0: it must be above 0"),
         (["--layer", "CUT"], "the drawing has no layer CUT"),
         (["-o", "/nowhere/x.TXT"], "there is no folder /nowhere"),
     ],

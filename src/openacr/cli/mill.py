@@ -40,12 +40,11 @@ Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes 
 
 
 @contextmanager
-def opened_store(path: Path | None) -> "Iterator[Store]":
-    """The store a machine is described by."""
-    from openacr.sysvar import Store
-    from openacr.sysvar.location import default_path
+def opened_store(path: Path | None, *, is_written: bool = False) -> "Iterator[Store]":
+    """The store a machine is described by; made where it is not there only to be written."""
+    from openacr.sysvar.location import open_to_read, open_to_write
 
-    with Store(path or default_path()) as store:
+    with (open_to_write if is_written else open_to_read)(path) as store:
         yield store
 
 
@@ -54,18 +53,34 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
     from openacr.cnc.load import load
     from openacr.mill.dialects import dialect_of
 
-    if not file.is_file():
-        raise UserError(f"{file}: no such file")
+    _require_file(file)
     name = dialect_of(file, store, dialect)
     return load(file, store, name), name
+
+
+def _require_file(file: Path) -> None:
+    if file.is_dir():
+        raise UserError(f"{file}: it is a folder, not a part program")
+    if not file.exists():
+        raise UserError(f"{file}: no such file")
+    try:
+        with file.open("rb"):
+            pass
+    except OSError as error:
+        raise UserError(f"{file}: cannot be read: {(error.strerror or '').lower()}") from None
+
+
+def printable(text: str) -> str:
+    """A line as a terminal may show it: what would steer the terminal is a question mark."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text.expandtabs(1))
 
 
 def show_findings(findings: "list[Finding]") -> None:
     """Every error and warning with its line and a mark at the column."""
     for finding in findings:
         colour = typer.colors.RED if finding.is_error else typer.colors.YELLOW
-        typer.secho(str(finding), fg=colour, err=True)
-        block = finding.block.expandtabs(1)
+        typer.secho(printable(str(finding)), fg=colour, err=True)
+        block = printable(finding.block)
         if block.strip() and finding.column <= min(len(block), CONTEXT_COLUMNS):
             typer.echo(f"    {block[:CONTEXT_COLUMNS]}", err=True)
             typer.echo("    " + " " * (finding.column - 1) + "^", err=True)

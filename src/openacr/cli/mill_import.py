@@ -2,6 +2,7 @@
 
 import json as json_format
 from enum import StrEnum
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -85,9 +86,9 @@ def import_drawing(
             layer=layer,
             is_metric=cells.is_metric,
             epsilon=_positive("--epsilon", _given(epsilon, cells, EPSILON)),
-            safe_height=_given(safe_height, cells, SAFE_HEIGHT),
-            drill_bottom=_given(drill_z, cells, DRILL_Z),
-            drill_level=_given(drill_r, cells, DRILL_R),
+            safe_height=_finite("--safe-height", _given(safe_height, cells, SAFE_HEIGHT)),
+            drill_bottom=_finite("--drill-z", _given(drill_z, cells, DRILL_Z)),
+            drill_level=_finite("--drill-r", _given(drill_r, cells, DRILL_R)),
             drill_feed=_positive("--feed", _given(feed, cells, DRILL_F)),
             feed=None if feed is None else _positive("--feed", feed),
             d_number=tool,
@@ -101,6 +102,12 @@ def import_drawing(
 
 def _given(value: float | None, cells: "Store", n: int) -> float:
     return cells.read(n) if value is None else value
+
+
+def _finite(option: str, value: float) -> float:
+    if not isfinite(value):
+        raise UserError(f"{option} {value:g}: it must be a number")
+    return value
 
 
 def _positive(option: str, value: float) -> float:

@@ -11,6 +11,7 @@ from openacr.cli.mill import (
     PartProgram,
     loaded,
     opened_store,
+    printable,
     show_findings,
 )
 
@@ -33,7 +34,7 @@ def list_program(file: PartProgram, store: AtStore = None, dialect: Dialect = No
     text = program.main.text
     offset, number = text.begin, 1
     while (taken := text.line(offset)) is not None:
-        typer.echo(decoded(taken[0]))
+        typer.echo(printable(decoded(taken[0])))
         for line in inserted.get(number, []):
             typer.echo(line)
         offset, number = taken[1], number + 1

@@ -91,11 +91,12 @@ def set_message(
     from openacr.sysvar.location import open_to_write
 
     _require_flag(bit)
+    _require_text(text)
     with open_to_write(store) as cells:
         _require_service(cells, password)
         place = free_number(cells) if number is None else number
         message = Message(place, bit, text, not is_shown_off, is_alarm=is_alarm)
-        message = replace(message, size=max(len(text), 1))
+        message = replace(message, size=len(text))
         if text_color is not None:
             message = replace(message, text_color=text_color)
         if back_color is not None:
@@ -118,6 +119,15 @@ def remove_message(
         _require_service(cells, password)
         remove(cells, number)
     typer.echo(f"message {number} is removed")
+
+
+def _require_text(text: str) -> None:
+    from openacr.mill.messages import LONGEST
+
+    if not text.strip() or not text.isprintable():
+        raise UserError(f"{text!r}: a message needs a text of one line")
+    if len(text) > LONGEST:
+        raise UserError(f"{len(text)} letters: a message has {LONGEST} at most")
 
 
 def _require_flag(bit: int) -> None:

@@ -57,6 +57,8 @@ def plot_program(
         scene, survey = scene_of(program, cells, name, by_tool=by_tool)
     show_findings(survey.findings)
     if not len(scene.drawing.kinds):
+        if survey.errors:
+            raise typer.Exit(FAILED)
         raise UserError(f"{file}: nothing moves")
     write_whole(target, lambda partial: draw_path(scene, partial))
     typer.echo(f"{target}: {sum(survey.move_cnts.values()) - survey.move_cnts['dwell']} moves")

@@ -72,7 +72,7 @@ def run_program(
     from openacr.mill.workshop import Start
 
     start = Start("", line, is_dry, is_skipping, stops_optionally, accepts_tool)
-    with opened_store(store) as cells:
+    with opened_store(store, is_written=host is not None) as cells:
         program, name = _checked(file, cells, dialect)
         with _workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.course.host.answers.update(map(_answer, answers or []))
@@ -94,7 +94,7 @@ def run_batch(
     from openacr.cnc.batch import read_batch
 
     batch = read_batch(file)
-    with opened_store(store) as cells:
+    with opened_store(store, is_written=host is not None) as cells:
         programs = {path: _checked(path, cells, dialect) for path in batch.programs}
         with _workshop(host, cells) as shop:
             for each in _runs(batch, repeats=shop.runner.settings.repeats):
@@ -128,7 +128,7 @@ def jog_axes(
     """Move axes of a card by hand: X0.5 Y-1."""
     from openacr.mill.jogging import ways as ways_of
 
-    with opened_store(store) as cells, _workshop(host, cells) as shop:
+    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
         names = [axis.name for axis in shop.runner.settings.axes]
         shop.jog(ways_of(ways, names), _attend)
         typer.echo(_place_text(shop, shop.runner.course.host.position()))
@@ -154,7 +154,7 @@ def run_blocks(
 
     if save is not None:
         require_writable(save)
-    with opened_store(store) as cells, _workshop(host, cells) as shop:
+    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
         try:
             for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", _attend):
                 typer.echo(_place_text(shop, place))
@@ -186,7 +186,7 @@ def home_axes(
     store: AtStore = None,
 ) -> None:
     """Find the reference points of axes on a card."""
-    with opened_store(store) as cells, _workshop(host, cells) as shop:
+    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
         homed = shop.home(axes, _telling(_attend))
         typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
         _end_with_alarms(shop)
@@ -219,7 +219,7 @@ def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "
         typer.echo(text, err=to_stderr)
 
     try:
-        shop = Workshop.real(host, cells, say) if host else Workshop.virtual(cells, say)
+        shop = Workshop.real(host, cells, say) if host is not None else Workshop.virtual(cells, say)
         shop.show_message = partial(show_message, to_stderr=to_stderr)
     except ConnectionLostError as lost:
         raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None

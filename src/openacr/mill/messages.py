@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from openacr.errors import UserError
-from openacr.mill.panel import BEHIND_OUTPUTS, FIRST_OUTPUT, Panel
+from openacr.mill.panel import Panel
 from openacr.mill.settings import MESSAGES, Store, cell
 from openacr.sysvar import Store as SysvarStore
 
@@ -12,7 +12,7 @@ MOST = 32
 CELLS = 107  # of one record
 DEFINED, BIT, LEVEL, TEXT_COLOR, BACK_COLOR, SIZE, ALARM, TEXT = range(8)
 LOOK_S = 0.05
-WHITE, RED, LETTERS = 15, 4, 40
+WHITE, RED, LETTERS, LONGEST = 15, 4, 40, 132
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +134,7 @@ class Messages:
 
     def _is_inverted(self, bit: int) -> bool:
         """Inputs and outputs count as the store inverts them."""
-        if bit < FIRST_OUTPUT:
-            return self.panel.settings.is_input_inverted(bit)
-        return bit < BEHIND_OUTPUTS and self.panel.settings.is_output_inverted(bit)
+        settings = self.panel.settings
+        if self.panel.has_input(bit):
+            return settings.is_input_inverted(bit)
+        return bit in self.panel.outputs and settings.is_output_inverted(bit)

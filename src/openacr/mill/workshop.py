@@ -32,7 +32,6 @@ from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import Machine
 from openacr.mill.messages import Message, Messages, definitions
-from openacr.mill.panel import FIRST_OUTPUT
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare
@@ -93,10 +92,11 @@ class Workshop:
         self.runner.has_operator = not is_virtual
         self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
+        panel = self.runner.panel
         defined = [
-            each for each in definitions(cells) if not (is_virtual and each.bit < FIRST_OUTPUT)
+            each for each in definitions(cells) if not (is_virtual and panel.has_input(each.bit))
         ]
-        self.messages = Messages(self.runner.panel, defined, self._note_message)
+        self.messages = Messages(panel, defined, self._note_message)
 
     @classmethod
     def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "Workshop":
