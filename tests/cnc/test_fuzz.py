@@ -4,9 +4,9 @@ import random
 from itertools import islice
 
 import pytest
-from tests.cnc.programs import Bench, made
+from tests.cnc.programs import Bench, made, shown, unrolled
 
-from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Motion, Polyline, Probe, Rapid
+from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Motion, Polyline, Probe, Rapid, Sync
 from openacr.cnc.findings import TEXTS, BlockError, Finding
 from openacr.cnc.interpreter import Options
 from openacr.cnc.mdi import Mdi
@@ -205,6 +205,39 @@ def typed(lines: list[str], dialect: str, chance: random.Random) -> None:
             assert error.finding.code in TEXTS
         except Exception as error:
             raise AssertionError(f"{error!r} from {line!r}") from error
+
+
+def told(text: str, dialect: str, *, has_block_ends: bool) -> list[str]:
+    """What a program does up to its error, without what only single block adds."""
+    options = Options(has_block_ends=has_block_ends)
+    done = made(text, {1001: 0.1, 2001: 1.0}, axes=7, dialect=dialect, options=options)
+    if done.interpreter.program.errors:
+        return []
+    seen: list[str] = []
+    try:
+        for entry in islice(unrolled(done.interpreter.entries()), 2000):
+            if not isinstance(entry, BlockEnd | Sync):
+                seen.append(f"{entry.source.line} {shown(entry)}")
+                if len(seen) == 200:
+                    return seen
+    except BlockError as error:
+        seen.append(str(error))
+    return seen
+
+
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+def test_programs_do_the_same_block_by_block(dialect: str) -> None:
+    chance = random.Random(7)
+    corpus = {"acromill": ACROMILL, "rs274ngc": OTHER}[dialect].splitlines()
+    loops = {
+        "acromill": "P150=0|N9 P150=P150+1|G91 X1|#151=#151+P150|IF P150<7 THEN GOTO 9|G90 X#151",
+        "rs274ngc": "O9 while [#1 LT 7]|#1=[#1+1]|G91 X1|#151=[#151+#1]|O9 endwhile|G90 X#151",
+    }[dialect].split("|")
+    for _ in range(60):
+        lines = ["F10", *loops, *program(corpus, chance, 8).splitlines()]
+        text = "\n".join(lines)
+        both = [told(text, dialect, has_block_ends=on) for on in (False, True)]
+        assert both[0] == both[1], text
 
 
 def fuzz(seed: int, lines: int) -> None:
