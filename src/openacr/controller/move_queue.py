@@ -44,6 +44,12 @@ class MoveQueue:
 
     def add(self, move: Move) -> None:
         """Issue a move, behind those that wait already."""
+        if move.master not in self._waiting and self._has_room(move):
+            try:
+                self._make(move)
+            except (CardError, PacketError) as refused:
+                log.debug("master %d: %s", move.master, refused)
+            return
         self._waiting.setdefault(move.master, deque()).append(move)
         self._issue(move.master)
 

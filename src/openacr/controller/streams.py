@@ -167,7 +167,8 @@ class Streams:
     def _pump(self, stream: Stream) -> None:
         while (event := stream.terminal.next_event()) is not NEED_DATA:
             self._deal(stream, event)
-            self._settle(stream)
+            if not isinstance(event, Received):  # packets say nothing to the session
+                self._settle(stream)
         if stream.session is not None:
             terminal = stream.terminal
             stream.session.show_waiting(terminal.waiting_characters, terminal.waiting_lines)
