@@ -7,6 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
+from openacr.client import Card
+from openacr.controller import Controller
 
 
 @pytest.fixture(autouse=True)
@@ -72,3 +74,14 @@ def test_variables_of_the_store_are_shown_and_changed() -> None:
     assert "none of P0 to P199" in mill("param", "P200=1")[1]
     for wrong in ("P100=x", "P100=inf", "hello", "P100="):
         assert "write P5 to see it" in mill("param", wrong)[1]
+
+
+@pytest.mark.req("MILL-PPARM-LIVE")
+def test_variables_of_a_card_are_made_where_there_are_none(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    controller, opened = Controller(), Card.open
+    monkeypatch.setattr(Card, "open", lambda _target: opened(controller))
+    for words, shown in ((["P5=2.5"], "P5 = 2.5\n"), (["P5", "P99"], "P5 = 2.5\nP99 = 0\n")):
+        assert mill("param", *words, "--host", "card") == (0, shown)
+    assert len(mill("param", "--host", "card")[1].splitlines()) == 200

@@ -5,11 +5,14 @@ from pathlib import Path
 import pytest
 from tests.mill.shop import Shop, at, end, line
 
+from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map.numbers import AX_BALLSCREW_OFFSET
 from openacr.mill.ballscrew import Table, errors, install, measured, parse, read, wrapped
 from openacr.mill.settings import Settings
 from openacr.mill.setup import prepare
+from openacr.mill.workshop import Workshop
+from openacr.sysvar import Store
 
 PSP, SSP, PER_AXIS = 12294, 12295, 256
 GUIDE = "X0E.00325\nX1E.00175\nX2E-.00250\n"
@@ -178,6 +181,17 @@ def test_a_table_waits_for_the_reference_point_and_goes_with_its_switch() -> Non
     install(shop.card, Settings(shop.store), {})
     shop.pass_time(0.1)
     assert compensation(shop) == 0
+
+
+def test_a_card_that_lost_its_position_gets_its_table_only_behind_homing(tmp_path: Path) -> None:
+    (tmp_path / "X.BSC").write_text(GUIDE)
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write_text(950_020, "X.BSC")
+        store.write(950_010, 1)
+        store.write(271, 7)  # homed, says the store; the card has just been switched on
+        shop = Workshop.real(Controller(), store, lambda _text: None)
+        assert shop.card.command("BSC X", program=0) == ["OFF"]
+        assert store.read(271) == 0
 
 
 @pytest.mark.req("MILL-BSC-AXES")

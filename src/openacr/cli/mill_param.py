@@ -33,7 +33,7 @@ def operate_parameters(
     changes = any(value is not None for _, value in wanted)
     with ExitStack() as stack:
         cells = stack.enter_context((open_to_write if changes else open_to_read)(store))
-        card = stack.enter_context(_card(host)) if host else None
+        card = stack.enter_context(_card(host)) if host is not None else None
         values = OperatorParameters(cells, card)
         for n, value in wanted:
             if value is not None:
@@ -60,8 +60,11 @@ def _finite(text: str) -> float:
 
 def _card(host: str) -> "Card":
     from openacr.client import Card, ConnectionLostError
+    from openacr.mill.setup import user_variables
 
     try:
-        return Card.open(host)
+        card = Card.open(host)
     except ConnectionLostError as lost:
         raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
+    user_variables(card)
+    return card

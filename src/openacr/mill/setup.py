@@ -37,7 +37,7 @@ VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
 
 def prepare(card: Card, settings: Settings, tables: Mapping[int, Table] | None = None) -> int:
     """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds."""
-    _user_variables(card)
+    user_variables(card)
     program = settings.master
     for line in lines(settings):
         card.command(line, program=program)
@@ -45,7 +45,8 @@ def prepare(card: Card, settings: Settings, tables: Mapping[int, Table] | None =
     return _buffer(card, program)
 
 
-def _user_variables(card: Card) -> None:
+def user_variables(card: Card) -> None:
+    """P0 to P99 of the card, where it has none or fewer."""
     try:
         card.ask(f"P{USER_VARIABLES - 1}")
     except RefusedError:

@@ -34,7 +34,7 @@ from openacr.mill.machine import Machine
 from openacr.mill.messages import Message, Messages, definitions
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
-from openacr.mill.setup import prepare
+from openacr.mill.setup import prepare, user_variables
 from openacr.mill.states import Options, State
 from openacr.models import Model
 from openacr.sysvar import AT_START, Store
@@ -125,7 +125,8 @@ class Workshop:
         try:
             _check_firmware(card)
             _check_rest(card, Settings(store).master)
-            homed.agree(card, store)
+            user_variables(card)
+            homed.agree(card, store)  # before the set-up: tables act on homed axes alone
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
         except BaseException:
             card.close()
