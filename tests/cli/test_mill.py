@@ -205,3 +205,19 @@ def test_a_bad_mdi_block_is_refused_and_the_good_ones_before_it_are_kept(tmp_pat
     assert code != 0
     assert "MDI:1:" in lines[-1]
     assert kept.read_text() == "G1 F600 X1\n"
+
+
+def test_m_codes_of_the_machine_lie_beside_its_store(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mcodes").mkdir()
+    (tmp_path / "mcodes" / "M50.TXT").write_text("G1 X(#1*2)\nRET\n")
+    assert CliRunner().invoke(app, ["sysvar", "set", "cut speed=20"]).exit_code == 0
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+    file = program(elsewhere, "M50 X1.5\nM2\n")
+    assert as_json("check", file)["end"]["X"] == 3.0
+    code, text = mill("run", file)
+    assert code == 0
+    assert "X   3.0000" in text

@@ -88,3 +88,31 @@ def test_json_says_what_was_done(square: Path) -> None:
     assert record["pattern"] == "path"
     assert record["unit"] == "inch"
     assert record["notes"] == ["not used: 2 POINT"]
+
+
+def test_without_a_name_the_drawings_of_the_folder_are_listed(
+    square: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(square.parent)
+    square.with_name("older.DXF").write_text("")
+    square.with_name("notes.txt").write_text("")
+    assert run().output == "SQUARE.dxf\nolder.DXF\n"
+    assert json.loads(run("--json").output) == ["SQUARE.dxf", "older.DXF"]
+    empty = square.parent / "empty"
+    empty.mkdir()
+    monkeypatch.chdir(empty)
+    assert run().output == "there are no drawings (*.dxf) here\n"
+
+
+@pytest.mark.req("MILL-DXF-07")
+def test_the_name_of_the_program_is_asked_with_those_that_are_there(square: Path) -> None:
+    square.with_name("PLATE.TXT").write_text("M2\n")
+    words = ["mill", "import", str(square), "--ask"]
+    result = CliRunner().invoke(app, words, input="COVER\n")
+    assert result.exit_code == 0
+    assert "there are: PLATE.TXT" in result.output
+    assert "Name of the program [SQUARE.TXT]" in result.output
+    assert "G1 X2 Y2" in square.with_name("COVER.TXT").read_text()
+    result = CliRunner().invoke(app, words, input="PLATE.TXT\n")
+    assert result.exit_code == 2
+    assert "PLATE.TXT is there already" in result.output

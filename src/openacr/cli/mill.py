@@ -52,10 +52,12 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
     """A program with everything that belongs to it, and the name of its dialect."""
     from openacr.cnc.load import load
     from openacr.mill.dialects import dialect_of
+    from openacr.mill.folders import folders_of
 
     _require_file(file)
     name = dialect_of(file, store, dialect)
-    return load(file, store, name), name
+    folder = store.path.parent if store.path else None
+    return load(file, store, name, folders_of(store, folder)), name
 
 
 def _require_file(file: Path) -> None:

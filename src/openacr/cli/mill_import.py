@@ -30,7 +30,12 @@ class Direction(StrEnum):
 
 
 def import_drawing(
-    file: Annotated[Path, typer.Argument(metavar="FILE.dxf", help="Drawing, as DXF text.")],
+    file: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[FILE.dxf]", help="Drawing, as DXF text; without it those here are listed."
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", metavar="FILE.TXT", help="Program; else beside the drawing."),
@@ -64,6 +69,9 @@ def import_drawing(
     store: Annotated[
         Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
     ] = None,
+    is_asked: Annotated[
+        bool, typer.Option("--ask", help="Ask for the name of the program.")
+    ] = False,
     is_forced: Annotated[
         bool, typer.Option("--force", help="Overwrite a program that is there.")
     ] = False,
@@ -75,7 +83,12 @@ def import_drawing(
     from openacr.cnc.library import tool_radius
     from openacr.sysvar.location import open_to_read
 
+    if file is None:
+        _list_drawings(as_json)
+        return
     target = out or file.with_suffix(".TXT")
+    if is_asked:
+        target = _asked(target)
     if target.exists() and not is_forced:
         raise UserError(f"{target} is there already (--force overwrites it, -o names another)")
     require_writable(target)
@@ -98,6 +111,34 @@ def import_drawing(
     conversion = convert(file, options)
     write_whole(target, lambda partial: _write(partial, conversion.text))
     _report(conversion, options, target, as_json)
+
+
+def _list_drawings(as_json: bool) -> None:
+    """The drawings of the present folder, whatever the case of their suffix."""
+    found = sorted(path.name for path in _files(Path(), ".DXF"))
+    if as_json:
+        typer.echo(json_format.dumps(found, indent=2, ensure_ascii=False))
+        return
+    for name in found:
+        typer.echo(name)
+    if not found:
+        typer.echo("there are no drawings (*.dxf) here")
+
+
+def _asked(target: Path) -> Path:
+    """The name the user gives the program, with those that are there before his eyes."""
+    there = sorted(path.name for path in _files(target.parent, ".TXT"))
+    if there:
+        typer.echo(f"there are: {', '.join(there)}", err=True)
+    name = typer.prompt("Name of the program", default=target.name, err=True)
+    return target.with_name(name if Path(name).suffix else f"{name}.TXT")
+
+
+def _files(folder: Path, suffix: str) -> list[Path]:
+    try:
+        return [path for path in folder.iterdir() if path.suffix.upper() == suffix]
+    except OSError as error:
+        raise UserError(f"{folder}: cannot be read: {(error.strerror or '').lower()}") from None
 
 
 def _given(value: float | None, cells: "Store", n: int) -> float:
