@@ -45,14 +45,16 @@ class _Hold:
     edge: int
     mode: int
     waiting: int
+    entered: int = 0  # set together with the mode
 
 
 PAUSE = _Hold(
     at.PF_PAUSE_CONTROL, at.PF_PAUSE_EDGE_DETECT, at.PF_PAUSE_MODE, at.PF_PAUSE_MODE_WAITING
 )
 BLOCK = _Hold(
-    at.PF_BLOCK_CONTROL, at.PF_BLOCK_EDGE_DETECT, at.PF_BLOCK_MODE, at.PF_BLOCK_MODE_WAITING
-)
+    at.PF_BLOCK_CONTROL, at.PF_BLOCK_EDGE_DETECT, at.PF_BLOCK_MODE, at.PF_BLOCK_MODE_WAITING,
+    at.PF_STEP_FIRST_BLOCK,
+)  # fmt: skip
 
 
 class ProgramControl:
@@ -73,7 +75,11 @@ class ProgramControl:
     def run(self, owner: int, line: int | None = None) -> None:
         """RUN: begin at the first line or at `line`."""
         if owner < PROGRAMS:
+            was_stepped = bool(self._flags(owner) & at.PF_BLOCK_MODE)
             self._executor.run_program(owner, line)
+            master = self._master(owner)
+            if was_stepped and master is not None:
+                moves.end_steps(self._card, master)
         elif self._plcs is None:
             raise CardError(NOT_SUPPORTED)
         else:
@@ -107,9 +113,12 @@ class ProgramControl:
         self._command(owner, clear=at.PF_BLOCK_CONTROL)
 
     def step(self, owner: int) -> None:
-        """STEP: one line in block mode; no effect outside."""
+        """STEP: one line, and one move, in block mode; no effect outside."""
         if owner < PROGRAMS and self._flags(owner) & at.PF_BLOCK_MODE:
-            self._change(owner, set_=at.PF_STEP_REQUEST_FLAG)
+            self._change(owner, set_=at.PF_STEP_REQUEST_FLAG, clear=at.PF_STEP_FIRST_BLOCK)
+            master = self._master(owner)
+            if master is not None:
+                moves.step(self._card, master)
 
     def trace(self, owner: int, on: bool) -> None:
         """TRON and TROFF."""
@@ -175,16 +184,16 @@ class ProgramControl:
         if is_moving and not flags & hold.edge:
             moves.hold(self._card, master)  # type: ignore[arg-type]
         self._change(program, set_=hold.edge)
-        if not is_moving or self._is_held(master):
-            self._change(program, set_=hold.mode)
+        if not flags & hold.mode and (not is_moving or self._is_held(master)):
+            self._change(program, set_=hold.mode | hold.entered)
 
     def _release(self, program: int, hold: _Hold) -> None:
         """The control flag is clear again: end the mode, cycle start."""
         self._change(program, clear=hold.edge | hold.mode | hold.waiting)
         master = self._master(program)
         if master is not None:
-            word = master_word(master)
-            self._card.memory.I[word] &= ~at.MF1_START_MOVE_INHIBIT
+            if hold is BLOCK:
+                moves.end_steps(self._card, master)
             moves.release(self._card, master)
 
     def _is_held(self, master: int | None) -> bool:

@@ -218,7 +218,7 @@ class Executor(Computing):
         if flags & at.PF_PAUSE_MODE:
             flags |= at.PF_PAUSE_MODE_WAITING
         if flags & at.PF_BLOCK_MODE:
-            flags |= at.PF_BLOCK_MODE_WAITING | at.PF_STEP_FIRST_BLOCK
+            flags |= at.PF_BLOCK_MODE_WAITING
         self.memory.I[word] = flags
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_HELD)
 

@@ -42,6 +42,7 @@ from openacr.map.numbers import (
     MSI_RESPONSE,
     MSI_SIZE,
     MSI_SLAVE_AXIS,
+    MSI_STEP_GO,
     MSI_STRIDE,
     PRI_BASE,
     PRI_KIND,
@@ -128,7 +129,7 @@ def move_barred(I: I32, m: int) -> bool:
     """Whether the move at the head may not begin yet; a trigger that has come is used up."""
     word: int = master_word(m)
     flags: int = I[word]
-    if flags & MF1_START_MOVE_INHIBIT:
+    if flags & MF1_START_MOVE_INHIBIT and not I[MSI_BASE + m * MSI_STRIDE + MSI_STEP_GO]:
         return True
     if not flags & MF1_TRG_PENDING:
         return False

@@ -136,6 +136,7 @@ from openacr.map.numbers import (
     MSI_ROUNDING,
     MSI_SEEK_PHASE,
     MSI_SIZE,
+    MSI_STEP_GO,
     MSI_STRETCH,
     MSI_STRIDE,
     MSI_SYNC_GO,
@@ -174,6 +175,7 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
         accel = 0.0
     I[i + MSI_MOVING] = 1
     I[i + MSI_SYNC_GO] = 0
+    I[i + MSI_STEP_GO] = 0
     I[i + MSI_CUT] = 0
     I[i + MSI_RESPONSE] = response_period(I, m)
     I[i + MSI_HSINT_PHASE] = HSINT_NONE

@@ -8,6 +8,7 @@ from openacr.kernel import hold_cy
 from openacr.map.numbers import (
     AXF_POSITION_CNT,
     AXF_ROTARY_U,
+    MF1_START_MOVE_INHIBIT,
     MQF_BASE,
     MQF_HSINT_START_CNT,
     MQF_HSINT_WAY_CNT,
@@ -26,7 +27,9 @@ from openacr.map.numbers import (
     MSI_DEPTH,
     MSI_DROP_AT_REST,
     MSI_HOLD,
+    MSI_MOVING,
     MSI_QUEUED,
+    MSI_STEP_GO,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
 from openacr.motion import corners, curve_modes, curve_points, replacing, tangent
@@ -41,7 +44,7 @@ from openacr.motion.permits import (
     scale_of,
 )
 from openacr.motion.records import Way, append
-from openacr.motion.rows import axis_reals, master_ints, master_reals
+from openacr.motion.rows import axis_reals, master_ints, master_reals, master_word
 
 FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
 
@@ -217,6 +220,20 @@ def release(card: Card, master: int) -> None:
     """Cycle start: the path goes on."""
     if card.memory.I[master_ints(master) + MSI_HOLD] != hold_cy.NOT_HELD:
         _master_release(card.memory.F, card.memory.I, card.memory.S, master)
+
+
+def step(card: Card, master: int) -> None:
+    """STEP of block mode: the move that is held goes on, or the next one may begin; no more."""
+    rows = master_ints(master)
+    card.memory.I[master_word(master)] |= MF1_START_MOVE_INHIBIT
+    card.memory.I[rows + MSI_STEP_GO] = int(not card.memory.I[rows + MSI_MOVING])
+    release(card, master)
+
+
+def end_steps(card: Card, master: int) -> None:
+    """Block mode has ended: moves begin as ever."""
+    card.memory.I[master_word(master)] &= ~MF1_START_MOVE_INHIBIT
+    card.memory.I[master_ints(master) + MSI_STEP_GO] = 0
 
 
 def halt(card: Card, master: int) -> None:

@@ -188,6 +188,7 @@ MASTER = HiddenBlock(
         "corner_smooth_out",
         "sync_go",  # SYNC: the move at the head may begin
         "sync_start",  # SYNC MDI: a cycle start has come
+        "step_go",  # STEP in block mode: one move may begin in spite of Start Move Inhibit
         ("rotate_slave", 2),  # the plane of ROTATE
     ),
 )
