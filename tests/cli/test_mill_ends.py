@@ -31,9 +31,8 @@ def openacr(*words: str, store: Path) -> "subprocess.Popen[str]":
 def address(tmp_path: Path) -> Iterator[str]:
     served = openacr(*SERVE, store=tmp_path / "none.db")
     assert served.stdout is not None
-    found = re.search(r"ascii=(\S+)", served.stdout.readline())
-    assert found is not None
-    yield found[1]
+    lines = iter(served.stdout.readline, "")
+    yield next(found[1] for line in lines if (found := re.search(r"ascii=(\S+)", line)))
     served.terminate()
     served.wait(20)
     served.stdout.close()

@@ -31,7 +31,7 @@ def finish(shop: Workshop) -> None:
 @pytest.mark.req("MILL-START-CHECK")
 def test_a_card_that_answers_takes_commands_at_once() -> None:
     controller = Controller()
-    shop = shop_on(controller, P207=0, P271=255)
+    shop = shop_on(controller, P200_007=0)
     shop.card.command("DRIVE ON X Y Z", program=0)
     assert controller.time_s < 5.0
     places = list(shop.run_blocks(["G91 F600 G1 X0.5"], "acromill", lambda _shop: None))
