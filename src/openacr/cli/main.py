@@ -116,6 +116,16 @@ COMMANDS: dict[str, Entry | Family] = {
             "batch": Entry(
                 "mill_run", "run_batch", "Run the programs of a batch file one after the other."
             ),
+            "drip": Entry(
+                "mill_drip",
+                "drip_program",
+                "Run a part program while it arrives over a serial line.",
+            ),
+            "receive": Entry(
+                "mill_drip",
+                "receive_program",
+                "LINK: receive a part program over a serial line and store it as a file.",
+            ),
             "jog": Entry("mill_run", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
             "mdi": Entry(
                 "mill_run",

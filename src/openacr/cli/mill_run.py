@@ -21,6 +21,7 @@ from openacr.cli.mill import (
     opened_store,
     show_findings,
 )
+from openacr.cli.mill_console import Console
 from openacr.cli.mill_message import show_message
 from openacr.errors import UserError
 
@@ -63,6 +64,14 @@ def run_program(
     ] = None,
     as_json: AsJson = False,
     is_quiet: Annotated[bool, typer.Option("--quiet", help="No progress, no table.")] = False,
+    has_console: Annotated[
+        bool,
+        typer.Option(
+            "--console",
+            help="Take commands while it runs: stop, resume, back, forward, halt, start, block,"
+            " abort, fov N.",
+        ),
+    ] = False,
 ) -> None:
     """Run a part program on the virtual machine, or on a card.
 
@@ -74,9 +83,10 @@ def run_program(
     start = Start("", line, is_dry, is_skipping, stops_optionally, accepts_tool)
     with opened_store(store, is_written=host is not None) as cells:
         program, name = _checked(file, cells, dialect)
-        with _workshop(host, cells, to_stderr=as_json) as shop:
+        with workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.course.host.answers.update(map(_answer, answers or []))
-            _run(shop, program, _with_dialect(start, name), is_quiet or as_json)
+            keep = Console().attend if has_console else attend
+            _run(shop, program, _with_dialect(start, name), is_quiet or as_json, keep)
             _report(shop, as_json, is_quiet)
 
 
@@ -96,12 +106,12 @@ def run_batch(
     batch = read_batch(file)
     with opened_store(store, is_written=host is not None) as cells:
         programs = {path: _checked(path, cells, dialect) for path in batch.programs}
-        with _workshop(host, cells) as shop:
+        with workshop(host, cells) as shop:
             for each in _runs(batch, repeats=shop.runner.settings.repeats):
                 program, name = programs[each.path]
                 typer.echo(each.path.name)
-                _run(shop, program, _single(name, is_dry=is_dry), is_quiet=False)
-                _end_with_alarms(shop)
+                _run(shop, program, _single(name, is_dry=is_dry), False, attend)
+                end_with_alarms(shop)
 
 
 def _runs(batch: "Batch", *, repeats: bool) -> "Iterator[Entry]":
@@ -128,9 +138,9 @@ def jog_axes(
     """Move axes of a card by hand: X0.5 Y-1."""
     from openacr.mill.jogging import ways as ways_of
 
-    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         names = [axis.name for axis in shop.runner.settings.axes]
-        shop.jog(ways_of(ways, names), _attend)
+        shop.jog(ways_of(ways, names), attend)
         typer.echo(_place_text(shop, shop.runner.course.host.position()))
 
 
@@ -154,15 +164,15 @@ def run_blocks(
 
     if save is not None:
         require_writable(save)
-    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         try:
-            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", _attend):
+            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", attend):
                 typer.echo(_place_text(shop, place))
         finally:
             if save is not None:
                 text = "".join(f"{block}\n" for block in shop.typed)
                 write_whole(save, lambda partial: _fill(partial, text))
-        _end_with_alarms(shop)
+        end_with_alarms(shop)
 
 
 def _fill(partial: Path, text: str) -> None:
@@ -186,10 +196,10 @@ def home_axes(
     store: AtStore = None,
 ) -> None:
     """Find the reference points of axes on a card."""
-    with opened_store(store, is_written=host is not None) as cells, _workshop(host, cells) as shop:
-        homed = shop.home(axes, _telling(_attend))
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        homed = shop.home(axes, _telling(attend))
         typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
-        _end_with_alarms(shop)
+        end_with_alarms(shop)
 
 
 def _telling(attend: "Callable[[Workshop], None]") -> "Callable[[Workshop], None]":
@@ -210,7 +220,8 @@ def _telling(attend: "Callable[[Workshop], None]") -> "Callable[[Workshop], None
 
 
 @contextmanager
-def _workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
+def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
+    """The machine of a command; it comes to rest however the command ends."""
     from openacr.cli.signals import terminations_as_interrupts
     from openacr.client import ConnectionLostError
     from openacr.mill.workshop import Workshop
@@ -256,7 +267,13 @@ def _answer(text: str) -> tuple[int, float]:
         raise UserError(f"--answer {text}: write it as P200=1.5") from None
 
 
-def _run(shop: "Workshop", program: "Program", start: "Start", is_quiet: bool) -> None:
+def _run(
+    shop: "Workshop",
+    program: "Program",
+    start: "Start",
+    is_quiet: bool,
+    keep: "Callable[[Workshop], None]",
+) -> None:
     from openacr.cli.online import progress_bar
 
     replay = shop.start(program, start)
@@ -266,7 +283,7 @@ def _run(shop: "Workshop", program: "Program", start: "Start", is_quiet: bool) -
         count = 0
         while shop.runner.is_busy:
             shop.step()
-            _attend(shop)
+            keep(shop)
             count += 1
             source = shop.runner.source
             if not is_quiet and source is not None and count % SHOW_EVERY == 0:
@@ -282,7 +299,7 @@ def _show_replay(replay: "Replay", start: "Start") -> None:
         raise UserError("another tool is in the spindle; --any-tool starts all the same")
 
 
-def _attend(shop: "Workshop") -> None:
+def attend(shop: "Workshop") -> None:
     """Where the machine waits for somebody: nobody on a virtual one, the terminal else."""
     from openacr.mill.states import State
 
@@ -353,7 +370,7 @@ def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
             f"{clock(runner.run_s)}  ({runner.run_s:.2f} s, {runner.course.moves} moves)"
             f"  {_place_text(shop, place)}"
         )
-    _end_with_alarms(shop, is_shown=not as_json)
+    end_with_alarms(shop, is_shown=not as_json)
 
 
 def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
@@ -363,7 +380,7 @@ def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
     return Readout(shop.cells).line(axes, place)
 
 
-def _end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
+def end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
     """Say what went wrong; exit code 1 when anything did."""
     active = shop.runner.alarms.active
     block = shop.block

@@ -5,6 +5,7 @@ its power is, tells whether that is still true.
 """
 
 from openacr.client import Card
+from openacr.client.errors import RefusedError
 from openacr.mill.panel import Panel
 from openacr.mill.settings import HOMED, Store
 
@@ -13,7 +14,10 @@ CARD_HOMED = 96  # variable of the card
 
 def agree(card: Card, store: Store) -> None:
     """At the start: what the card has forgotten counts no more."""
-    known = int(card.read(CARD_HOMED))
+    try:
+        known = int(card.read(CARD_HOMED))
+    except RefusedError:
+        known = 0  # a card that has just been switched on has no variables yet
     mask = int(store.read(HOMED))
     if mask & ~known:
         store.write(HOMED, mask & known)

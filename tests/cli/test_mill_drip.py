@@ -1,0 +1,124 @@
+"""`openacr mill drip` and `receive`, and the console of `mill run`."""
+
+import os
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
+from tests.mill.shop import Shop
+from typer.testing import CliRunner
+
+from openacr.cli.main import app
+from openacr.cli.mill_console import Console
+from openacr.mill.states import State
+from openacr.mill.workshop import Workshop
+
+PROGRAM = b"G90 F6000\nG1 X1\nY1\nX0\nM2\n"
+
+
+@pytest.fixture(autouse=True)
+def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+
+
+@pytest.fixture
+def line() -> Iterator[tuple[int, str]]:
+    """A sender's end, and the port at the other."""
+    master, slave = os.openpty()
+    yield master, os.ttyname(slave)
+    for end in (master, slave):
+        os.close(end)
+
+
+def sending(master: int, data: bytes) -> None:
+    """Send in pieces, when the far end has opened its port."""
+
+    def work() -> None:
+        time.sleep(0.5)
+        for n in range(0, len(data), 9):
+            os.write(master, data[n : n + 9])
+            time.sleep(0.01)
+
+    threading.Thread(target=work, daemon=True).start()
+
+
+def run(*words: str, typed: str = "") -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["mill", *words], input=typed)
+    return result.exit_code, result.output
+
+
+def test_a_program_is_run_from_a_serial_line(line: tuple[int, str]) -> None:
+    master, port = line
+    sending(master, PROGRAM)
+    assert run("drip", "--port", port) == (0, "3 moves\n")
+
+
+def test_an_error_in_what_arrives_names_its_line(line: tuple[int, str]) -> None:
+    master, port = line
+    sending(master, b"G90 F6000\nG1 X1\nG1 X\nM2\n")
+    code, said = run("drip", "--port", port)
+    assert code == 1
+    assert "DRIP:3:" in said
+
+
+def test_a_part_file_is_received_once(line: tuple[int, str], tmp_path: Path) -> None:
+    master, port = line
+    target = tmp_path / "PART.TXT"
+    sending(master, PROGRAM + b"\x1a")
+    assert run("receive", str(target), "--port", port)[0] == 0
+    assert target.read_bytes() == PROGRAM
+    code, said = run("receive", str(target), "--port", port)
+    assert code != 0
+    assert "--force" in said
+
+
+def test_without_a_port_there_is_an_error_and_no_waiting() -> None:
+    for words in (("drip",), ("receive", "PART.TXT"), ("drip", "--port", "/dev/none")):
+        code, said = run(*words)
+        assert code != 0
+        assert "serial port" in said
+
+
+def test_the_console_says_what_it_does_not_know_and_ends_when_it_is_left(tmp_path: Path) -> None:
+    file = tmp_path / "PART.TXT"
+    file.write_text("G90 F600\nG1 X.2\nM0\nX.3\nM2\n")
+    code, said = run("run", str(file), "--console", typed="fly\nstart 3\nback\nfov 15\n")
+    assert "fly: no such command" in said
+    assert "start 3: no such command" in said
+    assert "back: cannot trace the path: the state is" in said
+    assert "M0: nobody is at the console to go on" in said
+    assert code != 0
+
+
+@pytest.mark.req("MILL-BEY-RETRACE", "MILL-BEY-RETRACE-RESUME")
+def test_the_console_traces_back_and_forward_and_resumes() -> None:
+    shop = Shop(P650_006=300.0)
+    shop.load("G90 F600\nG1 X4\nY4\nM2\n")
+    reading, writing = os.pipe()
+    with os.fdopen(reading) as source, os.fdopen(writing, "w", buffering=1) as keys:
+        console = Console(source)
+        place = cast(Workshop, SimpleNamespace(runner=shop.runner, is_virtual=False))
+
+        def after(line: str, seconds: float) -> tuple[float, float, float]:
+            keys.write(line + "\n")
+            time.sleep(0.05)
+            for _ in range(round(seconds / 0.05)):
+                console.attend(place)
+                shop.pass_time(0.05)
+            return shop.place()
+
+        shop.pass_time(0.6)
+        held = after("stop", 0.6)
+        assert held[1] > 1.0
+        assert after("back", 3.0) == (0.0, 0.0, 0.0)
+        assert after("forward", 3.0) == pytest.approx(held, abs=1e-4)
+        after("back", 0.2)
+        halted = after("halt", 0.5)
+        assert 0.0 < halted[1] < held[1]
+        after("resume", 3.0)
+    assert shop.runner.state is State.IDLE
+    assert shop.pulses() == (40_000, 40_000, 0)

@@ -1,0 +1,56 @@
+"""What is remembered of homing, and what the card has forgotten."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.mill.shop import Shop
+
+from openacr.client import Card
+from openacr.controller import Controller
+from openacr.mill import homed
+from openacr.mill.machine import Machine
+from openacr.mill.panel import Panel
+from openacr.mill.settings import HOMED, Settings
+from openacr.mill.setup import prepare
+from openacr.mill.states import State
+from openacr.sysvar import Store
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with Store(tmp_path / "sysvar.db") as one:
+        yield one
+
+
+def connected(controller: Controller, store: Store) -> Panel:
+    """What every start of the host does."""
+    card = Card.open(controller)
+    homed.agree(card, store)
+    settings = Settings(store)
+    prepare(card, settings)
+    return Panel(Machine(card, [axis.index for axis in settings.axes]), settings)
+
+
+@pytest.mark.req("MILL-HOME-POWERCYCLE")
+def test_homed_axes_stay_homed_as_long_as_the_card_is_on(store: Store) -> None:
+    card = Controller()
+    panel = connected(card, store)
+    homed.note(panel, 0, True)
+    homed.note(panel, 2, True)
+    assert store.read(HOMED) == 5
+    assert connected(card, store).settings.is_homed(2)  # another start of the host
+    homed.lose(panel, "Z")
+    assert store.read(HOMED) == 1
+    after_power = connected(Controller(), store)
+    assert store.read(HOMED) == 0
+    assert not after_power.settings.is_homed(0)
+
+
+@pytest.mark.req("MILL-HOME-POWERCYCLE", "MILL-HOME-REFPOINT")
+@pytest.mark.parametrize("mask", [0, 7])
+def test_g30_needs_homed_axes_and_g53_counts_from_the_reference_point(mask: int) -> None:
+    shop = Shop(P271=mask, P290=1.5, P900=4.0, P910=2.0)
+    shop.load("G90 F600 G30 P2 X0\nG53 G1 X1\nM2\n")
+    assert shop.until(State.IDLE, State.ALARM) is (State.IDLE if mask else State.ALARM)
+    assert shop.pulses()[0] == (10000 if mask else 0)
