@@ -51,6 +51,6 @@ def test_homed_axes_stay_homed_as_long_as_the_card_is_on(store: Store) -> None:
 @pytest.mark.parametrize("mask", [0, 7])
 def test_g30_needs_homed_axes_and_g53_counts_from_the_reference_point(mask: int) -> None:
     shop = Shop(P271=mask, P290=1.5, P900=4.0, P910=2.0)
-    shop.load("G90 F600 G30 P2 X0\nG53 G1 X1\nM2\n")
+    shop.load("G90 F600 G53\nG30 P2 X0\nG1 X1\nM2\n")
     assert shop.until(State.IDLE, State.ALARM) is (State.IDLE if mask else State.ALARM)
     assert shop.pulses()[0] == (10000 if mask else 0)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from openacr.mill.machine import Look
 
 TOOL_IN_SPINDLE = 235
+SETTLED_S = 0.5  # longest time axes take to come to rest behind their targets
 PULSES_OFF = 2.0  # what the check of a reference point allows
 
 
@@ -122,7 +123,7 @@ class Doing:
         if entry.check is c.Check.REFERENCE_INPUT:
             yield from self._reference_input()
         else:
-            self._at_reference(entry)
+            yield from self._at_reference(entry)
 
     def _reference_input(self) -> Steps:
         """G27: the switch has to answer; the output stays on where it does not."""
@@ -135,14 +136,22 @@ class Doing:
         yield Until("reference input", is_on, wiring.reference_s, alarms.NOT_CONFIRMED)
         panel.output(wiring.g27_output, False)
 
-    def _at_reference(self, entry: c.Confirm) -> None:
-        """G28, G30: the axes have to stand on the point."""
-        machine, wiring = self._panel.machine, self._panel.settings.wiring
+    def _at_reference(self, entry: c.Confirm) -> Steps:
+        """G28, G30: the axes have to stand on the point, once they have settled."""
+        yield Until("reference point", lambda _look: not self._missed(entry), SETTLED_S)
+        missed, wiring = self._missed(entry), self._panel.settings.wiring
+        if missed:
+            number = wiring.g28_error if wiring.g28_error != NONE else wiring.g27_output
+            self._panel.output(number, True)
+            raise AlarmError(alarms.POINT_MISSED, missed)
+
+    def _missed(self, entry: c.Confirm) -> str:
+        """The first axis that does not stand on its reference point, and how far off."""
+        machine = self._panel.machine
         counts = dict(zip(machine.axes, machine.axis_values(AX_ACTUAL_POSITION), strict=True))
         for index in entry.axes:
             axis = self._panel.settings.axis(index)
             off_u = abs(counts[index] / axis.pulses_per_unit - entry.point[index])
             if off_u > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit):
-                number = wiring.g28_error if wiring.g28_error != NONE else wiring.g27_output
-                self._panel.output(number, True)
-                raise AlarmError(alarms.POINT_MISSED, f"axis {axis.name} off by {off_u:.6g}")
+                return f"axis {axis.name} off by {off_u:.6g}"
+        return ""
