@@ -8,6 +8,8 @@ from bench.figures import print_head
 ORDER = (
     "gantry",
     "sixteen_axes",
+    "everything",
+    "lookahead",
     "busy",
     "kernel_tick",
     "statements",

@@ -43,6 +43,8 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
+__all__ = ["master_plan"]
+
 
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the present move of master m from where it is."""
