@@ -60,6 +60,9 @@ COMMANDS: dict[str, Entry | Family] = {
     "status": Entry(
         "status", "status", "Show lights, drives, encoders and limit switches of a card."
     ),
+    "loop": Entry(
+        "loop", "loop", "Show offsets, setpoints, gains and outputs of the servo loops of a card."
+    ),
     "ip": Entry(
         "ip", "explain_address", "Explain an address of the network: class, network, host, reach."
     ),
