@@ -187,7 +187,7 @@ def exact_stop(run: Interpreter, b: Turn) -> None:
 
 @gcode(64, step=Step.PATH, group=Group.PATH, words="PQ", takes="PQ")
 def blended(run: Interpreter, b: Turn) -> None:
-    """No slowing at corners; a path tolerance is accepted."""
+    """No slowing at corners; the path goes through them, within any tolerance P."""
     _path(run, 64)
 
 
