@@ -129,6 +129,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "receive_program",
                 "LINK: receive a part program over a serial line and store it as a file.",
             ),
+            "teach": Entry(
+                "mill_teach",
+                "teach_system",
+                "TEACH: where the machine stands becomes the zero of a work system.",
+            ),
             "jog": Entry("mill_run", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
             "mdi": Entry(
                 "mill_run",

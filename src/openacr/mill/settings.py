@@ -339,6 +339,13 @@ class Settings:
                 return one
         raise UserError(f"axis {index} is not configured (P{cell(AXIS, 12, index)})")
 
+    def named(self, name: str) -> AxisSettings:
+        """The settings of the axis of this name."""
+        for one in self.axes:
+            if one.name == name:
+                return one
+        raise UserError(f"axis {name} is not configured: {' '.join(self.names())} are")
+
     def is_homed(self, axis: int) -> bool:
         """Whether the reference point of an axis is known."""
         return bool(int(self._store.read(HOMED)) >> axis & 1)

@@ -1,0 +1,134 @@
+"""Settings that are kept, sent to the card and written to files."""
+
+from pathlib import Path
+
+import pytest
+from tests.mill.shop import Shop
+from tests.mill.test_homing import MACHINE, homing_shop
+
+from openacr.client import Card
+from openacr.controller import Controller
+from openacr.mill import alarms
+from openacr.mill.settings import Settings
+from openacr.mill.setup import prepare
+from openacr.mill.states import State
+from openacr.mill.workshop import Workshop
+from openacr.sysvar import Store
+
+
+@pytest.mark.req("MILL-SYS-AXES-ENCMULT")
+@pytest.mark.parametrize(
+    ("multiplier", "polarity", "state"),
+    [(4, 0, State.IDLE), (-4, 0, State.ALARM), (-4, 1, State.IDLE)],
+)
+def test_a_negative_multiplier_turns_the_counts_round(
+    tmp_path: Path, multiplier: int, polarity: int, state: State
+) -> None:
+    """The loop runs away, until the drive is turned round, too."""
+    (tmp_path / "machine.toml").write_bytes(MACHINE.read_bytes())
+    world = Controller.from_project(tmp_path)
+    shop = homing_shop(world, P200_011=multiplier, P200_005=polarity, P200_004=3.0)
+    shop.load("G90 F600\nG1 X5\nM2\n")
+    assert shop.until(State.IDLE, State.ALARM) is state
+    if state is State.IDLE:
+        assert shop.pulses()[0] == 5 * 800
+
+
+@pytest.mark.req("MILL-SYS-PERSIST")
+def test_saved_values_survive_a_restart_and_are_sent_to_the_card(tmp_path: Path) -> None:
+    path = tmp_path / "sysvar.db"
+    with Store(path) as store:
+        store.write(200_006, 4000.0)
+        store.write(150_000, 0.005)
+        store.write(350_002, 77.0)
+    with Store(path) as again:
+        card = Card.open(Controller())
+        prepare(card, Settings(again))
+        asked = [
+            float(card.ask(text, program=0)) for text in ("AXIS0 PPU", "AXIS0 PGAIN", "JOG ACC X")
+        ]
+    assert asked == pytest.approx([4000.0, 0.005, 77.0])
+
+
+@pytest.mark.req("MILL-SYS-CTL-LEADIN")
+@pytest.mark.parametrize("radius", [0.1, 0.4])
+def test_the_lead_in_radius_is_that_of_the_way_back_to_a_path(radius: float) -> None:
+    shop = Shop(P250_005=radius)
+    shop.load("G90 F600\nG1 X10\nM2\n")
+    shop.pass_time(0.5)
+    shop.runner.stop()
+    shop.pass_time(0.5)
+    left = shop.place()[0]
+    shop.runner.jog(lambda jog: jog.move(1, 1.0, fast=True))
+    shop.pass_time(3.0)
+    shop.runner.resume()
+    shop.path.clear()
+    shop.until(State.IDLE)
+    onto = [(x, y) for x, y, _ in shop.path if x < left - 1e-3]
+    assert min(x for x, _ in onto) == pytest.approx(left - radius, abs=2e-3)
+
+
+@pytest.mark.req("MILL-HOME-SELECT")
+def test_single_axes_can_be_chosen_for_homing() -> None:
+    with Store() as store:
+        shop = Workshop.virtual(store, say=lambda _text: None)
+        chosen: list[list[int]] = []
+        shop.runner.home = lambda axes: chosen.append(list(axes))  # type: ignore[method-assign]
+        shop.home("XZ", lambda _shop: None)
+        shop.home("", lambda _shop: None)
+        shop.close()
+    assert chosen == [[0, 2], [0, 1, 2]]
+
+
+@pytest.mark.req("MILL-G88")
+def test_g88_stops_the_spindle_and_waits_for_a_retract_by_hand() -> None:
+    shop = Shop(P800_005=40)
+    shop.load("G90 F600 G0 Z1\nM3 S500\nG88 X1 Z-.5 R.1 P.2\nG80\nM2\n$I CYCLES.TXT\n")
+    assert shop.until(State.HOLD) is State.HOLD
+    assert shop.pulses() == (10000, 0, -5000)
+    assert shop.outputs((40,)) == [False]
+    shop.runner.jog(lambda jog: jog.move(2, 1.0, fast=True))
+    shop.pass_time(2.0)
+    shop.runner.start()
+    lowest = 9.0
+    while shop.runner.is_busy and lowest > -0.2:
+        shop.pass_time(0.005)
+        lowest = min(lowest, shop.place()[2])
+    shop.until(State.IDLE)
+    assert lowest > 0.0  # it is not sent back down
+    assert shop.pulses() == (10000, 0, 10000)
+
+
+@pytest.mark.req("MILL-G87")
+def test_g87_bores_back_with_a_shifted_and_oriented_spindle() -> None:
+    shop = Shop(P800_012=46, P800_013=12, P800_005=40, P250_142=0)
+    shop.controller.set_input(12, True)
+    shop.load("G90 F300 G0 Z1\nM3 S500\nG87 X1 Z-.2 R-.6 Q.1\nG80\nM2\n$I CYCLES.TXT\n")
+    shifted, cut = set(), []
+    while shop.runner.is_busy:
+        shop.pass_time(0.005)
+        x, _, z = shop.place()
+        if -0.55 < z < 0.9:
+            shifted.add((round(x, 2), bool(shop.controller.bit[46])))
+            if shop.controller.bit[40] and x == 1.0:
+                cut.append(z)
+    assert (1.1, True) in shifted or (0.9, True) in shifted  # in and out beside the hole
+    assert cut == sorted(cut)  # fed upwards
+    assert max(cut) == pytest.approx(-0.2, abs=2e-3)
+    assert shop.pulses() == (10000, 0, 10000)
+
+
+@pytest.mark.req("MILL-SYS-CTL-ERRFILE")
+@pytest.mark.parametrize("is_disabled", [1, 0])
+def test_alarms_are_written_to_a_file_unless_that_is_disabled(
+    tmp_path: Path, is_disabled: int
+) -> None:
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(250_118, is_disabled)
+        card = Card.open(Controller())
+        shop = Workshop(card, store, print, is_virtual=False, folder=tmp_path)
+        shop.runner.alarms.give(alarms.LUBRICATION, "", 0.0)
+        shop.close()
+    log = tmp_path / "MILL.LOG"
+    assert log.exists() != bool(is_disabled)
+    assert is_disabled or "alarm 43  Lubrication error" in log.read_text()
