@@ -123,6 +123,39 @@ def test_merged_s_curves_pass_on_speed_and_acceleration(chain: list[dict[str, fl
     assert smooth[:-4].mean() > 0.5 or len(units) < 20
 
 
+@st.composite
+def chains(draw: st.DrawFn) -> tuple[float, float, float, list[tuple[float, float]]]:
+    """Feed, ACC, JRK and the speeds and lengths of merged moves, the last long enough to stop."""
+    vel = draw(spread(1.0, 100.0))
+    acc = vel / draw(spread(0.01, 0.5))
+    jrk = acc / draw(spread(0.01, 0.5))
+    stop = 1.3 * vel * (1.3 * vel / acc + acc / jrk)
+    speeds = draw(st.lists(st.floats(0.2, 1.2), min_size=2, max_size=5))
+    parts = [draw(spread(0.03, 3.0)) for _ in speeds[1:]] + [3.0]
+    return vel, acc, jrk, [(v * vel, part * stop) for v, part in zip(speeds, parts, strict=True)]
+
+
+@settings(max_examples=examples(200))
+@given(chains())
+def test_merged_s_curves_keep_acceleration_and_jerk_at_every_junction(
+    chain: tuple[float, float, float, list[tuple[float, float]]],
+) -> None:
+    """Speeds change from move to move, with STP 0 between them."""
+    _, acc, jrk, moves = chain
+    rig = Rig(ppu=[100.0])
+    rig.depth(9)
+    end = 0.0
+    for number, (speed, length) in enumerate(moves):
+        stp = acc if number + 1 == len(moves) else 0.0
+        rig.master(acc=acc, dec=acc, stp=stp, jrk=jrk, vel=speed)
+        end += length
+        rig.move(end)
+    units = rig.record(limit=300_000) / 100
+    assert units[-1] == pytest.approx(end, rel=1e-12)
+    assert np.abs(acceleration(units)).max() <= acc * (1 + 1e-3) + noise(units, 2)
+    assert np.abs(jerk(units)).max() <= jrk * (1 + 1e-3) + noise(units, 3)
+
+
 @pytest.mark.req("ACR-PROF-19")
 def test_jerk_spares_the_motor() -> None:
     """The peak of the tracking error falls with JRK."""
