@@ -230,7 +230,7 @@ def test_a_hardware_limit_is_an_alarm() -> None:
     assert shop.place() == place
 
 
-@pytest.mark.req("MILL-ALM-LOG")
+@pytest.mark.req("MILL-ALM-LOG", "MILL-SYS-CTL-ERRFILE")
 @pytest.mark.parametrize("is_off", [False, True])
 def test_alarms_are_logged_with_their_time_unless_the_store_forbids_it(
     tmp_path: Path, is_off: bool
