@@ -23,9 +23,13 @@ PPU = 10_000.0
 Point = tuple[float, ...]
 
 
-def rig(tolerance: float, *, axes: int = 2, acc: float = 1000.0, jrk: float = 0.0) -> Rig:
+def rig(
+    tolerance: float, *, axes: int = 2, acc: float = 1000.0, jrk: float = 0.0, pure: bool = False
+) -> Rig:
     """A card that looks ahead over ten moves at 100 units/s."""
-    made = Rig(axes, ppu=[PPU] * axes).master(acc=acc, dec=acc, stp=acc, jrk=jrk, vel=100)
+    made = Rig(axes, ppu=[PPU] * axes, pure=pure).master(
+        acc=acc, dec=acc, stp=acc, jrk=jrk, vel=100
+    )
     made.depth(10)
     made.I[at.MF4_WORD] |= at.MF4_LOOK_AHEAD_MODE
     corners.set_tolerance(made.card, 0, tolerance)
@@ -139,6 +143,16 @@ def test_under_jerk_a_corner_is_rounded_where_that_is_quicker() -> None:
     jerks = np.linalg.norm(np.diff(still, n=3, axis=0), axis=1) / T**3
     assert jerks.max() <= 20_000 * (1 + 1e-3)
     assert off_path(places, SQUARE) <= 0.5
+
+
+@pytest.mark.parametrize("jrk", [0.0, 20_000.0])
+def test_both_builds_agree_to_the_bit(jrk: float) -> None:
+    digests = []
+    for pure in (False, True):
+        made = rig(0.5, jrk=jrk, pure=pure)
+        follow(made, [(1.0, 0.0), (1.0, 1.0), (1.2, 1.0), (1.4, 1.01), (3.0, 5.0)])
+        digests.append(made.memory.digest())
+    assert digests[0] == digests[1]
 
 
 def wave(segment: float) -> list[Point]:
