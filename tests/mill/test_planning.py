@@ -1,6 +1,7 @@
 """How fast moves may follow each other."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -144,3 +145,19 @@ def test_as_many_moves_wait_as_were_asked_for() -> None:
         planner.add(line(0.0, length=100.0))
     assert len(list(planner.take(10000, is_complete=False))) == 15
     assert len(planner) == 10
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.1, 40.0), st.sampled_from([20.0, 100.0])), min_size=1),
+    st.lists(st.integers(0, 5)),
+)
+def test_the_longest_way_to_brake_is_that_of_the_moves_in_the_queue(
+    moves: list[tuple[float, float]], takes: list[int]
+) -> None:
+    planner: Planner[Stretch] = Planner(CornerRules())
+    takes = [*takes, 0]
+    for k, (feed, ramp) in enumerate(moves):
+        planner.add(replace(line(0.0, 0.5, feed), ramp_ups2=ramp))
+        list(planner.take(takes[k % len(takes)], is_complete=False))
+        wanted = max(each.feed_ups**2 / (2.0 * each.ramp_ups2) for each in planner)
+        assert planner._brakes[0] == wanted

@@ -101,6 +101,11 @@ def corner_speed(before: Stretch, after: Stretch, rules: CornerRules) -> float:
 Moves = TypeVar("Moves", bound=Stretch)
 
 
+def _brake_u(move: Stretch) -> float:
+    """The way from the feed of a move to rest."""
+    return move.feed_ups**2 / (2.0 * move.ramp_ups2)
+
+
 class Planner(Generic[Moves]):
     """A queue of moves; they leave it with the speed they end with."""
 
@@ -108,6 +113,7 @@ class Planner(Generic[Moves]):
         self._rules = rules
         self._least_ahead = least_ahead
         self._moves: deque[Moves] = deque()
+        self._brakes: deque[float] = deque()  # longest ways to brake from each move on
 
     def __len__(self) -> int:
         return len(self._moves)
@@ -120,6 +126,17 @@ class Planner(Generic[Moves]):
         if self._moves:
             self._moves[-1].corner_ups = corner_speed(self._moves[-1], move, self._rules)
         self._moves.append(move)
+        way_u = _brake_u(move)
+        while self._brakes and self._brakes[-1] < way_u:
+            self._brakes.pop()
+        self._brakes.append(way_u)
+
+    def _leave(self) -> Moves:
+        """The first move goes; the longest way to brake goes with it if it was its own."""
+        move = self._moves.popleft()
+        if self._brakes[0] == _brake_u(move):
+            self._brakes.popleft()
+        return move
 
     def ready(self) -> int:
         """How many moves may leave although more will come."""
@@ -136,12 +153,13 @@ class Planner(Generic[Moves]):
         self._plan()
         may = len(self._moves) if is_complete else len(self._moves) - self._ahead()
         for _ in range(min(room, may)):
-            yield self._moves.popleft()
+            yield self._leave()
 
     def clear(self) -> list[Moves]:
         """Take all moves back, planned or not."""
         moves = list(self._moves)
         self._moves.clear()
+        self._brakes.clear()
         return moves
 
     def _plan(self) -> None:
@@ -160,8 +178,7 @@ class Planner(Generic[Moves]):
         As many as it takes to brake from the feed of the last one, so that their end
         speeds do not suffer from the unknown; never fewer than asked for.
         """
-        brake_u = max(move.feed_ups**2 / (2.0 * move.ramp_ups2) for move in self._moves)
-        way_u = 0.0
+        brake_u, way_u = self._brakes[0], 0.0
         for count, move in enumerate(reversed(self._moves), start=1):
             way_u += move.length_u
             if way_u >= brake_u and count >= self._least_ahead:
