@@ -269,3 +269,32 @@ def test_one_hand_at_a_time() -> None:
     shop.runner.jog(lambda jog: jog.hold(1, 1))
     with pytest.raises(UserError, match="an axis is being jogged"):
         shop.runner.turn([0])
+
+
+def test_whoever_leaves_takes_the_wheel_along() -> None:
+    shop = handy()
+    shop.runner.turn([0])
+    turn(shop, 3)
+    shop.runner.break_off()
+    shop.pass_time(0.5)
+    assert not shop.runner.is_busy
+    left = position(shop)
+    assert 0.0 < left <= 0.0151
+    turn(shop, 3)
+    assert position(shop) == left
+
+
+def test_abort_in_a_pause_ends_the_wheel() -> None:
+    shop = handy()
+    shop.start(line(1, at(5)), end())
+    shop.pass_time(0.2)
+    shop.runner.stop()
+    shop.pass_time(0.5)
+    shop.runner.turn([1])
+    turn(shop, 2)
+    shop.runner.abort()
+    shop.until(State.IDLE)
+    left = position(shop, 1)
+    assert 0.0 < left < 0.05
+    turn(shop, 2)
+    assert position(shop, 1) == left

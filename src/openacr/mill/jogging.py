@@ -94,7 +94,9 @@ class Jogging:
         """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
         for axis in self._moving:
             row = self._panel.settings.axis(axis)
-            self._type(f"JOG DEC {row.name}{number_text(row.jog_stp_ups2)}")
+            # Never softer than the ramp the way to a soft limit was planned with.
+            ramp = max(row.jog_stp_ups2, row.jog_dec_ups2)
+            self._type(f"JOG DEC {row.name}{number_text(ramp)}")
             self.release(axis)
 
     # --- pieces -----------------------------------------------------------------------

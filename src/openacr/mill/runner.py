@@ -204,12 +204,13 @@ class Runner:
         """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
         if self.state in (State.IDLE, State.ALARM):
             raise UserError("no program runs")
+        self._stop_hands()
         self._end_program(State.IDLE)
 
     def break_off(self) -> None:
         """Whoever drives the machine leaves: everything that moves comes to rest."""
-        if self.jogging.is_active:
-            self.jogging.stop_all()
+        if self._by_hand.is_active:
+            self._stop_hands()
         if self.state not in (State.IDLE, State.ALARM):
             self.abort()
 
