@@ -14,7 +14,7 @@ def teach_system(
     axes: Annotated[str, typer.Option("--axes", help="Names of the axes, e.g. XY; else all.")] = "",
     store: AtStore = None,
 ) -> None:
-    """TEACH: where the machine stands becomes the zero of a work coordinate system."""
+    """TEACH: where the machine stands becomes the zero of a work system."""
     from openacr.mill.teaching import teach
 
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
