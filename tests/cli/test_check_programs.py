@@ -138,7 +138,7 @@ def test_without_any_dim_sizes_are_not_judged(tmp_path: Path) -> None:
     [
         ("EXC X(1,2,3)", "2:13: Syntax error (written: EXC axis {value|(plus,minus)} ...)"),
         ("CIRCW X(1)", "2:11: Syntax error (written: CIRCW axis(target,center) ...)"),
-        ("P0 = SIN(1,2)", "2:14: Syntax error"),
+        ("P0 = SIN(1,2)", "2:6: Syntax error (written: SIN(number))"),
         ("MASK P4096 (1)", "2:15: Syntax error (written: MASK Pn (nandmask,ormask))"),
         ("ACC 5 5", "2:7: Syntax error (written: ACC {value})"),
         ("VEL", None),
