@@ -175,3 +175,36 @@ def test_names_with_digits_are_fine_where_the_machine_has_a_card_for_them(tmp_pa
     (tmp_path / "machine.toml").write_text('[card]\nmodel = "ACR7000"\n')
     assert "no errors" in check(tmp_path).stdout
     assert "no errors" in check(tmp_path / "prog0.8k").stdout
+
+
+@pytest.mark.req("MILL-TUNE-21")
+def test_a_low_pass_above_a_tenth_of_the_servo_rate_is_warned_of(tmp_path: Path) -> None:
+    fast = SETUP + "PERIOD 0.0002\nLOPASS X500\nLOPASS X501\n"
+    (tmp_path / "setup.8k").write_text(fast)
+    (tmp_path / "prog0.8k").write_text("PROGRAM\nLOPASS X500\nIF (P0) THEN LOPASS X 600\nENDP\n")
+    shown = check(tmp_path)
+    assert shown.exit_code == 0
+    assert [line for line in shown.stdout.splitlines() if ".8k:" in line] == [
+        f"{tmp_path}/setup.8k:14:9: warning: LOPASS above a tenth of the servo rate "
+        "(at most 500 Hz at PERIOD 0.0002)",
+        f"{tmp_path}/prog0.8k:3:23: warning: LOPASS above a tenth of the servo rate "
+        "(at most 500 Hz at PERIOD 0.0002)",
+    ]
+    assert shown.stderr == "2 warnings\n"
+
+
+def test_the_usual_servo_rate_allows_200_hz(tmp_path: Path) -> None:
+    lines = ("LOPASS X200 : LOPASS X200.5", "AXIS0 LOPASS 200", "AXIS0 LOPASS 300", "LOPASS X(P0)")
+    places = [text.split(" warning")[0] for text in faults(tmp_path, *lines)]
+    assert places == ["2:23:", "4:14:"]
+
+
+def test_the_servo_period_may_be_set_behind_the_filter(tmp_path: Path) -> None:
+    assert faults(tmp_path, "LOPASS X500", "PERIOD 0.0002") == []
+
+
+def test_the_machine_file_may_tell_the_servo_period(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text("[card]\nperiod_s = 0.0001\n")
+    (tmp_path / "setup.8k").write_text(SETUP + "LOPASS X1000\nLOPASS X1001\n")
+    (fault,) = json.loads(check(tmp_path, "--json").stdout)
+    assert (fault["line"], fault["column"], fault["severity"]) == (13, 9, "warning")

@@ -25,6 +25,7 @@ _CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
 _BRANCHES = frozenset(("ELSEIF", "ELSE"))
 _FLOW = _OPENING | _CLOSING | _BRANCHES | {"BREAK"}
 _JUMPS = frozenset(("GOTO", "GOSUB"))
+_FILTERS = frozenset(("LOPASS", "PERIOD"))
 STORED_KINDS = frozenset(("P", "LV", "SV", "DV", "LA", "SA", "DA", "$V", "$A"))
 
 
@@ -52,6 +53,7 @@ class Outline:
     has_label: bool = False
     jumps: bool = False
     dimensions: bool = False  # holds a DIM
+    filters: bool = False  # holds a LOPASS or a PERIOD
     stored_kinds: frozenset[str] = frozenset()  # of the variables used
     fault: CompileError | None = None
 
@@ -71,6 +73,7 @@ def outline(found: list[Token], line: Line, aliases: Mapping[str, str]) -> Outli
         line.label is not None,
         bool(words & _JUMPS),
         "DIM" in words,
+        bool(words & _FILTERS),
         frozenset(str(word) for word in words & STORED_KINDS) | named,
         _fault(line),
     )

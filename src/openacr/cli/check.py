@@ -10,12 +10,13 @@ import typer
 
 from openacr.errors import SourceError
 from openacr.lang.characters import readable
-from openacr.models import DEFAULT_MODEL, MODELS, Model
+from openacr.models import MODELS
 from openacr.project import Place, Project, find_project, place_of, read_source
 
 if TYPE_CHECKING:
     from openacr.cli.faults import Fault
     from openacr.cli.source import Reader
+    from openacr.plant.schema import Card
 
 HAS_ERRORS = 1
 
@@ -65,12 +66,16 @@ def check_file(
 
 def read(file: Path, project: Project) -> "Reader":
     """Read all files; one of a project alone is read behind the set-up beside it."""
+    from openacr.cli.cutoffs import Cutoffs
     from openacr.cli.source import Reader
 
     place, number = place_of(file)
     is_whole = file.is_dir() or place is Place.SETUP
     home = project if is_whole else find_project(file.parent)
-    reader = Reader(has_digits_in_names=_model(home).has_digits_in_names)
+    card = _card(home)
+    reader = Reader(
+        has_digits_in_names=MODELS[card.model].has_digits_in_names, cutoffs=Cutoffs(card.period_s)
+    )
     if is_whole:
         reader.sizes.is_complete = file.is_dir()
         for source in project.sources:
@@ -84,16 +89,17 @@ def read(file: Path, project: Project) -> "Reader":
     return reader
 
 
-def _model(project: Project) -> Model:
-    """The model the files are for; the usual one unless a readable machine file says which."""
+def _card(project: Project) -> "Card":
+    """The card the files are for; the usual one unless a readable machine file says which."""
     from openacr.plant.load import load_world
+    from openacr.plant.schema import Card
 
     if project.machine is None:
-        return DEFAULT_MODEL
+        return Card()
     try:
-        return MODELS[load_world(project.machine).card.model]
+        return load_world(project.machine).card
     except SourceError:
-        return DEFAULT_MODEL
+        return Card()
 
 
 def _table_faults(project: Project) -> Iterator["Fault"]:

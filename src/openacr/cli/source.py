@@ -20,6 +20,7 @@ from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope, join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
+from openacr.cli.cutoffs import Cutoffs
 from openacr.cli.faults import Fault
 from openacr.cli.hints import hint_for
 from openacr.cli.sizes import Sizes, undimensioned, variable
@@ -53,6 +54,7 @@ class Reader:
     aliases: dict[str, Expr] = field(default_factory=dict)
     axes: dict[int, set[str]] = field(default_factory=dict)
     sizes: Sizes = field(default_factory=Sizes)
+    cutoffs: Cutoffs = field(default_factory=Cutoffs)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
     parts: list[Part] = field(default_factory=list)
     level: Level = Level.SYS
@@ -82,6 +84,8 @@ class Reader:
                     self._take(line)
             for key in [key for key in self.texts if key not in read_before]:
                 self._check(*key)
+        for finding in self.cutoffs.findings():
+            self._report(finding)
         self.faults[known_faults:] = sorted(
             self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
         )
@@ -176,6 +180,7 @@ class Reader:
         if not tree.is_empty:
             self.parts.append(Part(tokens=tuple(found)))
         self.sizes.note(self.number, tree.blocks)
+        self.cutoffs.note(line, found, tree.blocks)
         for block in tree.blocks:
             for statement in block:
                 if not isinstance(statement, Move):
@@ -203,6 +208,10 @@ class Reader:
                 self._report(finding)
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
+            for line in text.in_order():
+                if line.outline.filters:
+                    tree = Parser(list(line.tokens), line.scope).line()
+                    self.cutoffs.note(line.place, line.tokens, tree.blocks)
         elif not text.lost:
             self._check_rungs(text)
 
