@@ -1,6 +1,14 @@
 """Everything that can go wrong, as types whose fields say what, where and what to do."""
 
+import os
+
 from openacr.messages import Message
+
+
+def reason(failure: OSError | ValueError) -> str:
+    """What a failure of the system says, without the sentences libraries put around it."""
+    number = getattr(failure, "errno", None)
+    return os.strerror(number) if number else str(failure)
 
 
 class OpenacrError(Exception):

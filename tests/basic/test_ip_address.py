@@ -84,3 +84,14 @@ def test_different_networks_need_a_router() -> None:
     assert explained("192.168.10.40", "--host", "7")[-1] == (
         "error: 7: an address has four numbers from 0 to 255"
     )
+
+
+@pytest.mark.parametrize(
+    ("mask", "is_mask"),
+    [("255.255.255.0", True), ("255.255.252.0", True), ("0.0.0.0", True), ("255.0.255.0", False)],
+)
+def test_a_mask_is_ones_before_zeros(mask: str, is_mask: bool) -> None:
+    ended = CliRunner().invoke(app, ["ip", "10.1.2.3", "--mask", mask])
+    assert (ended.exit_code, "ones before zeros" in ended.stderr) == (
+        (0, False) if is_mask else (2, True)
+    )

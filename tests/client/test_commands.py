@@ -116,3 +116,33 @@ def test_nobody_there_ends_it_with_2() -> None:
     assert ended.exit_code == 2
     assert f"cannot connect to {LOOPBACK}:{port}" in ended.stderr
     assert "Traceback" not in ended.stderr
+
+
+def test_what_monitor_cannot_show_is_named_as_what_it_was_meant_to_be(target: str) -> None:
+    for item, text in (
+        ("P99999", "there is no parameter P99999"),
+        ("BIT99999", "there is no flag BIT99999"),
+        ("axis0.foo", "no parameter and no flag is named 'axis0.foo'"),
+    ):
+        ended = openacr("monitor", target, item, "--for", "1")
+        assert (ended.exit_code, text in ended.stderr) == (2, True), ended.stderr
+
+
+def test_a_monitor_ends_in_time_and_with_its_line(target: str) -> None:
+    ended = openacr("monitor", target, "P12288", "--every", "0", "--for", "0.1")
+    assert (ended.exit_code, ended.stdout[-1:]) == (0, "\n")
+    refused = openacr("monitor", target, "P12288", "--for", "-1")
+    assert (refused.exit_code, "--for -1: give a number" in refused.stderr) == (2, True)
+
+
+@pytest.mark.parametrize("command", ["monitor", "term"])
+def test_a_port_beyond_the_last_is_no_address(command: str) -> None:
+    ended = openacr(command, f"{LOOPBACK}:99999")
+    assert (ended.exit_code, "port 99999 is not in 0..65535" in ended.stderr) == (2, True)
+
+
+@pytest.mark.parametrize("command", ["status", "term"])
+def test_a_missing_serial_port_is_named_once(command: str) -> None:
+    ended = openacr(command, "/dev/no-such-port")
+    assert ended.exit_code == 2
+    assert "cannot open serial port /dev/no-such-port: No such file or directory" in ended.stderr

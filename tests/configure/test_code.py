@@ -219,7 +219,7 @@ def test_what_is_hardly_meant_is_said() -> None:
         ('axes = ["Z"]', 'axes = ["X"]', "X has two masters"),
         ("number = 1\naxes", "number = 0\naxes", "master 0 cannot be had (again)"),
         ("vel = 5", "vel = -5", "vel: expected `float` >= 0.0"),
-        ("vel = 5", "velocity = 5", "object contains unknown field `velocity`"),
+        ("vel = 5", "velocity = 5", "unknown key 'velocity'"),
         ("[card]", "[card", "configure.toml:3:"),
     ],
 )

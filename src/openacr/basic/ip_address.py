@@ -45,6 +45,12 @@ class IpAddress:
         return (name, bits) if name else None
 
     @property
+    def is_mask(self) -> bool:
+        """Whether no one stands behind a zero."""
+        zeros = self.number ^ 0xFFFFFFFF
+        return zeros & zeros + 1 == 0
+
+    @property
     def is_private(self) -> bool:
         """Whether the address is free for everybody's own network."""
         return any(self.number >> 32 - bits == network for network, bits in _PRIVATE)

@@ -22,6 +22,8 @@ def explain_address(
             raise UserError(f"{text}: an address has four numbers from 0 to 255") from None
 
     card, net = read(address), read(mask)
+    if not net.is_mask:
+        raise UserError(f"{mask}: a mask is ones before zeros, e.g. 255.255.255.0 or 255.255.252.0")
     kind = card.network_class
     where = f"class {kind[0]}, {kind[1]} network bits" if kind else "no class for hosts"
     typer.echo(f"{card}: {where}, {'private' if card.is_private else 'public'}")

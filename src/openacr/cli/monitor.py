@@ -1,6 +1,7 @@
 """`openacr monitor`: parameters, flags and axes of a card, live."""
 
 import json
+import re
 import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.online import Baud, Silence, Target, connected
-from openacr.errors import MapError
+from openacr.errors import MapError, UserError
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -41,6 +42,8 @@ def monitor(
 
     Without items and axes all axes that are on are shown. Positions of axes are in units.
     """
+    if duration is not None and not 0.0 <= duration < float("inf"):
+        raise UserError(f"--for {duration:g}: give a number of seconds, 0 for one sample")
     with connected(target, baud, silence) as card:
         axes = axis or []
         if not items and not axes:
@@ -65,15 +68,29 @@ class Sampler:
         self.parameters: dict[str, int] = {}
         self.flags: dict[str, int] = {}
         for item in items:
-            try:
-                self.parameters[item] = parameter_number(item)
-            except MapError:
-                self.flags[item] = flag_number(item)
+            self._add(item)
         for axis in axes:
             for name in _AXIS_PARAMETERS:
                 self.parameters[f"axis{axis}.{name}"] = parameter_number(f"axis{axis}.{name}")
             for name in _AXIS_FLAGS:
                 self.flags[f"axis{axis}.{name}"] = flag_number(f"axis{axis}.{name}")
+
+    def _add(self, item: str) -> None:
+        """A parameter if there is one of this name, else a flag."""
+        from openacr.client.names import flag_number, parameter_number
+
+        try:
+            self.parameters[item] = parameter_number(item)
+            return
+        except MapError as error:
+            no_parameter = error
+        try:
+            self.flags[item] = flag_number(item)
+        except MapError as error:
+            number = re.fullmatch(r"(P|BIT)\d+", item, re.IGNORECASE)
+            if number is None:
+                raise UserError(f"no parameter and no flag is named {item!r}") from None
+            raise (no_parameter if number[1].upper() == "P" else error) from None
 
     def sample(self) -> dict[str, object]:
         """The present values by name; an axis is a table of its own."""
@@ -119,7 +136,7 @@ def _samples(
         now_s = card.now_s() - begin_s
         yield {"time_s": round(now_s, 3), **sampler.sample()}
         number += 1
-        if duration_s is not None and number * every_s > duration_s:
+        if duration_s is not None and max(number * every_s, now_s) > duration_s:
             return
         card.pause(number * every_s - (card.now_s() - begin_s))
 
@@ -130,6 +147,8 @@ def _show(samples: Iterator[dict[str, object]]) -> None:
     with Live(auto_refresh=False) as live:
         for sample in samples:
             live.update(_table(sample), refresh=True)
+    if not live.console.is_terminal:
+        live.console.line()  # on a terminal the display ends its last line itself
 
 
 def _table(sample: dict[str, object]) -> "Table":

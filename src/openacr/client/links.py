@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from openacr.client.causes import NO_DRIVER, network_cause
 from openacr.client.errors import ConnectionLostError
-from openacr.errors import UserError
+from openacr.errors import UserError, reason
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ DEFAULT_BAUD = 38400
 CONNECT_S = 5.0
 READ_BYTES = 65536
 STEP_S = 0.001
+HIGHEST_PORT = 65535
 _TCP_TARGET = re.compile(r"(?:\[(?P<v6>[^\]]+)\]|(?P<host>[^:/]+))(?::(?P<port>\d+))?$")
 
 
@@ -160,7 +161,7 @@ class SerialLink:
             )
         except (serial.SerialException, OSError, ValueError) as failure:
             raise ConnectionLostError(
-                f"cannot open serial port {self.name}: {failure} ({NO_DRIVER})"
+                f"cannot open serial port {self.name}: {reason(failure)} ({NO_DRIVER})"
             ) from None
 
     def read(self, timeout_s: float | None) -> bytes:
@@ -275,4 +276,6 @@ def link_to(target: "str | Host", baud: int = DEFAULT_BAUD) -> Link:
     found = _TCP_TARGET.fullmatch(target)
     if found is None:
         raise UserError(f"{target!r} is neither HOST, HOST:PORT nor a serial port")
-    return TcpLink(found["v6"] or found["host"], int(found["port"] or ASCII_PORT))
+    if (port := int(found["port"] or ASCII_PORT)) > HIGHEST_PORT:
+        raise UserError(f"{target}: port {port} is not in 0..{HIGHEST_PORT}")
+    return TcpLink(found["v6"] or found["host"], port)

@@ -14,6 +14,7 @@ from openacr.plant.locate import nearest, places
 from openacr.project import read_bytes
 
 _WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
+_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 _STEP = re.compile(r"\.([^.\[\]]+)|\[(\d+)\]")
 _TOML_PLACE = re.compile(r"(.*?)(?: \(at line (\d+), column (\d+)\)| \(at end of document\))?")
 _Where = tuple[str | int, ...]
@@ -40,6 +41,8 @@ def parse_answers(text: str, path: str = "configure.toml") -> Answers:
         found = _WHERE.fullmatch(str(error))
         what, where = (found[1], found[2] or "") if found else (str(error), "")
         steps = [key or int(index) for key, index in _STEP.findall(where)]
+        if unknown := _UNKNOWN.fullmatch(what):
+            raise _at(text, path, [*steps, unknown[1]], f"unknown key {unknown[1]!r}") from None
         what = what[:1].lower() + what[1:].replace(" | null", "")
         name = next((str(step) for step in reversed(steps) if isinstance(step, str)), "")
         raise _at(text, path, steps, f"{name}: {what}" if name else what) from None

@@ -13,6 +13,7 @@ from openacr.io.serial_port import LineSettings, open_port
 ASCII_PORT = 5002
 CONNECT_S = 5.0
 READ_BYTES = 65536
+HIGHEST_PORT = 65535
 _TCP_TARGET = re.compile(r"(?:\[(?P<v6>[^\]]+)\]|(?P<host>[^:/]+))(?::(?P<port>\d+))?$")
 
 
@@ -118,4 +119,6 @@ def open_link(target: str, baud: int) -> Link:
     found = _TCP_TARGET.fullmatch(target)
     if found is None:
         raise UserError(f"{target!r} is neither HOST, HOST:PORT nor a serial port")
-    return TcpLink(found["v6"] or found["host"], int(found["port"] or ASCII_PORT))
+    if (port := int(found["port"] or ASCII_PORT)) > HIGHEST_PORT:
+        raise UserError(f"{target}: port {port} is not in 0..{HIGHEST_PORT}")
+    return TcpLink(found["v6"] or found["host"], port)

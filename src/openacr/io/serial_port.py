@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import serial
 
-from openacr.errors import UserError
+from openacr.errors import UserError, reason
 from openacr.io.peers import SEND_LIMIT_BYTES, Switchboard
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import XOFF, XON
@@ -70,7 +70,7 @@ def open_port(path: str, line: LineSettings) -> serial.Serial:
             timeout=READ_WAIT_S,
         )
     except (serial.SerialException, OSError, ValueError) as failure:
-        raise UserError(f"cannot open serial port {path}: {failure}") from None
+        raise UserError(f"cannot open serial port {path}: {reason(failure)}") from None
 
 
 class SerialPeer:

@@ -6,7 +6,7 @@ from pathlib import Path
 import serial
 
 from openacr.cnc.text import CONTROL_Z
-from openacr.errors import UserError
+from openacr.errors import UserError, reason
 from openacr.mill.settings import Store, cell
 
 COMMUNICATIONS = 13
@@ -58,7 +58,7 @@ class Line:
                 write_timeout=1.0,
             )
         except (serial.SerialException, OSError, ValueError) as failure:
-            raise UserError(f"cannot open serial port {self.port}: {failure}") from None
+            raise UserError(f"cannot open serial port {self.port}: {reason(failure)}") from None
 
 
 def receive(port: serial.SerialBase, target: Path, silence_s: float = SILENCE_S) -> int:
