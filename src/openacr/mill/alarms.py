@@ -142,6 +142,11 @@ class Alarms:
         """Whether an alarm is up that a start has to wait for."""
         return any(alarm.kind.effect is not Effect.NONE for alarm in self._active.values())
 
+    def require_none(self) -> None:
+        """Refuse what has to wait until no alarm bars it."""
+        if self.bars_start:
+            raise AlarmError(self.active[0].kind, self.active[0].detail)
+
     def acknowledge(self, is_gone: Callable[[Alarm], bool]) -> list[Alarm]:
         """Clear every alarm whose cause is gone; those that stay."""
         self._active = {key: one for key, one in self._active.items() if not is_gone(one)}

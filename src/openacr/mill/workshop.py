@@ -23,10 +23,10 @@ from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
-from openacr.map import numbers as n
 from openacr.mill import alarms, homed
-from openacr.mill.alarms import AlarmError, Alarms
+from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
+from openacr.mill.checks import check_axes, check_firmware, check_rest
 from openacr.mill.dripping import Drip
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
@@ -36,11 +36,9 @@ from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare, user_variables
 from openacr.mill.states import Options, State
-from openacr.models import Model
 from openacr.sysvar import AT_START, Store
 
 POLL_S = 0.02
-OLDEST_FIRMWARE = 11800
 NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
@@ -87,9 +85,10 @@ class Workshop:
         depth = prepare(card, settings, tables_of(cells, settings, folder))
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master)
-        log = None if is_virtual else _error_log(cells, folder)
-        self.runner = Runner(self.machine, cells, depth, say, Alarms(log))
-        self.runner.has_operator = not is_virtual
+        alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
+        self.runner = Runner(
+            self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual
+        )
         self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
         panel = self.runner.panel
@@ -109,7 +108,7 @@ class Workshop:
             cells.write(cell, NONE)
         cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
         controller = Controller(store.read_text(CARD_MODEL))
-        _check_axes(controller.model, Settings(cells))
+        check_axes(controller.model, Settings(cells))
         card = Card.open(controller)
         shop = cls(card, cells, say, is_virtual=True, folder=_folder_of(store))
         names = " ".join(axis.name for axis in shop.runner.settings.axes)
@@ -123,8 +122,8 @@ class Workshop:
         """A card at the other end of a link; drives are left as they are."""
         card = Card.open(target)
         try:
-            _check_firmware(card)
-            _check_rest(card, Settings(store).master)
+            check_firmware(card)
+            check_rest(card, Settings(store).master)
             user_variables(card)
             homed.agree(card, store)  # before the set-up: tables act on homed axes alone
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
@@ -255,29 +254,8 @@ def _folder_of(store: Store) -> Path | None:
     return store.path.parent if store.path else None
 
 
-def _check_firmware(card: Card) -> None:
-    """Refuse a card that is older than what the packets of moves need."""
-    version = int(card.read(n.P_FIRMWARE_VERSION))
-    if version < OLDEST_FIRMWARE:
-        raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
-
-
 def _say_message(say: Callable[[str], None], message: Message, is_on: bool) -> None:
     say(f"message {message.number}: {message.shown}" + ("" if is_on else " (over)"))
-
-
-def _check_axes(model: Model, settings: Settings) -> None:
-    """Refuse a machine with axes that its card model does not have."""
-    beyond = [axis.name for axis in settings.axes if axis.index >= model.axes]
-    if beyond:
-        lacking = f"{model.name}: axis {' '.join(beyond)}, it has {model.axes} axes"
-        raise AlarmError(alarms.LACKS_FUNCTION, lacking)
-
-
-def _check_rest(card: Card, master: int) -> None:
-    """Refuse a machine that moves: setting it up would break off what another program does."""
-    if int(card.read(n.MF1_WORD + master)) & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED):
-        raise UserError("the machine moves: another program runs it; wait for its end or stop it")
 
 
 def _error_log(cells: Cells, folder: Path | None) -> Path | None:

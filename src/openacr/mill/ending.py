@@ -1,0 +1,61 @@
+"""The ends of a program: the last block, ABORT or an alarm, and the kill of all motion."""
+
+from openacr.mill.actions import Steps, Until
+from openacr.mill.course import Course
+from openacr.mill.doing import Doing
+from openacr.mill.panel import Panel
+from openacr.mill.pausing import Pausing
+from openacr.mill.script import Script
+from openacr.mill.states import State, Status
+
+
+class Ending:
+    """Ends what runs on one machine."""
+
+    def __init__(
+        self,
+        panel: Panel,
+        course: Course,
+        doing: Doing,
+        pausing: Pausing,
+        script: Script,
+        status: Status,
+    ) -> None:
+        self._panel = panel
+        self._machine = panel.machine
+        self._course = course
+        self._doing = doing
+        self._pausing = pausing
+        self._script = script
+        self._status = status
+
+    def finish(self) -> None:
+        """All is done and at rest; blocks typed one by one leave on what is on."""
+        if not self._status.options.is_mdi:
+            self._doing.off()
+        self._leave(State.IDLE)
+
+    def abort(self, state: State) -> None:
+        """To rest, moves dropped, everything off."""
+        self._leave(state)
+        self._script.begin(self._to_rest())
+
+    def kill(self) -> None:
+        """All motion is killed, drives go off, the program is over."""
+        self._machine.kill()
+        self._panel.output(self._panel.settings.wiring.drive_enable, False)
+        self._script.close()
+        self._leave(State.ALARM)
+        self._doing.off()
+
+    def _leave(self, state: State) -> None:
+        self._pausing.close()
+        self._course.end()
+        self._status.end(state)
+
+    def _to_rest(self) -> Steps:
+        self._machine.hold()
+        yield Until("stops", lambda look: look.is_held or not look.is_moving)
+        yield from self._course.drop_moves()
+        if not self._status.options.is_dry:
+            self._doing.off()

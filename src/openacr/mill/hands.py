@@ -1,0 +1,57 @@
+"""Axes moved by hand: jogs, keys and joystick, the hand wheel; one of them at a time."""
+
+from collections.abc import Callable, Sequence
+
+from openacr.errors import UserError
+from openacr.mill.controls import Controls
+from openacr.mill.handwheel import HandWheel
+from openacr.mill.jogging import Jogging
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+from openacr.mill.script import Script
+
+
+class Hands:
+    """Everything that moves the axes of one machine by hand."""
+
+    def __init__(self, panel: Panel, require_free: Callable[[str], None]) -> None:
+        self.jogging = Jogging(panel)
+        self.controls = Controls(panel, self.jogging, self.jog)
+        self._wheel = HandWheel(panel, self.jogging)
+        self._script = Script()
+        self._require_free = require_free  # nothing else may move the machine
+
+    @property
+    def is_active(self) -> bool:
+        """Whether an axis is moved, or may be at any time."""
+        return self._script.is_active
+
+    def jog(self, move: Callable[[Jogging], object]) -> None:
+        """Let somebody move axes."""
+        self._require_free("jog")
+        if self._wheel.axes:
+            raise UserError("cannot jog: the hand wheel moves the machine")
+        move(self.jogging)
+        if not self._script.is_active:
+            self._script.begin(self.jogging.settle())
+
+    def turn(self, axes: Sequence[int]) -> None:
+        """Let the hand wheel move these axes, and no others; none ends it."""
+        if not axes:
+            self._wheel.leave()
+            return
+        self._require_free("use the hand wheel")
+        if self.jogging.is_active and not self._wheel.axes:
+            raise UserError("cannot use the hand wheel: an axis is being jogged")
+        self._wheel.select(axes)
+        self._script.begin(self._wheel.follow())
+
+    def stop(self) -> None:
+        """Axes moved by hand ramp to rest."""
+        self._wheel.leave()
+        self.jogging.stop_all()
+
+    def play(self, look: Look, step_s: float) -> None:
+        """Let go what nobody holds, and go on with what is moved."""
+        self.controls.keep(look)
+        self._script.play(look, step_s)

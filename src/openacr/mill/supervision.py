@@ -1,0 +1,107 @@
+"""Alarms while a machine is driven: each is given once, and does to the machine what it must."""
+
+from openacr.mill import alarms, homed
+from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
+from openacr.mill.course import Course
+from openacr.mill.doing import Doing
+from openacr.mill.ending import Ending
+from openacr.mill.hands import Hands
+from openacr.mill.machine import Look
+from openacr.mill.panel import Panel
+from openacr.mill.pausing import Pausing
+from openacr.mill.retracing import Retrace
+from openacr.mill.script import Script
+from openacr.mill.states import State, Status
+from openacr.mill.watching import Watch
+
+
+class Supervision:
+    """Watches one machine and takes the effects of its alarms."""
+
+    def __init__(
+        self,
+        panel: Panel,
+        alarm_list: Alarms,
+        course: Course,
+        doing: Doing,
+        *,
+        hands: Hands,
+        retrace: Retrace,
+        pausing: Pausing,
+        ending: Ending,
+        script: Script,
+        status: Status,
+    ) -> None:
+        self._panel = panel
+        self._alarms = alarm_list
+        self._course = course
+        self._spindle = doing.spindle
+        self._hands = hands
+        self._retrace = retrace
+        self._pausing = pausing
+        self._ending = ending
+        self._script = script
+        self._status = status
+        self._watch = Watch(panel)
+
+    @property
+    def is_busy(self) -> bool:
+        """A program runs, waits, is held or being ended, or an axis is moved by hand."""
+        return not self._status.is_over or self._script.is_active or self._hands.is_active
+
+    def keep(self, look: Look) -> None:
+        """Alarms for what is wrong, each once until it is acknowledged."""
+        for kind, detail in self._watch.causes(look, spins=self._spindle.is_on):
+            self.give(kind, detail)
+
+    def play(self, look: Look, step_s: float) -> None:
+        """Go on with what is being done as far as the card lets it."""
+        status, script = self._status, self._script
+        try:
+            script.play(look, step_s)
+        except AlarmError as error:
+            self.give(error.kind, error.detail)
+        if script.is_active and status.state is State.RUN:
+            status.state = State.WAIT
+        if status.state is State.WAIT:
+            status.reason = script.reason
+            if not script.is_active:
+                status.is_homing = False
+                status.state = State.RUN if self._course.has_program else State.IDLE
+
+    def give(self, kind: Kind, detail: str) -> None:
+        """An alarm comes up, and takes effect unless it was up before."""
+        is_new = not self._alarms.is_up(kind, detail)
+        self._alarms.give(kind, detail, self._panel.machine.now_s)
+        if not is_new or kind.effect is Effect.NONE:
+            return
+        if kind is alarms.EXCESS_ERROR:
+            homed.lose(self._panel, detail)
+        if kind is not alarms.LINK_LOST:
+            self._hands.stop()
+            self._retrace.stop()
+        self._take_effect(kind.effect)
+
+    def _take_effect(self, effect: Effect) -> None:
+        if effect is Effect.KILL:
+            self._ending.kill()
+        elif effect is Effect.ABORT and self.is_busy:
+            self._ending.abort(State.ALARM)
+        elif effect is Effect.HOLD and self._status.is_under_way:
+            self.pause()
+
+    def pause(self) -> None:
+        """Feed hold; a homing fails by it, for it cannot be resumed."""
+        if self._status.is_homing:
+            self.give(alarms.HOMING_FAILED, "stopped")
+        else:
+            self._pausing.begin()
+
+    def acknowledge(self) -> list[Alarm]:
+        """Clear the alarms whose cause is gone; those that stay."""
+        look = self._panel.machine.look()
+        left = self._alarms.acknowledge(self._watch.is_gone(look, spins=self._spindle.is_on))
+        if self._status.state is State.ALARM and not self._alarms.bars_start:
+            self._panel.machine.release()
+            self._status.state = State.IDLE
+        return left
