@@ -134,13 +134,13 @@ COMMANDS: dict[str, Entry | Family] = {
                 "teach_system",
                 "TEACH: where the machine stands becomes the zero of a work system.",
             ),
-            "jog": Entry("mill_run", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
+            "jog": Entry("mill_hand", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
             "mdi": Entry(
-                "mill_run",
+                "mill_hand",
                 "run_blocks",
                 "MDI: run single blocks on the virtual machine, or on a card.",
             ),
-            "home": Entry("mill_run", "home_axes", "Find the reference points of axes on a card."),
+            "home": Entry("mill_hand", "home_axes", "Find the reference points of axes on a card."),
             "import": Entry(
                 "mill_import",
                 "import_drawing",

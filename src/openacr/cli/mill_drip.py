@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.mill import AtStore, Dialect, Dry, opened_store
-from openacr.cli.mill_run import ToHost, attend, end_with_alarms, workshop
+from openacr.cli.mill_shop import ToHost, attend, end_with_alarms, workshop
 from openacr.errors import UserError
 
 if TYPE_CHECKING:

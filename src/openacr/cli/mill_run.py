@@ -1,10 +1,7 @@
-"""`openacr mill run`, `mdi`, `home`: part programs on a virtual or a real machine."""
+"""`openacr mill run`, `batch`: part programs on a virtual or a real machine."""
 
 import json as json_format
-import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,27 +19,18 @@ from openacr.cli.mill import (
     show_findings,
 )
 from openacr.cli.mill_console import Console
-from openacr.cli.mill_message import show_message
+from openacr.cli.mill_shop import ToHost, attend, end_with_alarms, place_text, workshop
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
     from openacr.cnc.batch import Batch, Entry
-    from openacr.cnc.canonical import Ask
     from openacr.cnc.program import Program
     from openacr.cnc.replay import Replay
     from openacr.mill.workshop import Start, Workshop
     from openacr.sysvar import Store
 
-FAILED, INTERRUPTED = 1, 130
+FAILED = 1
 SHOW_EVERY = 25  # steps
-
-ToHost = Annotated[
-    str | None,
-    typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="A real card; else a virtual one."),
-]
-AtHost = Annotated[
-    str, typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="The card of the machine.")
-]
 
 
 def run_program(
@@ -130,121 +118,7 @@ def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program,
     return program, name
 
 
-def jog_axes(
-    ways: Annotated[list[str], typer.Argument(metavar="WAY...", help="X0.5 Y-1")],
-    host: AtHost,
-    store: AtStore = None,
-) -> None:
-    """Move axes of a card by hand: X0.5 Y-1."""
-    from openacr.mill.jogging import ways as ways_of
-
-    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
-        names = [axis.name for axis in shop.runner.settings.axes]
-        shop.jog(ways_of(ways, names), attend)
-        typer.echo(_place_text(shop, shop.runner.course.host.position()))
-
-
-def run_blocks(
-    blocks: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[BLOCK]...", help='"G0 X1" "M3 S500"; without any they are read.'),
-    ] = None,
-    host: ToHost = None,
-    store: AtStore = None,
-    dialect: Dialect = None,
-    save: Annotated[
-        Path | None, typer.Option("--save", metavar="FILE", help="Keep the blocks as a program.")
-    ] = None,
-) -> None:
-    """MDI: run single blocks on the virtual machine, or on a card.
-
-    Blocks are those of the command line, or lines of the terminal until an empty one.
-    """
-    from openacr.cli.output import require_writable, write_whole
-
-    if save is not None:
-        require_writable(save)
-    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
-        try:
-            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", attend):
-                typer.echo(_place_text(shop, place))
-        finally:
-            if save is not None:
-                text = "".join(f"{block}\n" for block in shop.typed)
-                write_whole(save, lambda partial: _fill(partial, text))
-        end_with_alarms(shop)
-
-
-def _fill(partial: Path, text: str) -> None:
-    partial.write_text(text)
-
-
-def _typed() -> "Iterator[str]":
-    """Lines of the terminal, or of what is piped in."""
-    if sys.stdin.isatty():
-        while line := typer.prompt("MDI", default="", show_default=False):
-            yield line
-    else:
-        yield from filter(None, map(str.strip, sys.stdin))
-
-
-def home_axes(
-    host: AtHost,
-    axes: Annotated[
-        str, typer.Option("--axes", help="Names of the axes, e.g. XYZ; else all with a priority.")
-    ] = "",
-    store: AtStore = None,
-) -> None:
-    """Find the reference points of axes on a card."""
-    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
-        homed = shop.home(axes, _telling(attend))
-        typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
-        end_with_alarms(shop)
-
-
-def _telling(attend: "Callable[[Workshop], None]") -> "Callable[[Workshop], None]":
-    """Attend, and say each time what is waited for now."""
-    shown = ""
-
-    def watch(shop: "Workshop") -> None:
-        nonlocal shown
-        if shop.runner.reason and shop.runner.reason != shown:
-            shown = shop.runner.reason
-            typer.echo(shown, err=True)
-        attend(shop)
-
-    return watch
-
-
 # --- running ------------------------------------------------------------------------------
-
-
-@contextmanager
-def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
-    """The machine of a command; it comes to rest however the command ends."""
-    from openacr.cli.signals import terminations_as_interrupts
-    from openacr.client import ConnectionLostError
-    from openacr.mill.workshop import Workshop
-
-    def say(text: str) -> None:
-        typer.echo(text, err=to_stderr)
-
-    try:
-        shop = Workshop.real(host, cells, say) if host is not None else Workshop.virtual(cells, say)
-        shop.show_message = partial(show_message, to_stderr=to_stderr)
-    except ConnectionLostError as lost:
-        raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
-    try:
-        with terminations_as_interrupts():
-            yield shop
-    except KeyboardInterrupt:
-        _break_off(shop)
-        place = _place_text(shop, shop.runner.course.host.position())
-        typer.echo(f"interrupted: the machine is at rest at {place}", err=True)
-        raise typer.Exit(INTERRUPTED) from None
-    finally:
-        _break_off(shop)
-        shop.close()
 
 
 def _single(dialect: str, *, is_dry: bool) -> "Start":
@@ -299,45 +173,6 @@ def _show_replay(replay: "Replay", start: "Start") -> None:
         raise UserError("another tool is in the spindle; --any-tool starts all the same")
 
 
-def attend(shop: "Workshop") -> None:
-    """Where the machine waits for somebody: nobody on a virtual one, the terminal else."""
-    from openacr.mill.states import State
-
-    if shop.is_virtual:
-        shop.carry_on()
-    elif shop.runner.state is State.HOLD:
-        _ask(shop)
-    elif shop.runner.asking is not None:
-        _answer_to(shop, shop.runner.asking)
-
-
-def _ask(shop: "Workshop") -> None:
-    if not sys.stdin.isatty():
-        shop.runner.abort()
-        raise UserError(f"{shop.runner.reason}: nobody is at the terminal to go on")
-    if typer.confirm(f"{shop.runner.reason}: go on?", default=True):
-        shop.runner.start()
-    else:
-        shop.runner.abort()
-
-
-def _answer_to(shop: "Workshop", ask: "Ask") -> None:
-    if not sys.stdin.isatty():
-        shop.runner.abort()
-        raise UserError(f"nobody is at the terminal to answer {ask.text!r}; use --answer")
-    shop.runner.course.host.answers[ask.parameter] = typer.prompt(ask.text, type=float)
-
-
-def _break_off(shop: "Workshop") -> None:
-    """However the command ends, the machine does not go on moving by itself."""
-    from openacr.client import ConnectionLostError
-
-    with suppress(ConnectionLostError):
-        shop.runner.break_off()
-        while shop.runner.is_busy:
-            shop.step()
-
-
 # --- reports ------------------------------------------------------------------------------
 
 
@@ -368,24 +203,6 @@ def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
     elif not is_quiet:
         typer.echo(
             f"{clock(runner.run_s)}  ({runner.run_s:.2f} s, {runner.course.moves} moves)"
-            f"  {_place_text(shop, place)}"
+            f"  {place_text(shop, place)}"
         )
     end_with_alarms(shop, is_shown=not as_json)
-
-
-def _place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
-    from openacr.mill.readout import Readout
-
-    axes = [axis.index for axis in shop.runner.settings.axes]
-    return Readout(shop.cells).line(axes, place)
-
-
-def end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
-    """Say what went wrong; exit code 1 when anything did."""
-    active = shop.runner.alarms.active
-    block = shop.block
-    for alarm in active if is_shown else ():
-        where = f" (line {block[0]}: {block[1]})" if block else ""
-        typer.secho(f"alarm {alarm.kind.code}: {alarm.text}{where}", fg=typer.colors.RED, err=True)
-    if shop.runner.alarms.bars_start:
-        raise typer.Exit(FAILED)

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from openacr.cli.mill import AtStore, opened_store
-from openacr.cli.mill_run import AtHost, workshop
+from openacr.cli.mill_shop import AtHost, workshop
 
 
 def teach_system(

@@ -1,0 +1,100 @@
+"""`openacr mill mdi`, `jog`, `home`: single blocks and moves by hand."""
+
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.mill import AtStore, Dialect, opened_store
+from openacr.cli.mill_shop import AtHost, ToHost, attend, end_with_alarms, place_text, workshop
+
+if TYPE_CHECKING:
+    from openacr.mill.workshop import Workshop
+
+
+def jog_axes(
+    ways: Annotated[list[str], typer.Argument(metavar="WAY...", help="X0.5 Y-1")],
+    host: AtHost,
+    store: AtStore = None,
+) -> None:
+    """Move axes of a card by hand: X0.5 Y-1."""
+    from openacr.mill.jogging import ways as ways_of
+
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        names = [axis.name for axis in shop.runner.settings.axes]
+        shop.jog(ways_of(ways, names), attend)
+        typer.echo(place_text(shop, shop.runner.course.host.position()))
+
+
+def run_blocks(
+    blocks: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[BLOCK]...", help='"G0 X1" "M3 S500"; without any they are read.'),
+    ] = None,
+    host: ToHost = None,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    save: Annotated[
+        Path | None, typer.Option("--save", metavar="FILE", help="Keep the blocks as a program.")
+    ] = None,
+) -> None:
+    """MDI: run single blocks on the virtual machine, or on a card.
+
+    Blocks are those of the command line, or lines of the terminal until an empty one.
+    """
+    from openacr.cli.output import require_writable, write_whole
+
+    if save is not None:
+        require_writable(save)
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        try:
+            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", attend):
+                typer.echo(place_text(shop, place))
+        finally:
+            if save is not None:
+                text = "".join(f"{block}\n" for block in shop.typed)
+                write_whole(save, lambda partial: _fill(partial, text))
+        end_with_alarms(shop)
+
+
+def _fill(partial: Path, text: str) -> None:
+    partial.write_text(text)
+
+
+def _typed() -> "Iterator[str]":
+    """Lines of the terminal, or of what is piped in."""
+    if sys.stdin.isatty():
+        while line := typer.prompt("MDI", default="", show_default=False):
+            yield line
+    else:
+        yield from filter(None, map(str.strip, sys.stdin))
+
+
+def home_axes(
+    host: AtHost,
+    axes: Annotated[
+        str, typer.Option("--axes", help="Names of the axes, e.g. XYZ; else all with a priority.")
+    ] = "",
+    store: AtStore = None,
+) -> None:
+    """Find the reference points of axes on a card."""
+    with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        homed = shop.home(axes, _telling(attend))
+        typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
+        end_with_alarms(shop)
+
+
+def _telling(attend: "Callable[[Workshop], None]") -> "Callable[[Workshop], None]":
+    """Attend, and say each time what is waited for now."""
+    shown = ""
+
+    def watch(shop: "Workshop") -> None:
+        nonlocal shown
+        if shop.runner.reason and shop.runner.reason != shown:
+            shown = shop.runner.reason
+            typer.echo(shown, err=True)
+        attend(shop)
+
+    return watch
