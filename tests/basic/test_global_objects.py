@@ -82,6 +82,40 @@ def test_encoders_beyond_16_have_their_own_rows() -> None:
     assert (made.type("ENC18"), made.p(24576 + 32)) == ("77", 77)
 
 
+def test_a_locked_encoder_counts_along_from_where_it_is() -> None:
+    made = Bench("X").all("PPU X1000", "X0.5").ticks(4000)
+    made.all("ENC17 LOCK 16", "ENC16 LOCK 0", "ENC16 RES 7", "X0.75").ticks(4000)
+    assert [made.type(f"ENC{n}") for n in (0, 16, 17)] == ["750", "257", "250"]
+    made.all("ENC16 UNLOCK", "X0").ticks(4000)
+    assert [made.type(f"ENC{n}") for n in (0, 16, 17)] == ["0", "257", "250"]
+
+
+def test_an_axis_sees_what_its_locked_encoder_counts() -> None:
+    made = Bench("X").all("ENC4 LOCK 0", "X40").ticks(4000)
+    assert (made.axis(4, at.AX_ACTUAL_POSITION), made.axis(4, at.AX_PRIMARY_SETPOINT)) == (40, 0)
+
+
+def test_a_preset_of_the_leading_encoder_is_not_counted() -> None:
+    made = Bench("X").all("ENC4 LOCK 0").ticks(2).all("RES X500").ticks(5)
+    assert (made.type("ENC0"), made.type("ENC4")) == ("500", "0")
+
+
+def test_locks_are_reported_and_circles_refused() -> None:
+    made = Bench().all("ENC1 LOCK 0", "ENC2 LOCK 1")
+    assert [made.type(f"ENC{n} LOCK") for n in (0, 1, 2)] == ["OFF", "ENC0", "ENC1"]
+    for line in ("ENC0 LOCK 2", "ENC3 LOCK 3", "ENC3 LOCK 24", "ENC3 LOCK -1"):
+        assert made.type(line) == "Invalid argument", line
+
+
+def test_the_position_of_an_encoder_is_copied_in_every_servo_period() -> None:
+    made = Bench().all("ENC3 DST P4100", "P6192 = 1234").ticks(1)
+    assert (made.type("ENC3 DST"), made.p(4100)) == ("P4100", 1234)
+    made.all("ENC3 DST OFF", "P6192 = 1").ticks(2)
+    assert (made.type("ENC3 DST"), made.p(4100)) == ("OFF", 1234)
+    for line in ("ENC3 DST P12304", "ENC3 DST P1"):
+        assert made.type(line) == "Invalid parameter", line
+
+
 # analog outputs and inputs
 
 

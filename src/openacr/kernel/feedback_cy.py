@@ -48,9 +48,13 @@ from openacr.map.numbers import (
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
+    ENI_DESTINATION,
+    ENI_LOCKED_TO,
     ENI_MULT,
+    ENI_SEEN,
     ENI_STRIDE,
     KRI_BASE,
+    KRI_LINKED_ENCODERS,
     KRI_MISSING_ENCODERS,
     PLF_BASE,
     PLF_RAW_COUNT,
@@ -72,6 +76,8 @@ FROM_STEPPER = 2
 ENCODER_COUNT = 24
 MODELLED = 16  # encoders that can have a motor in the plant
 FITTED = 8  # encoders CONFIG can leave out
+FIRST_LONG = 4096  # of the parameters that are no user variables
+LAST_PARAMETER = 40959
 ADC_COUNTS_PER_VOLT = 1000.0
 
 
@@ -80,9 +86,20 @@ def encoder_row(e: int) -> int:
     return ENC_BASE + e * ENC_STRIDE if e < 16 else ENC_HIGH_BASE + (e - 16) * ENC_STRIDE
 
 
+def followers_shift(I: I32, leader: int, jump: int) -> None:
+    """Let encoders that are locked to one not count a jump that is no motion."""
+    for e in range(ENCODER_COUNT):
+        i: int = ENI_BASE + e * ENI_STRIDE
+        if I[i + ENI_LOCKED_TO] == leader + 1:
+            I[i + ENI_SEEN] = wrap32(I[i + ENI_SEEN] + jump)
+
+
 def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
     """Preload the position of encoder e."""
-    I[encoder_row(e) + ENC_ENCODER_POSITION] = wrap32(position)
+    row: int = encoder_row(e)
+    if I[KRI_BASE + KRI_LINKED_ENCODERS]:
+        followers_shift(I, e, position - I[row + ENC_ENCODER_POSITION])
+    I[row + ENC_ENCODER_POSITION] = wrap32(position)
     F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] = 0.0
 
 
@@ -99,6 +116,23 @@ def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     row: int = encoder_row(e)
     I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + int(whole))
     I[row + ENC_ENCODER_VELOCITY] = round32(whole * rate_hz)
+
+
+def encoder_links_step(I: I32, rate_hz: float) -> None:
+    """Add the counts of encoders to those locked to them, and copy positions (ENC LOCK, DST)."""
+    for e in range(ENCODER_COUNT):
+        i: int = ENI_BASE + e * ENI_STRIDE
+        row: int = encoder_row(e)
+        leader: int = I[i + ENI_LOCKED_TO] - 1
+        if 0 <= leader < ENCODER_COUNT:
+            now: int = I[encoder_row(leader) + ENC_ENCODER_POSITION]
+            step: int = wrap32(now - I[i + ENI_SEEN])
+            I[i + ENI_SEEN] = now
+            I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + step)
+            I[row + ENC_ENCODER_VELOCITY] = round32(step * rate_hz)
+        destination: int = I[i + ENI_DESTINATION]
+        if FIRST_LONG <= destination <= LAST_PARAMETER:
+            I[destination] = I[row + ENC_ENCODER_POSITION]
 
 
 def ideal_follows(I: I32, S: F32, n: int) -> bool:
@@ -146,7 +180,8 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
         modelled: bool = k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
         if not modelled:
             F[ENF_BASE + k * ENF_STRIDE + ENF_STEP_CNT] = 0.0
-            if ideal_follows(I, S, n):
+            locked: bool = I[ENI_BASE + k * ENI_STRIDE + ENI_LOCKED_TO] != 0
+            if not locked and ideal_follows(I, S, n):
                 ideal_step(F, I, n, k, rate_hz)
         return I[encoder_row(k) + ENC_ENCODER_POSITION]
     if source == FROM_ADC and 0 <= k < 16:

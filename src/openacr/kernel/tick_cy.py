@@ -10,7 +10,7 @@ from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
 from openacr.kernel.fast_flags_cy import fast_flags_step
 from openacr.kernel.fast_status_cy import fast_status_step
-from openacr.kernel.feedback_cy import encoder_step, feedback_step
+from openacr.kernel.feedback_cy import encoder_links_step, encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
 from openacr.kernel.master_cy import master_step
@@ -54,6 +54,7 @@ from openacr.map.numbers import (
     KRI_AXES,
     KRI_BASE,
     KRI_KINEMATICS,
+    KRI_LINKED_ENCODERS,
     KRI_MASTERS,
     KRI_MISSING_ADCS,
     KRI_MISSING_DACS,
@@ -155,6 +156,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
         | I[KRI_BASE + KRI_MISSING_STEPPERS]
     ):
         missing_inputs_step(I, S)
+    if I[KRI_BASE + KRI_LINKED_ENCODERS]:
+        encoder_links_step(I, rate_hz)
     for n in range(axes):
         if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
             written: bool = axis_take_written(F, I, n)

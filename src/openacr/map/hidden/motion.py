@@ -330,7 +330,13 @@ ENCODER = HiddenBlock(
         "partial_cnt",  # fraction of a count that MULT below 4 has left
         "step_cnt",  # counted in the last tick
     ),
-    ints=("mult", "source"),
+    ints=(
+        "mult",
+        "source",
+        "locked_to",  # 1 + the encoder whose counts are added; 0 none
+        "seen",  # position of that encoder in the last tick
+        "destination",  # parameter that gets the position; 0 none
+    ),
 )
 
 # The kernel as a whole.
@@ -347,6 +353,7 @@ KERNEL = HiddenBlock(
         "adc_mode",
         "adc_channels",
         "moves_waiting",
+        "linked_encoders",  # how many have an encoder they are locked to, or a destination
         "kinematics",  # mask of the masters with INVK ON
         "synced",  # some masters are synchronised
         "sync_manual",  # SYNC MDI
