@@ -105,12 +105,15 @@ class Spindle:
 
     def switch_off(self) -> None:
         """Off at once, as ABORT and E-stop do it."""
-        row, panel = self._row, self._panel
+        self._let_go()
+        self._panel.output(self._row.off, True)
+
+    def _let_go(self) -> None:
+        """Driven in no direction any more."""
         self.state = OFF
         self.write()
-        panel.output(row.cw, False)
-        panel.output(row.ccw, False)
-        panel.output(row.off, True)
+        self._panel.output(self._row.cw, False)
+        self._panel.output(self._row.ccw, False)
 
     def _level(self, number: int, level: bool, reason: str) -> Steps:
         panel = self._panel
@@ -122,15 +125,10 @@ class Spindle:
     def orient(self) -> Steps:
         """Turn to the fixed angle of fine boring and hold it there."""
         row, panel = self._row, self._panel
-        self.state = OFF
-        self.write()
-        panel.output(row.cw, False)
-        panel.output(row.ccw, False)
+        self._let_go()
         panel.output(row.orient, True)
         if panel.has_input(row.oriented):
-            limit_s = row.time_out_s or inf
-            is_met = lambda look: panel.is_in(look, row.oriented)  # noqa: E731
-            yield Until("spindle oriented", is_met, limit_s, alarms.SPINDLE_TIME_OUT)
+            yield from self._level(row.oriented, True, "spindle oriented")
         else:
             yield pause(row.orient_s, "spindle orients")
 
