@@ -40,6 +40,13 @@ def as_json(*words: str) -> Any:
     return json.loads(result.stdout)
 
 
+def test_numbers_of_a_difference_are_short() -> None:
+    from openacr.cli.mill_run import _numbers
+
+    assert _numbers((0.0, -0.7874015748031497, 12.0)) == "0 -0.7874 12"
+    assert _numbers(3000.0) == "3000"
+
+
 def test_check_counts_moves_lengths_and_extents(tmp_path: Path) -> None:
     found = as_json("check", program(tmp_path, SQUARE))
     assert found["lines"] == 6

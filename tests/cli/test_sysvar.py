@@ -43,6 +43,12 @@ def test_get_explains_one_parameter_and_tabulates_several(path: Path) -> None:
     assert "-1 (disable)" in output
 
 
+def test_get_explains_each_of_several_that_are_named_one_by_one(path: Path) -> None:
+    output = run("get", "cut speed", "P400000").output
+    assert "P650002 Cut Speed = 10 in/min" in output
+    assert output.count("; takes ") == 2
+
+
 @pytest.mark.req("MILL-SYS-UNITSWITCH")
 def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_one(
     path: Path,

@@ -168,9 +168,17 @@ def _show_replay(replay: "Replay", start: "Start") -> None:
     for warning in replay.warnings:
         typer.echo(f"warning: {warning}", err=True)
     for each in replay.differences:
-        typer.echo(f"{each.name}: now {each.present}, at the line {each.wanted}", err=True)
+        now, then = _numbers(each.present), _numbers(each.wanted)
+        typer.echo(f"{each.name}: now {now}, at the line {then}", err=True)
     if replay.needs_tool and not start.accepts_tool:
         raise UserError("another tool is in the spindle; --any-tool starts all the same")
+
+
+def _numbers(value: object) -> str:
+    """Numbers as a person writes them; those of axes beside each other."""
+    if isinstance(value, tuple):
+        return " ".join(map(_numbers, value))
+    return f"{value + 0.0:.4f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)
 
 
 # --- reports ------------------------------------------------------------------------------

@@ -56,7 +56,8 @@ def get(names: Names, store: AtStore = None, unit: InUnit = None, as_json: AsJso
 
     with open_to_read(store) as cells:
         found = {each.number: each for name in names for each in cells.find(name)}
-        _show(cells, list(found.values()), unit, as_json)
+        each_is_one = len(found) <= len(names)
+        _show(cells, list(found.values()), unit, as_json, is_full=each_is_one)
 
 
 def list_values(
@@ -108,13 +109,16 @@ def _show(
     unit: str | None,
     as_json: bool,
     limit: int | None = SHOWN,
+    *,
+    is_full: bool = False,
 ) -> None:
     if as_json:
         records = [_fields(cells, each, unit) for each in found]
         typer.echo(json_format.dumps(records, indent=2, ensure_ascii=False))
-    elif len(found) == 1:
-        typer.echo(sentence(cells, found[0], unit))
-        typer.echo(_about(cells, found[0], unit))
+    elif len(found) == 1 or (found and is_full):
+        for each in found:
+            typer.echo(sentence(cells, each, unit))
+            typer.echo(_about(cells, each, unit))
     elif found:
         _print_table(cells, found[:limit], unit)
         if limit and len(found) > limit:
