@@ -8,7 +8,9 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
+from openacr.sysvar import Store
 
+REPEAT_FOREVER = 250_013
 SQUARE = """\
 G90 F60
 G0 X1 Y1
@@ -228,3 +230,19 @@ def test_m_codes_of_the_machine_lie_beside_its_store(
     code, text = mill("run", file)
     assert code == 0
     assert "X   3.0000" in text
+
+
+def test_another_tool_in_the_spindle_bars_a_start_at_a_line_unless_told_otherwise(
+    tmp_path: Path,
+) -> None:
+    part = program(tmp_path, "T5 M6\nF600\nG1 X1\nG1 X2\nM2\n")
+    code, text = mill("run", part, "--line", "4")
+    assert (code, "--any-tool" in text) == (2, True)
+    code, _ = mill("run", part, "--line", "4", "--any-tool")
+    assert code == 0
+
+
+def test_repeat_forever_does_not_hold_a_virtual_run(tmp_path: Path) -> None:
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(REPEAT_FOREVER, 1)
+    assert as_json("run", program(tmp_path, SQUARE))["passes"] == 1

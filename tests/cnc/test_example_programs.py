@@ -218,7 +218,7 @@ def test_it_runs_on_the_virtual_machine_to_where_it_ends(name: str) -> None:
     dialect = dialect_of(PARTS / name, store, None)
     program = load(PARTS / name, store, dialect)
     shop = Workshop.virtual(store, lambda _text: None)
-    shop.start(program, Start(dialect, is_dry=True, is_repeated=False))
+    shop.start(program, Start(dialect=dialect, is_dry=True, is_repeated=False))
     while shop.runner.is_busy:
         shop.step()
         shop.carry_on()

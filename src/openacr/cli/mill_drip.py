@@ -42,7 +42,7 @@ def drip_program(
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         drip = Drip(Line.of(cells, port), shop.cells, name, is_dry=is_dry)
         try:
-            shop.start_drip(drip, Start(name, is_dry=is_dry))
+            shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
             _run(shop)
         finally:
             drip.close()

@@ -68,7 +68,14 @@ def run_program(
     """
     from openacr.mill.workshop import Start
 
-    start = Start("", line, is_dry, is_skipping, stops_optionally, accepts_tool)
+    start = Start(
+        line=line,
+        is_dry=is_dry,
+        is_skipping=is_skipping,
+        stops_optionally=stops_optionally,
+        is_repeated=host is not None,  # on the virtual machine nobody would end it
+        accepts_tool=accepts_tool,
+    )
     with opened_store(store, is_written=host is not None) as cells:
         program, name = _checked(file, cells, dialect)
         with workshop(host, cells, to_stderr=as_json) as shop:
@@ -124,7 +131,7 @@ def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program,
 def _single(dialect: str, *, is_dry: bool) -> "Start":
     from openacr.mill.workshop import Start
 
-    return Start(dialect, is_dry=is_dry, is_repeated=False)
+    return Start(dialect=dialect, is_dry=is_dry, is_repeated=False)
 
 
 def _with_dialect(start: "Start", name: str) -> "Start":

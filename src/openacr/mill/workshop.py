@@ -48,7 +48,7 @@ UNWIRED = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
     """How a program is to be run."""
 
