@@ -118,3 +118,19 @@ def test_the_gear_box_turns_the_encoder_into_a_way() -> None:
     card.advance(seconds=0.5)
     ratio = (card.axis(1).commanded_u - y) / (card.axis(0).commanded_u - x)
     assert ratio == pytest.approx(-0.25, abs=1e-3)
+
+
+def test_the_feet_of_the_portal_stay_together_and_closer_with_feedback() -> None:
+    card = load("gantry_lock")
+    card.send("PROG0\rRUN\r")
+    apart = []  # pulses, largest on the way out and on the way back
+    for _ in range(2):
+        apart.append(0)
+        for _ in range(380):
+            card.advance(seconds=0.005)
+            assert card.axis(0).commanded_u == pytest.approx(card.axis(1).commanded_u, abs=1e-9)
+            now = abs(card.axis(0).actual_cnt - card.axis(1).actual_cnt)
+            apart[-1] = max(apart[-1], now)
+        card.advance(seconds=0.3)
+    assert apart[0] == pytest.approx(51, abs=3)
+    assert apart[1] < apart[0] / 3

@@ -25,6 +25,7 @@ SPLINE = Watch("spline_curve", (128, 129, MOTION, 1024, 5129, 5131), 2)
 AIRFOIL = Watch("nurb_airfoil", (MOTION, 1024, 5141, 5146, 5147), 2)
 ARM = Watch("invk_arm", (MOTION, KILL_MOVES, 1024), 2)
 GEARS = Watch("gear_box", (MOTION, 792, 814, 820, 821, 1024), 2)
+LOCKED = Watch("gantry_lock", (MOTION, 1024), 2)
 SHEAR = Watch("cam_flying_shear", (32, 792, 822, 1024), 2)
 TUNING = Watch("tuning", (MOTION, 512, 513, 514, 1024), 1)
 
@@ -44,6 +45,7 @@ ALL = (
     AIRFOIL,
     ARM,
     GEARS,
+    LOCKED,
     SHEAR,
     TUNING,
 )
