@@ -19,7 +19,7 @@ from openacr.project import Place, Project, SourceFile
 
 LINES = 60_000
 STORED = 12_000
-AXES = "XYZA"
+AXES = "XYZAU"
 SET_UP = (
     "SYS\nHALT ALL\nNEW ALL\nDETACH ALL\nCLEAR\n"
     + "".join(f"DIM PROG{number}(4000)\n" for number in range(1, 16))
