@@ -201,7 +201,7 @@ def test_cpu_load_rises_with_the_number_of_active_axes(bench: Bench) -> None:
 
 
 def test_cip_reports_that_nobody_is_connected(bench: Bench) -> None:
-    assert bench.type("CIP") == "CIP INACTIVE|SYS>"
+    assert bench.type("CIP") == "CIP connections 0|CIP state IDLE|SYS>"
 
 
 def test_reboot_restarts_the_card(bench: Bench) -> None:

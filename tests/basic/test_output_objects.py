@@ -172,6 +172,13 @@ def test_windows_repeat(count: str, last: bool) -> None:
     assert seen == [False, True, True, False, True, False, last, False]
 
 
+def test_the_windows_are_reported_as_they_are_typed() -> None:
+    made = Bench().all("OOP2 POS (1,2)", "OOP2 INC (-100,50.5,10)")
+    assert made.type("OOP2") == "OOP2 OFF SRC ENC2 BIT 34 POS (1,2) INC (-100,50.5,10)"
+    made.all("OOP2 INC (0,50,10,3)")
+    assert made.type("OOP2").endswith(" INC (0,50,10,3)")
+
+
 def test_the_defaults_are_an_encoder_and_an_output_of_the_same_number() -> None:
     made = Bench()
     assert (made.type("OOP3 SRC"), made.type("OOP3 BIT")) == ("ENC3", "35")

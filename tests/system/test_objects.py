@@ -48,7 +48,7 @@ def test_a_master_is_addressed_from_another_program(card: Console) -> None:
 
 @pytest.mark.req("ACR-CMD-CIP")
 def test_cip_reports_that_no_connection_is_there(card: Console) -> None:
-    assert card.type("CIP") == "CIP INACTIVE"
+    assert card.type("CIP") == "CIP connections 0|CIP state IDLE"
 
 
 @pytest.mark.req("ACR-CMD-PERIOD", "ACR-PAR-08")

@@ -172,8 +172,9 @@ def servo_time_s(card: Card) -> float:
 
 @command("CIP", group="Global Objects", levels=ANY, ref="PG Global Objects")
 def cip(run: Run) -> None:
-    """Report the state of EtherNet/IP, which this controller has no connection to."""
-    run.print("CIP INACTIVE")
+    """Report the connections and the state of EtherNet/IP, which is not served: none, idle."""
+    run.print("CIP connections 0")
+    run.print("CIP state IDLE")
 
 
 @command("REBOOT", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)

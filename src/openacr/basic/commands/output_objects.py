@@ -28,6 +28,7 @@ from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
 from openacr.motion import cam, objects, sources
 from openacr.motion.card import Card
 from openacr.motion.settings import Setting, anything, not_negative, not_zero
+from openacr.views import F64
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
@@ -270,4 +271,15 @@ def oop_report(run: Run, number: int) -> None:
         number_text(memory.F[reals + place], Kind.DOUBLE)
         for place in (at.OOF_FROM_CNT, at.OOF_TO_CNT)
     )
-    run.print(f"OOP{number} {on} SRC {source} BIT {memory.I[row + at.OOI_BIT]} POS ({window})")
+    windows = _windows_text(memory.F, reals, memory.I[row + at.OOI_WINDOWS])
+    flag = memory.I[row + at.OOI_BIT]
+    run.print(f"OOP{number} {on} SRC {source} BIT {flag} POS ({window}){windows}")
+
+
+def _windows_text(reals: F64, row: int, count: int) -> str:
+    """The windows of INC as they are typed; nothing before any are set."""
+    if not reals[row + at.OOF_PITCH_CNT]:
+        return ""
+    places = (at.OOF_START_CNT, at.OOF_PITCH_CNT, at.OOF_WIDTH_CNT)
+    texts = [number_text(reals[row + place], Kind.DOUBLE) for place in places]
+    return f" INC ({','.join([*texts, str(count)] if count else texts)})"
