@@ -318,6 +318,22 @@ def test_on_trg_engages_from_the_captured_position_plus_the_offset() -> None:
     assert not made.bit(STARTED)
 
 
+def test_on_trg_watches_the_capture_inputs_of_the_register_it_names() -> None:
+    made = bench("GEAR ON TRG X(2, 5)")
+    turn(made, 10).memory.set_bit(26, True)  # first capture input of encoder 10
+    assert gear(turn(made, 10)) == 0.0
+    made.memory.set_bit(29, True)  # of encoder 5
+    assert gear(turn(turn(made, 10), 10)) == 10.0
+
+
+@pytest.mark.parametrize("cap", ["16", "-1", "P12304"])
+def test_a_capture_register_or_parameter_that_does_not_exist_is_refused(cap: str) -> None:
+    expected = "Invalid parameter" if cap.startswith("P") else "Invalid argument"
+    made = bench()
+    assert made.type(f"GEAR ON TRG X(2, {cap})") == expected
+    assert not made.bit(ON_ARMED)
+
+
 def test_off_trg_disengages_at_the_captured_position() -> None:
     made = bench("GEAR ON X", "GEAR OFF TRG X(6)")
     made.memory.set_bit(26, True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from openacr.basic.grammar import Axis, AxisList, Form, Int, Num, ObjectRef, ParameterName, Source
 from openacr.basic.nodes import Expr
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from openacr.basic.parser import Parser
 
 LAST_CAPTURE_MODE = 15
+LAST_CAPTURE_REGISTER = 15  # of encoders that have a marker and inputs
+CaptureRead: TypeAlias = "tuple[Expr, tuple[Expr, bool] | None, Expr | None]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +34,14 @@ class Passing:
 
 @dataclass(frozen=True, slots=True)
 class Captured:
-    """The edge of a capture mode; `copy_to` is a parameter, 0 none."""
+    """The edge of a capture mode; `copy_to` is a parameter, 0 none.
+
+    `register` is the encoder whose marker and inputs are watched, None that of the source.
+    """
 
     mode: int
-    copy_to: int
+    copy_to: int = 0
+    register: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,32 +112,36 @@ class PassingForm(Form):
 
 
 class CapturedForm(Form):
-    """`(mode {, Pnnnn})`; the handler gets a `Captured`."""
+    """`(mode {, Pnnnn|register})`; the handler gets a `Captured`."""
 
     def __init__(self) -> None:
-        super().__init__("(mode{, Pnnnn})")
+        super().__init__("(mode{, Pnnnn|register})")
         self.mode = Int("mode", 0, LAST_CAPTURE_MODE)
         self.copy = ParameterName()
+        self.register = Int("register", 0, LAST_CAPTURE_REGISTER)
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis stands here."""
         return p.is_operator("(")
 
-    def parse(self, p: Parser) -> tuple[Expr, tuple[Expr, bool] | None]:
-        """Read mode and parameter."""
+    def parse(self, p: Parser) -> CaptureRead:
+        """Read mode and parameter or register."""
         p.expect("(")
         mode = p.numeric()
-        copy = None
+        copy, register = None, None
         if p.accept(","):
-            if not self.copy.starts(p):
-                raise p.error(self.missing(p))
-            copy = self.copy.parse(p)
+            if self.copy.starts(p):
+                copy = self.copy.parse(p)
+            else:
+                register = p.numeric()
         p.expect(")")
-        return mode, copy
+        return mode, copy, register
 
-    def evaluate(self, run: Run, read: tuple[Expr, tuple[Expr, bool] | None]) -> Captured:
-        """Mode and parameter by number."""
+    def evaluate(self, run: Run, read: CaptureRead) -> Captured:
+        """Mode and parameter or register by number."""
         mode = self.mode.evaluate(run, read[0]) or 0
+        if read[2] is not None:
+            return Captured(mode, register=self.register.evaluate(run, read[2]))
         copy = self.copy.evaluate(run, read[1])
         if copy is not None and kind_of(run.card.memory.I, copy.number) != KIND_LONG:
             raise CardError(INVALID_PARAMETER)

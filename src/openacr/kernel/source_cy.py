@@ -9,7 +9,8 @@ Deltas are float64: a fraction of a pulse (the clock has 1000 pulses per second)
 by whoever adds them up. A value that is no finite number counts as standing still.
 
 A trigger says when a follower engages: when a parameter passes a setpoint, or at an edge
-captured as INTCAP does. `over_cnt` is then the part of this tick's delta behind the event.
+captured as INTCAP does, of the signals of the source or of another encoder. `over_cnt` is then
+the part of this tick's delta behind the event.
 """
 
 from openacr.cmath import fabs
@@ -44,6 +45,9 @@ from openacr.map.numbers import (
     AXI_POSITION_SOURCE,
     AXI_STRIDE,
     ENC_ENCODER_POSITION,
+    ENF_BASE,
+    ENF_STEP_CNT,
+    ENF_STRIDE,
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
@@ -85,6 +89,7 @@ from openacr.map.numbers import (
     TGI_KIND,
     TGI_MODE,
     TGI_PARAMETER,
+    TGI_REGISTER,
     TGI_STRIDE,
     TGI_TICKS_LEFT,
     USER_BASE,
@@ -300,14 +305,14 @@ def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
         s: int = SRI_BASE + tap * SRI_STRIDE
         old: float = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
         moved: float = source_reading(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
-        behind: float = edge_behind(
-            F,
-            I,
-            I[i + TGI_MODE],
-            source_encoder(I, tap, n),
-            source_inputs(I, tap, n),
-            moved,
-        )
+        e: int = source_encoder(I, tap, n)
+        inputs: int = source_inputs(I, tap, n)
+        register: int = I[i + TGI_REGISTER]
+        if 1 <= register <= ENCODER_COUNT:
+            e = register - 1
+            inputs = e
+            moved = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
+        behind: float = edge_behind(F, I, I[i + TGI_MODE], e, inputs, moved)
         if behind >= 0.0:
             I[i + TGI_KIND] = CAPTURED
             F[TGF_BASE + t * TGF_STRIDE + TGF_TRAVEL_CNT] = behind

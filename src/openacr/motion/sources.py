@@ -39,6 +39,7 @@ from openacr.map.numbers import (
     TGI_KIND,
     TGI_MODE,
     TGI_PARAMETER,
+    TGI_REGISTER,
     TGI_STRIDE,
     TGI_TICKS_LEFT,
 )
@@ -166,11 +167,17 @@ def arm_passing(
     memory.I[row + TGI_KIND] = source_cy.BELOW if below else source_cy.ABOVE
 
 
-def arm_capture(card: Card, trigger: int, mode: int, copy_to: int) -> None:
-    """Fire at the edge of a capture mode; `copy_to` receives the source position there."""
+def arm_capture(
+    card: Card, trigger: int, mode: int, copy_to: int = 0, register: int | None = None
+) -> None:
+    """Fire at the edge of a capture mode; `copy_to` receives the source position there.
+
+    The signals are those of the source, or of the encoder whose `register` is named.
+    """
     row = TGI_BASE + trigger * TGI_STRIDE
     card.memory.I[row + TGI_MODE] = mode
     card.memory.I[row + TGI_COPY] = copy_to
+    card.memory.I[row + TGI_REGISTER] = 0 if register is None else register + 1
     card.memory.I[row + TGI_KIND] = source_cy.CAPTURE
 
 

@@ -154,7 +154,8 @@ def cam_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     permit_all(run, tuple(axis for axis, _ in axes), _own)
     for axis, captured in axes:
         _arm(run, axis)
-        sources.arm_capture(run.card, cam.trigger(axis.number), captured.mode, captured.copy_to)
+        trigger = cam.trigger(axis.number)
+        sources.arm_capture(run.card, trigger, captured.mode, captured.copy_to, captured.register)
 
 
 def _arm(run: Run, axis: Axis) -> None:

@@ -152,7 +152,7 @@ def gear_off_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
 
 def _arm_capture(run: Run, axis: Axis, trigger: int, captured: Captured, flag: int) -> None:
     sources.go_live(run.card, axis.number)
-    sources.arm_capture(run.card, trigger, captured.mode, captured.copy_to)
+    sources.arm_capture(run.card, trigger, captured.mode, captured.copy_to, captured.register)
     run.card.memory.I[axis_word2(axis.number)] |= flag
 
 

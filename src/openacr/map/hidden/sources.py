@@ -28,6 +28,7 @@ TRIGGER = HiddenBlock(
         "parameter",  # of IHPOS
         "mode",  # of the capture
         "copy",  # parameter that receives the captured source position, 0 none
+        "register",  # encoder + 1 whose signals are watched, 0 that of the source
         "ticks_left",  # until the timeout, 0 never
     ),
 )
