@@ -357,3 +357,15 @@ def test_short_segments_keep_the_feed(jerk: int) -> None:
 @pytest.mark.soak
 def test_a_hundred_thousand_short_segments_keep_the_feed() -> None:
     keeps_feed(100_000, 20.0, 2000)
+
+
+def test_look_tol_sets_the_tolerance_of_the_moves_to_come() -> None:
+    made = bench()
+    assert made.type("LOOK TOL") == "0"
+    assert made.type("LOOK TOL -1") == "Invalid argument"
+    made.all("LOOK TOL 0.25")
+    assert made.type("LOOK TOL") == "0.25"
+    path = Path(made, [(2, 0), (2, 2)])
+    assert min(math.dist(place, (2, 0)) for place in path.places) == pytest.approx(0.25, rel=0.02)
+    made.all("LOOK TOL 0")
+    assert (4, 2) in Path(made, [(4, 2), (4, 4)]).places

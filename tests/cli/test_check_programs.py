@@ -208,3 +208,16 @@ def test_the_machine_file_may_tell_the_servo_period(tmp_path: Path) -> None:
     (tmp_path / "setup.8k").write_text(SETUP + "LOPASS X1000\nLOPASS X1001\n")
     (fault,) = json.loads(check(tmp_path, "--json").stdout)
     assert (fault["line"], fault["column"], fault["severity"]) == (13, 9, "warning")
+
+
+def test_a_path_tolerance_is_warned_of_because_real_cards_have_none(tmp_path: Path) -> None:
+    text = "an extension of openacr: real cards refuse it"
+    lines = ("LOOK ON LOOK TOL 0.01", "LOOK ANG (1,2)", "IF (P0) THEN LOOK TOL 0")
+    assert faults(tmp_path, *lines) == [f"2:9: warning: {text}", f"4:14: warning: {text}"]
+    assert "2:1: warning" in check(_written(tmp_path, "PROG0\nLOOK TOL 1\n")).stdout
+
+
+def _written(folder: Path, text: str) -> Path:
+    path = folder / "typed.8k"
+    path.write_text(text)
+    return path

@@ -25,7 +25,7 @@ _CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
 _BRANCHES = frozenset(("ELSEIF", "ELSE"))
 _FLOW = _OPENING | _CLOSING | _BRANCHES | {"BREAK"}
 _JUMPS = frozenset(("GOTO", "GOSUB"))
-_FILTERS = frozenset(("LOPASS", "PERIOD"))
+_JUDGED = frozenset(("LOPASS", "PERIOD", "TOL"))
 STORED_KINDS = frozenset(("P", "LV", "SV", "DV", "LA", "SA", "DA", "$V", "$A"))
 
 
@@ -53,7 +53,7 @@ class Outline:
     has_label: bool = False
     jumps: bool = False
     dimensions: bool = False  # holds a DIM
-    filters: bool = False  # holds a LOPASS or a PERIOD
+    is_judged: bool = False  # holds a LOPASS, a PERIOD or LOOK TOL
     stored_kinds: frozenset[str] = frozenset()  # of the variables used
     fault: CompileError | None = None
 
@@ -73,7 +73,7 @@ def outline(found: list[Token], line: Line, aliases: Mapping[str, str]) -> Outli
         line.label is not None,
         bool(words & _JUMPS),
         "DIM" in words,
-        bool(words & _FILTERS),
+        bool(words & _JUDGED),
         frozenset(str(word) for word in words & STORED_KINDS) | named,
         _fault(line),
     )

@@ -90,7 +90,9 @@ def _facts(row: Command, example: str) -> Iterator[str]:
         yield "* Part of the coordinated move of its block"
     if row.saved:
         yield "* Kept by ESAVE"
-    if row.ref:
+    if row.is_extension:
+        yield "* An extension of openacr: real cards refuse it"
+    elif row.ref:
         yield f"* Manual: {row.ref}"
     if example:
         yield f"* Example: `{example}`"

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 if TYPE_CHECKING:
     from openacr.basic.grammar import Form
 
+EXTENSION = "extension"  # in place of the manual: no card of the family has it
 INDEX = "#"  # stands in the words of a command for the number of an object: `ENC # RES`
 
 
@@ -76,6 +77,11 @@ class Command:
     def summary(self) -> str:
         """What the command does, in one sentence."""
         return (self.handler.__doc__ or "").strip().split("\n")[0]
+
+    @property
+    def is_extension(self) -> bool:
+        """Whether only openacr has it: a real card refuses it."""
+        return self.ref == EXTENSION
 
     @property
     def forms(self) -> tuple[Form, ...]:

@@ -34,7 +34,7 @@ class Cutoffs:
     def note(self, line: FileLine, found: Iterable[Token], blocks: Iterable[Block]) -> None:
         """Take note of the LOPASS and PERIOD commands of a line, those behind THEN included."""
         numbers = [token for token in found if token.kind is Kind.NUMBER]
-        for statement in _statements(blocks):
+        for statement in statements(blocks):
             words, arguments = statement.command.words, statement.arguments
             if words == ("LOPASS",) and arguments:
                 behind = [token for token in numbers if token.column > statement.column]
@@ -52,13 +52,14 @@ class Cutoffs:
         self._found = []
 
 
-def _statements(blocks: Iterable[Block]) -> Iterator[Statement]:
+def statements(blocks: Iterable[Block]) -> Iterator[Statement]:
+    """The statements of a line, those behind THEN included."""
     for block in blocks:
         for statement in block:
             if isinstance(statement, Statement):
                 yield statement
                 for argument in statement.arguments:
-                    yield from _statements(getattr(argument, "blocks", ()))
+                    yield from statements(getattr(argument, "blocks", ()))
 
 
 def _cutoffs(line: FileLine, numbers: list[Token], items: object) -> Iterator[_Cutoff]:

@@ -14,13 +14,13 @@ from openacr.basic.commands.operating_system import Definition
 from openacr.basic.expressions import StatementError
 from openacr.basic.lister import Lister
 from openacr.basic.loader import FileLine, file_lines, long_lived_objects
-from openacr.basic.nodes import Expr, Move, Number, Statement, String
+from openacr.basic.nodes import Block, Expr, Move, Number, Statement, String
 from openacr.basic.outline import Outline, outline
 from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope, join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import opens_capture
 from openacr.basic.registry import Level
-from openacr.cli.cutoffs import Cutoffs
+from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault
 from openacr.cli.hints import hint_for
 from openacr.cli.sizes import Sizes, undimensioned, variable
@@ -35,6 +35,7 @@ from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 
+EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
@@ -181,6 +182,7 @@ class Reader:
             self.parts.append(Part(tokens=tuple(found)))
         self.sizes.note(self.number, tree.blocks)
         self.cutoffs.note(line, found, tree.blocks)
+        self._warn(line, tree.blocks)
         for block in tree.blocks:
             for statement in block:
                 if not isinstance(statement, Move):
@@ -209,9 +211,10 @@ class Reader:
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
             for line in text.in_order():
-                if line.outline.filters:
+                if line.outline.is_judged:
                     tree = Parser(list(line.tokens), line.scope).line()
                     self.cutoffs.note(line.place, line.tokens, tree.blocks)
+                    self._warn(line.place, tree.blocks)
         elif not text.lost:
             self._check_rungs(text)
 
@@ -223,6 +226,13 @@ class Reader:
             self._fault(text.lines[error.line].place, error)
         except CardError as error:
             self._fault(text.lines[max(text.lines)].place, error)
+
+    def _warn(self, line: FileLine, blocks: tuple[Block, ...]) -> None:
+        """Warn of what a real card would refuse."""
+        for statement in statements(blocks):
+            if statement.command.is_extension:
+                span = Span(1, statement.column, len(statement.command.name))
+                self._report(Finding(line, None, span, EXTENSION_WARNING))
 
     def _report(self, finding: Finding) -> None:
         if finding.error is not None:

@@ -1,7 +1,8 @@
 """Path tolerance: how far a path may stay off its corners; 0, as on the card, not at all.
 
-It acts between straight moves while LOOK is on. The kernel rounds the corners and keeps
-the acceleration (with JRK the jerk, too) of the rounded path within the limits of the moves.
+LOOK TOL sets it. It acts between straight moves while LOOK is on. The kernel rounds the
+corners and keeps the acceleration (with JRK the jerk, too) of the rounded path within the
+limits of the moves.
 """
 
 from openacr.errors import CardError
@@ -17,6 +18,11 @@ from openacr.motion.card import Card
 from openacr.motion.rows import master_ints, master_reals
 
 LARGEST_U = 1e9
+
+
+def is_tolerance(value: float) -> bool:
+    """A length, or 0."""
+    return 0.0 <= value < LARGEST_U
 
 
 def tolerance(card: Card, master: int) -> float:
@@ -37,6 +43,6 @@ def set_of_move(card: Card, master: int, record: int, tolerance_u: float) -> Non
 
 
 def _checked(tolerance_u: float) -> float:
-    if not 0.0 <= tolerance_u < LARGEST_U:
+    if not is_tolerance(tolerance_u):
         raise CardError(INVALID_ARGUMENT)
     return tolerance_u

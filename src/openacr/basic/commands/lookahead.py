@@ -5,17 +5,18 @@ from __future__ import annotations
 from openacr.basic.commands.velocity_profile import GROUP, REF
 from openacr.basic.grammar import Group, Word
 from openacr.basic.number_format import number_text
-from openacr.basic.registry import BY_OBJECT, command
+from openacr.basic.registry import BY_OBJECT, EXTENSION, command
 from openacr.basic.run import Run, Show, Wait, WaitKind
 from openacr.basic.value_commands import Value, master_values
 from openacr.map.numbers import (
     MA_LOOK_AHEAD_MIN_VEL,
+    MSF_TOLERANCE_U,
     MSI_QUEUED,
     STI_MBUF_COUNT,
 )
-from openacr.motion import buffer
+from openacr.motion import buffer, corners
 from openacr.motion.rows import master_ints
-from openacr.motion.settings import of_master
+from openacr.motion.settings import of_master, of_master_real
 
 
 @command(
@@ -82,4 +83,14 @@ master_values(
     ),
     group=GROUP,
     ref=REF,
+)  # fmt: skip
+
+master_values(
+    (
+        Value("LOOK TOL", of_master_real(MSF_TOLERANCE_U, corners.is_tolerance),
+              "Set how far the paths of moves to come may stay off their corners with look-ahead.",
+              "units"),
+    ),
+    group=GROUP,
+    ref=EXTENSION,
 )  # fmt: skip
