@@ -2,6 +2,7 @@
 
 import os
 import select
+import socket
 import subprocess
 import sys
 import time
@@ -81,3 +82,43 @@ def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
     _, err = process.communicate(timeout=10)
     assert process.returncode == 1
     assert b"connection ended" in err
+
+
+def test_a_card_that_is_not_there_is_an_error_of_the_user() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    done = subprocess.run(
+        [sys.executable, "-m", "openacr", "term", f"127.0.0.1:{port}"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=20,
+    )
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"error: cannot connect to 127.0.0.1:{port}: ")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
+def test_a_serial_line_does_as_well(tmp_path: Path) -> None:
+    import pty
+
+    card_end, line = pty.openpty()
+    ours, theirs = pty.openpty()
+    with subprocess.Popen(
+        [*COMMAND, os.ttyname(line)],
+        stdin=theirs,
+        stdout=theirs,
+        stderr=subprocess.PIPE,
+        env={**os.environ, "XDG_STATE_HOME": str(tmp_path)},
+    ) as process:
+        assert process.stderr is not None
+        assert b"Ctrl-C leaves" in process.stderr.readline()
+        time.sleep(0.1)  # the terminal becomes raw right after that line
+        os.write(ours, b"VER\r")
+        assert read_until(card_end, b"\r") == b"VER\r"
+        os.write(card_end, b"VER\r\n1.18\r\nSYS>")
+        assert read_until(ours, b"SYS>") == b"VER\r\n1.18\r\nSYS>"
+        os.write(ours, b"\x03")
+        assert process.wait(10) == 0
+    for end in (card_end, line, ours, theirs):
+        os.close(end)

@@ -311,8 +311,11 @@ def test_targets_name_their_links() -> None:
     assert link_to("card").name == "card:5002"
     assert isinstance(link_to("COM3"), SerialLink)
     assert isinstance(link_to(Controller()), ProcessLink)
-    with pytest.raises(UserError, match="neither HOST"):
-        link_to("a:b:c")
+    for target in ("a:b:c", "", "host:port"):
+        with pytest.raises(UserError, match="neither HOST"):
+            link_to(target)
+    with pytest.raises(UserError, match="port 70000 is not in"):
+        link_to("card:70000")
 
 
 def test_every_link_has_its_form_for_asyncio() -> None:

@@ -17,7 +17,7 @@ FAILED = 1
 PROGRAM_LAST, PLC_LAST = 15, 7
 
 Target = Annotated[str, typer.Argument(metavar="HOST", help="HOST, HOST:PORT or a serial port.")]
-Baud = Annotated[int, typer.Option(help="Speed of a serial port.")]
+Baud = Annotated[int, typer.Option(min=1, help="Speed of a serial port.")]
 Silence = Annotated[
     float, typer.Option("--timeout", help="Longest silence [s] while a reply is awaited.")
 ]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import StoreError, UserError
+from openacr.protocol.stream import ASCII_PORT, BINARY_PORT
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
@@ -35,8 +36,10 @@ def serve(
     insecure: Annotated[
         bool, typer.Option("--insecure", help="Let every machine that reaches the port connect.")
     ] = False,
-    ascii_port: Annotated[int, typer.Option(help="Terminal and packets; 0: any free.")] = 5002,
-    binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = 5006,
+    ascii_port: Annotated[
+        int, typer.Option(help="Terminal and packets; 0: any free.")
+    ] = ASCII_PORT,
+    binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = BINARY_PORT,
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[
         int | None,

@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.online import FAILED, Baud, Target
+
 if TYPE_CHECKING:
+    from openacr.client.links import Wire
     from openacr.io.keyboard import History, Keyboard
-    from openacr.io.link import Link
 
 ESC = b"\x1b"
 ESC_WAIT_S = 0.03  # the rest of an arrow key arrives within this time
@@ -25,12 +27,10 @@ KEY_BYTES = 1024
 
 
 def term(
-    target: Annotated[
-        str, typer.Argument(metavar="TARGET", help="HOST, HOST:PORT or a serial port.")
-    ],
-    baud: Annotated[int, typer.Option(help="Speed of a serial port.")] = 38400,
+    target: Target,
+    baud: Baud = 38400,
     wait: Annotated[
-        float, typer.Option(help="Longest wait [s] for the prompt of a piped line.")
+        float, typer.Option(min=0.0, help="Longest wait [s] for the prompt of a piped line.")
     ] = 60.0,
 ) -> None:
     """Talk to a card: interactively, or line by line when standard input is piped.
@@ -38,24 +38,26 @@ def term(
     Arrow up and down recall earlier lines, Ctrl-X, Ctrl-Y, Ctrl-Z and ESC go to the card,
     Ctrl-C leaves.
     """
-    from openacr.io.link import LinkClosedError, open_link
+    from openacr.client.errors import ConnectionLostError
+    from openacr.client.links import wire_to
 
-    link = open_link(target, baud)
+    link = wire_to(target, baud)
+    link.open()
     try:
         if sys.stdin.isatty() and sys.stdout.isatty() and os.name == "posix":
             _interactive(link)
         else:
             _piped(link, wait)
-    except LinkClosedError as ended:
+    except ConnectionLostError as ended:
         typer.echo(f"connection ended: {ended}", err=True)
-        raise typer.Exit(1) from None
+        raise typer.Exit(FAILED) from None
     finally:
         link.close()
 
 
-def _piped(link: "Link", wait_s: float) -> None:
+def _piped(link: "Wire", wait_s: float) -> None:
     """Send the lines of standard input one by one and print what comes back."""
-    from openacr.io.script import Script
+    from openacr.client.script import Script
 
     lines = (line.rstrip(b"\r\n") for line in sys.stdin.buffer)
     Script(link, _print, wait_s).run(lines)
@@ -67,7 +69,7 @@ def _print(data: bytes) -> None:
     sys.stdout.buffer.flush()
 
 
-def _interactive(link: "Link") -> None:
+def _interactive(link: "Wire") -> None:
     """Pass keys to the card and its output to the screen until Ctrl-C."""
     from openacr.io.keyboard import Keyboard
 
@@ -81,7 +83,7 @@ def _interactive(link: "Link") -> None:
         typer.echo("", err=True)
 
 
-def _exchange(link: "Link", keyboard: "Keyboard") -> None:
+def _exchange(link: "Wire", keyboard: "Keyboard") -> None:
     stdin, stdout = sys.stdin.fileno(), sys.stdout.fileno()
     while not keyboard.leave:
         ready, _, _ = select.select([stdin, link], [], [])

@@ -7,17 +7,16 @@ where the card lives in this process, since there time passes only while somebod
 import re
 import socket
 import time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from openacr.client.causes import NO_DRIVER, network_cause
 from openacr.client.errors import ConnectionLostError
 from openacr.errors import UserError, reason
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
+from openacr.protocol.stream import ASCII_PORT, NoFreeStreamError, StreamKind
 
 if TYPE_CHECKING:
     import serial
 
-ASCII_PORT = 5002
 DEFAULT_BAUD = 38400
 CONNECT_S = 5.0
 READ_BYTES = 65536
@@ -121,6 +120,10 @@ class TcpLink:
         except OSError as failure:
             raise ConnectionLostError(f"{self.name}: {failure}") from None
 
+    def fileno(self) -> int:
+        """For `select`."""
+        return self._connected().fileno()
+
     def _connected(self) -> socket.socket:
         if self._socket is None:
             raise ConnectionLostError(f"{self.name} is not connected")
@@ -180,6 +183,11 @@ class SerialLink:
             self._connected().write(data)
         except OSError as failure:
             raise ConnectionLostError(f"{self.name}: {failure}") from None
+
+    def fileno(self) -> int:
+        """For `select`, where the system has that."""
+        number: int = self._connected().fileno()
+        return number
 
     def _connected(self) -> "serial.Serial":
         if self._port is None:
@@ -267,10 +275,16 @@ class ProcessLink:
             self._stream = None
 
 
+Wire: TypeAlias = TcpLink | SerialLink
+
+
 def link_to(target: "str | Host", baud: int = DEFAULT_BAUD) -> Link:
     """The link to `HOST[:PORT]`, to a serial port (a path, or COM1), or to a card."""
-    if not isinstance(target, str):
-        return ProcessLink(target)
+    return wire_to(target, baud) if isinstance(target, str) else ProcessLink(target)
+
+
+def wire_to(target: str, baud: int = DEFAULT_BAUD) -> Wire:
+    """The link to `HOST[:PORT]` or to a serial port (a path, or COM1)."""
     if "/" in target or re.fullmatch(r"COM\d+", target, re.IGNORECASE):
         return SerialLink(target, baud)
     found = _TCP_TARGET.fullmatch(target)

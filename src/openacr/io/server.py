@@ -19,7 +19,6 @@ from openacr.io.peers import Peer, TcpPeer
 from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
-ASCII_PORT, BINARY_PORT = 5002, 5006
 LOOPBACK = "127.0.0.1"
 STEP_S = 0.001
 CONNECTIONS = 16

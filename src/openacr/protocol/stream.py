@@ -5,12 +5,14 @@ from enum import Enum, IntFlag
 from openacr.errors import OpenacrError
 from openacr.protocol.escape import BinaryMode
 
+ASCII_PORT, BINARY_PORT = 5002, 5006  # of TCP
+
 
 class StreamKind(Enum):
     """What a stream understands and how it starts up."""
 
-    TERMINAL = "terminal"  # text and packets, 8-bit clean: TCP port 5002, USB
-    PACKETS = "packets"  # packets only: TCP port 5006
+    TERMINAL = "terminal"  # text and packets, 8-bit clean: TCP, USB
+    PACKETS = "packets"  # packets only: TCP
     SERIAL = "serial"  # text and packets with XON/XOFF: COM1, COM2
     DPCB = "dpcb"  # as a terminal, SET and CLR packets with a fourth byte
 

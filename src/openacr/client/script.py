@@ -9,19 +9,15 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from openacr.errors import UserError
-from openacr.io.link import Link
+from openacr.client.errors import NoReplyError
+from openacr.client.links import Link
+from openacr.protocol.stream import EchoMode
 
 QUIET_S = 0.3
-NO_PROMPT = 4  # bit of the ECHO mode
 ESC = b"\x1b"
 _PROMPT = re.compile(rb"(?:^|\n)(?:SYS|P\d\d|PLC\d+)>$")
 _ECHO = re.compile(rb"(?:^|:)\s*ECHO\s*(\d+)", re.IGNORECASE)
 _KEYS = re.compile(rb"[\x18\x19\x1a\x1b]+")
-
-
-class NoReplyError(UserError):
-    """The card did not finish a line in time."""
 
 
 @dataclass(slots=True)
@@ -34,7 +30,7 @@ class Script:
     _prompts: bool = True
 
     def run(self, lines: Iterable[bytes]) -> None:
-        """Send every line and wait for its reply; NoReplyError, LinkClosedError."""
+        """Send every line and wait for its reply; NoReplyError, ConnectionLostError."""
         waiting: bytes | None = None
         for line in lines:
             keys = _KEYS.fullmatch(line) is not None
@@ -49,7 +45,7 @@ class Script:
         """Take the reply to `line`."""
         echo = _ECHO.search(line)
         if echo is not None:
-            self._prompts = not int(echo[1]) & NO_PROMPT
+            self._prompts = not int(echo[1]) & EchoMode.NO_PROMPT
         silent_key = _KEYS.fullmatch(line) is not None and ESC not in line
         if interrupted or silent_key or not self._prompts:
             self._until_quiet()
@@ -66,8 +62,7 @@ class Script:
         while not _PROMPT.search(seen):
             left_s = deadline_s - time.monotonic()
             if left_s <= 0:
-                text = line.decode("utf-8", "replace")
-                raise NoReplyError(f"no prompt within {self.wait_s:g} s after: {text}")
+                raise NoReplyError(self.link.name, line.decode("utf-8", "replace"), self.wait_s)
             data = self.link.read(left_s)
             self.show(data)
             seen = (seen + data)[-64:]

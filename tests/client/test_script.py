@@ -6,15 +6,16 @@ import pytest
 from tests.io.fake_card import FakeCard
 from tests.io.threaded import served
 
-from openacr.errors import UserError
-from openacr.io.link import LinkClosedError, TcpLink, open_link
-from openacr.io.script import NoReplyError, Script
+from openacr.client import ConnectionLostError, NoReplyError
+from openacr.client.links import TcpLink, wire_to
+from openacr.client.script import Script
 
 
 def replies(lines: list[bytes], wait_s: float = 5.0) -> bytes:
     shown = bytearray()
     with served(FakeCard()) as at:
-        link = open_link(str(at), 9600)
+        link = wire_to(str(at))
+        link.open()
         try:
             Script(link, shown.extend, wait_s).run(lines)
         finally:
@@ -48,20 +49,8 @@ def test_a_line_without_a_reply_is_an_error_after_the_wait() -> None:
 def test_a_closed_connection_is_told_apart_from_silence() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         link = TcpLink("127.0.0.1", listener.getsockname()[1])
+        link.open()
         listener.accept()[0].close()
-        with pytest.raises(LinkClosedError, match="closed"):
+        with pytest.raises(ConnectionLostError, match="closed"):
             link.read(5.0)
         link.close()
-
-
-@pytest.mark.parametrize("target", ["host:port", "", "a:b:c", "/dev/no-such-port"])
-def test_an_impossible_target_is_a_user_error(target: str) -> None:
-    with pytest.raises(UserError):
-        open_link(target, 9600)
-
-
-def test_a_refused_connection_is_a_user_error() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        port = listener.getsockname()[1]
-    with pytest.raises(UserError, match="cannot connect"):
-        open_link(f"127.0.0.1:{port}", 9600)
