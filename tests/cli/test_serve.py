@@ -11,16 +11,17 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PROGRAM = """
-import asyncio
+import asyncio, signal
+signal.signal(signal.SIGHUP, signal.{hangup})
 from openacr.cli.serve import Ports, serve_card
 from tests.io.fake_card import FakeCard
 asyncio.run(serve_card(FakeCard(), Ports({host!r})))
 """
 
 
-def start(host: str = "127.0.0.1") -> "subprocess.Popen[str]":
+def start(host: str = "127.0.0.1", hangup: str = "SIG_DFL") -> "subprocess.Popen[str]":
     return subprocess.Popen(
-        [sys.executable, "-c", PROGRAM.format(host=host)],
+        [sys.executable, "-c", PROGRAM.format(host=host, hangup=hangup)],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -29,8 +30,8 @@ def start(host: str = "127.0.0.1") -> "subprocess.Popen[str]":
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_it_announces_its_ports_and_ends_cleanly_on_a_signal(number: signal.Signals) -> None:
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGINT", "SIGHUP"])
+def test_it_announces_its_ports_and_ends_cleanly_on_a_signal(name: str) -> None:
     with start() as process:
         assert process.stdout is not None
         line = process.stdout.readline()
@@ -40,9 +41,24 @@ def test_it_announces_its_ports_and_ends_cleanly_on_a_signal(number: signal.Sign
             with socket.create_connection(("127.0.0.1", int(port)), 5) as connection:
                 connection.sendall(bytes.fromhex("00 30 02 01"))
                 assert connection.recv(8)[:4] == bytes.fromhex("00 30 02 01")
-        process.send_signal(number)
+        process.send_signal(getattr(signal, name))
         out, err = process.communicate(timeout=10)
         assert (process.returncode, out, err) == (0, "", "")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_with_nohup_it_outlives_its_terminal() -> None:
+    with start(hangup="SIG_IGN") as process:
+        assert process.stdout is not None
+        port = re.search(r"binary=127.0.0.1:(\d+)", process.stdout.readline())
+        assert port is not None
+        process.send_signal(signal.SIGHUP)
+        with socket.create_connection(("127.0.0.1", int(port[1])), 5) as connection:
+            connection.sendall(bytes.fromhex("00 30 02 01"))
+            assert connection.recv(8)[:4] == bytes.fromhex("00 30 02 01")
+        process.terminate()
+        process.communicate(timeout=10)
+        assert process.returncode == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")

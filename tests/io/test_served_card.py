@@ -198,6 +198,14 @@ def test_it_warns_when_other_machines_can_reach_it() -> None:
         code, error = served.end()
         assert code == 0
         assert "WARNING" in error
+        assert "anyone who connects can move axes" in error
+
+
+def test_the_warning_says_who_may_connect() -> None:
+    options = ("--host", "0.0.0.0", "--allow", "192.168.10.0/24,10.0.0.7")
+    with serving(*options) as served:
+        _, error = served.end()
+        assert "every host in 192.168.10.0/24, 10.0.0.7/32 can move axes" in error
 
 
 @pytest.mark.parametrize(

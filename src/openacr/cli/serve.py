@@ -43,7 +43,7 @@ def serve(
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[
         int | None,
-        typer.Option(help="Speed of the serial port; default: as P7013 says, else 38400."),
+        typer.Option(min=1, help="Speed of the serial port; default: as P7013 says, else 38400."),
     ] = None,
     speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
     data: Annotated[
@@ -148,7 +148,7 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
 async def serve_card(
     card: "CardHost", ports: Ports, speed: float = 1.0, guests: "Guests | None" = None
 ) -> None:
-    """Serve until SIGTERM or Ctrl-C; prints one line when everything listens."""
+    """Serve until SIGTERM, SIGHUP or Ctrl-C; prints one line when everything listens."""
     from openacr.io.serial_port import LineSettings
     from openacr.io.server import CardServer
     from openacr.protocol.stream import StreamKind
@@ -164,19 +164,19 @@ async def serve_card(
     except BaseException:
         await server.close()
         raise
-    _announce(terminal, packets)
+    _announce(terminal, packets, server.allowed)
     gc.collect()
     gc.freeze()  # what is loaded now stays: later collections are short
     await server.run(stop)
     log.info("%s", server.report())
 
 
-def _announce(terminal: "Address", packets: "Address") -> None:
+def _announce(terminal: "Address", packets: "Address", guests: "Guests") -> None:
     if not terminal.is_loopback:
         typer.secho(
             f"WARNING: {terminal} can be reached from other machines. The card's protocols"
-            " have no passwords and no encryption: anyone who connects can move axes and"
-            " change programs. Use this in a trusted network only.",
+            f" have no passwords and no encryption: {guests} can move axes and change"
+            " programs. Use this in a trusted network only.",
             fg=typer.colors.RED,
             bold=True,
             err=True,
@@ -185,9 +185,11 @@ def _announce(terminal: "Address", packets: "Address") -> None:
 
 
 def _stop_on_signals(stop: asyncio.Event) -> None:
-    """End cleanly on SIGTERM and Ctrl-C."""
+    """End cleanly on Ctrl-C, on SIGTERM, and when the terminal is closed."""
+    from openacr.cli.signals import endings
+
     loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, *endings()):
         try:
             loop.add_signal_handler(number, stop.set)
         except NotImplementedError:  # this system delivers signals to Python handlers only

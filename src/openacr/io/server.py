@@ -57,6 +57,10 @@ class Guests:
 
     networks: tuple[ipaddress.IPv4Network | ipaddress.IPv6Network, ...] = ()
 
+    def __str__(self) -> str:
+        named = [str(network) for network in self.networks if not network.is_loopback]
+        return f"every host in {', '.join(named)}" if named else "anyone who connects"
+
     @classmethod
     def of(cls, text: str) -> "Guests":
         """Networks as `192.168.10.0/24,10.0.0.7`; this machine is always among them."""
@@ -82,7 +86,7 @@ class CardServer:
         self, card: CardHost, *, speed: float = 1.0, allowed: Guests | None = None
     ) -> None:
         self._card = card
-        self._allowed = allowed or Guests()
+        self.allowed = allowed or Guests()
         self._pacer = Pacer(card.period_s, speed)
         self._peers: list[Peer] = []
         self._listeners: list[asyncio.Server] = []
@@ -150,7 +154,7 @@ class CardServer:
 
     def admits(self, host: str) -> bool:
         """Whether a host may connect at all."""
-        return self._allowed.admits(host)
+        return self.allowed.admits(host)
 
     def joined(self, peer: Peer) -> bool:
         """Give a new peer a stream of the card."""
