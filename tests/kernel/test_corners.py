@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from tests.kernel.rig import Reals, Rig, T, examples
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import corners, moves
+from openacr.motion import corners, host_moves, moves
+from openacr.motion.host_moves import HostMove
 from openacr.motion.orders import Target
 
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
@@ -37,15 +39,19 @@ def rig(
 
 
 def follow(
-    made: Rig, points: Sequence[Point], meanwhile: Callable[[int], None] | None = None
+    made: Rig,
+    points: Sequence[Point],
+    meanwhile: Callable[[int], None] | None = None,
+    issue: Callable[[Point], None] | None = None,
 ) -> Reals:
     """Positions of all axes, tick by tick, along the points."""
+    issue = issue or (lambda point: made.move(*point))
     waiting, places, tick = list(points)[::-1], [], 0
     rows = [at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_PSP_CNT for n in range(made.axes)]
     places.append([made.F[row] / PPU for row in rows])
     while waiting or made.bit(IN_MOTION):
         while waiting and moves.has_room(made.card, 0):
-            made.move(*waiting.pop())
+            issue(waiting.pop())
         if meanwhile:
             meanwhile(tick)
         made.ticks()
@@ -191,12 +197,11 @@ EVENTS = st.lists(
 )
 
 
-@settings(max_examples=examples(250))
-@given(polylines(), st.floats(-4.0, 0.0).map(lambda e: 10.0**e), EVENTS)
-def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
-    points: list[Point], tolerance: float, events: list[tuple[int, str, float]]
-) -> None:
-    made = rig(tolerance)
+Event = tuple[int, str, float]
+
+
+def disturbed(made: Rig, events: list[Event]) -> Callable[[int], None]:
+    """Override, feedhold and cycle start as they come; in the end the path goes on."""
     due = {}
     tick = 0
     for wait, what, value in [*events, (200, "fov", 1.0), (1, "go", 0.0)]:
@@ -212,9 +217,101 @@ def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
         elif what == "go":
             moves.release(made.card, 0)
 
-    places = follow(made, points, disturb)
+    return disturb
+
+
+def keeps_its_limits(places: Reals, points: Sequence[Point], tolerance: float) -> None:
     assert tuple(places[-1] * PPU) == pytest.approx(tuple(np.array(points[-1]) * PPU), abs=1e-6)
     assert off_path(places, points) <= tolerance * (1 + 1e-6) + 1e-9
     assert accelerations(places).max() <= 1000 * (1 + 1e-4)
     speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / T
     assert speed.max() <= 200 * (1 + 1e-6)
+
+
+TOLERANCES = st.floats(-4.0, 0.0).map(lambda e: 10.0**e)
+
+
+@settings(max_examples=examples(250))
+@given(polylines(), TOLERANCES, EVENTS)
+def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
+    points: list[Point], tolerance: float, events: list[Event]
+) -> None:
+    made = rig(tolerance)
+    keeps_its_limits(follow(made, points, disturbed(made, events)), points, tolerance)
+
+
+# binary moves bring their tolerance along; LOOK is off
+
+
+def host_rig(*, pure: bool = False) -> Rig:
+    made = rig(0.0, pure=pure)
+    made.I[at.MF4_WORD] &= ~at.MF4_LOOK_AHEAD_MODE
+    return made
+
+
+def by_host(made: Rig, tolerances: Sequence[float | None], **more: Any) -> Callable[[Point], None]:
+    """Issues moves that end at rest, but for corners with a tolerance and a move behind."""
+    left = list(tolerances)[::-1]
+
+    def issue(point: Point) -> None:
+        move = HostMove(
+            master=0, targets_cnt={n: value * PPU for n, value in enumerate(point)},
+            acc_ups2=1000.0, vel_ups=100.0, stop_ramp=True, final_velocity_zero=True,
+            tolerance_u=left.pop(), **more,
+        )  # fmt: skip
+        host_moves.issue(made.card, move)
+
+    return issue
+
+
+def test_a_binary_move_rounds_the_corner_it_brings_a_tolerance_for() -> None:
+    made = host_rig()
+    issue = by_host(made, [0.2, None, 0.5, 0.1])
+    places = follow(made, SQUARE, issue=issue)
+    nearest = [np.min(np.linalg.norm(places - corner, axis=1)) for corner in SQUARE]
+    assert nearest == pytest.approx([0.2, 0.0, 0.5, 0.0], rel=0.02, abs=1e-4)
+    keeps_its_limits(places, SQUARE, 0.5)
+    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / T
+    at_corner = [speeds[np.argmin(np.linalg.norm(places - corner, axis=1))] for corner in SQUARE]
+    assert at_corner[1] < 1.0 < 15 < min(at_corner[0], at_corner[2])
+
+
+def test_a_straight_junction_of_a_binary_chain_is_passed_at_full_speed() -> None:
+    points = [(10.0, 0.0), (20.0, 0.0), (30.0, 0.0)]
+    made = host_rig()
+    places = follow(made, points, issue=by_host(made, [0.01, 0.01, 0.01]))
+    assert len(places) * T == pytest.approx(30 / 100 + 0.1, abs=0.002)
+
+
+def test_a_tolerance_that_is_no_length_is_refused_before_anything_moves() -> None:
+    made = host_rig()
+    for wrong in (-0.5, math.nan, math.inf):
+        with pytest.raises(CardError, match="Invalid argument"):
+            by_host(made, [wrong])((1.0, 0.0))
+    assert not made.bit(IN_MOTION)
+
+
+@settings(max_examples=examples(250))
+@given(polylines(), st.lists(st.none() | TOLERANCES, min_size=12, max_size=12), EVENTS)
+def test_binary_chains_stay_within_tolerance_and_acceleration_and_end_exactly(
+    points: list[Point], tolerances: list[float | None], events: list[Event]
+) -> None:
+    made = host_rig()
+    issue = by_host(made, tolerances)
+    places = follow(made, points, disturbed(made, events), issue)
+    keeps_its_limits(places, points, max(each or 0.0 for each in tolerances[: len(points)]))
+
+
+@settings(max_examples=examples(15))
+@given(polylines(), st.lists(st.none() | TOLERANCES, min_size=12, max_size=12))
+def test_both_builds_agree_about_binary_chains(
+    points: list[Point], tolerances: list[float | None]
+) -> None:
+    digests = []
+    for pure in (False, True):
+        made = host_rig(pure=pure)
+        for point, own in list(zip(points, tolerances, strict=False))[:10]:
+            by_host(made, [own])(point)
+        made.ticks(300)
+        digests.append(made.memory.digest())
+    assert digests[0] == digests[1]

@@ -135,6 +135,7 @@ def test_single_bits_keep_their_places() -> None:
     vel=st.none() | st.floats(width=32, allow_nan=False),
     fvel=st.none() | st.floats(width=32, allow_nan=False),
     centers=st.none() | st.tuples(st.integers(-9, 9), st.integers(-9, 9)),
+    tolerance=st.none() | st.floats(width=32, allow_nan=False),
 )
 def test_moves_survive_the_wire(
     targets: dict[int, int],
@@ -142,13 +143,21 @@ def test_moves_survive_the_wire(
     vel: float | None,
     fvel: float | None,
     centers: tuple[int, int] | None,
+    tolerance: float | None,
 ) -> None:
-    move = Move.of(targets, master=master, vel=vel, fvel=fvel, centers=centers)
+    move = Move.of(targets, master=master, vel=vel, fvel=fvel, centers=centers, tolerance=tolerance)
     data = move.encode()
     assert decoded(data) == move
     for have in range(1, len(data)):
         assert have < packets.total_length(data[:have]) <= len(data)
     assert b"".join(part.data for part in move.explain()) == data
+
+
+def test_a_path_tolerance_is_the_last_field_and_a_bit_that_cards_reserve() -> None:
+    move = Move.of({0: 1}, tolerance=0.5)
+    assert move.encode() == bytes.fromhex("04 08 00 01 80 00 01 00 00") + words(1, 0.5)
+    assert Move.of({0: 1}).encode() == bytes.fromhex("04 00 00 01") + words(1)
+    assert "path tolerance" in packets.explain(move.encode())
 
 
 @pytest.mark.req("BIN-112")

@@ -131,6 +131,7 @@ def _host_move(card: Card, move: Move) -> HostMove:
         count=move.counter_step,
         interrupt=move.interrupts,
         block_skip=move.is_block_skip,
+        tolerance_u=move.tolerance,
     )
 
 

@@ -4,7 +4,7 @@ from openacr.kernel.bezier_cy import is_bezier
 from openacr.kernel.corner_cy import corner_drop
 from openacr.kernel.curveflags_cy import curve_drop
 from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
-from openacr.kernel.lookahead_cy import look_active
+from openacr.kernel.lookahead_cy import look_beyond
 from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record
 from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import (
@@ -153,7 +153,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
         return
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]
-    flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_active(I, m)
+    flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_beyond(I, m, move_record(I, m))
     flows = flows or is_bezier(I, move_record(I, m))
     merged: bool = flows and I[i + MSI_QUEUED] > I[i + MSI_STRETCH]
     merged = merged or I[i + MSI_PIECE] != 0

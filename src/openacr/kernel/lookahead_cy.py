@@ -51,6 +51,7 @@ from openacr.map.numbers import (
     MQF_STRIDE,
     MQF_TMOV_S,
     MQF_TURN_DEG,
+    MQI_AHEAD,
     MQI_BASE,
     MQI_HSINT_AXIS,
     MQI_INTERRUPT,
@@ -90,6 +91,11 @@ def look_active(I: I32, m: int) -> bool:
     """Whether master m looks ahead."""
     flags: int = I[MF4_WORD + m]
     return flags & MF4_LOOK_AHEAD_MODE != 0 and not flags & MF4_LOOK_AHEAD_NEGLECT
+
+
+def look_beyond(I: I32, m: int, record: int) -> bool:
+    """Whether plans may run beyond a move: of its master, or because it brings a tolerance."""
+    return look_active(I, m) or I[MQI_BASE + record * MQI_STRIDE + MQI_AHEAD] != 0
 
 
 def look_through(F: F64, I: I32, m: int, record: int) -> bool:
@@ -132,7 +138,8 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
     velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
-    if F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U] > 0.0:  # rounded, see round_cy
+    rounded: bool = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U] > 0.0
+    if rounded and look_beyond(I, m, a):  # see round_cy
         return min(velocity, F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_UPS])
     if same_curve(I, a, b) or is_timed(I, a):
         return velocity

@@ -96,6 +96,7 @@ MARK_BLOCK_SKIP = 16
 MARK_CURVE_BEGIN = 32
 MARK_NURB = 64
 MARK_TURN = 128  # a turn of the tangential axis between two moves
+MARK_ROUNDS = 256  # a binary move brings its path tolerance along
 BESIDE = 1e-3
 FAR_U = 1e30
 

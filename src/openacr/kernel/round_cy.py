@@ -16,6 +16,9 @@ larger of the two: that is the step of the backward pass (round_exit2) through t
 and lines of all moves that wait, and of the forward plan. With a jerk limit the speed in
 corners is constant.
 
+A binary move with a tolerance of its own is planned through the corner at its end though LOOK
+is off; the chain of such moves ends with the first other one, as that one ends without LOOK.
+
 The pass begins with rest a few moves ahead; if no corner and no feed has capped it on its
 way here, those few were not enough, and it begins farther ahead.
 """
@@ -26,6 +29,7 @@ from openacr.kernel.bezier_cy import is_bezier
 from openacr.kernel.corner_cy import corner_open
 from openacr.kernel.lookahead_cy import (
     look_active,
+    look_beyond,
     look_corner,
     look_final,
     look_plain,
@@ -34,7 +38,7 @@ from openacr.kernel.lookahead_cy import (
     look_speed,
     ramp_start,
 )
-from openacr.kernel.path_cy import SLAVE_COUNT, master_limit, move_record
+from openacr.kernel.path_cy import MARK_ROUNDS, SLAVE_COUNT, master_limit, move_record
 from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan
 from openacr.map.numbers import (
     MQF_ACC_UPS2,
@@ -51,8 +55,10 @@ from openacr.map.numbers import (
     MQF_TOLERANCE_U,
     MQF_VEL_UPS,
     MQF_WEIGHT,
+    MQI_AHEAD,
     MQI_BASE,
     MQI_CURVED,
+    MQI_MARKS,
     MQI_SLAVES,
     MQI_STRIDE,
     MQI_TANG,
@@ -150,11 +156,15 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     q: int = MQF_BASE + b * MQF_STRIDE
     F[p + MQF_CORNER_U] = 0.0
     F[p + MQF_CORNER_TURN] = 0.0
+    ahead: int = MQI_BASE + a * MQI_STRIDE + MQI_AHEAD
+    I[ahead] = 0
     tolerance: float = F[p + MQF_TOLERANCE_U]
     if not tolerance > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
         return
+    own: int = 1 if I[MQI_BASE + a * MQI_STRIDE + MQI_MARKS] & MARK_ROUNDS else 0
     turn: float = round_turn(F, I, S, m, a, b)
     if turn <= STRAIGHT:
+        I[ahead] = own
         return
     F[p + MQF_CORNER_TURN] = turn
     jerk: float = F[p + MQF_JRK_UPS3]
@@ -172,6 +182,7 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
         if not round_in_time(F, m, a, reach, F[p + MQF_CORNER_UPS]):
             return
     F[p + MQF_CORNER_U] = reach
+    I[ahead] = own
 
 
 def round_cap(turn: float, reach: float, limit: float, jerk: float) -> float:
@@ -270,19 +281,21 @@ def line_start2(length: float, w: float, rate: float, jerk: float) -> float:
 def round_join2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     """Speed squared at a corner that is not rounded."""
     p: int = MQF_BASE + a * MQF_STRIDE
+    if I[MQI_BASE + a * MQI_STRIDE + MQI_AHEAD]:  # straight on
+        speed: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+        return speed * speed
     if F[p + MQF_TOLERANCE_U] > 0.0 and F[p + MQF_CORNER_TURN] > STRAIGHT:
         return 0.0  # the next move has come too late
     law: float = look_corner(F, I, S, m, a, b)
     return law * law
 
 
-def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int) -> float:
-    """Backward pass from move `far` to the end of a piece of the present one.
+def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -> float:
+    """Backward pass from move `far` of up to `last` to the end of a piece of the present one.
 
     Not capped on the way, the result is negative if moves beyond `far` might change it.
     """
     k: int = far
-    last: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
     r: int = look_record(I, m, k)
     w: float = 0.0
     rate: float = look_rate(F, r)
@@ -338,23 +351,35 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int) -> float:
     return w if capped else -1.0
 
 
+def round_last(I: I32, m: int) -> int:
+    """How far behind the present move the last one is that plans may run through."""
+    last: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
+    k: int = 0
+    while k < last and look_beyond(I, m, look_record(I, m, k)):
+        k += 1
+    return k
+
+
 def round_exit2(F: F64, I: I32, S: F32, m: int, part: int) -> float:
     """Highest speed squared at the end of a piece of the present move."""
-    last: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
+    last: int = round_last(I, m)
     far: int = min(FEW, last)
-    w: float = round_pass(F, I, S, m, part, far)
+    w: float = round_pass(F, I, S, m, part, far, last)
     while w < 0.0 and far < last:
         far = min(2 * far, last)
-        w = round_pass(F, I, S, m, part, far)
+        w = round_pass(F, I, S, m, part, far, last)
     return max(w, 0.0)
 
 
 def round_through(F: F64, I: I32, m: int, record: int) -> bool:
     """Whether the present move is planned in pieces."""
-    if not I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING] or not look_active(I, m):
+    if not I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
         return False
     if not look_plain(F, I, record) or is_bezier(I, record):
         return False
+    if not look_active(I, m):
+        leaves: bool = F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_IN_U] > 0.0
+        return leaves or I[MQI_BASE + record * MQI_STRIDE + MQI_AHEAD] != 0
     if F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3] <= 0.0:
         return True
     # With jerk moves between corners that are not rounded merge, as LOOK has it.
@@ -388,7 +413,7 @@ def round_reach(F: F64, I: I32, m: int, record: int) -> float:
     f: int = MSF_BASE + m * MSF_STRIDE
     if F[f + MSF_CORNER_OUT_U] > 0.0:
         return F[f + MSF_CORNER_OUT_U]
-    if I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] > 1:
+    if I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] > 1 and look_beyond(I, m, record):
         return F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_U]
     return 0.0
 
@@ -435,7 +460,7 @@ def round_line(F: F64, I: I32, m: int, record: int, limit: float, leaving: float
     dec: float = F[q + MQF_DEC_UPS2]
     jerk: float = F[q + MQF_JRK_UPS3]
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
-    ends: bool = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] == 1
+    ends: bool = round_last(I, m) == 0
     rate: float = F[q + MQF_STP_UPS2]
     if not ends:
         rate = look_rate(F, record)

@@ -15,6 +15,7 @@ from openacr.kernel.path_cy import (
     MARK_COUNT_UP,
     MARK_INTERRUPT,
     MARK_OVERRIDE_LOCKED,
+    MARK_ROUNDS,
 )
 from openacr.map.numbers import (
     MA_MOVE_COUNTER,
@@ -35,7 +36,7 @@ from openacr.map.numbers import (
     MSI_SLAVE_AXIS,
 )
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
-from openacr.motion import curve_modes
+from openacr.motion import corners, curve_modes
 from openacr.motion.card import Card
 from openacr.motion.moves import start_cnt
 from openacr.motion.orders import Circle, Direction, Part
@@ -81,6 +82,7 @@ class HostMove:
     count: int = 0
     interrupt: bool = False
     block_skip: bool = False
+    tolerance_u: float | None = None  # of the corner at its end
 
     @property
     def marks(self) -> int:
@@ -91,6 +93,7 @@ class HostMove:
             | (MARK_OVERRIDE_LOCKED if self.override_locked else 0)
             | (MARK_INTERRUPT if self.interrupt else 0)
             | (MARK_BLOCK_SKIP if self.block_skip else 0)
+            | (MARK_ROUNDS if self.tolerance_u else 0)
         )
 
 
@@ -134,6 +137,8 @@ def issue(card: Card, move: HostMove) -> None:
     """Start or buffer the move; the caller has made sure that there is room."""
     program = _program(card, move.master)
     needs_moves(card, move.master)
+    if move.tolerance_u is not None and not corners.is_tolerance(move.tolerance_u):
+        raise CardError(INVALID_ARGUMENT)
     ways = _permitted(card, _ways(card, move))
     _take_profile(card, move)
     if move.arc is None and not any(way.delta_cnt for way in ways):
@@ -149,6 +154,8 @@ def issue(card: Card, move: HostMove) -> None:
         card.memory.F[reals + MQF_FVEL_UPS] = 0.0
     card.memory.I[ints + MQI_RAPID] = int(move.rapid)
     card.memory.I[ints + MQI_MARKS] = move.marks
+    if move.tolerance_u is not None:
+        corners.set_of_move(card, move.master, record, move.tolerance_u)
 
 
 def take_point(card: Card, point: HostPoint) -> None:

@@ -31,6 +31,7 @@ from openacr.map.numbers import (
     MQF_TURN_DEG,
     MQF_VEL_UPS,
     MQF_WEIGHT,
+    MQI_AHEAD,
     MQI_BASE,
     MQI_CURVE,
     MQI_HSINT_AXIS,
@@ -84,7 +85,15 @@ _COPIED = (
     (MSF_IVEL_UPS, MQF_IVEL_UPS),
     (MSF_TOLERANCE_U, MQF_TOLERANCE_U),
 )
-_CLEARED = (MQI_RAPID, MQI_SEEK_AXIS, MQI_INTERRUPT, MQI_HSINT_AXIS, MQI_MARKS, MQI_TANG)
+_CLEARED = (
+    MQI_RAPID,
+    MQI_SEEK_AXIS,
+    MQI_INTERRUPT,
+    MQI_HSINT_AXIS,
+    MQI_MARKS,
+    MQI_TANG,
+    MQI_AHEAD,
+)
 _move_shape = pick(path_cy.move_shape)
 _move_directions = pick(path_cy.move_directions)
 _path_turn_deg = pick(path_cy.path_turn_deg)

@@ -1,11 +1,14 @@
 """The binary move: a bit-mapped header and the data fields it announces (UG2 ch. 6).
 
     04 code0 code1 code2 [code3 [code4 code5 code6 code7]]
-       [VEL] [FVEL] [ACC] [targets of slaves 0-15] [two centers] [two scalings]
+       [VEL] [FVEL] [ACC] [targets of slaves 0-15] [two centers] [two scalings] [path tolerance]
 
 Code 3 is there when code 0 has bit 3, codes 4 to 7 when code 3 has bit 7; absent codes
 count as zero. What bits 0 to 2 of code 0 mean depends on a flag of the master (Enable
 Rapid Move Modes), so a decoded move keeps the codes and `profile()` reads them.
+
+The path tolerance is an extension: bit 0 of header code 5 announces it, which the manual
+leaves reserved. It is for cards of openacr alone.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,6 +27,7 @@ from openacr.protocol.move_codes import (
     PADDED_HEADER,
     SCALING,
     SLAVES,
+    TOLERANCE,
     VEL,
     Code0,
     Code1,
@@ -55,6 +59,7 @@ class Move(Packet):
     targets: tuple[tuple[int, int | float], ...] = ()
     centers: tuple[int | float, int | float] | None = None
     scaling: tuple[float, float] | None = None
+    tolerance: float | None = None  # an extension
 
     @classmethod
     def of(
@@ -70,6 +75,7 @@ class Move(Packet):
         acc: float | None = None,
         centers: tuple[int | float, int | float] | None = None,
         scaling: tuple[float, float] | None = None,
+        tolerance: float | None = None,
     ) -> Self:
         """A move with the header bits that its fields need added to the given codes.
 
@@ -85,13 +91,15 @@ class Move(Packet):
         present = sum(1 << slave for slave in targets)
         if present >> SLAVES or not 0 <= master < 16:
             raise PacketError(f"slaves {sorted(targets)} of master {master}: both are 0..15")
-        if master > 7 or present > 0xFF:
+        if master > 7 or present > 0xFF or tolerance is not None:
             code3 |= EXTENDED
         if code3:
             code0 |= CODE_3_PRESENT
         code4 = MASTER_BIT_3 if master > 7 else 0
-        codes = bytes((code0, code1, present & 0xFF, code3, code4, 0, present >> 8, 0))
-        return cls(codes, vel, fvel, acc, tuple(sorted(targets.items())), centers, scaling)
+        code5 = TOLERANCE if tolerance is not None else 0
+        codes = bytes((code0, code1, present & 0xFF, code3, code4, code5, present >> 8, 0))
+        goals = tuple(sorted(targets.items()))
+        return cls(codes, vel, fvel, acc, goals, centers, scaling, tolerance)
 
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
@@ -115,7 +123,8 @@ class Move(Packet):
         targets = tuple((slave, next(values)) for slave in header.slaves)
         centers = (next(values), next(values)) if header.centers else None
         scaling = (next(values), next(values)) if header.scaling else None
-        return cls(codes, vel, fvel, acc, targets, centers, scaling)
+        tolerance = next(values) if header.tolerance else None
+        return cls(codes, vel, fvel, acc, targets, centers, scaling, tolerance)
 
     def encode(self) -> bytes:
         """Header as long as the codes announce, then the fields."""
@@ -139,6 +148,8 @@ class Move(Packet):
             yield kind(center)
         for scale in self.scaling or ():
             yield float(scale)
+        if self.tolerance is not None:
+            yield self.tolerance
 
     def names(self) -> list[str]:
         """What the data fields are, in wire order."""
@@ -147,7 +158,7 @@ class Move(Packet):
         names += [f"slave {slave}" for slave, _ in self.targets]
         for what, pair in (("center", self.centers), ("scaling", self.scaling)):
             names += [f"primary {what}", f"secondary {what}"] if pair else []
-        return names
+        return names + ["path tolerance"] * (self.tolerance is not None)
 
     @property
     def code0(self) -> Code0:

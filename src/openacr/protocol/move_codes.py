@@ -48,6 +48,7 @@ class Code3(IntFlag):
 
 
 MASTER_BIT_3 = 0x08  # of header code 4
+TOLERANCE = 0x01  # of header code 5, reserved on real cards: the packet ends with a path tolerance
 # Plain integers are much quicker than flags, and moves come by the thousand.
 CODE_3_PRESENT, VEL, ACC = Code0.CODE_3_PRESENT.value, Code0.VEL.value, Code0.ACC.value
 ARC, FVEL, SCALING = Code1.ARC.value, Code3.FVEL.value, Code3.SCALING.value
@@ -84,6 +85,7 @@ class Header:
     acc: bool
     centers: bool
     scaling: bool
+    tolerance: bool
     floating: bool
     master: int
     curve: Curve
@@ -109,6 +111,7 @@ def header_of(codes: bytes) -> Header:
     curve = _curve(code1, code3)
     step = -1 if code0 & Code0.COUNT_DOWN else 1
     slaves = tuple(slave for slave in range(SLAVES) if present >> slave & 1)
+    tolerance = bool(codes[5] & TOLERANCE)
     vel, fvel, acc = bool(code0 & Code0.VEL), bool(code3 & Code3.FVEL), bool(code0 & Code0.ACC)
     centers, scaling = curve is Curve.ARC, bool(code3 & Code3.SCALING)
     position = "f" if code3 & Code3.FLOATING_POINT else "i"
@@ -121,6 +124,7 @@ def header_of(codes: bytes) -> Header:
         acc=acc,
         centers=centers,
         scaling=scaling,
+        tolerance=tolerance,
         floating=bool(code3 & Code3.FLOATING_POINT),
         master=(8 if codes[4] & MASTER_BIT_3 else 0) | int(code1 & Code1.MASTER),
         curve=curve,
@@ -130,7 +134,9 @@ def header_of(codes: bytes) -> Header:
         is_counterclockwise=bool(code1 & Code1.COUNTERCLOCKWISE),
         is_block_skip=bool(code3 & Code3.BLOCK_SKIP),
         interrupts=bool(code1 & Code1.INTERRUPT),
-        fields=struct.Struct("<" + "f" * (vel + fvel + acc) + positions + "ff" * scaling),
+        fields=struct.Struct(
+            "<" + "f" * (vel + fvel + acc) + positions + "ff" * scaling + "f" * tolerance
+        ),
     )
 
 

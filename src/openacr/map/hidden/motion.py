@@ -98,6 +98,7 @@ MOVE = HiddenBlock(
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
         "tang",  # slave + 1 that is kept tangential along a curve
+        "ahead",  # planned through the corner at its end though LOOK is off
         "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
 )
