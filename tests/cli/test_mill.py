@@ -246,3 +246,11 @@ def test_repeat_forever_does_not_hold_a_virtual_run(tmp_path: Path) -> None:
     with Store(tmp_path / "sysvar.db") as store:
         store.write(REPEAT_FOREVER, 1)
     assert as_json("run", program(tmp_path, SQUARE))["passes"] == 1
+
+
+def test_block_skip_leaves_slashed_lines_out(tmp_path: Path) -> None:
+    part = tmp_path / "S.NC"
+    part.write_text("F60\n" + "G1 X.1\n/G1 Y.1\n" * 3 + "M2\n")
+    for words, y in ((["--block-skip"], 0.0), ([], 0.1)):
+        result = CliRunner().invoke(app, ["mill", "run", str(part), "--json", *words])
+        assert json.loads(result.output)["end"]["Y"] == y

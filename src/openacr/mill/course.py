@@ -33,6 +33,7 @@ class Course:
         self.host = RunHost(panel.machine, panel.settings, lambda: self._probing.point)
         self.tracker = Tracker()
         self.moves = 0  # moves sent
+        self.is_retaking = False  # the card is on its way to rest, to give its moves back
         self._machine = panel.machine
         self._doing = doing
         self._depth = depth
@@ -86,7 +87,7 @@ class Course:
         room = self._depth - self.tracker.waiting
         feed.read(room)
         self._send(feed.take(room, is_urgent=feed.is_starved and self._is_short()))
-        is_at_rest = look.counter >= self.tracker.sent and not look.is_moving
+        is_at_rest = self.tracker.is_at_end(look)
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
                 pass  # none of them waits
@@ -135,11 +136,11 @@ class Course:
         job = self.tracker.current
         return place(job, self.host.position()) if job else None
 
-    def is_off(self, left: Place) -> bool:
-        """Whether the machine has been moved away from where it left the path."""
+    def is_off(self, point: c.Point) -> bool:
+        """Whether the machine has been moved away from where it was held."""
         here = self.host.position()
         return any(
-            abs(here[axis.index] - left.point[axis.index])
+            abs(here[axis.index] - point[axis.index])
             > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
             for axis in self.settings.axes
         )
@@ -149,9 +150,13 @@ class Course:
         feed = self._feed
         if feed is None:
             return
-        self._machine.hold()
-        yield Until("stops", lambda look: look.is_held or not look.is_moving)
-        yield from self.put_back(self.host.position())
+        self.is_retaking = True
+        try:
+            self._machine.hold()
+            yield Until("stops", lambda look: look.is_held or not look.is_moving)
+            yield from self.put_back(self.host.position())
+        finally:
+            self.is_retaking = False
 
     def put_back(self, here: c.Point) -> Steps:
         """Take the rest of the way back from the card, for a machine that is held at `here`."""
@@ -163,35 +168,38 @@ class Course:
         if self._feed is not None:
             self._feed.replace(jobs)
 
-    def rejoin(self, left: Place) -> Steps:
-        """Back to the path on an arc that touches it, then the rest of the way."""
+    def rejoin(self, target: c.Point, left: Place | None) -> Steps:
+        """Back to where the machine was held, then the rest of the way.
+
+        A path is met again on an arc that touches it; without one the way is straight.
+        """
         feed = self._feed
         if feed is None:
             return
         here = self.host.position()
-        jobs = self._taken_back(left.point)
+        jobs = self._taken_back(target)
         yield from self.drop_moves()
-        leading = self._jobs(lead_in(left, here, self.settings.lead_in_u), here)
-        if any(first_excess(job, self.settings) for job in leading):
-            leading = self._jobs(lead_in(left, here, 0.0), here)
+        leading = self._straight_back(here, target)
+        if left is not None:
+            leading = self._jobs(lead_in(left, here, self.settings.lead_in_u), here)
+            if any(first_excess(job, self.settings) for job in leading):
+                leading = self._jobs(lead_in(left, here, 0.0), here)
         feed.replace([*leading, *jobs])
 
     def come_back(self, target: c.Point) -> None:
         """Back to a point the machine rested at, straight, before anything else."""
-        here, source = self.host.position(), self.tracker.source or c.Source("", 1, "")
-        jobs = self._jobs(straight_back(source, here, target, c.Plane.XY.drill), here)
+        jobs = self._straight_back(self.host.position(), target)
         if self._feed is not None and jobs:
             self._feed.replace(jobs)
 
+    def _straight_back(self, here: c.Point, target: c.Point) -> list[Job]:
+        source = self.tracker.source or c.Source("", 1, "")
+        return self._jobs(straight_back(source, here, target, c.Plane.XY.drill), here)
+
     def return_to_begin(self) -> Steps:
         """Straight to where the program was started, the drill axis up first."""
-        here = self.host.position()
-        source = self.tracker.source or c.Source("", 1, "")
-        self._send(self._jobs(straight_back(source, here, self._begin, c.Plane.XY.drill), here))
-        yield Until(
-            "back to the start",
-            lambda look: look.counter >= self.tracker.sent and not look.is_moving,
-        )
+        self._send(self._straight_back(self.host.position(), self._begin))
+        yield Until("back to the start", self.tracker.is_at_end)
 
     def drop_moves(self) -> Steps:
         """Drop what the card holds and count from zero again."""
@@ -201,7 +209,8 @@ class Course:
         self._machine.clear_kill()
         self._machine.reset_counter()
         self.tracker.reset()
-        yield Until("kill is cleared", lambda look: not look.is_killed)
+        # What was seen before the counter was reset must not pass for the end of new moves.
+        yield Until("kill is cleared", lambda look: not look.is_killed and look.counter == 0)
 
     def _jobs(self, entries: Iterator[Motion], begin: c.Point) -> list[Job]:
         jobs = []

@@ -252,10 +252,12 @@ class Feed:
     def replace(self, jobs: list[Job]) -> None:
         """Make these moves, then those that have been read and have not left yet."""
         self._again = deque([*jobs, *self._planner.clear(), *self._again])
+        self._has_begun = True
+        if not self._again:
+            return  # a halt that waits for rest is still what comes next
         if self._halt_behind is None:
             self._halt_behind = self.halt
         self.halt = None
-        self._has_begun = True
 
     def count_anew(self, jobs: list[Job], held: Job | None, rest: Job | None) -> None:
         """The card counts from zero: `rest` is left of the held move, `jobs` come behind it."""

@@ -18,7 +18,8 @@ class RunHost:
         self._settings = settings
         self._tripped = tripped
         self.answers: dict[int, float] = {}
-        self.is_skipping = False
+        self.is_skipping = False  # the switch
+        self.skips_always = False  # the button on the screen
 
     def read_parameter(self, n: int) -> float:
         """A parameter of the card."""
@@ -58,4 +59,4 @@ class RunHost:
 
     def is_block_skip_on(self) -> bool:
         """The switch, or the button on the screen."""
-        return self.is_skipping
+        return self.is_skipping or self.skips_always

@@ -1,5 +1,6 @@
 """A program in a feed hold: where it came to rest, the way back along its path, and on again."""
 
+from openacr.cnc.canonical import Point
 from openacr.errors import UserError
 from openacr.mill.course import Course
 from openacr.mill.machine import Look
@@ -22,7 +23,13 @@ class Pausing:
         self._retrace = retrace
         self._script = script
         self._status = status
-        self._left: Place | None = None  # where the hold has come to rest
+        self._rest: Point | None = None  # where the hold has come to rest
+        self._left: Place | None = None  # that place on the path, once a move was made
+
+    @property
+    def has_rested(self) -> bool:
+        """Whether the hold has come to rest: axes may be moved by hand only then."""
+        return self._rest is not None
 
     def begin(self) -> None:
         """Feed hold: the moves ramp to rest on their path."""
@@ -31,8 +38,8 @@ class Pausing:
 
     def note_place(self, look: Look) -> None:
         """Where a feed hold has come to rest on the path."""
-        if self._status.state is State.PAUSED and self._left is None and look.is_held:
-            self._left = self._course.place()
+        if self._status.state is State.PAUSED and self._rest is None and look.is_held:
+            self._rest, self._left = self._course.host.position(), self._course.place()
 
     def trace(self, direction: int) -> None:
         """Back along the path (-1), or forward again (1)."""
@@ -41,23 +48,32 @@ class Pausing:
         self._retrace.begin(direction, self._left)
 
     def resume(self) -> None:
-        """The way goes on where it was held."""
+        """The way goes on where it was held; a refusal changes nothing."""
         if self._panel.is_in(self._machine.look(), self._panel.settings.wiring.feed_hold):
             raise UserError("the feed hold input is active")
-        left, self._left = self._left, None
-        is_taken_back = self._retrace.has_left
-        if is_taken_back:
-            left = self._retrace.finish()
-        if left is None or not self._course.is_off(left):
-            if not is_taken_back:
-                self._machine.go_on()
-        elif self._script.is_active:
-            raise UserError("the machine was moved while an action waits: abort")
-        else:
-            self._script.begin(self._course.rejoin(left))
+        left = self._retrace.left or self._left
+        point = left.point if left else self._rest
+        is_off = point is not None and self._course.is_off(point)
+        if is_off and self._script.is_active:
+            raise UserError("the machine was moved while an action waits: move it back, or abort")
+        self._go_on(point if is_off else None, left)
+        self._rest = self._left = None
         self._status.state = State.RUN
+
+    def _go_on(self, target: Point | None, left: Place | None) -> None:
+        """On along the path: as it is held, back from a trace, or first back to `target`."""
+        is_taken_back = self._retrace.left is not None
+        self._retrace.finish()
+        if target is not None:
+            self._script.begin(self._course.rejoin(target, left))
+        elif is_taken_back or self._course.is_retaking:
+            return  # the card holds no move that goes on, or none that shall
+        elif self._status.options.is_single and not self._script.is_active:
+            self._script.begin(self._course.retake())
+        else:
+            self._machine.go_on()
 
     def close(self) -> None:
         """The program is over: there is nothing to come back to."""
         self._retrace.close()
-        self._left = None
+        self._rest = self._left = None

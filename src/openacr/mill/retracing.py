@@ -50,9 +50,9 @@ class Retrace:
         return self._script.is_active
 
     @property
-    def has_left(self) -> bool:
-        """Whether a trace has begun in this pause: the rest of the way waits here."""
-        return self._left is not None
+    def left(self) -> Place | None:
+        """Where on the path the tool stands, once a trace has begun in this pause."""
+        return self._left
 
     @property
     def source(self) -> Source | None:
@@ -68,7 +68,7 @@ class Retrace:
         if isinstance(left.job.entry, Rapid | Probe):
             raise UserError("only lines and arcs are traced")
         here = self._left or left
-        if self._course.is_off(here):
+        if self._course.is_off(here.point):
             raise UserError("the machine was moved off its path: resume first")
         if direction > 0 and self._left is None:
             raise UserError("the tool stands where it was held")
@@ -90,14 +90,13 @@ class Retrace:
         self._script.close()
         self._behind, self._ahead, self._left = [], [], None
 
-    def finish(self) -> Place | None:
-        """Leave the rest of the way to the program again; where on the path the tool stands."""
-        left, self._left = self._left, None
-        if left is not None:
+    def finish(self) -> None:
+        """Leave the rest of the way, if it was taken over, to the program again."""
+        if self._left is not None:
+            self._left = None
             self._course.tracker.trail.restart(self._behind)
             self._course.make_first(self._ahead)
             self._behind, self._ahead = [], []
-        return left
 
     # --- one trace --------------------------------------------------------------------
 
@@ -107,7 +106,6 @@ class Retrace:
             yield from self._take_over(left)
         is_forward = direction > 0
         way = self._forward() if is_forward else self._backward()
-        yield Until("counter", lambda look: look.counter == 0)
         yield self._all_of(way, "forward" if is_forward else "backward")
         count, present = self._gone(way)
         here = self._course.host.position()

@@ -34,8 +34,8 @@ from openacr.mill.script import Script
 from openacr.mill.settings import Settings, Store
 from openacr.mill.states import Options, State, Status
 from openacr.mill.supervision import Supervision
+from openacr.mill.switches import Switches
 from openacr.mill.times import Times
-from openacr.mill.watching import Edges
 
 
 class Runner:
@@ -71,7 +71,9 @@ class Runner:
             ending=ending, script=script, status=status,
         )  # fmt: skip
         self._burner = Burner(panel, course)
-        self._edges = Edges(panel)
+        self._switches = Switches(
+            panel, course.host, hands=hands, retrace=retrace, status=status, say=say
+        )
         self._times = Times()
 
     # --- what is known of the run -----------------------------------------------------
@@ -168,6 +170,7 @@ class Runner:
             self.resume()
             return
         self._status.require(State.HOLD, "go on")
+        self.alarms.require_none()
         self._require_rest()
         self._halting.go_on()
 
@@ -183,6 +186,7 @@ class Runner:
     def resume(self) -> None:
         """RESUME: the way goes on where it was held."""
         self._status.require(State.PAUSED, "resume")
+        self.alarms.require_none()
         self._require_rest()
         self._pausing.resume()
 
@@ -226,6 +230,7 @@ class Runner:
         """No alarm is up and nothing is under way."""
         self.alarms.require_none()
         self._status.require(State.IDLE, what)
+        self._require_ended(what)
         self._require_rest()
 
     def _require_free(self, what: str) -> None:
@@ -234,7 +239,17 @@ class Runner:
             raise UserError(f"cannot {what}: the state is {self.state.name}")
         if self.retrace.is_active:
             raise UserError(f"cannot {what}: the path is being traced")
+        if self.state is State.PAUSED and not self._pausing.has_rested:
+            raise UserError(f"cannot {what}: the machine has not come to rest yet")
+        self._require_ended(what)
+        if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
+            raise UserError(f"cannot {what}: the feed hold input is active")
         self.alarms.require_none()
+
+    def _require_ended(self, what: str) -> None:
+        """What was aborted has come to rest, and nothing of it is still to be done."""
+        if self._status.is_over and self._script.is_active:
+            raise UserError(f"cannot {what}: the last program is still being ended")
 
     def _require_rest(self) -> None:
         if self._hands.is_active:
@@ -254,7 +269,7 @@ class Runner:
         self._times.look(self.machine.now_s)
         self.course.tracker.update(look.counter)
         self._supervision.keep(look)
-        self._switches(look)
+        self._switches.keep(look, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(look)
         self._hands.play(look, self._times.step_s)
         self.retrace.play(look, self._times.step_s)
@@ -265,20 +280,6 @@ class Runner:
         is_cutting = not self.options.is_dry and not self.retrace.is_active
         self._burner.keep(look, is_cutting=is_cutting and self.course.has_program)
         self._console.keep(look, self._times, self._facts)
-
-    def _switches(self, look: Look) -> None:
-        """The switches and buttons of the panel."""
-        wiring = self.settings.wiring
-        self.course.host.is_skipping = self.panel.is_in(look, wiring.block_skip)
-        if self.panel.is_in(look, wiring.feed_hold):
-            self.retrace.stop()
-            if self._status.is_under_way:
-                self._supervision.pause()
-        elif self._edges.rose(look, wiring.cycle_start) and self.state in (
-            State.PAUSED,
-            State.HOLD,
-        ):
-            self.start()
 
     @property
     def _is_reading(self) -> bool:

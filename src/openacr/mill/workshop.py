@@ -156,7 +156,7 @@ class Workshop:
             is_repeated=start.is_repeated,
         )
         host = self.runner.course.host
-        host.is_skipping = host.is_skipping or start.is_skipping
+        host.skips_always = start.is_skipping
         reading = self._interpreter(program, start)
         first: Callable[[], Iterator[c.Entry]] = reading.entries
         if start.line > 1:
@@ -171,7 +171,7 @@ class Workshop:
     def start_drip(self, drip: Drip, start: Start) -> None:
         """Begin a program that is still arriving."""
         self.program, self._drip = drip.program, drip
-        self.runner.course.host.is_skipping |= start.is_skipping
+        self.runner.course.host.skips_always = start.is_skipping
         options = Options(start.is_dry, stops_optionally=start.stops_optionally, is_repeated=False)
         self.runner.run(drip.entries, options)
 
