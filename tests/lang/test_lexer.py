@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from openacr.lang.lexer import Kind, LexError, tokens
 from openacr.lang.source import Span
-from openacr.messages import LINE_TOO_LONG, SYNTAX_ERROR
+from openacr.messages import LINE_TOO_LONG, MATH_ERROR, SYNTAX_ERROR
 
 
 def values(line: str | bytes) -> list[object]:
@@ -109,6 +109,13 @@ def test_a_syntax_error_says_where_it_is() -> None:
     with pytest.raises(LexError) as caught:
         tokens("SET 32 @", 4)
     assert caught.value.span == Span(4, 8)
+
+
+def test_a_number_beyond_any_float_is_a_math_error() -> None:
+    assert values("X1e308 Y1e-400") == ["X", 1e308, "Y", 0.0]
+    with pytest.raises(LexError) as caught:
+        tokens("X5 Y1e309", 4)
+    assert (caught.value.message, caught.value.span) == (MATH_ERROR, Span(4, 5, 5))
 
 
 def test_a_line_has_at_most_255_characters() -> None:

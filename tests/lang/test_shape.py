@@ -7,6 +7,7 @@ from openacr.lang.lexer import Kind, LexError, tokens
 from openacr.lang.shape import shape, shapes
 
 PIECES = st.sampled_from(
+    "1e299 5.E400 "
     'X Y10 12.5 1e5 1E-3 .5 7 123456789 1234567890 2147483648 "text" "a""b" "open REM rem_ '
     "REM XREM REMX 5REM $REM _5REM REM12.5 ' 'REM _REM _a1 GOTO GOTO REM GOSUB _ "
     "& &HFF &B01 &H123456789 ( ) "

@@ -7,11 +7,12 @@ without blanks. Everything a word may mean is left to the parser.
 import re
 from collections.abc import Iterator
 from enum import IntEnum
+from math import inf
 from typing import NamedTuple
 
 from openacr.errors import CardError
 from openacr.lang.source import Span
-from openacr.messages import LINE_TOO_LONG, SYNTAX_ERROR, Message
+from openacr.messages import LINE_TOO_LONG, MATH_ERROR, SYNTAX_ERROR, Message
 
 LINE_LIMIT = 255
 LONG_LIMIT = 2147483647
@@ -102,6 +103,8 @@ def tokens(line: str | bytes, number: int = 1) -> list[Token]:
             add(new(Token, (_A_WORD, part, word, number, start)))
         elif group == _NUMBER:
             value = _numbers.get(part) or decimal(part)
+            if value == inf:
+                raise LexError(MATH_ERROR, Span(number, start, len(part)))
             add(new(Token, (_A_NUMBER, part, value, number, start)))
         elif group == _OPERATOR:
             add(new(Token, (_A_OPERATOR, part, part, number, start)))

@@ -8,8 +8,9 @@ Why equal shapes have equal tokens: the lexer reads from left to right, and what
 never decides how something is read. A run of up to nine digits stays a run of digits (ten
 could be a LONG or a float); a string stays a string; what follows REM or an apostrophe has
 no meaning. The first digit behind `#` is kept: it says whether there is such a device. A
-line with longer runs of digits, `&` or characters beyond ASCII, one that is too long and
-one where REM may be the name of a label are shapes of their own.
+line with longer runs of digits, `&` or characters beyond ASCII, one that is too long, one
+with an exponent of three digits, which no float may hold, and one where REM may be the name
+of a label are shapes of their own.
 """
 
 import re
@@ -23,6 +24,7 @@ _REMARK = re.compile(r"[Rr](?<![\w$].)[Ee][Mm](?![A-Za-z$])[^\n]+")
 _COMMENT = re.compile(r"'[^\n]+")
 _DIGITS = re.compile(r"\d(?<!#.)\d{0,8}")
 _LONG_RUN = "00"  # all that longer runs can become
+_FAR_EXPONENT = re.compile(r"[eE](?<=[\d.].)[+-]?\d{3}")
 _REM_AS_NAME = re.compile(r"[_OoBb][ \t]+[Rr][Ee][Mm]")  # behind `_`, GOTO or GOSUB
 
 
@@ -55,7 +57,7 @@ def _is_regular(text: str, blanked: str, longest: int | None = None) -> bool:
         return False
     if "&" in text or "# " in blanked or "#\t" in blanked:
         return False
-    return _REM_AS_NAME.search(blanked) is None
+    return _FAR_EXPONENT.search(text) is None and _REM_AS_NAME.search(blanked) is None
 
 
 def _blanked(text: str) -> str:
