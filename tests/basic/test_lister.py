@@ -10,9 +10,12 @@ import openacr.basic.commands
 import openacr.basic.strings  # noqa: F401 - both enter their words
 from openacr.basic.lister import Lister, literal
 from openacr.basic.loader import file_lines
+from openacr.basic.parser import Scope, parse_line
 from openacr.basic.program_store import StoredLine
+from openacr.basic.registry import Level
 from openacr.lang.lexer import Kind, tokens
 
+STORED = Scope(Level.PROG, stored=True)
 ALIASES = ("Time", "hours", "XFault", "Enable")
 
 
@@ -74,6 +77,10 @@ LINES = [
     ("run prog0", "RUN PROG0"),
     ("halt all", "HALT ALL"),
     ("#define Foo bit5", "#DEFINE Foo BIT 5"),
+    ("#define Foo 05", "#DEFINE Foo 5"),
+    ("#define Foo - 5 : rem", "#DEFINE Foo -5 : REM"),
+    ("#define Axis2at p5", "#DEFINE Axis2at P5"),
+    ("#define Foo:x1", "#DEFINE Foo : X1"),
 ]  # fmt: skip
 
 
@@ -121,6 +128,11 @@ def test_any_sequence_of_statements_reads_back_as_the_same_tokens(
     assert meaning(listed(text)) == meaning(text)
 
 
+def test_a_new_alias_is_listed_apart_from_its_value() -> None:
+    shown = listed("#define level 5")
+    assert parse_line(shown, STORED) == parse_line("#DEFINE level 5", STORED)
+
+
 @given(st.one_of(st.integers(0, 2**40), st.floats(0, allow_nan=False, allow_infinity=False)))
 def test_literals_keep_their_value(value: float) -> None:
     (token, _) = tokens(literal(value))
@@ -165,4 +177,17 @@ def test_numbered_programs_always_show_their_numbers() -> None:
         "30  IF (BIT 1) THEN X0",
         "40 ELSE IF (BIT 2)",
         "50 NEXT",
+    ]
+
+
+def test_an_if_behind_else_and_a_colon_is_a_level_of_its_own() -> None:
+    lines = stored("PROGRAM", "IF (P0)", "ELSE : IF (P1)", "X1", "ENDIF", "ENDIF", "ENDP")
+    assert list(Lister().program(lines)) == [
+        "PROGRAM",
+        " IF (P0)",
+        " ELSE : IF (P1)",
+        "   X1",
+        "   ENDIF",
+        "  ENDIF",
+        "ENDP",
     ]

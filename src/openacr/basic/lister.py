@@ -69,13 +69,16 @@ class Lister:
         text = ""
         before: Token | None = None
         older: Token | None = None
+        is_naming = False  # in the name that #DEFINE gives, which ends at the first blank
         for token in tokens:
             if token.kind is Kind.END:
                 break
-            part = self._spelling(token, before)
-            if before is not None and self._is_apart(older, before, token):
-                text += " "
-            text += part
+            if is_naming and before is not None and _touches(before, token):
+                text += token.text
+            else:
+                is_apart = before is not None and self._is_apart(older, before, token)
+                text += " " * (is_apart or is_naming) + self._spelling(token, before)
+                is_naming = _follows_define(before)
             older, before = before, token
         return text
 
@@ -94,8 +97,7 @@ class Lister:
         return str(token.value)
 
     def _word(self, token: Token, before: Token | None) -> str:
-        defines = before is not None and before.value == "DEFINE"
-        if defines or token.text in self.aliases:
+        if _follows_define(before) or token.text in self.aliases:
             return token.text
         is_name = token.value in self.known or len(token.text) <= LONGEST_AXIS_NAME
         return str(token.value) if is_name else token.text
@@ -141,18 +143,25 @@ def literal(value: str | int | float) -> str:
     return str(value)
 
 
+def _follows_define(before: Token | None) -> bool:
+    return before is not None and before.value == "DEFINE"
+
+
+def _touches(before: Token, token: Token) -> bool:
+    return token.value != ":" and token.column == before.column + len(before.text)
+
+
 def _is_operator(token: Token, texts: Collection[str]) -> bool:
     return token.kind is Kind.OPERATOR and token.value in texts
 
 
 def _depth_change(tokens: Iterable[Token]) -> int:
     """Blocks a line opens, less those it closes; a one-line IF opens none."""
-    words = [str(token.value) for token in tokens if token.kind is Kind.WORD]
+    words = [str(token.value) for token in tokens if token.kind is Kind.WORD or token.value == ":"]
     if "THEN" in words:
         words = words[: words.index("IF")] if "IF" in words else []
     opened = sum(word in _OPENING for word in words)
-    if "ELSE" in words:
-        opened -= words.count("IF")  # ELSE IF is ELSEIF
+    opened -= sum(pair == ("ELSE", "IF") for pair in pairwise(words))  # that is ELSEIF
     return opened - sum(word in _CLOSING for word in words)
 
 
