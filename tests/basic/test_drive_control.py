@@ -20,6 +20,7 @@ def test_the_report_names_axes_as_they_were_named() -> None:
     assert made.type("AXIS1 DRIVE") == "DRIVE OFF AXIS1"
     assert made.type("DRIVE") == "Syntax error"
     assert made.type("DRIVE ON X") == "Unknown command"
+    assert made.type("DRIVE X") == "Unknown command"
 
 
 def test_a_fault_is_appended_to_the_report() -> None:

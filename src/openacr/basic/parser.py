@@ -298,9 +298,11 @@ class Parser(ExpressionParser):
         return token.text not in self.aliases and token.value in registry.root.children
 
     def axis(self) -> AxisRef:
-        """The axis named here."""
+        """The axis named here; at SYS axes have no names."""
         if not self.at_axis:
-            raise self.error(UNDEFINED_SYMBOL if self.at_unknown_word else SYNTAX_ERROR)
+            at_sys = self.scope.level is Level.SYS
+            unknown = UNKNOWN_COMMAND if at_sys else UNDEFINED_SYMBOL
+            raise self.error(unknown if self.at_unknown_word else SYNTAX_ERROR)
         name = str(self.advance().value)
         if name != "AXIS":
             return AxisRef(name)
