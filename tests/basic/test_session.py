@@ -169,8 +169,8 @@ def test_a_numbered_line_at_sys_has_no_program_to_go_to(bench: Bench) -> None:
     assert bench.type("10 VER") == "Unknown command|SYS>"
 
 
-@pytest.mark.parametrize("line", ["0 VER", "1000000 VER", "1.5 VER"])
-def test_line_numbers_are_whole_and_have_six_digits(bench: Bench, line: str) -> None:
+@pytest.mark.parametrize("line", ["0 VER", "1000000 VER", "1.5 VER", "10 20 VER", "10 20"])
+def test_a_line_has_one_number_whole_and_of_six_digits(bench: Bench, line: str) -> None:
     assert bench.type("PROG 0", line, "LIST") == "P00>Syntax error|P00>P00>"
 
 

@@ -53,7 +53,7 @@ class Entry:
     def _numbered(self, owner: int, found: list[Token]) -> None:
         """A number in front: store the rest under it, or delete the line."""
         line = Parser(found[:1] + found[-1:], self.session.scope).line()
-        if line.number is None:
+        if line.number is None or found[1].kind is Kind.NUMBER:
             raise CardError(SYNTAX_ERROR)
         if found[1].kind is Kind.END:
             self.store.delete(owner, line.number)
