@@ -59,6 +59,13 @@ def test_print_of_a_command_word_prints_its_report(card: Machine) -> None:
     assert card.type("PRINT STREAM") == "COM1|P00>"
 
 
+@pytest.mark.parametrize("line", ["? SET 32", "? DWL 1", "? MASK P4097 (0,1)", "PRINT MOV X1"])
+def test_commands_that_report_nothing_are_not_printed(card: Machine, line: str) -> None:
+    card.type("ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"')
+    assert card.type(line) == "Syntax error|P00>"
+    assert card.type("?P4097") == "0|P00>"
+
+
 def test_print_of_nonsense_is_refused(card: Machine) -> None:
     assert card.type("?Nonsense") == "Undefined symbol|P00>"
     assert card.type('PRINT USING "x";1') == "Invalid argument|P00>"

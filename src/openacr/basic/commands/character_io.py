@@ -122,6 +122,13 @@ class Report(Command):
         calls = p.token.value in functions and p.ahead(1).value == "("
         return super().starts(p) and not calls
 
+    def parse(self, p: Parser) -> Statement:
+        """Read the command; one of the VM or of a move has nothing to report."""
+        read = super().parse(p)
+        if read.command.emit is not None or read.command.move:
+            raise p.error(SYNTAX_ERROR)
+        return read
+
 
 @command(
     "PRINT",
