@@ -278,6 +278,11 @@ def test_on_ihpos_gives_up_after_its_timeout() -> None:
     assert gear(made) == 0.0
 
 
+@pytest.mark.parametrize("timeout", ["-1", "2000000", "1e300"])
+def test_a_timeout_that_cannot_be_counted_in_servo_periods_is_refused(timeout: str) -> None:
+    assert bench().type(f"GEAR ON IHPOS X(P6304, 25, {timeout})") == "Invalid argument"
+
+
 def test_on_ihpos_past_its_setpoint_takes_up_no_more_than_the_tick() -> None:
     made = bench()
     turn(made, 1000)

@@ -9,6 +9,7 @@ from openacr.basic.grammar import Axis, AxisList, Form, Int, Num, ObjectRef, Par
 from openacr.basic.nodes import Expr
 from openacr.basic.run import Run
 from openacr.errors import CardError
+from openacr.lang.lexer import LONG_LIMIT
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import KIND_LONG, KIND_NONE
 from openacr.messages import INVALID_ARGUMENT, INVALID_PARAMETER
@@ -106,7 +107,7 @@ class PassingForm(Form):
             return None
         needs_parameter(run, found.number)
         seconds = 0.0 if timeout is None else run.value(timeout)
-        if seconds < 0.0:
+        if seconds < 0.0 or run.card.ticks(seconds) > LONG_LIMIT:
             raise CardError(INVALID_ARGUMENT)
         return Passing(found.number, run.value(setpoint), found.negative, seconds)
 
