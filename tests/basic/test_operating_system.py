@@ -218,6 +218,7 @@ def test_a_password_keeps_program_text_from_being_listed(bench: Bench) -> None:
     assert bench.type('PASSWORD ON "secret"', "PASSWORD") == "SYS>ON|SYS>"
     assert bench.type("PROG 0", "LIST") == "P00>Program is protected|P00>"
     assert bench.type("SYS", 'PASSWORD OFF "other"') == "SYS>Invalid password|SYS>"
+    assert bench.type('PASSWORD ON "other"') == "Invalid password|SYS>"
     assert bench.type('PASSWORD OFF "secret"', "PROG 0", "LIST") == "SYS>P00>10 DWL 1|P00>"
 
 

@@ -151,14 +151,18 @@ class ProgramStore:
         return bool(lines) and lines[0].first_word == "PBOOT"
 
     def protect(self, password: str) -> None:
-        """PASSWORD ON: LIST is refused from now on."""
+        """PASSWORD ON: LIST is refused from now on; another text changes no password."""
+        self._check_password(password)
         self.password = password
 
     def unprotect(self, password: str) -> None:
         """PASSWORD OFF: needs the same text."""
-        if self.password is not None and password != self.password:
-            raise CardError(INVALID_PASSWORD)
+        self._check_password(password)
         self.password = None
+
+    def _check_password(self, password: str) -> None:
+        if self.password not in (None, password):
+            raise CardError(INVALID_PASSWORD)
 
     def check_readable(self) -> None:
         """Refuse to show program text while a password protects it."""
