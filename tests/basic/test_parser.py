@@ -188,14 +188,6 @@ def test_a_condition_is_one_expression_up_to_then() -> None:
     assert words("WHILE (BIT10=0) : REM wait", STORED) == [["WHILE"], []]
 
 
-def test_a_line_number_stands_in_front() -> None:
-    assert parsed("100 GOTO 10", STORED).number == 100
-    assert parsed("100", STORED).blocks == ((),)
-    assert refusal("0 X10", STORED) == "Syntax error"
-    assert refusal("1000000 X10", STORED) == "Syntax error"
-    assert refusal("1.5 X10", STORED) == "Syntax error"
-
-
 @pytest.mark.req("ACR-LABEL-02")
 def test_labels_stand_alone_or_before_a_colon() -> None:
     assert parsed("_ HomeFailed", STORED).label == "HomeFailed"

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from openacr.basic.program_store import ProgramStore, StoredLine, opens_capture
+from openacr.basic.program_store import ProgramStore, StoredLine, line_number, opens_capture
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
@@ -119,6 +119,13 @@ def test_only_pboot_as_first_statement_starts_a_program(
 )
 def test_the_word_program_opens_free_form_entry(text: str, behind: str | None) -> None:
     assert opens_capture(text) == behind
+
+
+def test_line_numbers_are_whole_and_have_six_digits() -> None:
+    assert [line_number(tokens(text)[0]) for text in ("1", "100 X", "999999")] == [1, 100, 999999]
+    for text in ("0", "1000000", "1.5", "1e3", "&H10"):
+        with pytest.raises(CardError, match="Syntax error"):
+            line_number(tokens(text)[0])
 
 
 def test_a_password_is_taken_back_with_itself_only(store: ProgramStore) -> None:

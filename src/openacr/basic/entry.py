@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.program_store import StoredLine, opens_capture
+from openacr.basic.program_store import StoredLine, line_number, opens_capture
 from openacr.basic.registry import Level
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
@@ -52,13 +51,11 @@ class Entry:
 
     def _numbered(self, owner: int, found: list[Token]) -> None:
         """A number in front: store the rest under it, or delete the line."""
-        line = Parser(found[:1] + found[-1:], self.session.scope).line()
-        if line.number is None or found[1].kind is Kind.NUMBER:
-            raise CardError(SYNTAX_ERROR)
+        number = line_number(found[0])
         if found[1].kind is Kind.END:
-            self.store.delete(owner, line.number)
+            self.store.delete(owner, number)
         else:
-            self._store(owner, line.number, found[1:])
+            self._store(owner, number, found[1:])
 
     def _open(self, owner: int, behind: str) -> None:
         """PROGRAM: erase the old text and store everything from here on."""

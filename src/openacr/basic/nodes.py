@@ -217,14 +217,13 @@ Block: TypeAlias = tuple["Statement | Move", ...]
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One line: its number if it has one, its label, and the blocks between colons."""
+    """One line: its label if it has one, and the blocks between colons."""
 
-    number: int | None = None
     label: str | None = None
     blocks: tuple[Block, ...] = ()
     remark: str | None = None
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing but a comment, a number or colons was written."""
+        """Whether nothing but a comment or colons was written."""
         return self.label is None and self.remark is None and not any(self.blocks)

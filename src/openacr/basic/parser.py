@@ -25,7 +25,6 @@ from openacr.messages import (
 )
 
 LONGEST_LABEL = 32
-HIGHEST_LINE_NUMBER = 999999
 _NAME_PARTS = frozenset((Kind.WORD, Kind.NUMBER))
 PREFIXES = frozenset(("AXIS", "MASTER"))
 
@@ -79,8 +78,7 @@ class Parser(ExpressionParser):
     # lines and blocks
 
     def line(self) -> Line:
-        """The whole line."""
-        number = self._line_number()
+        """The whole line, without the number in front of a stored one."""
         label = self._label()
         blocks = self.rest_of_line()
         remark = self.remark_here
@@ -88,7 +86,7 @@ class Parser(ExpressionParser):
             self.advance()
         if self.token.kind is not Kind.END:
             raise self.error(SYNTAX_ERROR)
-        return Line(number, label, blocks, remark)
+        return Line(label, blocks, remark)
 
     @property
     def remark_here(self) -> str | None:
@@ -101,14 +99,6 @@ class Parser(ExpressionParser):
         while self.accept(":"):
             found.append(self._block())
         return tuple(found)
-
-    def _line_number(self) -> int | None:
-        token = self.token
-        if token.kind is not Kind.NUMBER:
-            return None
-        if not token.text.isdigit() or not 1 <= int(token.text) <= HIGHEST_LINE_NUMBER:
-            raise self.error(SYNTAX_ERROR)
-        return int(self.advance().text)
 
     def _label(self) -> str | None:
         """A label stands alone or before a colon."""

@@ -6,16 +6,23 @@ import re
 from dataclasses import dataclass, field
 from typing import Any
 
+from openacr.basic.expressions import StatementError
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.map import numbers as at
-from openacr.messages import INVALID_PASSWORD, OUT_OF_MEMORY, PROGRAM_IS_PROTECTED
+from openacr.messages import (
+    INVALID_PASSWORD,
+    OUT_OF_MEMORY,
+    PROGRAM_IS_PROTECTED,
+    SYNTAX_ERROR,
+)
 
 OWNERS = 24  # programs 0-15, PLCs 16-23
 HIDDEN_STEP = 10
+HIGHEST_LINE_NUMBER = 999999
 
 # `PROGRAM0_start` is a published misprint for two lines: the number means nothing, the
 # label belongs to the next line.
@@ -188,6 +195,13 @@ class ProgramStore:
         self.changed.add(owner)
         if owner < PROGRAMS:
             self.storage.memory.I[at.PF_WORD + owner] |= at.PF_PROGRAM_MODIFIED
+
+
+def line_number(token: Token) -> int:
+    """The number in front of a stored line; others than whole ones up to 999999 are refused."""
+    if not token.text.isdigit() or not 1 <= int(token.text) <= HIGHEST_LINE_NUMBER:
+        raise StatementError(SYNTAX_ERROR, token.span)
+    return int(token.text)
 
 
 def opens_capture(text: str) -> str | None:

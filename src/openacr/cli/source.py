@@ -11,14 +11,13 @@ from dataclasses import dataclass, field
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.aliases import check_name, numbered_names
 from openacr.basic.commands.operating_system import Definition
-from openacr.basic.expressions import StatementError
 from openacr.basic.lister import Lister
 from openacr.basic.loader import FileLine, file_lines, long_lived_objects
 from openacr.basic.nodes import Block, Expr, Move, Number, Statement, String
 from openacr.basic.outline import Outline, outline
-from openacr.basic.parser import HIGHEST_LINE_NUMBER, Parser, Scope, join_names
+from openacr.basic.parser import Parser, Scope, join_names
 from openacr.basic.plc_names import PlcNames
-from openacr.basic.program_store import opens_capture
+from openacr.basic.program_store import line_number, opens_capture
 from openacr.basic.registry import Level
 from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault
@@ -29,7 +28,7 @@ from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.source import Span
-from openacr.messages import SYNTAX_ERROR, UNKNOWN_COMMAND
+from openacr.messages import UNKNOWN_COMMAND
 from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
@@ -284,13 +283,6 @@ def ladders(reader: Reader) -> Iterator[str]:
 def _words(text: str) -> set[str]:
     """The words of a line that cannot be read, and its number."""
     return {word.upper() for word in re.findall(r"\w+", text)}
-
-
-def line_number(token: Token) -> int:
-    """The number in front of a stored line; others than whole ones up to 999999 are refused."""
-    if not token.text.isdigit() or not 1 <= int(token.text) <= HIGHEST_LINE_NUMBER:
-        raise StatementError(SYNTAX_ERROR, token.span)
-    return int(token.text)
 
 
 def _integer(argument: object) -> int:

@@ -9,7 +9,7 @@ from openacr.basic import targets
 from openacr.basic.grammar import Form, Int, ObjectRef, Target
 from openacr.basic.lister import Lister
 from openacr.basic.nodes import Expr
-from openacr.basic.program_store import OWNERS
+from openacr.basic.program_store import HIGHEST_LINE_NUMBER, OWNERS
 from openacr.basic.registry import (
     ANY,
     BY_TARGET,
@@ -28,14 +28,13 @@ if TYPE_CHECKING:
 
 GROUP = "Program Control"
 FORCE_LINE_NUMBERS = 5651
-LAST_LINE = 999999
 
 
 @command(
     "RUN",
     group=GROUP,
     levels=BY_TARGET,
-    grammar=(Int("line", 1, LAST_LINE, optional=True), Target()),
+    grammar=(Int("line", 1, HIGHEST_LINE_NUMBER, optional=True), Target()),
     ref="PG Starting, Pausing, and Halting Programs",
 )
 def run_(run: Run, line: int | None, target: ObjectRef | None) -> None:
@@ -192,7 +191,7 @@ def list_(run: Run, lines: Range | None) -> None:
     store.check_readable()
     owner = targets.needed_own(run)
     first = run.integer(lines.first) if lines and lines.first else 0
-    last = run.integer(lines.last) if lines and lines.last else LAST_LINE
+    last = run.integer(lines.last) if lines and lines.last else HIGHEST_LINE_NUMBER
     lister = Lister(run.system.aliases.nodes)
     stored = store.lines(owner)
     shown = lister.program(stored, numbers=run.card.memory.bit(FORCE_LINE_NUMBERS))
@@ -218,7 +217,7 @@ def listen(run: Run) -> None:
     group=GROUP,
     levels=PROG,
     use=IMMEDIATE,
-    grammar=(Int("line", 1, LAST_LINE, optional=True),),
+    grammar=(Int("line", 1, HIGHEST_LINE_NUMBER, optional=True),),
     ref="PG Starting, Pausing, and Halting Programs",
 )
 def lrun(run: Run, line: int | None) -> None:
