@@ -46,6 +46,19 @@ def test_shift_multiplier_and_angle_take_part(bench: Bench) -> None:
     assert push(bench, 0) == pytest.approx((U + 0.5, -0.25), abs=1e-5)
 
 
+def test_presets_and_wraps_of_the_encoder_do_not_turn_the_magnets(bench: Bench) -> None:
+    bench.all("CMT0 MODE 1", "CMT0 ON")
+    expected = push(bench, 130)
+    bench.all("ENC2 ROTARY 100")
+    assert bench.p(6176) == 30
+    assert push(bench, 30) == expected
+    bench.all("ENC2 RES 75")
+    assert push(bench, 75) == expected
+    assert push(bench, 95) == pytest.approx(
+        (U * math.sin(0.3 * math.pi), U * math.sin(0.3 * math.pi + 2 * math.pi / 3)), abs=1e-5
+    )
+
+
 def test_trapezoidal_phases_are_six_steps(bench: Bench) -> None:
     bench.all("CMT0 ON")
     phases = [push(bench, round(1000 * (sector + 0.5) / 6)) for sector in range(6)]

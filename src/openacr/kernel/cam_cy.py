@@ -32,6 +32,7 @@ from openacr.kernel.source_cy import (
     USES,
     WAITING,
     axis_word2,
+    source_shown,
     trigger_step,
 )
 from openacr.map.numbers import (
@@ -382,7 +383,7 @@ def ballscrew_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> None:
     tap: int = n * USES + USE_BALLSCREW
     index: float = psp_cnt
     if I[SRI_BASE + tap * SRI_STRIDE + SRI_KIND] != FROM_SELF:
-        index = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
+        index = source_shown(I, tap, F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD])
     value: float = table_value(F, I, b, index + F[f + TBF_FLZ_CNT]) * F[f + TBF_SCALE]
     value += F[f + TBF_OFFSET_U] * axis_scale(S, n) + F[f + TBF_SHIFT_CNT]
     F[a + AXF_BALLSCREW_CNT] = value

@@ -41,6 +41,7 @@ from openacr.map.numbers import (
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
+    ENI_LIMIT_HZ,
     ENI_MULT,
     ENI_STRIDE,
     KRI_BASE,
@@ -180,6 +181,9 @@ def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
     """
     scaled: float = since_cnt * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
     behind: float = floor(F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] - scaled)
+    if I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] > 0:  # counts lost in the filter are no way
+        step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
+        behind = max(min(0.0, -step), min(max(0.0, -step), behind))
     return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] + int(behind))
 
 

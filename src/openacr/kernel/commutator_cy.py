@@ -3,13 +3,15 @@
     electrical angle  th = 360 * ERPMR * (position + SHIFT) / (PPR * |MULT|)        [degrees]
     phase A = u * sin(th) * gain A + offset A,   phase B = u * sin(th + ANG) * ...
 
-u is the output of the servo loop. In trapezoidal mode the sine gives way to its six steps of
-60 degrees: two at +1, one at 0, two at -1, one at 0. Too much speed, a fault of the encoder (unless
-it is not checked) or too large a following error turn a commutator off: both phases are 0 V.
+u is the output of the servo loop. The position counts from power-up: wherever RES and ROTARY put
+the zero of the encoder, the magnets stay where they are. In trapezoidal mode the sine gives way
+to its six steps of 60 degrees: two at +1, one at 0, two at -1, one at 0. Too much speed, a fault
+of the encoder (unless it is not checked) or too large a following error turn a commutator off:
+both phases are 0 V.
 """
 
 from openacr.cmath import fabs, floor, fmod, sin
-from openacr.kernel.feedback_cy import ENCODER_COUNT, encoder_row
+from openacr.kernel.feedback_cy import ENCODER_COUNT, encoder_row, encoder_shaft
 from openacr.map.numbers import (
     AX_BASE,
     AX_FOLLOWING_ERROR,
@@ -54,7 +56,6 @@ from openacr.map.numbers import (
     EF_ENCODER_SIGNAL_FAULT,
     EF_ENCODER_SIGNAL_LOST,
     EF_WORD,
-    ENC_ENCODER_POSITION,
     ENC_ENCODER_VELOCITY,
     ENI_BASE,
     ENI_MULT,
@@ -141,7 +142,7 @@ def commutator_step(I: I32, S: F32, n: int, c: int, volts: float) -> None:
     S[row + CMT_COMMANDSIGNAL] = volts
     if 0 <= e < ENCODER_COUNT - 8 and I[word] & CMF_CMT_COMMUTATOR_ON:
         turn: float = counts_per_turn(I, row, e)
-        position: float = I[encoder_row(e) + ENC_ENCODER_POSITION]
+        position: float = encoder_shaft(I, e)
         rpm: float = SECTOR * I[encoder_row(e) + ENC_ENCODER_VELOCITY] / turn
         I[row + CMT_ENCODERSHAFTPOSITION] = int(fmod(position, turn))
         S[row + CMT_AVERAGEVELOCITY] = rpm

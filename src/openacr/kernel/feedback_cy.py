@@ -5,11 +5,22 @@ four, in the direction of its sign:
 
     position += MULT/4 * (raw - raw_old), whole counts; fractions are carried.
 
+ROTARY wraps the position that is shown into 0 .. length - 1. Whoever follows an encoder - the
+axis it belongs to, gears, encoders locked to it - sees its count instead, position + what the
+wraps have taken off, and so never a wrap; what looks at the place itself (limit switches, output
+objects, ballscrew tables, copies, programs) sees the position. A commutator sees neither wraps
+nor presets: it needs the angle of the shaft.
+
+LIMIT is a filter in front of the counter: a level of the two signals passes once no edge has
+come for 1/LIMIT seconds. The counter sees the signals that pass, and those have four states:
+after too quick a motion it goes on by -1, 0 or 1 to the state it finds, and has lost a multiple
+of four edges (or the direction, where two signals have changed at once: it counts none then).
+
 An axis without a modelled motor has ideal feedback: with its loop closed and its drive
 enabled the actual position is the secondary setpoint of the previous tick.
 """
 
-from openacr.cmath import floor, rint
+from openacr.cmath import fabs, floor, rint
 from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
@@ -43,16 +54,24 @@ from openacr.map.numbers import (
     ENC_HIGH_BASE,
     ENC_STRIDE,
     ENF_BASE,
+    ENF_FILTER_LEVEL_CNT,
+    ENF_FILTER_OLD_CNT,
+    ENF_FILTER_SINCE_S,
+    ENF_FILTERED_CNT,
     ENF_PARTIAL_CNT,
     ENF_RAW_OLD_CNT,
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
     ENI_DESTINATION,
+    ENI_LIMIT_HZ,
     ENI_LOCKED_TO,
     ENI_MULT,
+    ENI_ROTARY,
     ENI_SEEN,
+    ENI_SHAFT,
     ENI_STRIDE,
+    ENI_TURNED,
     KRI_BASE,
     KRI_LINKED_ENCODERS,
     KRI_MISSING_ENCODERS,
@@ -68,7 +87,14 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["encoder_set", "feedback_set"]
+__all__ = [
+    "encoder_count",
+    "encoder_limit",
+    "encoder_roll",
+    "encoder_set",
+    "encoder_step",
+    "feedback_set",
+]
 
 FROM_ENCODER = 0
 FROM_ADC = 1
@@ -86,6 +112,47 @@ def encoder_row(e: int) -> int:
     return ENC_BASE + e * ENC_STRIDE if e < 16 else ENC_HIGH_BASE + (e - 16) * ENC_STRIDE
 
 
+def encoder_count(I: I32, e: int) -> int:
+    """Position of encoder e without the wraps of ROTARY."""
+    turned: int = I[ENI_BASE + e * ENI_STRIDE + ENI_TURNED]
+    return wrap32(I[encoder_row(e) + ENC_ENCODER_POSITION] + turned)
+
+
+def encoder_shaft(I: I32, e: int) -> int:
+    """Counts of encoder e since power-up, whatever its position was made."""
+    taken: int = I[ENI_BASE + e * ENI_STRIDE + ENI_SHAFT]
+    return wrap32(I[encoder_row(e) + ENC_ENCODER_POSITION] + taken)
+
+
+def encoder_turn(I: I32, e: int, position: int) -> int:
+    """A position of encoder e within its turn, the same where it is linear."""
+    length: int = I[ENI_BASE + e * ENI_STRIDE + ENI_ROTARY]
+    if length <= 0 or 0 <= position < length:
+        return position
+    # both are words of 32 bits, so the quotient never rounds up to the next whole number
+    return position - int(floor(1.0 * position / length)) * length
+
+
+def encoder_wrap(I: I32, e: int) -> None:
+    """Bring the position of encoder e back into its turn."""
+    i: int = ENI_BASE + e * ENI_STRIDE
+    row: int = encoder_row(e) + ENC_ENCODER_POSITION
+    away: int = I[row] - encoder_turn(I, e, I[row])
+    I[row] = wrap32(I[row] - away)
+    I[i + ENI_TURNED] = wrap32(I[i + ENI_TURNED] + away)
+    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] + away)
+
+
+def encoder_roll(I: I32, e: int, length: int) -> None:
+    """Let the position of encoder e wrap at `length`, or not at all (0)."""
+    i: int = ENI_BASE + e * ENI_STRIDE
+    I[encoder_row(e) + ENC_ENCODER_POSITION] = encoder_count(I, e)
+    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] - I[i + ENI_TURNED])
+    I[i + ENI_TURNED] = 0
+    I[i + ENI_ROTARY] = length
+    encoder_wrap(I, e)
+
+
 def followers_shift(I: I32, leader: int, jump: int) -> None:
     """Let encoders that are locked to one not count a jump that is no motion."""
     for e in range(ENCODER_COUNT):
@@ -95,18 +162,72 @@ def followers_shift(I: I32, leader: int, jump: int) -> None:
 
 
 def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
-    """Preload the position of encoder e."""
+    """Preload the position of encoder e, its count where it wraps."""
+    i: int = ENI_BASE + e * ENI_STRIDE
     row: int = encoder_row(e)
     if I[KRI_BASE + KRI_LINKED_ENCODERS]:
-        followers_shift(I, e, position - I[row + ENC_ENCODER_POSITION])
-    I[row + ENC_ENCODER_POSITION] = wrap32(position)
+        followers_shift(I, e, position - encoder_count(I, e))
+    shown: int = encoder_turn(I, e, wrap32(position))
+    jump: int = shown - I[row + ENC_ENCODER_POSITION]
+    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] - jump)
+    I[i + ENI_TURNED] = wrap32(position - shown)
+    I[row + ENC_ENCODER_POSITION] = shown
     F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] = 0.0
+
+
+def encoder_limit(F: F64, I: I32, e: int, hz: int) -> None:
+    """Count no edges quicker than `hz`, or all (0), from where encoder e is."""
+    f: int = ENF_BASE + e * ENF_STRIDE
+    raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT] if e < MODELLED else 0.0
+    I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] = hz
+    F[f + ENF_RAW_OLD_CNT] = raw
+    F[f + ENF_FILTERED_CNT] = raw
+    F[f + ENF_FILTER_OLD_CNT] = raw
+    F[f + ENF_FILTER_LEVEL_CNT] = raw
+    F[f + ENF_FILTER_SINCE_S] = 0.0
+
+
+def encoder_pass(F: F64, f: int, level_cnt: float) -> None:
+    """The signals of a raw count have passed the filter: count on to their state."""
+    step: float = level_cnt - F[f + ENF_FILTER_LEVEL_CNT]
+    step -= floor(step * 0.25) * 4.0
+    F[f + ENF_FILTER_LEVEL_CNT] = level_cnt
+    if step == 1.0:
+        F[f + ENF_FILTERED_CNT] += 1.0
+    elif step == 3.0:
+        F[f + ENF_FILTERED_CNT] -= 1.0
+
+
+def encoder_filter(F: F64, I: I32, e: int, raw: float, period_s: float) -> float:
+    """Raw count of encoder e behind its filter; the edges of a tick are spread evenly."""
+    f: int = ENF_BASE + e * ENF_STRIDE
+    hold_s: float = 1.0 / I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ]
+    old: float = F[f + ENF_FILTER_OLD_CNT]
+    edges: float = fabs(raw - old)
+    if edges == 0.0:
+        F[f + ENF_FILTER_SINCE_S] += period_s
+    else:
+        way: float = 1.0 if raw > old else -1.0
+        gap_s: float = period_s / edges
+        if F[f + ENF_FILTER_SINCE_S] + 0.5 * gap_s >= hold_s:
+            encoder_pass(F, f, old)
+        if edges > 1.0 and gap_s >= hold_s:
+            encoder_pass(F, f, old + way)
+            F[f + ENF_FILTERED_CNT] += way * (edges - 2.0)
+            F[f + ENF_FILTER_LEVEL_CNT] = raw - way
+        F[f + ENF_FILTER_SINCE_S] = 0.5 * gap_s
+        F[f + ENF_FILTER_OLD_CNT] = raw
+    if F[f + ENF_FILTER_SINCE_S] >= hold_s:
+        encoder_pass(F, f, raw)
+    return F[f + ENF_FILTERED_CNT]
 
 
 def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     """Count what the motor of encoder e has moved since the last tick."""
     f: int = ENF_BASE + e * ENF_STRIDE
     raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
+    if I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] > 0:
+        raw = encoder_filter(F, I, e, raw, 1.0 / rate_hz)
     scaled: float = (raw - F[f + ENF_RAW_OLD_CNT]) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
     F[f + ENF_RAW_OLD_CNT] = raw
     scaled += F[f + ENF_PARTIAL_CNT]
@@ -119,17 +240,18 @@ def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
 
 
 def encoder_links_step(I: I32, rate_hz: float) -> None:
-    """Add the counts of encoders to those locked to them, and copy positions (ENC LOCK, DST)."""
+    """Add the counts of encoders to those locked to them, wrap and copy (LOCK, ROTARY, DST)."""
     for e in range(ENCODER_COUNT):
         i: int = ENI_BASE + e * ENI_STRIDE
         row: int = encoder_row(e)
         leader: int = I[i + ENI_LOCKED_TO] - 1
         if 0 <= leader < ENCODER_COUNT:
-            now: int = I[encoder_row(leader) + ENC_ENCODER_POSITION]
+            now: int = encoder_count(I, leader)
             step: int = wrap32(now - I[i + ENI_SEEN])
             I[i + ENI_SEEN] = now
             I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + step)
             I[row + ENC_ENCODER_VELOCITY] = round32(step * rate_hz)
+        encoder_wrap(I, e)
         destination: int = I[i + ENI_DESTINATION]
         if FIRST_LONG <= destination <= LAST_PARAMETER:
             I[destination] = I[row + ENC_ENCODER_POSITION]
@@ -183,7 +305,7 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
             locked: bool = I[ENI_BASE + k * ENI_STRIDE + ENI_LOCKED_TO] != 0
             if not locked and ideal_follows(I, S, n):
                 ideal_step(F, I, n, k, rate_hz)
-        return I[encoder_row(k) + ENC_ENCODER_POSITION]
+        return encoder_count(I, k)
     if source == FROM_ADC and 0 <= k < 16:
         return wrap32(adc_counts(S, k) + I[i + AXI_POSITION_OFFSET])
     if source == FROM_STEPPER and 0 <= k < 16:
@@ -194,11 +316,13 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
 def ideal_step(F: F64, I: I32, n: int, e: int, rate_hz: float) -> None:
     """Ideal feedback: encoder e stands where axis n was told to be."""
     row: int = encoder_row(e)
-    old: int = I[row + ENC_ENCODER_POSITION]
     now: int = round32(F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT])
-    I[row + ENC_ENCODER_POSITION] = now
-    I[row + ENC_ENCODER_VELOCITY] = round32(wrap32(now - old) * rate_hz)
-    F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT] = wrap32(now - old)
+    step: int = wrap32(now - encoder_count(I, e))
+    I[row + ENC_ENCODER_POSITION] = wrap32(I[row + ENC_ENCODER_POSITION] + step)
+    I[row + ENC_ENCODER_VELOCITY] = round32(step * rate_hz)
+    F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT] = step
+    if I[KRI_BASE + KRI_LINKED_ENCODERS]:
+        encoder_wrap(I, e)
 
 
 def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, rate_hz: float) -> None:

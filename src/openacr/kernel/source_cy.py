@@ -28,7 +28,14 @@ from openacr.kernel.capture_cy import (
     input_fraction,
     marker_edge,
 )
-from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, adc_counts, encoder_row
+from openacr.kernel.feedback_cy import (
+    ENCODER_COUNT,
+    FROM_ENCODER,
+    adc_counts,
+    encoder_count,
+    encoder_row,
+    encoder_turn,
+)
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
@@ -51,6 +58,7 @@ from openacr.map.numbers import (
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
+    ENI_TURNED,
     KIND_FP32,
     KIND_FP64,
     KIND_LONG,
@@ -183,6 +191,22 @@ def source_reading(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
     return 0.0
 
 
+def source_count(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
+    """Present value of a source for those who follow it: of an encoder, without its wraps."""
+    if kind == FROM_COUNTER and 0 <= k < ENCODER_COUNT:
+        return encoder_count(I, k)
+    return source_reading(F, I, S, kind, k)
+
+
+def source_shown(I: I32, t: int, value: float) -> float:
+    """What the source of tap t showed when it had counted to `value`."""
+    i: int = SRI_BASE + t * SRI_STRIDE
+    k: int = I[i + SRI_INDEX]
+    if I[i + SRI_KIND] != FROM_COUNTER or not 0 <= k < ENCODER_COUNT:
+        return value
+    return encoder_turn(I, k, wrap32(round32(value) - I[ENI_BASE + k * ENI_STRIDE + ENI_TURNED]))
+
+
 def source_wraps(I: I32, kind: int, k: int) -> bool:
     """Whether a source is a 32-bit count."""
     if kind == FROM_PARAMETER:
@@ -193,7 +217,7 @@ def source_wraps(I: I32, kind: int, k: int) -> bool:
 def source_prime(F: F64, I: I32, S: F32, t: int) -> None:
     """Let tap t count from the present value of its source."""
     i: int = SRI_BASE + t * SRI_STRIDE
-    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_reading(
+    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_count(
         F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX]
     )
     F[SRF_BASE + t * SRF_STRIDE + SRF_DELTA] = 0.0
@@ -207,7 +231,7 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
     if kind == FROM_NONE or kind == FROM_SELF:
         F[f + SRF_DELTA] = 0.0
         return
-    value: float = source_reading(F, I, S, kind, I[i + SRI_INDEX])
+    value: float = source_count(F, I, S, kind, I[i + SRI_INDEX])
     delta: float = value - F[f + SRF_OLD]
     if kind == FROM_CLOCK:
         delta = F[SYSF_BASE + SYSF_PERIOD_S] * PULSES_PER_S
@@ -304,7 +328,7 @@ def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
         tap: int = n * USES + (USE_CAM if place == CAM_ON else USE_GEAR)
         s: int = SRI_BASE + tap * SRI_STRIDE
         old: float = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
-        moved: float = source_reading(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
+        moved: float = source_count(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
         e: int = source_encoder(I, tap, n)
         inputs: int = source_inputs(I, tap, n)
         register: int = I[i + TGI_REGISTER]
@@ -345,7 +369,7 @@ def trigger_captured(F: F64, I: I32, t: int, tap: int) -> None:
     I[i + TGI_KIND] = TRAVELLING
     copy: int = I[i + TGI_COPY]
     if kind_of(I, copy) == KIND_LONG:
-        I[copy] = round32(F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT])
+        I[copy] = round32(source_shown(I, tap, F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT]))
 
 
 def trigger_step(F: F64, I: I32, S: F32, t: int, tap: int, offset_cnt: float) -> int:
@@ -371,7 +395,7 @@ def trigger_step(F: F64, I: I32, S: F32, t: int, tap: int, offset_cnt: float) ->
             return WAITING
     elif trigger_passed(F, I, S, t):
         if source_parameter(I, tap) == I[i + TGI_PARAMETER]:
-            over = F[s + SRF_OLD] - F[f + TGF_SETPOINT]
+            over = source_shown(I, tap, F[s + SRF_OLD]) - F[f + TGF_SETPOINT]
     else:
         return trigger_timed(I, t)
     I[i + TGI_KIND] = DISARMED

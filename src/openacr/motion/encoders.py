@@ -10,7 +10,9 @@ from openacr.map.numbers import (
     ENC_ENCODER_POSITION,
     ENI_BASE,
     ENI_DESTINATION,
+    ENI_LIMIT_HZ,
     ENI_LOCKED_TO,
+    ENI_ROTARY,
     ENI_SEEN,
     ENI_STRIDE,
     KRI_BASE,
@@ -21,6 +23,9 @@ from openacr.motion.card import Card
 from openacr.motion.settings import LONG_MAX
 
 _encoder_set = pick(feedback_cy.encoder_set)
+_encoder_roll = pick(feedback_cy.encoder_roll)
+_encoder_limit = pick(feedback_cy.encoder_limit)
+_encoder_count = pick(feedback_cy.encoder_count)
 
 
 def position(card: Card, number: int) -> int:
@@ -49,7 +54,7 @@ def lock(card: Card, number: int, to: int) -> None:
         if chain == number:
             raise CardError(INVALID_ARGUMENT)
         chain = leader(card, chain)
-    card.memory.I[_row(number, ENI_SEEN)] = position(card, to)
+    card.memory.I[_row(number, ENI_SEEN)] = _encoder_count(card.memory.I, to)
     _link(card, number, ENI_LOCKED_TO, to + 1)
 
 
@@ -68,12 +73,43 @@ def copy_to(card: Card, number: int, parameter: int | None) -> None:
     _link(card, number, ENI_DESTINATION, parameter or 0)
 
 
+def turn_length(card: Card, number: int) -> int:
+    """The length of a turn, 0 for a linear encoder."""
+    return card.memory.I[_row(number, ENI_ROTARY)]
+
+
+def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
+    """ENC ROTARY: wrap the position into 0 .. length - 1; those who follow notice nothing."""
+    if not 0 <= length_cnt <= LONG_MAX:
+        raise CardError(INVALID_ARGUMENT)
+    was = turn_length(card, number)
+    _encoder_roll(card.memory.I, number, length_cnt)
+    _count_link(card, was, length_cnt)
+
+
+def edge_limit(card: Card, number: int) -> int:
+    """The rate of the quickest edges that count, 0 for all."""
+    return card.memory.I[_row(number, ENI_LIMIT_HZ)]
+
+
+def set_edge_limit(card: Card, number: int, hz: int) -> None:
+    """ENC LIMIT: filter the signals; the position stays."""
+    if not 0 <= hz <= LONG_MAX:
+        raise CardError(INVALID_ARGUMENT)
+    _encoder_limit(card.memory.F, card.memory.I, number, hz)
+
+
 def _row(number: int, row: int) -> int:
     return ENI_BASE + number * ENI_STRIDE + row
 
 
 def _link(card: Card, number: int, row: int, value: int) -> None:
-    """Change a link, and count how many there are: without any the kernel looks at none."""
+    """Change a link."""
     old = card.memory.I[_row(number, row)]
     card.memory.I[_row(number, row)] = value
-    card.memory.I[KRI_BASE + KRI_LINKED_ENCODERS] += bool(value) - bool(old)
+    _count_link(card, old, value)
+
+
+def _count_link(card: Card, old: int, new: int) -> None:
+    """Count how many links there are: without any the kernel looks at none."""
+    card.memory.I[KRI_BASE + KRI_LINKED_ENCODERS] += bool(new) - bool(old)

@@ -1,10 +1,12 @@
-"""Global objects: encoders that count along with others, and copies of their positions."""
+"""Global objects: encoders that count along with others, wrap, filter, and copies of positions."""
 
 from __future__ import annotations
 
+from openacr.basic.commands.global_objects import encoder_count
 from openacr.basic.grammar import Int, ParameterName, SignedParameter
 from openacr.basic.registry import ANY, command
 from openacr.basic.run import Run
+from openacr.basic.saving import each, kept
 from openacr.basic.value_commands import check_number
 from openacr.errors import CardError
 from openacr.map.kinds_cy import kind_of
@@ -14,6 +16,9 @@ from openacr.motion import encoders
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+
+_LENGTH = (Int("length", optional=True),)
+_FREQUENCY = (Int("frequency", optional=True),)
 
 
 @command("ENC # LOCK", group=GROUP, levels=ANY, grammar=(Int("encoder", optional=True),), ref=REF)
@@ -53,3 +58,35 @@ def enc_dst_off(run: Run, number: int) -> None:
     """Copy the position of an encoder no longer."""
     check_number(number, run.card.model.encoders)
     encoders.copy_to(run.card, number, None)
+
+
+@command("ENC # ROTARY", group=GROUP, levels=ANY, grammar=_LENGTH, ref=REF, units="pulses",
+         default="0", saved=True)  # fmt: skip
+def enc_rotary(run: Run, number: int, length: int | None) -> None:
+    """Wrap the position of an encoder into 0 to length - 1, or not (0); followers go on."""
+    check_number(number, encoder_count(run.card))
+    if length is None:
+        run.print(str(encoders.turn_length(run.card, number)))
+    else:
+        encoders.set_turn_length(run.card, number, length)
+
+
+kept["ENC # ROTARY"] = each(
+    "ENC # ROTARY", encoder_count, encoders.turn_length, encoders.set_turn_length
+)
+
+
+@command("ENC # LIMIT", group=GROUP, levels=ANY, grammar=_FREQUENCY, ref=REF, units="Hz",
+         default="0", saved=True)  # fmt: skip
+def enc_limit(run: Run, number: int, frequency: int | None) -> None:
+    """Count no edges of an encoder that come quicker than this, or all (0)."""
+    check_number(number, encoder_count(run.card))
+    if frequency is None:
+        run.print(str(encoders.edge_limit(run.card, number)))
+    else:
+        encoders.set_edge_limit(run.card, number, frequency)
+
+
+kept["ENC # LIMIT"] = each(
+    "ENC # LIMIT", encoder_count, encoders.edge_limit, encoders.set_edge_limit
+)

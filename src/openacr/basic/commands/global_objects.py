@@ -19,8 +19,10 @@ from openacr.map.numbers import (
     DAC_DAC_OUTPUT,
     DAC_STRIDE,
     ENI_BASE,
+    ENI_CLOCK_HZ,
     ENI_SOURCE,
     ENI_STRIDE,
+    ENI_WIDTH,
     STPR_BASE,
     STPR_STEPPER_COUNT,
     STPR_STRIDE,
@@ -31,6 +33,7 @@ from openacr.motion.settings import Setting
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+WORD_BITS = 32
 
 
 def axes(card: Card) -> int:
@@ -58,6 +61,11 @@ def pulse_source(value: float) -> bool:
     return value in (0, 1, 2)
 
 
+def word_width(value: float) -> bool:
+    """As many bits as a position has."""
+    return 0 <= value <= WORD_BITS and value == int(value)
+
+
 def of_dac(row: int) -> Setting:
     """A parameter of each analog output."""
     return Setting(Kind.FP32, DAC_BASE + row, DAC_STRIDE)
@@ -69,6 +77,8 @@ def of_adc(row: int) -> Setting:
 
 
 ENCODER_SOURCE = Setting(Kind.LONG, ENI_BASE + ENI_SOURCE, ENI_STRIDE, pulse_source)
+SERIAL_CLOCK = Setting(Kind.LONG, ENI_BASE + ENI_CLOCK_HZ, ENI_STRIDE, settings.not_negative)
+SERIAL_WIDTH = Setting(Kind.LONG, ENI_BASE + ENI_WIDTH, ENI_STRIDE, word_width)
 STEPPER_COUNT = Setting(Kind.LONG, STPR_BASE + STPR_STEPPER_COUNT, STPR_STRIDE)
 
 object_values(
@@ -77,6 +87,10 @@ object_values(
                     "Choose the pulses of an encoder: 0 quadrature, 1 step, 2 CW and CCW."),
         ObjectValue("ENC # MULT", settings.ENCODER_MULTIPLIER, encoder_count,
                     "Set edges counted and direction of an encoder.", "", "1"),
+        ObjectValue("ENC # CLOCK", SERIAL_CLOCK, encoder_count,
+                    "Set the clock with which an absolute encoder is read.", "Hz"),
+        ObjectValue("ENC # WIDTH", SERIAL_WIDTH, encoder_count,
+                    "Set the bits of an absolute encoder.", "bits"),
         ObjectValue("DAC # GAIN", of_dac(DAC_DAC_GAIN), dacs,
                     "Set the counts an analog output has per volt.", "counts/V", "3276.8"),
         ObjectValue("DAC # OFFSET", of_dac(DAC_DAC_OFFSET), dacs,

@@ -330,6 +330,10 @@ ENCODER = HiddenBlock(
         "raw_old_cnt",
         "partial_cnt",  # fraction of a count that MULT below 4 has left
         "step_cnt",  # counted in the last tick
+        "filter_old_cnt",  # LIMIT: raw count of the last tick
+        "filter_level_cnt",  # raw count whose signals have passed the filter last
+        "filtered_cnt",  # raw counts without those that were lost
+        "filter_since_s",  # since the last edge
     ),
     ints=(
         "mult",
@@ -337,6 +341,12 @@ ENCODER = HiddenBlock(
         "locked_to",  # 1 + the encoder whose counts are added; 0 none
         "seen",  # position of that encoder in the last tick
         "destination",  # parameter that gets the position; 0 none
+        "rotary",  # length of a turn, 0 linear
+        "turned",  # what the wraps of ROTARY have taken off the position
+        "shaft",  # what wraps and presets have taken off since power-up
+        "limit_hz",  # quickest edges that count, 0 all
+        "clock_hz",  # of the serial interface of an absolute encoder
+        "width",  # its bits
     ),
 )
 
@@ -354,7 +364,7 @@ KERNEL = HiddenBlock(
         "adc_mode",
         "adc_channels",
         "moves_waiting",
-        "linked_encoders",  # how many have an encoder they are locked to, or a destination
+        "linked_encoders",  # how many are locked to another, have a destination, or wrap
         "kinematics",  # mask of the masters with INVK ON
         "synced",  # some masters are synchronised
         "sync_manual",  # SYNC MDI
