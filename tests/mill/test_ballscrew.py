@@ -117,6 +117,9 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
 # on the card
 
 
+KILL_X = 8467
+
+
 def equipped(tables: dict[int, Table], **cells: float) -> Shop:
     """A machine whose axes are homed, with tables."""
     shop = Shop(P271=255, **cells)
@@ -181,6 +184,24 @@ def test_a_table_waits_for_the_reference_point_and_goes_with_its_switch() -> Non
     install(shop.card, Settings(shop.store), {})
     shop.pass_time(0.1)
     assert compensation(shop) == 0
+
+
+def test_a_table_acts_again_when_a_kill_is_taken_back(tmp_path: Path) -> None:
+    (tmp_path / "X.BSC").write_text(GUIDE)
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write_text(950_020, "X.BSC")
+        store.write(950_010, 1)
+        store.write(200_007, 0)
+        controller = Controller()
+        shop = Workshop.real(controller, store, lambda _text: None)
+        shop.runner.settings.mark_homed(0, homed=True)
+        controller.bit[KILL_X] = True
+        for _ in range(5):
+            shop.step()
+        assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [14]
+        assert shop.card.command("BSC X", program=0) == ["OFF"]
+        assert shop.runner.acknowledge() == []
+        assert shop.card.command("BSC X", program=0) == ["ON"]
 
 
 def test_a_card_that_lost_its_position_gets_its_table_only_behind_homing(tmp_path: Path) -> None:

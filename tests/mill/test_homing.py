@@ -140,3 +140,14 @@ def test_a_homing_axis_stops_by_itself_when_nobody_looks_any_more(world: Control
     shop.controller.advance(200_000)
     assert abs(shop.controller.axis(0).velocity_ups) < 1e-9
     assert abs(shop.controller.axis(0).actual_cnt) / 800 < 40.0
+
+
+def test_what_a_broken_off_homing_has_moved_becomes_position(world: Controller) -> None:
+    shop = homing_shop(world)
+    shop.runner.home([0])
+    shop.pass_time(0.3)
+    shop.runner.abort()
+    shop.until(State.IDLE)
+    at = shop.controller.p[12288]
+    assert at > 100
+    assert shop.controller.axis(0).actual_cnt == pytest.approx(at, abs=8)

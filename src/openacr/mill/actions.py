@@ -105,15 +105,19 @@ class Spindle:
 
     def switch_off(self) -> None:
         """Off at once, as ABORT and E-stop do it."""
-        self._let_go()
-        self._panel.output(self._row.off, True)
+        try:
+            self._let_go()
+        finally:
+            self._panel.output(self._row.off, True)
 
     def _let_go(self) -> None:
         """Driven in no direction any more."""
         self.state = OFF
-        self.write()
-        self._panel.output(self._row.cw, False)
-        self._panel.output(self._row.ccw, False)
+        try:
+            self.write()
+        finally:  # outputs are told without an answer of the card
+            self._panel.output(self._row.cw, False)
+            self._panel.output(self._row.ccw, False)
 
     def _level(self, number: int, level: bool, reason: str) -> Steps:
         panel = self._panel

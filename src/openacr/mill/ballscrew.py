@@ -206,8 +206,23 @@ def install(card: Card, settings: Settings, tables: Mapping[int, Table]) -> None
         begin_cnt = _pulses(axis, tables[axis.index])[0][0]
         shift = number_text(-(begin_cnt + preset_cnt))
         card.command(f"BSC FLZ {axis.name}{shift}", program=program)
-        if settings.is_homed(axis.index):
-            card.command(f"BSC ON {axis.name}", program=program)
+    Compensation(card, settings, tables).renew()
+
+
+class Compensation:
+    """The tables on the card, on where the reference point is known and off elsewhere."""
+
+    def __init__(self, card: Card, settings: Settings, axes: Iterable[int]) -> None:
+        self._card = card
+        self._settings = settings
+        self._axes = frozenset(axes)
+
+    def renew(self) -> None:
+        """Switch each table as it has to be: an axis was homed, or a kill was taken back."""
+        for axis in self._settings.axes:
+            if axis.index in self._axes:
+                state = "ON" if self._settings.is_homed(axis.index) else "OFF"
+                self._card.command(f"BSC {state} {axis.name}", program=self._settings.master)
 
 
 def _used(settings: Settings, tables: Mapping[int, Table]) -> Iterator[tuple[AxisSettings, Table]]:

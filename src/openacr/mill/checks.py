@@ -26,7 +26,10 @@ def check_axes(model: Model, settings: Settings) -> None:
         raise AlarmError(alarms.LACKS_FUNCTION, lacking)
 
 
-def check_rest(card: Card, master: int) -> None:
+def check_rest(card: Card, settings: Settings) -> None:
     """Refuse a machine that moves: setting it up would break off what another program does."""
-    if int(card.read(n.MF1_WORD + master)) & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED):
+    words = [n.MF1_WORD + settings.master, *(n.AF1_WORD + axis.index for axis in settings.axes)]
+    master, *axes = map(int, card.read_many(words))
+    is_moving = master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED)
+    if is_moving or any(word & n.AF1_JOG_ACTIVE for word in axes):
         raise UserError("the machine moves: another program runs it; wait for its end or stop it")

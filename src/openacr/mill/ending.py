@@ -1,5 +1,7 @@
 """The ends of a program: the last block, ABORT or an alarm, and the kill of all motion."""
 
+from contextlib import ExitStack
+
 from openacr.mill.actions import Steps, Until
 from openacr.mill.course import Course
 from openacr.mill.doing import Doing
@@ -36,17 +38,24 @@ class Ending:
         self._leave(State.IDLE)
 
     def abort(self, state: State) -> None:
-        """To rest, moves dropped, everything off."""
-        self._leave(state)
-        self._script.begin(self._to_rest())
+        """To rest, moves dropped, everything off.
+
+        The hold is requested at once: who is told to end may never come to another look.
+        """
+        try:
+            self._machine.hold()
+        finally:
+            self._leave(state)
+            self._script.begin(self._to_rest())
 
     def kill(self) -> None:
-        """All motion is killed, drives go off, the program is over."""
-        self._machine.kill()
-        self._panel.output(self._panel.settings.wiring.drive_enable, False)
-        self._script.close()
-        self._leave(State.ALARM)
-        self._doing.off()
+        """All motion is killed, drives and spindle go off, the program is over."""
+        with ExitStack() as then:  # each of these even if the one before it fails; last one first
+            then.callback(self._script.close)
+            then.callback(self._leave, State.ALARM)
+            then.callback(self._doing.off)
+            then.callback(self._panel.output, self._panel.settings.wiring.drive_enable, False)
+            self._machine.kill()
 
     def _leave(self, state: State) -> None:
         self._pausing.close()
@@ -54,8 +63,9 @@ class Ending:
         self._status.end(state)
 
     def _to_rest(self) -> Steps:
-        self._machine.hold()
         yield Until("stops", lambda look: look.is_held or not look.is_moving)
         yield from self._course.drop_moves()
         if not self._status.options.is_dry:
             self._doing.off()
+        yield Until("axes stop", lambda _look: not self._machine.is_jogging())
+        self._machine.fold_jogs()  # of a homing that was broken off

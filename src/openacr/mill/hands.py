@@ -51,6 +51,11 @@ class Hands:
         self._wheel.leave()
         self.jogging.stop_all()
 
+    def let_go(self) -> None:
+        """All motion was killed: what has come to rest becomes position."""
+        self._wheel.leave()
+        self.jogging.let_go()
+
     def play(self, look: Look, step_s: float) -> None:
         """Let go what nobody holds, and go on with what is moved."""
         self.controls.keep(look)

@@ -8,6 +8,7 @@ end the jog offset is folded into the position and the position is set to Home P
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
 from itertools import groupby
 from math import copysign, inf
 from typing import TypeAlias
@@ -17,7 +18,8 @@ from openacr.map import numbers as n
 from openacr.mill import alarms, homed
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
-from openacr.mill.machine import Look
+from openacr.mill.ballscrew import Compensation
+from openacr.mill.machine import Look, flag_of
 from openacr.mill.panel import Panel
 from openacr.mill.settings import AxisSettings, HomeSettings
 
@@ -57,8 +59,9 @@ def together(ways: Iterable[Steps], reason: str) -> Steps:
     try:
         yield Until(reason, lambda look: not sum(not side.advance(look) for side in sides))
     finally:
-        for side in sides:
-            side.way.close()
+        with ExitStack() as each:  # all of them, even if one fails to stop its axis
+            for side in sides:
+                each.callback(side.way.close)
 
 
 class Axis:
@@ -79,8 +82,10 @@ class Axis:
             yield from self._switch()
             yield from self._marker()
         except BaseException:  # broken off: by STOP, ABORT, or because nothing was found
-            self._ramps(self._row.acc_ups2, self._row.stp_ups2)
-            self._jog(0.0)
+            try:
+                self._ramps(self._row.acc_ups2, self._row.stp_ups2)
+            finally:
+                self._jog(0.0)
             raise
         self._ramps(self._axis.jog_acc_ups2, self._axis.jog_dec_ups2)
         self._type(f"JOG RES {self._axis.name}0")
@@ -181,19 +186,21 @@ class Axis:
         return n.AX_BASE + self._axis.index * n.AX_STRIDE + row
 
     def _flag(self, word: int, mask: int) -> int:
-        return (word + self._axis.index - 4096) * 32 + mask.bit_length() - 1
+        return flag_of(word + self._axis.index, mask)
 
     def _is_set(self, flag: int) -> bool:
         return self._machine.card.read_bit(flag)
 
 
-def home(panel: Panel, axes: Iterable[int]) -> Steps:
+def home(panel: Panel, axes: Iterable[int], compensation: Compensation) -> Steps:
     """Home the chosen axes, priority after priority; the store learns which are homed."""
     for group in groups(panel, axes):
         ways = [Axis(panel, panel.settings.axis(axis)).home() for axis in group]
         for axis in group:
             homed.note(panel, axis, False)
+        compensation.renew()
         names = " ".join(panel.settings.axis(axis).name for axis in group)
         yield from together(ways, f"homing {names}")
         for axis in group:
             homed.note(panel, axis, True)
+        compensation.renew()

@@ -11,6 +11,7 @@ be stopped in time.
 """
 
 from collections.abc import Iterable
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 from openacr.client.values import number_text
@@ -80,8 +81,8 @@ class Jogging:
         end = self.position(row) + way_u
         if limit is not None and (end - limit) * way_u > 0.0:
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        self._moving.add(axis)  # before it is told: it has to be stopped in any case
         self._type(f"JOG INC {row.name}{number_text(way_u)}")
-        self._moving.add(axis)
 
     def settle(self) -> Steps:
         """Wait for rest, then make positions of the offsets."""
@@ -92,12 +93,22 @@ class Jogging:
 
     def stop_all(self) -> None:
         """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
-        for axis in self._moving:
-            row = self._panel.settings.axis(axis)
-            # Never softer than the ramp the way to a soft limit was planned with.
-            ramp = max(row.jog_stp_ups2, row.jog_dec_ups2)
+        with ExitStack() as each:  # all of them, even if the card refuses to stop one
+            for axis in self._moving:
+                each.callback(self._stop, axis)
+
+    def _stop(self, axis: int) -> None:
+        row = self._panel.settings.axis(axis)
+        # Never softer than the ramp the way to a soft limit was planned with.
+        ramp = max(row.jog_stp_ups2, row.jog_dec_ups2)
+        try:
             self._type(f"JOG DEC {row.name}{number_text(ramp)}")
+        finally:
             self.release(axis)
+
+    def let_go(self) -> None:
+        """Nothing is held any more; what has stopped the axes is stronger than a jog."""
+        self._held.clear()
 
     # --- pieces -----------------------------------------------------------------------
 
@@ -111,8 +122,8 @@ class Jogging:
 
     def aim(self, row: AxisSettings, target_u: float) -> None:
         """Set the machine position an axis is to go to."""
-        self._type(f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
         self._moving.add(row.index)
+        self._type(f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
 
     def _is_going_on(self) -> bool:
         """Whether axes are on their way; those of held controls get more of it."""

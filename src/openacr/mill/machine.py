@@ -66,6 +66,11 @@ class Look:
         return bool(self.modules[module] >> bit & 1)
 
 
+def flag_of(word: int, mask: int) -> int:
+    """The number of the flag that is this bit of a flag word."""
+    return (word - FIRST_FLAG_WORD) * BITS_PER_WORD + mask.bit_length() - 1
+
+
 class Machine:
     """The axes of one master of a card."""
 
@@ -146,9 +151,7 @@ class Machine:
         self.card.tell(SetBit(number) if on else ClearBit(number))
 
     def _request(self, mask: int, on: bool = True) -> None:
-        bit = mask.bit_length() - 1
-        word = n.MF1_WORD + self.master - FIRST_FLAG_WORD
-        self.set_flag(word * BITS_PER_WORD + bit, on)
+        self.set_flag(flag_of(n.MF1_WORD + self.master, mask), on)
 
     def hold(self) -> None:
         """Feed hold."""
@@ -174,14 +177,34 @@ class Machine:
         self._set_kills(True)
 
     def release(self) -> None:
-        """Take a kill back: axes and master may move again; drives stay as they are."""
+        """Take a kill back: axes and master may move again; drives stay as they are.
+
+        The card ramps killed motion down as a jog; what it went becomes position.
+        """
+        self.fold_jogs()
         self._set_kills(False)
         self.clear_kill()
 
     def _set_kills(self, on: bool) -> None:
-        bit = n.AF4_KILL_ALL_MOTION_REQUEST.bit_length() - 1
-        for axis in self.axes:
-            self.set_flag((n.AF4_WORD + axis - FIRST_FLAG_WORD) * BITS_PER_WORD + bit, on)
+        self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
+
+    def clear_limits(self) -> None:
+        """Forget hardware limits that were met; an axis that goes on into one meets it again."""
+        self._set_of_axes(n.AF5_WORD, n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED, False)
+        self._set_of_axes(n.AF5_WORD, n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED, False)
+
+    def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
+        """One flag of every axis in use, all in one go."""
+        flags = (flag_of(word + axis, mask) for axis in self.axes)
+        self.card.tell(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
+
+    def is_jogging(self) -> bool:
+        """Whether an axis in use is jogged, or ramps down behind a kill."""
+        return any(word & n.AF1_JOG_ACTIVE for word in self.axis_flags(n.AF1_WORD))
+
+    def fold_jogs(self) -> None:
+        """Make positions of the jog offsets of all axes; at rest."""
+        self.type(f"AXIS{axis} JOG RES" for axis in self.axes)
 
     def override(self, feed: float, rapid: float) -> None:
         """Feed and rapid override, 1 = as programmed."""

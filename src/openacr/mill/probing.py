@@ -8,13 +8,12 @@ from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.encoding import Job
-from openacr.mill.machine import Look
+from openacr.mill.machine import Look, flag_of
 from openacr.mill.panel import Panel
 from openacr.mill.settings import S_PER_MIN
 
 HARDWARE_LEADING, HARDWARE_TRAILING, SOFTWARE_LEADING, SOFTWARE_TRAILING = 2, 6, 11, 15
 SOFTWARE_TRIGGER = 113
-CAPTURE_BIT = n.AF1_CAPTURE_COMPLETE.bit_length() - 1
 
 
 class Probing:
@@ -64,7 +63,7 @@ class Probing:
         self._machine.type(f"INTCAP {name} {mode}" for name in names)
 
     def _flag(self, axis: int) -> int:
-        return (n.AF1_WORD + axis - 4096) * 32 + CAPTURE_BIT
+        return flag_of(n.AF1_WORD + axis, n.AF1_CAPTURE_COMPLETE)
 
     def _captures(self) -> list[bool]:
         return self._machine.card.read_bits([self._flag(axis) for axis in self._machine.axes])

@@ -5,7 +5,7 @@ between. Nothing here sleeps or knows the wall clock, so the same run takes an h
 machine and seconds on a virtual one.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from openacr.client import ConnectionLostError
@@ -13,6 +13,7 @@ from openacr.cnc import canonical as c
 from openacr.errors import UserError
 from openacr.mill import alarms
 from openacr.mill.alarms import Alarm, Alarms
+from openacr.mill.ballscrew import Compensation
 from openacr.mill.burning import Burner
 from openacr.mill.console import Console
 from openacr.mill.controls import Controls
@@ -50,9 +51,11 @@ class Runner:
         alarm_list: Alarms | None = None,
         *,
         has_operator: bool = True,  # somebody answers and starts again
+        compensated: Iterable[int] = (),  # axes with a ballscrew table on the card
     ) -> None:
         self.machine = machine
         self.settings = Settings(store)
+        self._compensation = Compensation(machine.card, self.settings, compensated)
         self.panel = panel = Panel(machine, self.settings)
         self.doing = doing = Doing(panel, store, say)
         self.alarms = alarm_list or Alarms()
@@ -68,7 +71,7 @@ class Runner:
         self._halting = Halting(panel, course, doing, passes, status)
         self._supervision = Supervision(
             panel, self.alarms, course, doing, hands=hands, retrace=retrace, pausing=pausing,
-            ending=ending, script=script, status=status,
+            ending=ending, script=script, status=status, compensation=self._compensation,
         )  # fmt: skip
         self._burner = Burner(panel, course)
         self._switches = Switches(
@@ -151,7 +154,7 @@ class Runner:
     def home(self, axes: Sequence[int]) -> None:
         """HOME: find the reference points of axes, priority after priority."""
         self._require_idle("home")
-        self._script.begin(home(self.panel, axes))
+        self._script.begin(home(self.panel, axes, self._compensation))
         self._status.state = State.WAIT
         self._status.is_homing = True
         self._times.restart()

@@ -25,8 +25,10 @@ class Script:
 
     def begin(self, steps: Steps) -> None:
         """Do this next; what was being done is broken off."""
-        self.close()
-        self._steps = steps
+        try:
+            self.close()
+        finally:
+            self._steps = steps
 
     def close(self) -> None:
         """Break off; the action puts back what it has to."""

@@ -101,6 +101,7 @@ def _axis(axis: AxisSettings) -> Iterator[str]:
     yield f"{word} JOG ACC {_number(axis.jog_acc_ups2)}"
     yield f"{word} JOG DEC {_number(axis.jog_dec_ups2)}"
     yield f"{word} ON"
+    yield f"{word} JOG RES"  # a jog that nobody made position: its host was lost
 
 
 def _spindle(settings: Settings) -> Iterator[str]:

@@ -1,7 +1,9 @@
 """Alarms while a machine is driven: each is given once, and does to the machine what it must."""
 
+from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
+from openacr.mill.ballscrew import Compensation
 from openacr.mill.course import Course
 from openacr.mill.doing import Doing
 from openacr.mill.ending import Ending
@@ -31,6 +33,7 @@ class Supervision:
         ending: Ending,
         script: Script,
         status: Status,
+        compensation: Compensation,
     ) -> None:
         self._panel = panel
         self._alarms = alarm_list
@@ -42,6 +45,7 @@ class Supervision:
         self._ending = ending
         self._script = script
         self._status = status
+        self._compensation = compensation
         self._watch = Watch(panel)
 
     @property
@@ -77,15 +81,17 @@ class Supervision:
             return
         if kind is alarms.EXCESS_ERROR:
             homed.lose(self._panel, detail)
+        if kind.effect is Effect.KILL:
+            self._ending.kill()
+            self._hands.let_go()
+            return
+        self._take_effect(kind.effect)
         if kind is not alarms.LINK_LOST:
             self._hands.stop()
             self._retrace.stop()
-        self._take_effect(kind.effect)
 
     def _take_effect(self, effect: Effect) -> None:
-        if effect is Effect.KILL:
-            self._ending.kill()
-        elif effect is Effect.ABORT and self.is_busy:
+        if effect is Effect.ABORT and self.is_busy:
             self._ending.abort(State.ALARM)
         elif effect is Effect.HOLD and self._status.is_under_way:
             self.pause()
@@ -98,10 +104,22 @@ class Supervision:
             self._pausing.begin()
 
     def acknowledge(self) -> list[Alarm]:
-        """Clear the alarms whose cause is gone; those that stay."""
-        look = self._panel.machine.look()
-        left = self._alarms.acknowledge(self._watch.is_gone(look, spins=self._spindle.is_on))
-        if self._status.state is State.ALARM and not self._alarms.bars_start:
-            self._panel.machine.release()
+        """Clear the alarms whose cause is gone; those that stay.
+
+        With the last of them a kill is taken back, also one that nobody here asked for.
+        """
+        machine, is_over = self._panel.machine, self._status.is_over
+        if is_over and (self._script.is_active or machine.is_jogging()):
+            raise UserError("the machine has not come to rest yet")
+        if is_over:
+            machine.clear_limits()
+        look = machine.look()
+        is_gone = self._watch.is_gone(look, spins=self._spindle.is_on)
+        left = self._alarms.acknowledge(
+            lambda alarm: is_gone(alarm) or (is_over and alarm.kind is alarms.MOVES_KILLED)
+        )
+        if is_over and not self._alarms.bars_start:
+            machine.release()
+            self._compensation.renew()
             self._status.state = State.IDLE
         return left

@@ -82,13 +82,15 @@ class Workshop:
             for number, value in AT_START.items():
                 cells.write(number, value)
         settings = Settings(cells)
-        depth = prepare(card, settings, tables_of(cells, settings, folder))
+        tables = tables_of(cells, settings, folder)
+        depth = prepare(card, settings, tables)
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
         self.runner = Runner(
-            self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual
-        )
+            self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
+            compensated=tables,
+        )  # fmt: skip
         self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
         panel = self.runner.panel
@@ -123,7 +125,7 @@ class Workshop:
         card = Card.open(target)
         try:
             check_firmware(card)
-            check_rest(card, Settings(store).master)
+            check_rest(card, Settings(store))
             user_variables(card)
             homed.agree(card, store)  # before the set-up: tables act on homed axes alone
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
