@@ -75,6 +75,7 @@ ORDER = (
     "basic/kinematics_cy.py",
     "basic/scheduler_cy.py",
     "plant/drive_cy.py",
+    "plant/phases_cy.py",
     "plant/wiring_cy.py",
     "plant/step_cy.py",
     "plc/scan_cy.py",

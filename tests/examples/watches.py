@@ -27,6 +27,7 @@ ARM = Watch("invk_arm", (MOTION, KILL_MOVES, 1024), 2)
 GEARS = Watch("gear_box", (MOTION, 792, 814, 820, 821, 1024), 2)
 LOCKED = Watch("gantry_lock", (MOTION, 1024), 2)
 SHEAR = Watch("cam_flying_shear", (32, 792, 822, 1024), 2)
+BRUSHLESS = Watch("brushless", (MOTION, 1024, 3584, 3585), 1)
 TUNING = Watch("tuning", (MOTION, 512, 513, 514, 1024), 1)
 
 ALL = (
@@ -47,5 +48,6 @@ ALL = (
     GEARS,
     LOCKED,
     SHEAR,
+    BRUSHLESS,
     TUNING,
 )

@@ -54,7 +54,7 @@ FAULTS = {
         'machine.toml:6:1: axis[0].encoder_direction is "left"; it must be one of "up", "down"',
     HEAD + "[axis.drive]\nmode = 'magic'\n":
         'machine.toml:6:1: axis[0].drive.mode is "magic"; it must be one of "torque", "velocity", '
-        '"ideal"',
+        '"ideal", "phases"',
     HEAD + "[axis.drive]\npeak_amps = 1.0\n":
         "machine.toml:5:2: [axis.drive] lacks the key 'mode' (known keys: mode)",
     HEAD + "[axis.drive]\nmode = 'ideal'\npeak_amps = 1.0\nrevs_per_s_per_volt = 1\n":

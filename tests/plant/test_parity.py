@@ -18,6 +18,7 @@ from openacr.plant.schema import (
     LimitSwitch,
     Load,
     Motor,
+    PhaseDrive,
     TorqueDrive,
     VelocityDrive,
     Wire,
@@ -41,6 +42,14 @@ drives = st.one_of(
     st.builds(
         VelocityDrive, revs_per_s_per_volt=positive, peak_amps=positive, lag_s=st.floats(0, 10)
     ),
+    st.builds(
+        PhaseDrive,
+        amps_per_volt=positive,
+        peak_amps=positive,
+        supply_v=st.one_of(st.none(), positive),
+        offset_v=st.floats(-1, 1),
+        dacs=st.permutations(range(8)).map(lambda dacs: (dacs[0], dacs[1])),
+    ),
     st.builds(IdealDrive, revs_per_s_per_volt=positive, lag_s=st.floats(0, 10)),
 )
 
@@ -50,7 +59,12 @@ def worlds(draw: st.DrawFn) -> World:
     drive = draw(drives)
     coulomb = draw(friction)
     motor = Motor(
-        inertia_kgm2=draw(positive), torque_nm_per_a=draw(positive), resistance_ohm=draw(positive)
+        inertia_kgm2=draw(positive),
+        torque_nm_per_a=draw(positive),
+        resistance_ohm=draw(positive),
+        pole_pairs=draw(st.integers(1, 1000)),
+        phases=draw(st.sampled_from([2, 3])),
+        electrical_zero_deg=draw(st.floats(-360, 360)),
     )
     axis = Axis(
         number=draw(st.integers(0, 7)),
@@ -79,7 +93,8 @@ def play(step: Callable[..., None], world: World, journal: list[float]) -> Memor
     for tick, value in enumerate(journal):
         memory.I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = int(tick % 9 < 7)
         memory.set_bit(32, tick % 7 < 5)
-        memory.S[at.DAC_BASE + n * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = value
+        for dac in range(8):
+            memory.S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = value * (n - dac + 1)
         step(memory.F, memory.I, memory.S, 8, 0.0005)
     return memory
 

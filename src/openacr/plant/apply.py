@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import apply_networks, bus, terminals
+from openacr.plant import apply_networks, apply_phases, bus, terminals
 from openacr.plant.counts import count_of
 from openacr.plant.schema import (
     Axis,
@@ -25,6 +25,7 @@ from openacr.plant.schema import (
     Direction,
     IdealDrive,
     Motor,
+    PhaseDrive,
     Space,
     TorqueDrive,
     VelocityDrive,
@@ -34,12 +35,19 @@ from openacr.plant.schema import (
 )
 from openacr.plant.step_cy import (
     IDEAL_DRIVE,
+    PHASE_DRIVE,
     TORQUE_DRIVE,
     VELOCITY_DRIVE,
     plant_refresh,
 )
 from openacr.plant.wiring_cy import NO_BORDER_CNT
 
+_KINDS = {
+    TorqueDrive: TORQUE_DRIVE,
+    VelocityDrive: VELOCITY_DRIVE,
+    IdealDrive: IDEAL_DRIVE,
+    PhaseDrive: PHASE_DRIVE,
+}
 FULL_DAC_BITS = 16
 FLAG_WORDS = 4096
 WORD_BITS = 32
@@ -60,12 +68,14 @@ def apply_world(world: World, memory: Memory) -> None:
 
 _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
+    (at.PLBF_BASE, at.PLB_COUNT * at.PLBF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
     *apply_networks.REALS,
 )
 _INTS = (
     (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
+    (at.PLBI_BASE, at.PLB_COUNT * at.PLBI_STRIDE),
     (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
     (at.PLGI_BASE, at.PLGI_STRIDE),
@@ -143,13 +153,16 @@ def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
     base = at.PLI_BASE + axis.number * at.PLI_STRIDE
     for row, number in _int_rows(axis).items():
         memory.I[base + row] = number
+    if isinstance(axis.drive, PhaseDrive):
+        apply_phases.write_phases(memory, axis, axis.drive)
 
 
 def _int_rows(axis: Axis) -> dict[int, int]:
     drive = axis.drive
     rows = {at.PLI_DAC: axis.number if axis.dac is None else axis.dac}
-    kinds = {TorqueDrive: TORQUE_DRIVE, VelocityDrive: VELOCITY_DRIVE, IdealDrive: IDEAL_DRIVE}
-    rows[at.PLI_KIND] = kinds[type(drive)]
+    rows[at.PLI_KIND] = _KINDS[type(drive)]
+    if isinstance(drive, PhaseDrive):
+        rows[at.PLI_DAC] = drive.dacs[0]
     if drive.fault_input is not None:
         rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = _place(drive.fault_input)
         rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)

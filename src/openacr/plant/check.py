@@ -13,6 +13,7 @@ from openacr.plant.complaint import Complaint, Path
 from openacr.plant.schema import (
     Axis,
     IdealDrive,
+    PhaseDrive,
     Switch,
     TorqueDrive,
     World,
@@ -80,6 +81,35 @@ def _motor_faults(axis: Axis) -> Iterator[tuple[tuple[str, ...], str, str]]:
             ("load", "static_nm"),
             f"static_nm {load.static_nm:g} is below coulomb_nm {load.coulomb_nm:g}",
             "static friction is never less than the friction of motion",
+        )
+
+
+def _commutation(world: World) -> Iterator[Complaint]:
+    for index, axis in enumerate(world.axis):
+        for key, text, hint in _commutation_faults(axis):
+            yield Complaint(("axis", index, *key), f"axis {axis.label}: {text}", hint)
+
+
+def _commutation_faults(axis: Axis) -> Iterator[tuple[tuple[str, ...], str, str]]:
+    drive, pole_pairs = axis.drive, axis.motor and axis.motor.pole_pairs
+    if not isinstance(drive, PhaseDrive):
+        if pole_pairs:
+            hint = 'leave them away, or set mode = "phases"'
+            yield ("motor", "pole_pairs"), "a drive that commutates has no use for pole_pairs", hint
+        return
+    if axis.motor is not None and not pole_pairs:
+        yield (
+            ("motor",),
+            "the motor has no pole_pairs",
+            "give the electrical turns in one turn of the motor",
+        )
+    if axis.dac is not None:
+        yield ("dac",), "the phases have analog outputs of their own", "leave dac away"
+    if drive.dacs[0] == drive.dacs[1]:
+        yield (
+            ("drive", "dacs"),
+            f"both phases are on analog output {drive.dacs[0]}",
+            "give two different ones",
         )
 
 
@@ -225,6 +255,7 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     _numbers_and_names,
     _encoders,
     _motors,
+    _commutation,
     _travel,
     _switch_positions,
     _wires,

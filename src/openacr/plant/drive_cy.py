@@ -76,14 +76,18 @@ def drive_ready(I: I32, i: int) -> int:
 
 
 def drive_volts(F: F64, I: I32, S: F32, f: int, i: int) -> None:
-    """Put the output of the card on the drive: as many volts as the converter has steps for.
+    """Put the output of the card on the drive, with the offset of the drive's own input."""
+    F[f + PLF_VOLTS] = converter_volts(S, I[i + PLI_DAC], F[f + PLF_DAC_STEP]) + F[f + PLF_OFFSET_V]
 
-    DAC OUTPUT is what the card wants at its terminals, DAC GAIN and OFFSET included. The
-    offset of the drive's own input comes on top. A value that is no number gives 0 V.
+
+def converter_volts(S: F32, dac: int, step: float) -> float:
+    """What the card puts out: as many volts as the converter has steps for.
+
+    DAC OUTPUT is what the card wants at its terminals, DAC GAIN and OFFSET included. A value
+    that is no number gives 0 V.
     """
-    output: float = S[DAC_BASE + I[i + PLI_DAC] * DAC_STRIDE + DAC_DAC_OUTPUT]
+    output: float = S[DAC_BASE + dac * DAC_STRIDE + DAC_DAC_OUTPUT]
     wanted: float = output * DAC_COUNTS_PER_VOLT
-    step: float = F[f + PLF_DAC_STEP]
     counts: float = 0.0
     if wanted > FULL_SCALE_DAC:
         counts = FULL_SCALE_DAC
@@ -95,7 +99,7 @@ def drive_volts(F: F64, I: I32, S: F32, f: int, i: int) -> None:
         counts = _coarse_dac(counts, step)
     # Adding 1.5 * 2**52 pushes the fraction out of a double: rint() without a call.
     counts = (counts + ROUNDING_SHIFT) - ROUNDING_SHIFT
-    F[f + PLF_VOLTS] = counts * VOLTS_PER_DAC_COUNT + F[f + PLF_OFFSET_V]
+    return counts * VOLTS_PER_DAC_COUNT
 
 
 def _coarse_dac(counts: float, step: float) -> float:

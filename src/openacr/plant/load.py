@@ -186,7 +186,7 @@ def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
 def _allowed(path: locate.Path, raw: dict[str, Any]) -> str:
     """Say in words what may stand at `path`."""
     if path[-1:] == ("mode",):
-        return 'one of "torque", "velocity", "ideal"'
+        return 'one of "torque", "velocity", "ideal", "phases"'
     return _words(_type_at(path, raw))
 
 

@@ -33,6 +33,9 @@ Lag = Annotated[float, Meta(ge=0, le=10)]
 Delay = Annotated[float, Meta(ge=0, le=3600)]
 Period = Annotated[float, Meta(ge=0.0001, le=0.005)]
 DacBits = Annotated[int, Meta(ge=8, le=16)]
+PolePairs = Annotated[int, Meta(ge=1, le=1000)]
+Phases = Annotated[int, Meta(ge=2, le=3)]
+Degrees = Annotated[float, Meta(ge=-360, le=360)]
 
 
 # The cards of `openacr.models` by name, so that a wrong name is reported with the right ones.
@@ -75,11 +78,19 @@ class Card(_Table, frozen=True):
 
 
 class Motor(_Table, frozen=True):
-    """The motor: rotor inertia, torque per ampere, winding resistance."""
+    """The motor: rotor inertia, torque per ampere, winding resistance.
+
+    A brushless motor has `pole_pairs` electrical turns in one of its own, and stands at
+    `electrical_zero_deg` of one at position 0; its torque is that of phase currents of the
+    amplitude of an ampere that go with the rotor.
+    """
 
     inertia_kgm2: Inertia
     torque_nm_per_a: Factor
     resistance_ohm: Factor | None = None
+    pole_pairs: PolePairs | None = None
+    phases: Phases = 3
+    electrical_zero_deg: Degrees = 0.0
 
 
 class Load(_Table, frozen=True):
@@ -105,6 +116,12 @@ class TorqueDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="torq
     supply_v: Factor | None = None
 
 
+class PhaseDrive(TorqueDrive, frozen=True, kw_only=True, tag_field="mode", tag="phases"):
+    """Two voltages command the currents of two phases: a commutator of the card turns the field."""
+
+    dacs: tuple[AxisNumber, AxisNumber]
+
+
 class VelocityDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="velocity"):
     """The voltage commands a speed; the drive closes the velocity loop."""
 
@@ -120,7 +137,7 @@ class IdealDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ideal
     lag_s: Lag = 0.001
 
 
-Drive = TorqueDrive | VelocityDrive | IdealDrive
+Drive = TorqueDrive | VelocityDrive | IdealDrive | PhaseDrive
 
 
 class LimitSwitch(_Table, frozen=True):

@@ -42,6 +42,7 @@ from openacr.plant.drive_cy import (
     torque_drive,
     velocity_drive,
 )
+from openacr.plant.phases_cy import phase_volts
 from openacr.plant.wiring_cy import (
     follow_outputs,
     marker_edges,
@@ -57,6 +58,7 @@ NO_MOTOR = 0
 TORQUE_DRIVE = 1
 VELOCITY_DRIVE = 2
 IDEAL_DRIVE = 3
+PHASE_DRIVE = 4
 
 NO_ACCEL_LIMIT = 1e30
 SPEED_BOUND_CPS = 1e10  # keeps a runaway axis within what a double can count for days
@@ -101,10 +103,14 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     if F[f + PLF_CACHED_DT_S] != dt:
         cache_motion_factors(F, f, dt)
     F[f + PLF_PREVIOUS_CNT] = position
-    drive_volts(F, I, S, f, i)
-    if I[i + PLI_KIND] == TORQUE_DRIVE:
+    kind: int = I[i + PLI_KIND]
+    if kind == PHASE_DRIVE:
+        phase_volts(F, I, S, n)
+    else:
+        drive_volts(F, I, S, f, i)
+    if kind == TORQUE_DRIVE or kind == PHASE_DRIVE:
         torque_drive(F, f, ready, dt)
-    elif I[i + PLI_KIND] == IDEAL_DRIVE:
+    elif kind == IDEAL_DRIVE:
         velocity_drive(F, f, ready * F[f + PLF_VOLTS], NO_ACCEL_LIMIT, dt)
     elif ready != 0:
         velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)

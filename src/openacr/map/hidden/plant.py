@@ -19,7 +19,7 @@ MOTOR = HiddenBlock(
         "velocity_cps",
         "previous_cnt",  # position at the end of the tick before
         "raw_count",  # what the quadrature counter shows: whole counts, starting at 0
-        "volts",  # at the terminals of the drive
+        "volts",  # at the terminals of the drive; of phases, what makes the same torque
         # parameters of the drive
         "dac_step",  # 1 for a 16-bit converter, 16 for a 12-bit one
         "offset_v",
@@ -53,7 +53,7 @@ MOTOR = HiddenBlock(
         "lag_decay",
     ),
     ints=(
-        "kind",  # 0 none, 1 torque drive, 2 velocity drive, 3 ideal
+        "kind",  # 0 none, 1 torque drive, 2 velocity drive, 3 ideal, 4 torque by phases
         "dac",
         "drive_enabled",  # written by the card
         "drive_ready",
@@ -64,6 +64,14 @@ MOTOR = HiddenBlock(
         "marker",  # 1 while the marker is present
         "marker_edges",  # of the last tick: 1 rising, 2 falling, 3 both
     ),
+)
+
+# What a motor that the card commutates has on top, see plant/phases_cy.py.
+PHASES = HiddenBlock(
+    prefix="PLB",
+    count=16,
+    doubles=("radians_per_cnt", "zero_rad", "peak_v"),
+    ints=("second_dac", "phases"),
 )
 
 # What drives an input: a box in space, one entry per side of the box, or an output.

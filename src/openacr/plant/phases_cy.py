@@ -1,0 +1,68 @@
+"""Brushless motors whose phases the card drives: the commutator is felt.
+
+Two voltages command the currents of two windings. Of three phases in star the third carries
+back what the others bring: c = -(a + b). The rotor, at the electrical angle
+
+    theta = zero + pole pairs * angle of the shaft,
+
+makes a torque with each winding, and they add up to that of the one voltage
+
+    two phases      u = a sin(theta) + b sin(theta + 90)
+    three phases    u = 2/3 (a sin(theta) + b sin(theta + 120) + c sin(theta + 240))
+
+on a drive with one: a = v sin(theta), b = v sin(theta + 90 or 120) gives u = v at any angle. A
+field that is d degrees off leaves v cos(d): less torque, none at 90 degrees, and a motor that
+runs away beyond. A field that turns the wrong way, or not at all, makes the rotor settle where
+the torque is zero. The drive limits the amplitude of the currents, not each of them.
+"""
+
+from openacr.cmath import cos, sin, sqrt
+from openacr.map.numbers import (
+    PLBF_BASE,
+    PLBF_PEAK_V,
+    PLBF_RADIANS_PER_CNT,
+    PLBF_STRIDE,
+    PLBF_ZERO_RAD,
+    PLBI_BASE,
+    PLBI_PHASES,
+    PLBI_SECOND_DAC,
+    PLBI_STRIDE,
+    PLF_BASE,
+    PLF_DAC_STEP,
+    PLF_OFFSET_V,
+    PLF_POSITION_CNT,
+    PLF_STRIDE,
+    PLF_VOLTS,
+    PLI_BASE,
+    PLI_DAC,
+    PLI_STRIDE,
+)
+from openacr.plant.drive_cy import converter_volts
+from openacr.views import F32, F64, I32
+
+THREE = 3
+THIRD = 0.5773502691896258  # 1 / sqrt(3)
+
+
+def phase_volts(F: F64, I: I32, S: F32, n: int) -> None:
+    """Voltage that would push a motor with one input as its two phases push motor n.
+
+    The two currents are one vector: across the rotor and along it. With b at 120 degrees,
+    b = -a/2 + sqrt(3)/2 q, so q = (a + 2 b) / sqrt(3) is the part at 90 degrees to a.
+    """
+    f: int = PLF_BASE + n * PLF_STRIDE
+    b: int = PLBF_BASE + n * PLBF_STRIDE
+    i: int = PLBI_BASE + n * PLBI_STRIDE
+    step: float = F[f + PLF_DAC_STEP]
+    first: float = converter_volts(S, I[PLI_BASE + n * PLI_STRIDE + PLI_DAC], step)
+    second: float = converter_volts(S, I[i + PLBI_SECOND_DAC], step)
+    first += F[f + PLF_OFFSET_V]
+    second += F[f + PLF_OFFSET_V]
+    if I[i + PLBI_PHASES] == THREE:
+        second = (first + 2.0 * second) * THIRD
+    amplitude: float = sqrt(first * first + second * second)
+    if amplitude > F[b + PLBF_PEAK_V]:
+        first *= F[b + PLBF_PEAK_V] / amplitude
+        second *= F[b + PLBF_PEAK_V] / amplitude
+    theta: float = F[b + PLBF_ZERO_RAD] + F[b + PLBF_RADIANS_PER_CNT] * F[f + PLF_POSITION_CNT]
+    F[f + PLF_VOLTS] = first * sin(theta) + second * cos(theta)
