@@ -10,14 +10,14 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from openacr.basic import pass_through
 from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
 from openacr.basic.entry import Entry
 from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.registry import Level
 from openacr.errors import CardError
-from openacr.messages import DEVICE_IN_USE, LINE_TOO_LONG
-from openacr.network.drivetalk import lines
+from openacr.messages import LINE_TOO_LONG
 
 if TYPE_CHECKING:
     from openacr.basic.system import System
@@ -116,9 +116,14 @@ class Session:
         """Who gets what is typed."""
         if self.opened_by is not None:
             return Attention.OPEN
-        if self.partner is not None or self.drive is not None:
+        if self.is_joined:
             return Attention.PASS_THROUGH
         return Attention.COMMANDS if self.listening_to is None else Attention.LISTENING
+
+    @property
+    def is_joined(self) -> bool:
+        """Whether another channel or a drive gets what is typed."""
+        return self.partner is not None or self.drive is not None
 
     @property
     def prompt(self) -> str:
@@ -153,8 +158,7 @@ class Session:
             self.system.runner.cancel(self)
             self.busy = False
         self.stop_listening()
-        self._leave_drive()
-        self._leave_partner()
+        pass_through.leave(self)
         self.capture, self.typed_ahead = None, ""
         self._output.clear()
 
@@ -182,12 +186,8 @@ class Session:
 
     def typed(self, byte: int) -> None:
         """One byte for the program or channel that has the attention."""
-        if self.drive is not None:
-            shown = lines.type_byte(self.system.card.memory, self.index, byte)
-            if self.echo & ECHO_CHARACTERS:
-                self.write(shown)
-        elif self.partner is not None:
-            self.system.sessions[self.partner].write(chr(byte))
+        if self.is_joined:
+            pass_through.type_byte(self, byte)
         elif self.opened_by is not None:
             self.system.devices.receive(self.opened_by, byte)
         elif self.listening_to is not None:
@@ -197,10 +197,8 @@ class Session:
         """ESC: end listening or talking; one prompt follows without a line."""
         if self.attention in (Attention.LISTENING, Attention.PASS_THROUGH):
             self.stop_listening()
-            self._leave_partner()
-            self._leave_drive()
-            self.write(LINE_END)
-            self._send_prompt()
+            pass_through.leave(self)
+            self.end_mode()
 
     def _take(self, text: str) -> bool:
         """Store or start a line; True when nothing of it is left to be done."""
@@ -242,6 +240,11 @@ class Session:
         """Whether anything waits to be sent."""
         return bool(self._output)
 
+    def end_mode(self) -> None:
+        """Answer the line that has begun LISTEN, TALK TO or DTALK: one prompt, in a new line."""
+        self.write(LINE_END)
+        self._send_prompt()
+
     def _send_prompt(self) -> None:
         if not self.echo & NO_PROMPT:
             self.write(self.prompt)
@@ -267,36 +270,6 @@ class Session:
         self.stop_listening()
         if not self.busy:
             self._send_prompt()
-
-    def talk_to(self, other: Session) -> None:
-        """TALK TO: what is typed here leaves there, and the other way round."""
-        if other.attention in (Attention.OPEN, Attention.PASS_THROUGH):
-            raise CardError(DEVICE_IN_USE)
-        self.partner, other.partner = other.name, self.name
-        self.has_called = True
-
-    def _leave_partner(self) -> None:
-        if self.partner is not None:
-            other = self.system.sessions[self.partner]
-            self.partner, self.has_called = None, False
-            other.partner_left()
-
-    def partner_left(self) -> None:
-        """The other side has ended TALK TO; the line that has begun it is answered now."""
-        if self.has_called:
-            self.write(LINE_END)
-            self._send_prompt()
-        self.partner, self.has_called = None, False
-
-    def talk_to_drive(self, axis: int, port: int) -> None:
-        """DTALK: what is typed here goes to the drive of an axis, over a Drive Talk line."""
-        lines.connect(self.system.card.memory, port, self.index, axis)
-        self.drive = axis
-
-    def _leave_drive(self) -> None:
-        if self.drive is not None:
-            lines.disconnect(self.system.card.memory, self.index)
-            self.drive = None
 
     def power_up(self) -> None:
         """Begin as after power-up; the connection, if there is one, stays."""

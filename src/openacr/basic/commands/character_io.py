@@ -22,6 +22,7 @@ from openacr.basic.nodes import (
     is_text,
 )
 from openacr.basic.number_format import UsingFormat
+from openacr.basic.pass_through import join_channel
 from openacr.basic.printed import printed
 from openacr.basic.registry import ANY, IMMEDIATE, PROG, command, functions
 from openacr.basic.run import Run, Wait, WaitKind
@@ -246,4 +247,4 @@ def talk_to(run: Run, device: str | ObjectRef) -> None:
     other = run.system.sessions.get(name)
     if other is None or other is run.channel:
         raise CardError(INVALID_DEVICE)
-    run.channel.talk_to(other)
+    join_channel(run.channel, other)

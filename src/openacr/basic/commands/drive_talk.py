@@ -6,6 +6,7 @@ import re
 
 from openacr.basic.commands.character_io import DEVICES, GROUP, port_name
 from openacr.basic.grammar import Axes, Axis, Int, Mark, Str
+from openacr.basic.pass_through import join_drive
 from openacr.basic.registry import ANY, IMMEDIATE, PROG, command
 from openacr.basic.run import Run, Wait, WaitKind
 from openacr.errors import CardError
@@ -65,5 +66,5 @@ def dtalk(run: Run, axes: tuple[Axis, ...]) -> Wait | None:
         raise CardError(DEVICE_IN_USE)
     if line.is_busy:
         return Wait(WaitKind.NEXT_SLICE, retry=True)
-    run.channel.talk_to_drive(axis, port)
+    join_drive(run.channel, axis, port)
     return None
