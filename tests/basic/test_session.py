@@ -155,6 +155,46 @@ def test_commands_without_number_act_at_once() -> None:
     assert card.type("?BIT32", "SET 32", "?BIT32") == "0|P00>P00>-1|P00>"
 
 
+@pytest.mark.parametrize(
+    ("line", "answer"),
+    [
+        ("PROG1 : ATTACH", "ATTACH MASTER1|P01>"),
+        ("PROG (0+1) ATTACH : ACC 7 : PROG0 : ACC", "ATTACH MASTER1|20000|P00>"),
+        ("PROG0 : SYS : ACC", "Unknown command|SYS>"),
+        ("PROG1 : FOO : PROG0", "Unknown command|P01>"),
+        ("PROG99 : ACC", "Invalid argument|P00>"),
+        ("PROG1 : 'nothing", "P01>"),
+        ("PROG1 : ACC : REM the rest", "20000|P01>"),
+        ("IF (0) THEN PROG1 : ACC", "P00>"),
+    ],
+)
+def test_what_stands_behind_a_change_of_level_is_done_there(line: str, answer: str) -> None:
+    card = Machine()
+    card.type("PROG1", "ATTACH MASTER1", "PROG0", "ATTACH MASTER0")
+    assert card.type(line) == answer
+
+
+def test_the_rest_of_a_line_waits_for_what_stands_before_it() -> None:
+    card = Machine()
+    card.type("PROG1", "ATTACH MASTER1", "PROG0", "ATTACH MASTER0")
+    assert card.type("ACC 5 : DWL 0.005 : PROG1 : ACC : DWL 0.005 : PROG0 : ACC") == ""
+    card.advance(12)
+    assert card.sent() == "20000|"
+    rest = card.system.state()["sessions"]["COM1"]["rest"]
+    assert [token.text for token in rest] == [":", "ACC", ""]
+    card.advance(12)
+    assert card.sent() == "5|P00>"
+
+
+def test_a_lost_connection_ends_the_line_with_its_rest() -> None:
+    card = Machine()
+    card.type("DWL 0.005 : PROG1 : SET 32")
+    card.channel.disconnect()
+    card.channel.connect()
+    card.advance(20)
+    assert (card.sent(), card.card.memory.bit(32)) == ("", False)
+
+
 # storing
 
 

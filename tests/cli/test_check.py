@@ -36,6 +36,13 @@ def write(folder: Path, name: str, text: str) -> Path:
     return path
 
 
+def test_commands_behind_a_change_of_level_are_checked_there(tmp_path: Path) -> None:
+    text = "DIM P(1) : PROG0 : ATTACH MASTER0 : ACC 5 : SYS : ACC 6"
+    result = check(write(tmp_path, "levels.8k", text))
+    assert "levels.8k:1:51: Unknown command" in result.stdout
+    assert result.stdout.count("Unknown command") == 1
+
+
 def test_a_file_without_errors_says_so(tmp_path: Path) -> None:
     path = write(tmp_path, "good.8k", GOOD)
     result = check(path)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from openacr.basic.session import Session
     from openacr.basic.system import System
 
-_LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))
+LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))
 _REMARK = re.compile(r":|REM(?![A-Za-z])", re.IGNORECASE)
 
 
@@ -78,7 +78,7 @@ class Entry:
         found = tokens(text)
         first = next((token for token in found if token.value != ":"), found[-1])
         word = first.value if first.kind is Kind.WORD else ""
-        if word in _LEVEL_WORDS:
+        if word in LEVEL_WORDS:
             self.session.capture = None
             self._append(owner, tokens("ENDP"))
             return found
@@ -116,3 +116,34 @@ class Entry:
             return False
         self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
         return True
+
+
+def split_at_level(found: list[Token]) -> tuple[list[Token], list[Token]]:
+    """A typed line up to its first SYS, PROG n or PLC n, and what stands behind that.
+
+    Such a command begins a block; behind THEN it is a part of the IF.
+    """
+    begins_block = True
+    for place, token in enumerate(found):
+        if token.value == "THEN":
+            break
+        if begins_block and token.kind is Kind.WORD and token.value in LEVEL_WORDS:
+            behind = _behind_level(found, place)
+            if found[behind].kind is not Kind.END:
+                return [*found[:behind], found[-1]], found[behind:]
+        begins_block = token.kind is Kind.OPERATOR and token.value == ":"
+    return found, []
+
+
+def _behind_level(found: list[Token], place: int) -> int:
+    """The place behind a level command: PROG and PLC have a number, or `(expr)`."""
+    behind = place + 1
+    if found[place].value == "SYS":
+        return behind
+    depth = 0
+    while found[behind].kind is not Kind.END:
+        depth += (found[behind].value == "(") - (found[behind].value == ")")
+        behind += 1
+        if depth <= 0:
+            break
+    return behind

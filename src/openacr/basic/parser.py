@@ -12,11 +12,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from openacr.basic import registry
-from openacr.basic.expressions import ExpressionParser
+from openacr.basic.expressions import ExpressionParser, StatementError
 from openacr.basic.nodes import AxisRef, Block, Expr, Line, Move, Prefix, Statement
 from openacr.basic.registry import Command, Level, Use
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.source import Span
 from openacr.messages import (
     NOT_VALID_AT_THIS_LEVEL,
     SYNTAX_ERROR,
@@ -234,16 +235,21 @@ class Parser(ExpressionParser):
     def _with_arguments(self, row: Command, indices: tuple[Expr, ...], column: int) -> Statement:
         if self.prefix is None:
             self.names_object = False
-        needs_object = self.scope.level is Level.SYS and not row.levels & Level.SYS
+        at_sys = self.scope.level is Level.SYS and not self.scope.stored
+        needs_object = at_sys and not row.levels & Level.SYS
         try:
             arguments = self.arguments(row)
         except CardError:
-            if needs_object and not self.scope.stored:
-                raise self.error(UNKNOWN_COMMAND) from None
+            if needs_object:
+                raise self._unknown(row, column) from None
             raise
-        if needs_object and not self.scope.stored and not self.names_object:
-            raise self.error(UNKNOWN_COMMAND)
+        if needs_object and not self.names_object:
+            raise self._unknown(row, column)
         return Statement(row, arguments, indices, self.prefix, column)
+
+    def _unknown(self, row: Command, column: int) -> StatementError:
+        span = Span(self.token.line, column, len(row.words[0]))
+        return StatementError(UNKNOWN_COMMAND, span)
 
     def arguments(self, row: Command) -> tuple[object, ...]:
         """The arguments of a command, in the order of its grammar; None for one left out."""

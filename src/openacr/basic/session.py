@@ -6,17 +6,19 @@ rule hosts depend on: one line, the output of that line, then exactly one prompt
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
 from openacr.basic import pass_through
 from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
-from openacr.basic.entry import Entry
+from openacr.basic.entry import Entry, split_at_level
 from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
 from openacr.basic.registry import Level
 from openacr.errors import CardError
+from openacr.lang.lexer import Token
 from openacr.messages import LINE_TOO_LONG
 
 if TYPE_CHECKING:
@@ -69,6 +71,7 @@ class Session:
     drive: int | None = None  # axis whose drive DTALK has joined
     echo_line_end: bool = True  # False while `INPUT;` reads a line
     typed_ahead: str = ""  # what the program followed with LRUN has left of the line being typed
+    rest: list[Token] = field(default_factory=list)  # of the present line, for its new level
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
     _output: bytearray = field(default_factory=bytearray)
     _words: ChannelWords = field(init=False, repr=False)
@@ -159,7 +162,7 @@ class Session:
             self.busy = False
         self.stop_listening()
         pass_through.leave(self)
-        self.capture, self.typed_ahead = None, ""
+        self.capture, self.typed_ahead, self.rest = None, "", []
         self._output.clear()
 
     # input
@@ -168,13 +171,7 @@ class Session:
         """Deal with one line; it is answered here, or by `finished` when it takes longer."""
         self.busy = True
         self._words.count_line()
-        try:
-            is_done = self._take(text)
-        except CardError as error:
-            self.finished(error)
-        else:
-            if is_done:
-                self.finished()
+        self._attempt(lambda: self._take(text))
 
     def show_waiting(self, characters: int, lines: int) -> None:
         """Put what waits in the buffer of the channel into its parameters."""
@@ -200,12 +197,25 @@ class Session:
             pass_through.leave(self)
             self.end_mode()
 
+    def _attempt(self, step: Callable[[], bool]) -> None:
+        """Deal with a part of the present line; `step` is True when nothing of it is left."""
+        try:
+            is_done = step()
+        except CardError as error:
+            self.finished(error)
+        else:
+            if is_done:
+                self.finished()
+
     def _take(self, text: str) -> bool:
-        """Store or start a line; True when nothing of it is left to be done."""
+        """Store or start a line."""
         found = Entry(self.system, self).take(text)
-        if found is None:
-            return True
-        line = Parser(found, self.scope).line()
+        return found is None or self._begin(found)
+
+    def _begin(self, found: list[Token]) -> bool:
+        """Start a line up to its first change of level: what follows is read at the new one."""
+        now, self.rest = split_at_level(found)
+        line = Parser(now, self.scope).line()
         if line.is_empty:
             return True
         self.system.runner.start(self, line)
@@ -220,6 +230,10 @@ class Session:
 
     def finished(self, error: CardError | None = None) -> None:
         """The present line is dealt with: its error text, then the prompt."""
+        rest, self.rest = self.rest, []
+        if rest and error is None:
+            self._attempt(lambda: self._begin(rest))
+            return
         self.busy = False
         self.last_error = error
         if error is not None and not self.echo & NO_ERRORS:
@@ -275,7 +289,7 @@ class Session:
         """Begin as after power-up; the connection, if there is one, stays."""
         self.stop_listening()
         self.busy, self.capture, self.opened_by, self.partner = False, None, None, None
-        self.drive, self.has_called = None, False
+        self.drive, self.has_called, self.rest = None, False, []
         self.reset()
 
     # snapshot
@@ -288,6 +302,7 @@ class Session:
             "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
             "partner": self.partner, "drive": self.drive, "echo_line_end": self.echo_line_end,
             "typed_ahead": self.typed_ahead, "has_called": self.has_called,
+            "rest": self.rest,
         }  # fmt: skip
 
     def restore(self, state: dict[str, Any]) -> None:

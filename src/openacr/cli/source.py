@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.aliases import check_name, numbered_names
 from openacr.basic.commands.operating_system import Definition
+from openacr.basic.entry import split_at_level
 from openacr.basic.lister import Lister
 from openacr.basic.loader import FileLine, file_lines, long_lived_objects
 from openacr.basic.nodes import Block, Expr, Move, Number, Statement, String
@@ -176,6 +177,7 @@ class Reader:
 
     def _immediate(self, line: FileLine, found: list[Token]) -> None:
         """A line that is executed at once: take note of what later lines depend on."""
+        found, rest = split_at_level(found)
         tree = Parser(found, self._scope(stored=False)).line()
         if not tree.is_empty:
             self.parts.append(Part(tokens=tuple(found)))
@@ -187,6 +189,8 @@ class Reader:
                 if not isinstance(statement, Move):
                     self._note(statement)
         self._scope_changed()
+        if rest:
+            self._immediate(line, rest)
 
     def _note(self, statement: Statement) -> None:
         words, arguments = statement.command.words, statement.arguments
