@@ -149,11 +149,25 @@ def test_a_program_that_is_run_again_begins_its_loops_anew() -> None:
         assert [shown(entry) for entry in done.interpreter.entries()] == [f"L X{n}", "end"]
 
 
-@pytest.mark.parametrize("text", ["G64", "G64 P.01", "G64 P0.01 Q0.02"])
-def test_a_path_tolerance_is_taken(text: str) -> None:
-    (line,) = ngc(f"{text}\nG1 F10 X1").of(Line)
+@pytest.mark.parametrize(
+    ("text", "tolerance"),
+    [("G64", 0.0), ("G64 P.01", 0.01), ("G64 P0.01 Q0.02", 0.01), ("G64 P0", 0.0),
+     ("G21 G64 P2.54|G20", 0.1), ("G64 P.01|G64", 0.0), ("G64 P.01|G61|G64", 0.0)],
+)  # fmt: skip
+def test_a_path_tolerance_is_taken(text: str, tolerance: float) -> None:
+    (line,) = ngc(f"{text}\nG1 F10 X1".replace("|", "\n")).of(Line)
     assert isinstance(line, Line)
     assert line.pace.mode is PathMode.FREE
+    assert line.pace.tolerance_u == pytest.approx(tolerance)
+
+
+def test_a_path_tolerance_ends_with_exact_stops_and_with_the_program() -> None:
+    done = ngc("G64 P.01\nG61 G1 F10 X1\nG64 P.02\nM2")
+    (line,) = done.of(Line)
+    assert isinstance(line, Line)
+    assert line.pace.tolerance_u == 0.0
+    assert done.interpreter.modal.tolerance == 0.0
+    assert wrong("G64 P-.01") == ["E222"]
 
 
 def test_subroutines_have_parameters_and_names_of_their_own() -> None:

@@ -69,7 +69,8 @@ class Shop:
         settings = Settings(self.store)
         depth = prepare(self.card, settings)
         self.card.command("DRIVE ON X Y Z", program=0)
-        machine = Machine(self.card, [axis.index for axis in settings.axes], settings.master)
+        axes = [axis.index for axis in settings.axes]
+        machine = Machine(self.card, axes, settings.master, rounds_corners=True)
         self.said: list[str] = []
         self.runner = Runner(machine, self.store, depth, self.said.append)
         self.path: list[tuple[float, float, float]] = []

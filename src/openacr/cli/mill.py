@@ -112,12 +112,15 @@ def time_program(
     store: AtStore = None,
     dialect: Dialect = None,
     is_dry: Dry = False,
+    is_exact: Annotated[
+        bool, typer.Option("--exact", help="G64 P goes exactly through corners, as on a real card.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Predict how long a part program runs, from the plan of its moves."""
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        survey, prediction = _surveyed(program, cells, name, is_dry=is_dry)
+        survey, prediction = _surveyed(program, cells, name, is_dry=is_dry, rounds=not is_exact)
     if survey.errors:
         show_findings(survey.errors)
         raise typer.Exit(FAILED)
@@ -131,7 +134,7 @@ def time_program(
 
 
 def _surveyed(
-    program: "Program", cells: "Store", dialect: str, *, is_dry: bool
+    program: "Program", cells: "Store", dialect: str, *, is_dry: bool, rounds: bool = True
 ) -> "tuple[Survey, Prediction]":
     """Read a program once, for the survey and for its time."""
     from openacr.cnc.interpreter import Options
@@ -139,7 +142,7 @@ def _surveyed(
     from openacr.mill.predicting import Predictor
     from openacr.mill.settings import Settings
 
-    predictor = Predictor(Settings(cells), (0.0,) * 8, is_dry=is_dry)
+    predictor = Predictor(Settings(cells), (0.0,) * 8, is_dry=is_dry, rounds=rounds)
     found = survey(program, cells, dialect, Options(is_dry=is_dry), look=predictor.add)
     predictor.rest()
     return found, predictor.found

@@ -40,6 +40,7 @@ class Modal:
     return_level: int = 98
     work: int = 1  # system 1..8, 0 = machine (G53)
     path: int = 64
+    tolerance: float = 0.0  # G64 P
     centres: int = 2  # G200 F0, F1, F2
     feed: float = 0.0  # default units per minute
     feed_mode: int = 94
@@ -132,6 +133,7 @@ RESETS = (
     Reset("return_level", _always(98), _cell(100_017)),
     Reset("work", _always(1), lambda cells: max(0, int(cells.read(100_015)) - 53), at_abort=False),
     Reset("path", lambda cells: 62 if cells.read(COMPATIBILITY) else 64, _path),
+    Reset("tolerance", _always(0.0)),
     Reset("centres", _cell(250_003), _centres),
     Reset("feed", _feed, _feed),
     Reset("feed_mode", _always(94)),

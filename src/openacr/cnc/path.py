@@ -83,7 +83,7 @@ class Path:
             modal = self._modal
             mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
             is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
-            pace = self._pace = Pace(modal.feed, mode, is_locked, modal.path == 61)
+            pace = self._pace = Pace(modal.feed, mode, is_locked, modal.path == 61, modal.tolerance)
         return pace
 
     # --- places ------------------------------------------------------------------------

@@ -94,7 +94,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_between", "round_exit2"]
+__all__ = ["round_between", "round_brake", "round_cap", "round_exit2", "round_ramp2"]
 
 BEHIND = 0  # pieces of a move
 LINE = 1

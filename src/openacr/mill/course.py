@@ -47,7 +47,8 @@ class Course:
         self._machine.reset_counter()
         self.tracker.reset()
         self.tracker.trail.restart([])
-        self._encoder = Encoder(self.settings, is_dry=is_dry)
+        rounds = self._machine.rounds_corners
+        self._encoder = Encoder(self.settings, is_dry=is_dry, rounds=rounds)
         self._begin = self.host.position()
         self._feed = Feed(entries(self.host), self._begin, self.settings, self._encoder)
         self._feed.is_single = is_single

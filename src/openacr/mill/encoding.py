@@ -7,7 +7,7 @@ float cannot hold 0.00001 inch over 200 inches.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Polyline, Probe, Rapid
 from openacr.mill.geometry import Geometry, Way
@@ -47,7 +47,8 @@ class Job(Stretch):
 class Encoder:
     """Jobs and packets for the axes of one machine."""
 
-    def __init__(self, settings: Settings, *, is_dry: bool = False) -> None:
+    def __init__(self, settings: Settings, *, is_dry: bool = False, rounds: bool = False) -> None:
+        """`rounds`: the card knows path tolerances, an extension that real cards have not."""
         self._settings = settings
         self._speeds = settings.speeds
         self._geometry = Geometry(settings)
@@ -56,6 +57,7 @@ class Encoder:
         for axis in settings.axes:
             self._scale[axis.index] = axis.pulses_per_unit
         self._is_dry = is_dry
+        self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
 
     # --- planning ---------------------------------------------------------------------
 
@@ -69,19 +71,20 @@ class Encoder:
             begin = piece.end
 
     def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
-        found = columns(entry, begin, self._settings, self._line_speed(entry.pace))
+        tolerance = self._tolerance(entry.pace)
+        found = columns(entry, begin, self._settings, self._line_speed(entry.pace), tolerance)
         mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
         begin_cnt: Pulses = self.pulses(begin)
         rows = zip(
             lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
-            found.ramp_ups2.tolist(), found.direction.tolist(), found.pulses[1:].tolist(),
-            strict=True,
+            found.ramp_ups2.tolist(), found.direction.tolist(), found.tolerance_u.tolist(),
+            found.pulses[1:].tolist(), strict=True,
         )  # fmt: skip
-        for line, length, feed, ramp, direction, finish_cnt in rows:
+        for line, length, feed, ramp, direction, tolerance_u, finish_cnt in rows:
             heading = direction if any(direction) else None
             yield Job(
                 length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
-                mode=mode, entry=line, begin=begin, finish=line.end,
+                mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin, finish=line.end,
                 begin_cnt=begin_cnt, finish_cnt=finish_cnt,
             )  # fmt: skip
             begin, begin_cnt = line.end, finish_cnt
@@ -91,10 +94,18 @@ class Encoder:
         way = self._way(entry, begin)
         is_rapid = isinstance(entry, Rapid)
         ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
+        tolerance = 0.0
+        if isinstance(entry, Line) and self._geometry.is_linear(way):
+            tolerance = self._tolerance(entry.pace)
+        begin_cnt, finish_cnt = self.pulses(begin), self.pulses(entry.end)
+        if tolerance > 0.0:
+            sent = self._geometry.line(self._place(begin_cnt), self._place(finish_cnt))
+            way = sent if sent.length_u > 0.0 else way
         return Job(
             length_u=way.length_u,
             feed_ups=self._speed(entry, way),
-            ramp_ups2=self._geometry.ramp_limit(way, ramp),
+            ramp_ups2=self._geometry.ramp_limit(way, ramp, rounds=tolerance > 0.0),
+            tolerance_u=tolerance,
             start=way.start,
             end=way.end,
             mode=PathMode.EXACT if isinstance(entry, Rapid) else _mode(entry),
@@ -102,9 +113,16 @@ class Encoder:
             entry=entry,
             begin=begin,
             finish=entry.end,
-            begin_cnt=self.pulses(begin),
-            finish_cnt=self.pulses(entry.end),
+            begin_cnt=begin_cnt,
+            finish_cnt=finish_cnt,
         )
+
+    def _place(self, counts: Pulses) -> Point:
+        """The machine position the card understands."""
+        point = [0.0] * len(self._scale)
+        for axis, count in zip(self._axes, counts, strict=True):
+            point[axis] = count / self._scale[axis]
+        return tuple(point)
 
     def _way(self, entry: Motion, begin: Point) -> Way:
         if not isinstance(entry, Arc):
@@ -124,6 +142,12 @@ class Encoder:
             radius = min(entry.start_radius, entry.end_radius)
             wanted = min(wanted, math.sqrt(speeds.arc_acc_ups2 * radius))
         return min(wanted, self._geometry.speed_limit(way))
+
+    def _tolerance(self, pace: Pace) -> float:
+        """How far the card may leave the corners between straight moves."""
+        if not self._rounds or pace.is_confirmed or pace.mode is not PathMode.FREE:
+            return 0.0
+        return pace.tolerance_u
 
     def _line_speed(self, pace: Pace) -> float:
         """The speed a feed move asks for."""
@@ -152,6 +176,7 @@ class Encoder:
             fvel=fvel,
             acc=job.ramp_ups2,
             centers=centers,
+            tolerance=job.tolerance_u if job.is_joined else None,
         )
 
     def _arc(self, entry: Motion) -> tuple[int, tuple[int, int] | None]:
@@ -197,11 +222,12 @@ class Encoder:
         """Straight pieces whose height over the arc stays within the chord tolerance."""
         radius = max(arc.start_radius, arc.end_radius)
         height = min(self._speeds.chord_u, radius)
+        pace = replace(arc.pace, tolerance_u=max(arc.pace.tolerance_u - height, 0.0))
         half = math.acos(max(1.0 - height / radius, -1.0))
         count = max(1, math.ceil(abs(arc.sweep_rad) / (2.0 * half)))
         for number in range(1, count + 1):
             end = arc.end if number == count else along(arc, begin, number / count)
-            yield Line(arc.source, end, arc.pace, arc.is_inserted, arc.is_compensated)
+            yield Line(arc.source, end, pace, arc.is_inserted, arc.is_compensated)
 
 
 def along(arc: Arc, begin: Point, share: float) -> Point:
@@ -227,10 +253,14 @@ def _is_locked(entry: Motion) -> bool:
 
 
 def _ending(job: Job) -> tuple[int, float | None]:
-    """The mode bits for the planned end of a move, and its final velocity."""
+    """The mode bits for the planned end of a move, and its final velocity.
+
+    A corner that the card rounds is planned by the card; the move ends at rest if the next one
+    does not come in time.
+    """
     if job.is_rapid:
         return RAPID, None
-    if job.exit_ups <= 0.0 or isinstance(job.entry, Probe):
+    if job.is_joined or job.exit_ups <= 0.0 or isinstance(job.entry, Probe):
         return STOPPING, None
     if job.exit_ups >= job.feed_ups:
         return CONTINUOUS, None

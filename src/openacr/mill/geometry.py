@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from openacr.mill.planning import Direction
+from openacr.mill.rounding import Direction
 from openacr.mill.settings import AxisSettings, Settings
 from openacr.mill.setup import LINEAR
 
@@ -94,6 +94,10 @@ class Geometry:
         parts |= {axis: d / length for axis, d in rise.items()}
         return tuple(parts[axis] for axis in self._linear)
 
+    def is_linear(self, way: Way) -> bool:
+        """Whether linear axes move alone."""
+        return way.start is not None and not any(way.share[axis] for axis in self._rotary)
+
     def speed_limit(self, way: Way) -> float:
         """The highest vector speed that no axis limit forbids, units/s."""
         limits = [self._speeds.max_ups] if way.start is not None else []
@@ -103,8 +107,14 @@ class Geometry:
             limits += _per_axis(((one, self._speeds.rotary_max) for one in rotary), way)
         return min(limits, default=math.inf)
 
-    def ramp_limit(self, way: Way, ramp_ups2: float) -> float:
-        """The vector acceleration that no axis limit forbids, units/s2."""
+    def ramp_limit(self, way: Way, ramp_ups2: float, *, rounds: bool = False) -> float:
+        """The vector acceleration that no axis limit forbids, units/s2.
+
+        In a rounded corner it has any direction: there it may not exceed the limit of any axis.
+        """
+        if rounds:
+            own = [one.max_acceleration_ups2 for one in self._axes if way.share[one.index] > 0.0]
+            return min([ramp_ups2, *(limit for limit in own if limit > 0.0)])
         own = _per_axis(((one, one.max_acceleration_ups2) for one in self._axes), way)
         return min([ramp_ups2, *own])
 

@@ -4,7 +4,7 @@ The formulas are those of `geometry` and `encoding`, for n moves in one go: prog
 free-formed surfaces are millions of short lines.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from openacr.cnc.canonical import Line, Polyline, Source
 from openacr.mill.geometry import Point
-from openacr.mill.settings import Settings
+from openacr.mill.settings import AxisSettings, Settings
 from openacr.mill.setup import LINEAR
 
 Column = NDArray[np.float64]
@@ -27,10 +27,17 @@ class Columns:
     feed_ups: Column
     ramp_ups2: Column
     direction: NDArray[np.float64]  # n x linear axes; unit vectors, 0 without linear motion
+    tolerance_u: Column  # of the corners at their ends
     pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, from the beginning on
 
 
-def columns(polyline: Polyline, begin: Point, settings: Settings, wanted_ups: float) -> Columns:
+def columns(
+    polyline: Polyline,
+    begin: Point,
+    settings: Settings,
+    wanted_ups: float,
+    tolerance_u: float = 0.0,
+) -> Columns:
     """Lengths, tangents, limits and pulses of the lines of a polyline."""
     axes, speeds = settings.axes, settings.speeds
     points = np.vstack((np.asarray(begin, float), polyline.ends))
@@ -45,15 +52,35 @@ def columns(polyline: Polyline, begin: Point, settings: Settings, wanted_ups: fl
     share = np.abs(delta) / per
     feed = np.where(is_linear, min(wanted_ups, speeds.max_ups), wanted_ups)
     ramp = np.full(len(length), speeds.feed_acc_ups2)
+    tolerance = np.where(is_linear & (turned == 0.0), tolerance_u, 0.0)
+    rounds = tolerance > 0.0
     for axis in axes:
         goes = share[:, axis.index]
         rotary_ups = speeds.rotary_max if axis.index in rotary else 0.0
         feed = _limited(_limited(feed, axis.max_speed_ups, goes), rotary_ups, goes)
-        ramp = _limited(ramp, axis.max_acceleration_ups2, goes)
+        part = np.where(rounds & (goes > 0.0), 1.0, goes)  # see Geometry.ramp_limit
+        ramp = _limited(ramp, axis.max_acceleration_ups2, part)
     scale = np.array([axis.pulses_per_unit for axis in axes])
     exact = np.clip(points[:, [axis.index for axis in axes]] * scale, -MOST_PULSES, MOST_PULSES)
     pulses = np.copysign(np.floor(np.abs(exact) + 0.5), exact).astype(np.int64)
-    return Columns(length, feed, ramp, delta[:, linear] / per, pulses)
+    direction = delta[:, linear] / per
+    if tolerance_u > 0.0:
+        sent, goes_far = _as_sent(np.diff(pulses, axis=0) / scale, axes)
+        direction[rounds & goes_far] = sent[rounds & goes_far]
+    return Columns(length, feed, ramp, direction, tolerance, pulses)
+
+
+def _as_sent(
+    delta: NDArray[np.float64], axes: Sequence[AxisSettings]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """The directions of moves as the card will have them, between whole pulses; which have one.
+
+    In short moves that makes corners that the program has not.
+    """
+    linear = delta[:, [axis.name in LINEAR for axis in axes]]
+    length = np.linalg.norm(linear, axis=1)
+    goes_far = length > 0.0
+    return linear / np.where(goes_far, length, 1.0)[:, None], goes_far
 
 
 def _limited(vector: Column, limit: float, share: Column) -> Column:

@@ -74,12 +74,15 @@ def flag_of(word: int, mask: int) -> int:
 class Machine:
     """The axes of one master of a card."""
 
-    def __init__(self, card: Card, axes: Sequence[int], master: int = 0) -> None:
+    def __init__(
+        self, card: Card, axes: Sequence[int], master: int = 0, *, rounds_corners: bool = False
+    ) -> None:
         if not 0 <= master < 8:
             raise UserError(f"master {master}: a machine runs on master 0 to 7")
         self.card = card
         self.axes = tuple(axes)
         self.master = master
+        self.rounds_corners = rounds_corners  # knows path tolerances: a card of ours alone
         self._passed_ms = 0
         self._clock_ms: int | None = None
         self.is_dropping = False  # moves are killed on purpose

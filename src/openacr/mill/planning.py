@@ -10,6 +10,9 @@ planned here over the moves that are known:
 
 The backward pass makes each speed one the moves behind it can brake from. It only rises
 when more moves become known, so a move that was sent stays right.
+
+Moves with a path tolerance are joined: the card rounds the corner between them and finds its
+speeds itself. Here the same speeds are foreseen, for the moves around them and the run time.
 """
 
 import math
@@ -20,8 +23,8 @@ from typing import Generic, TypeVar
 
 from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
+from openacr.mill.rounding import Corner, Direction
 
-Direction = tuple[float, ...]  # unit vector over the linear axes
 MOST_AHEAD = 4000  # moves held back at most, however short they are
 
 
@@ -52,6 +55,9 @@ class Stretch:
     end: Direction | None
     mode: PathMode = PathMode.FREE
     is_rapid: bool = False
+    tolerance_u: float = 0.0  # of the corner at its end, towards another move with one
+    is_joined: bool = False  # the card plans through its end
+    corner: Corner | None = None  # that it rounds there; None is straight on
     corner_ups: float = 0.0  # highest speed at its end, whatever comes later
     exit_ups: float = 0.0  # speed at its end
 
@@ -98,12 +104,52 @@ def corner_speed(before: Stretch, after: Stretch, rules: CornerRules) -> float:
     return min(feed_ups, _by_step(before.end, after.start, rules))
 
 
+def join(before: Stretch, after: Stretch, rules: CornerRules) -> None:
+    """Note how one move passes into the next."""
+    before.corner, before.is_joined = None, False
+    if before.end is None or after.start is None or not before.tolerance_u or not after.tolerance_u:
+        before.corner_ups = corner_speed(before, after, rules)
+        return
+    before.is_joined = True
+    before.corner_ups = min(before.feed_ups, after.feed_ups)
+    shorter = min(before.length_u, after.length_u)
+    ramp = min(before.ramp_ups2, after.ramp_ups2)
+    corner = Corner.between(before.end, after.start, before.tolerance_u, shorter, ramp)
+    if corner is not None:
+        before.corner = corner
+        before.corner_ups = min(before.corner_ups, corner.cap_ups)
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """The speeds squared that a move may have: at its start, behind the corner, before the next."""
+
+    start: float
+    line: float
+    ahead: float
+
+
+def pieces(move: Stretch, behind: Corner | None) -> Pieces:
+    """The backward pass through one move, from the speed it ends with."""
+    top, ramp = move.feed_ups**2, move.ramp_ups2
+    ahead = min(move.exit_ups**2, top)
+    way = move.length_u
+    if move.corner is not None:
+        ahead = min(move.corner.before2(ahead, ramp), top)
+        way -= move.corner.reach_u
+    if behind is None:
+        line = ahead + 2.0 * ramp * way
+        return Pieces(line, line, ahead)
+    line = min(ahead + 2.0 * ramp * (way - behind.reach_u), top, behind.cap_ups**2)
+    return Pieces(behind.before2(line, ramp), line, ahead)
+
+
 Moves = TypeVar("Moves", bound=Stretch)
 
 
 def _brake_u(move: Stretch) -> float:
-    """The way from the feed of a move to rest."""
-    return move.feed_ups**2 / (2.0 * move.ramp_ups2)
+    """The way from the feed of a move to rest; through rounded corners it is longer."""
+    return move.feed_ups**2 / ((1.0 if move.tolerance_u else 2.0) * move.ramp_ups2)
 
 
 class Planner(Generic[Moves]):
@@ -124,7 +170,8 @@ class Planner(Generic[Moves]):
     def add(self, move: Moves) -> None:
         """One more move behind the last one."""
         if self._moves:
-            self._moves[-1].corner_ups = corner_speed(self._moves[-1], move, self._rules)
+            join(self._moves[-1], move, self._rules)
+        move.corner, move.is_joined = None, False
         self._moves.append(move)
         way_u = _brake_u(move)
         while self._brakes and self._brakes[-1] < way_u:
@@ -166,10 +213,10 @@ class Planner(Generic[Moves]):
         """The backward pass over all moves that are still here."""
         after: Moves | None = None
         for move in reversed(self._moves):
-            reach = 0.0
+            move.exit_ups = 0.0
             if after is not None:
-                reach = math.sqrt(after.exit_ups**2 + 2.0 * after.ramp_ups2 * after.length_u)
-            move.exit_ups = min(move.corner_ups, reach) if after is not None else 0.0
+                reach = math.sqrt(pieces(after, move.corner).start)
+                move.exit_ups = min(move.corner_ups, reach)
             after = move
 
     def _ahead(self) -> int:

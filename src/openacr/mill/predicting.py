@@ -7,8 +7,9 @@ down to the speed it was sent with, at constant acceleration a. Over a length L
     peak     vp = min(feed, sqrt((2 a L + v0^2 + v1^2) / 2))
     time     (vp - v0)/a + (vp - v1)/a + (L - ramps)/vp
 
-so the sum over all moves is the run time, without a card and without its ticks. Waits for
-people and signals count as nothing.
+so the sum over all moves is the run time, without a card and without its ticks. Corners that
+the card rounds are passed in two halves at a constant acceleration each, the line between two
+of them as above. Waits for people and signals count as nothing.
 """
 
 import math
@@ -17,7 +18,8 @@ from dataclasses import dataclass
 
 from openacr.cnc import canonical as c
 from openacr.mill.encoding import Encoder, Job
-from openacr.mill.planning import CornerRules, Planner
+from openacr.mill.planning import CornerRules, Planner, pieces
+from openacr.mill.rounding import Corner
 from openacr.mill.settings import Settings
 
 TOGETHER = 512  # moves planned at once
@@ -42,8 +44,11 @@ class Prediction:
 class Predictor:
     """Adds up the times of moves as they would be sent."""
 
-    def __init__(self, settings: Settings, begin: c.Point, *, is_dry: bool = False) -> None:
-        self._encoder = Encoder(settings, is_dry=is_dry)
+    def __init__(
+        self, settings: Settings, begin: c.Point, *, is_dry: bool = False, rounds: bool = True
+    ) -> None:
+        """`rounds`: of the virtual machine, which knows path tolerances."""
+        self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
         speeds = settings.speeds
         rules = CornerRules(
             speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
@@ -51,6 +56,7 @@ class Predictor:
         self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
         self._position = begin
         self._speed_ups = 0.0
+        self._behind: Corner | None = None
         self.found = Prediction()
 
     def add(self, entry: c.Entry) -> None:
@@ -77,11 +83,12 @@ class Predictor:
     def rest(self) -> None:
         """The machine comes to rest here."""
         self._take(is_complete=True)
-        self._speed_ups = 0.0
+        self._speed_ups, self._behind = 0.0, None
 
     def _take(self, *, is_complete: bool) -> None:
         for job in self._planner.take(1 << 30, is_complete=is_complete):
-            seconds, self._speed_ups = travel(job, self._speed_ups)
+            seconds, self._speed_ups = travel(job, self._speed_ups, self._behind)
+            self._behind = job.corner
             self.found.moves += 1
             if job.is_rapid:
                 self.found.rapid_s += seconds
@@ -89,21 +96,49 @@ class Predictor:
                 self.found.feed_s += seconds
 
 
-def travel(job: Job, begin_ups: float) -> tuple[float, float]:
+def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> tuple[float, float]:
     """The time of a move that begins at a speed, and the speed it ends with."""
-    a, length = job.ramp_ups2, job.length_u
+    a, way, seconds = job.ramp_ups2, job.length_u, 0.0
     begin = min(begin_ups, job.feed_ups)
-    end = min(job.exit_ups, math.sqrt(begin * begin + 2.0 * a * length))
-    peak = min(job.feed_ups, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
+    may = pieces(job, behind)
+    if behind is not None:
+        line = math.sqrt(behind.pass2(begin * begin, may.line, a))
+        seconds += _even(behind.reach_u, begin, line)
+        begin, way = line, way - behind.reach_u
+    if job.corner is None:
+        more, end = _straight(way, begin, job.exit_ups, job.feed_ups, a)
+        return seconds + more, end
+    way -= job.corner.reach_u
+    more, entry = _straight(way, begin, math.sqrt(may.ahead), job.feed_ups, a)
+    end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2, a))
+    return seconds + more + _even(job.corner.reach_u, entry, end), end
+
+
+def _even(way_u: float, begin: float, end: float) -> float:
+    """The time of a way at constant acceleration."""
+    return 2.0 * way_u / (begin + end)
+
+
+def _straight(
+    length: float, begin: float, end: float, feed: float, a: float
+) -> tuple[float, float]:
+    """The time of a straight way, and the speed it ends with."""
+    end = min(end, math.sqrt(begin * begin + 2.0 * a * length))
+    peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
     ramps = ((peak * peak - begin * begin) + (peak * peak - end * end)) / (2.0 * a)
     return (2.0 * peak - begin - end) / a + max(length - ramps, 0.0) / peak, end
 
 
 def predicted(
-    entries: Iterable[c.Entry], settings: Settings, begin: c.Point, *, is_dry: bool = False
+    entries: Iterable[c.Entry],
+    settings: Settings,
+    begin: c.Point,
+    *,
+    is_dry: bool = False,
+    rounds: bool = True,
 ) -> Prediction:
     """The run time of a whole program."""
-    predictor = Predictor(settings, begin, is_dry=is_dry)
+    predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds)
     for entry in entries:
         predictor.add(entry)
     predictor.rest()

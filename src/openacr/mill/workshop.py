@@ -85,7 +85,7 @@ class Workshop:
         tables = tables_of(cells, settings, folder)
         depth = prepare(card, settings, tables)
         axes = [axis.index for axis in settings.axes]
-        self.machine = Machine(card, axes, settings.master)
+        self.machine = Machine(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
         self.runner = Runner(
             self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,

@@ -54,10 +54,12 @@ class Pace:
 
     The feed holds along the linear axes; where only rotary axes move, in degrees per
     minute of the fastest one. `is_confirmed` adds the wait until all axes are in
-    position (G9, G61).
+    position (G9, G61). With `tolerance_u` the path may leave corners that far to keep moving;
+    machines that cannot do that go exactly through them.
     """
 
     feed_upm: float
     mode: PathMode = PathMode.FREE
     is_locked: bool = False  # feed override has no effect (G63, tapping)
     is_confirmed: bool = False
+    tolerance_u: float = 0.0

@@ -185,14 +185,16 @@ def exact_stop(run: Interpreter, b: Turn) -> None:
     _path(run, 61)
 
 
-@gcode(64, step=Step.PATH, group=Group.PATH, words="PQ", takes="PQ")
+@gcode(64, step=Step.PATH, group=Group.PATH, words="PQ", takes="PQ",
+       limits=(Limit("P", 0, 1e6, "E222"),))  # fmt: skip
 def blended(run: Interpreter, b: Turn) -> None:
-    """No slowing at corners; the path goes through them, within any tolerance P."""
-    _path(run, 64)
+    """No slowing at corners; with P they are rounded within it, where the machine can."""
+    _path(run, 64, run.path.length(b.get("P")))
 
 
-def _path(run: Interpreter, mode: int) -> None:
+def _path(run: Interpreter, mode: int, tolerance_u: float = 0.0) -> None:
     run.modal.path = mode
+    run.modal.tolerance = tolerance_u
     run.path.change_pace()
 
 

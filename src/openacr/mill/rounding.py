@@ -1,0 +1,52 @@
+"""Corners that the card rounds within a path tolerance, as the planner and the prediction see them.
+
+The card plans such corners itself (kernel/round_cy.py); what it will do is computed here by
+the same functions: a corner is entered and left within `reach_u` of the programmed one, its
+two halves are passed at a constant acceleration each.
+"""
+
+import math
+from dataclasses import dataclass
+
+from openacr.compiled import pick
+from openacr.kernel import round_cy
+
+Direction = tuple[float, ...]
+NO_JERK = 0.0
+REACH = 4.0  # per tolerance and change of direction
+
+_cap = pick(round_cy.round_cap)
+_ramp2 = pick(round_cy.round_ramp2)
+_brake = pick(round_cy.round_brake)
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """A rounded corner: the size of its turn, how far it reaches, its highest speed."""
+
+    turn: float  # length of the difference of the two unit tangents
+    reach_u: float
+    cap_ups: float
+
+    @classmethod
+    def between(
+        cls, before: Direction, after: Direction, tolerance_u: float, shorter_u: float, ramp: float
+    ) -> "Corner | None":
+        """The corner between two straight moves, the shorter one so long; None: straight on."""
+        turn = math.dist(before, after)
+        if turn <= round_cy.STRAIGHT:
+            return None
+        reach = min(REACH * tolerance_u / turn, 0.5 * shorter_u)
+        return cls(turn, reach, _cap(turn, reach, ramp, NO_JERK))
+
+    def before2(self, w: float, ramp: float) -> float:
+        """Speed squared at one end of a half from which the other is left with `w`."""
+        return min(_ramp2(self.turn, self.reach_u, ramp, NO_JERK, w), self.cap_ups**2)
+
+    def pass2(self, w: float, goal: float, ramp: float) -> float:
+        """Speed squared behind a half that is entered with `w` and may end with `goal`."""
+        if goal <= w:
+            return goal
+        top = min(goal, _ramp2(self.turn, self.reach_u, ramp, NO_JERK, w))
+        rate = _brake(self.turn, self.reach_u, ramp, top)
+        return min(top, w + 2.0 * rate * self.reach_u)
