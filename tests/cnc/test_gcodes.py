@@ -314,6 +314,15 @@ def test_scaling_ends_with_g50() -> None:
 
 
 @pytest.mark.req("MILL-G69")
+@pytest.mark.req("MILL-G53")
+@pytest.mark.parametrize(
+    ("chosen", "there"), [("G68 X0 Y0 R90", "R Y2"), ("G51 X0 Y0 Z0 P3", "R X6")]
+)
+def test_machine_coordinates_are_neither_rotated_nor_scaled(chosen: str, there: str) -> None:
+    done = run(f"{chosen}\nG53 G0 X1\nF10 G2 X1 Y0 I0 J0\nG54 G0 X2 Y0")
+    assert done.moves == ["R X1", "A X1 about 0,0 -360", there]
+
+
 @pytest.mark.parametrize(
     ("plane", "axes", "ends"),
     [

@@ -7,7 +7,8 @@
     5-8 shift   p3 = p2 + common + work + local + floating zero + fixture + length
 
 Steps 5 to 8 are one vector, built anew when a part of it changes. The machine position is
-what stays then: the program position is computed back from it.
+what stays then: the program position is computed back from it. In the machine system (G53)
+there is step 1 alone; everything else comes back with the next work system.
 """
 
 from __future__ import annotations
@@ -66,7 +67,9 @@ class Coordinates:
     def __init__(self, cells: Cells, letters: dict[str, int]) -> None:
         self._cells = cells
         self._z = letters.get("Z", 2)
-        self.scale: Scale | None = None
+        self.chosen_scale: Scale | None = None  # by G51
+        self.chosen_rotation: Rotation | None = None  # by G68
+        self.scale: Scale | None = None  # in force: G53 sets both aside
         self.rotation: Rotation | None = None
         self.shift: Point = ORIGIN
         self.added: Point = ORIGIN  # G43.1, G43.2: lengths that come from no table
@@ -76,11 +79,18 @@ class Coordinates:
         """Whether neither scaling nor rotation is on."""
         return self.scale is None and self.rotation is None
 
+    def clear(self) -> None:
+        """No scaling, no rotation, no added length."""
+        self.chosen_scale = self.chosen_rotation = None
+        self.added = ORIGIN
+
     def refresh(self, modal: Modal) -> None:
-        """Build the shift of steps 5 to 8 from the cells."""
+        """Take over what was chosen, and build the shift of steps 5 to 8 from the cells."""
         if modal.work == 0:
+            self.scale = self.rotation = None
             self.shift = ORIGIN
             return
+        self.scale, self.rotation = self.chosen_scale, self.chosen_rotation
         read = self._cells.read
         base = system_base(modal.work)
         shift = [

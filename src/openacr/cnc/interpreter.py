@@ -237,8 +237,7 @@ class Interpreter:
         self.parameters.reset()
         for name, value in self.dialect.start.items():
             setattr(self.modal, name, value)
-        self.path.coordinates.scale = self.path.coordinates.rotation = None
-        self.path.coordinates.added = ORIGIN
+        self.path.coordinates.clear()
         for cell in (RADIUS_WEAR, *LENGTH_CELLS):
             self.cells.write(cell, 0.0)
         self.cells.write(RADIUS, self.cells.read(RADIUS_WITHOUT_D))

@@ -21,7 +21,7 @@ _AXES = 8
 def no_scale(run: Interpreter, b: Turn) -> None:
     """Scaling off."""
     run.offset_path.refuse(b, "E311")
-    run.path.coordinates.scale = None
+    run.path.coordinates.chosen_scale = None
     run.path.refresh()
 
 
@@ -40,7 +40,7 @@ def scale(run: Interpreter, b: Turn) -> None:
             factors[axis] = b.words[letter]
     if 0.0 in factors:
         raise b.fault("E244", "P" if "P" in b.words else separate[0])
-    run.path.coordinates.scale = Scale(centre_of(run, b), tuple(factors))
+    run.path.coordinates.chosen_scale = Scale(centre_of(run, b), tuple(factors))
     run.path.refresh()
 
 
@@ -64,7 +64,7 @@ def rotate(run: Interpreter, b: Turn) -> None:
             raise b.fault("E234", letter, letter)
     centre = centre_of(run, b)
     turn = Rotation(plane, (centre[plane.first], centre[plane.second]), b.words["R"])
-    run.path.coordinates.rotation = turn
+    run.path.coordinates.chosen_rotation = turn
     run.path.refresh()
 
 
@@ -72,5 +72,5 @@ def rotate(run: Interpreter, b: Turn) -> None:
 def no_rotation(run: Interpreter, b: Turn) -> None:
     """Rotation off."""
     run.offset_path.refuse(b, "E311")
-    run.path.coordinates.rotation = None
+    run.path.coordinates.chosen_rotation = None
     run.path.refresh()
