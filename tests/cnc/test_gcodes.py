@@ -276,10 +276,18 @@ def test_a_wrong_g10_writes_nothing(words: str) -> None:
     assert done.p(910) == 9
 
 
-def test_g10_l20_teaches_the_present_position() -> None:
-    done = run("G0 X5\nG10 L20 P1 X1\nG0 X2", {900: 0.5})
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+def test_g10_l20_teaches_the_present_position(dialect: str) -> None:
+    done = run("G0 X5\nG10 L20 P1 X1\nG0 X2", {900: 0.5}, dialect=dialect)
     assert done.moves == ["R X5.5", "R X6.5"]
     assert done.interpreter.position[0] == 2
+
+
+def test_g10_l20_counts_a_local_shift_of_the_system_it_teaches() -> None:
+    text = "G54 G52 X1\nG10 L20 P{} X5\nG0 {} X6"
+    assert run(text.format(1, "")).ends == [(1, 0, 0)]
+    assert run(text.format(2, "G55")).ends == [(1, 0, 0)]
+    assert run(text.format(2, "G55")).p(920) == -5
 
 
 @pytest.mark.req("MILL-G44", "MILL-G43", "MILL-WORD-H")
@@ -306,14 +314,6 @@ def test_machine_coordinates_hold_until_a_work_system() -> None:
     assert errors("G53\nG92 X1") == ["E245"]
 
 
-@pytest.mark.req("MILL-G50")
-def test_scaling_ends_with_g50() -> None:
-    text = "F10 G51 X0 Y0 Z0 P2\nX1\nG50\nX1"
-    assert run(text).moves == ["L X2", "L X1"]
-    assert run("F10 G51 X1 P2\nX2").moves == ["L X3"]
-
-
-@pytest.mark.req("MILL-G69")
 @pytest.mark.req("MILL-G53")
 @pytest.mark.parametrize(
     ("chosen", "there"), [("G68 X0 Y0 R90", "R Y2"), ("G51 X0 Y0 Z0 P3", "R X6")]
@@ -323,6 +323,14 @@ def test_machine_coordinates_are_neither_rotated_nor_scaled(chosen: str, there: 
     assert done.moves == ["R X1", "A X1 about 0,0 -360", there]
 
 
+@pytest.mark.req("MILL-G50")
+def test_scaling_ends_with_g50() -> None:
+    text = "F10 G51 X0 Y0 Z0 P2\nX1\nG50\nX1"
+    assert run(text).moves == ["L X2", "L X1"]
+    assert run("F10 G51 X1 P2\nX2").moves == ["L X3"]
+
+
+@pytest.mark.req("MILL-G69")
 @pytest.mark.parametrize(
     ("plane", "axes", "ends"),
     [

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry
 from openacr.cnc.codes import Axes, Step
-from openacr.cnc.coordinates import COMMON, FIXTURES, FLOATING, HOLE
+from openacr.cnc.coordinates import COMMON, FIXTURES, FLOATING, HOLE, LOCAL
 from openacr.cnc.gcodes.work import length_of
 from openacr.cnc.tables import ACROMILL
 from openacr.cnc.words import LENGTH_WEARS, LENGTHS, RADII, RADIUS_WEARS
@@ -69,7 +69,7 @@ def _written(run: Interpreter, b: Turn, n: int, form: Form) -> list[tuple[int, f
     if which == 2:
         return [(COMMON + HOLE * n + axis, value, adds) for axis, _, value in values]
     if which == 20:
-        return [(COMMON + HOLE * n + axis, _taught(run, axis, value), False)
+        return [(COMMON + HOLE * n + axis, taught(run, n, axis, value), False)
                 for axis, _, value in values]  # fmt: skip
     return [
         (LENGTHS + n if letter == "Z" else FIXTURES + HOLE * n + axis, value, adds)
@@ -77,8 +77,10 @@ def _written(run: Interpreter, b: Turn, n: int, form: Form) -> list[tuple[int, f
     ]
 
 
-def _taught(run: Interpreter, axis: int, value: float) -> float:
-    """The work offset with which the present point reads a value."""
+def taught(run: Interpreter, n: int, axis: int, value: float) -> float:
+    """The offset of work system n with which the present point reads a value."""
     read, path = run.cells.read, run.path
     beside = read(COMMON + axis) + read(FLOATING + axis)
+    if n == run.modal.work:  # the local shift ends when another system is chosen
+        beside += read(LOCAL + axis)
     return path.target[axis] - beside - path.coordinates.offsets(run.modal)[axis] - value

@@ -10,7 +10,8 @@ from openacr.cnc.canonical import Dwell, Entry
 from openacr.cnc.codes import Axes, Group, Limit, Step
 from openacr.cnc.coordinates import FLOATING, LENGTH_SIGN, system_base
 from openacr.cnc.gcodes import cycles, motion
-from openacr.cnc.gcodes.probe import probed
+from openacr.cnc.gcodes.offsets import taught
+from openacr.cnc.gcodes.probe import TRIPPED, probed
 from openacr.cnc.gcodes.work import (
     FLOATING_BEFORE,
     SYSTEMS,
@@ -21,6 +22,8 @@ from openacr.cnc.gcodes.work import (
 )
 from openacr.cnc.tables import ACROMILL, RS274NGC
 from openacr.cnc.words import (
+    LENGTH,
+    LENGTH_WEAR,
     LENGTHS,
     RADII,
     RADIUS,
@@ -112,7 +115,7 @@ def probe(run: Interpreter, b: Turn) -> Iterator[Entry]:
     yield from run.sync(b.source)
     yield from probed(run, b, is_away=b.number > 38.35)
     is_needed = b.number in (38.2, 38.4)
-    if is_needed and not run.cells.read(329) and not run.options.collects_errors:
+    if is_needed and not run.cells.read(TRIPPED) and not run.options.collects_errors:
         raise b.fault("A36")
 
 
@@ -248,12 +251,10 @@ def offsets(run: Interpreter, b: Turn) -> Iterator[Entry]:
 
 
 def _write_system(run: Interpreter, b: Turn, n: int, *, is_taught: bool) -> None:
-    path, read = run.path, run.cells.read
-    offsets = path.coordinates.offsets(run.modal)
     for axis, letter, value in b.axes:
         value = length_of(run, letter, value)
         if is_taught:
-            value = path.target[axis] - read(FLOATING + axis) - offsets[axis] - value
+            value = taught(run, n, axis, value)
         run.cells.write(system_base(n) + axis, value)
 
 
@@ -264,7 +265,7 @@ def _write_tool(run: Interpreter, b: Turn, n: int, *, is_taught: bool) -> None:
             raise b.fault("E241", letter, hint="Z is the length, R the radius")
         if is_taught:
             sign = LENGTH_SIGN[run.modal.length]
-            used = run.cells.read(4000) + run.cells.read(4001)
+            used = run.cells.read(LENGTH) + run.cells.read(LENGTH_WEAR)
             value = run.path.placed[axis] + sign * used - value
         run.cells.write(LENGTHS + n, value)
     if "R" in b.words:
