@@ -110,6 +110,14 @@ def test_tool_changes_happen_once() -> None:
     assert changes == ["M3 S5", "M5 S5", "tool 2", "tool 0", "end"]
 
 
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+def test_the_tool_in_the_spindle_is_known_from_the_last_run(dialect: str) -> None:
+    cells = {234: 7.0, 235: 3.0}
+    changes = [s for s in run("T3 M6\nT5 M6", cells, dialect=dialect).story if "tool" in s]
+    assert changes == ["tool 5"]
+    assert "tool 7" in run("M6", cells, dialect=dialect).story
+
+
 def test_an_automatic_change_needs_its_input() -> None:
     cells = {900_002: 0.0, 900_000: -1.0}
     assert errors("T1 M6", cells) == ["E223"]

@@ -248,3 +248,9 @@ def test_the_same_text_means_what_its_dialect_says() -> None:
     moves = ngc("F10 G1 X1\nG2 X3 I1 J0").moves
     assert moves == ["L X1", "A X3 about 2,0 -180"]
     assert run("F10 G1 X1\nG2 X3 I1 J1").moves == ["L X1", "A X3 about 1,1 -297"]
+
+
+def test_length_and_radius_are_those_of_the_tool_in_the_spindle() -> None:
+    cells = {235: 3.0, 2003: 1.5, 1003: 0.25}
+    assert ngc("G43\nG0 Z1", cells).moves == ["R Z2.5"]
+    assert ngc("G41 G1 X0 Y1 F10\nX2\nG40 X3", cells).ends[:2] == [(0, 1.25, 0), (2, 1.25, 0)]

@@ -141,6 +141,8 @@ RESETS = (
     Reset("spin", _always(Spin.OFF)),
     Reset("mist", _always(False)),
     Reset("flood", _always(False)),
+    Reset("tool", _cell(234)),
+    Reset("tool_in_spindle", _cell(235)),
     Reset("radius_number", _always(0)),
     Reset("tangent", _always(0)),
     Reset("is_feed_locked", _always(False)),
