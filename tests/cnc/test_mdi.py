@@ -1,8 +1,11 @@
 """Single blocks typed by the operator."""
 
+from pathlib import Path
+
 import pytest
 from tests.cnc.programs import CYCLES, made, shown
 
+from openacr.cnc.canonical import Line, Pace, Sync
 from openacr.cnc.findings import BlockError
 from openacr.cnc.mdi import Mdi
 
@@ -84,3 +87,36 @@ def test_a_compensated_chain_ends_with_its_line() -> None:
     typed = mdi("M2", {1001: 0.25})
     assert does(typed, "G41 D1 G1 F10 X1") == ["L X1 Y0.25"]
     assert does(typed, "X2") == ["L X2 Y0.25"]
+
+
+@pytest.mark.parametrize(
+    ("macro", "line", "wanted"),
+    [
+        ("P200=1/P201", "X(#1)", "L X7"),  # the locals of the call are gone
+        ("G41 D1 X1\nX2\nP200=1/P201", "X9", "L X9"),  # nothing waits in the compensation
+        ("M583\nP200=1/P201", "X9", "L X9"),
+        ("G66 P6 X3\nP200=1/P201", "X9", "L X9"),
+        ("G2 X1 Y1 I5 J5\nP200=1/P201", "X9", "L X9 Y1"),
+    ],
+)
+def test_a_line_that_fails_in_a_call_leaves_nothing_behind(
+    macro: str, line: str, wanted: str
+) -> None:
+    typed = mdi(f"M2\nN5 {macro}\nRET\nN6 Y5\nRET", {1: 7.0, 1001: 0.25})
+    does(typed, "G1 F10")
+    with pytest.raises(BlockError, match="E210"):
+        does(typed, "G65 P5 X4")
+    *syncs, entry = typed.execute(line)
+    assert all(isinstance(each, Sync) for each in syncs)
+    assert shown(entry) == wanted
+    assert isinstance(entry, Line)
+    assert entry.pace == Pace(10.0)
+
+
+def test_a_cycle_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
+    (tmp_path / "CYCLES.TXT").write_text("N81000 G0 Z(P253)\nP200=1/P201\nRET\n")
+    (tmp_path / "P.NC").write_text("M2\n$I CYCLES.TXT\n")
+    typed = Mdi(made(tmp_path / "P.NC").interpreter)
+    with pytest.raises(BlockError, match="E210"):
+        does(typed, "G81 X1 Z-1 R0")
+    assert does(typed, "F10 G2 X3 Y0 Z0 I2 J0") == ["A X3 about 2,0 -180"]

@@ -37,7 +37,7 @@ from openacr.cnc.hosts import Cells, Machine
 from openacr.cnc.load import planner_of
 from openacr.cnc.modal import Modal, reset
 from openacr.cnc.ngc.owords import OWords
-from openacr.cnc.offset_path import OffsetPath
+from openacr.cnc.offset_path import OFF, OffsetPath
 from openacr.cnc.parameters import RADIUS_CELLS, Parameters
 from openacr.cnc.path import Path
 from openacr.cnc.plan import Planner
@@ -134,11 +134,19 @@ class Interpreter:
         self.is_ended = self.is_rested = False
         self.flow.leave()
         self.path.begin(self.machine.position() or self.path.target)
-        before = self.modal.copy()
+        modal, parameters = self.modal.copy(), self.parameters
+        kept = self.motions, self.macro, self.drilling, parameters.names
+        values = parameters.values[:]
         try:
             yield from self._guarded(self.execution.single(node))
         except BlockError:
-            self.modal.take(before)
+            self.modal.take(modal)
+            self.motions, self.macro, self.drilling, parameters.names = kept
+            parameters.swap(values)
+            self.o_words.reset()
+            if self.modal.compensation == OFF:
+                self.offset_path.begin()
+            self.path.change_pace()
             self.path.refresh()
             raise
 
