@@ -225,6 +225,7 @@ def test_m5_acts_before_the_motion_and_m30_ends() -> None:
 
 def test_switches_are_outputs_and_inputs() -> None:
     assert ngc("M64 P3\nM63 P3\nM66 P2 L3").story[:3] == ["out 35 1", "out 35 0", "wait 2 1"]
+    assert ngc("M66 P2 L3\nM66 P2 L4", {251_002: 1.0}).story[:2] == ["wait 2 0", "wait 2 1"]
 
 
 def test_peck_cycles_use_the_fixed_clearance() -> None:

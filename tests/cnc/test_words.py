@@ -337,3 +337,20 @@ def test_an_error_at_run_time_leaves_the_block_undone() -> None:
     assert story == ["Line"]
     assert (caught.value.finding.line, caught.value.finding.code) == (2, "E242")
     assert caught.value.finding.block == "M3 X2 G30 P(9)"
+
+
+@pytest.mark.req("MILL-SYS-CTL-INPOL")
+@pytest.mark.parametrize(
+    ("inverted", "read"),
+    [({}, [1, 0, 1, 0, 5]), ({251_001: 1, 251_002: 1, 252_040: 1, 252_041: 1}, [0, 1, 0, 1, 6])],
+)
+def test_inverted_inputs_and_outputs_read_as_they_act(
+    inverted: dict[int, float], read: list[float]
+) -> None:
+    text = (
+        "P200=INP(1) P201=INP(2) P202=OUT(40) P203=OUT(41) P204=5 P205=BIT(1)\n"
+        "IF #2 = 0 THEN GOTO 9\nP204=6\nN9 M2"
+    )
+    done = run(text, inverted, machine=Bench(bits={1, 40}))
+    assert [done.p(n) for n in range(200, 205)] == read
+    assert done.p(205) == 1

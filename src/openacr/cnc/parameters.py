@@ -17,11 +17,13 @@ from openacr.cnc.turn import NEAR
 from openacr.errors import MapError, OpenacrError
 
 if TYPE_CHECKING:
+    from openacr.cnc.hosts import Cells
     from openacr.cnc.interpreter import Interpreter
     from openacr.cnc.modal import Modal
 
 FIRST_STORED, LAST_STORED = 100, 4095
-FIRST_OUTPUT = 32
+# From these cells on: whether input and output n are active when they are off.
+INPUTS_INVERTED, OUTPUTS_INVERTED, LAST_LINE = 251_000, 252_000, 999
 # Written by programs, read by the coordinates.
 OFFSET_CELLS = ((801, 808), (900, 997), (1998, 1999), (4000, 4001))
 LAST_CARD = 89
@@ -181,12 +183,12 @@ class Parameters:
         return name in (self.global_names if name.startswith("_") else self.names)
 
     def read_input(self, n: float) -> float:
-        """The state of an input."""
-        return self.read_bit(n)
+        """The state of an input, 1 active; one that is inverted is active when it is off."""
+        return float((self.read_bit(n) != 0.0) != is_inverted(self._cells, INPUTS_INVERTED, n))
 
     def read_output(self, n: float) -> float:
-        """The state of an output; outputs are flags from 32 on."""
-        return self.read_bit(n)
+        """The state of an output, 1 active; outputs are flags from 32 on."""
+        return float((self.read_bit(n) != 0.0) != is_inverted(self._cells, OUTPUTS_INVERTED, n))
 
     def read_bit(self, n: float) -> float:
         """The state of a card flag."""
@@ -227,6 +229,11 @@ class Parameters:
         for first, last in OFFSET_CELLS:
             if first <= k <= last:
                 self._run.offsets_changed(k)
+
+
+def is_inverted(cells: Cells, first: int, n: float) -> bool:
+    """Whether an input, or an output, is active when it is off; `first` says which."""
+    return 0 <= n <= LAST_LINE and cells.read(first + int(n)) != 0.0
 
 
 def _wrong() -> None:

@@ -69,7 +69,7 @@ def _if(statement: If, run: Interpreter, node: Node) -> Act:
 
         def act_by_input(node: Node) -> None:
             is_call = parameters.is_in_call
-            if condition.now() if is_call else parameters.read_bit(bit) == wanted:
+            if condition.now() if is_call else parameters.read_input(bit) == wanted:
                 then(node)
 
         return act_by_input

@@ -9,6 +9,7 @@ from openacr.cnc import mcodes as _acromill  # noqa: F401  fills the other table
 from openacr.cnc.canonical import Entry, Output, Pause, Stop, WaitBit
 from openacr.cnc.codes import Limit, Step
 from openacr.cnc.mcodes import stops
+from openacr.cnc.parameters import INPUTS_INVERTED, is_inverted
 from openacr.cnc.tables import ACROMILL, RS274NGC
 
 if TYPE_CHECKING:
@@ -64,8 +65,9 @@ def wait_input(run: Interpreter, b: Turn) -> None:
     """Wait until input P is on (L3) or off (L4)."""
     wanted = WAITS.get(b.whole("L"))
     if wanted is not None:
-        state = "on" if wanted else "off"
-        run.tell(WaitBit(b.source, b.whole("P"), wanted, f"input {b.whole('P')} {state}"))
+        n, state = b.whole("P"), "on" if wanted else "off"
+        is_on = wanted != is_inverted(run.cells, INPUTS_INVERTED, n)
+        run.tell(WaitBit(b.source, n, is_on, f"input {n} {state}"))
 
 
 @mcode(98, step=Step.STOP, takes="PL", words="PL")
