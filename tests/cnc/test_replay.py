@@ -68,6 +68,31 @@ def test_the_tool_comes_down_at_the_modal_feed() -> None:
     assert shown(list(replay.approach())[-1]) == "L X1 Y1 Z-1"
 
 
+def test_an_inverted_output_is_compared_as_it_acts() -> None:
+    machine = Bench(bits={40})
+    cells = {400_101: 40, 400_102: 41, 252_040: 1.0, 252_041: 1.0}
+    replay = start_at(made("M12\nM13\nX1 F10\nM2", cells, machine=machine).interpreter, 3)
+    assert replay.differences == [Difference("output 40", 0.0, 1.0)]
+
+
+def test_an_output_that_is_none_makes_no_difference() -> None:
+    assert start_at(made("M12\nX1 F10\nM2").interpreter, 2).differences == []
+
+
+def test_a_tool_that_stays_makes_no_difference() -> None:
+    done = made("X0 F10\nX1\nM2", {234: 3.0, 235: 3.0})
+    assert not start_at(done.interpreter, 2).needs_tool
+
+
+def test_variables_of_the_card_are_written_when_the_start_is_confirmed() -> None:
+    done = made("P5=P5+1\nP300=4\nT P300\nG1 F10 X(P5)\nX9\nM2", {5: 2.0})
+    card = done.machine.parameters
+    replay = start_at(done.interpreter, 5)
+    assert (replay.run.position[0], card) == (3.0, {5: 2.0})
+    next(replay.entries())
+    assert card == {5: 3.0, 300: 4.0}
+
+
 def test_a_probe_counts_as_not_tripped() -> None:
     machine = Bench(trip=(9.0,) * 8)
     replay = start_at(made("F10 G31 X1\nY1\nY2", machine=machine).interpreter, 3)

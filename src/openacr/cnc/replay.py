@@ -23,15 +23,17 @@ from openacr.cnc.canonical import (
     SetBit,
     Source,
     Spindle,
-    Tool,
+    Transfer,
 )
 from openacr.cnc.hosts import Machine
 from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.parameters import OUTPUTS_INVERTED, is_inverted
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
 
 MOST_BLOCKS = 10_000_000
-TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT, H, WORK = 235, 238, 240, 241, 237, 998
+TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT = 235, 238, 240, 241
+NO_OUTPUT = -1
 LIVE = "values of the card were read as they are now"
 
 
@@ -54,13 +56,16 @@ class _Rehearsal:
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
         self.has_read_card = False
+        self.written: dict[int, float] = {}
 
     def read_parameter(self, n: int) -> float:
+        if n in self.written:
+            return self.written[n]
         self.has_read_card = True
         return self._machine.read_parameter(n)
 
     def write_parameter(self, n: int, value: float) -> None:
-        self._machine.write_parameter(n, value)
+        self.written[n] = value
 
     def read_bit(self, n: int) -> bool:
         self.has_read_card = True
@@ -97,6 +102,7 @@ class Replay:
     warnings: list[str] = field(default_factory=list)
     outputs: dict[int, Output] = field(default_factory=dict)
     bits: dict[int, SetBit] = field(default_factory=dict)
+    variables: dict[int, float] = field(default_factory=dict)  # of the card
     last_move: Entry | None = None
 
     @property
@@ -107,6 +113,8 @@ class Replay:
     def entries(self) -> Iterator[Entry]:
         """The approach, then the program from line N on; parameters are written now."""
         self.shadow.commit()
+        for n, value in self.variables.items():
+            self.run.machine.write_parameter(n, value)
         yield from self.approach()
         yield from self.run.go_on()
 
@@ -145,7 +153,7 @@ def start_at(run: Interpreter, line: int) -> Replay:
     before = {n: run.cells.read(n) for n in (TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT)}
     rehearsal = _Rehearsal(machine)
     run.machine = rehearsal
-    replay = Replay(run, line, present, run.cells)
+    replay = Replay(run, line, present, run.cells, variables=rehearsal.written)
     try:
         _rehearse(replay, line)
     finally:
@@ -164,12 +172,12 @@ def _rehearse(replay: Replay, line: int) -> None:
         match entry:
             case Rapid() | Line() | Arc() | Probe():
                 replay.last_move = entry
-            case Output():
+            case Output() if entry.number != NO_OUTPUT:
                 replay.outputs[entry.number] = entry
             case SetBit():
                 replay.bits[entry.bit] = entry
-            case Tool():
-                pass
+            case Transfer():
+                replay.variables[entry.parameter] = entry.value
     if not run.execution.is_arrived:
         raise StartError(f"line {line} is never reached")
     if run.flow.frames:
@@ -192,7 +200,9 @@ def _differences(replay: Replay, before: dict[int, float]) -> Iterator[Differenc
         if present != wanted:
             yield Difference(name, present, wanted)
     for output in replay.outputs.values():
-        if replay.run.machine.read_bit(output.number) != output.is_on:
-            yield Difference(f"output {output.number}", float(not output.is_on), output.is_on)
+        bit = output.is_on != is_inverted(run.cells, OUTPUTS_INVERTED, output.number)
+        if run.machine.read_bit(output.number) != bit:
+            now, then = float(not output.is_on), float(output.is_on)
+            yield Difference(f"output {output.number}", now, then)
     if run.path.issued != replay.present:
         yield Difference("position", replay.present, run.path.issued)
