@@ -10,11 +10,14 @@ import os
 from pathlib import Path
 from typing import Protocol
 
+from openacr.cnc.findings import BlockError, Finding
+
 WINDOW = 1 << 20
 LINE_END = b"\n"
 CONTROL_Z = b"\x1a"
 MARK = b"\xef\xbb\xbf"  # byte order mark
 DROPPED = {0: None, 127: None}
+SHORTER = "the file has become shorter since it was opened"
 
 
 class Bytes(Protocol):
@@ -89,7 +92,10 @@ class Text:
     def _load(self, offset: int, size: int) -> None:
         """A window from a place on, cut behind its last whole line."""
         while True:
-            data = self._bytes.read(offset, min(size, self.end - offset))
+            wanted = min(size, self.end - offset)
+            data = self._bytes.read(offset, wanted)
+            if len(data) < wanted:
+                raise BlockError(Finding("E262", SHORTER, self.name, 1))
             stop = data.find(CONTROL_Z)
             if stop >= 0:
                 self.end = offset + stop
