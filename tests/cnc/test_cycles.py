@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, run
+from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, made, run
 
 from openacr.cnc.canonical import Dwell, Line, Orient, Probe, Rapid, Spindle
 from openacr.cnc.gcodes.work import clear_zero, preset_zero
@@ -140,6 +140,9 @@ def test_labels_above_70000_are_those_of_the_cycles(label: int) -> None:
 
 def test_programs_may_not_jump_into_a_cycle() -> None:
     assert errors("GOTO 81000" + CYCLES) == ["E264"]
+    assert errors("P200=81000\nGOTO (P200)" + CYCLES) == ["E264"]
+    (found,) = made("X1 F10\nG65 P81000" + CYCLES).interpreter.program.errors
+    assert (found.code, found.line, found.column) == ("E264", 2, 5)
 
 
 @pytest.mark.req("MILL-CYC-VARS", "MILL-CYC-WORDS")

@@ -47,6 +47,22 @@ def test_a_parameter_outside_all_ranges_is_an_error(n: int) -> None:
     assert errors(f"P150={n}\nP151=P(P150)") == ["E211"]
 
 
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ('INPUT "depth", P20500', "E211 parameter number out of range: P20500"),
+        ('INPUT "depth", P240', "E212 parameter is read only: P240"),
+        ("IF P150=1 THEN GOTO (P20500)", "E211 parameter number out of range: P20500"),
+        ("GOSUB (P20500)", "E211 parameter number out of range: P20500"),
+        ("PRINT P20500", "E211 parameter number out of range: P20500"),
+    ],
+)
+def test_numbers_in_statements_are_checked_when_a_program_is_loaded(line: str, found: str) -> None:
+    (finding,) = made(f"M2\n{line}").interpreter.program.errors
+    assert f"{finding.code} {finding.text}" == found
+    assert finding.line == 2
+
+
 @pytest.mark.req("MILL-P-34-99")
 def test_internal_cells_of_the_card_are_assigned_with_a_warning() -> None:
     done = run("P40=1\nP89=2")
@@ -245,3 +261,12 @@ def test_cycles_count_in_their_cells_without_waiting_for_rest() -> None:
     done = run("G90 G83 X1 Z-1 R.1 Q.3 F10\nM2\n$I CYCLES.TXT\n", start=(0, 0, 2))
     assert [type(entry).__name__ for entry in done.entries].count("Sync") == 0
     assert len(done.moves) == 13
+
+
+def test_a_file_that_is_cut_off_while_it_is_in_use_stops_the_program(tmp_path: Path) -> None:
+    path = tmp_path / "P.NC"
+    path.write_text("F10 X1\n" + "(a remark)\n" * 200_000 + "X2\nM2\n")
+    done = made(path)
+    path.write_text("F10 X1\n")
+    with pytest.raises(BlockError, match=r"P.NC:1:1: E262 the file has become shorter"):
+        list(done.interpreter.entries())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from openacr.cnc.blocks import Assignment, Block, If, Print
+from openacr.cnc.blocks import Block, Gosub, Goto, If, Input, Print
 from openacr.cnc.codes import Dialect
 from openacr.cnc.findings import CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
@@ -72,23 +72,25 @@ class Checks:
                 if error:
                     raise CodeError(error, column, _shown(parameter))
         for assignment in block.assignments:
-            self._check_assignment(assignment)
+            if assignment.kind in ("P", "#"):
+                self._check_written(assignment.index, assignment.column)
+        if isinstance(block.statement, Input):
+            self._check_written(block.statement.parameter, block.statement.column)
 
     def _home_error(self, parameter: Parameter) -> str | None:
         if not isinstance(parameter.index, Number) or self._dialect.parameters:
             return None
         return self._cells.home(int(parameter.index.number)).read_error
 
-    def _check_assignment(self, assignment: Assignment) -> None:
-        index = assignment.index
-        if assignment.kind not in "P#" or not isinstance(index, Number) or self._dialect.parameters:
+    def _check_written(self, index: Node | str, column: int) -> None:
+        if not isinstance(index, Number) or self._dialect.parameters:
             return
         home = self._cells.home(int(index.number))
         error = home.write_error()
         if error:
-            raise CodeError(error, assignment.column, f"P{index.number:g}")
-        if home.write_warning and not (assignment.kind == "#" and index.number <= 33):
-            self._report.warn(home.write_warning, assignment.column, f"P{index.number:g}")
+            raise CodeError(error, column, f"P{index.number:g}")
+        if home.write_warning:
+            self._report.warn(home.write_warning, column, f"P{index.number:g}")
 
     def doubts(self, plan: Plan) -> None:
         """What may not be meant as it is written."""
@@ -152,6 +154,9 @@ def _formulas(block: Block) -> Iterator[tuple[Node, int]]:
     statement = block.statement
     if isinstance(statement, If):
         yield statement.condition, statement.column
+        statement = statement.then
+    if isinstance(statement, Goto | Gosub):
+        yield statement.label, statement.column
     if isinstance(statement, Print):
         for item in statement.items:
             if not isinstance(item, str):

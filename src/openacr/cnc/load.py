@@ -108,7 +108,7 @@ class Loader:
             self._add_cycles(program.main)
         has_cycles = program.has_cycles or self._seen.asks_for_cycles
         self._checks.end(text.name, has_cycles=has_cycles)
-        self._findings.extend(islice(self._targets.missing(), MOST))
+        self._findings.extend(islice(self._targets.missed(), MOST))
         self._findings.extend(islice(double_labels(program.parts), MOST))
         self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
         program.findings = self._findings[:MOST]

@@ -44,11 +44,13 @@ class Targets:
         _, line, raw = self._report.where
         self._jumps.append((place.part, line, raw, column, label))
 
-    def missing(self) -> Iterator[Finding]:
-        """Jumps that find no label."""
+    def missed(self) -> Iterator[Finding]:
+        """Jumps that find no label, or one of the cycles, which are for the cycles alone."""
         for part, line, raw, column, label in self._jumps:
-            if part.labels.get(label) is None:
-                yield found("E220", part.text.name, line, column, f"N{label}", "", raw)
+            place = part.labels.get(label)
+            if place is None or (place.part.is_cycles and not part.is_cycles):
+                code = "E220" if place is None else "E264"
+                yield found(code, part.text.name, line, column, f"N{label}", "", raw)
 
 
 def double_labels(parts: list[Part]) -> Iterator[Finding]:
