@@ -88,6 +88,17 @@ def test_what_has_no_value_is_an_arithmetic_error(expression: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("expression", "reason"),
+    [("1/0", "division by zero"), ("SQRT(-1)", "a function has no value there"),
+     ("EXP(1000)", "too large a number"), ("TAN(90)", "TAN of a right angle")],
+)  # fmt: skip
+def test_the_reason_is_named(expression: str, reason: str) -> None:
+    found = run(f"P200={expression}").error
+    assert found is not None
+    assert found.text == f"arithmetic error: {reason}"
+
+
+@pytest.mark.parametrize(
     ("text", "code"),
     [
         ("P200=SIN 30", "E107"),

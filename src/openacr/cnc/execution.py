@@ -30,6 +30,11 @@ MACRO = "MACRO"
 UNKNOWN = "######"  # a name without a value, in a text
 _PARAMETER = re.compile(r"([#Pp])(?:(\d{1,7})|<([^<>]*)>)")
 _ARITHMETIC = (ArithmeticError, ValueError)
+_REASONS = {
+    ZeroDivisionError: "division by zero",
+    OverflowError: "too large a number",
+    ValueError: "a function has no value there",
+}
 
 
 class Execution:
@@ -145,7 +150,7 @@ class Execution:
                 done -= 1
                 break
             except _ARITHMETIC as error:
-                raise CodeError("E210", 1, str(error)) from None
+                raise _undefined(error) from None
             if frame is not None and frame.is_done:
                 self.idle_cnt = done
                 return False
@@ -191,7 +196,7 @@ class Execution:
         except NotAtRestError:
             return False
         except _ARITHMETIC as error:
-            raise CodeError("E210", 1, str(error)) from None
+            raise _undefined(error) from None
         return True
 
     def _turn(self, node: Node, block: Ready) -> Turn | None:
@@ -201,7 +206,7 @@ class Execution:
         except NotAtRestError:
             return None
         except _ARITHMETIC as error:
-            raise CodeError("E210", 1, str(error)) from None
+            raise _undefined(error) from None
 
     def _block(self, node: Node, block: Ready) -> Iterator[Entry]:
         """One block: read and check everything, then act."""
@@ -226,7 +231,7 @@ class Execution:
             except NotAtRestError:
                 yield from self._run.sync(node.source)
             except _ARITHMETIC as error:
-                raise CodeError("E210", 1, str(error)) from None
+                raise _undefined(error) from None
         waiting = self._act(Turn(node, block.plan, words), block.acts)
         if waiting is not None:
             yield from waiting
@@ -272,3 +277,8 @@ class Execution:
             return shown(parameters.read_named(name)) if parameters.has_named(name) else UNKNOWN
         read = parameters.read_hash if kind == "#" else parameters.read_p
         return shown(read(float(digits)))
+
+
+def _undefined(error: Exception) -> CodeError:
+    """A formula without a value, in words that are the same with every Python."""
+    return CodeError("E210", 1, _REASONS.get(type(error)) or str(error))
