@@ -1,6 +1,7 @@
 """What is remembered of homing, and what the card has forgotten."""
 
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,22 @@ def test_homed_axes_stay_homed_as_long_as_the_card_is_on(store: Store) -> None:
     after_power = connected(Controller(), store)
     assert store.read(HOMED) == 0
     assert not after_power.settings.is_homed(0)
+
+
+@pytest.mark.req("MILL-HOME-POWERCYCLE")
+def test_a_card_whose_battery_keeps_its_variables_loses_its_position_all_the_same(
+    store: Store, tmp_path: Path
+) -> None:
+    with closing(Controller("ACR8020", data=tmp_path / "card")) as card:
+        panel = connected(card, store)
+        panel.machine.write(50, 7.0)
+        homed.note(panel, 0, True)
+        assert connected(card, store).settings.is_homed(0)
+        card.advance(seconds=3)
+    with closing(Controller("ACR8020", data=tmp_path / "card")) as card:
+        after_power = connected(card, store)
+        assert after_power.machine.read(50) == 7.0
+        assert not after_power.settings.is_homed(0)
 
 
 @pytest.mark.req("MILL-HOME-POWERCYCLE", "MILL-HOME-REFPOINT")

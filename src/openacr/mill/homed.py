@@ -1,23 +1,21 @@
 """Which axes know their reference point, as long as the card has not lost its position.
 
-The store remembers it between runs of the host; a variable of the card, which is gone when
-its power is, tells whether that is still true.
+The store remembers it between runs of the host; a user flag of the card for each axis, which
+is off when its power comes on, tells whether that is still true. Variables would not do:
+cards with a battery keep them, and count from 0 all the same.
 """
 
 from openacr.client import Card
-from openacr.client.errors import RefusedError
 from openacr.mill.panel import Panel
-from openacr.mill.settings import HOMED, Store
+from openacr.mill.settings import AXES, HOMED, Store
 
-CARD_HOMED = 96  # variable of the card
+FIRST_HOMED_FLAG = 248  # of axis 0; the last user flags behind the relays of M100 to M299
 
 
 def agree(card: Card, store: Store) -> None:
     """At the start: what the card has forgotten counts no more."""
-    try:
-        known = int(card.read(CARD_HOMED))
-    except RefusedError:
-        known = 0  # a card that has just been switched on has no variables yet
+    flags = card.read_bits(range(FIRST_HOMED_FLAG, FIRST_HOMED_FLAG + AXES))
+    known = sum(1 << axis for axis, is_homed in enumerate(flags) if is_homed)
     mask = int(store.read(HOMED))
     if mask & ~known:
         store.write(HOMED, mask & known)
@@ -25,8 +23,8 @@ def agree(card: Card, store: Store) -> None:
 
 def note(panel: Panel, axis: int, homed: bool) -> None:
     """The reference point of an axis is known, or not any more."""
-    mask = panel.settings.mark_homed(axis, homed)
-    panel.machine.write(CARD_HOMED, mask)
+    panel.settings.mark_homed(axis, homed)
+    panel.machine.set_flag(FIRST_HOMED_FLAG + axis, homed)
 
 
 def lose(panel: Panel, name: str) -> None:

@@ -350,12 +350,10 @@ class Settings:
         """Whether the reference point of an axis is known."""
         return bool(int(self._store.read(HOMED)) >> axis & 1)
 
-    def mark_homed(self, axis: int, homed: bool) -> int:
-        """Note that the reference point of an axis is known, or not any more; the mask of all."""
+    def mark_homed(self, axis: int, homed: bool) -> None:
+        """Note that the reference point of an axis is known, or not any more."""
         before = int(self._store.read(HOMED))
-        mask = before | 1 << axis if homed else before & ~(1 << axis)
-        self._store.write(HOMED, mask)
-        return mask
+        self._store.write(HOMED, before | 1 << axis if homed else before & ~(1 << axis))
 
     def names(self) -> Iterator[str]:
         """The names of the configured axes."""
