@@ -56,6 +56,11 @@ class Hands:
         self._wheel.leave()
         self.jogging.let_go()
 
+    def close(self) -> None:
+        """The card is out of reach: axes stop by themselves, nothing more is known of them."""
+        self._script.close()
+        self.let_go()
+
     def play(self, look: Look, step_s: float) -> None:
         """Let go what nobody holds, and go on with what is moved."""
         self.controls.keep(look)

@@ -8,13 +8,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from openacr.client import Card
+from openacr.client import Card, ConnectionLostError
+from openacr.client.errors import NoReplyError
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.move import Move
 from openacr.protocol.override import FeedrateOverride, RapidOverride
 
+LINK_ERRORS = (ConnectionLostError, NoReplyError)
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096

@@ -8,10 +8,8 @@ machine and seconds on a virtual one.
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
-from openacr.client import ConnectionLostError
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill import alarms
 from openacr.mill.alarms import Alarm, Alarms
 from openacr.mill.ballscrew import Compensation
 from openacr.mill.burning import Burner
@@ -24,7 +22,7 @@ from openacr.mill.halting import Halting
 from openacr.mill.hands import Hands
 from openacr.mill.homing import home
 from openacr.mill.jogging import Jogging
-from openacr.mill.machine import Look, Machine
+from openacr.mill.machine import LINK_ERRORS, Look, Machine
 from openacr.mill.overrides import Overrides
 from openacr.mill.panel import Panel
 from openacr.mill.passes import Passes
@@ -265,10 +263,11 @@ class Runner:
     def step(self) -> None:
         """Look at the card and do what is due."""
         try:
-            look = self.machine.look()
-        except ConnectionLostError:
-            self._supervision.give(alarms.LINK_LOST, "")
-            return
+            self._do(self.machine.look())
+        except LINK_ERRORS:
+            self._supervision.lose_link()
+
+    def _do(self, look: Look) -> None:
         self._times.look(self.machine.now_s)
         self.course.tracker.update(look.counter)
         self._supervision.keep(look)

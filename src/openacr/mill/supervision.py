@@ -1,5 +1,7 @@
 """Alarms while a machine is driven: each is given once, and does to the machine what it must."""
 
+from contextlib import suppress
+
 from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
@@ -8,13 +10,16 @@ from openacr.mill.course import Course
 from openacr.mill.doing import Doing
 from openacr.mill.ending import Ending
 from openacr.mill.hands import Hands
-from openacr.mill.machine import Look
+from openacr.mill.machine import LINK_ERRORS, Look
 from openacr.mill.panel import Panel
 from openacr.mill.pausing import Pausing
 from openacr.mill.retracing import Retrace
 from openacr.mill.script import Script
 from openacr.mill.states import State, Status
 from openacr.mill.watching import Watch
+
+
+LOOKS_LOST = 3  # in a row, each with its time-out: the card is out of reach
 
 
 class Supervision:
@@ -47,6 +52,7 @@ class Supervision:
         self._status = status
         self._compensation = compensation
         self._watch = Watch(panel)
+        self._lost_looks = 0
 
     @property
     def is_busy(self) -> bool:
@@ -55,6 +61,7 @@ class Supervision:
 
     def keep(self, look: Look) -> None:
         """Alarms for what is wrong, each once until it is acknowledged."""
+        self._lost_looks = 0
         for kind, detail in self._watch.causes(look, spins=self._spindle.is_on):
             self.give(kind, detail)
 
@@ -95,6 +102,19 @@ class Supervision:
             self._ending.abort(State.ALARM)
         elif effect is Effect.HOLD and self._status.is_under_way:
             self.pause()
+
+    def lose_link(self) -> None:
+        """The card does not answer: the program is over; a card that is back is brought to rest.
+
+        One that stays away ends the moves it has, and is not waited for.
+        """
+        self._lost_looks += 1
+        with suppress(*LINK_ERRORS):
+            self.give(alarms.LINK_LOST, "")
+        if self._lost_looks >= LOOKS_LOST:
+            with suppress(*LINK_ERRORS):
+                self._script.close()
+            self._hands.close()
 
     def pause(self) -> None:
         """Feed hold; a homing fails by it, for it cannot be resumed."""

@@ -6,6 +6,7 @@ asked for. A real one is everything the store says.
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain, repeat
@@ -13,6 +14,7 @@ from pathlib import Path
 
 from openacr.client import Card
 from openacr.client.links import Host
+from openacr.client.talk import Options as Talking
 from openacr.cnc import canonical as c
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter
@@ -30,7 +32,7 @@ from openacr.mill.checks import check_axes, check_firmware, check_rest
 from openacr.mill.dripping import Drip
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
-from openacr.mill.machine import Machine
+from openacr.mill.machine import LINK_ERRORS, Machine
 from openacr.mill.messages import Message, Messages, definitions
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
@@ -39,6 +41,7 @@ from openacr.mill.states import Options, State
 from openacr.sysvar import AT_START, Store
 
 POLL_S = 0.02
+LINK_S = 2.0  # without an answer of the card, and the link is lost
 NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
@@ -122,7 +125,7 @@ class Workshop:
         cls, target: str | Host, store: Store, say: Callable[[str], None] = print
     ) -> "Workshop":
         """A card at the other end of a link; drives are left as they are."""
-        card = Card.open(target)
+        card = Card.open(target, Talking(timeout_s=LINK_S, reconnect_s=LINK_S))
         try:
             check_firmware(card)
             check_rest(card, Settings(store))
@@ -236,7 +239,8 @@ class Workshop:
         if self._drip is not None:
             self._drip.poll()
         self.runner.step()
-        self.messages.keep(self.machine.now_s)
+        with suppress(*LINK_ERRORS):  # the next look tells
+            self.messages.keep(self.machine.now_s)
 
     def _note_message(self, message: Message, is_on: bool) -> None:
         if is_on and message.is_alarm:
