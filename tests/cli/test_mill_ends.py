@@ -13,7 +13,9 @@ import pytest
 
 from openacr.client import Card
 from openacr.map.numbers import MF1_IN_MOTION, MF1_WORD
+from openacr.sysvar import Store
 
+COOLANT_FLOOD = 800_010
 SERVE = ["serve", "--ascii-port", "0", "--binary-port", "0", "--no-journal"]
 
 
@@ -43,19 +45,27 @@ def is_moving(card: Card) -> bool:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("number", "times"), [(signal.SIGINT, 1), (signal.SIGINT, 6), (signal.SIGTERM, 1)]
+)
 def test_a_run_that_is_told_to_end_brings_the_machine_to_rest(
-    tmp_path: Path, address: str, number: signal.Signals
+    tmp_path: Path, address: str, number: signal.Signals, times: int
 ) -> None:
     part = tmp_path / "PART.NC"
-    part.write_text("F60\nG1 X100\nM2\n")
+    part.write_text("M12\nM8\nF60\nG1 X100\nM2\n")
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(COOLANT_FLOOD, 41)
     run = openacr("mill", "run", str(part), "--host", address, store=tmp_path / "sysvar.db")
     with Card.open(address) as card:
         while not is_moving(card):
             time.sleep(0.05)
-        run.send_signal(number)
+        assert card.read_bit(41)
+        for _ in range(times):  # whoever is impatient
+            run.send_signal(number)
+            time.sleep(0.03)
         output, _ = run.communicate(timeout=30)
         assert (run.returncode, "the machine is at rest at X" in output) == (130, True)
+        assert not card.read_bit(41)
         places = {int(card.read(12288)) for _ in range(5)}
     assert len(places) == 1
     assert 0 < places.pop() < 1_000_000

@@ -336,7 +336,7 @@ def test_without_a_signal_a_manual_change_is_confirmed_by_hand() -> None:
     shop.load("F600 T5 M6\nG1 X1\nM2\n")
     shop.pass_time(1.0)
     assert shop.runner.state is State.WAIT
-    shop.runner.doing.changer.is_confirmed = True
+    shop.runner.doing.changer.confirm()
     shop.until(State.IDLE)
     assert shop.pulses()[0] == 10000
 

@@ -141,6 +141,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "MDI: run single blocks on the virtual machine, or on a card.",
             ),
             "home": Entry("mill_hand", "home_axes", "Find the reference points of axes on a card."),
+            "acknowledge": Entry(
+                "mill_hand",
+                "acknowledge_alarms",
+                "Acknowledge the alarms of a card: what is over is cleared, kills are taken back.",
+            ),
             "import": Entry(
                 "mill_import",
                 "import_drawing",

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.mill import AtStore, Dialect, Dry, opened_store
-from openacr.cli.mill_shop import ToHost, attend, end_with_alarms, workshop
+from openacr.cli.mill_shop import ToHost, end_with_alarms, workshop
+from openacr.cli.mill_terminal import Attendant
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -35,11 +36,12 @@ def drip_program(
     or Ctrl-Z.
     """
     from openacr.mill.communications import Line
+    from openacr.mill.dialects import dialect_of
     from openacr.mill.dripping import Drip
     from openacr.mill.workshop import Start
 
-    name = dialect or "acromill"
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        name = dialect_of(None, cells, dialect)
         drip = Drip(Line.of(cells, port), shop.cells, name, is_dry=is_dry)
         try:
             shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
@@ -51,6 +53,7 @@ def drip_program(
 
 
 def _run(shop: "Workshop") -> None:
+    attend = Attendant()
     while shop.runner.is_busy:
         shop.step()
         attend(shop)

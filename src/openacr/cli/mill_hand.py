@@ -1,4 +1,4 @@
-"""`openacr mill mdi`, `jog`, `home`: single blocks and moves by hand."""
+"""`openacr mill mdi`, `jog`, `home`, `acknowledge`: what is done by hand."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.mill import AtStore, Dialect, opened_store
-from openacr.cli.mill_shop import AtHost, ToHost, attend, end_with_alarms, place_text, workshop
+from openacr.cli.mill_shop import AtHost, ToHost, end_with_alarms, place_text, workshop
+from openacr.cli.mill_terminal import Attendant
+from openacr.errors import UserError
 
 if TYPE_CHECKING:
     from openacr.mill.workshop import Workshop
@@ -24,8 +26,9 @@ def jog_axes(
 
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         names = [axis.name for axis in shop.runner.settings.axes]
-        shop.jog(ways_of(ways, names), attend)
+        shop.jog(ways_of(ways, names), Attendant())
         typer.echo(place_text(shop, shop.runner.course.host.position()))
+        end_with_alarms(shop)
 
 
 def run_blocks(
@@ -45,12 +48,16 @@ def run_blocks(
     Blocks are those of the command line, or lines of the terminal until an empty one.
     """
     from openacr.cli.output import require_writable, write_whole
+    from openacr.mill.dialects import dialect_of
 
     if save is not None:
         require_writable(save)
+    attend = Attendant()
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
+        name = dialect_of(None, cells, dialect)
+        typed = blocks or (_piped() if shop.is_virtual or not attend.is_there else _typed(attend))
         try:
-            for place in shop.run_blocks(blocks or _typed(), dialect or "acromill", attend):
+            for place in shop.run_blocks(typed, name, attend):
                 typer.echo(place_text(shop, place))
         finally:
             if save is not None:
@@ -63,13 +70,25 @@ def _fill(partial: Path, text: str) -> None:
     partial.write_text(text)
 
 
-def _typed() -> "Iterator[str]":
-    """Lines of the terminal, or of what is piped in."""
+def _piped() -> "Iterator[str]":
+    """Lines that are piped in; those of a terminal until an empty one."""
     if sys.stdin.isatty():
         while line := typer.prompt("MDI", default="", show_default=False):
             yield line
     else:
         yield from filter(None, map(str.strip, sys.stdin))
+
+
+def _typed(attend: Attendant) -> "Iterator[str | None]":
+    """Lines of the terminal until an empty one; None while the next one is not there."""
+    while True:
+        try:
+            line = attend.answer("MDI:", "")
+        except UserError:
+            return  # the terminal was closed
+        if line == "":
+            return
+        yield line
 
 
 def home_axes(
@@ -81,8 +100,24 @@ def home_axes(
 ) -> None:
     """Find the reference points of axes on a card."""
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
-        homed = shop.home(axes, _telling(attend))
+        homed = shop.home(axes, _telling(Attendant()))
         typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
+        end_with_alarms(shop)
+
+
+def acknowledge_alarms(host: AtHost, store: AtStore = None) -> None:
+    """Acknowledge the alarms of a card: what is over is cleared, kills are taken back.
+
+    Nothing moves by it, and drives stay as they are. Exit code 1 when an alarm stays.
+    """
+    with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
+        shop.step()
+        for alarm in shop.runner.alarms.active:
+            typer.echo(f"alarm {alarm.kind.code}: {alarm.text}")
+        if not shop.runner.alarms.active:
+            typer.echo("no alarms")
+        shop.runner.acknowledge()
+        shop.step()
         end_with_alarms(shop)
 
 

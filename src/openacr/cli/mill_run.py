@@ -19,7 +19,8 @@ from openacr.cli.mill import (
     show_findings,
 )
 from openacr.cli.mill_console import Console
-from openacr.cli.mill_shop import ToHost, attend, end_with_alarms, place_text, workshop
+from openacr.cli.mill_shop import ToHost, end_with_alarms, place_text, workshop
+from openacr.cli.mill_terminal import Attendant
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def run_program(
         program, name = _checked(file, cells, dialect)
         with workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.course.host.answers.update(map(_answer, answers or []))
-            keep = Console().attend if has_console else attend
+            keep = Console().attend if has_console else Attendant()
             _run(shop, program, _with_dialect(start, name), is_quiet or as_json, keep)
             _report(shop, as_json, is_quiet)
 
@@ -102,6 +103,7 @@ def run_batch(
     with opened_store(store, is_written=host is not None) as cells:
         programs = {path: _checked(path, cells, dialect) for path in batch.programs}
         with workshop(host, cells) as shop:
+            attend = Attendant()
             for each in _runs(batch, repeats=shop.runner.settings.repeats):
                 program, name = programs[each.path]
                 typer.echo(each.path.name)

@@ -1,6 +1,5 @@
-"""The machine of a command: opened, attended while it runs, and at rest behind it."""
+"""The machine of a command: opened, and at rest behind it however the command ends."""
 
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -12,11 +11,11 @@ from openacr.cli.mill_message import show_message
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
-    from openacr.cnc.canonical import Ask
     from openacr.mill.workshop import Workshop
     from openacr.sysvar import Store
 
 FAILED, INTERRUPTED = 1, 130
+REST_S = 60.0  # longest time a machine may take to come to rest
 
 ToHost = Annotated[
     str | None,
@@ -32,6 +31,8 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
     """The machine of a command; it comes to rest however the command ends."""
     from openacr.cli.signals import terminations_as_interrupts
     from openacr.client import ConnectionLostError
+    from openacr.mill.alarms import AlarmError
+    from openacr.mill.machine import LINK_ERRORS
     from openacr.mill.workshop import Workshop
 
     def say(text: str) -> None:
@@ -44,54 +45,42 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
         raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
     try:
         with terminations_as_interrupts():
+            if host is not None:
+                shop.step()  # what is wrong with the machine is known before anything is asked
             yield shop
     except KeyboardInterrupt:
         _break_off(shop)
         place = place_text(shop, shop.runner.course.host.position())
         typer.echo(f"interrupted: the machine is at rest at {place}", err=True)
         raise typer.Exit(INTERRUPTED) from None
+    except AlarmError as error:
+        is_up = shop.runner.alarms.bars_start
+        hint = "; `openacr mill acknowledge` clears what is over" if is_up else ""
+        raise UserError(f"{error}{hint}") from None
+    except LINK_ERRORS as lost:
+        raise UserError(
+            f"alarm 3: Link lost ({lost}); the card ends the moves it has, outputs stay as they are"
+        ) from None
     finally:
         _break_off(shop)
         shop.close()
 
 
 def _break_off(shop: "Workshop") -> None:
-    """However the command ends, the machine does not go on moving by itself."""
-    from openacr.client import ConnectionLostError
+    """However the command ends, the machine does not go on moving by itself.
 
-    with suppress(ConnectionLostError):
+    Whoever presses Ctrl-C once more does not keep the spindle from being switched off.
+    """
+    from openacr.cli.signals import deaf
+    from openacr.mill.machine import LINK_ERRORS
+
+    with suppress(*LINK_ERRORS), deaf():
         shop.runner.break_off()
+        end_s = shop.card.now_s() + REST_S
         while shop.runner.is_busy:
+            if shop.card.now_s() > end_s:
+                raise UserError(f"the machine has not come to rest within {REST_S:g} s")
             shop.step()
-
-
-def attend(shop: "Workshop") -> None:
-    """Where the machine waits for somebody: nobody on a virtual one, the terminal else."""
-    from openacr.mill.states import State
-
-    if shop.is_virtual:
-        shop.carry_on()
-    elif shop.runner.state is State.HOLD:
-        _ask(shop)
-    elif shop.runner.asking is not None:
-        _answer_to(shop, shop.runner.asking)
-
-
-def _ask(shop: "Workshop") -> None:
-    if not sys.stdin.isatty():
-        shop.runner.abort()
-        raise UserError(f"{shop.runner.reason}: nobody is at the terminal to go on")
-    if typer.confirm(f"{shop.runner.reason}: go on?", default=True):
-        shop.runner.start()
-    else:
-        shop.runner.abort()
-
-
-def _answer_to(shop: "Workshop", ask: "Ask") -> None:
-    if not sys.stdin.isatty():
-        shop.runner.abort()
-        raise UserError(f"nobody is at the terminal to answer {ask.text!r}; use --answer")
-    shop.runner.course.host.answers[ask.parameter] = typer.prompt(ask.text, type=float)
 
 
 def place_text(shop: "Workshop", place: tuple[float, ...]) -> str:

@@ -2,8 +2,8 @@
 
 import signal
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from types import FrameType
 
 
@@ -13,18 +13,29 @@ def endings() -> list[int]:
     return [number for number in known if signal.getsignal(number) is not signal.SIG_IGN]
 
 
-@contextmanager
-def terminations_as_interrupts() -> Iterator[None]:
+def terminations_as_interrupts() -> AbstractContextManager[None]:
     """SIGTERM and SIGHUP raise KeyboardInterrupt in here, so that everything can be tidied up."""
+    return _handling(endings(), _interrupt)
+
+
+def deaf() -> AbstractContextManager[None]:
+    """Ctrl-C, SIGTERM and SIGHUP are not heard in here: this has to be done to its end."""
+    return _handling([signal.SIGINT, *endings()], signal.SIG_IGN)
+
+
+@contextmanager
+def _handling(
+    numbers: Iterable[int], handler: Callable[[int, FrameType | None], None] | signal.Handlers
+) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield  # signals reach the main thread only
         return
-    before = {number: signal.signal(number, _interrupt) for number in endings()}
+    before = {number: signal.signal(number, handler) for number in numbers}
     try:
         yield
     finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+        for number, old in before.items():
+            signal.signal(number, old)
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> None:

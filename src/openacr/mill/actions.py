@@ -163,7 +163,8 @@ class ToolChanger:
     def __init__(self, panel: Panel, spindle: Spindle) -> None:
         self._panel = panel
         self._spindle = spindle
-        self.is_confirmed = False  # the confirmation key
+        self.wants_confirmation = False  # nothing but a key tells that the tool is there
+        self._is_confirmed = False
 
     def change(self, tool: int, old: int) -> Steps:
         """Load a tool. The old one stays if the action is closed on the way."""
@@ -181,13 +182,20 @@ class ToolChanger:
             yield Until("tool-changed signal off", is_off, DROP_S)
         panel.machine.write(TOOL_IN_SPINDLE, tool)
 
+    def confirm(self) -> None:
+        """The confirmation key: the tool that is waited for is there."""
+        self._is_confirmed = True
+
     def _wait(self, tool: int) -> Steps:
         wiring, panel = self._panel.settings.wiring, self._panel
         limit_s = wiring.tool_time_out_s or inf
         reason = f"load tool {tool}" if wiring.is_manual_change else f"tool {tool} is changed"
         if not panel.has_input(wiring.tool_changed):
-            self.is_confirmed = False
-            yield Until(reason, lambda _: self.is_confirmed, limit_s, alarms.TOOL_TIME_OUT)
+            self._is_confirmed, self.wants_confirmation = False, True
+            try:
+                yield Until(reason, lambda _: self._is_confirmed, limit_s, alarms.TOOL_TIME_OUT)
+            finally:
+                self.wants_confirmation = False
             return
         is_off = lambda look: not panel.is_in(look, wiring.tool_changed)  # noqa: E731
         is_on = lambda look: panel.is_in(look, wiring.tool_changed)  # noqa: E731

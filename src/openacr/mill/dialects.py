@@ -15,9 +15,9 @@ HEAD_LINES = 10
 _MARK = re.compile(r"\s*[;(]\s*dialect\s+(\w+)", re.IGNORECASE)
 
 
-def dialect_of(file: Path, cells: Cells, wanted: str | None = None) -> str:
+def dialect_of(file: Path | None, cells: Cells, wanted: str | None = None) -> str:
     """The dialect of a file: `wanted`, a `;dialect NAME` in its first lines, or P700005."""
-    name = wanted or _named_in(file) or BY_NUMBER[int(cells.read(CHOICE_CELL))]
+    name = wanted or (_named_in(file) if file else None) or BY_NUMBER[int(cells.read(CHOICE_CELL))]
     if name.lower() not in DIALECTS:
         raise UserError(f"dialect {name}: known are {', '.join(DIALECTS)}")
     return name.lower()

@@ -214,6 +214,12 @@ class Runner:
         if not self._status.is_over:
             self.abort()
 
+    def answer(self, value: float) -> None:
+        """What the operator says to the question that is asked."""
+        if self.asking is None:
+            raise UserError("nothing is asked")
+        self.course.host.answers[self.asking.parameter] = value
+
     def block(self, on: bool) -> None:
         """BLOCK: stop behind every block, also behind the one that is being executed."""
         self._status.options = replace(self.options, is_single=on)

@@ -18,7 +18,6 @@ from openacr.mill.script import Script
 from openacr.mill.states import State, Status
 from openacr.mill.watching import Watch
 
-
 LOOKS_LOST = 3  # in a row, each with its time-out: the card is out of reach
 
 

@@ -194,18 +194,24 @@ class Workshop:
                 yield entry
 
     def run_blocks(
-        self, blocks: Iterable[str], dialect: str, attend: Callable[["Workshop"], None]
+        self, blocks: Iterable[str | None], dialect: str, attend: Callable[["Workshop"], None]
     ) -> Iterator[c.Point]:
-        """MDI: one block after the other; where the machine stands behind each."""
+        """MDI: one block after the other; where the machine stands behind each.
+
+        While the next block is None, for it is still being typed, the machine is looked at.
+        """
         host = self.runner.course.host
         program = load(b"", self.cells, dialect, name="MDI")
         typed = Mdi(Interpreter(program, self.cells, host, dialect))
         self.typed = typed.text
         for block in blocks:
-            entries = _ended(typed.execute(block))
-            self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
-            self._finish(attend)
-            yield host.position()
+            if block is None:
+                self.step()
+            else:
+                entries = _ended(typed.execute(block))
+                self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
+                self._finish(attend)
+                yield host.position()
             if self.runner.alarms.bars_start:
                 return
 
@@ -251,7 +257,7 @@ class Workshop:
     def carry_on(self) -> None:
         """What an operator does who never hesitates: starts again, confirms tools."""
         runner = self.runner
-        runner.doing.changer.is_confirmed = True
+        runner.doing.changer.confirm()
         if runner.state is State.HOLD:
             runner.start()
 

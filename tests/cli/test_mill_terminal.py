@@ -1,0 +1,185 @@
+"""A real machine asks its operator, and is looked at while he thinks."""
+
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TextIO
+
+import pytest
+from typer.testing import CliRunner
+
+from openacr.cli.main import app
+from openacr.cli.mill_terminal import Attendant
+from openacr.cnc.load import load
+from openacr.controller import Controller
+from openacr.errors import UserError
+from openacr.mill.states import State
+from openacr.mill.workshop import Start, Workshop
+from openacr.sysvar import Store
+
+ESTOP, LUBRICATION = 400_004, 400_012
+SPINDLE_CW = 800_005
+
+
+class Terminal:
+    """A pipe that takes itself for a terminal."""
+
+    def __init__(self, source: TextIO) -> None:
+        self._source = source
+
+    def isatty(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._source)
+
+
+class Bench:
+    """A machine on a card, and the keys of its operator."""
+
+    def __init__(
+        self, keys: TextIO, terminal: TextIO, cells: dict[int, float] | None = None
+    ) -> None:
+        store = Store()
+        for axis in range(3):
+            store.write(200_007 + 1000 * axis, 0)
+        for number, value in (cells or {}).items():
+            store.write(number, value)
+        self.controller = Controller()
+        self.shop = Workshop.real(self.controller, store, lambda _text: None)
+        self.shop.card.command("DRIVE ON X Y Z", program=0)
+        self.keys = keys
+        self.attend = Attendant(terminal)
+
+    def start(self, text: str) -> None:
+        self.shop.start(load(text, self.shop.cells), Start())
+
+    def steps(self, count: int = 50) -> None:
+        for _ in range(count):
+            self.shop.step()
+            self.attend(self.shop)
+
+    def type(self, line: str) -> None:
+        self.keys.write(f"{line}\n")
+        time.sleep(0.05)
+        self.steps()
+
+
+@pytest.fixture
+def wires() -> Iterator[tuple[TextIO, TextIO]]:
+    reading, writing = os.pipe()
+    with os.fdopen(writing, "w", buffering=1) as keys, os.fdopen(reading) as source:
+        yield keys, Terminal(source)  # type: ignore[misc]
+        keys.close()
+
+
+def test_a_stop_is_asked_once_and_only_a_yes_goes_on(
+    wires: tuple[TextIO, TextIO], capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench = Bench(*wires)
+    bench.start("G1 F600 X.1\nM0\nG1 X.2\nM2\n")
+    bench.steps()
+    assert capsys.readouterr().err == "M0: go on? [Y/n] "
+    bench.type("what")
+    assert "what: say y or n" in capsys.readouterr().err
+    assert bench.shop.runner.state is State.HOLD
+    bench.type("y")
+    assert (bench.shop.runner.state, bench.controller.p[12288]) == (State.IDLE, 2000)
+
+
+def test_the_emergency_stop_does_not_wait_for_an_answer(wires: tuple[TextIO, TextIO]) -> None:
+    bench = Bench(*wires, {ESTOP: 5, SPINDLE_CW: 40})
+    bench.start("M3 S500\nM0\nG1 F600 X1\nM2\n")
+    bench.steps()
+    assert bench.controller.bit[40]
+    bench.controller.set_input(5, True)
+    bench.steps(3)
+    assert (bench.shop.runner.state, bench.controller.bit[40]) == (State.ALARM, False)
+    bench.type("y")
+    assert bench.controller.p[12288] == 0
+
+
+def test_a_tool_without_a_signal_is_confirmed_at_the_terminal(
+    wires: tuple[TextIO, TextIO], capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench = Bench(*wires)
+    bench.start("T3\nM6\nG1 F600 X.1\nM2\n")
+    bench.steps()
+    assert "load tool 3: done? [Y/n]" in capsys.readouterr().err
+    assert bench.shop.runner.state is State.WAIT
+    bench.type("")
+    assert (bench.shop.runner.state, bench.shop.cells.read(235)) == (State.IDLE, 3)
+
+
+def test_an_input_takes_a_number_and_nothing_else(
+    wires: tuple[TextIO, TextIO], capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench = Bench(*wires)
+    bench.start('INPUT "depth",P200\nM2\n')
+    bench.steps()
+    bench.type("deep")
+    assert "deep: a number is asked for" in capsys.readouterr().err
+    bench.type("1.5")
+    assert bench.shop.cells.read(200) == 1.5
+
+
+def test_an_alarm_that_holds_is_acknowledged_and_the_program_resumed(
+    wires: tuple[TextIO, TextIO], capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench = Bench(*wires, {LUBRICATION: 8})
+    bench.start("G1 F600 X5\nM2\n")
+    bench.steps(10)
+    bench.controller.set_input(8, True)
+    bench.steps()
+    assert "Lubrication error: acknowledge and resume? [Y/n]" in capsys.readouterr().err
+    bench.type("y")
+    assert bench.shop.runner.state is State.PAUSED  # the cause is still there
+    bench.controller.set_input(8, False)
+    bench.steps()
+    bench.type("y")
+    bench.steps(50)
+    assert (bench.shop.runner.state, bench.controller.p[12288]) == (State.IDLE, 50000)
+
+
+def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -> None:
+    bench = Bench(*wires)
+    with open(os.devnull) as nobody:
+        bench.attend = Attendant(nobody)
+        bench.start("M0\nG1 F600 X1\nM2\n")
+        with pytest.raises(UserError, match="M0: nobody is at the terminal"):
+            bench.steps()
+
+
+# --- commands ---------------------------------------------------------------------------
+
+
+@pytest.fixture
+def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
+    """A card behind --host, whatever is named there."""
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+    controller, real = Controller(), Workshop.real
+    monkeypatch.setattr(Workshop, "real", lambda _host, *rest: real(controller, *rest))
+    return controller
+
+
+def mill(*words: str) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["mill", *words, "--host", "card"])
+    return result.exit_code, result.output
+
+
+@pytest.mark.req("MILL-ALM-CLEAR")
+def test_a_killed_card_is_acknowledged_before_anything_runs(card: Controller) -> None:
+    card.bit[8467] = True
+    code, text = mill("jog", "X1")
+    assert (code, "alarm 14" in text, "`openacr mill acknowledge`" in text) == (2, True, True)
+    assert mill("acknowledge") == (0, "alarm 14: Card killed moves\n")
+    assert mill("acknowledge") == (0, "no alarms\n")
+    assert mill("mdi", "G4 F.1")[0] == 0
+
+
+def test_mdi_reads_the_dialect_of_the_store(card: Controller) -> None:
+    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+        store.write(700_005, 1)
+    code, text = mill("mdi", "#<depth>=[1+1]", "G4 P0.1")
+    assert (code, "error" in text) == (0, False)
