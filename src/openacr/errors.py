@@ -1,14 +1,17 @@
 """Everything that can go wrong, as types whose fields say what, where and what to do."""
 
 import os
+from pathlib import Path
 
 from openacr.messages import Message
 
 
-def reason(failure: OSError | ValueError) -> str:
+def reason(failure: Exception) -> str:
     """What a failure of the system says, without the sentences libraries put around it."""
     number = getattr(failure, "errno", None)
-    return os.strerror(number) if number else str(failure)
+    if number is not None and number > 0:  # below 0 they are those of name look-ups
+        return os.strerror(number)
+    return getattr(failure, "strerror", None) or str(failure)
 
 
 class OpenacrError(Exception):
@@ -57,3 +60,24 @@ class UserError(OpenacrError):
 
 class StoreError(OpenacrError):
     """A snapshot or stored image that cannot be used here."""
+
+
+# files of users
+
+
+def read_bytes(path: Path) -> bytes:
+    """The bytes of a file the user named, or a sentence why not."""
+    try:
+        return path.read_bytes()
+    except OSError as failure:
+        raise unreadable(path, failure) from None
+
+
+def unreadable(path: Path, failure: OSError) -> UserError:
+    """Why a file or folder the user named cannot be read."""
+    return UserError(f"{path}: cannot be read: {reason(failure).lower()}")
+
+
+def unwritable(path: Path, failure: OSError) -> UserError:
+    """Why a file or folder the user named cannot be written."""
+    return UserError(f"{path}: cannot be written: {reason(failure).lower()}")

@@ -12,7 +12,7 @@ from enum import Enum
 from hashlib import blake2b
 from pathlib import Path
 
-from openacr.errors import SourceError, UserError
+from openacr.errors import SourceError, UserError, read_bytes, unreadable
 
 PROGRAM_COUNT = 16
 PLC_COUNT = 8
@@ -121,15 +121,6 @@ def place_of(path: Path) -> tuple[Place, int]:
     return (Place(match[1].lower()), int(match[2])) if match else (Place.SETUP, 0)
 
 
-def read_bytes(path: Path) -> bytes:
-    """Read the bytes of a file the user named, or say in a sentence why not."""
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise UserError(f"{path}: cannot be read: {reason}") from None
-
-
 def _check_text(path: Path, data: bytes) -> None:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         hint = "save it as UTF-8 or plain text"
@@ -152,7 +143,7 @@ def _folder(root: Path) -> Project:
     try:
         entries = sorted(entry for entry in root.iterdir() if entry.is_file())
     except OSError as error:
-        raise UserError(f"{root}: cannot be read: {(error.strerror or '').lower()}") from None
+        raise unreadable(root, error) from None
     by_name = _by_name(entries)
     numbered = list(_numbered(entries))
     setup = by_name.get("setup.8k")

@@ -6,9 +6,8 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.configure import code_files, load_answers
+from openacr.configure import code_files, parse_answers
 from openacr.configure.answers import Answers, warnings
-from openacr.configure.load import parse_answers
 from openacr.configure.watch_code import kept_answers
 from openacr.errors import SourceError
 
@@ -18,7 +17,7 @@ TEXT = (EXAMPLE / "configure.toml").read_text()
 
 @pytest.fixture(scope="module")
 def answers() -> Answers:
-    return load_answers(EXAMPLE / "configure.toml")
+    return parse_answers((EXAMPLE / "configure.toml").read_text())
 
 
 @pytest.fixture(scope="module")
@@ -220,6 +219,8 @@ def test_what_is_hardly_meant_is_said() -> None:
         ("number = 1\naxes", "number = 0\naxes", "master 0 cannot be had (again)"),
         ("vel = 5", "vel = -5", "vel: expected `float` >= 0.0"),
         ("vel = 5", "velocity = 5", "unknown key 'velocity'"),
+        ("vel = 5", "vel = nan", "numbers have to be finite"),
+        ('name = "Y"\n', "", "'name' is missing"),
         ("[card]", "[card", "configure.toml:3:"),
     ],
 )
@@ -240,3 +241,7 @@ def test_files_are_written_once_and_read_back_from_the_card(tmp_path: Path) -> N
     other = tmp_path / "other"
     assert runner.invoke(app, ["configure", kept, str(other)]).exit_code == 0
     assert (other / "setup.8k").read_text() == (tmp_path / "setup.8k").read_text()
+    no_folder = tmp_path / "setup.8k" / "in"
+    refused = runner.invoke(app, ["configure", source, str(no_folder)])
+    assert refused.exit_code == 2
+    assert f"{no_folder}: cannot be written: not a directory" in refused.output

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from openacr.configure import code_files, load_answers
+from openacr.configure import code_files, parse_answers
 from openacr.configure.answers import warnings
-from openacr.configure.load import parse_answers
 from openacr.controller import Controller
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "gantry"
@@ -52,7 +51,7 @@ def only(card: Controller, first: int) -> list[int]:
 
 @pytest.mark.req("ACR-TUT-01", "ACR-WIZ-19")
 def test_the_sample_project_is_set_up_without_warnings(tmp_path: Path) -> None:
-    answers = load_answers(EXAMPLE / "configure.toml")
+    answers = parse_answers((EXAMPLE / "configure.toml").read_text())
     assert list(warnings(answers)) == []
     card = loaded(tmp_path, (EXAMPLE / "configure.toml").read_text())
     card.send("ECHO 6\r")

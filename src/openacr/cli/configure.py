@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from openacr.errors import UserError
+from openacr.errors import UserError, read_bytes, unwritable
 
 
 def configure(
@@ -28,11 +28,10 @@ def configure(
 
     A set-up file and, for older firmware, limit code; a program keeps the answers on the card.
     """
-    from openacr.configure import code_files
+    from openacr.configure import code_files, parse_answers
     from openacr.configure.answers import warnings
-    from openacr.configure.load import parse_answers
     from openacr.configure.watch_code import kept_answers
-    from openacr.project import decode, read_bytes
+    from openacr.project import decode
 
     text = decode(read_bytes(answers))
     if answers.suffix.lower() == ".8k":
@@ -52,7 +51,10 @@ def _write(folder: Path, files: dict[str, str], *, is_forced: bool) -> None:
     there = [name for name in files if (folder / name).exists()]
     if there and not is_forced:
         raise UserError(f"{folder / there[0]} is there already; --force replaces it")
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, code in files.items():
-        (folder / name).write_text(code)
-        typer.echo(str(folder / name))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, code in files.items():
+            (folder / name).write_text(code, encoding="utf-8", newline="\n")
+            typer.echo(str(folder / name))
+    except OSError as failure:
+        raise unwritable(folder, failure) from None

@@ -12,7 +12,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from openacr.errors import UserError
+from openacr.errors import UserError, unwritable
 
 if TYPE_CHECKING:
     from openacr.cli.plots import Curves
@@ -33,7 +33,7 @@ def require_writable(path: Path) -> None:
         with path.open("ab"):
             pass
     except OSError as error:
-        raise _cannot(path, error) from None
+        raise unwritable(path, error) from None
     if not existed:
         path.unlink()
 
@@ -70,7 +70,7 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
         write(partial)
         os.replace(partial, path)
     except OSError as error:
-        raise _cannot(path, error) from None
+        raise unwritable(path, error) from None
     finally:
         with suppress(OSError):
             partial.unlink()
@@ -123,7 +123,3 @@ def _write_parquet(path: Path, curves: "Curves") -> None:
     import pyarrow.parquet
 
     pyarrow.parquet.write_table(pyarrow.table(dict(trace_columns(curves))), path)
-
-
-def _cannot(path: Path, error: OSError) -> UserError:
-    return UserError(f"{path}: cannot be written: {(error.strerror or str(error)).lower()}")

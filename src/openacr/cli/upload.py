@@ -19,7 +19,7 @@ from openacr.cli.online import (
     level_of,
     progress_bar,
 )
-from openacr.errors import UserError
+from openacr.errors import UserError, unwritable
 
 if TYPE_CHECKING:
     from openacr.client import Card, Level
@@ -83,7 +83,7 @@ def _write_all(card: "Card", folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as failure:
-        raise UserError(f"{folder}: cannot be written: {failure.strerror}") from None
+        raise unwritable(folder, failure) from None
     for name, text in texts.items():
         if text:
             _write(folder / name, text)
@@ -93,5 +93,5 @@ def _write(path: Path, text: str) -> None:
     try:
         path.write_text(text, encoding="latin-1", newline="\n")
     except OSError as failure:
-        raise UserError(f"{path}: cannot be written: {failure.strerror}") from None
+        raise unwritable(path, failure) from None
     typer.echo(f"{path}: {len(text.splitlines())} lines")

@@ -24,7 +24,7 @@ from openacr.client.names import flag_number
 from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report, download, upload
-from openacr.errors import UserError
+from openacr.errors import UserError, unreadable, unwritable
 
 AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
@@ -241,7 +241,7 @@ def write_folder(files: dict[str, str], folder: Path) -> None:
         for name, text in files.items():
             (folder / name).write_text(text, encoding="latin-1", newline="\n")
     except OSError as failure:
-        raise UserError(f"{folder}: cannot be written: {failure.strerror}") from None
+        raise unwritable(folder, failure) from None
 
 
 def read_folder(folder: Path) -> list[tuple[Path, Level, str]]:
@@ -256,7 +256,7 @@ def read_folder(folder: Path) -> list[tuple[Path, Level, str]]:
     try:
         return [(path, level, path.read_text(encoding="latin-1")) for path, level in found]
     except OSError as failure:
-        raise UserError(f"{folder}: cannot be read: {failure.strerror}") from None
+        raise unreadable(folder, failure) from None
 
 
 def restore(

@@ -2,6 +2,6 @@
 
 from openacr.configure.answers import Answers
 from openacr.configure.files import code_files
-from openacr.configure.load import load_answers
+from openacr.configure.load import parse_answers
 
-__all__ = ["Answers", "code_files", "load_answers"]
+__all__ = ["Answers", "code_files", "parse_answers"]

@@ -1,69 +1,42 @@
 """Read the answers; what is wrong is said with its line."""
 
-import re
-import tomllib
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator
 
 import msgspec
 
 from openacr.configure.answers import Answers
 from openacr.errors import SourceError
 from openacr.motion.attach import RESERVED_NAMES
-from openacr.plant.locate import nearest, places
-from openacr.project import read_bytes
-
-_WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
-_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
-_STEP = re.compile(r"\.([^.\[\]]+)|\[(\d+)\]")
-_TOML_PLACE = re.compile(r"(.*?)(?: \(at line (\d+), column (\d+)\)| \(at end of document\))?")
-_Where = tuple[str | int, ...]
-
-
-def load_answers(path: Path) -> Answers:
-    """Read the answers in the file at `path`."""
-    data = read_bytes(path)
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise SourceError("the file is not UTF-8 text", path=str(path), line=line) from None
-    return parse_answers(text, str(path))
+from openacr.plant import toml_file
+from openacr.plant.locate import Path as Steps
 
 
 def parse_answers(text: str, path: str = "configure.toml") -> Answers:
     """Read the answers in a text; SourceError for the first thing that is wrong."""
+    raw = toml_file.parse(text, path)
+    for steps in toml_file.not_finite(raw):
+        raise toml_file.wrong(text, path, steps, "numbers have to be finite")
     try:
-        answers = msgspec.convert(tomllib.loads(text), Answers)
-    except tomllib.TOMLDecodeError as error:
-        raise _syntax(str(error), text, path) from None
+        answers = msgspec.convert(raw, Answers)
     except msgspec.ValidationError as error:
-        found = _WHERE.fullmatch(str(error))
-        what, where = (found[1], found[2] or "") if found else (str(error), "")
-        steps = [key or int(index) for key, index in _STEP.findall(where)]
-        if unknown := _UNKNOWN.fullmatch(what):
-            raise _at(text, path, [*steps, unknown[1]], f"unknown key {unknown[1]!r}") from None
-        what = what[:1].lower() + what[1:].replace(" | null", "")
-        name = next((str(step) for step in reversed(steps) if isinstance(step, str)), "")
-        raise _at(text, path, steps, f"{name}: {what}" if name else what) from None
+        raise _wrong(str(error), text, path) from None
     for place, what in _contradictions(answers):
-        raise _at(text, path, place, what)
+        raise toml_file.wrong(text, path, place, what)
     return answers
 
 
-def _at(text: str, path: str, steps: Sequence[str | int], what: str) -> SourceError:
-    line, column = nearest(places(text), tuple(steps))
-    return SourceError(what, path=path, line=line, column=column)
+def _wrong(message: str, text: str, path: str) -> SourceError:
+    what, steps = toml_file.complaint_of(message)
+    if unknown := toml_file.UNKNOWN.fullmatch(what):
+        return toml_file.wrong(text, path, (*steps, unknown[1]), f"unknown key {unknown[1]!r}")
+    if missing := toml_file.MISSING.fullmatch(what):
+        return toml_file.wrong(text, path, steps, f"{missing[1]!r} is missing")
+    what = what[:1].lower() + what[1:].replace(" | null", "")
+    name = next((step for step in reversed(steps) if isinstance(step, str)), "")
+    return toml_file.wrong(text, path, steps, f"{name}: {what}" if name else what)
 
 
-def _syntax(message: str, text: str, path: str) -> SourceError:
-    found = _TOML_PLACE.fullmatch(message)
-    if found and found[2]:
-        return SourceError(found[1], path=path, line=int(found[2]), column=int(found[3]))
-    return SourceError(found[1] if found else message, path=path, line=text.count("\n") + 1)
-
-
-def _contradictions(answers: Answers) -> Iterator[tuple[_Where, str]]:
+def _contradictions(answers: Answers) -> Iterator[tuple[Steps, str]]:
     """What does not fit together, or not on the card."""
     card = answers.card.hardware
     numbers: set[int] = set()
@@ -82,7 +55,7 @@ def _contradictions(answers: Answers) -> Iterator[tuple[_Where, str]]:
     yield from _wrong_masters(answers, names)
 
 
-def _wrong_masters(answers: Answers, names: set[str]) -> Iterator[tuple[_Where, str]]:
+def _wrong_masters(answers: Answers, names: set[str]) -> Iterator[tuple[Steps, str]]:
     taken: set[str] = set()
     programs: set[int] = set()
     for index, master in enumerate(answers.master):

@@ -33,7 +33,7 @@ from typing import Any
 import msgspec
 
 from openacr.controller import snapshot as snapshots
-from openacr.errors import StoreError
+from openacr.errors import StoreError, reason
 from openacr.plant import schema
 
 MAGIC = b"openacr journal 1\n"
@@ -156,7 +156,7 @@ def read_journal(path: Path) -> Journal:
     try:
         content = path.read_bytes()
     except OSError as failure:
-        raise StoreError(f"{path} cannot be read: {failure.strerror}") from None
+        raise StoreError(f"{path} cannot be read: {reason(failure)}") from None
     if not content.startswith(MAGIC):
         raise StoreError(f"{path} is not a journal (or of another version)")
     head, *lines = content[len(MAGIC) :].split(b"\n")

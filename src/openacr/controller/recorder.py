@@ -21,7 +21,7 @@ import msgspec
 
 from openacr.controller import snapshot as snapshots
 from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
-from openacr.errors import StoreError
+from openacr.errors import StoreError, reason
 from openacr.map.memory import digest_of
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ class Records:
         try:
             self._file = path.open("wb", buffering=0)
         except OSError as failure:
-            raise StoreError(f"{path} cannot be written: {failure.strerror}") from None
+            raise StoreError(f"{path} cannot be written: {reason(failure)}") from None
         self.put(MAGIC)
         self.flush()
         if self.failure:
@@ -83,7 +83,7 @@ class Records:
             while rest:
                 rest = rest[self._file.write(rest) :]
         except OSError as failure:  # the card goes on
-            self.failure = failure.strerror or str(failure)
+            self.failure = reason(failure)
             log.warning("%s is not complete: %s", self.path, self.failure)
         self.size_bytes += len(data)
 

@@ -12,7 +12,7 @@ import socket
 import time
 from dataclasses import dataclass
 
-from openacr.errors import UserError
+from openacr.errors import UserError, reason
 from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
@@ -204,4 +204,4 @@ def _listen_failure(host: str, port: int, failure: OSError) -> str:
         )
     if failure.errno == errno.EACCES:
         return f"port {port} needs special rights; choose one above 1023"
-    return f"cannot listen on {host}:{port}: {failure}"
+    return f"cannot listen on {host}:{port}: {reason(failure)}"

@@ -1,8 +1,5 @@
 """Read a `machine.toml`; what is wrong is said with its line, its value and what is allowed."""
 
-import math
-import re
-import tomllib
 from collections.abc import Iterator
 from difflib import get_close_matches
 from pathlib import Path
@@ -11,40 +8,22 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
-from openacr.errors import SourceError, UserError
-from openacr.plant import locate
+from openacr.plant import locate, toml_file
 from openacr.plant.check import contradictions
 from openacr.plant.complaint import Complaint
 from openacr.plant.schema import World
-
-_SYNTAX = re.compile(r"(.*) \(at line (\d+), column (\d+)\)")
-_AT_END = re.compile(r"(.*) \(at end of document\)")
-_WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
-_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
-_MISSING = re.compile(r"Object missing required field `(.*)`")
-_STEP = re.compile(r"\.([^.\[\]]+)|\[(\d+)\]")
 
 
 def load_world(path: Path | str) -> World:
     """Read the world described by the file at `path`."""
     place = Path(path)
-    try:
-        data = place.read_bytes()
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise UserError(f"{place}: cannot be read: {reason}") from None
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise SourceError("the file is not UTF-8 text", path=str(place), line=line) from None
-    return parse_world(text, str(place))
+    return parse_world(toml_file.read_text(place), str(place))
 
 
 def parse_world(text: str, path: str = "machine.toml") -> World:
     """Read the world described by `text`; SourceError, and no world, if anything is wrong."""
-    raw = _parse(text, path)
-    complaint = next(_not_finite(raw, ()), None)
+    raw = toml_file.parse(text, path)
+    complaint = next(_not_finite(raw), None)
     if complaint is None:
         try:
             world = msgspec.convert(raw, World)
@@ -54,53 +33,26 @@ def parse_world(text: str, path: str = "machine.toml") -> World:
             complaint = next(contradictions(world), None)
             if complaint is None:
                 return world
-    line, column = locate.nearest(locate.places(text), complaint.path)
-    raise SourceError(complaint.text, path=path, line=line, column=column, hint=complaint.hint)
+    raise toml_file.wrong(text, path, complaint.path, complaint.text, complaint.hint)
 
 
-def _parse(text: str, path: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        if found := _SYNTAX.fullmatch(str(error)):
-            sentence, line, column = found[1], int(found[2]), int(found[3])
-        else:
-            ended = _AT_END.fullmatch(str(error))
-            sentence, line, column = ended[1] if ended else str(error), text.count("\n") + 1, 0
-        sentence = sentence[:1].lower() + sentence[1:]
-        raise SourceError(sentence, path=path, line=line, column=column) from None
-
-
-def _not_finite(value: object, path: locate.Path) -> Iterator[Complaint]:
-    """Infinities and NaN pass every comparison of ranges, so they are refused by name."""
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            yield from _not_finite(inner, (*path, key))
-    elif isinstance(value, list):
-        for index, inner in enumerate(value):
-            yield from _not_finite(inner, (*path, index))
-    elif isinstance(value, float) and not math.isfinite(value):
-        yield Complaint(path, f"{_name(path)} is {value}; it must be a finite number")
+def _not_finite(raw: dict[str, Any]) -> Iterator[Complaint]:
+    """Infinities and NaN are refused by name."""
+    for path in toml_file.not_finite(raw):
+        what = f"{_name(path)} is {_value(path, raw)}; it must be a finite number"
+        yield Complaint(path, what)
 
 
 def _explain(message: str, raw: dict[str, Any]) -> Complaint:
     """Turn a message of the decoder into one that names key, value and what is allowed."""
-    found = _WHERE.fullmatch(message)
-    reason, where = (found[1], found[2] or "") if found else (message, "")
-    path = tuple(_steps(where))
-    if unknown := _UNKNOWN.fullmatch(reason):
+    reason, path = toml_file.complaint_of(message)
+    if unknown := toml_file.UNKNOWN.fullmatch(reason):
         return _unknown_key(path, unknown[1], raw)
-    if missing := _MISSING.fullmatch(reason):
+    if missing := toml_file.MISSING.fullmatch(reason):
         return Complaint(path, f"{_table(path)} lacks the key {missing[1]!r}", _keys(path, raw))
     value = _value(path, raw)
     shown = "a table" if isinstance(value, dict) else f"{_toml(value)}"
     return Complaint(path, f"{_name(path)} is {shown}; it must be {_allowed(path, raw)}")
-
-
-def _steps(where: str) -> Iterator[str | int]:
-    """Parts of a decoder path; `[...]` (some value of a mapping) ends what is known."""
-    for key, index in _STEP.findall(where.split("[...]")[0]):
-        yield key or int(index)
 
 
 def _unknown_key(path: locate.Path, key: str, raw: dict[str, Any]) -> Complaint:

@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
 
-from openacr.errors import StoreError
+from openacr.errors import StoreError, reason
 from openacr.store.images import Image
 
 FILE_NAME = "card.db"
@@ -41,7 +41,9 @@ class Database:
             folder.mkdir(parents=True, exist_ok=True)
             self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=0.0)
         except (OSError, sqlite3.Error) as failure:
-            raise StoreError(f"the data folder {folder} cannot be used: {failure}") from None
+            raise StoreError(
+                f"the data folder {folder} cannot be used: {reason(failure)}"
+            ) from None
         try:
             self._do(self._prepare)
         except StoreError:

@@ -6,7 +6,7 @@ import sqlite3
 from contextlib import closing
 from pathlib import Path
 
-from openacr.errors import StoreError
+from openacr.errors import StoreError, reason
 
 FILE_NAME = "lock"
 
@@ -22,7 +22,7 @@ class FolderLock:
                 folder / FILE_NAME, isolation_level=None, timeout=0.0, check_same_thread=False
             )
         except (OSError, sqlite3.Error) as failure:
-            raise StoreError(f"{folder} cannot be used: {failure}") from None
+            raise StoreError(f"{folder} cannot be used: {reason(failure)}") from None
         try:
             self._connection.execute("BEGIN EXCLUSIVE")
         except sqlite3.Error:
