@@ -41,8 +41,21 @@ def test_empty_and_repeated_lines_are_remembered_once() -> None:
     assert keyboard.history.lines == [b"A", b"B"]
 
 
-def test_other_arrows_send_nothing() -> None:
-    assert Keyboard().feed(RIGHT + b"A") == b"A"
+@pytest.mark.parametrize(
+    "key",
+    [
+        pytest.param(RIGHT, id="right"),
+        pytest.param(b"\x1b[3~", id="delete"),
+        pytest.param(b"\x1b[H", id="home"),
+        pytest.param(b"\x1bOP", id="F1"),
+        pytest.param(b"\x1b[15~", id="F5"),
+        pytest.param(b"\x1b[1;5C", id="ctrl-right"),
+    ],
+)
+def test_keys_without_a_character_send_nothing(key: bytes) -> None:
+    keyboard = Keyboard(History([b"OLD"]))
+    assert keyboard.feed(b"A" + key + b"B") == b"AB"
+    assert keyboard.feed(UP) == b"\b\bOLD"
 
 
 def test_ctrl_c_leaves_without_reaching_the_card() -> None:

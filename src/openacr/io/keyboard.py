@@ -5,10 +5,13 @@ not: recalling earlier lines. A recalled line is typed by this program, after er
 stands there, so that the card's own echo shows it exactly.
 """
 
+import re
 from dataclasses import dataclass, field
 
 CR, BS, DEL, ESC, CTRL_C = 0x0D, 0x08, 0x7F, 0x1B, 0x03
-UP, DOWN = (b"[A", b"OA"), (b"[B", b"OB")
+UP, DOWN = (b"\x1b[A", b"\x1bOA"), (b"\x1b[B", b"\x1bOB")
+# What keys without a character send: ESC [ parameters letter-or-tilde, ESC O letter.
+_SEQUENCE = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]?|O[@-~]?)")
 HISTORY_LINES = 500
 
 
@@ -48,22 +51,21 @@ class Keyboard:
         sent = bytearray()
         at = 0
         while at < len(keys) and not self.leave:
-            used, data = self._key(keys[at], keys[at + 1 : at + 3])
-            sent += data
-            at += used
+            special = _SEQUENCE.match(keys, at)
+            sent += self._arrow(special[0]) if special else self._key(keys[at])
+            at = special.end() if special else at + 1
         return bytes(sent)
 
-    def _key(self, key: int, behind: bytes) -> tuple[int, bytes]:
-        """How many codes are used up, and what to send for them."""
-        if key == ESC and behind[:1] in (b"[", b"O"):
-            return 3, self._arrow(behind)
+    def _key(self, key: int) -> bytes:
+        """What to send for a key with a code of its own."""
         if key == CTRL_C:
             self.leave = True
-            return 1, b""
+            return b""
         self._follow(key)
-        return 1, bytes((key,))
+        return bytes((key,))
 
     def _arrow(self, code: bytes) -> bytes:
+        """What to send for a key that sends a sequence: nothing but for up and down."""
         if code not in UP + DOWN:
             return b""
         recalled = self.history.move(-1 if code in UP else 1)
