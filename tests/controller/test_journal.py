@@ -299,6 +299,13 @@ def test_a_folder_that_goes_away_leaves_the_card_without_a_journal_for_a_while(
     assert journals(folder)
 
 
+def test_a_place_that_cannot_be_used_at_all_is_said_at_once(tmp_path: Path) -> None:
+    root = tmp_path / "journals"
+    root.write_text("a file")
+    with pytest.raises(StoreError, match=f"^{root}/1 cannot be used: Not a directory$"):
+        own_ring(Controller(), root)
+
+
 def test_cards_that_have_no_folder_of_their_own_do_not_meet(tmp_path: Path) -> None:
     one, two = Controller(), Controller()
     one.recorder, two.recorder = own_ring(one, tmp_path), own_ring(two, tmp_path)

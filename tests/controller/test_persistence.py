@@ -443,6 +443,30 @@ def test_a_full_disk_is_an_error_of_the_command(
     assert "no space left" in notices(host)
 
 
+def test_a_battery_catches_up_when_the_disk_has_room_again(
+    power_up: PowerUp, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    host = power_up()
+    host.type("DIM P(10)", "P1 = 1", "PROG0", "10 PRINT 1")
+    tries = 0
+
+    def fail(changes: object, *, flush: bool = True) -> None:
+        nonlocal tries
+        tries += 1
+        raise StoreError("no space left")
+
+    with monkeypatch.context() as full:
+        full.setattr(host.card.nonvolatile.shelf.images, "write", fail)
+        host.type("10 PRINT 2", "20 PRINT 3", "SYS", "P1 = 2")
+        for _ in range(30):
+            host.card.advance(seconds=0.1)
+    assert 3 <= tries <= 5  # the text at once, then once a second
+    assert "battery-backed memory is not stored until that is mended" in notices(host)
+    again = power_up()
+    assert again.type("PROG0", "LIST") == "P00>10 PRINT 2|20 PRINT 3|P00>"
+    assert again.ask("?P1") == "2"
+
+
 # projects
 
 

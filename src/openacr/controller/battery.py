@@ -36,6 +36,7 @@ class Battery:
         self._system, self._shelf = system, shelf
         self.is_on = system.card.model.has_battery
         self._follows = self.is_on and shelf.images.is_durable
+        self._is_behind = False  # the last write has failed: tried again once a second
         self._written_tk = 0
         self._shape: object = None
         self._stored = b""
@@ -62,7 +63,7 @@ class Battery:
 
     def follow(self) -> None:
         """Write what has changed: texts and sizes at once."""
-        if self._follows:
+        if self._follows and (not self._is_behind or self._is_due):
             shape = self._present_shape()
             self._write(values=self._is_due or shape != self._shape)
             self._shape = shape
@@ -95,9 +96,11 @@ class Battery:
             if changes:
                 self._shelf.write(changes, flush=False)
         except CardError:
-            self._follows = False
-            self._shelf.notice("battery-backed memory is not stored any more")
-        programs.changed.clear()
+            self._is_behind, self._stored = True, b""
+            self._shelf.notice("battery-backed memory is not stored until that is mended")
+        else:
+            self._is_behind = False
+            programs.changed.clear()
 
     def _text(self, owner: int) -> bytes | None:
         if self._system.programs.is_empty(owner):

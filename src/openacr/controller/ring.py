@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import logging
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from openacr.controller.journal import JournalEntry
 from openacr.controller.recorder import Recorder
 from openacr.errors import StoreError
-from openacr.store.lock import FolderLock
+from openacr.store.lock import FolderInUseError, FolderLock
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
@@ -95,13 +96,10 @@ class Ring:
 
 def own_ring(card: Controller, folder: Path) -> Ring:
     """A ring in the first folder `folder/1`, `folder/2`, ... that no other card uses."""
-    failure = StoreError(f"{folder} has no free place")
     for place in range(1, PLACES + 1):
-        try:
+        with suppress(FolderInUseError):
             return Ring(card, folder / str(place))
-        except StoreError as taken:
-            failure = taken
-    raise failure
+    raise StoreError(f"{folder} has no free place: {PLACES} cards use it")
 
 
 def journals(folder: Path) -> list[Path]:

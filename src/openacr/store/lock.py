@@ -11,8 +11,12 @@ from openacr.errors import StoreError, reason
 FILE_NAME = "lock"
 
 
+class FolderInUseError(StoreError):
+    """Another process owns the folder."""
+
+
 class FolderLock:
-    """The ownership of a folder, until `release`; StoreError if another process has it."""
+    """The ownership of a folder, until `release`; FolderInUseError if another process has it."""
 
     def __init__(self, folder: Path) -> None:
         try:
@@ -25,9 +29,11 @@ class FolderLock:
             raise StoreError(f"{folder} cannot be used: {reason(failure)}") from None
         try:
             self._connection.execute("BEGIN EXCLUSIVE")
-        except sqlite3.Error:
+        except sqlite3.Error as failure:
             self._connection.close()
-            raise StoreError(f"{folder} is in use by another card") from None
+            if failure.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY:
+                raise FolderInUseError(f"{folder} is in use by another card") from None
+            raise StoreError(f"{folder} cannot be used: {failure}") from None
 
     def release(self) -> None:
         """Let others have the folder."""
