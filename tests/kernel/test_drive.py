@@ -4,7 +4,8 @@ import pytest
 from tests.kernel.rig import Rig
 
 from openacr.map import numbers as at
-from openacr.motion import drive, jog
+from openacr.motion import attach, drive, jog
+from openacr.motion.attach import Feedback, Signal
 
 FAULT_INPUT, INVERT = 8448, 8453
 ENABLED, RESET_REQUEST, KAMR, IO, EXC_RESPONSE = 8465, 8466, 8467, 8468, 8469
@@ -153,3 +154,26 @@ def test_a_kill_disables_the_drive_where_asked() -> None:
         rig.bit(ON_KILL, asked)
         rig.bit(KAMR, True)
         assert rig.ticks().bit(ENABLED) != asked
+
+
+@pytest.mark.parametrize(
+    ("position", "velocity"),
+    [
+        ((Feedback.ENC, 1), (Feedback.ENC, 1)),
+        ((Feedback.ENC, 9), (Feedback.ENC, 1)),  # an encoder on the load, one on the motor
+        ((Feedback.ADC, 2), (Feedback.ADC, 2)),  # a sensor: the motor is the one on the output
+    ],
+)
+def test_the_drive_of_an_axis_is_that_of_the_motor_it_drives(
+    position: tuple[Feedback, int], velocity: tuple[Feedback, int]
+) -> None:
+    ideal = 'drive = { mode = "ideal", revs_per_s_per_volt = 5.0 }\n'
+    world = f"[[axis]]\nnumber = 1\ndac = 5\ncounts_per_rev = 4000\n{ideal}"
+    rig = Rig(1, world=world)
+    motor = at.PLI_BASE + at.PLI_STRIDE
+    assert rig.ticks(2).I[motor + at.PLI_DRIVE_ENABLED] == 0
+    attach.axis(rig.card, 0, position, (Signal.DAC, 5), velocity)
+    assert rig.ticks(1).I[motor + at.PLI_DRIVE_ENABLED] == 1
+    rig.I[motor + at.PLI_DRIVE_FAULT] = 1
+    rig.ticks(1)
+    assert rig.I[at.AF4_WORD] & at.AF4_DRIVE_FAULT_INPUT

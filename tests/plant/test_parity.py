@@ -12,6 +12,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.plant.apply import apply_world
 from openacr.plant.schema import (
+    Analog,
     Axis,
     HomeSwitch,
     IdealDrive,
@@ -83,7 +84,11 @@ def worlds(draw: st.DrawFn) -> World:
         Wire(input=10, region={"X": (1.0, 2.0)}),
         Wire(input=260, output=32, delay_s=0.002),
     )
-    return World(axis=(axis,), wire=wires)
+    analogs = (
+        Analog(input=3, axis=axis.number, volts_per_unit=draw(st.floats(1e-3, 10)), volts=0.1),
+        Analog(input=7, dac=draw(st.integers(0, 15)), volts=draw(st.floats(-10, 10))),
+    )
+    return World(axis=(axis,), wire=wires, analog=analogs)
 
 
 def play(step: Callable[..., None], world: World, journal: list[float]) -> Memory:

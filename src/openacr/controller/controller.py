@@ -33,7 +33,7 @@ from openacr.map.numbers import (
 from openacr.models import Model
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
-from openacr.plant import apply, load, schema, terminals
+from openacr.plant import analogs, apply, load, schema, terminals
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.stream import StreamKind
@@ -168,11 +168,15 @@ class Controller(Running):
         self._note(Entered.INPUT, bit, on)
 
     def set_analog(self, parameter: int, value: float) -> None:
-        """Bring a value, in its unit, to the analog input of a node that a parameter shows."""
+        """Bring a value, in its unit, to the analog input that a parameter shows."""
+        channel = analogs.terminal(parameter)
         place = terminals.analog_input(self.memory, parameter)
-        if place is None:
-            raise UserError(f"P{parameter} shows no analog input of a node")
-        self.memory.F[place] = value
+        if channel is not None:
+            analogs.put_volts(self.memory, channel, value)
+        elif place is None:
+            raise UserError(f"P{parameter} shows no analog input")
+        else:
+            self.memory.F[place] = value
         self._note(Entered.ANALOG, parameter, value)
 
     def drag(self, axis: int, by_u: float) -> None:

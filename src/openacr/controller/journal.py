@@ -8,7 +8,7 @@ A journal file is text, one record per line:
     [tick, "bytes", stream, text]           bytes that arrived together, as Latin-1
     [tick, "close", stream]                 it ends
     [tick, "input", flag, 0 or 1]           an input switches
-    [tick, "analog", parameter, value]      a value at an analog input of a node
+    [tick, "analog", parameter, value]      a value at an analog input
     [tick, "drag", axis, units]             a load is pushed by hand
     [tick, "parameter", number, value]      a parameter written from Python
     [tick, "flag", number, 0 or 1]          a flag written from Python

@@ -15,6 +15,7 @@ from openacr.map.numbers import (
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
     AXI_BASE,
+    AXI_DRIVE_MOTOR,
     AXI_DRIVE_OLD,
     AXI_DRIVE_SEEN,
     AXI_DRIVE_WIRED,
@@ -22,14 +23,20 @@ from openacr.map.numbers import (
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
     AXI_RESET_TICKS,
+    AXI_SIGNAL_INDEX,
+    AXI_SIGNAL_SOURCE,
     AXI_STRIDE,
+    AXI_VELOCITY_INDEX,
+    AXI_VELOCITY_SOURCE,
     EF_ENCODER_SIGNAL_FAULT,
     EF_ENCODER_SIGNAL_LOST,
     EF_WORD,
     PLI_BASE,
+    PLI_DAC,
     PLI_DRIVE_ENABLED,
     PLI_DRIVE_FAULT,
     PLI_FAULT_MASK,
+    PLI_KIND,
     PLI_STRIDE,
     W_MISC_CONTROL_1,
 )
@@ -65,11 +72,36 @@ def drive_faulted(I: I32, n: int) -> bool:
     return flags & AF4_DRIVE_I_O_ENABLE != 0 and active != inverted
 
 
+def is_motor(I: I32, source: int, k: int) -> bool:
+    """Whether feedback k of a kind is the encoder of a motor."""
+    return source == 0 and 0 <= k < MODELLED and I[PLI_BASE + k * PLI_STRIDE + PLI_KIND] != 0
+
+
+def drive_motor(I: I32, n: int) -> int:
+    """Motor that axis n drives, -1 if there is none.
+
+    It is that of its position encoder, else of its velocity encoder (the other one counts the
+    load), else the one on its analog output (feedback comes from an analog input).
+    """
+    i: int = AXI_BASE + n * AXI_STRIDE
+    if is_motor(I, I[i + AXI_POSITION_SOURCE], I[i + AXI_POSITION_INDEX]):
+        return I[i + AXI_POSITION_INDEX]
+    if is_motor(I, I[i + AXI_VELOCITY_SOURCE], I[i + AXI_VELOCITY_INDEX]):
+        return I[i + AXI_VELOCITY_INDEX]
+    if I[i + AXI_SIGNAL_SOURCE] == 0:
+        for m in range(MODELLED):
+            row: int = PLI_BASE + m * PLI_STRIDE
+            if I[row + PLI_KIND] and I[row + PLI_DAC] == I[i + AXI_SIGNAL_INDEX]:
+                return m
+    return -1
+
+
 def drive_wiring(I: I32, n: int) -> None:
     """Read the fault line of the drive of axis n, if it has one, and drive its enable line."""
     i: int = AXI_BASE + n * AXI_STRIDE
-    k: int = I[i + AXI_POSITION_INDEX]
-    if I[i + AXI_POSITION_SOURCE] != 0 or not 0 <= k < MODELLED:
+    k: int = drive_motor(I, n)
+    I[i + AXI_DRIVE_MOTOR] = k
+    if k < 0:
         return
     row: int = PLI_BASE + k * PLI_STRIDE
     flags: int = I[AF4_WORD + n]
@@ -89,7 +121,8 @@ def drive_resting(I: I32, n: int) -> bool:
     k: int = I[i + AXI_POSITION_INDEX]
     if flags != I[i + AXI_DRIVE_SEEN] or I[i + AXI_ENABLE_TICKS] or k != I[i + AXI_DRIVE_WIRED]:
         return False
-    if not 0 <= k < MODELLED:
+    k = I[i + AXI_DRIVE_MOTOR]
+    if k < 0:
         return True
     shown: bool = flags & AF4_DRIVE_FAULT_INPUT != 0
     if I[PLI_BASE + k * PLI_STRIDE + PLI_DRIVE_FAULT]:

@@ -4,6 +4,7 @@ The world outside has moved during the period before; its new state is read firs
 outputs computed here act on it during the next one.
 """
 
+from openacr.kernel.analog_cy import analog_step
 from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written, axis_word
 from openacr.kernel.capture_cy import capture_step
 from openacr.kernel.clock_cy import clock_step
@@ -68,6 +69,8 @@ from openacr.map.numbers import (
     OBI_BASE,
     OBI_LIVE,
     OBI_LOCKED,
+    PLGI_ANALOGS,
+    PLGI_BASE,
     PLI_BASE,
     PLI_KIND,
     PLI_STRIDE,
@@ -150,6 +153,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
     for e in range(MODELLED):
         if I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
             encoder_step(F, I, e, rate_hz)
+    if I[PLGI_BASE + PLGI_ANALOGS]:
+        analog_step(F, I, S)
     if (
         I[KRI_BASE + KRI_MISSING_ENCODERS]
         | I[KRI_BASE + KRI_MISSING_ADCS]

@@ -5,6 +5,7 @@ from enum import IntEnum
 from openacr.errors import CardError
 from openacr.map.numbers import (
     AXF_POSITION_CNT,
+    AXI_DRIVE_WIRED,
     AXI_MASTER,
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
@@ -115,6 +116,7 @@ def axis(
     rows[ints + AXI_POSITION_SOURCE], rows[ints + AXI_POSITION_INDEX] = position
     rows[ints + AXI_SIGNAL_SOURCE], rows[ints + AXI_SIGNAL_INDEX] = signal
     rows[ints + AXI_VELOCITY_SOURCE], rows[ints + AXI_VELOCITY_INDEX] = velocity
+    rows[ints + AXI_DRIVE_WIRED] = -1  # another motor may be behind it
 
 
 def _check(index: int, count: int) -> None:

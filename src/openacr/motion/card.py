@@ -31,6 +31,7 @@ from openacr.map.numbers import (
     ENI_MULT,
     ENI_STRIDE,
     KRI_ADC_CHANNELS,
+    KRI_ADC_MODE,
     KRI_AXES,
     KRI_BASE,
     KRI_MASTERS,
@@ -119,6 +120,7 @@ class Card:
         rows[KRI_BASE + KRI_AXES] = self.model.axes
         rows[KRI_BASE + KRI_MASTERS] = self.model.masters
         rows[KRI_BASE + KRI_ADC_CHANNELS] = SCANNED_ADCS
+        rows[KRI_BASE + KRI_ADC_MODE] = int(self.model.has_fixed_adc_mode)
         self.set_period(DEFAULT_PERIOD_S)
         for axis in range(AXES):
             self._default_axis(AXI_BASE + axis * AXI_STRIDE, axis)

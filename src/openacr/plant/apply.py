@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import apply_networks, apply_phases, bus, terminals
+from openacr.plant import analogs, apply_networks, apply_phases, bus, terminals
 from openacr.plant.counts import count_of
 from openacr.plant.schema import (
     Axis,
@@ -59,6 +59,7 @@ def apply_world(world: World, memory: Memory) -> None:
     memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
     for axis in world.axis:
         _write_motor(memory, axis, world)
+    analogs.write_analogs(memory, world)
     apply_networks.write_nodes(memory, world)
     apply_networks.write_drives(memory, world)
     slots = _write_input_words(memory, world)
@@ -69,6 +70,7 @@ def apply_world(world: World, memory: Memory) -> None:
 _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
     (at.PLBF_BASE, at.PLB_COUNT * at.PLBF_STRIDE),
+    (at.PLAF_BASE, at.PLA_COUNT * at.PLAF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
     *apply_networks.REALS,
@@ -76,6 +78,7 @@ _REALS = (
 _INTS = (
     (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
     (at.PLBI_BASE, at.PLB_COUNT * at.PLBI_STRIDE),
+    (at.PLAI_BASE, at.PLA_COUNT * at.PLAI_STRIDE),
     (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
     (at.PLGI_BASE, at.PLGI_STRIDE),

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 
+from openacr.plant.check_analog import analog_faults
 from openacr.plant.check_networks import (
     canopen_faults,
     drive_faults,
@@ -263,5 +264,6 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     _fault_inputs,
     canopen_faults,
     drive_faults,
+    analog_faults,
     _size,
 )

@@ -35,6 +35,9 @@ Period = Annotated[float, Meta(ge=0.0001, le=0.005)]
 DacBits = Annotated[int, Meta(ge=8, le=16)]
 PolePairs = Annotated[int, Meta(ge=1, le=1000)]
 Phases = Annotated[int, Meta(ge=2, le=3)]
+Channel = Annotated[int, Meta(ge=0, le=7)]
+Volts = Annotated[float, Meta(ge=-1000, le=1000)]
+VoltsPerUnit = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
 
 
@@ -205,6 +208,16 @@ class Wire(_Table, frozen=True):
     delay_s: Delay = 0.0
 
 
+class Analog(_Table, frozen=True):
+    """The voltage at an analog input: fixed, with the position of an axis, or an analog output."""
+
+    input: Channel
+    volts: Volts = 0.0
+    axis: AxisNumber | None = None
+    volts_per_unit: VoltsPerUnit = 0.0
+    dac: AxisNumber | None = None
+
+
 class Inputs(_Table, frozen=True):
     """Inputs that always have one level."""
 
@@ -218,6 +231,7 @@ class World(_Table, frozen=True):
     card: Card = Card()
     axis: tuple[Axis, ...] = ()
     wire: tuple[Wire, ...] = ()
+    analog: tuple[Analog, ...] = ()
     inputs: Inputs = Inputs()
     canopen: Canopen | None = None
     drive: tuple[TalkingDrive, ...] = ()

@@ -25,6 +25,7 @@ from openacr.map.numbers import (
     PLF_STRIDE,
     PLF_VELOCITY_CPS,
     PLF_VOLTS,
+    PLGI_ANALOGS,
     PLGI_BASE,
     PLGI_FALLS,
     PLGI_FOLLOWS,
@@ -34,6 +35,7 @@ from openacr.map.numbers import (
     PLI_MARKER_EDGES,
     PLI_STRIDE,
 )
+from openacr.plant.analog_cy import analogs_follow
 from openacr.plant.drive_cy import (
     cache_motion_factors,
     clamp_accel,
@@ -77,6 +79,8 @@ def plant_step(F: F64, I: I32, S: F32, axis_count: int, dt: float) -> None:
         read_boxes(F, I)
     if I[PLGI_BASE + PLGI_FOLLOWS] != 0:
         follow_outputs(F, I, dt)
+    if I[PLGI_BASE + PLGI_ANALOGS] != 0:
+        analogs_follow(F, I, S)
     write_wired_inputs(I)
 
 

@@ -17,7 +17,7 @@ Step = str | int
 # others are the digital and analog inputs of up to four CANopen nodes.
 _NODES = [range(first, first + 512) for first in range(11520, 15616, 1024)]
 INPUT_BITS = frozenset([*range(32), *range(64, 96), *(bit for node in _NODES for bit in node)])
-ANALOG_INPUTS = range(33288, 35328, 16)
+ANALOG_INPUTS = frozenset([*range(6408, 6536, 16), *range(33288, 35328, 16)])
 STREAMS = ("FIFO", "COM1", "COM2", "DPCB", *(f"STREAM{n}" for n in range(1, 6)))
 START, END = "start", "end"
 
@@ -162,7 +162,11 @@ def _action(where: tuple[Step, ...], action: Action) -> Iterator[Problem]:
                 yield Problem((*where, key), f"bit {bit} is not an input", hint)
     if action.analog is not None and action.analog.input not in ANALOG_INPUTS:
         text = f"P{action.analog.input} is not an analog input"
-        yield Problem((*where, "analog"), text, "they are P33288 + 512 n + 16 k of node n")
+        yield Problem(
+            (*where, "analog"),
+            text,
+            "they are P6408 + 16 k of the card, P33288 + 512 n + 16 k of node n",
+        )
     if {"send", "key"} <= keys:
         yield Problem((*where, "key"), "`send` and `key` exclude each other", "use two entries")
     if "stream" in keys and not keys & {"send", "key"}:

@@ -67,7 +67,7 @@ class Drag(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Analog(Struct, frozen=True, forbid_unknown_fields=True):
-    """Bring a value to the analog input of a node, named by the parameter that shows it."""
+    """Bring a value to an analog input, named by the parameter that shows it."""
 
     input: Parameter
     value: float

@@ -1,22 +1,39 @@
-"""Global objects: the analog input scanner as a whole (ADC MODE, MAX, ON, OFF).
+"""Global objects: the analog input scanner as a whole (ADC MODE, MAX, POS, NEG, ON, OFF).
 
 ADCX says the same of an expansion board, which no modelled card has.
 
-Bit 0 of the ADC state control parameter (P6917) is the scanner running. The resolution and
-the number of scanned channels are hidden rows.
+Bit 0 of the ADC state control parameter (P6917) is the scanner running. The channels are words
+of four bits each (P6918, P6919), the resolution and the number of scanned inputs hidden rows.
 """
+
+from dataclasses import dataclass
 
 from openacr.basic.grammar import Int, Word
 from openacr.basic.registry import ANY, command
 from openacr.basic.run import Run
+from openacr.basic.saving import each, kept
+from openacr.basic.value_commands import check_number
 from openacr.errors import CardError
-from openacr.map.numbers import KRI_ADC_CHANNELS, KRI_ADC_MODE, KRI_BASE, P_ADC_STATE_CONTROL
+from openacr.map.numbers import (
+    KRI_ADC_CHANNELS,
+    KRI_ADC_MODE,
+    KRI_BASE,
+    P_ADC_NEGATIVE_CHANNELS,
+    P_ADC_POSITIVE_CHANNELS,
+    P_ADC_STATE_CONTROL,
+)
 from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED
+from openacr.motion.card import Card
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
 SCANNING = 1
 SIXTEEN_BITS = 1
+INPUTS = 8
+BITS_EACH = 4
+ONES = 15
+GROUND = -1
+WRAP = 1 << 31
 
 
 @command(
@@ -32,7 +49,7 @@ def adc_mode(run: Run, mode: int | None) -> None:
     """Choose 12-bit (0) or 16-bit (1) analog inputs; the ACR9000 family is always 16-bit."""
     fixed = run.card.model.has_fixed_adc_mode
     if mode is None:
-        run.print(str(SIXTEEN_BITS if fixed else run.card.memory.I[KRI_BASE + KRI_ADC_MODE]))
+        run.print(str(run.card.memory.I[KRI_BASE + KRI_ADC_MODE]))
     elif fixed and mode != SIXTEEN_BITS:
         raise CardError(INVALID_ARGUMENT)
     else:
@@ -56,6 +73,61 @@ def adc_max(run: Run, channels: int | None) -> None:
         raise CardError(INVALID_ARGUMENT)
     else:
         run.card.memory.I[KRI_BASE + KRI_ADC_CHANNELS] = channels
+
+
+@dataclass(frozen=True, slots=True)
+class Channels:
+    """The word with the channels of all inputs, four bits each; all ones is ground."""
+
+    word: int
+    lowest: int
+
+    def read(self, card: Card, number: int) -> int:
+        """The channel of an input, GROUND if it is none."""
+        channel = card.memory.I[self.word] >> BITS_EACH * number & ONES
+        return GROUND if channel == ONES else channel
+
+    def write(self, card: Card, number: int, channel: int) -> None:
+        """Choose the channel of an input."""
+        if not self.lowest <= channel < INPUTS:
+            raise CardError(INVALID_ARGUMENT)
+        shift = BITS_EACH * number
+        word = card.memory.I[self.word] & ~(ONES << shift) | (channel & ONES) << shift
+        card.memory.write(self.word, (word + WRAP) % (2 * WRAP) - WRAP)
+
+
+def inputs(card: Card) -> int:
+    """How many analog inputs have a choice of channels: those of the card itself."""
+    return min(INPUTS, card.model.adcs)
+
+
+POSITIVE = Channels(P_ADC_POSITIVE_CHANNELS, 0)
+NEGATIVE = Channels(P_ADC_NEGATIVE_CHANNELS, GROUND)
+_CHOICE = (Int("input"), Int("channel", optional=True))
+kept["ADC POS"] = each("ADC POS", inputs, POSITIVE.read, POSITIVE.write)
+kept["ADC NEG"] = each("ADC NEG", inputs, NEGATIVE.read, NEGATIVE.write)
+
+
+@command("ADC POS", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True,
+         default="the channel of the same number")  # fmt: skip
+def adc_pos(run: Run, number: int, channel: int | None) -> None:
+    """Choose the channel at the positive side of an analog input."""
+    _choose(run, POSITIVE, number, channel)
+
+
+@command("ADC NEG", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True,
+         default="-1")  # fmt: skip
+def adc_neg(run: Run, number: int, channel: int | None) -> None:
+    """Choose the channel an analog input measures against; -1 is ground."""
+    _choose(run, NEGATIVE, number, channel)
+
+
+def _choose(run: Run, channels: Channels, number: int, channel: int | None) -> None:
+    check_number(number, inputs(run.card))
+    if channel is None:
+        run.print(str(channels.read(run.card, number)))
+    else:
+        channels.write(run.card, number, channel)
 
 
 @command("ADC ON", group=GROUP, levels=ANY, ref=REF)

@@ -306,6 +306,7 @@ AXIS = HiddenBlock(
         "drive_old",
         "drive_seen",  # quaternary flags after the last step of the drive
         "drive_wired",  # position feedback then, -1: step in any case
+        "drive_motor",  # motor of the world that the drive belongs to, -1 none
         "reset_ticks",
         "window_index",
         "window_count",

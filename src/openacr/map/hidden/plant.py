@@ -74,6 +74,14 @@ PHASES = HiddenBlock(
     ints=("second_dac", "phases"),
 )
 
+# The terminals of the analog inputs of the card and what is wired to them.
+ANALOG = HiddenBlock(
+    prefix="PLA",
+    count=8,
+    doubles=("volts", "base_v", "volts_per_cnt", "dac_step"),
+    ints=("axis", "dac"),  # both + 1, 0 none
+)
+
 # What drives an input: a box in space, one entry per side of the box, or an output.
 WIRE = HiddenBlock(
     prefix="PLW",
@@ -105,5 +113,6 @@ GENERAL = HiddenBlock(
         "follows",  # the first entries of the wire table are driven by outputs
         "wires",
         "words",
+        "analogs",  # something is wired to analog inputs
     ),
 )

@@ -35,9 +35,29 @@ ADC_SETUP = Block(
     packet=consecutive(0x1B),
     indexed=False,
 )
-ADC_SETUP.row(0, "ADC State Control", LONG, NS, "", "State of the converter's sequence.")
-ADC_SETUP.row(1, "ADC Positive Channels", LONG, NS, "", "Channels used as positive inputs.")
-ADC_SETUP.row(2, "ADC Negative Channels", LONG, NS, "", "Channels used as negative inputs.")
+# Four bits for each of ADC0 to ADC7, the lowest for ADC0; 15 is ground.
+EACH_ITS_OWN, ALL_GROUND = 0x76543210, -1
+ADC_SETUP.row(
+    0, "ADC State Control", LONG, NS, "", "State of the converter's sequence: 1 scans.", default=1
+)
+ADC_SETUP.row(
+    1,
+    "ADC Positive Channels",
+    LONG,
+    NS,
+    "",
+    "Channels used as positive inputs.",
+    default=EACH_ITS_OWN,
+)
+ADC_SETUP.row(
+    2,
+    "ADC Negative Channels",
+    LONG,
+    NS,
+    "",
+    "Channels used as negative inputs.",
+    default=ALL_GROUND,
+)
 
 BOARD = Block(
     "Miscellaneous Parameters: Board Information",

@@ -1,0 +1,48 @@
+"""The terminals of the card's analog inputs, as the machine file and a scenario set them."""
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plant.counts import count_of
+from openacr.plant.schema import Analog, Axis, World
+
+FULL_DAC_BITS = 16
+_FIRST, _LAST = (at.ADC_BASE + n * at.ADC_STRIDE + at.ADC_ADC_INPUT for n in (0, at.PLA_COUNT - 1))
+
+
+def write_analogs(memory: Memory, world: World) -> None:
+    """Wire the analog inputs; the voltage of an axis is kept as that of its encoder count."""
+    by_number = {axis.number: axis for axis in world.axis}
+    for analog in world.analog:
+        row = at.PLAF_BASE + analog.input * at.PLAF_STRIDE
+        memory.F[row + at.PLAF_BASE_V] = analog.volts
+        memory.F[row + at.PLAF_DAC_STEP] = 2.0 ** (FULL_DAC_BITS - world.card.dac_bits)
+        wired = at.PLAI_BASE + analog.input * at.PLAI_STRIDE
+        memory.I[wired + at.PLAI_DAC] = 0 if analog.dac is None else analog.dac + 1
+        if analog.axis is not None:
+            memory.I[wired + at.PLAI_AXIS] = analog.axis + 1
+            _follow(memory, row, analog, by_number[analog.axis])
+    memory.I[at.PLGI_BASE + at.PLGI_ANALOGS] = len(world.analog)
+
+
+def _follow(memory: Memory, row: int, analog: Analog, axis: Axis) -> None:
+    origin, unit = count_of(axis, 0.0), count_of(axis, 1.0)
+    per_count = analog.volts_per_unit / (unit - origin)
+    memory.F[row + at.PLAF_VOLTS_PER_CNT] = per_count
+    memory.F[row + at.PLAF_BASE_V] -= per_count * origin
+
+
+def terminal(parameter: int) -> int | None:
+    """The analog input of the card whose own parameter this is, None if it is none."""
+    if not _FIRST <= parameter <= _LAST or (parameter - _FIRST) % at.ADC_STRIDE:
+        return None
+    return (parameter - _FIRST) // at.ADC_STRIDE
+
+
+def put_volts(memory: Memory, channel: int, volts: float) -> None:
+    """Bring a fixed voltage to an analog input, whatever was wired to it."""
+    row = at.PLAF_BASE + channel * at.PLAF_STRIDE
+    wired = at.PLAI_BASE + channel * at.PLAI_STRIDE
+    memory.F[row + at.PLAF_BASE_V] = volts
+    memory.F[row + at.PLAF_VOLTS_PER_CNT] = 0.0
+    memory.I[wired + at.PLAI_AXIS] = memory.I[wired + at.PLAI_DAC] = 0
+    memory.I[at.PLGI_BASE + at.PLGI_ANALOGS] |= 1

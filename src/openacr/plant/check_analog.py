@@ -1,0 +1,29 @@
+"""Contradictions of what is wired to the analog inputs of the card."""
+
+from collections.abc import Iterator
+
+from openacr.plant.complaint import Complaint
+from openacr.plant.schema import Analog, World
+
+
+def analog_faults(world: World) -> Iterator[Complaint]:
+    """Yield what does not fit together among the analog inputs."""
+    axes = {axis.number for axis in world.axis}
+    taken: dict[int, int] = {}
+    for index, analog in enumerate(world.analog):
+        other = taken.setdefault(analog.input, index)
+        if other != index:
+            text = f"two voltages at analog input {analog.input}"
+            yield Complaint(("analog", index, "input"), text, f"the other is analog[{other}]")
+        for key, text, hint in _faults(analog, axes):
+            yield Complaint(("analog", index, key), text, hint)
+
+
+def _faults(analog: Analog, axes: set[int]) -> Iterator[tuple[str, str, str]]:
+    if analog.axis is None and analog.volts_per_unit:
+        yield "volts_per_unit", "volts_per_unit has a meaning only with axis", ""
+    elif analog.axis is not None and analog.axis not in axes:
+        known = ", ".join(map(str, sorted(axes)))
+        yield "axis", f"there is no axis {analog.axis}", f"axes: {known}"
+    elif analog.axis is not None and not analog.volts_per_unit:
+        yield "axis", f"axis {analog.axis} brings no voltage", "add volts_per_unit"
