@@ -9,6 +9,7 @@ The tables write units of parameters as products and quotients of the words belo
 
 import re
 
+MM_PER_INCH = 25.4
 WORDS = {
     "A": "ampere",
     "V": "volt",

@@ -37,7 +37,9 @@ def test_a_parameter_changed_by_its_name_is_readable_through_its_number(path: Pa
 def test_get_explains_one_parameter_and_tabulates_several(path: Path) -> None:
     output = run("get", "P650002").output
     assert "P650002 Cut Speed = 10 in/min" in output
-    assert "default 10 in/min, typically 10; takes a number above 0 up to 1e+06 in/min" in output
+    assert (
+        "default 10 in/min, typically 10; takes a number above 0 up to 1000000 [in/min]" in output
+    )
     output = run("get", "jog feedrate", "P400000").output
     assert all(f"P35{axis}000" in output for axis in range(8))
     assert "-1 (disable)" in output
@@ -57,11 +59,16 @@ def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_o
     with Store(path) as store:
         assert store.read(650_002) == pytest.approx(300 / 25.4)
         assert store.read(250_101) == pytest.approx(0.002)
-    assert "Cut Speed = 300 mm/min" in run("get", "P650002", "--unit", "mm").output
+    output = run("get", "P650002", "--unit", "mm").output
+    assert "Cut Speed = 300 mm/min" in output
+    assert "takes a number above 0 up to 25400000 [mm/min]" in output
+    run("set", "jog feedrate a=360", "jog feedrate x=254", "--unit", "mm")
+    with Store(path) as store:
+        assert [store.read(n) for n in (353_000, 350_000)] == [360.0, 10.0]
     assert "Cut Speed = 11.811023622 in/min" in run("get", "P650002").output
     run("set", "default units=mm")
     assert "Cut Speed = 300 mm/min" in run("get", "P650002").output
-    assert "Jog Feedrate (axis 3) = 10 deg/min" in run("get", "jog feedrate a").output
+    assert "Jog Feedrate (axis 3) = 360 deg/min" in run("get", "jog feedrate a").output
 
 
 def test_json_holds_every_field(path: Path) -> None:

@@ -47,3 +47,23 @@ def test_everything_exported_is_imported_again() -> None:
 def test_a_number_that_is_none_is_refused() -> None:
     with pytest.raises(UserError, match="P650002 Cut Speed cannot be 9999"):
         imported(Store(), "P650002 = " + "9" * 400)
+
+
+@pytest.mark.parametrize("is_metric", [False, True])
+@pytest.mark.parametrize("written", ["254", '"254mm"', '"10in"', '"254"'])
+def test_lengths_of_a_file_are_in_its_unit_where_they_name_none(
+    written: str, is_metric: bool
+) -> None:
+    store = Store(is_metric=is_metric)
+    store.write(2001, 1.0)  # no longer empty: it keeps its unit
+    imported(store, f'unit = "mm"\nP650002 = {written}')
+    assert store.read(650_002) == (254.0 if is_metric else 10.0)
+
+
+@pytest.mark.parametrize("unit", ["inch", "mm"])
+def test_a_file_that_changes_the_unit_of_the_store_means_its_own_numbers(unit: str) -> None:
+    store = Store()
+    store.write(2001, 1.0)
+    value = 10.0 if unit == "inch" else 254.0
+    imported(store, f'unit = "{unit}"\nP650002 = {value}\nP250001 = "mm"\nP650000 = {value}')
+    assert [store.read(n) for n in (2001, 650_002, 650_000)] == [25.4, 254.0, 254.0]

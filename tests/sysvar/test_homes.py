@@ -7,7 +7,8 @@ import pytest
 from openacr.sysvar import Host, Writer, home_of, parameter
 from openacr.sysvar.homes import BEYOND, HOMES, LAST_SYSTEM
 from openacr.sysvar.lookup import parameters
-from openacr.sysvar.tabs import CELLS, FIRST_CELL, TAB_CELLS, TABS
+from openacr.sysvar.schema import FIRST_SYSTEM
+from openacr.sysvar.tabs import CELLS, TAB_CELLS, TABS
 
 
 def test_the_ranges_follow_each_other_without_gap() -> None:
@@ -22,7 +23,7 @@ def test_every_cell_the_map_gives_to_the_store_has_a_row() -> None:
 
 
 def test_tab_t_starts_at_100000_plus_50000_t() -> None:
-    assert [tab.base for tab in TABS] == [FIRST_CELL + TAB_CELLS * t for t in range(19)]
+    assert [tab.base for tab in TABS] == [FIRST_SYSTEM + TAB_CELLS * t for t in range(19)]
     assert max(found.number for found in parameters()) == LAST_SYSTEM
     assert min(found.number for found in parameters()) == 100
     assert CELLS.base == 0

@@ -172,10 +172,11 @@ def test_the_axes_are_called_x_y_z_a_b_c_u_v() -> None:
 
 
 def test_every_default_is_in_its_own_range() -> None:
-    for factor, store in ((1.0, Store()), (25.4, Store(is_metric=True))):
+    for is_metric in (False, True):
+        store = Store(is_metric=is_metric)
         for found in parameters():
-            default = store.value(found.number)
-            assert checked(found, default, factor) == default, found
+            default, letter = store.value(found.number), store.letter_of(found)
+            assert checked(found, default, is_metric, letter) == default, found
 
 
 def test_lengths_of_a_metric_store_start_25_4_times_as_large() -> None:

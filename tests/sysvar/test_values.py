@@ -15,13 +15,18 @@ from openacr.sysvar.values import parsed, shown, unit_of
         (
             650_000,
             -5,
-            "P650000 Max Machine Speed cannot be -5: a number above 0 up to 1e+06 in/min",
+            "P650000 Max Machine Speed cannot be -5: a number above 0 up to 1000000 [in/min]",
         ),
         (650_000, float("nan"), "Max Machine Speed cannot be nan"),
         (650_000, float("inf"), "Max Machine Speed cannot be inf"),
         (100_001, 9, "P100001 Axis count cannot be 9: a whole number from 2 to 8"),
         (100_001, 2.5, "Axis count cannot be 2.5"),
-        (201_006, 0, "P201006 Pulses/Unit (axis 1) cannot be 0: a number other than 0 pulse/in"),
+        (201_006, 0, "P201006 Pulses/Unit (axis 1) cannot be 0: a number other than 0 [pulse/in]"),
+        (203_006, 0, "Pulses/Unit (axis 3) cannot be 0: a number other than 0 [pulse/deg]"),
+        (200_004, -1, "ExcessErr Band (axis 0) cannot be -1: a number from 0 up [in]"),
+        (250_101, 0, "Epsilon for Compensation cannot be 0: a number above 0 [in]"),
+        (250_120, float("nan"), "DXF Safe Height cannot be nan: any number [in]"),
+        (240, 0.5, "Spindle state cannot be 0.5: any whole number"),
         (200_011, 3, "one of -4, -2, -1, 1, 2, 4"),
         (250_001, 2, "one of 0 (inch), 1 (mm)"),
         (250_103, 1, "Root Epsilon cannot be 1: a whole number from -12 to 0"),
@@ -55,6 +60,19 @@ def test_ranges_of_lengths_follow_the_unit() -> None:
     store = Store(is_metric=True)
     store.write(650_000, 2e7)  # mm/min: more than the number would allow in inches
     assert store.read(650_000) == 2e7
+    with pytest.raises(SettingError, match=r"be 3e\+07: .* above 0 up to 25400000 \[mm/min\]"):
+        store.write(650_000, 3e7)
+    with pytest.raises(SettingError, match=r"'fast': .* above 0 up to 25400000 \[mm/min\]"):
+        parsed(one("P650000"), "fast", is_metric=True)
+
+
+def test_ranges_of_rotary_axes_are_those_of_degrees() -> None:
+    store = Store(is_metric=True)
+    store.write(350_000, 2e7)
+    with pytest.raises(SettingError, match=r"\(axis 3\) .* up to 1000000 \[deg/min\]"):
+        store.write(353_000, 2e7)
+    with pytest.raises(SettingError, match=r"\(axis 3\) cannot be '5mm'"):
+        parsed(one("P353000"), "5mm", letter="A")
 
 
 @pytest.mark.parametrize(

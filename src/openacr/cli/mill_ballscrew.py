@@ -26,14 +26,12 @@ def import_table(
     from openacr.cli.output import require_writable, write_whole
     from openacr.mill.ballscrew import FILE, ON, read
     from openacr.mill.settings import OFFSETS, cell
-    from openacr.sysvar import parameter
     from openacr.sysvar.location import open_to_write
 
     with open_to_write(store) as cells:
         number, name = _axis(cells, axis)
         table = read(file, name)
-        row = parameter(cell(OFFSETS, ON + number))
-        require_service(cells, [] if row is None else [row], password)
+        require_service(cells, [cell(OFFSETS, ON + number)], password)
         kept = _folder(cells) / f"ballscrew_{name}.txt"
         require_writable(kept)
         write_whole(kept, lambda partial: _fill(partial, table))

@@ -142,7 +142,5 @@ def _require_flag(bit: int) -> None:
 
 def _require_service(cells: "Store", password: str | None) -> None:
     from openacr.mill.messages import DEFINED, record
-    from openacr.sysvar import parameter
 
-    row = parameter(record(0, DEFINED))
-    require_service(cells, [] if row is None else [row], password)
+    require_service(cells, [record(0, DEFINED)], password)

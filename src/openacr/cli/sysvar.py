@@ -81,7 +81,7 @@ def list_values(
         named = tab_named(tab)
         if named is None:
             raise UserError(f"there is no tab {tab} (one of {', '.join(t.name for t in TABS)})")
-        _show(cells, in_tab(named), unit, as_json, limit=None if as_json else SHOWN)
+        _show(cells, in_tab(named), unit, as_json)
 
 
 # --- pieces -----------------------------------------------------------------------------
@@ -108,7 +108,6 @@ def _show(
     found: list["Parameter"],
     unit: str | None,
     as_json: bool,
-    limit: int | None = SHOWN,
     *,
     is_full: bool = False,
 ) -> None:
@@ -120,15 +119,16 @@ def _show(
             typer.echo(sentence(cells, each, unit))
             typer.echo(_about(cells, each, unit))
     elif found:
-        _print_table(cells, found[:limit], unit)
-        if limit and len(found) > limit:
-            typer.echo(f"and {len(found) - limit} more; --json lists all", err=True)
+        _print_table(cells, found[:SHOWN], unit)
+        if len(found) > SHOWN:
+            typer.echo(f"and {len(found) - SHOWN} more; --json lists all", err=True)
     else:
         typer.echo("everything is as in a new store")
 
 
 def _in_unit(cells: "Store", parameter: "Parameter", value: float, unit: str | None) -> float:
-    from openacr.sysvar.values import MM_PER_INCH, SHOWN_DIGITS, rounded, scaled
+    from openacr.sysvar.values import SHOWN_DIGITS, rounded, scaled
+    from openacr.units import MM_PER_INCH
 
     if is_metric_in(cells, unit) == cells.is_metric:
         return value
@@ -162,7 +162,7 @@ def _about(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
     n = parameter.number
     default = _value_text(cells, parameter, cells.default(n), unit)
     typical = f", typically {parameter.row.typical}" if parameter.row.typical else ""
-    takes = accepted(parameter, 25.4 if cells.is_metric else 1.0)
+    takes = accepted(parameter, is_metric_in(cells, unit), cells.letter_of(parameter))
     return f"  {parameter.tab}: {parameter.row.doc}\n  default {default}{typical}; takes {takes}"
 
 

@@ -14,7 +14,6 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from openacr.sysvar import Parameter, Store
 
-FIRST_SYSTEM = 100_000
 PASSWORD = "OPENACR_PASSWORD"
 
 Password = Annotated[
@@ -43,7 +42,7 @@ def set_values(
 
     with open_to_write(store) as cells:
         changes = [(one(name), text) for name, text in map(_split, settings)]
-        require_service(cells, [parameter for parameter, _ in changes], password)
+        require_service(cells, [parameter.number for parameter, _ in changes], password)
         with cells.transaction():
             for parameter, text in changes:
                 _set(cells, parameter, text, unit)
@@ -79,14 +78,13 @@ def import_values(
     password: Password = None,
 ) -> None:
     """Read settings from TOML: all of them, or none when one is refused."""
-    from openacr.sysvar import parameter
     from openacr.sysvar.exchange import imported
     from openacr.sysvar.location import open_to_write
+    from openacr.sysvar.schema import FIRST_SYSTEM
 
     text = _read(file)
     with open_to_write(store) as cells:
-        first = parameter(FIRST_SYSTEM)
-        require_service(cells, [] if first is None else [first], password)
+        require_service(cells, [FIRST_SYSTEM], password)
         count = imported(cells, text, str(file))
     typer.echo(f"{count} settings were stored")
 
@@ -99,13 +97,11 @@ def change_password(
     ] = None,
 ) -> None:
     """Guard the system parameters with a password, or guard them no more."""
-    from openacr.sysvar import parameter
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.password import CELL, change
 
-    guarded = parameter(CELL)
     with open_to_write(store) as cells:
-        require_service(cells, [] if guarded is None else [guarded], password)
+        require_service(cells, [CELL], password)
         if new is None:
             new = typer.prompt(
                 "New password", hide_input=True, confirmation_prompt=True, default=""
@@ -126,27 +122,27 @@ def _split(setting: str) -> tuple[str, str]:
 
 def _set(cells: "Store", parameter: "Parameter", text: str, unit: str | None) -> None:
     from openacr.sysvar.password import CELL
-    from openacr.sysvar.values import parsed
+    from openacr.sysvar.values import ROTARY, parsed
 
     if parameter.number == CELL:
         raise UserError("a password is set by `openacr sysvar password`")
-    is_length = parameter.is_length or parameter.is_per_length
+    letter = cells.letter_of(parameter)
+    is_length = (parameter.is_length or parameter.is_per_length) and letter not in ROTARY
     if unit and is_length and text.strip()[-1:].isdigit():
         text = f"{text} {MM if is_metric_in(cells, unit) else 'in'}"
-    value = parsed(parameter, text, cells.is_metric)
+    value = parsed(parameter, text, cells.is_metric, letter)
     if isinstance(value, str):
         cells.write_text(parameter.number, value)
     else:
         cells.write(parameter.number, value)
 
 
-def require_service(
-    cells: "Store", parameters: Iterable["Parameter"], password: str | None
-) -> None:
+def require_service(cells: "Store", numbers: Iterable[int], password: str | None) -> None:
     """Ask for the password where system parameters change."""
     from openacr.sysvar.password import is_asked, is_right
+    from openacr.sysvar.schema import FIRST_SYSTEM
 
-    if not is_asked(cells) or all(each.number < FIRST_SYSTEM for each in parameters):
+    if not is_asked(cells) or all(n < FIRST_SYSTEM for n in numbers):
         return
     given = password or os.environ.get(PASSWORD)
     if given is None and sys.stdin.isatty():

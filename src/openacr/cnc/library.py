@@ -23,6 +23,7 @@ from openacr.cnc.part import (
     text_of,
 )
 from openacr.errors import UserError
+from openacr.units import MM_PER_INCH
 
 FOLDER = Path(__file__).parent / "library"
 SUFFIX = ".TXT"
@@ -30,7 +31,6 @@ SUFFIX = ".TXT"
 UNITS, IJ_CODE, LEAD_IN_CELL, CMP_RAD = 250_001, 250_004, 250_005, 100_020
 START_FEED, CUT_SPEED = 100_021, 650_002
 D_RADIUS, D_WEAR, LAST_D = 1000, 1500, 400
-MM_PER_INCH = 25.4
 LENGTHS = frozenset((INCH, MM))
 DIGITS = 12
 

@@ -20,8 +20,8 @@ from openacr.cnc.elements import Element
 from openacr.cnc.hosts import Cells
 from openacr.cnc.modal import COMPATIBILITY, Modal
 from openacr.cnc.turn import Turn
+from openacr.units import MM_PER_INCH
 
-MM_PER_INCH = 25.4
 DEFAULT_UNIT = 250_001
 METRIC = 21
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from openacr.mill.settings import AXES, AXIS, CONTROL, DISPLAY, Store, cell
-from openacr.sysvar.values import MM_PER_INCH
+from openacr.units import MM_PER_INCH
 
 ROTARY = frozenset("ABC")
 METRIC_MODE = 21

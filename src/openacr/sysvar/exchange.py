@@ -6,7 +6,7 @@
     [SPEEDS]
     P650002 = 12.5  # Cut Speed [in/min]
 
-Keys are numbers or unique names; lengths are in the unit of the file.
+Keys are numbers or unique names; lengths are in the unit of the file, where they name none.
 """
 
 import json
@@ -19,7 +19,8 @@ from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import Kind, Parameter
 from openacr.sysvar.store import AT_START, Store
-from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
+from openacr.sysvar.values import SettingError, Value
+from openacr.units import MM_PER_INCH
 
 LAYOUT = 1
 INCH, MM = "inch", "mm"
@@ -72,7 +73,7 @@ def _key(name: str) -> str:
     return name if name.replace("-", "").isalnum() else json.dumps(name)
 
 
-def imported(store: Store, text: str, place: str = "") -> int:
+def imported(store: Store, text: str, place: str = "the file") -> int:
     """Store the settings of a file, all or none; the result counts them.
 
     A store that is still empty takes the unit of the file, any other keeps its own.
@@ -80,7 +81,7 @@ def imported(store: Store, text: str, place: str = "") -> int:
     try:
         document = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise UserError(f"{place or 'the file'}: {error}") from None
+        raise UserError(f"{place}: {error}") from None
     is_metric = _checked_head(document, place)
     try:
         with store.transaction():
@@ -88,7 +89,7 @@ def imported(store: Store, text: str, place: str = "") -> int:
                 store.begin_metric()
             return _apply(store, list(_entries(document)), is_metric)
     except (MapError, SettingError) as error:
-        raise UserError(f"{place}: {error}" if place else str(error)) from None
+        raise UserError(f"{place}: {error}") from None
 
 
 def _checked_head(document: dict[str, Any], place: str) -> bool:
@@ -100,34 +101,43 @@ def _checked_head(document: dict[str, Any], place: str) -> bool:
     return bool(unit == MM)
 
 
-def _entries(document: dict[str, Any]) -> Iterator[tuple[Parameter, Value]]:
+def _entries(document: dict[str, Any]) -> Iterator[tuple[Parameter, object]]:
     for key, value in document.items():
         if isinstance(value, dict):
             yield from _entries(value)
         elif key not in _HEAD:
-            parameter = lookup.one(key)
-            yield parameter, _value(parameter, value)
+            yield lookup.one(key), value
 
 
-def _value(parameter: Parameter, value: object) -> Value:
+def _apply(store: Store, entries: list[tuple[Parameter, object]], is_metric: bool) -> int:
+    """Names of axes and the unit come first: what lengths are depends on them."""
+    for parameter, value in sorted(entries, key=lambda each: _rank(each[0])):
+        if parameter.is_text:
+            store.write_text(parameter.number, value)  # type: ignore[arg-type]
+        else:
+            store.write(parameter.number, _number(store, parameter, value, is_metric))
+    return len(entries)
+
+
+def _rank(parameter: Parameter) -> int:
+    return 0 if parameter.is_text else 1 if parameter.number == UNITS else 2
+
+
+def _number(store: Store, parameter: Parameter, value: object, is_metric: bool) -> float:
+    """A number of the file, in the unit of the store."""
+    letter = store.letter_of(parameter)
     if isinstance(value, str):
-        return values.parsed(parameter, value)
+        number = values.parsed(parameter, value, is_metric, letter)
+    else:
+        number = _plain_number(parameter, value)
+    if is_metric == store.is_metric:
+        return float(number)
+    factor = 1.0 / MM_PER_INCH if is_metric else MM_PER_INCH
+    return values.scaled(parameter, float(number), factor, letter)
+
+
+def _plain_number(parameter: Parameter, value: object) -> float:
     try:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, OverflowError):
         raise SettingError(parameter, value, values.accepted(parameter)) from None
-
-
-def _apply(store: Store, entries: list[tuple[Parameter, Value]], is_metric: bool) -> int:
-    for parameter, value in entries:
-        if isinstance(value, str):  # names of axes come first: rotary ones are not converted
-            store.write_text(parameter.number, value)
-    factor = 1.0
-    if is_metric != store.is_metric:
-        factor = 1.0 / MM_PER_INCH if is_metric else MM_PER_INCH
-    for parameter, value in entries:
-        if isinstance(value, float):
-            letter = store.letter_of(parameter)
-            number = values.scaled(parameter, value, factor, letter) if factor != 1.0 else value
-            store.write(parameter.number, number)
-    return len(entries)

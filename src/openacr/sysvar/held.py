@@ -1,9 +1,10 @@
 """The cells of a store in memory: what was stored, and defaults that were asked for."""
 
-from openacr.sysvar.values import MM_PER_INCH, Value
+from openacr.sysvar.schema import FIRST_SYSTEM
+from openacr.sysvar.values import Value
+from openacr.units import MM_PER_INCH
 
 UNITS = 250_001  # 0 inch, 1 mm
-FIRST_SYSTEM = 100_000
 
 
 class Held:

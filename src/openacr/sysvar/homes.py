@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from openacr.sysvar.lookup import parameter
-from openacr.sysvar.schema import Parameter
+from openacr.sysvar.schema import FIRST_SYSTEM, Parameter
 
 
 class Host(Enum):
@@ -115,11 +115,10 @@ HOMES = (
     _store(4002, 4095, "available"),
     Home(4096, 20_487, "card parameters", Host.LIVE, False, Writer.CARD),
     _nothing(20_488, 99_999),
-    _store(100_000, LAST_SYSTEM, "system parameters", Writer.SERVICE),
+    _store(FIRST_SYSTEM, LAST_SYSTEM, "system parameters", Writer.SERVICE),
     _nothing(LAST_SYSTEM + 1, BEYOND),
 )
 _FIRSTS = tuple(home.first for home in HOMES)
-FIRST_SYSTEM = 100_000
 
 
 def home_of(n: int) -> Home:

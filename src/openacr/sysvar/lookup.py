@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from openacr.errors import MapError
-from openacr.sysvar.schema import Parameter, Tab
-from openacr.sysvar.tabs import CELLS, FIRST_CELL, TAB_CELLS, TABS
+from openacr.sysvar.schema import FIRST_SYSTEM, Parameter, Tab
+from openacr.sysvar.tabs import CELLS, TAB_CELLS, TABS
 
 _NUMBER = re.compile(r"[Pp]?\s*(\d+)")
 _WORD = re.compile(r"[a-z0-9]+|[+%-]")
@@ -17,9 +17,9 @@ _LAST_TAB = len(TABS) - 1
 
 
 def _tab_of(number: int) -> Tab:
-    if number < FIRST_CELL:
+    if number < FIRST_SYSTEM:
         return CELLS
-    return TABS[min((number - FIRST_CELL) // TAB_CELLS, _LAST_TAB)]
+    return TABS[min((number - FIRST_SYSTEM) // TAB_CELLS, _LAST_TAB)]
 
 
 @lru_cache(maxsize=1 << 14)  # all of them

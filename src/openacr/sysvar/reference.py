@@ -6,10 +6,10 @@ from pathlib import Path
 
 from openacr.sysvar.homes import HOMES, Host, Writer
 from openacr.sysvar.lookup import known
-from openacr.sysvar.schema import AXIS_CELLS, Kind, Row, Tab
+from openacr.sysvar.schema import AXIS_CELLS, Kind, Parameter, Row, Tab
 from openacr.sysvar.store import Store
 from openacr.sysvar.tabs import CELLS, TABS
-from openacr.sysvar.values import limits, plain, shown
+from openacr.sysvar.values import shown, span
 
 MADE_BY = "Written by `make docs` from the tables of `openacr.sysvar`; do not edit."
 UNITS = "Units: u is the default unit (inch or mm), u/m per minute, u/s and u/s2 per second."
@@ -74,7 +74,7 @@ def _rows(tab: Tab) -> Iterator[str]:
             KINDS[row.kind],
             row.unit,
             _defaults(store, found.number, found.number + row.step * (row.count - 1)),
-            _takes(row, *limits(found)),
+            _takes(found),
             row.doc,
         )
         yield f"| {' | '.join(words)} |"
@@ -101,19 +101,13 @@ def _default(store: Store, n: int) -> str:
     return value if isinstance(value, str) else shown(store.parameter(n), value)
 
 
-def _takes(row: Row, low: float, high: float) -> str:
+def _takes(found: Parameter) -> str:
+    row = found.row
     if row.is_fixed:
         return "fixed"
     if row.kind is Kind.CHOICE:
         return ", ".join(_choice(value, word) for value, word in row.words.items())
-    if row.kind in (Kind.BOOLEAN, Kind.TEXT):
-        return ""
-    if row.unit.endswith("/u"):
-        return "not 0"
-    bounds = [f"{'above' if row.is_low_open else 'from'} {plain(low)}"] if low > -high else []
-    if high != float("inf"):
-        bounds = [*bounds, f"to {plain(high)}"]
-    return " ".join(bounds)
+    return "" if row.kind in (Kind.BOOLEAN, Kind.TEXT) else span(found)
 
 
 def _choice(value: int, word: str) -> str:

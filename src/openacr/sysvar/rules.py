@@ -6,7 +6,7 @@ from typing import Protocol
 
 from openacr.models import MODELS
 from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
-from openacr.sysvar.schema import AXES, AXIS_CELLS, Wire
+from openacr.sysvar.schema import AXES, AXIS_CELLS, FIRST_SYSTEM, Wire
 from openacr.sysvar.values import SettingError
 
 MODEL, RUN_STATE = 100_002, 244
@@ -15,7 +15,6 @@ ANGLE1, ANGLE2 = 250_010, 250_011
 FIRST_AXIS, PLUS, MINUS, IS_OFF, NAME = 200_000, 0, 1, 2, 8
 TABLES, CLICKS = (450_000, 500_000, 550_000), 16
 DISPLAY, DISPLAY_FORMATS = 850_000, 2
-FIRST_SYSTEM = 100_000
 SMALL_CARD, SMALL_CARD_LINES = "ACR2000", 16
 CARD_LINES = 32
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}

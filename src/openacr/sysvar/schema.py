@@ -13,6 +13,7 @@ from typing import Any
 
 from openacr.errors import MapError
 
+FIRST_SYSTEM = 100_000  # the first cell that is no variable or offset of programs
 AXES = 8
 AXIS_CELLS = 1_000
 ANY = math.inf

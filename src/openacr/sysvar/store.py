@@ -23,10 +23,11 @@ from openacr.errors import MapError, StoreError
 from openacr.sysvar import lookup, rules, values
 from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
 from openacr.sysvar.database import Database
-from openacr.sysvar.held import FIRST_SYSTEM, UNITS, Held
+from openacr.sysvar.held import UNITS, Held
 from openacr.sysvar.homes import Home, home_of
-from openacr.sysvar.schema import AXIS_CELLS, At, Parameter
-from openacr.sysvar.values import MM_PER_INCH, SettingError, Value
+from openacr.sysvar.schema import AXIS_CELLS, FIRST_SYSTEM, At, Parameter
+from openacr.sysvar.values import SettingError, Value
+from openacr.units import MM_PER_INCH
 
 LOOK_S = 0.05  # the counter is not believed for longer
 NEVER = b""  # no counter ever reads like this
@@ -232,7 +233,8 @@ class Store:
         parameter = self.parameter(n)
         if parameter.row.is_fixed:
             raise SettingError(parameter, value, "it is fixed")
-        new = values.checked(parameter, value, self._held.factor)
+        is_metric, letter = self._held.factor != 1.0, self.letter_of(parameter)
+        new = values.checked(parameter, value, is_metric, letter)
         self._refresh()
         if n in self._held.stored and new == self._held.raw(n):
             return

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 from openacr.errors import UserError
 from openacr.sysvar.schema import ANY, Kind, Parameter
+from openacr.units import MM_PER_INCH
 
-MM_PER_INCH = 25.4
 DIGITS = 15  # kept when lengths are converted: 0.002 inch is 0.0508 mm, not 0.05079999999999999
 SHOWN_DIGITS = 12
 LONGEST_TEXT = 256
@@ -48,19 +48,19 @@ def scaled(parameter: Parameter, value: float, factor: float, letter: str = "") 
 # --- what a cell accepts --------------------------------------------------------------
 
 
-def checked(parameter: Parameter, value: Value, factor: float = 1.0) -> Value:
+def checked(parameter: Parameter, value: Value, is_metric: bool = False, letter: str = "") -> Value:
     """The value as it is stored; SettingError if the cell cannot hold it.
 
-    `factor` is that of a metric store: the ranges of lengths are declared in inches.
+    `is_metric` is the unit of the store, `letter` names the axis of the cell.
     """
     if parameter.is_text:
         return _text(parameter, value)
-    if isinstance(value, str) or not math.isfinite(value):
-        raise SettingError(parameter, value, accepted(parameter, factor), parameter.row.doc)
-    number = float(value)
-    if not _fits(parameter, number, factor):
-        raise SettingError(parameter, number, accepted(parameter, factor), parameter.row.doc)
-    return number
+    if not (isinstance(value, str) or not math.isfinite(value)):
+        number = float(value)
+        if _fits(parameter, number, is_metric, letter):
+            return number
+    words = accepted(parameter, is_metric, letter)
+    raise SettingError(parameter, value, words, parameter.row.doc)
 
 
 def _text(parameter: Parameter, value: Value) -> str:
@@ -71,58 +71,60 @@ def _text(parameter: Parameter, value: Value) -> str:
     return value
 
 
-def _fits(parameter: Parameter, number: float, factor: float) -> bool:
+def _fits(parameter: Parameter, number: float, is_metric: bool, letter: str) -> bool:
     row = parameter.row
     if row.kind is not Kind.REAL and not number.is_integer():
         return False
     if row.kind is Kind.CHOICE:
         return int(number) in row.words
-    low, high = limits(parameter, factor)
     if parameter.is_per_length and number == 0:
         return False
+    low, high = _limits(parameter, is_metric, letter)
     return low < number <= high if row.is_low_open else low <= number <= high
 
 
-def limits(parameter: Parameter, factor: float = 1.0) -> tuple[float, float]:
-    """The lowest and highest value; lengths in the unit of the store."""
-    scale = factor if parameter.is_length else 1.0
+def _limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, float]:
+    """The lowest and highest value; those of lengths are declared in inches."""
+    is_scaled = is_metric and parameter.is_length and letter not in ROTARY
+    scale = MM_PER_INCH if is_scaled else 1.0
     return parameter.row.low * scale, parameter.row.high * scale
 
 
-def accepted(parameter: Parameter, factor: float = 1.0) -> str:
+def accepted(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str:
     """The values a cell accepts, in words."""
     row = parameter.row
     if row.kind is Kind.TEXT:
         return "text"
     if row.kind in (Kind.CHOICE, Kind.BOOLEAN):
         return "one of " + ", ".join(_choice(value, word) for value, word in row.words.items())
-    kind = "a whole number" if row.kind is Kind.INTEGER else "a number"
-    span = _span(parameter, factor)
-    unit = f" {unit_of(parameter, factor != 1.0)}" if row.unit else ""
+    kind = "whole number" if row.kind is Kind.INTEGER else "number"
+    reach = span(parameter, is_metric, letter)
+    unit = f" [{unit_of(parameter, is_metric, letter)}]" if row.unit else ""
     names = "".join(f"; {value} = {word}" for value, word in row.words.items())
-    return f"{kind}{span}{unit}{names}"
+    return f"a {kind} {reach}{unit}{names}" if reach else f"any {kind}{unit}{names}"
 
 
 def _choice(value: int, word: str) -> str:
     return word if word == str(value) else f"{value} ({word})"
 
 
-def _span(parameter: Parameter, factor: float) -> str:
-    low, high = limits(parameter, factor)
-    is_open = parameter.row.is_low_open
+def span(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str:
+    """The range of a number in words, empty where there is none."""
     if parameter.is_per_length:
-        return " other than 0"
+        return "other than 0"
+    low, high = _limits(parameter, is_metric, letter)
     if low == -ANY and high == ANY:
         return ""
+    begin = f"{'above' if parameter.row.is_low_open else 'from'} {plain(low)}"
     if high == ANY:
-        return f" above {low:g}" if is_open else f" from {low:g} up"
-    return f" above {low:g} up to {high:g}" if is_open else f" from {low:g} to {high:g}"
+        return begin if parameter.row.is_low_open else f"{begin} up"
+    return f"{begin} {'up ' if parameter.row.is_low_open else ''}to {plain(high)}"
 
 
 # --- how users write and read values ----------------------------------------------------
 
 
-def parsed(parameter: Parameter, text: str, is_metric: bool = False) -> Value:
+def parsed(parameter: Parameter, text: str, is_metric: bool = False, letter: str = "") -> Value:
     """What a user wrote, as a value for the store: numbers, words of choices, lengths."""
     if parameter.is_text:
         return text
@@ -131,7 +133,8 @@ def parsed(parameter: Parameter, text: str, is_metric: bool = False) -> Value:
     if word is not None:
         return word
     convert: Callable[[float], float] = float
-    length = _LENGTH.fullmatch(plain) if parameter.is_length or parameter.is_per_length else None
+    has_length = parameter.is_length or parameter.is_per_length
+    length = _LENGTH.fullmatch(plain) if has_length and letter not in ROTARY else None
     if length:
         plain = length[1]
         factor = _factor(length[2], is_metric)
@@ -142,7 +145,8 @@ def parsed(parameter: Parameter, text: str, is_metric: bool = False) -> Value:
     try:
         return convert(float(plain))
     except ValueError:
-        raise SettingError(parameter, text, accepted(parameter), parameter.row.doc) from None
+        words = accepted(parameter, is_metric, letter)
+        raise SettingError(parameter, text, words, parameter.row.doc) from None
 
 
 def _word(parameter: Parameter, text: str) -> float | None:

@@ -11,8 +11,8 @@ from openacr.cnc.dxf.reading import Drawing2D, read
 from openacr.cnc.dxf.routing import Tool, routed
 from openacr.cnc.dxf.writing import Numbers, drill_program, nearest_first, path_program
 from openacr.errors import UserError
+from openacr.units import MM_PER_INCH
 
-MM_PER_INCH = 25.4
 CHORD_R = 0.1  # height of chords for curves, of epsilon
 DRILLED = frozenset(("POINT", "CIRCLE"))
 STRAIGHT_R = 0.01  # arcs flatter than this much of epsilon are lines

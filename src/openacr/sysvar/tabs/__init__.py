@@ -6,7 +6,7 @@ from openacr.sysvar.tabs.motion import AXES_TAB, HOME, JOG, SERVO, SPEEDS
 from openacr.sysvar.tabs.offsets import MESSAGES, OFFSETS
 from openacr.sysvar.tabs.wiring import FOV, IO, PROBE, ROV, SOV, SPINDLE, TOOL
 
-FIRST_CELL, TAB_CELLS = 100_000, 50_000
+TAB_CELLS = 50_000
 
 TABS = (
     GENERAL,
@@ -30,4 +30,4 @@ TABS = (
     MESSAGES,
 )
 
-__all__ = ["CELLS", "FIRST_CELL", "TABS", "TAB_CELLS"]
+__all__ = ["CELLS", "TABS", "TAB_CELLS"]
