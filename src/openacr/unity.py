@@ -23,6 +23,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).parent
 ORDER = (
     "map/kinds_cy.py",
+    "map/flags_cy.py",
     "kernel/words_cy.py",
     "kernel/profile_cy.py",
     "kernel/axis_cy.py",

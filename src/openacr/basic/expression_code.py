@@ -46,10 +46,16 @@ from openacr.basic.nodes import (
     resolved,
 )
 from openacr.map.memory import kind_table
-from openacr.map.numbers import FLAG_LAST, KIND_FP32, KIND_LONG, KIND_NONE, PUBLIC_COUNT
+from openacr.map.numbers import (
+    FLAG_LAST,
+    FLAG_WORD_BASE,
+    KIND_FP32,
+    KIND_LONG,
+    KIND_NONE,
+    PUBLIC_COUNT,
+)
 from openacr.messages import INVALID_BIT, INVALID_PARAMETER, TYPE_MISMATCH
 
-FLAG_WORDS = 4096
 HIGHEST_INDEX = 2147483646
 
 OPERATORS = {
@@ -161,7 +167,7 @@ class ExpressionEmitter(Assembler):
         else:
             word, bit = divmod(number, 32)
             mask = 1 << bit if bit < 31 else -(1 << 31)
-            self._direct(vm.DO_LOAD_BIT, vm.DO_STORE_BIT, (FLAG_WORDS + word, mask), value)
+            self._direct(vm.DO_LOAD_BIT, vm.DO_STORE_BIT, (FLAG_WORD_BASE + word, mask), value)
 
     def _local(self, kind: LocalKind, index: Expr, value: Callable[[], None] | None) -> None:
         number = _literal(index)

@@ -15,10 +15,7 @@ from openacr.basic.opcodes_cy import (
     VM_SLICE,
     VM_WAIT,
 )
-from openacr.basic.vm_cy import (
-    PROGRAMS,
-    vm_run,
-)
+from openacr.basic.vm_cy import vm_run
 from openacr.basic.waits_cy import (
     WAIT_BIT_CLEAR,
     WAIT_BIT_SET,
@@ -41,6 +38,7 @@ from openacr.map.numbers import (
     PF_PROGRAM_TIMEOUT,
     PF_STEP_REQUEST_FLAG,
     PF_WORD,
+    PROG_COUNT,
     SCHI_BASE,
     SCHI_CHANNELS,
     SCHI_CURSOR,
@@ -115,14 +113,14 @@ def scheduler_step(F: F64, I: I32, S: F32, code: I32, nums: F64, tick: int) -> i
         begin_slice(F, I)
     while I[SCHI_BASE + SCHI_PHASE] == PHASE_CHANNELS:
         thread = I[SCHI_BASE + SCHI_CURSOR]
-        if thread >= 2 * PROGRAMS:
+        if thread >= 2 * PROG_COUNT:
             I[SCHI_BASE + SCHI_PHASE] = PHASE_PROGRAM
         elif advance(F, I, S, code, nums, thread, tick):
             return thread + 1
         else:
             thread += 1
             I[SCHI_BASE + SCHI_CURSOR] = thread
-            if thread < 2 * PROGRAMS:
+            if thread < 2 * PROG_COUNT:
                 I[THI_BASE + thread * THI_STRIDE + THI_BUDGET] = STATEMENTS_PER_SLICE
     thread = I[SCHI_BASE + SCHI_THREAD]
     if thread >= 0:
@@ -140,8 +138,8 @@ def begin_slice(F: F64, I: I32) -> None:
     I[SCHI_BASE + SCHI_THREAD] = thread
     if thread >= 0:
         I[THI_BASE + thread * THI_STRIDE + THI_BUDGET] = STATEMENTS_PER_SLICE
-    I[SCHI_BASE + SCHI_CURSOR] = PROGRAMS
-    I[THI_BASE + PROGRAMS * THI_STRIDE + THI_BUDGET] = STATEMENTS_PER_SLICE
+    I[SCHI_BASE + SCHI_CURSOR] = PROG_COUNT
+    I[THI_BASE + PROG_COUNT * THI_STRIDE + THI_BUDGET] = STATEMENTS_PER_SLICE
     I[SCHI_BASE + SCHI_PHASE] = PHASE_CHANNELS
 
 
@@ -217,7 +215,7 @@ def advance(F: F64, I: I32, S: F32, code: I32, nums: F64, t: int, tick: int) -> 
 
 def flags_of(I: I32, t: int) -> int:
     """Where the program flags of thread t stand; channels show theirs nowhere."""
-    return PF_WORD + t if t < PROGRAMS else THI_BASE + t * THI_STRIDE + THI_SPARE_FLAGS
+    return PF_WORD + t if t < PROG_COUNT else THI_BASE + t * THI_STRIDE + THI_SPARE_FLAGS
 
 
 def show_wait(I: I32, t: int, flag: int) -> None:

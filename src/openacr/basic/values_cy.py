@@ -12,12 +12,13 @@ from openacr.basic.opcodes_cy import (
     ERROR_SUBSCRIPT,
     ERROR_UNDEFINED_VARIABLE,
 )
+from openacr.map.flags_cy import flag_bit, put_flag
+from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
     FLAG_LAST,
     KIND_FP32,
     KIND_FP64,
     KIND_LONG,
-    PUBLIC_COUNT,
     STI_BASE,
     STI_DA_BASE,
     STI_DA_COUNT,
@@ -40,7 +41,6 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["read_bit", "read_parameter", "write_bit", "write_parameter"]
 
-FLAG_WORDS = 4096
 FLOAT32_LIMIT = 3.4028235677973366e38  # from here on rounding to FP32 overflows
 
 # Kinds of locals; the numbers of basic.nodes.LocalKind.
@@ -147,16 +147,9 @@ def element_place(I: I32, program: int, kind: int, array: float, index: float) -
     return header + 1 + number
 
 
-def parameter_kind(I: I32, number: int) -> int:
-    """The kind of parameter `number`, 0 where none is defined."""
-    if number < 0 or number >= PUBLIC_COUNT:
-        return 0
-    return (I[number >> 4] >> ((number & 15) << 1)) & 3
-
-
 def read_parameter(F: F64, I: I32, S: F32, number: int, to: int) -> int:
     """F[to] := parameter `number`; an error number or 0."""
-    kind: int = parameter_kind(I, number)
+    kind: int = kind_of(I, number)
     if kind == KIND_LONG:
         F[to] = float(I[number])
     elif kind == KIND_FP32:
@@ -174,7 +167,7 @@ def read_parameter(F: F64, I: I32, S: F32, number: int, to: int) -> int:
 
 def write_parameter(F: F64, I: I32, S: F32, number: int, value: float) -> int:
     """Parameter `number` := value, converted as its kind demands; an error number or 0."""
-    kind: int = parameter_kind(I, number)
+    kind: int = kind_of(I, number)
     if kind == KIND_LONG:
         I[number] = long_word(value)
     elif kind == KIND_FP32:
@@ -190,7 +183,7 @@ def write_parameter(F: F64, I: I32, S: F32, number: int, value: float) -> int:
 
 def mask_parameter(I: I32, number: int, nandmask: float, ormask: float) -> int:
     """P := (P AND NOT nandmask) OR ormask on a LONG parameter; an error number or 0."""
-    if parameter_kind(I, number) != KIND_LONG:
+    if kind_of(I, number) != KIND_LONG:
         return ERROR_INVALID_PARAMETER
     I[number] = (I[number] & ~long_word(nandmask)) | long_word(ormask)
     return 0
@@ -198,20 +191,12 @@ def mask_parameter(I: I32, number: int, nandmask: float, ormask: float) -> int:
 
 def read_bit(I: I32, number: int) -> int:
     """State of flag `number`, 1 or 0; -1 if there is none."""
-    if number < 0 or number > FLAG_LAST:
-        return -1
-    return (I[FLAG_WORDS + (number >> 5)] >> (number & 31)) & 1
+    return flag_bit(I, number) if 0 <= number <= FLAG_LAST else -1
 
 
 def write_bit(I: I32, number: int, on: bool) -> int:
     """Set or clear flag `number`; an error number or 0."""
-    at: int = FLAG_WORDS + (number >> 5)
-    bit: int = number & 31
-    mask: int = 1
     if number < 0 or number > FLAG_LAST:
         return ERROR_INVALID_BIT
-    mask = mask << bit
-    if bit == 31:
-        mask = -2147483648
-    I[at] = I[at] | mask if on else I[at] & ~mask
+    put_flag(I, number, on)
     return 0

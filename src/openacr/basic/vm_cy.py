@@ -106,21 +106,18 @@ from openacr.basic.values_cy import (
     write_parameter,
 )
 from openacr.basic.waits_cy import (
-    WAIT_BIT_CLEAR,
-    WAIT_BIT_SET,
-    WAIT_PARAMETER_ABOVE,
-    WAIT_PARAMETER_BELOW,
     WAIT_TIME,
+    inhibit,
+    inhibit_position,
     start_wait,
-    wait_is_over,
 )
 from openacr.map.numbers import (
     PF_BLOCK_MODE,
     PF_PAUSE_MODE,
-    PF_PROGRAM_TIMEOUT,
     PF_TRACE_MODE_ENABLE,
     PF_WORD,
     PROG_BASE,
+    PROG_COUNT,
     PROG_LINE_NUMBER,
     PROG_STRIDE,
     STI_BASE,
@@ -158,7 +155,6 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["vm_run"]
 
-PROGRAMS = 16
 STOPS = PF_BLOCK_MODE | PF_PAUSE_MODE | PF_TRACE_MODE_ENABLE
 
 
@@ -180,7 +176,7 @@ def vm_run(
     bottom: int = reals + THF_STACK
     top: int = bottom + I[rows + THI_SP]  # place of the next number to be pushed
     pc: int = base + I[rows + THI_PC]
-    flags_at: int = PF_WORD + t if t < PROGRAMS else rows + THI_SPARE_FLAGS
+    flags_at: int = PF_WORD + t if t < PROG_COUNT else rows + THI_SPARE_FLAGS
     line_at: int = PROG_BASE + t * PROG_STRIDE + PROG_LINE_NUMBER
     error: int = 0
     event: int = 0
@@ -189,7 +185,7 @@ def vm_run(
     word: int = 0
     locals_of: int = I[rows + THI_LOCALS]
     storage: int = STI_BASE + locals_of * STI_STRIDE
-    if t >= PROGRAMS:
+    if t >= PROG_COUNT:
         line_at = rows + THI_LINE
     if top > bottom + THF_STACK_SIZE - 100:
         error = ERROR_STACK
@@ -434,34 +430,20 @@ def vm_run(
             top -= 1
             pc += 1
             if F[top] > 0.0:
-                event = VM_WAIT
                 start_wait(F, I, t, WAIT_TIME, 0, 0.0, F[top], tick)
+                event = VM_WAIT
         elif op == DO_INHIBIT:
             top -= 2
-            word = whole_index(F[top])
-            at = code[pc + 1]
-            if word < 0:  # a computed negative number means the clear state, too
-                word = 0 - word
-                at = 1 - at
+            word = inhibit(F, I, t, code[pc + 1], top, tick)
+            event = VM_WAIT if word > 0 else 0
+            error = 0 - word if word < 0 else 0
             pc += 2
-            if read_bit(I, word) < 0:
-                error = ERROR_INVALID_BIT
-            elif read_bit(I, word) == at:
-                event = VM_WAIT
-                at = WAIT_BIT_CLEAR if at else WAIT_BIT_SET
-                start_wait(F, I, t, at, word, 0.0, F[top + 1], tick)
         elif op == DO_INHIBIT_POSITION:
             top -= 3
-            word = whole_index(F[top])
-            at = WAIT_PARAMETER_BELOW if code[pc + 1] else WAIT_PARAMETER_ABOVE
+            word = inhibit_position(F, I, S, t, code[pc + 1], top, tick)
+            event = VM_WAIT if word > 0 else 0
+            error = 0 - word if word < 0 else 0
             pc += 2
-            if locals_of >= 0:
-                I[PF_WORD + locals_of] = I[PF_WORD + locals_of] & ~PF_PROGRAM_TIMEOUT
-            error = read_parameter(F, I, S, word, top + 3)
-            if error == 0:
-                start_wait(F, I, t, at, word, F[top + 1], F[top + 2], tick)
-                if wait_is_over(F, I, S, t, tick) == 0:
-                    event = VM_WAIT
         elif op == DO_MASK:
             top -= 3
             error = mask_parameter(I, whole_index(F[top]), F[top + 1], F[top + 2])

@@ -1,8 +1,12 @@
 """What threads wait for: times, flags, parameters and rows, kept as numbers."""
 
+from openacr.basic.opcodes_cy import (
+    ERROR_INVALID_BIT,
+)
 from openacr.basic.values_cy import (
     read_bit,
     read_parameter,
+    whole_index,
 )
 from openacr.cmath import (
     ceil,
@@ -10,6 +14,8 @@ from openacr.cmath import (
 from openacr.map.numbers import (
     PF_PROGRAM_DWELLING,
     PF_PROGRAM_INHIBITED,
+    PF_PROGRAM_TIMEOUT,
+    PF_WORD,
     SYSF_BASE,
     SYSF_PERIOD_S,
     THF_BASE,
@@ -18,6 +24,7 @@ from openacr.map.numbers import (
     THF_WAIT_DEADLINE_TK,
     THF_WAIT_VALUE,
     THI_BASE,
+    THI_LOCALS,
     THI_STRIDE,
     THI_WAIT_KIND,
     THI_WAIT_OPERAND,
@@ -90,3 +97,39 @@ def wait_is_over(F: F64, I: I32, S: F32, t: int, tick: int) -> int:
     if deadline > 0.0 and float(tick) >= deadline:
         return 1 if kind == WAIT_TIME or kind == WAIT_NEXT_SLICE else 2
     return 0
+
+
+def inhibit(F: F64, I: I32, t: int, for_clear: int, at: int, tick: int) -> int:
+    """INH of the flag F[at] for at most F[at + 1] seconds: 1 to wait, 0 to go on, -error.
+
+    A number below 0 that was computed means the clear state, too.
+    """
+    number: int = whole_index(F[at])
+    wanted: int = 0 if for_clear else 1
+    if number < 0:
+        number = 0 - number
+        wanted = 1 - wanted
+    state: int = read_bit(I, number)
+    if state < 0:
+        return -ERROR_INVALID_BIT
+    if state == wanted:
+        return 0
+    start_wait(F, I, t, WAIT_BIT_SET if wanted else WAIT_BIT_CLEAR, number, 0.0, F[at + 1], tick)
+    return 1
+
+
+def inhibit_position(F: F64, I: I32, S: F32, t: int, for_below: int, at: int, tick: int) -> int:
+    """IHPOS of the parameter F[at]: until it has passed F[at + 1], for at most F[at + 2] seconds.
+
+    1 to wait, 0 to go on, -error.
+    """
+    number: int = whole_index(F[at])
+    program: int = I[THI_BASE + t * THI_STRIDE + THI_LOCALS]
+    kind: int = WAIT_PARAMETER_BELOW if for_below else WAIT_PARAMETER_ABOVE
+    if program >= 0:
+        I[PF_WORD + program] = I[PF_WORD + program] & ~PF_PROGRAM_TIMEOUT
+    error: int = read_parameter(F, I, S, number, at + 3)
+    if error:
+        return -error
+    start_wait(F, I, t, kind, number, F[at + 1], F[at + 2], tick)
+    return 0 if wait_is_over(F, I, S, t, tick) else 1

@@ -18,12 +18,12 @@ The objects are evaluated before the scans: an input written by a scan acts in t
 interrupt, and a timer of n ms is seen by the scan exactly n ms after the one that set it.
 """
 
+from openacr.map.flags_cy import flag_bit, put_flag
 from openacr.map.numbers import (
     CNT_BASE,
     CNT_COUNTER_COUNT,
     CNT_COUNTER_PRELOAD,
     CNT_STRIDE,
-    FLAG_WORD_BASE,
     PCF_BASE,
     PCF_STRIDE,
     PCF_TIMER_MS,
@@ -89,20 +89,6 @@ INPUTS = (
 EPS_MS = 1e-9
 
 
-def plc_flag(I: I32, number: int) -> int:
-    """State of a flag, 0 or 1."""
-    return (I[FLAG_WORD_BASE + (number >> 5)] >> (number & 31)) & 1
-
-
-def plc_put_flag(I: I32, number: int, on: int) -> None:
-    """Write a flag."""
-    word: int = FLAG_WORD_BASE + (number >> 5)
-    bit: int = number & 31
-    mask: int = 1
-    mask = -2147483648 if bit == 31 else mask << bit
-    I[word] = I[word] | mask if on else I[word] & ~mask
-
-
 def plc_put_inputs(I: I32, n: int, inputs: int, on: int) -> None:
     """Set exactly those flags of object n out of `inputs` that are in `on`."""
     I[PLF_WORD + n] = (I[PLF_WORD + n] & ~inputs) | on
@@ -119,7 +105,7 @@ def plc_scan(I: I32, n: int) -> None:
         operand: int = word >> OPERAND_SHIFT
         negated: int = 1 if word & NEGATED else 0
         if op <= OP_OR:
-            state: int = plc_flag(I, operand) ^ negated
+            state: int = flag_bit(I, operand) ^ negated
             if op == OP_AND:
                 r &= state
             elif op == OP_OR:
@@ -128,7 +114,7 @@ def plc_scan(I: I32, n: int) -> None:
                 saved = (saved << 1) | r if op == OP_LOAD else 0
                 r = state
         elif op == OP_OUT:
-            plc_put_flag(I, operand, r ^ negated)
+            put_flag(I, operand, r != negated)
         elif op == OP_AND_BLOCK:
             r &= saved & 1
             saved >>= 1
@@ -147,7 +133,7 @@ def plc_drive(I: I32, op: int, operand: int, first: int, r: int) -> None:
     """Set and clear a flag, or give an object its inputs; the first of two blocks is `first`."""
     if op == OP_SET or op == OP_CLEAR:
         if r:
-            plc_put_flag(I, operand, 1 if op == OP_SET else 0)
+            put_flag(I, operand, op == OP_SET)
     elif op == OP_TIMER:
         plc_put_inputs(I, operand, PLF_TIMER_INPUT, PLF_TIMER_INPUT if r else 0)
     elif op == OP_COUNTER:
