@@ -112,7 +112,7 @@ def test_a_line_that_waits_is_answered_when_it_is_done(bench: Bench) -> None:
     bench.session.busy = True
     bench.session.write("1\r\n")
     assert bench.sent() == ""
-    bench.runner.waiting[bench.session.thread] = Wait(WaitKind.TIME)
+    bench.runner.waiting[bench.session.thread] = Wait(WaitKind.NEXT_SLICE)
     assert bench.sent() == "1|"
     bench.session.finished()
     assert bench.sent() == "SYS>"

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from openacr.basic.channel_words import FLAG_WORDS
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.session import Session
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -17,7 +18,6 @@ from openacr.network.drivetalk import lines
 if TYPE_CHECKING:
     from openacr.basic.listeners import Listeners
 
-PROGRAMS = 16
 PER_PROGRAM = 4
 BS, LF, CR = 0x08, 0x0A, 0x0D
 

@@ -21,7 +21,7 @@ from openacr.basic.nodes import (
 )
 from openacr.basic.printed import printed
 from openacr.basic.run import Wait
-from openacr.basic.string_storage import ProgramStrings
+from openacr.basic.string_storage import LONGEST_STRING, ProgramStrings
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TYPE_MISMATCH
@@ -29,7 +29,6 @@ from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TY
 if TYPE_CHECKING:
     from openacr.basic.computing import Computing
 
-LONGEST_STRING = 255
 RELATIONS = {
     Op.EQUAL: str.__eq__,
     Op.UNEQUAL: str.__ne__,

@@ -21,9 +21,10 @@ from openacr.basic.computing import WHOLE_LINE, Computing
 from openacr.basic.evaluate import Blocked
 from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Line, Move, Statement
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.registry import Level
-from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.basic.threads import ENDS_WITH_PROGRAM, KINEMATICS, PROGRAMS
+from openacr.basic.run import Run, Wait, WaitKind
+from openacr.basic.threads import ENDS_WITH_PROGRAM, KINEMATICS
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -35,12 +36,6 @@ if TYPE_CHECKING:
     from openacr.basic.session import Session
     from openacr.basic.system import System
 
-_SHOWN = {
-    Show.NOTHING: 0,
-    Show.DWELLING: at.PF_PROGRAM_DWELLING,
-    Show.INHIBITED: at.PF_PROGRAM_INHIBITED,
-    Show.MOVE_PENDING: at.PF_MOVE_PENDING,
-}
 _HOLDS = at.PF_BLOCK_MODE | at.PF_PAUSE_MODE
 _CLEARED_BY_RUN = (
     ENDS_WITH_PROGRAM
@@ -227,23 +222,15 @@ class Executor(Computing):
         if at_trap:
             self.set_row(thread, at.THI_PC, self._row(thread, at.THI_PC) - 2)
         reals = at.THF_BASE + thread * at.THF_STRIDE
-        shown = _SHOWN[wait.show]
         self.set_row(thread, at.THI_WAIT_KIND, wait.kind)
         self.set_row(thread, at.THI_WAIT_OPERAND, wait.operand)
-        self.set_row(thread, at.THI_WAIT_SHOW, shown)
+        self.set_row(thread, at.THI_WAIT_SHOW, wait.show)
         self.memory.F[reals + at.THF_WAIT_VALUE] = wait.value
-        self.memory.F[reals + at.THF_WAIT_DEADLINE_TK] = self._deadline(wait)
+        is_next = wait.kind is WaitKind.NEXT_SLICE
+        self.memory.F[reals + at.THF_WAIT_DEADLINE_TK] = self.tick + 1.0 if is_next else 0.0
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_WAITING)
         if thread < PROGRAMS:
-            self.memory.I[at.PF_WORD + thread] |= shown
-
-    def _deadline(self, wait: Wait) -> float:
-        if wait.kind is WaitKind.NEXT_SLICE:
-            return self.tick + 1.0
-        if wait.timeout_s <= 0:
-            return 1.0 if wait.kind is WaitKind.TIME else 0.0
-        ticks = -(-wait.timeout_s // self.memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S])
-        return self.tick + max(1.0, ticks)
+            self.memory.I[at.PF_WORD + thread] |= wait.show
 
     # commands
 

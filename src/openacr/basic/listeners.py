@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from openacr.basic.run import LINE_END
+
 if TYPE_CHECKING:
     from openacr.basic.session import Session
-
-LINE_END = "\r\n"
-PROGRAMS = 16
 
 
 class Listeners:

@@ -11,9 +11,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from openacr.lang.lexer import LINE_LIMIT
 from openacr.lang.shape import shape, shapes
-
-LONGEST_LINE = 255
 
 _PROMPT = re.compile(r"\s*(?:SYS|P\d\d|PLC\d)>\s*", re.IGNORECASE)
 _QUOTES = '"\u201c\u201d\u201e'
@@ -135,7 +134,7 @@ def _joined(lines: list[FileLine]) -> list[FileLine]:
 
 def _continues(text: str, following: str) -> bool:
     """Whether `following` is the rest of `text`, which leaves something open."""
-    if len(text) + 1 + len(following) > LONGEST_LINE:
+    if len(text) + 1 + len(following) > LINE_LIMIT:
         return False
     if _scan(text).is_string_open:
         return sum(following.count(quote) for quote in _QUOTES) % 2 == 1

@@ -10,7 +10,7 @@ from openacr.basic.memory_cost import (
     STRING_ARRAY_CHARACTERS,
     string_bytes,
 )
-from openacr.basic.string_storage import ProgramStrings, StringBlock
+from openacr.basic.string_storage import LONGEST_STRING, ProgramStrings, StringBlock
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import (
@@ -20,8 +20,7 @@ from openacr.messages import (
     UNDEFINED_VARIABLE,
 )
 
-PROGRAMS = 16
-LONGEST_STRING = 255
+PROGRAMS = at.PROG_COUNT
 
 _SCALAR = {kind.name: kind for kind in SCALARS}
 _ARRAY = {kind.name: kind for kind in ARRAYS}

@@ -3,14 +3,13 @@
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
-_LONG_VARIABLES = 38912  # to 39167 LONG, to 39423 FP32
-_LONG_VARIABLES_END = 39424
+LONG_VARIABLES = (at.USRI_BASE, at.USRS_BASE + at.USRS_COUNT)  # LONG, then FP32
 _WORD_BYTES = 4
 
 # Stretches of the I view: user variables, their count, dimensions, and the heap with
 # everything programs have dimensioned.
 _STRETCHES = (
-    (_LONG_VARIABLES, _LONG_VARIABLES_END),
+    LONG_VARIABLES,
     (2 * at.USER_BASE, 2 * (at.USER_BASE + at.USER_COUNT)),
     (at.SYSI_BASE + at.SYSI_P_COUNT, at.SYSI_BASE + at.SYSI_P_COUNT + 1),
     (at.STI_BASE, at.STI_BASE + at.ST_COUNT * at.STI_STRIDE),

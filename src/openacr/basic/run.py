@@ -11,6 +11,7 @@ from openacr.basic.grammar import Axis
 from openacr.basic.nodes import AxisRef, Expr, Number, Prefix, Statement
 from openacr.basic.registry import Level
 from openacr.errors import CardError
+from openacr.map import numbers as at
 from openacr.messages import (
     INVALID_ARGUMENT,
     NO_MASTER_ATTACHED,
@@ -22,15 +23,13 @@ if TYPE_CHECKING:
     from openacr.motion.card import Card
 
 
-class WaitKind(IntEnum):
-    """What a thread waits for; the numbers are those of the scheduler."""
+LINE_END = "\r\n"
 
-    TIME = 1  # until the timeout
-    BIT_SET = 2
-    BIT_CLEAR = 3
-    PARAMETER_ABOVE = 4  # strictly
-    PARAMETER_BELOW = 5
-    ROW_ABOVE = 6  # a 32-bit row of the memory, by its index in the I view
+
+class WaitKind(IntEnum):
+    """What a command of Python waits for; the numbers are those of waits_cy."""
+
+    ROW_ABOVE = 6  # a 32-bit row of the memory, by its index in the I view; strictly
     ROW_BELOW = 7
     NEXT_SLICE = 8  # try the statement again each slice
 
@@ -39,24 +38,21 @@ class Show(IntEnum):
     """Which program flag is set while a thread waits."""
 
     NOTHING = 0
-    DWELLING = 1
-    INHIBITED = 2
-    MOVE_PENDING = 3
+    INHIBITED = at.PF_PROGRAM_INHIBITED
+    MOVE_PENDING = at.PF_MOVE_PENDING
 
 
 @dataclass(frozen=True, slots=True)
 class Wait:
     """Why a statement is not finished yet.
 
-    `operand` is the flag, parameter or row, `value` what it is compared with. After
-    `timeout_s` (0: never) the thread goes on with Program Timeout set. With `retry` the
-    statement is executed again when the wait is over, else the next one follows.
+    `operand` is the row, `value` what it is compared with. With `retry` the statement is
+    executed again when the wait is over, else the next one follows.
     """
 
     kind: WaitKind
     operand: int = 0
     value: float = 0.0
-    timeout_s: float = 0.0
     retry: bool = False
     show: Show = Show.NOTHING
 
@@ -98,7 +94,7 @@ class Run:
 
     def print(self, text: str) -> None:
         """Send a line of output."""
-        self.write(text + "\r\n")
+        self.write(text + LINE_END)
 
     # arguments
 

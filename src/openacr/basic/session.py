@@ -16,7 +16,9 @@ from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, C
 from openacr.basic.entry import Entry, split_at_level
 from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser, Scope
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.registry import Level
+from openacr.basic.run import LINE_END
 from openacr.errors import CardError
 from openacr.lang.lexer import Token
 from openacr.messages import LINE_TOO_LONG
@@ -24,9 +26,7 @@ from openacr.messages import LINE_TOO_LONG
 if TYPE_CHECKING:
     from openacr.basic.system import System
 
-LINE_END = "\r\n"
 FIRST_CHANNEL_THREAD = 16
-PROGRAMS = 16
 
 
 class Attention(Enum):

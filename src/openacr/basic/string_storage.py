@@ -11,6 +11,8 @@ from openacr.basic.memory_cost import (
 from openacr.errors import CardError
 from openacr.messages import SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
 
+LONGEST_STRING = 255
+
 
 @dataclass(slots=True)
 class StringBlock:

@@ -11,10 +11,9 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from openacr.basic.registry import function
+from openacr.basic.string_storage import LONGEST_STRING
 from openacr.errors import CardError
 from openacr.messages import MATH_ERROR, TYPE_MISMATCH
-
-LONGEST_STRING = 255
 
 _NUMBER = re.compile(
     r"[ \t]*(?P<sign>[+-]?)[ \t]*"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from openacr.basic import scheduler_cy as scheduler
 from openacr.basic.code import Chunk, CodeSpace
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.run import Run
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -17,7 +18,6 @@ from openacr.messages import LABEL_NOT_FOUND, MESSAGES
 if TYPE_CHECKING:
     from openacr.basic.system import System
 
-PROGRAMS = 16
 KINEMATICS = 32  # first thread of the kinematics of masters
 
 ENDS_WITH_PROGRAM = (

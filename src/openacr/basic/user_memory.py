@@ -19,6 +19,7 @@ from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Command, Level
+from openacr.basic.retained import LONG_VARIABLES
 from openacr.basic.storage import PLCS
 from openacr.basic.string_storage import ProgramStrings
 from openacr.errors import CardError
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from openacr.basic.heap import Heap
     from openacr.basic.system import System
 
-_LONG_VARIABLES = slice(38912, 39424)  # in the I view: LONG up to 39167, then FP32
+_LONG_VARIABLES = slice(*LONG_VARIABLES)
 _SCALARS = {kind.name: kind for kind in SCALARS}
 _ARRAYS = {kind.name: kind for kind in ARRAYS}
 

@@ -9,7 +9,6 @@ from openacr.basic import strings
 from openacr.basic.commands.character_io import (
     DEVICES,
     GROUP,
-    LINE_END,
     at_separator,
     read_device,
 )
@@ -17,7 +16,7 @@ from openacr.basic.devices import Key
 from openacr.basic.grammar import Form, Lvalue, Repeat
 from openacr.basic.nodes import Expr, is_text
 from openacr.basic.registry import PROG, PROGRAM, command, function
-from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.basic.run import LINE_END, Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.map import numbers as at

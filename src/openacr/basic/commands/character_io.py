@@ -25,7 +25,7 @@ from openacr.basic.number_format import UsingFormat
 from openacr.basic.pass_through import join_channel
 from openacr.basic.printed import printed
 from openacr.basic.registry import ANY, IMMEDIATE, PROG, command, functions
-from openacr.basic.run import Run, Wait, WaitKind
+from openacr.basic.run import LINE_END, Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.messages import INVALID_DEVICE, SYNTAX_ERROR, UNDEFINED_SYMBOL
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from openacr.basic.parser import Parser
 
 GROUP = "Character I/O"
-LINE_END = "\r\n"
 TAB = "\t"
 DEVICES = 3
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from openacr.basic.commands.interpolation import GROUP, REF
+from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.registry import BY_OBJECT, command
 from openacr.basic.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import kinematics
-
-PROGRAMS = 16
 
 
 @command("INVK", group=GROUP, levels=BY_OBJECT, ref=REF)
