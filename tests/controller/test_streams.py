@@ -190,3 +190,13 @@ def test_the_free_space_of_a_line_is_that_of_its_dimension(host: Host) -> None:
     host.type("DIM COM1(1000)")
     Host(host.card, StreamKind.SERIAL).send("VE")
     assert host.ask("?P7010") == "998"
+
+
+def test_bytes_in_strings_and_remarks_are_kept_as_they_were_sent(host: Host) -> None:
+    host.send("ECHO 0\r")
+    assert host.send(b'?LEN("\xe4\x96");"\xe4\x96\x92"\r') == "2\xe4\x96\x92|SYS>"
+    assert host.send(b'?LEN("\xc3\xa4");"\xc3\xa4"\r') == "2\xc3\xa4|SYS>"
+    assert host.send(b"?5\x962;\x93\xe2\x80\x9d\r") == "3|SYS>"
+    host.send("PROG0\r")
+    assert host.send(b"10 REM it\x92s \xe4\r") == "P00>"
+    assert host.send("LIST\r") == "10 REM it\x92s \xe4|P00>"

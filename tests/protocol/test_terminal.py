@@ -84,7 +84,7 @@ SCRIPTS: dict[str, tuple[bytes, list[Event]]] = {
         [Received(SetLong(12288, 0x121110)), Line("x")],
     ),
     "typographic": ("PRINT “é”\r".encode(), [Line("PRINT “é”")]),
-    "windows": (b"PRINT \x93\xe9\x94\x96\xff\r", [Line('PRINT "é"-ÿ')]),
+    "windows": (b"PRINT \x93\xe9 \x94\xff\r", [Line("PRINT \udc93\udce9 \udc94\udcff")]),
     "other controls": (b"\x01A\x03\tB\r", [Line("A\tB")]),
     "long": (b"Z" * 256 + b"\rA\r", [LineTooLong(), Line("A")]),
     "long but erased": (b"Z" * 257 + b"\x08\x08\r", [Line("Z" * 255)]),

@@ -32,12 +32,12 @@ from openacr.client.requests import (
     Request,
 )
 from openacr.errors import UserError
+from openacr.lang.characters import readable
 from openacr.protocol.escape import BinaryMode, Decoder, encode_packet
 from openacr.protocol.events import NEED_DATA, NeedData
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import Packet
 from openacr.protocol.stream import EchoMode
-from openacr.protocol.typed_line import text_of
 
 CR, CRLF, ESC = b"\r", b"\r\n", b"\x1b"
 ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))
@@ -276,7 +276,7 @@ class Session:
         """Give out the first bytes; what follows has to wait."""
         if not length:
             return NEED_DATA
-        text = text_of(self._received[:length])
+        text = readable(self._received[:length].decode("latin-1"))
         del self._received[:length]
         return Heard(text.replace("\r\n", "\n"))
 
@@ -308,5 +308,5 @@ def bytes_of(text: str) -> bytes:
 
 def split(text: bytes) -> tuple[str, ...]:
     """The lines of an answer; the last one may lack its end."""
-    lines = text_of(text).split("\r\n")
+    lines = readable(text.decode("latin-1")).split("\r\n")
     return tuple(lines[:-1] if not lines[-1] else lines)

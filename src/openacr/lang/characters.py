@@ -5,12 +5,16 @@ may be UTF-8: the card keeps and sends the bytes, and only who shows them needs 
 """
 
 
+# Quotes and dashes of the Windows code page.
+_TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
+
+
 def readable(text: str) -> str:
     """Text of the card as a person reads it: UTF-8 where it is, else a character per byte."""
     try:
         return text.encode("latin-1").decode("utf-8")
     except UnicodeError:
-        return text
+        return text.translate(_TYPOGRAPHIC)
 
 
 def as_typed(text: str) -> bytes:

@@ -193,7 +193,7 @@ def plain(line: str | bytes) -> str:
     if text.isascii():
         return text
     if not isinstance(line, bytes):
-        text = text.encode("utf-8").decode("latin-1")
+        text = text.encode("utf-8", "surrogateescape").decode("latin-1")
     return "".join(_plain_parts(text))
 
 

@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from openacr.lang.lexer import LINE_LIMIT
 from openacr.protocol.events import Line, LineTooLong
-
-LINE_LIMIT = 255
 
 
 @dataclass(slots=True)
@@ -43,13 +42,6 @@ class TypedLine:
         self.excess = 0
 
 
-# Quotes and dashes of the Windows code page, in text that is not UTF-8.
-_TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
-
-
 def text_of(line: bytes | bytearray) -> str:
-    """Typed bytes as text: UTF-8 where they are, else one character per byte."""
-    try:
-        return line.decode("utf-8")
-    except UnicodeDecodeError:
-        return line.decode("latin-1").translate(_TYPOGRAPHIC)
+    """Typed bytes as text: UTF-8 where they are; other bytes stay what they are (PEP 383)."""
+    return line.decode("utf-8", "surrogateescape")
