@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from openacr import compiled, unity
+from openacr.kernel.tick_cy import tick
+from openacr.map.memory import Memory
 from openacr.unity import UnityError, source_hash, unity_source, write_unity
 
 HEAD = "from openacr.views import F64\n\nLIMIT = 4\n\n"
@@ -67,6 +69,28 @@ def test_a_small_source_gets_c_types_and_literals(
     assert "F[n + 4]" in text
 
 
+def test_the_views_of_the_state_are_passed_as_one_pointer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = joined(
+        tmp_path,
+        monkeypatch,
+        "from openacr.views import F32, I32\n"
+        "def f(F: F64, I: I32, n: int, x: F64) -> float:\n    return F[I[n]] + x[n]\n"
+        "def g(F: F64, I: I32, S: F32, x: F64) -> float:\n    return S[0] * f(F, I, 1, x)\n",
+    )
+    assert "def f(M: cython.p_char, n: cython.longlong, x: cython.p_double)" in text
+    assert "return S[0] * f(M, 1, x)" in text
+
+
+def test_views_of_two_buffers_are_refused() -> None:
+    if not compiled.is_compiled:
+        pytest.skip("nothing is compiled")
+    one, other = Memory(), Memory()
+    with pytest.raises(ValueError, match="two buffers"):
+        compiled.counterpart(tick)(one.F, one.I, other.S)
+
+
 @pytest.mark.parametrize(
     ("code", "message"),
     [
@@ -76,6 +100,11 @@ def test_a_small_source_gets_c_types_and_literals(
         ("def f(n: float) -> float:\n    return n**2\n", "//, % and ** differ"),
         ("def f(n) -> int:\n    return 1\n", "every argument and result needs a simple type"),
         ("def f(n: str) -> int:\n    return 1\n", "every argument and result needs a simple type"),
+        (
+            "def f(F: F64) -> None:\n    F[0] = 1.0\n"
+            "def g(F: F64, other: F64) -> None:\n    f(other)\n",
+            "has to get F, I and S as they are",
+        ),
         ("class A:\n    pass\n", "only functions and constants are compiled"),
         ("from os import path\n", "import of os cannot be compiled"),
         ("def f() -> None:\n    pass\n\n\ndef f() -> None:\n    pass\n", "f is defined twice"),

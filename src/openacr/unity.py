@@ -3,12 +3,13 @@
 The modules are plain typed Python and also run as such. The joined form differs only in
 what C needs:
 
-- annotations become C types (float: double, int: 64-bit, F64/I32/F32/U8: pointers into the
-  state buffer; with `checked`, bounds-checked memoryviews);
+- annotations become C types (float: double, int: 64-bit, F64/I32/F32/U8: pointers; with
+  `checked`, bounds-checked memoryviews);
+- the views F, I and S of the state are passed as one pointer into their buffer;
 - module constants (`NAME = number`, and those of the generated numbers module) become
   literals, so that the inner loop never looks a name up;
 - every function becomes a C function that cannot raise; those listed in a module's
-  `__all__` also get a Python entrance `py_<name>`.
+  `__all__` also get a Python entrance `py_<name>`, which takes the views themselves.
 
 Refused, because interpreted and compiled results could differ: `//`, `%`, `**` and
 imports other than those of the core itself.
@@ -92,6 +93,7 @@ CONSTANT_MODULES = ("openacr.map.numbers",)
 
 SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
 VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
+STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
 Number = int | float
 
 
@@ -136,9 +138,14 @@ def unity_source(*, checked: bool = False) -> str:
         f"SOURCE_HASH = {source_hash()!r}",
         f"CHECKED = {checked!r}",
     ]
+    entrances = [_entrance(functions[name], checked=checked) for name in exported]
+    if not checked:
+        places = {name: _state_places(function) for name, function in functions.items()}
+        for function in functions.values():
+            _pass_one_pointer(function, places)
     for function in functions.values():
         blocks.append(ast.unparse(_compiled_function(function, checked=checked)))
-    blocks.extend(_entrance(functions[name], checked=checked) for name in exported)
+    blocks.extend(entrances)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
 
 
@@ -263,7 +270,9 @@ def _literal(number: Number) -> ast.expr:
 
 def _c_type(annotation: ast.expr | None, *, checked: bool, where: str) -> ast.expr:
     name = annotation.id if isinstance(annotation, ast.Name) else None
-    if name in SCALARS:
+    if name == "M":
+        text = "cython.p_char"
+    elif name in SCALARS:
         text = SCALARS[name]
     elif name in VIEWS:
         text = f"cython.{VIEWS[name]}[::1]" if checked else f"cython.p_{VIEWS[name]}"
@@ -272,6 +281,37 @@ def _c_type(annotation: ast.expr | None, *, checked: bool, where: str) -> ast.ex
     else:
         raise UnityError(f"{where}: every argument and result needs a simple type")
     return ast.parse(text, mode="eval").body
+
+
+def _state_places(function: ast.FunctionDef) -> list[int]:
+    """Which parameters of a function are views of the state buffer."""
+    return [place for place, a in enumerate(function.args.args) if a.arg in STATE]
+
+
+def _pass_one_pointer(function: ast.FunctionDef, places: dict[str, list[int]]) -> None:
+    """Pass the state as one pointer `M` instead of up to three into the same buffer.
+
+    The C compiler then keeps one register for what took three, and knows that all rows lie
+    at fixed distances from each other.
+    """
+    for call in ast.walk(function):
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name):
+            state = places.get(call.func.id)
+            if state:
+                if not all(ast.unparse(call.args[place]) in STATE for place in state):
+                    raise UnityError(
+                        f"{function.name}: {call.func.id} has to get F, I and S as they are"
+                    )
+                rest = [a for place, a in enumerate(call.args) if place not in state]
+                call.args = [ast.Name("M", ast.Load()), *rest]
+    state = places[function.name]
+    if not state:
+        return
+    views = [function.args.args[place].arg for place in state]
+    others = [a for place, a in enumerate(function.args.args) if place not in state]
+    function.args.args = [ast.arg("M", ast.Name("M")), *others]
+    lines = [f"{v}: {STATE[v]} = cython.cast(cython.p_{VIEWS[STATE[v]]}, M)" for v in views]
+    function.body = [*ast.parse("\n".join(lines)).body, *function.body]
 
 
 def _compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
@@ -295,18 +335,26 @@ def _view_types(element: str) -> tuple[str, str]:
 
 def _entrance(function: ast.FunctionDef, *, checked: bool) -> str:
     """The Python-callable wrapper of a compiled function."""
-    parameters, arguments = [], []
+    parameters, arguments, state = [], [], []
     for argument in function.args.args:
-        kind = ast.unparse(argument.annotation) if argument.annotation else ""
-        view = next(
-            (c for c in VIEWS.values() if kind in (f"cython.p_{c}", f"cython.{c}[::1]")), ""
-        )
-        if view:
-            kind = f"cython.{view}[::1]"
-            arguments.append(argument.arg if checked else f"cython.address({argument.arg}[0])")
+        name = argument.arg
+        kind = argument.annotation.id if isinstance(argument.annotation, ast.Name) else ""
+        if kind in VIEWS:
+            parameters.append(f"{name}: cython.{VIEWS[kind]}[::1]")
+            address = f"cython.address({name}[0])"
+            if checked:
+                arguments.append(name)
+            elif name in STATE:
+                state.append(f"cython.cast(cython.p_char, {address})")
+            else:
+                arguments.append(address)
         else:
-            arguments.append(argument.arg)
-        parameters.append(f"{argument.arg}: {kind}")
-    call = f"{function.name}({', '.join(arguments)})"
-    returns = "" if function.returns and "void" in ast.unparse(function.returns) else "return "
-    return f"def py_{function.name}({', '.join(parameters)}):\n    {returns}{call}"
+            parameters.append(f"{name}: {SCALARS[kind]}")
+            arguments.append(name)
+    guard = "".join(
+        f"    if {state[0]} != {other}:\n        raise ValueError('views of two buffers')\n"
+        for other in state[1:]
+    )
+    call = f"{function.name}({', '.join(state[:1] + arguments)})"
+    returns = "" if ast.unparse(function.returns or ast.Constant(None)) == "None" else "return "
+    return f"def py_{function.name}({', '.join(parameters)}):\n{guard}    {returns}{call}"
