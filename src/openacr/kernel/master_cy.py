@@ -357,6 +357,18 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     I[word] = flags
 
 
+def master_busy(I: I32, m: int) -> bool:
+    """Whether master m has moves, a hold, a time base, a curve or a kill to attend to."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    return (
+        I[i + MSI_QUEUED]
+        | I[i + MSI_HOLD]
+        | I[i + MSI_PACED]
+        | I[CPI_BASE + m * CPI_STRIDE + CPI_LIVE]
+        | (I[master_word(m)] & MF1_KILL_ALL_MOVES_REQUEST)
+    ) != 0
+
+
 def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
     """Advance master m by one servo period of `dt` seconds of path time."""
     master_moves(F, I, S, m, dt)

@@ -320,6 +320,9 @@ def edge_behind(F: F64, I: I32, mode: int, e: int, inputs: int, moved: float) ->
 
 def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
     """Look for the edges that triggers of axis n wait for; the edges last one tick."""
+    kind: int = TGI_BASE + n * TRIGGERS * TGI_STRIDE + TGI_KIND
+    if not (I[kind] | I[kind + TGI_STRIDE] | I[kind + 2 * TGI_STRIDE]):
+        return  # all disarmed
     for place in range(TRIGGERS):
         t: int = n * TRIGGERS + place
         i: int = TGI_BASE + t * TGI_STRIDE

@@ -14,7 +14,7 @@ from openacr.kernel.fast_status_cy import fast_status_step
 from openacr.kernel.feedback_cy import encoder_links_step, encoder_step, feedback_step
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
-from openacr.kernel.master_cy import master_step
+from openacr.kernel.master_cy import master_busy, master_step
 from openacr.kernel.modules_cy import missing_inputs_step, missing_outputs_step
 from openacr.kernel.object_cy import object_outputs_step, object_sources_step
 from openacr.kernel.offset_cy import (
@@ -187,7 +187,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
     if I[KRI_BASE + KRI_KINEMATICS]:
         joints_keep(F, I, axes)
     for m in range(masters):
-        master_step(F, I, S, m, period_s)
+        if master_busy(I, m):
+            master_step(F, I, S, m, period_s)
     if I[KRI_BASE + KRI_KINEMATICS]:
         joints_stay(F, I, axes)
     for n in range(axes):
