@@ -13,7 +13,16 @@ import pytest
 from tests.client.cards import AXIS
 from tests.io.served import Served, serving
 
-from openacr.client import AsyncCard, Card, ConnectionLostError, Level, Options, RefusedError
+from openacr.client import (
+    AsyncCard,
+    Card,
+    ConnectionLostError,
+    Level,
+    Options,
+    RefusedError,
+    async_links,
+    links,
+)
 from openacr.client.async_links import AsyncProcessLink, AsyncTcpLink, ThreadLink, for_asyncio
 from openacr.client.links import ProcessLink, SerialLink, TcpLink, link_to
 from openacr.client.values import next_due_s
@@ -254,10 +263,39 @@ def test_asyncio_reconnects_as_well(served: Served) -> None:
 def test_nobody_there_is_said_at_once() -> None:
     with socket.create_server((LOOPBACK, 0)) as taken:
         port = taken.getsockname()[1]
-    with pytest.raises(ConnectionLostError, match=f"cannot connect to {LOOPBACK}:{port}"):
+    said = f"^cannot connect to {LOOPBACK}:{port}: .+ \\(10061: another device"
+    with pytest.raises(ConnectionLostError, match=said):
         Card.open(f"{LOOPBACK}:{port}")
+    with pytest.raises(ConnectionLostError, match=said):
+        asyncio.run(AsyncCard.open(f"{LOOPBACK}:{port}"))
     with pytest.raises(ConnectionLostError, match="cannot open serial port"):
         Card.open("/dev/no-such-port")
+
+
+@pytest.mark.parametrize("is_async", [False, True])
+def test_a_card_that_reads_no_more_is_given_up(
+    monkeypatch: pytest.MonkeyPatch, is_async: bool
+) -> None:
+    monkeypatch.setattr(links, "CONNECT_S", 0.2)
+    monkeypatch.setattr(async_links, "CONNECT_S", 0.2)
+    flood = b"x" * (1 << 24)
+
+    async def fill(link: AsyncTcpLink) -> None:
+        await link.open()
+        with pytest.raises(ConnectionLostError, match=f"{LOOPBACK}:{port} takes no more"):
+            await link.write(flood)
+        await asyncio.wait_for(link.close(), 5.0)
+
+    with socket.create_server((LOOPBACK, 0)) as deaf:
+        port = deaf.getsockname()[1]
+        link = TcpLink(LOOPBACK, port)
+        if is_async:
+            asyncio.run(fill(AsyncTcpLink(link)))
+        else:
+            link.open()
+            with pytest.raises(ConnectionLostError, match=f"{LOOPBACK}:{port}: timed out"):
+                link.write(flood)
+            link.close()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="terminals of POSIX")

@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Protocol, TypeVar
 
+from openacr.client.causes import cannot_connect
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import CONNECT_S, READ_BYTES, Link, ProcessLink, TcpLink
 from openacr.protocol.stream import StreamKind
@@ -54,7 +55,7 @@ class AsyncTcpLink:
             connecting = asyncio.open_connection(*self._address)
             self._streams = await asyncio.wait_for(connecting, CONNECT_S)
         except (OSError, OverflowError) as failure:
-            raise ConnectionLostError(f"cannot connect to {self.name}: {failure}") from None
+            raise cannot_connect(self.name, failure) from None
 
     async def read(self, timeout_s: float | None) -> bytes:
         """What has arrived."""
@@ -74,7 +75,10 @@ class AsyncTcpLink:
         _, writer = self._connected()
         try:
             writer.write(data)
-            await writer.drain()
+            async with asyncio.timeout(CONNECT_S):
+                await writer.drain()
+        except TimeoutError:
+            raise ConnectionLostError(f"{self.name} takes no more") from None
         except OSError as failure:
             raise ConnectionLostError(f"{self.name}: {failure}") from None
 
@@ -96,6 +100,8 @@ class AsyncTcpLink:
         if self._streams is not None:
             _, writer = self._streams
             self._streams = None
+            if writer.transport.get_write_buffer_size():
+                writer.transport.abort()  # else it would wait for a card that reads no more
             writer.close()
             with suppress(OSError):
                 await writer.wait_closed()

@@ -3,6 +3,9 @@
 import errno
 import socket
 
+from openacr.client.errors import ConnectionLostError
+from openacr.errors import reason
+
 NO_DRIVER = "17054: no driver for the USB or serial port, or no such port"
 WRONG_NETWORK = "11003: wrong cable, or wrong address or mask of this host"
 NO_RESPONSE = "11010: wrong cable, or wrong address of the card"
@@ -21,3 +24,9 @@ def network_cause(failure: Exception) -> str:
     if isinstance(failure, socket.gaierror) or getattr(failure, "errno", None) in _NO_WAY:
         return WRONG_NETWORK
     return NOT_REACHABLE
+
+
+def cannot_connect(name: str, failure: Exception) -> ConnectionLostError:
+    """A connection over the network that did not come about, with its cause."""
+    said = reason(failure) or "no answer"
+    return ConnectionLostError(f"cannot connect to {name}: {said} ({network_cause(failure)})")

@@ -9,7 +9,7 @@ import socket
 import time
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from openacr.client.causes import NO_DRIVER, network_cause
+from openacr.client.causes import NO_DRIVER, cannot_connect
 from openacr.client.errors import ConnectionLostError
 from openacr.errors import UserError, reason
 from openacr.protocol.stream import ASCII_PORT, NoFreeStreamError, StreamKind
@@ -91,10 +91,7 @@ class TcpLink:
         try:
             self._socket = socket.create_connection(self.address, CONNECT_S)
         except (OSError, OverflowError) as failure:
-            cause = network_cause(failure)
-            raise ConnectionLostError(
-                f"cannot connect to {self.name}: {failure} ({cause})"
-            ) from None
+            raise cannot_connect(self.name, failure) from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def read(self, timeout_s: float | None) -> bytes:
