@@ -39,7 +39,7 @@ from openacr.views import F64, I32
 
 __all__ = ["networks_due"]
 
-RUNNING = 5  # Phase.RUNNING of the network master
+RUNNING = 5  # what the network master is doing, see `canopen.rows.Phase`
 DRIVE_REQUESTS = (
     DTCF_AUTO_ADDRESS_REQUEST
     | DTCF_GET_CONFIGURATION_REQUEST

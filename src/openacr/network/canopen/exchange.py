@@ -107,7 +107,7 @@ def note_changes(master: Master) -> None:
         time = at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK
         if not master.memory.F[time] and _send_inputs(master, slave) and slave in answering:
             after_ms = figures.MESSAGE_BITS / master.get(at.NETMI_BIT_RATE)
-            master.memory.F[time] = master.tick + master.ticks(after_ms)
+            master.memory.F[time] = master.later_tk(after_ms)
 
 
 def receive_changes(master: Master) -> None:

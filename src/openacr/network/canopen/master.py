@@ -67,5 +67,5 @@ def next_tk(memory: Memory) -> float:
     change_s = bus.next_change_s(memory)
     if change_s is not None:
         after_s = change_s - bus.now_s(memory)
-        times.append(master.tick + master.ticks(after_s * 1000))
+        times.append(master.later_tk(after_s * 1000))
     return min((time for time in times if time), default=0.0)

@@ -6,6 +6,8 @@ from enum import IntEnum
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.network import wake_cy
+from openacr.network.times import later_tk, tick_of
 
 SLAVES = at.NETS_COUNT
 WORD = at.W_CAN
@@ -41,7 +43,7 @@ class Phase(IntEnum):
     IDLE = 2
     INTERROGATING = 3
     RESETTING = 4
-    RUNNING = 5
+    RUNNING = wake_cy.RUNNING
 
 
 class Master:
@@ -55,18 +57,15 @@ class Master:
     @property
     def tick(self) -> int:
         """The present tick."""
-        rows = self.memory.I
-        return (
-            rows[at.SYSI_BASE + at.SYSI_TICK_HIGH] * 2**31 + rows[at.SYSI_BASE + at.SYSI_TICK_LOW]
-        )
+        return tick_of(self.memory)
 
-    def ticks(self, time_ms: float) -> int:
-        """The ticks of a time, at least one."""
-        return max(1, round(time_ms / 1000 / self.memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S]))
+    def later_tk(self, after_ms: float) -> int:
+        """The tick so much later, at least the next."""
+        return later_tk(self.memory, after_ms)
 
     def set_time(self, row: int, after_ms: float) -> None:
         """Let something happen so much later."""
-        self.memory.F[at.NETMF_BASE + row] = self.tick + self.ticks(after_ms)
+        self.memory.F[at.NETMF_BASE + row] = self.later_tk(after_ms)
 
     def time(self, row: int) -> float:
         """The tick at which something happens; 0 never."""

@@ -10,17 +10,11 @@ from collections.abc import Iterator
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.network.wake_cy import DRIVE_REQUESTS
 
 PORTS = ("LPT1", "COM1", "COM2", "", "STREAM3", "STREAM4", "STREAM5")
 FIRST_WORD = at.W_DTALK_LPT1  # the flag words of the ports follow each other
-DEFAULT_BAUD, DEFAULT_BITS = 9600, 10
-REQUESTS = (
-    at.DTCF_AUTO_ADDRESS_REQUEST
-    | at.DTCF_GET_CONFIGURATION_REQUEST
-    | at.DTCF_SEND_CONFIGURATION_REQUEST
-    | at.DTCF_SEND_ERRORL_REQUEST
-    | at.DTCF_GET_DRIVE_DATA_REQUEST
-)
+DEFAULT_BAUD = 9600
 BS, LF, CR, DEL = 0x08, 0x0A, 0x0D, 0x7F
 AT_ONCE_TK = 1.0
 
@@ -105,7 +99,7 @@ _DEVICE = at.NETLI_DEVICE
 
 def pending(memory: Memory, axis: int) -> int:
     """The requests of an axis, as its control flags."""
-    return memory.I[at.DTCF_WORD + axis] & REQUESTS
+    return memory.I[at.DTCF_WORD + axis] & DRIVE_REQUESTS
 
 
 # opening and closing

@@ -12,6 +12,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
 from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
+from openacr.network.times import later_tk, tick_of
 from openacr.plant import aries, rs485
 from openacr.plant.aries_port import split_address
 
@@ -21,18 +22,6 @@ LOOK_MS = 50.0
 PASSED_ON = -1  # instead of a request: a line a terminal has typed
 
 Deliver = Callable[[int, str], None]  # channel, text
-
-
-def tick_of(memory: Memory) -> int:
-    """The present tick."""
-    rows = memory.I
-    return rows[at.SYSI_BASE + at.SYSI_TICK_HIGH] * 2**31 + rows[at.SYSI_BASE + at.SYSI_TICK_LOW]
-
-
-def later_tk(memory: Memory, after_ms: float) -> int:
-    """The tick so much later, at least the next."""
-    period_s = memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S]
-    return tick_of(memory) + max(1, round(after_ms / 1000 / period_s))
 
 
 def attend(memory: Memory, deliver: Deliver) -> None:
