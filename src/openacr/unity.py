@@ -86,6 +86,8 @@ ORDER = (
     "network/wake_cy.py",
     "cnc/compensation/curve_cy.py",
     "cnc/compensation/join_cy.py",
+    "engine/trace_cy.py",
+    "engine/watch_cy.py",
     "engine/loop_cy.py",
     "cnc/scan_cy.py",
 )

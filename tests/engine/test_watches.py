@@ -6,14 +6,16 @@ import pytest
 
 from openacr.compiled import is_compiled, pick
 from openacr.controller import Controller
-from openacr.engine import loop_cy
+from openacr.engine import watch_cy
 from openacr.engine.watches import WATCHES, Place, Watch, set_watches
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.views import F32, F64, I32
 
 Fired = Callable[[F64, I32, F32], bool]
-FORMS = [loop_cy.watch_fired, pick(loop_cy.watch_fired)] if is_compiled else [loop_cy.watch_fired]
+FORMS = (
+    [watch_cy.watch_fired, pick(watch_cy.watch_fired)] if is_compiled else [watch_cy.watch_fired]
+)
 
 
 @pytest.fixture(params=FORMS, ids=["plain", "compiled"][: len(FORMS)])

@@ -12,6 +12,7 @@ from openacr.compiled import pick
 from openacr.controller.machine import Machine
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.engine import loop_cy
+from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 from openacr.engine.watches import Watch, set_watches
 from openacr.map.numbers import (
     ENGI_BASE,
@@ -159,7 +160,7 @@ class Running(Machine):
 
     @property
     def _trace_columns(self) -> int:
-        return loop_cy.TRACE_HEAD + loop_cy.TRACE_AXIS * self.model.axes
+        return TRACE_HEAD + TRACE_AXIS * self.model.axes
 
     def _new_trace_buffer(self) -> None:
         self._trace_buffer = np.zeros(TRACE_CHUNK_ROWS * self._trace_columns)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from openacr.engine.loop_cy import TRACE_AXIS, TRACE_HEAD
+from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 
 Reals = NDArray[np.float64]
 

@@ -7,23 +7,16 @@ the same place of the same tick.
 """
 
 from openacr.basic.scheduler_cy import scheduler_step
+from openacr.engine.trace_cy import trace_tick
+from openacr.engine.watch_cy import watch_fired
 from openacr.kernel.modules_cy import missing_outputs_step
 from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
-    AX_ACTUAL_POSITION,
-    AX_BASE,
-    AX_PPU,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_PSP_VELOCITY_CPS,
-    AXF_SSP_CNT,
-    AXF_STRIDE,
     ENGI_BASE,
     ENGI_IN_TICK,
     ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_TRACE_EVERY,
-    ENGI_TRACE_PEAKS,
     ENGI_TRACE_ROW,
     ENGI_TRACE_ROWS,
     ENGI_TRACE_WAIT,
@@ -54,31 +47,17 @@ from openacr.map.numbers import (
     PLF_WORD,
     SYSF_BASE,
     SYSF_PERIOD_S,
-    SYSF_TIME_S,
     SYSI_BASE,
     SYSI_SLOW_PHASE,
     SYSI_TICK_HIGH,
     SYSI_TICK_LOW,
-    W_INPUTS,
-    W_OUTPUTS,
-    WAT_COUNT,
-    WATF_BASE,
-    WATF_BOUND,
-    WATF_STRIDE,
-    WATI_BASE,
-    WATI_IS_ABOVE,
-    WATI_KIND,
-    WATI_MASK,
-    WATI_ROW,
-    WATI_STATE,
-    WATI_STRIDE,
 )
 from openacr.network.wake_cy import networks_due
 from openacr.plant.step_cy import plant_step
 from openacr.plc.scan_cy import plc_step
 from openacr.views import F32, F64, I32
 
-__all__ = ["engine_run", "watch_fired"]
+__all__ = ["engine_run"]
 
 # Reasons for coming back; THREAD + t: thread t needs Python.
 DONE = 0
@@ -96,13 +75,6 @@ SERVO_DONE = 1
 NETWORKS_DONE = 2
 REQUESTS_DONE = 3
 
-# Where a watched value is: masked bits of a word, or a number that is compared.
-WATCH_WORD = 0
-WATCH_LONG = 1
-WATCH_FP32 = 2
-WATCH_FP64 = 3
-WATCH_AXIS = 4  # actual position in units; row: the first parameter of the axis
-
 PROGRAMS = 16
 CONTROLS = (
     PF_RUN_REQUEST_FLAG
@@ -115,69 +87,6 @@ CONTROLS = (
     | PF_STEP_EDGE_DETECT
 )
 
-TRACE_HEAD = 3  # time, input word, output word
-TRACE_AXIS = 4  # setpoint, actual position, velocity, following error
-
-
-def trace_place(F: F64, I: I32, trace: F64, row: int) -> None:
-    """Write time, inputs, outputs and the positions of this tick into a row of the trace."""
-    axes: int = I[KRI_BASE + KRI_AXES]
-    at: int = row * (TRACE_HEAD + TRACE_AXIS * axes)
-    trace[at] = F[SYSF_BASE + SYSF_TIME_S]
-    trace[at + 1] = I[W_INPUTS]
-    trace[at + 2] = I[W_OUTPUTS]
-    at += TRACE_HEAD
-    for n in range(axes):
-        trace[at] = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
-        trace[at + 1] = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
-        at += TRACE_AXIS
-
-
-def trace_rates(F: F64, I: I32, trace: F64, low: int, high: int, first: bool) -> None:
-    """Keep the lowest velocities and following errors in one row, the highest in another."""
-    axes: int = I[KRI_BASE + KRI_AXES]
-    columns: int = TRACE_HEAD + TRACE_AXIS * axes
-    for n in range(axes):
-        a: int = AXF_BASE + n * AXF_STRIDE
-        place: int = TRACE_HEAD + TRACE_AXIS * n + 2
-        lowest: int = low * columns + place
-        highest: int = high * columns + place
-        velocity: float = F[a + AXF_PSP_VELOCITY_CPS]
-        error: float = F[a + AXF_SSP_CNT] - I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
-        if first or velocity < trace[lowest]:
-            trace[lowest] = velocity
-        if first or velocity > trace[highest]:
-            trace[highest] = velocity
-        if first or error < trace[lowest + 1]:
-            trace[lowest + 1] = error
-        if first or error > trace[highest + 1]:
-            trace[highest + 1] = error
-
-
-def trace_tick(F: F64, I: I32, trace: F64) -> None:
-    """Record this tick if it is its turn.
-
-    To keep the peaks, rows are written in pairs for twice the time between two samples. The
-    positions are those of the begin and the middle of that time; velocity and following
-    error are the lowest and highest of all its ticks.
-    """
-    e: int = ENGI_BASE
-    every: int = I[e + ENGI_TRACE_EVERY]
-    row: int = I[e + ENGI_TRACE_ROW]
-    I[e + ENGI_TRACE_WAIT] -= 1
-    wait: int = I[e + ENGI_TRACE_WAIT]
-    if wait <= 0:
-        pair: int = 1 if I[e + ENGI_TRACE_PEAKS] else 0
-        trace_place(F, I, trace, row)
-        trace_place(F, I, trace, row + pair)
-        trace_rates(F, I, trace, row, row + pair, True)
-        I[e + ENGI_TRACE_ROW] = row + 1 + pair
-        I[e + ENGI_TRACE_WAIT] = every + every * pair
-    elif I[e + ENGI_TRACE_PEAKS] and row >= 2:
-        if wait == every:
-            trace_place(F, I, trace, row - 1)
-        trace_rates(F, I, trace, row - 2, row - 1, False)
-
 
 def until_met(I: I32) -> bool:
     """Whether the flag the caller waits for has its state."""
@@ -187,48 +96,6 @@ def until_met(I: I32) -> bool:
         return False
     on: int = 1 if I[word] & I[e + ENGI_UNTIL_MASK] else 0
     return on == I[e + ENGI_UNTIL_STATE]
-
-
-def watch_value(F: F64, I: I32, S: F32, kind: int, row: int) -> float:
-    """The watched number."""
-    value: float = 0.0
-    if kind == WATCH_LONG:
-        value = I[row]
-    elif kind == WATCH_FP32:
-        value = S[row]
-    elif kind == WATCH_FP64:
-        value = F[row]
-    elif kind == WATCH_AXIS:
-        value = I[row + AX_ACTUAL_POSITION]
-        ppu: float = S[row + AX_PPU]
-        if ppu != 0.0:
-            value /= ppu
-    return value
-
-
-def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
-    """The masked bits of a word, or whether a number is beyond its bound."""
-    w: int = WATI_BASE + n * WATI_STRIDE
-    row: int = I[w + WATI_ROW]
-    if I[w + WATI_KIND] == WATCH_WORD:
-        return I[row] & I[w + WATI_MASK]
-    value: float = watch_value(F, I, S, I[w + WATI_KIND], row)
-    bound: float = F[WATF_BASE + n * WATF_STRIDE + WATF_BOUND]
-    if I[w + WATI_IS_ABOVE]:
-        return 1 if value > bound else 0
-    return 1 if value < bound else 0
-
-
-def watch_fired(F: F64, I: I32, S: F32) -> bool:
-    """Whether something watched has changed since the last look."""
-    fired: bool = False
-    for n in range(min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)):
-        state: int = watch_state(F, I, S, n)
-        w: int = WATI_BASE + n * WATI_STRIDE
-        if state != I[w + WATI_STATE]:
-            I[w + WATI_STATE] = state
-            fired = True
-    return fired
 
 
 def requests_pending(I: I32) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from openacr.compiled import pick
-from openacr.engine import loop_cy
+from openacr.engine import watch_cy
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
@@ -17,17 +17,17 @@ _ROWS = (
 _BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
 _IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
 
-_watch_fired = pick(loop_cy.watch_fired)
+_watch_fired = pick(watch_cy.watch_fired)
 
 
 class Place(Enum):
     """Where a watched value is, and of what kind it is."""
 
-    WORD = loop_cy.WATCH_WORD
-    LONG = loop_cy.WATCH_LONG
-    FP32 = loop_cy.WATCH_FP32
-    FP64 = loop_cy.WATCH_FP64
-    AXIS = loop_cy.WATCH_AXIS
+    WORD = watch_cy.WATCH_WORD
+    LONG = watch_cy.WATCH_LONG
+    FP32 = watch_cy.WATCH_FP32
+    FP64 = watch_cy.WATCH_FP64
+    AXIS = watch_cy.WATCH_AXIS
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ ENGINE = HiddenBlock(
         "trace_wait",
         "trace_row",
         "trace_rows",
-        "trace_peaks",  # keep the extremes between samples, see engine/loop_cy.py
+        "trace_peaks",  # keep the extremes between samples, see engine/trace_cy.py
         "watch_count",
         "stop",  # return at the end of this tick
     ),
@@ -27,7 +27,7 @@ WATCH = HiddenBlock(
     count=64,
     doubles=("bound",),
     ints=(
-        "kind",  # where the value is, see engine/loop_cy.py
+        "kind",  # where the value is, see engine/watch_cy.py
         "row",
         "mask",  # of a word
         "is_above",  # a number is compared with the bound: 1 above it, 0 below it

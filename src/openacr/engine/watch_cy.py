@@ -1,0 +1,71 @@
+"""Values that are watched, so that whoever waits for them need not look at every tick."""
+
+from openacr.map.numbers import (
+    AX_ACTUAL_POSITION,
+    AX_PPU,
+    ENGI_BASE,
+    ENGI_WATCH_COUNT,
+    WAT_COUNT,
+    WATF_BASE,
+    WATF_BOUND,
+    WATF_STRIDE,
+    WATI_BASE,
+    WATI_IS_ABOVE,
+    WATI_KIND,
+    WATI_MASK,
+    WATI_ROW,
+    WATI_STATE,
+    WATI_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+__all__ = ["watch_fired"]
+
+# Where a watched value is: masked bits of a word, or a number that is compared.
+WATCH_WORD = 0
+WATCH_LONG = 1
+WATCH_FP32 = 2
+WATCH_FP64 = 3
+WATCH_AXIS = 4  # actual position in units; row: the first parameter of the axis
+
+
+def watch_value(F: F64, I: I32, S: F32, kind: int, row: int) -> float:
+    """The watched number."""
+    value: float = 0.0
+    if kind == WATCH_LONG:
+        value = I[row]
+    elif kind == WATCH_FP32:
+        value = S[row]
+    elif kind == WATCH_FP64:
+        value = F[row]
+    elif kind == WATCH_AXIS:
+        value = I[row + AX_ACTUAL_POSITION]
+        ppu: float = S[row + AX_PPU]
+        if ppu != 0.0:
+            value /= ppu
+    return value
+
+
+def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
+    """The masked bits of a word, or whether a number is beyond its bound."""
+    w: int = WATI_BASE + n * WATI_STRIDE
+    row: int = I[w + WATI_ROW]
+    if I[w + WATI_KIND] == WATCH_WORD:
+        return I[row] & I[w + WATI_MASK]
+    value: float = watch_value(F, I, S, I[w + WATI_KIND], row)
+    bound: float = F[WATF_BASE + n * WATF_STRIDE + WATF_BOUND]
+    if I[w + WATI_IS_ABOVE]:
+        return 1 if value > bound else 0
+    return 1 if value < bound else 0
+
+
+def watch_fired(F: F64, I: I32, S: F32) -> bool:
+    """Whether something watched has changed since the last look."""
+    fired: bool = False
+    for n in range(min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)):
+        state: int = watch_state(F, I, S, n)
+        w: int = WATI_BASE + n * WATI_STRIDE
+        if state != I[w + WATI_STATE]:
+            I[w + WATI_STATE] = state
+            fired = True
+    return fired
