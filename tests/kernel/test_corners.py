@@ -145,9 +145,7 @@ def test_under_jerk_a_corner_is_rounded_where_that_is_quicker() -> None:
     assert times[1] == times[0]
     assert times[2] < times[0]
     places = follow(rig(0.5, jrk=20_000.0), SQUARE)
-    still = np.vstack([places[:1]] * 3 + [places] + [places[-1:]] * 3)
-    jerks = np.linalg.norm(np.diff(still, n=3, axis=0), axis=1) / T**3
-    assert jerks.max() <= 20_000 * (1 + 1e-3)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
     assert off_path(places, SQUARE) <= 0.5
 
 
@@ -300,6 +298,39 @@ def test_binary_chains_stay_within_tolerance_and_acceleration_and_end_exactly(
     issue = by_host(made, tolerances)
     places = follow(made, points, disturbed(made, events), issue)
     keeps_its_limits(places, points, max(each or 0.0 for each in tolerances[: len(points)]))
+
+
+def jerks(places: Reals) -> Reals:
+    """Size of the vector jerk of every tick, from rest to rest."""
+    still = np.vstack([places[:1]] * 3 + [places] + [places[-1:]] * 3)
+    return np.asarray(np.linalg.norm(np.diff(still, n=3, axis=0), axis=1) / T**3)
+
+
+@settings(max_examples=examples(150))
+@given(
+    polylines(),
+    st.lists(st.none() | st.floats(-2.0, 0.3).map(lambda e: 10.0**e), min_size=12, max_size=12),
+    EVENTS,
+)
+def test_under_jerk_binary_chains_keep_all_limits_whatever_happens(
+    points: list[Point], tolerances: list[float | None], events: list[Event]
+) -> None:
+    made = host_rig()
+    made.master(jrk=20_000.0)
+    places = follow(made, points, disturbed(made, events), by_host(made, tolerances))
+    keeps_its_limits(places, points, max(each or 0.0 for each in tolerances[: len(points)]))
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("tick", range(60, 260, 7))
+def test_under_jerk_a_feedhold_near_a_corner_keeps_all_limits(tick: int) -> None:
+    made = host_rig()
+    made.master(jrk=20_000.0)
+    events: list[Event] = [(tick, "hold", 0.0), (600, "go", 0.0)]
+    places = follow(made, SQUARE, disturbed(made, events), by_host(made, [0.5] * 4))
+    assert np.count_nonzero(np.all(np.diff(places, axis=0) == 0.0, axis=1)) > 100
+    keeps_its_limits(places, SQUARE, 0.5)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
 
 
 @settings(max_examples=examples(15))

@@ -14,7 +14,7 @@ from openacr.kernel.profile_cy import (
     profile_reset,
     profile_stop,
 )
-from openacr.kernel.round_cy import round_hold_rate
+from openacr.kernel.round_cy import round_hold_rate, round_holds
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_STOPPING
 from openacr.map.numbers import (
     AXF_BASE,
@@ -150,6 +150,8 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     if rate <= 0.0:
         rate = F[q + MQF_STP_UPS2]
     if master_stopping(I, m) and (rate <= F[q + MQF_STP_UPS2] or ends_early(I, m)):
+        return
+    if round_holds(F, I, S, m, rate):
         return
     end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
     jerk: float = F[q + MQF_JRK_UPS3]

@@ -121,6 +121,23 @@ def rest_speed(velocity: float, accel: float, jerk: float) -> float:
     return velocity + accel * fabs(accel) / (2.0 * jerk)
 
 
+def ramp_way(velocity: float, accel: float, goal: float, limit: float, jerk: float) -> float:
+    """The way of a ramp under a jerk limit from a speed and acceleration to another speed."""
+    sign: float = 1.0 if goal >= rest_speed(velocity, accel, jerk) else -1.0
+    square: float = jerk * sign * (goal - velocity) + accel * accel / 2.0
+    peak: float = sign * min(sqrt(max(square, 0.0)), limit)
+    rise: float = jerk if peak > accel else -jerk
+    t: float = (peak - accel) / rise
+    way: float = t * (velocity + t * (accel / 2.0 + t * rise / 6.0))
+    speed: float = velocity + t * (accel + t * rise / 2.0)
+    last: float = fabs(peak) / jerk
+    if peak != 0.0:
+        t = max((goal - speed - peak * last / 2.0) / peak, 0.0)
+        way += t * (speed + t * peak / 2.0)
+        speed += t * peak
+    return way + last * (speed + last * (peak / 2.0 - sign * last * jerk / 6.0))
+
+
 def plain(value: float) -> float:
     """A speed or rate as the planner can use it: 0 for less and for NaN, never infinite."""
     if not value > 0.0:

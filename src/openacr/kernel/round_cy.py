@@ -13,8 +13,11 @@ the sine of half the turn, the two may lie as unfavourably as this:
 
 A constant a over half a corner from w = v^2 to w' = w + 2 a T is a quadratic equation in the
 larger of the two: that is the step of the backward pass (round_exit2) through the corners
-and lines of all moves that wait, and of the forward plan. With a jerk limit the speed in
-corners is constant.
+and lines of all moves that wait, and of the forward plan.
+
+With a jerk limit the speed in corners is constant, whatever happens: a change of override or
+a feedhold that cannot be done with in front of a corner goes on behind it. Only a path that
+starts from rest just before one speeds up in it, softly, to half of what it allows.
 
 A binary move with a tolerance of its own is planned through the corner at its end though LOOK
 is off; the chain of such moves ends with the first other one, as that one ends without LOOK.
@@ -39,7 +42,7 @@ from openacr.kernel.lookahead_cy import (
     ramp_start,
 )
 from openacr.kernel.path_cy import MARK_ROUNDS, SLAVE_COUNT, master_limit, move_record
-from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan
+from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan, ramp_way, rest_speed
 from openacr.map.numbers import (
     MQF_ACC_UPS2,
     MQF_BASE,
@@ -82,8 +85,10 @@ from openacr.map.numbers import (
     MSI_SLAVE_AXIS,
     MSI_STRETCH,
     MSI_STRIDE,
+    PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
+    PRF_END_DISTANCE,
     PRF_STRIDE,
     PRF_TARGET_VELOCITY,
     PRF_VELOCITY,
@@ -105,7 +110,9 @@ STRAIGHT = 1e-7  # changes of direction below are none
 SLACK = 1e-9  # of a length
 ENDLESS = 1e30
 FEW = 16  # moves the backward pass looks at first
-SOFT = 0.2  # share of the limits for stops within a corner under a jerk limit
+SOFT = 0.2  # share of the limits for starts within a corner under a jerk limit
+LINGER = 0.3  # of the speed a corner allows: slower ones do not stay constant in it
+BISECTIONS = 50
 
 
 def round_accel(F: F64, record: int) -> float:
@@ -235,9 +242,13 @@ def round_in_time(F: F64, m: int, record: int, reach: float, cap: float) -> bool
     left: float = F[q + MQF_LENGTH_U] - reach - gone
     if left <= 0.0:
         return False
-    if F[q + MQF_JRK_UPS3] > 0.0:  # with jerk a ramp is at most twice as long, and may just begin
-        left = 0.4 * left
     velocity: float = F[f + PRF_VELOCITY]
+    jerk: float = F[q + MQF_JRK_UPS3]
+    if jerk > 0.0:
+        accel: float = F[f + PRF_ACCEL]
+        slow: bool = rest_speed(velocity, accel, jerk) <= cap
+        rate: float = look_rate(F, record)
+        return slow or ramp_way(velocity, accel, cap, rate, jerk) <= left * SHARE
     return velocity * velocity <= cap * cap + 2.0 * look_rate(F, record) * left * SHARE
 
 
@@ -465,13 +476,77 @@ def round_line(F: F64, I: I32, m: int, record: int, limit: float, leaving: float
     if not ends:
         rate = look_rate(F, record)
         if jerk > 0.0 and acc > 0.0:  # corners are entered without acceleration
-            reached: float = ramp_start(end - F[f + PRF_DISTANCE], F[f + PRF_VELOCITY], acc, jerk)
+            reached: float = round_reached(F, m, end - F[f + PRF_DISTANCE], limit, acc, jerk)
             leaving = min(leaving, reached * (1.0 - SLACK))
-        if leaving >= limit and jerk <= 0.0:
+        if jerk > 0.0 and rate > 0.0:
+            wanted: float = min(leaving, limit)
+            reached = round_settle(F, m, end - F[f + PRF_DISTANCE], wanted, rate, jerk)
+            if reached < 0.0 and round_planned(F, I, m, end):
+                return
+            if reached > wanted:
+                if limit <= 0.0 and I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
+                    reached = max(reached, LINGER * leaving)
+                round_even(F, I, m, end, reached, acc, rate, jerk)
+                return
+        if leaving >= limit:
             rate = 0.0
     profile_plan(F, I, m, end, limit, leaving, acc, dec, rate, jerk)
     if not ends:
         round_decelerate(I, m)
+
+
+def round_reached(F: F64, m: int, way: float, limit: float, rate: float, jerk: float) -> float:
+    """The highest speed up to `limit` that is reached, without acceleration, within a way."""
+    velocity: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
+    accel: float = F[PRF_BASE + m * PRF_STRIDE + PRF_ACCEL]
+    low: float = max(rest_speed(velocity, accel, jerk), 0.0)
+    high: float = limit
+    if high <= low or ramp_way(velocity, accel, high, rate, jerk) <= way:
+        return max(high, low)
+    for _ in range(BISECTIONS):
+        middle: float = (low + high) / 2.0
+        if ramp_way(velocity, accel, middle, rate, jerk) > way:
+            high = middle
+        else:
+            low = middle
+    return low
+
+
+def round_settle(F: F64, m: int, way: float, wanted: float, rate: float, jerk: float) -> float:
+    """The lowest speed from `wanted` up that is reached, without acceleration, within a way.
+
+    -1 if there is not even room to let go of the present acceleration.
+    """
+    velocity: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
+    accel: float = F[PRF_BASE + m * PRF_STRIDE + PRF_ACCEL]
+    high: float = max(rest_speed(velocity, accel, jerk), 0.0)
+    if wanted >= high:
+        return wanted
+    if ramp_way(velocity, accel, wanted, rate, jerk) <= way:
+        return wanted
+    if ramp_way(velocity, accel, high, rate, jerk) > way:
+        return -1.0
+    low: float = wanted
+    for _ in range(BISECTIONS):
+        middle: float = (low + high) / 2.0
+        if ramp_way(velocity, accel, middle, rate, jerk) > way:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def round_planned(F: F64, I: I32, m: int, end: float) -> bool:
+    """Whether the plan under way leads to `end`."""
+    f: int = PRF_BASE + m * PRF_STRIDE
+    return I[PRI_BASE + m * PRI_STRIDE + PRI_SEG_COUNT] > 0 and F[f + PRF_END_DISTANCE] == end
+
+
+def round_even(
+    F: F64, I: I32, m: int, end: float, goal: float, acc: float, rate: float, jerk: float
+) -> None:
+    """Plan to a corner that is passed at speed `goal`."""
+    profile_plan(F, I, m, end, goal, goal, acc, rate, 0.0, jerk)
 
 
 def round_decelerate(I: I32, m: int) -> None:
@@ -504,7 +579,7 @@ def round_corner(
     accel: float = round_accel(F, record)
     leaving: float = min(sqrt(w), min(limit, cap))
     if jerk > 0.0:
-        if velocity <= 0.3 * leaving or limit <= 0.0:
+        if velocity <= LINGER * leaving or F[f + PRF_ACCEL] != 0.0:
             soft: float = SOFT * accel
             profile_plan(F, I, m, end, min(limit, 0.5 * cap), 0.0, soft, soft, 0.0, SOFT * jerk)
         else:
@@ -528,6 +603,36 @@ def round_corner(
         rate = (now - goal) / (2.0 * left)
         profile_plan(F, I, m, end, velocity, sqrt(goal), rate, rate, rate, 0.0)
         round_decelerate(I, m)
+
+
+def round_holds(F: F64, I: I32, S: F32, m: int, rate: float) -> bool:
+    """A feedhold under a jerk limit: True if it has to wait until a corner is behind.
+
+    In front of a corner it slows the path as far as that can be done without acceleration in
+    the corner, where the path neither stops nor lingers.
+    """
+    record: int = move_record(I, m)
+    jerk: float = F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3]
+    if jerk <= 0.0 or not round_through(F, I, m, record):
+        return False
+    if round_part(F, I, m) != LINE:
+        return True
+    if not I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
+        return False
+    f: int = PRF_BASE + m * PRF_STRIDE
+    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
+    way: float = end - F[f + PRF_DISTANCE]
+    reached: float = round_settle(F, m, way, 0.0, rate, jerk)
+    if reached == 0.0:
+        return False
+    cap: float = F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_UPS]
+    wanted: float = LINGER * min(cap, F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_EXIT_UPS])
+    if wanted > reached:
+        reached = round_settle(F, m, way, wanted, rate, jerk)
+    speed: float = rest_speed(F[f + PRF_VELOCITY], F[f + PRF_ACCEL], jerk)
+    if 0.0 < reached < speed:
+        round_even(F, I, m, end, reached, rate, rate, jerk)
+    return True
 
 
 def round_hold_rate(F: F64, I: I32, m: int, rate: float) -> float:
