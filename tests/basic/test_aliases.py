@@ -6,7 +6,7 @@ from tests.basic.bench import Bench
 import openacr.basic.strings  # noqa: F401 - enters its functions
 from openacr.basic.aliases import Aliases
 from openacr.basic.nodes import Flag, Number, Parameter
-from openacr.basic.parser import join_names
+from openacr.basic.scope import join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.models import ACR7000

@@ -6,7 +6,8 @@ from tests.basic.rig import Rig
 import openacr.basic.commands  # noqa: F401 - enters the commands
 from openacr.basic.compiler import compile_program
 from openacr.basic.levels import CompileError
-from openacr.basic.parser import Scope, parse_line
+from openacr.basic.parser import parse_line
+from openacr.basic.scope import Scope
 
 STORED = Scope(stored=True)
 

@@ -10,9 +10,10 @@ import openacr.basic.commands
 import openacr.basic.strings  # noqa: F401 - both enter their words
 from openacr.basic.lister import Lister, literal
 from openacr.basic.loader import file_lines
-from openacr.basic.parser import Scope, parse_line
+from openacr.basic.parser import parse_line
 from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Level
+from openacr.basic.scope import Scope
 from openacr.lang.lexer import Kind, tokens
 
 STORED = Scope(Level.PROG, stored=True)

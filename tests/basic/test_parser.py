@@ -21,8 +21,9 @@ from openacr.basic.nodes import (
     Parameter,
     Statement,
 )
-from openacr.basic.parser import Scope, parse_line
+from openacr.basic.parser import parse_line
 from openacr.basic.registry import Level
+from openacr.basic.scope import Scope
 
 AXES = frozenset(("X", "Y"))
 ALIASES: dict[str, Expr] = {

@@ -40,7 +40,8 @@ def test_rows_pickle_by_name() -> None:
 
 def test_a_new_command_is_one_decorated_function(monkeypatch: pytest.MonkeyPatch) -> None:
     from openacr.basic.nodes import Number, Statement
-    from openacr.basic.parser import Scope, parse_line
+    from openacr.basic.parser import parse_line
+    from openacr.basic.scope import Scope
 
     monkeypatch.setattr(registry, "_commands", dict(registry._commands))
     monkeypatch.setattr(registry, "root", registry.Node(dict(registry.root.children)))

@@ -15,8 +15,9 @@ from tests.fuzz.programs import BROKEN, Programs
 from openacr.basic.compiler import compile_program
 from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Number, Parameter
-from openacr.basic.parser import Scope, parse_line
+from openacr.basic.parser import parse_line
 from openacr.basic.registry import Level
+from openacr.basic.scope import Scope
 from openacr.cli.source import Reader
 from openacr.controller import Controller
 from openacr.errors import CardError

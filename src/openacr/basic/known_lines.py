@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from openacr.basic.memory_cost import line_bytes, string_bytes
-from openacr.basic.parser import Scope
+from openacr.basic.scope import Scope
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.shape import remark
 

@@ -8,13 +8,11 @@ hold for all of them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-
 from openacr.basic import registry
 from openacr.basic.expressions import ExpressionParser, StatementError
 from openacr.basic.nodes import AxisRef, Block, Expr, Line, Move, Prefix, Statement
 from openacr.basic.registry import Command, Level, Use
+from openacr.basic.scope import Scope, join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.source import Span
@@ -26,43 +24,12 @@ from openacr.messages import (
 )
 
 LONGEST_LABEL = 32
-_NAME_PARTS = frozenset((Kind.WORD, Kind.NUMBER))
 PREFIXES = frozenset(("AXIS", "MASTER"))
-
-
-@dataclass(frozen=True, slots=True)
-class Scope:
-    """What a line may refer to: the level, the program's axes and all aliases.
-
-    `stored` lines belong to a program, others are executed at once.
-    """
-
-    level: Level = Level.PROG
-    stored: bool = False
-    axes: frozenset[str] = frozenset()
-    aliases: Mapping[str, Expr] = field(default_factory=dict)
-    numbered: frozenset[str] = frozenset()  # the aliases that hold digits
 
 
 def parse_line(text: str | bytes, scope: Scope, line: int = 1) -> Line:
     """The tree of a line; CardError with what is wrong and where (`span`)."""
     return Parser(tokens(text, line), scope).line()
-
-
-def join_names(found: list[Token], names: frozenset[str]) -> None:
-    """Make one word of the words and numbers that spell one of these names without a gap."""
-    for at, first in enumerate(found):
-        if first.kind is not Kind.WORD:
-            continue
-        run, name, behind = "", "", at
-        for end in range(at, len(found)):
-            if found[end].kind not in _NAME_PARTS or found[end].column != first.column + len(run):
-                break
-            run += found[end].text
-            if run in names:  # the longest counts
-                name, behind = run, end + 1
-        if name:
-            found[at:behind] = [Token(Kind.WORD, name, name.upper(), first.line, first.column)]
 
 
 class Parser(ExpressionParser):

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.basic.expressions import StatementError
-from openacr.basic.parser import Parser, Scope
+from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.scope import Scope
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens

@@ -21,8 +21,9 @@ from openacr.basic.expressions import BINARY, NOT_LEVEL, SIGN_LEVEL
 from openacr.basic.lister import Lister
 from openacr.basic.loader import file_lines
 from openacr.basic.nodes import Block, Line, Statement
-from openacr.basic.parser import Parser, Scope
+from openacr.basic.parser import Parser
 from openacr.basic.registry import INDEX, Command, Level
+from openacr.basic.scope import Scope
 from openacr.basic.written import call, levels, limits, reports, syntax
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, tokens

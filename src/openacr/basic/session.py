@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from openacr.basic import pass_through
 from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
 from openacr.basic.entry import Entry, split_at_level
-from openacr.basic.nodes import Line
-from openacr.basic.parser import Parser, Scope
+from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.registry import Level
 from openacr.basic.run import LINE_END
+from openacr.basic.scope import Scope
 from openacr.errors import CardError
 from openacr.lang.lexer import Token
 from openacr.messages import LINE_TOO_LONG
@@ -36,19 +36,6 @@ class Attention(Enum):
     LISTENING = "listening"
     PASS_THROUGH = "pass-through"
     OPEN = "open"
-
-
-class Runner(Protocol):
-    """Who executes immediate lines: each channel has a thread of its own."""
-
-    def start(self, session: Session, line: Line) -> None:
-        """Begin a line; `session.finished` is called when it is done."""
-
-    def cancel(self, session: Session) -> None:
-        """Forget a line that is still being executed."""
-
-    def is_waiting(self, thread: int) -> bool:
-        """Whether the thread waits (DWL, INH, a full move buffer)."""
 
 
 @dataclass(slots=True)

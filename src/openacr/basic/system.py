@@ -12,11 +12,13 @@ from openacr.basic.devices import Devices
 from openacr.basic.known_lines import KnownLines
 from openacr.basic.listeners import Listeners
 from openacr.basic.memory_cost import PLC_INSTRUCTION, line_bytes
-from openacr.basic.parser import Parser, Scope
+from openacr.basic.nodes import Line
+from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import OWNERS, ProgramStore
 from openacr.basic.registry import Level
-from openacr.basic.session import Runner, Session
+from openacr.basic.scope import Scope
+from openacr.basic.session import Session
 from openacr.basic.setup import Setup
 from openacr.basic.storage import STREAMS, Storage
 from openacr.errors import CardError
@@ -58,6 +60,19 @@ class Control(Protocol):
 
     def trace(self, owner: int, on: bool) -> None:
         """TRON and TROFF."""
+
+
+class Runner(Protocol):
+    """Who executes immediate lines: each channel has a thread of its own."""
+
+    def start(self, session: Session, line: Line) -> None:
+        """Begin a line; `session.finished` is called when it is done."""
+
+    def cancel(self, session: Session) -> None:
+        """Forget a line that is still being executed."""
+
+    def is_waiting(self, thread: int) -> bool:
+        """Whether the thread waits (DWL, INH, a full move buffer)."""
 
 
 class NonVolatile(Protocol):

@@ -16,10 +16,11 @@ from openacr.basic.lister import Lister
 from openacr.basic.loader import FileLine, file_lines, long_lived_objects
 from openacr.basic.nodes import Block, Expr, Move, Number, Statement, String
 from openacr.basic.outline import Outline, outline
-from openacr.basic.parser import Parser, Scope, join_names
+from openacr.basic.parser import Parser
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import line_number, opens_capture
 from openacr.basic.registry import Level
+from openacr.basic.scope import Scope, join_names
 from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault
 from openacr.cli.hints import hint_for

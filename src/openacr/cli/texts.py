@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 from openacr.basic.loader import FileLine
 from openacr.basic.outline import Outline
-from openacr.basic.parser import LONGEST_LABEL, Scope
+from openacr.basic.parser import LONGEST_LABEL
 from openacr.basic.program_store import StoredLine
+from openacr.basic.scope import Scope
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, tokens
 from openacr.lang.source import Span

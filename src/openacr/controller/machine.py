@@ -12,9 +12,9 @@ from pathlib import Path
 
 from openacr.basic.control import ProgramControl
 from openacr.basic.executor import Executor
-from openacr.basic.parser import join_names
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.scope import join_names
 from openacr.basic.system import System
 from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.packets import PacketHost
