@@ -11,13 +11,13 @@ from openacr.map.block import (
     FP32,
     LONG,
     Block,
-    FlagBlock,
     Packet,
     Span,
     consecutive,
     objects_apart,
     sixteen_apart,
 )
+from openacr.map.flag_block import FlagBlock
 
 DATA = Path(__file__).parents[1] / "data"
 DRIVE_TALK_ROWS = {*range(2, 8), *range(20, 38)} - {21}  # configuration and status items

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby, pairwise
 from pathlib import Path
 
-from openacr.map.block import FLAG_LAST, FLAG_WORD_BASE, Block, FlagBlock, Row
+from openacr.map.block import FLAG_LAST, FLAG_WORD_BASE, Block, Row
+from openacr.map.flag_block import FlagBlock
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.layout import (
     HIDDEN_BASE,

@@ -17,12 +17,12 @@ from openacr.map.block import (
     UNDOCUMENTED,
     Access,
     Block,
-    FlagBlock,
     Kind,
     Packet,
     Row,
     Speed,
 )
+from openacr.map.flag_block import FlagBlock
 
 
 @dataclass(frozen=True, slots=True)

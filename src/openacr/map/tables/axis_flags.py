@@ -1,17 +1,7 @@
 """Axis flag words: six families of 32 flags for every axis."""
 
-from openacr.map.block import (
-    FAST,
-    NS,
-    RW,
-    SLOW,
-    UNDOCUMENTED,
-    FlagBlock,
-    ManualRef,
-    R,
-    Span,
-    consecutive,
-)
+from openacr.map.block import FAST, NS, RW, SLOW, UNDOCUMENTED, ManualRef, R, Span, consecutive
+from openacr.map.flag_block import FlagBlock
 
 AXIS_1 = FlagBlock(
     "Axis Flags",

@@ -6,13 +6,12 @@ from openacr.map.block import (
     RW,
     UNDOCUMENTED,
     Block,
-    FlagBlock,
     R,
     Span,
     consecutive,
     objects_apart,
-    reserved_words,
 )
+from openacr.map.flag_block import FlagBlock, reserved_words
 
 COMMUTATOR = Block(
     "CMT Parameters",

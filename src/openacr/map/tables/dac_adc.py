@@ -1,6 +1,7 @@
 """Analog outputs (DAC) and inputs (ADC) of the card."""
 
-from openacr.map.block import FP32, NS, Block, Span, reserved_words, sixteen_apart
+from openacr.map.block import FP32, NS, Block, Span, sixteen_apart
+from openacr.map.flag_block import reserved_words
 
 DAC = Block(
     "Object Parameters: DAC",

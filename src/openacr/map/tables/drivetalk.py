@@ -1,17 +1,7 @@
 """Drive Talk: status and configuration of Aries drives over a serial port."""
 
-from openacr.map.block import (
-    FP32,
-    LONG,
-    NS,
-    RW,
-    UNDOCUMENTED,
-    Access,
-    Block,
-    FlagBlock,
-    ManualRef,
-    Span,
-)
+from openacr.map.block import FP32, LONG, NS, RW, UNDOCUMENTED, Access, Block, ManualRef, Span
+from openacr.map.flag_block import FlagBlock
 
 DRIVE_TALK = Block(
     "Drive Talk Parameters",

@@ -6,13 +6,12 @@ from openacr.map.block import (
     NS,
     UNDOCUMENTED,
     Block,
-    FlagBlock,
     R,
     Span,
     consecutive,
-    reserved_words,
     sixteen_apart,
 )
+from openacr.map.flag_block import FlagBlock, reserved_words
 
 ENCODER = Block(
     "Object Parameters: ENC",

@@ -1,18 +1,7 @@
 """CANopen extended I/O and Ethernet Powerlink of the ACR9000 family."""
 
-from openacr.map.block import (
-    FP32,
-    LONG,
-    NS,
-    RW,
-    UNDOCUMENTED,
-    Access,
-    Block,
-    FlagBlock,
-    ManualRef,
-    R,
-    Span,
-)
+from openacr.map.block import FP32, LONG, NS, RW, UNDOCUMENTED, Access, Block, ManualRef, R, Span
+from openacr.map.flag_block import FlagBlock
 
 NETWORK = Block(
     "CANopen Network Parameters",

@@ -1,6 +1,7 @@
 """Fast status: parameters the card copies to the host at a fixed period."""
 
-from openacr.map.block import LONG, NS, RW, Block, FlagBlock, Span, consecutive, sixteen_apart
+from openacr.map.block import LONG, NS, RW, Block, Span, consecutive, sixteen_apart
+from openacr.map.flag_block import FlagBlock
 
 FSTAT = Block(
     "Miscellaneous Parameters: FSTAT Information",

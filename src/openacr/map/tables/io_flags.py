@@ -1,6 +1,7 @@
 """Inputs, outputs, user flags and the general control words."""
 
-from openacr.map.block import NS, RW, UNDOCUMENTED, FlagBlock, R, Span, consecutive, reserved_words
+from openacr.map.block import NS, RW, UNDOCUMENTED, R, Span, consecutive
+from openacr.map.flag_block import FlagBlock, reserved_words
 
 INPUTS = FlagBlock(
     "Optoisolated Inputs",

@@ -1,6 +1,7 @@
 """Master flag words: four families of 32 flags for every master."""
 
-from openacr.map.block import FAST, RW, SLOW, Access, FlagBlock, R, Span, consecutive
+from openacr.map.block import FAST, RW, SLOW, Access, R, Span, consecutive
+from openacr.map.flag_block import FlagBlock
 
 MASTER_1 = FlagBlock(
     "Master Flags",

@@ -1,18 +1,7 @@
 """PLC programs and their timers, counters and latches."""
 
-from openacr.map.block import (
-    FAST,
-    LONG,
-    NS,
-    RW,
-    SLOW,
-    Block,
-    FlagBlock,
-    R,
-    Span,
-    consecutive,
-    sixteen_apart,
-)
+from openacr.map.block import FAST, LONG, NS, RW, SLOW, Block, R, Span, consecutive, sixteen_apart
+from openacr.map.flag_block import FlagBlock
 
 PLC = Block(
     "PLC Parameters",

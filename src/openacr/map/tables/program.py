@@ -1,18 +1,7 @@
 """User programs: line number and state flags."""
 
-from openacr.map.block import (
-    FAST,
-    LONG,
-    NS,
-    RW,
-    SLOW,
-    Block,
-    FlagBlock,
-    R,
-    Span,
-    consecutive,
-    sixteen_apart,
-)
+from openacr.map.block import FAST, LONG, NS, RW, SLOW, Block, R, Span, consecutive, sixteen_apart
+from openacr.map.flag_block import FlagBlock
 
 PROGRAM = Block(
     "Program Parameters",

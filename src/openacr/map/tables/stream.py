@@ -1,6 +1,7 @@
 """Communication channels (streams) of the card: buffers, prompt, echo and port settings."""
 
-from openacr.map.block import LONG, NS, RW, Block, FlagBlock, Span, consecutive
+from openacr.map.block import LONG, NS, RW, Block, Span, consecutive
+from openacr.map.flag_block import FlagBlock
 
 STARTUP = (
     "Power-up port settings: baud/300 in bits 0-7, data bits 8-9, stop 10, parity 11-12, enable 15."
