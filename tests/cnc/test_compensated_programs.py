@@ -1,6 +1,6 @@
 """Cutter radius compensation as part programs switch it."""
 
-from math import hypot
+from math import hypot, sqrt
 
 import pytest
 from tests.cnc.programs import STORE, Run, errors, run
@@ -243,3 +243,25 @@ def test_ways_to_and_from_a_closed_contour_are_no_edges_of_it() -> None:
     narrow = surveyed(around.format(f"Y3\n{spike}\nX3\nY0"), RADIUS)
     assert narrow.errors == []
     assert {f.code for f in narrow.warnings} == {"W323"}
+
+
+@pytest.mark.req("MILL-SYS-CTL-ROOTEPS")
+@pytest.mark.parametrize(("root_epsilon", "codes"), [(None, []), (-3, []), (-5, ["E321"])])
+def test_the_root_epsilon_says_which_circles_still_meet(
+    root_epsilon: float | None, codes: list[str]
+) -> None:
+    # A lens of two circles of radius .0502 whose centres are .1 apart, cut with radius .001: the
+    # argument of the root is .0492^2 - .05^2 = -7.94e-5, between -10^-4 (the default) and -10^-5.
+    top = sqrt(0.0502**2 - 0.05**2)
+    text = (
+        f"G0 X0 Y0\nG41 D1 G1 X0 Y{-top:.9f} F10\n"
+        f"G3 X0 Y{top:.9f} I-.05 J0\nG3 X0 Y{-top:.9f} I.05 J0\nG40 G1 X0 Y0"
+    )
+    cells = {1001: 0.001, 250_101: 1e-4}
+    if root_epsilon is not None:
+        cells[250_103] = root_epsilon
+    assert errors(text, cells) == codes
+    if not codes:
+        done = run(text, cells)
+        assert done.ends[1] == (0, 0, 0)  # forced to meet, half way between the centres
+        assert "W320" in done.codes
