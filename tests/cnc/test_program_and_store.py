@@ -270,3 +270,24 @@ def test_a_file_that_is_cut_off_while_it_is_in_use_stops_the_program(tmp_path: P
     path.write_text("F10 X1\n")
     with pytest.raises(BlockError, match=r"P.NC:1:1: E262 the file has become shorter"):
         list(done.interpreter.entries())
+
+
+@pytest.mark.parametrize(
+    "block",
+    ["G92 X1 Y1 Z1", "G54 G52 X1 Y1", "D3", "H3", "G31 X1", "G81 X1 Z-1 R-.5", "P200=1"],
+)
+def test_what_belongs_together_is_one_commit(block: str, tmp_path: Path) -> None:
+    with Store(tmp_path / "s.db") as store:
+        for n in (1003, 1503, 2003, 3003):
+            store.write(n, 0.5)
+        store.write(700_006, 1.0)  # cycles without $I
+
+        def commits(text: str) -> int:
+            finished("M2", store)
+            before = store.token
+            for entry in interpreter(text, store).entries():
+                if isinstance(entry, Stop):
+                    return store.token - before
+            raise AssertionError(text)
+
+        assert commits(f"{block}\nM0") == commits("M0") + 1

@@ -45,8 +45,11 @@ class Cells(Protocol):
     def read_text(self, n: int) -> str:
         """The text in a cell."""
 
-    def transaction(self) -> AbstractContextManager[None]:
-        """What is written inside is stored together, or not at all."""
+    def transaction(self, *, is_durable: bool = True) -> AbstractContextManager[None]:
+        """What is written inside is stored together, or not at all.
+
+        `is_durable` waits for the disk; without it a power cut may lose the last ones.
+        """
 
 
 class Machine(Protocol):

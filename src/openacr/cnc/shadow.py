@@ -39,9 +39,9 @@ class Shadow:
         """The text in a cell."""
         return self._cells.read_text(n)
 
-    def transaction(self) -> AbstractContextManager[None]:
+    def transaction(self, *, is_durable: bool = True) -> AbstractContextManager[None]:
         """That of the cells, once they are written."""
-        return self._cells.transaction() if self._is_open else nullcontext()
+        return self._cells.transaction(is_durable=is_durable) if self._is_open else nullcontext()
 
     def commit(self) -> None:
         """Write everything that was kept, and from now on all of it at once."""

@@ -70,8 +70,9 @@ def radius(run: Interpreter, b: Turn) -> None:
 def select_radius(run: Interpreter, n: int) -> None:
     """Copy radius n and its wear to the cells in use."""
     run.modal.radius_number = n
-    run.parameters.store(RADIUS, run.cells.read(RADII + n) if n else 0.0)
-    run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
+    with run.cells.transaction(is_durable=False):
+        run.parameters.store(RADIUS, run.cells.read(RADII + n) if n else 0.0)
+        run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
 
 
 @letter("H", step=Step.LENGTH_NUMBER, limits=(Limit("H", 0, 999, "E222", is_whole=True),))
@@ -86,5 +87,6 @@ def length(run: Interpreter, b: Turn) -> None:
 def select_length(run: Interpreter, n: int) -> None:
     """Copy length n and its wear to the cells in use."""
     run.modal.length_number = n
-    run.parameters.store(LENGTH, run.cells.read(LENGTHS + n) if n else 0.0)
-    run.parameters.store(LENGTH_WEAR, run.cells.read(LENGTH_WEARS + n) if n else 0.0)
+    with run.cells.transaction(is_durable=False):
+        run.parameters.store(LENGTH, run.cells.read(LENGTHS + n) if n else 0.0)
+        run.parameters.store(LENGTH_WEAR, run.cells.read(LENGTH_WEARS + n) if n else 0.0)

@@ -136,7 +136,7 @@ def _one(run: Interpreter, b: Turn, drilling: Drilling, left: int) -> Iterator[E
         run.warn(b, "W215")
         modal.spin = wanted
         run.tell(Spindle(b.source, wanted, modal.speed))
-    with run.cells.transaction():
+    with run.cells.transaction(is_durable=False):
         for n, value in enumerate(_cells(run, drilling, left), FIRST_CELL):
             run.cells.write(n, value)
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions

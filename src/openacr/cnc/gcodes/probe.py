@@ -37,7 +37,7 @@ def probed(run: Interpreter, b: Turn, *, is_away: bool = False) -> Iterator[Entr
     run.move(Probe(b.source, target, pace, is_away))
     yield from run.sync(b.source)
     trip = machine.tripped()
-    with run.cells.transaction():
+    with run.cells.transaction(is_durable=False):
         run.cells.write(TRIPPED, float(trip is not None))
         if trip is None:
             path.stand(target)

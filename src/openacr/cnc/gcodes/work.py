@@ -36,8 +36,9 @@ def machine_system(run: Interpreter, b: Turn) -> None:
 def select(run: Interpreter, system: int) -> None:
     """Make a system active; the local shift ends."""
     run.modal.work = system
-    for axis in range(_AXES):
-        run.cells.write(LOCAL + axis, 0.0)
+    with run.cells.transaction(is_durable=False):
+        for axis in range(_AXES):
+            run.cells.write(LOCAL + axis, 0.0)
     run.path.refresh()
 
 
@@ -46,8 +47,9 @@ def local_shift(run: Interpreter, b: Turn) -> None:
     """Shift the zero of the active work system."""
     if not run.modal.has_work:
         raise b.fault("E245", hint="behind G54 to G59.2 only")
-    for axis, letter, value in b.axes:
-        run.cells.write(LOCAL + axis, length_of(run, letter, value))
+    with run.cells.transaction(is_durable=False):
+        for axis, letter, value in b.axes:
+            run.cells.write(LOCAL + axis, length_of(run, letter, value))
     run.path.refresh()
 
 
@@ -72,13 +74,14 @@ def preset_zero(run: Interpreter, named: dict[int, float]) -> None:
     for axis, value in named.items():
         wanted[axis] = value
     missed = path.coordinates.forward(tuple(wanted))
-    for axis, value in named.items():
-        before = run.cells.read(FLOATING + axis)
-        write(FLOATING_BEFORE + axis, before)
-        write(FLOATING_WORD + axis, value)
-        write(FLOATING_AT + axis, path.target[axis])
-        write(FLOATING + axis, before + path.placed[axis] - missed[axis])
-    show_zero(run)
+    with run.cells.transaction(is_durable=False):
+        for axis, value in named.items():
+            before = run.cells.read(FLOATING + axis)
+            write(FLOATING_BEFORE + axis, before)
+            write(FLOATING_WORD + axis, value)
+            write(FLOATING_AT + axis, path.target[axis])
+            write(FLOATING + axis, before + path.placed[axis] - missed[axis])
+        show_zero(run)
 
 
 def show_zero(run: Interpreter) -> None:
@@ -90,6 +93,7 @@ def show_zero(run: Interpreter) -> None:
 
 def clear_zero(run: Interpreter) -> None:
     """CLR ZERO: no floating zero."""
-    for axis in range(_AXES):
-        run.cells.write(FLOATING + axis, 0.0)
-    show_zero(run)
+    with run.cells.transaction(is_durable=False):
+        for axis in range(_AXES):
+            run.cells.write(FLOATING + axis, 0.0)
+        show_zero(run)

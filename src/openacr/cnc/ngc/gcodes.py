@@ -104,8 +104,9 @@ def to_reference(run: Interpreter, b: Turn) -> None:
 @gcode(28.1, 30.1, step=Step.DATA)
 def store_reference(run: Interpreter, b: Turn) -> None:
     """The present position becomes the stored point."""
-    for axis, value in enumerate(run.path.target):
-        run.cells.write(REFERENCE_CELLS[int(b.number)] + axis, value)
+    with run.cells.transaction():
+        for axis, value in enumerate(run.path.target):
+            run.cells.write(REFERENCE_CELLS[int(b.number)] + axis, value)
 
 
 @gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)
@@ -218,17 +219,18 @@ def feed_mode(run: Interpreter, b: Turn) -> None:
 def zero_offset(run: Interpreter, b: Turn) -> None:
     """The offset of G92 cleared (.1), set aside (.2), taken again (.3)."""
     read, write = run.cells.read, run.cells.write
-    for axis in range(AXES):
-        if b.number == 92.2:
-            write(FLOATING_BEFORE + axis, read(FLOATING + axis))
-        elif b.number == 92.1:
-            write(FLOATING_BEFORE + axis, 0.0)
+    with run.cells.transaction(is_durable=False):
+        for axis in range(AXES):
+            if b.number == 92.2:
+                write(FLOATING_BEFORE + axis, read(FLOATING + axis))
+            elif b.number == 92.1:
+                write(FLOATING_BEFORE + axis, 0.0)
+            else:
+                write(FLOATING + axis, read(FLOATING_BEFORE + axis))
+        if b.number == 92.3:
+            show_zero(run)
         else:
-            write(FLOATING + axis, read(FLOATING_BEFORE + axis))
-    if b.number == 92.3:
-        show_zero(run)
-    else:
-        clear_zero(run)
+            clear_zero(run)
 
 
 @gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
