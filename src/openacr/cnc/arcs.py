@@ -12,7 +12,6 @@ from openacr.cnc.turn import Turn
 SAME = 1e-6  # units: nearer points are one
 NO_TURN = 1e-12  # radians
 CENTRE_WORDS = "IJK"  # of axes 0, 1, 2
-EPSILON_CELL = 250_101
 Pair = tuple[float, float]
 
 

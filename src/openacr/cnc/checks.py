@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from openacr.cnc.blocks import Block, Gosub, Goto, If, Input, Print
+from openacr.cnc.cells import M30_ENDS, START_FEED
 from openacr.cnc.codes import Dialect
 from openacr.cnc.findings import CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.hosts import Cells
 from openacr.cnc.plan import Plan
 
-M30_ENDS, MANUAL_CHANGE, CHANGED_INPUT = 700_002, 900_002, 900_000
-START_FEED = 100_021
+MANUAL_CHANGE, CHANGED_INPUT = 900_002, 900_000
 
 
 class Report:

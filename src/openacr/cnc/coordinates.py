@@ -18,13 +18,12 @@ from dataclasses import dataclass
 from operator import add
 
 from openacr.cnc.canonical import AXES, Plane, Point
+from openacr.cnc.cells import COMMON, FIXTURES, FLOATING, LENGTH, LENGTH_WEAR, LOCAL
 from openacr.cnc.hosts import Cells
 from openacr.cnc.modal import Modal
 
-COMMON, LOCAL, FLOATING, FIXTURES = 900, 990, 801, 952_000
 LAST_SYSTEM, NINTH_SYSTEM = 8, 840
 HOLE = 10  # numbers from one system to the next
-LENGTH, LENGTH_WEAR = 4000, 4001
 LENGTH_SIGN = {43: 1.0, 44: -1.0, 49: 0.0}
 ORIGIN: Point = (0.0,) * AXES
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from openacr.cnc import dialects as _dialects  # noqa: F401  registers the languages
 from openacr.cnc.canonical import (
+    AXES,
     Dwell,
     End,
     Entry,
@@ -23,6 +24,19 @@ from openacr.cnc.canonical import (
     Stop,
     Sync,
     WaitBit,
+)
+from openacr.cnc.cells import (
+    CMP_RAD,
+    LENGTH,
+    LENGTH_WEAR,
+    LENGTH_WEARS,
+    LENGTHS,
+    LIBRARY_CENTRES,
+    LOCAL,
+    RADII,
+    RADIUS,
+    RADIUS_WEAR,
+    RADIUS_WEARS,
 )
 from openacr.cnc.codes import DIALECTS, Dialect
 from openacr.cnc.compensation import Watch
@@ -38,17 +52,13 @@ from openacr.cnc.load import planner_of
 from openacr.cnc.modal import Modal, reset
 from openacr.cnc.ngc.owords import OWords
 from openacr.cnc.offset_path import OFF, OffsetPath
-from openacr.cnc.parameters import RADIUS_CELLS, Parameters
+from openacr.cnc.parameters import Parameters
 from openacr.cnc.path import Path
 from openacr.cnc.plan import Planner
 from openacr.cnc.program import Node, Part, Program
 from openacr.cnc.turn import Turn
 
 _WAITS = Motion | Dwell | WaitBit | Stop
-LENGTH_CELLS = (4000, 4001)
-RADIUS, RADIUS_WEAR = RADIUS_CELLS
-RADIUS_WITHOUT_D = 100_020
-LIBRARY_CENTRES = 250_004
 
 
 @dataclass(slots=True)
@@ -246,12 +256,12 @@ class Interpreter:
         for name, value in self.dialect.start.items():
             setattr(self.modal, name, value)
         self.path.coordinates.clear()
-        for cell in (RADIUS_WEAR, *LENGTH_CELLS):
+        for cell in (RADIUS_WEAR, LENGTH, LENGTH_WEAR):
             self.cells.write(cell, 0.0)
-        self.cells.write(RADIUS, self.cells.read(RADIUS_WITHOUT_D))
+        self.cells.write(RADIUS, self.cells.read(CMP_RAD))
         if not is_abort:
-            for axis in range(8):
-                self.cells.write(990 + axis, 0.0)
+            for axis in range(AXES):
+                self.cells.write(LOCAL + axis, 0.0)
         self.path.set_unit()
         self.path.change_pace()
         self.path.refresh()
@@ -267,10 +277,10 @@ class Interpreter:
         """Offsets were written: those in use are taken over."""
         modal = self.modal
         for target, source, n in (
-            (LENGTH_CELLS[0], 2000, modal.length_number),
-            (LENGTH_CELLS[1], 3000, modal.length_number),
-            (RADIUS, 1000, modal.radius_number),
-            (RADIUS_WEAR, 1500, modal.radius_number),
+            (LENGTH, LENGTHS, modal.length_number),
+            (LENGTH_WEAR, LENGTH_WEARS, modal.length_number),
+            (RADIUS, RADII, modal.radius_number),
+            (RADIUS_WEAR, RADIUS_WEARS, modal.radius_number),
         ):
             if n:
                 self.cells.write(target, self.cells.read(source + n))
@@ -279,7 +289,7 @@ class Interpreter:
 
     def offsets_changed(self, cell: int = 0) -> None:
         """Offsets were written: the machine stays, the program position follows."""
-        if cell in RADIUS_CELLS:
+        if cell in (RADIUS, RADIUS_WEAR):
             self.offset_path.change_radius()
         else:
             self.path.refresh()

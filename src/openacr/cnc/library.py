@@ -8,6 +8,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from openacr.cnc.cells import (
+    CMP_RAD,
+    CUT_SPEED,
+    DEFAULT_UNIT,
+    LAST_RADIUS,
+    LIBRARY_CENTRES,
+    RADII,
+    RADIUS_WEARS,
+    START_FEED,
+)
 from openacr.cnc.findings import CodeError, Finding
 from openacr.cnc.hosts import Cells
 from openacr.cnc.part import (
@@ -27,10 +37,7 @@ from openacr.units import MM_PER_INCH
 
 FOLDER = Path(__file__).parent / "library"
 SUFFIX = ".TXT"
-# Cells of the store: default unit, I/J of parts, lead-in radius, radius without D, feeds, D tables.
-UNITS, IJ_CODE, LEAD_IN_CELL, CMP_RAD = 250_001, 250_004, 250_005, 100_020
-START_FEED, CUT_SPEED = 100_021, 650_002
-D_RADIUS, D_WEAR, LAST_D = 1000, 1500, 400
+LEAD_IN_CELL = 250_005
 LENGTHS = frozenset((INCH, MM))
 DIGITS = 12
 
@@ -110,7 +117,7 @@ def prepared(
     `is_metric` is the active unit; without `feed` (in it) the one of the run set-up holds, or
     Cut Speed. PartError with code E222 if a size is out of range or a condition does not hold.
     """
-    store_unit = MM if cells.read(UNITS) else INCH
+    store_unit = MM if cells.read(DEFAULT_UNIT) else INCH
     active = MM if is_metric else INCH
     values: dict[int, float] = {}
     findings: list[Finding] = []
@@ -133,7 +140,7 @@ def prepared(
         feed = in_unit(cells.read(START_FEED) or cells.read(CUT_SPEED), store_unit, active)
     if not feed > 0.0:
         raise UserError(f"feed {feed:g}: it must be above 0")
-    return Ready(part, values, int(cells.read(IJ_CODE)), is_metric, feed, d_number)
+    return Ready(part, values, int(cells.read(LIBRARY_CENTRES)), is_metric, feed, d_number)
 
 
 def in_unit(value: float, unit: str, active: str) -> float:
@@ -148,9 +155,9 @@ def tool_radius(cells: Cells, d_number: int) -> float:
     """The radius of a D number with its wear, in default units; that of CMP RAD for 0."""
     if not d_number:
         return abs(cells.read(CMP_RAD))
-    if not 1 <= d_number <= LAST_D:
-        raise UserError(f"D{d_number}: offsets are D1 to D{LAST_D}")
-    return abs(cells.read(D_RADIUS + d_number) + cells.read(D_WEAR + d_number))
+    if not 1 <= d_number <= LAST_RADIUS:
+        raise UserError(f"D{d_number}: offsets are D1 to D{LAST_RADIUS}")
+    return abs(cells.read(RADII + d_number) + cells.read(RADIUS_WEARS + d_number))
 
 
 def _broken(part: Part, rule: Rule, values: Mapping[int, float], cells: Cells) -> Iterator[Finding]:

@@ -11,11 +11,8 @@ from itertools import islice
 from pathlib import Path
 
 from openacr.cnc.blocks import Block, Gosub, Goto, If, Include, OWord, Word
-from openacr.cnc.checks import (
-    M30_ENDS,
-    Checks,
-    Report,
-)
+from openacr.cnc.cells import HASH_TEST, M30_ENDS
+from openacr.cnc.checks import Checks, Report
 from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect, Group
 from openacr.cnc.findings import MOST, CodeError
 from openacr.cnc.formulas import Number
@@ -32,7 +29,7 @@ from openacr.cnc.text import Text, decoded
 
 DEEPEST_INCLUDE = 8
 NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 200_008, 200_012, 1000
-HASH_TEST, AUTO_CYCLES, CUSTOM_FOLDER = 700_001, 700_006, 900_010
+AUTO_CYCLES, CUSTOM_FOLDER = 700_006, 900_010
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 from openacr.cnc.canonical import PathMode, Plane, Spin
+from openacr.cnc.cells import CUT_SPEED, START_FEED, TOOL, TOOL_IN_SPINDLE
 from openacr.cnc.hosts import Cells
 
 PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}
@@ -22,7 +23,6 @@ MODES = {
     64: PathMode.FREE,
 }
 START_CHOSEN = 100_010
-CUT_SPEED, SETUP_FEED = 650_002, 100_021
 COMPATIBILITY = 700_000
 
 
@@ -98,7 +98,7 @@ def _centres(cells: Cells) -> int:
 
 
 def _feed(cells: Cells) -> float:
-    return cells.read(SETUP_FEED) or cells.read(CUT_SPEED)
+    return cells.read(START_FEED) or cells.read(CUT_SPEED)
 
 
 def _path(cells: Cells) -> int:
@@ -137,12 +137,12 @@ RESETS = (
     Reset("centres", _cell(250_003), _centres),
     Reset("feed", _feed, _feed),
     Reset("feed_mode", _always(94)),
-    Reset("has_feed", lambda cells: cells.read(SETUP_FEED) > 0.0),
+    Reset("has_feed", lambda cells: cells.read(START_FEED) > 0.0),
     Reset("spin", _always(Spin.OFF)),
     Reset("mist", _always(False)),
     Reset("flood", _always(False)),
-    Reset("tool", _cell(234)),
-    Reset("tool_in_spindle", _cell(235)),
+    Reset("tool", _cell(TOOL)),
+    Reset("tool_in_spindle", _cell(TOOL_IN_SPINDLE)),
     Reset("radius_number", _always(0)),
     Reset("tangent", _always(0)),
     Reset("is_feed_locked", _always(False)),

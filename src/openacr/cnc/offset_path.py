@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import BlockEnd, Entry
+from openacr.cnc.cells import EPSILON, RADIUS, RADIUS_WEAR
 from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.elements import Element
 from openacr.cnc.turn import Turn
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
 
 OFF = 40
 SIDES = {41: Side.LEFT, 42: Side.RIGHT}
-RADIUS, WEAR = 1998, 1999
-EPSILON, SWEEP_EPSILON, ROOT_EPSILON, GOUGE_STOP = 250_101, 250_102, 250_103, 250_130
+SWEEP_EPSILON, ROOT_EPSILON, GOUGE_STOP = 250_102, 250_103, 250_130
 _ARCS = (2, 3)
 
 
@@ -78,7 +78,7 @@ class OffsetPath:
         return motion in _ARCS and any(code.letter == "MOTION" for code in b.plan.acts)
 
     def _radius(self) -> float:
-        return self._run.cells.read(RADIUS) + self._run.cells.read(WEAR)
+        return self._run.cells.read(RADIUS) + self._run.cells.read(RADIUS_WEAR)
 
     def change_radius(self) -> None:
         """D or a wear value has changed: it holds from the next element on."""

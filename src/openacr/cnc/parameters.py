@@ -39,7 +39,6 @@ FREE_CELLS = (
 OPERANDS = (
     "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
 )  # fmt: skip
-RADIUS_CELLS = (1998, 1999)
 
 SHOWN: dict[int, Callable[[Modal], float]] = {
     234: lambda m: float(m.tool),

@@ -14,6 +14,7 @@ from dataclasses import replace
 
 from openacr.cnc.arcs import Bow
 from openacr.cnc.canonical import Arc, Entry, Line, Pace, PathMode, Plane, Point, Rapid, Source
+from openacr.cnc.cells import DEFAULT_UNIT
 from openacr.cnc.codes import ROTARY
 from openacr.cnc.coordinates import ORIGIN, Coordinates
 from openacr.cnc.elements import Element
@@ -22,7 +23,6 @@ from openacr.cnc.modal import COMPATIBILITY, Modal
 from openacr.cnc.turn import Turn
 from openacr.units import MM_PER_INCH
 
-DEFAULT_UNIT = 250_001
 METRIC = 21
 
 

@@ -25,6 +25,7 @@ from openacr.cnc.canonical import (
     Spindle,
     Transfer,
 )
+from openacr.cnc.cells import COOLANT, SPEED, SPIN, TOOL_IN_SPINDLE
 from openacr.cnc.hosts import Machine
 from openacr.cnc.interpreter import Interpreter
 from openacr.cnc.parameters import OUTPUTS_INVERTED, is_inverted
@@ -32,7 +33,6 @@ from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
 
 MOST_BLOCKS = 10_000_000
-TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT = 235, 238, 240, 241
 NO_OUTPUT = -1
 LIVE = "values of the card were read as they are now"
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from openacr.cnc import scan_cy as scan
-from openacr.cnc.canonical import Polyline, Source
+from openacr.cnc.canonical import AXES, Polyline, Source
 from openacr.cnc.codes import ROTARY
 from openacr.cnc.gcodes.motion import MOTIONS
 from openacr.cnc.labels import Place, Rows
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 8192
 LEAST_ROWS = 16  # fewer lines are read one by one
-AXES = 8
 FEED_PER_MINUTE = 94
 _scan_lines = pick(scan.scan_lines)
 _skim_lines = pick(scan.skim_lines)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from openacr.cnc.blocks import Gosub, Goto, If, Include, Input, OWord, Print, Return, Statement
 from openacr.cnc.canonical import Ask, Entry, Say
+from openacr.cnc.cells import HASH_TEST
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Formula, Number
 from openacr.cnc.parameters import number
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from openacr.cnc.program import Node
 
 Act = Callable[["Node"], "Iterator[Entry] | None"]
-HASH_TEST = 700_001
 
 
 def statement_of(statement: Statement, run: Interpreter, node: Node) -> Act:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from openacr.cnc.canonical import (
+    AXES,
     Arc,
     Dwell,
     Entry,
@@ -45,9 +46,9 @@ class Survey:
         default_factory=lambda: {"rapid": 0, "feed": 0, "arc": 0, "dwell": 0}
     )
     lengths: dict[str, float] = field(default_factory=lambda: {"rapid": 0.0, "feed": 0.0})
-    low: list[float] = field(default_factory=lambda: [math.inf] * 8)
-    high: list[float] = field(default_factory=lambda: [-math.inf] * 8)
-    end: Point = (0.0,) * 8
+    low: list[float] = field(default_factory=lambda: [math.inf] * AXES)
+    high: list[float] = field(default_factory=lambda: [-math.inf] * AXES)
+    end: Point = (0.0,) * AXES
     tools: list[int] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
@@ -136,7 +137,7 @@ class _Count:
         """The whole program."""
         found = self._found
         try:
-            for entry in self._entries():
+            for entry in self._run.entries():
                 self.add(entry)
                 if look is not None:
                     look(entry)
@@ -146,9 +147,6 @@ class _Count:
         if any(found.low[axis] < math.inf for axis in found.letters.values()):
             for axis in self._unplaced:
                 found.low[axis] = found.high[axis] = self._at[axis]
-
-    def _entries(self) -> Iterator[Entry]:
-        return self._run.entries()
 
     def add(self, entry: Entry) -> None:
         """One entry."""

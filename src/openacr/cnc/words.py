@@ -6,6 +6,19 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, SetCell, Spin, Spindle, Transfer
+from openacr.cnc.cells import (
+    LAST_LENGTH,
+    LAST_RADIUS,
+    LENGTH,
+    LENGTH_WEAR,
+    LENGTH_WEARS,
+    LENGTHS,
+    RADII,
+    RADIUS,
+    RADIUS_WEAR,
+    RADIUS_WEARS,
+    TOOL,
+)
 from openacr.cnc.codes import Limit, Step
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Formula
@@ -17,10 +30,7 @@ if TYPE_CHECKING:
     from openacr.cnc.turn import Turn
 
 letter = ACROMILL.letter
-RADII, RADIUS_WEARS, RADIUS, RADIUS_WEAR = 1000, 1500, 1998, 1999
-LENGTHS, LENGTH_WEARS, LENGTH, LENGTH_WEAR = 2000, 3000, 4000, 4001
 LAST_VARIABLE = 4095
-TOOL_CELL = 234
 
 
 @letter("F", step=Step.FEED)
@@ -45,7 +55,7 @@ def speed(run: Interpreter, b: Turn) -> None:
 def tool(run: Interpreter, b: Turn) -> None:
     """Tool for the next M6."""
     run.modal.tool = b.whole("T")
-    run.tell(SetCell(b.source, TOOL_CELL, run.modal.tool))
+    run.tell(SetCell(b.source, TOOL, run.modal.tool))
 
 
 @letter("T#", step=Step.TRANSFER)
@@ -61,7 +71,7 @@ def transfer(run: Interpreter, b: Turn) -> Iterator[Entry]:
     run.tell(Transfer(b.source, n, run.parameters.read_p(n)))
 
 
-@letter("D", step=Step.RADIUS, limits=(Limit("D", 0, 400, "E222", is_whole=True),))
+@letter("D", step=Step.RADIUS, limits=(Limit("D", 0, LAST_RADIUS, "E222", is_whole=True),))
 def radius(run: Interpreter, b: Turn) -> None:
     """Cutter radius and its wear by number; D0 is radius 0."""
     select_radius(run, b.whole("D"))
@@ -75,7 +85,7 @@ def select_radius(run: Interpreter, n: int) -> None:
         run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
 
 
-@letter("H", step=Step.LENGTH_NUMBER, limits=(Limit("H", 0, 999, "E222", is_whole=True),))
+@letter("H", step=Step.LENGTH_NUMBER, limits=(Limit("H", 0, LAST_LENGTH, "E222", is_whole=True),))
 def length(run: Interpreter, b: Turn) -> None:
     """Tool length and its wear by number; without G43 or G44 it switches G43 on."""
     select_length(run, b.whole("H"))

@@ -1,13 +1,13 @@
 """Inserted moves as lines of a part program."""
 
-from openacr.cnc.canonical import Arc, Line, Plane, Point, Rapid
+from openacr.cnc.canonical import AXES, Arc, Line, Plane, Point, Rapid
 
 MARK = "<ins>"
 AXIS_WORDS = "XYZ"
 CENTRE_WORDS = "IJK"
 INCH_DIGITS = 4
 MM_DIGITS = 3
-ORIGIN: Point = (0.0,) * 8
+ORIGIN: Point = (0.0,) * AXES
 
 
 def listing(

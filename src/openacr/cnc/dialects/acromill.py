@@ -40,4 +40,4 @@ ORDER = (
     Step.COOLANT_OFF,
     Step.STOP,
 )
-ACROMILL_DIALECT = DIALECTS["acromill"] = Dialect("acromill", GRAMMAR, ACROMILL, ORDER)
+DIALECTS["acromill"] = Dialect("acromill", GRAMMAR, ACROMILL, ORDER)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from openacr.cnc import arcs
+from openacr.cnc.cells import EPSILON
 from openacr.cnc.codes import Group, Step
 from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.tables import ACROMILL
@@ -99,7 +100,7 @@ def _arc(run: Interpreter, b: Turn, direction: int) -> None:
     path, modal = run.path, run.modal
     plane, end = modal.plane_axes, path.end(b)
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
-    epsilon = run.cells.read(arcs.EPSILON_CELL)
+    epsilon = run.cells.read(EPSILON)
     bow = arcs.bow_of(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
     _check_radii(run, b, bow)
     bow = arcs.placed(b, bow, plane, path.coordinates, path.program)

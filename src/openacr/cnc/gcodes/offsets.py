@@ -7,11 +7,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry
+from openacr.cnc.cells import (
+    COMMON,
+    FIXTURES,
+    FLOATING,
+    LAST_LENGTH,
+    LAST_RADIUS,
+    LENGTH_WEARS,
+    LENGTHS,
+    LOCAL,
+    RADII,
+    RADIUS_WEARS,
+)
 from openacr.cnc.codes import Axes, Step
-from openacr.cnc.coordinates import COMMON, FIXTURES, FLOATING, HOLE, LOCAL
+from openacr.cnc.coordinates import HOLE
 from openacr.cnc.gcodes.work import length_of
 from openacr.cnc.tables import ACROMILL
-from openacr.cnc.words import LENGTH_WEARS, LENGTHS, RADII, RADIUS_WEARS
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter import Interpreter
@@ -31,10 +42,10 @@ class Form:
 FORMS = {
     2: Form(6),
     20: Form(8),
-    10: Form(999, LENGTHS),
-    11: Form(999, LENGTH_WEARS),
-    12: Form(400, RADII),
-    13: Form(400, RADIUS_WEARS),
+    10: Form(LAST_LENGTH, LENGTHS),
+    11: Form(LAST_LENGTH, LENGTH_WEARS),
+    12: Form(LAST_RADIUS, RADII),
+    13: Form(LAST_RADIUS, RADIUS_WEARS),
     14: Form(99),
 }
 

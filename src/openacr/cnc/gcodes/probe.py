@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, Pace, PathMode, Point, Probe
-from openacr.cnc.codes import Axes, Step
+from openacr.cnc.codes import ROTARY, Axes, Step
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def probed(run: Interpreter, b: Turn, *, is_away: bool = False) -> Iterator[Entr
 
 def keep(run: Interpreter, trip: Point) -> None:
     """Store the trip position: machine and program coordinates, active unit."""
-    rotary = {axis for letter, axis in run.planner.axes.items() if letter in "ABC"}
+    rotary = {axis for letter, axis in run.planner.axes.items() if letter in ROTARY}
     program = run.path.program
     for axis, value in enumerate(trip):
         is_length = axis not in rotary

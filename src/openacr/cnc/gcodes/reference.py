@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Check, Confirm, Entry, Point
+from openacr.cnc.canonical import AXES, Check, Confirm, Entry, Point
 from openacr.cnc.codes import Axes, Limit, Step
 from openacr.cnc.tables import ACROMILL
 
@@ -89,7 +89,7 @@ def _at_memory(run: Interpreter) -> Point:
 
 def _reference(run: Interpreter, n: int) -> Point:
     base = REFERENCES + HOLE * (n - 1)
-    return tuple(run.cells.read(base + axis) for axis in range(8))
+    return tuple(run.cells.read(base + axis) for axis in range(AXES))
 
 
 def _to_reference(run: Interpreter, b: Turn, n: int, axes: tuple[int, ...]) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from openacr.cnc.canonical import AXES
 from openacr.cnc.codes import Axes, Group, Step
 from openacr.cnc.coordinates import Rotation, Scale
+from openacr.cnc.gcodes.work import length_of
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -14,7 +16,6 @@ if TYPE_CHECKING:
 
 gcode = ACROMILL.gcode
 _FACTORS = "IJK"
-_AXES = 8
 
 
 @gcode(50, step=Step.SCALE, group=Group.SCALE)
@@ -34,7 +35,7 @@ def scale(run: Interpreter, b: Turn) -> None:
         raise b.fault("E206", separate[0], separate[0], "P or I J K")
     if "P" not in b.words and not separate:
         raise b.fault("E206", "", "factor missing", "P or I J K")
-    factors = [b.get("P", 1.0)] * _AXES
+    factors = [b.get("P", 1.0)] * AXES
     for axis, letter in enumerate(_FACTORS):
         if letter in b.words:
             factors[axis] = b.words[letter]
@@ -48,7 +49,7 @@ def centre_of(run: Interpreter, b: Turn) -> tuple[float, ...]:
     """The axis words as a point; missing ones are where the program is."""
     centre = list(run.path.program)
     for axis, letter, value in b.axes:
-        centre[axis] = run.path.length(value) if letter not in "ABC" else value
+        centre[axis] = length_of(run, letter, value)
     return tuple(centre)
 
 

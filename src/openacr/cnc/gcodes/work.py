@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from openacr.cnc.canonical import AXES
+from openacr.cnc.cells import FLOATING, LOCAL
 from openacr.cnc.codes import ROTARY, Axes, Group, Step
-from openacr.cnc.coordinates import FLOATING, LOCAL
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 gcode = ACROMILL.gcode
 SYSTEMS = {54: 1, 55: 2, 56: 3, 57: 4, 58: 5, 59: 6, 59.1: 7, 59.2: 8, 59.3: 9}
 FLOATING_ON, FLOATING_WORD, FLOATING_BEFORE, FLOATING_AT = 800, 809, 817, 825
-_AXES = 8
 
 
 @gcode(*list(SYSTEMS)[:8], step=Step.WORK, group=Group.WORK)
@@ -37,7 +37,7 @@ def select(run: Interpreter, system: int) -> None:
     """Make a system active; the local shift ends."""
     run.modal.work = system
     with run.cells.transaction(is_durable=False):
-        for axis in range(_AXES):
+        for axis in range(AXES):
             run.cells.write(LOCAL + axis, 0.0)
     run.path.refresh()
 
@@ -86,7 +86,7 @@ def preset_zero(run: Interpreter, named: dict[int, float]) -> None:
 
 def show_zero(run: Interpreter) -> None:
     """P800 says whether a shift is active."""
-    shifts = [run.cells.read(FLOATING + axis) for axis in range(_AXES)]
+    shifts = [run.cells.read(FLOATING + axis) for axis in range(AXES)]
     run.cells.write(FLOATING_ON, float(any(shifts)))
     run.path.refresh()
 
@@ -94,6 +94,6 @@ def show_zero(run: Interpreter) -> None:
 def clear_zero(run: Interpreter) -> None:
     """CLR ZERO: no floating zero."""
     with run.cells.transaction(is_durable=False):
-        for axis in range(_AXES):
+        for axis in range(AXES):
             run.cells.write(FLOATING + axis, 0.0)
         show_zero(run)

@@ -6,9 +6,19 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from openacr.cnc import gcodes as _acromill  # noqa: F401  fills the other table
-from openacr.cnc.canonical import Dwell, Entry
+from openacr.cnc.canonical import AXES, Dwell, Entry
+from openacr.cnc.cells import (
+    FLOATING,
+    LAST_RADIUS,
+    LENGTH,
+    LENGTH_WEAR,
+    LENGTHS,
+    RADII,
+    RADIUS,
+    RADIUS_WEAR,
+)
 from openacr.cnc.codes import Axes, Group, Limit, Step
-from openacr.cnc.coordinates import FLOATING, LENGTH_SIGN, system_base
+from openacr.cnc.coordinates import LENGTH_SIGN, ORIGIN, system_base
 from openacr.cnc.gcodes import cycles, motion
 from openacr.cnc.gcodes.offsets import taught
 from openacr.cnc.gcodes.probe import TRIPPED, probed
@@ -21,23 +31,13 @@ from openacr.cnc.gcodes.work import (
     show_zero,
 )
 from openacr.cnc.tables import ACROMILL, RS274NGC
-from openacr.cnc.words import (
-    LENGTH,
-    LENGTH_WEAR,
-    LENGTHS,
-    RADII,
-    RADIUS,
-    RADIUS_WEAR,
-    select_length,
-    select_radius,
-)
+from openacr.cnc.words import select_length, select_radius
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter import Interpreter
     from openacr.cnc.turn import Turn
 
 gcode = RS274NGC.gcode
-AXES = 8
 REFERENCE_CELLS = {28: 280, 30: 290}
 RS274NGC.take(
     ACROMILL,
@@ -143,7 +143,7 @@ def compensation_by_diameter(run: Interpreter, b: Turn) -> None:
        limits=(Limit("H", 0, 999, "E222", is_whole=True),))  # fmt: skip
 def length(run: Interpreter, b: Turn) -> None:
     """The length of H, or of the tool, is added to Z."""
-    run.path.coordinates.added = (0.0,) * AXES
+    run.path.coordinates.added = ORIGIN
     run.modal.length = 43
     select_length(run, b.whole("H", run.modal.tool_in_spindle))
     run.path.refresh()
@@ -172,7 +172,7 @@ def more_length(run: Interpreter, b: Turn) -> None:
 def no_length(run: Interpreter, b: Turn) -> None:
     """No tool length."""
     run.modal.length = 49
-    run.path.coordinates.added = (0.0,) * AXES
+    run.path.coordinates.added = ORIGIN
     select_length(run, 0)
     run.path.refresh()
 
@@ -237,7 +237,7 @@ def zero_offset(run: Interpreter, b: Turn) -> None:
 def offsets(run: Interpreter, b: Turn) -> Iterator[Entry]:
     """L2 and L20 write work systems, L1, L10 and L11 the tool table."""
     table = b.whole("L", code="E241")
-    last = {2: 9, 20: 9, 1: 400, 10: 400, 11: 400}.get(table)
+    last = {2: 9, 20: 9, 1: LAST_RADIUS, 10: LAST_RADIUS, 11: LAST_RADIUS}.get(table)
     if last is None or "P" not in b.words:
         raise b.fault("E241", "L", hint="L 1, 2, 10, 11 or 20 with P")
     n = b.whole("P", code="E241")

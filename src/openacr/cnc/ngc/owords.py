@@ -34,7 +34,6 @@ KINDS = frozenset(
 NEEDS_VALUE = frozenset({"WHILE", "IF", "ELSEIF", "REPEAT"})
 ENDS = {"WHILE": ("ENDWHILE",), "REPEAT": ("ENDREPEAT",), "SUB": ("ENDSUB",), "DO": ("WHILE",)}
 BRANCHES = ("ELSEIF", "ELSE", "ENDIF")
-LOOPS = ("WHILE", "DO", "REPEAT")
 LOOP_ENDS = ("ENDWHILE", "ENDREPEAT", "WHILE")
 SUB, PROGRAM = "SUB", "PROGRAM"  # `O100 sub`, and a program O100 that M99 ends
 STARTS = (SUB, PROGRAM)

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 
+from openacr.cnc.canonical import AXES
+from openacr.cnc.coordinates import system_base
 from openacr.cnc.findings import CodeError
 from openacr.cnc.parameters import SHOWN, Parameters, number
 
-AXES = 8
 FIRST_SYSTEM, SYSTEMS, SYSTEM_STEP = 5221, 9, 20
 FIRST_POSITION = 5420
 LAST_OWN = 5000
 LAST = 5999
-LAST_SYSTEM_BASE = 840  # cells of G59.3, which the store has no place for
 
 
 def _run_of(first: int, cell: int) -> dict[int, int]:
@@ -32,8 +32,7 @@ CELLS = {
     **_run_of(5211, 801),
 }
 for _n in range(SYSTEMS):
-    _cell = 910 + 10 * _n if _n < SYSTEMS - 1 else LAST_SYSTEM_BASE
-    CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, _cell)
+    CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, system_base(_n + 1))
 STATES = {5220: 998, 5400: 235}
 
 
