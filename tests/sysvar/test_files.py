@@ -91,12 +91,14 @@ def test_a_newer_layout_is_refused(path: Path) -> None:
         Store(path)
 
 
-def test_a_value_of_the_wrong_kind_is_refused(path: Path) -> None:
+def test_a_value_of_the_wrong_kind_is_refused_and_the_file_let_go(path: Path) -> None:
     with sqlite3.connect(path) as foreign:
         foreign.execute("UPDATE cell SET value = 'long' WHERE number = 1001")
     foreign.close()
     with pytest.raises(StoreError, match=r"holds 'long' for P1001 D radius 1"):
         Store(path)
+    used = [link for link in Path("/proc/self/fd").glob("*") if str(path) in os.path.realpath(link)]
+    assert used == []
 
 
 def test_a_folder_is_no_store(tmp_path: Path) -> None:

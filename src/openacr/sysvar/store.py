@@ -71,7 +71,11 @@ class Store:
         except BaseException:
             self._counter.close()
             raise
-        self._look()
+        try:
+            self._look()
+        except BaseException:
+            self.close()
+            raise
         if is_metric and not self._token:
             self.begin_metric()
 
