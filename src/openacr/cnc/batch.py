@@ -51,11 +51,6 @@ class Batch:
         """Every program once: what is checked before the first one starts."""
         return tuple(dict.fromkeys(entry.path for entry in self.entries))
 
-    @property
-    def run_cnt(self) -> int:
-        """How many runs the batch makes."""
-        return sum(entry.repeat_cnt for entry in self.entries)
-
     def runs(self) -> Iterator[Entry]:
         """The runs in their order, each as often as it is wanted."""
         for entry in self.entries:

@@ -109,7 +109,7 @@ class Execution:
         run.parameters.swap(kept)
         if not run.is_ended:
             self.node = here
-            flow.resume(back)
+            flow.go(back)
 
     # --- which line -------------------------------------------------------------------
 
@@ -146,7 +146,7 @@ class Execution:
             try:
                 work.now(node)
             except NotAtRestError:
-                flow.resume(node)
+                flow.go(node)
                 done -= 1
                 break
             except _ARITHMETIC as error:

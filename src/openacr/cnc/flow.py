@@ -110,11 +110,7 @@ class Flow:
             raise CodeError("E220", column, f"N{label}")
         return node
 
-    def go(self, node: Node) -> None:
-        """Go on there."""
-        self.resume(node)
-
-    def resume(self, node: Node | None) -> None:
+    def go(self, node: Node | None) -> None:
         """Go on there, or end the program."""
         self.next, self.last, self.place = node, None, None
 
@@ -137,7 +133,7 @@ class Flow:
         frame = self.frames.pop()
         frame.is_done = True
         if frame.level is Level.SUB:
-            self.resume(frame.back)
+            self.go(frame.back)
 
     def is_within(self, level: Level) -> bool:
         """Whether a call of that kind is in force."""

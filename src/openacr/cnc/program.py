@@ -101,8 +101,7 @@ class Program:
         """The line an entry comes from; entries of long ways do not carry it."""
         if source.text:
             return source.text
-        others = (*self.parts, *self.includes.values(), *self.customs.values())
-        for part in (self.main, *others):
+        for part in (self.main, *self.parts):
             if part.text.name == source.file:
                 return part.line(source.line)
         return ""
