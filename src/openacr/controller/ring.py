@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from openacr.controller.journal import JournalEntry
 from openacr.controller.recorder import Recorder
 from openacr.errors import StoreError
-from openacr.store.lock import FolderInUseError, FolderLock
+from openacr.store.lock import FolderLock, InUseError
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
@@ -97,7 +97,7 @@ class Ring:
 def own_ring(card: Controller, folder: Path) -> Ring:
     """A ring in the first folder `folder/1`, `folder/2`, ... that no other card uses."""
     for place in range(1, PLACES + 1):
-        with suppress(FolderInUseError):
+        with suppress(InUseError):
             return Ring(card, folder / str(place))
     raise StoreError(f"{folder} has no free place: {PLACES} cards use it")
 

@@ -34,6 +34,7 @@ from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.machine import LINK_ERRORS, Machine
 from openacr.mill.messages import Message, Messages, definitions
+from openacr.mill.owner import Owner
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare, user_variables
@@ -75,7 +76,9 @@ class Workshop:
         *,
         is_virtual: bool,
         folder: Path | None = None,  # of the store, for its files
+        owner: Owner | None = None,
     ) -> None:
+        self._owner = owner
         self.cells = cells
         self.card = card
         self.is_virtual = is_virtual
@@ -130,14 +133,23 @@ class Workshop:
             check_firmware(card)
             check_rest(card, Settings(store))
             user_variables(card)
-            homed.agree(card, store)  # before the set-up: tables act on homed axes alone
-            return cls(card, store, say, is_virtual=False, folder=_folder_of(store))
+            owner = Owner(card, store.path)
         except BaseException:
+            card.close()
+            raise
+        try:
+            homed.agree(card, store)  # before the set-up: tables act on homed axes alone
+            return cls(card, store, say, is_virtual=False, folder=_folder_of(store), owner=owner)
+        except BaseException:
+            owner.release()
             card.close()
             raise
 
     def close(self) -> None:
         """Let go of the card."""
+        with suppress(*LINK_ERRORS):
+            if self._owner is not None:
+                self._owner.release()
         self.card.close()
 
     # --- programs ---------------------------------------------------------------------
@@ -247,6 +259,8 @@ class Workshop:
         self.runner.step()
         with suppress(*LINK_ERRORS):  # the next look tells
             self.messages.keep(self.machine.now_s)
+            if self._owner is not None:
+                self._owner.keep(self.machine.now_s)
 
     def _note_message(self, message: Message, is_on: bool) -> None:
         if is_on and message.is_alarm:

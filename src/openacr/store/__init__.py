@@ -2,6 +2,6 @@
 
 from openacr.store.database import Database
 from openacr.store.images import Image, Images, Scratch
-from openacr.store.lock import FolderInUseError, FolderLock
+from openacr.store.lock import FolderLock, InUseError
 
-__all__ = ["Database", "FolderInUseError", "FolderLock", "Image", "Images", "Scratch"]
+__all__ = ["Database", "FolderLock", "Image", "Images", "InUseError", "Scratch"]

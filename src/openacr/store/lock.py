@@ -1,4 +1,4 @@
-"""One process at a time owns a folder; the lock ends with the process, however that ends."""
+"""One process at a time owns a file or folder; the lock ends with the process, however it ends."""
 
 from __future__ import annotations
 
@@ -11,31 +11,41 @@ from openacr.errors import StoreError, reason
 FILE_NAME = "lock"
 
 
-class FolderInUseError(StoreError):
-    """Another process owns the folder."""
+class InUseError(StoreError):
+    """Another process is the owner."""
 
 
-class FolderLock:
-    """The ownership of a folder, until `release`; FolderInUseError if another process has it."""
+class FileLock:
+    """The ownership of what a file stands for, until `release`; InUseError if another has it.
 
-    def __init__(self, folder: Path) -> None:
+    The file holds nothing and stays behind. `taken` is said when another process is the owner.
+    """
+
+    def __init__(self, path: Path, taken: str) -> None:
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             # A database locks its file on every system, and nothing stays locked by a kill.
             self._connection = sqlite3.connect(
-                folder / FILE_NAME, isolation_level=None, timeout=0.0, check_same_thread=False
+                path, isolation_level=None, timeout=0.0, check_same_thread=False
             )
         except (OSError, sqlite3.Error) as failure:
-            raise StoreError(f"{folder} cannot be used: {reason(failure)}") from None
+            raise StoreError(f"{path.parent} cannot be used: {reason(failure)}") from None
         try:
             self._connection.execute("BEGIN EXCLUSIVE")
         except sqlite3.Error as failure:
             self._connection.close()
             if failure.sqlite_errorcode & 0xFF == sqlite3.SQLITE_BUSY:
-                raise FolderInUseError(f"{folder} is in use by another card") from None
-            raise StoreError(f"{folder} cannot be used: {failure}") from None
+                raise InUseError(taken) from None
+            raise StoreError(f"{path.parent} cannot be used: {failure}") from None
 
     def release(self) -> None:
-        """Let others have the folder."""
+        """Let others have it."""
         with closing(self._connection):
             self._connection.rollback()
+
+
+class FolderLock(FileLock):
+    """The ownership of a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder / FILE_NAME, f"{folder} is in use by another card")
