@@ -290,19 +290,19 @@ def test_what_is_not_valid_at_sys_is_an_unknown_command_there(text: str) -> None
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("text", "command"),
     [
-        "PPU AXIS0 4000",
-        "AXIS3 HLIM 3",
-        "SET 32",
-        "P0=1",
-        "DWL 1",
-        "IF (P0) THEN SET 32",
-        "MASTER0 VEL 5",
+        ("PPU AXIS0 4000", "PPU"),
+        ("AXIS3 HLIM 3", "HLIM"),
+        ("SET 32", "SET"),
+        ("P0=1", "LET"),
+        ("DWL 1", "DWL"),
+        ("IF (P0) THEN SET 32", "IF"),
+        ("MASTER0 VEL 5", "VEL"),
     ],
 )
-def test_named_objects_are_valid_at_sys(text: str) -> None:
-    assert words(text, SYS)
+def test_named_objects_are_valid_at_sys(text: str, command: str) -> None:
+    assert words(text, SYS) == [[command]]
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@ from tests.plc.rack import numbered
 
 from openacr.errors import CardError
 from openacr.plc.compile import PlcCompileError, compile_plc
+from openacr.plc.scan_cy import OP_LOAD, OP_OUT, OP_START
 
 
 def compiled(*lines: str) -> list[tuple[int, int]]:
@@ -37,7 +38,11 @@ def test_sixteen_results_can_be_saved() -> None:
 
 def test_an_output_ends_a_rung_and_blocks_nobody_has_used_are_dropped() -> None:
     saved = ("LD 0",) * 17
-    assert compiled(*saved, "OUT 32", *saved, "OUT 33")
+    code = compiled(*saved, "OUT 32", *saved, "OUT 33")
+    assert [operation for operation, _ in code] == [
+        *(OP_START, *(OP_LOAD,) * 16, OP_OUT),
+        *(OP_START, *(OP_LOAD,) * 16, OP_OUT),
+    ]
 
 
 def test_the_scan_ends_at_end_endp_or_the_last_line() -> None:

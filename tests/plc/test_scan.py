@@ -162,8 +162,10 @@ def test_a_shorter_text_runs_without_the_rest_of_the_longer_one(rack: Rack) -> N
 
 def test_a_plc_without_instructions_does_nothing(rack: Rack) -> None:
     rack.program("REM nothing")
+    flags = bytes(rack.memory.I[4096:4112])
     rack.step(3)
     assert rack.plcs.is_running(0)
+    assert bytes(rack.memory.I[4096:4112]) == flags
 
 
 # timers
@@ -231,9 +233,10 @@ def test_part_of_a_millisecond_is_forgotten_with_the_input(rack: Rack) -> None:
 
 
 def test_a_timer_of_nothing_follows_its_input(rack: Rack) -> None:
-    rack.put(True, TIMER_INPUT)
-    rack.step()
-    assert rack.on(TIMER_OUTPUT)
+    for on in (True, False, True):
+        rack.put(on, TIMER_INPUT)
+        rack.step()
+        assert rack.on(TIMER_OUTPUT) is on
 
 
 def test_run_sets_the_preload_and_a_program_may_change_it(rack: Rack) -> None:
