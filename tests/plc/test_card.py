@@ -150,8 +150,10 @@ def test_a_line_is_replaced_and_deleted_by_its_number(host: Host) -> None:
 @pytest.mark.req("ACR-CAN-05")
 def test_flags_above_8191_are_refused_in_a_plc_and_known_to_programs(host: Host) -> None:
     assert host.type("10 LD 11520") == "Invalid bit|PLC0>"
-    assert listed(entered(host, "10 LD 256")) == ["10 LD 256"]
-    assert host.ask("?BIT 11520") == "0"
+    entered(host, "10 LD 256", "20 OUT 32", "RUN", "SET 256")
+    host.card.advance(1)
+    assert host.card.bit[32]
+    assert host.type("SET 11520", "?BIT 11520") == "PLC0>-1|PLC0>"
 
 
 def test_words_of_acrobasic_are_not_valid_and_others_unknown(host: Host) -> None:
