@@ -13,7 +13,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
 T = 0.0005
-STEPS = [feedback_cy.encoder_step, pick(feedback_cy.encoder_step)]
+STEPS = [feedback_cy.encoder_filters_step, pick(feedback_cy.encoder_filters_step)]
 GEAR = at.AXF_BASE + at.AXF_GEAR_CNT
 WHEEL = at.ENC_BASE + 10 * at.ENC_STRIDE  # an encoder that no axis has
 
@@ -166,7 +166,8 @@ def counted(step: Callable[..., None], limit_hz: int, way: list[int]) -> list[in
     shown = []
     for counts in way:
         memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] += counts
-        step(memory.F, memory.I, 0, 1 / T)
+        step(memory.F, memory.I, T)
+        feedback_cy.encoder_step(memory.F, memory.I, 0, 1 / T)
         shown.append(memory.I[at.ENC_BASE])
     return shown
 

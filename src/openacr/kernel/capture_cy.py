@@ -41,9 +41,11 @@ from openacr.map.numbers import (
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
-    ENI_LIMIT_HZ,
     ENI_MULT,
     ENI_STRIDE,
+    ENXI_BASE,
+    ENXI_LIMIT_HZ,
+    ENXI_STRIDE,
     KRI_BASE,
     KRI_INPUTS_OLD,
     PLF_BASE,
@@ -181,7 +183,7 @@ def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
     """
     scaled: float = since_cnt * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
     behind: float = floor(F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] - scaled)
-    if I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] > 0:  # counts lost in the filter are no way
+    if I[ENXI_BASE + e * ENXI_STRIDE + ENXI_LIMIT_HZ] > 0:  # counts lost in the filter are no way
         step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
         behind = max(min(0.0, -step), min(max(0.0, -step), behind))
     return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] + int(behind))

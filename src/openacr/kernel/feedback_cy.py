@@ -54,24 +54,28 @@ from openacr.map.numbers import (
     ENC_HIGH_BASE,
     ENC_STRIDE,
     ENF_BASE,
-    ENF_FILTER_LEVEL_CNT,
-    ENF_FILTER_OLD_CNT,
-    ENF_FILTER_SINCE_S,
-    ENF_FILTERED_CNT,
     ENF_PARTIAL_CNT,
     ENF_RAW_OLD_CNT,
     ENF_STEP_CNT,
     ENF_STRIDE,
     ENI_BASE,
     ENI_DESTINATION,
-    ENI_LIMIT_HZ,
     ENI_LOCKED_TO,
     ENI_MULT,
-    ENI_ROTARY,
     ENI_SEEN,
-    ENI_SHAFT,
     ENI_STRIDE,
-    ENI_TURNED,
+    ENXF_BASE,
+    ENXF_FILTER_LEVEL_CNT,
+    ENXF_FILTER_OLD_CNT,
+    ENXF_FILTER_SINCE_S,
+    ENXF_PASSED_CNT,
+    ENXF_STRIDE,
+    ENXI_BASE,
+    ENXI_LIMIT_HZ,
+    ENXI_ROTARY,
+    ENXI_SHAFT,
+    ENXI_STRIDE,
+    ENXI_TURNED,
     KRI_BASE,
     KRI_LINKED_ENCODERS,
     KRI_MISSING_ENCODERS,
@@ -89,10 +93,10 @@ from openacr.views import F32, F64, I32
 
 __all__ = [
     "encoder_count",
+    "encoder_filters_step",
     "encoder_limit",
     "encoder_roll",
     "encoder_set",
-    "encoder_step",
     "feedback_set",
 ]
 
@@ -114,19 +118,19 @@ def encoder_row(e: int) -> int:
 
 def encoder_count(I: I32, e: int) -> int:
     """Position of encoder e without the wraps of ROTARY."""
-    turned: int = I[ENI_BASE + e * ENI_STRIDE + ENI_TURNED]
+    turned: int = I[ENXI_BASE + e * ENXI_STRIDE + ENXI_TURNED]
     return wrap32(I[encoder_row(e) + ENC_ENCODER_POSITION] + turned)
 
 
 def encoder_shaft(I: I32, e: int) -> int:
     """Counts of encoder e since power-up, whatever its position was made."""
-    taken: int = I[ENI_BASE + e * ENI_STRIDE + ENI_SHAFT]
+    taken: int = I[ENXI_BASE + e * ENXI_STRIDE + ENXI_SHAFT]
     return wrap32(I[encoder_row(e) + ENC_ENCODER_POSITION] + taken)
 
 
 def encoder_turn(I: I32, e: int, position: int) -> int:
     """A position of encoder e within its turn, the same where it is linear."""
-    length: int = I[ENI_BASE + e * ENI_STRIDE + ENI_ROTARY]
+    length: int = I[ENXI_BASE + e * ENXI_STRIDE + ENXI_ROTARY]
     if length <= 0 or 0 <= position < length:
         return position
     # both are words of 32 bits, so the quotient never rounds up to the next whole number
@@ -135,21 +139,21 @@ def encoder_turn(I: I32, e: int, position: int) -> int:
 
 def encoder_wrap(I: I32, e: int) -> None:
     """Bring the position of encoder e back into its turn."""
-    i: int = ENI_BASE + e * ENI_STRIDE
+    i: int = ENXI_BASE + e * ENXI_STRIDE
     row: int = encoder_row(e) + ENC_ENCODER_POSITION
     away: int = I[row] - encoder_turn(I, e, I[row])
     I[row] = wrap32(I[row] - away)
-    I[i + ENI_TURNED] = wrap32(I[i + ENI_TURNED] + away)
-    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] + away)
+    I[i + ENXI_TURNED] = wrap32(I[i + ENXI_TURNED] + away)
+    I[i + ENXI_SHAFT] = wrap32(I[i + ENXI_SHAFT] + away)
 
 
 def encoder_roll(I: I32, e: int, length: int) -> None:
     """Let the position of encoder e wrap at `length`, or not at all (0)."""
-    i: int = ENI_BASE + e * ENI_STRIDE
+    i: int = ENXI_BASE + e * ENXI_STRIDE
     I[encoder_row(e) + ENC_ENCODER_POSITION] = encoder_count(I, e)
-    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] - I[i + ENI_TURNED])
-    I[i + ENI_TURNED] = 0
-    I[i + ENI_ROTARY] = length
+    I[i + ENXI_SHAFT] = wrap32(I[i + ENXI_SHAFT] - I[i + ENXI_TURNED])
+    I[i + ENXI_TURNED] = 0
+    I[i + ENXI_ROTARY] = length
     encoder_wrap(I, e)
 
 
@@ -163,71 +167,77 @@ def followers_shift(I: I32, leader: int, jump: int) -> None:
 
 def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
     """Preload the position of encoder e, its count where it wraps."""
-    i: int = ENI_BASE + e * ENI_STRIDE
+    i: int = ENXI_BASE + e * ENXI_STRIDE
     row: int = encoder_row(e)
     if I[KRI_BASE + KRI_LINKED_ENCODERS]:
         followers_shift(I, e, position - encoder_count(I, e))
     shown: int = encoder_turn(I, e, wrap32(position))
     jump: int = shown - I[row + ENC_ENCODER_POSITION]
-    I[i + ENI_SHAFT] = wrap32(I[i + ENI_SHAFT] - jump)
-    I[i + ENI_TURNED] = wrap32(position - shown)
+    I[i + ENXI_SHAFT] = wrap32(I[i + ENXI_SHAFT] - jump)
+    I[i + ENXI_TURNED] = wrap32(position - shown)
     I[row + ENC_ENCODER_POSITION] = shown
     F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] = 0.0
 
 
 def encoder_limit(F: F64, I: I32, e: int, hz: int) -> None:
     """Count no edges quicker than `hz`, or all (0), from where encoder e is."""
-    f: int = ENF_BASE + e * ENF_STRIDE
+    f: int = ENXF_BASE + e * ENXF_STRIDE
     raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT] if e < MODELLED else 0.0
-    I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] = hz
-    F[f + ENF_RAW_OLD_CNT] = raw
-    F[f + ENF_FILTERED_CNT] = raw
-    F[f + ENF_FILTER_OLD_CNT] = raw
-    F[f + ENF_FILTER_LEVEL_CNT] = raw
-    F[f + ENF_FILTER_SINCE_S] = 0.0
+    I[ENXI_BASE + e * ENXI_STRIDE + ENXI_LIMIT_HZ] = hz
+    F[f + ENXF_FILTER_OLD_CNT] = raw
+    F[f + ENXF_FILTER_LEVEL_CNT] = raw
+    F[f + ENXF_FILTER_SINCE_S] = 0.0
 
 
 def encoder_pass(F: F64, f: int, level_cnt: float) -> None:
     """The signals of a raw count have passed the filter: count on to their state."""
-    step: float = level_cnt - F[f + ENF_FILTER_LEVEL_CNT]
+    step: float = level_cnt - F[f + ENXF_FILTER_LEVEL_CNT]
     step -= floor(step * 0.25) * 4.0
-    F[f + ENF_FILTER_LEVEL_CNT] = level_cnt
+    F[f + ENXF_FILTER_LEVEL_CNT] = level_cnt
     if step == 1.0:
-        F[f + ENF_FILTERED_CNT] += 1.0
+        F[f + ENXF_PASSED_CNT] += 1.0
     elif step == 3.0:
-        F[f + ENF_FILTERED_CNT] -= 1.0
+        F[f + ENXF_PASSED_CNT] -= 1.0
 
 
-def encoder_filter(F: F64, I: I32, e: int, raw: float, period_s: float) -> float:
-    """Raw count of encoder e behind its filter; the edges of a tick are spread evenly."""
-    f: int = ENF_BASE + e * ENF_STRIDE
-    hold_s: float = 1.0 / I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ]
-    old: float = F[f + ENF_FILTER_OLD_CNT]
+def encoder_filter(F: F64, I: I32, e: int, raw: float, period_s: float) -> None:
+    """Edges of encoder e that pass its filter in this tick, in which they are spread evenly."""
+    f: int = ENXF_BASE + e * ENXF_STRIDE
+    hold_s: float = 1.0 / I[ENXI_BASE + e * ENXI_STRIDE + ENXI_LIMIT_HZ]
+    old: float = F[f + ENXF_FILTER_OLD_CNT]
     edges: float = fabs(raw - old)
+    F[f + ENXF_PASSED_CNT] = 0.0
     if edges == 0.0:
-        F[f + ENF_FILTER_SINCE_S] += period_s
+        F[f + ENXF_FILTER_SINCE_S] += period_s
     else:
         way: float = 1.0 if raw > old else -1.0
         gap_s: float = period_s / edges
-        if F[f + ENF_FILTER_SINCE_S] + 0.5 * gap_s >= hold_s:
+        if F[f + ENXF_FILTER_SINCE_S] + 0.5 * gap_s >= hold_s:
             encoder_pass(F, f, old)
         if edges > 1.0 and gap_s >= hold_s:
             encoder_pass(F, f, old + way)
-            F[f + ENF_FILTERED_CNT] += way * (edges - 2.0)
-            F[f + ENF_FILTER_LEVEL_CNT] = raw - way
-        F[f + ENF_FILTER_SINCE_S] = 0.5 * gap_s
-        F[f + ENF_FILTER_OLD_CNT] = raw
-    if F[f + ENF_FILTER_SINCE_S] >= hold_s:
+            F[f + ENXF_PASSED_CNT] += way * (edges - 2.0)
+            F[f + ENXF_FILTER_LEVEL_CNT] = raw - way
+        F[f + ENXF_FILTER_SINCE_S] = 0.5 * gap_s
+        F[f + ENXF_FILTER_OLD_CNT] = raw
+    if F[f + ENXF_FILTER_SINCE_S] >= hold_s:
         encoder_pass(F, f, raw)
-    return F[f + ENF_FILTERED_CNT]
+
+
+def encoder_filters_step(F: F64, I: I32, period_s: float) -> None:
+    """Let encoders with a LIMIT see only the edges that pass: those lost were seen before."""
+    for e in range(MODELLED):
+        if I[ENXI_BASE + e * ENXI_STRIDE + ENXI_LIMIT_HZ] > 0:
+            raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
+            encoder_filter(F, I, e, raw, period_s)
+            passed: float = F[ENXF_BASE + e * ENXF_STRIDE + ENXF_PASSED_CNT]
+            F[ENF_BASE + e * ENF_STRIDE + ENF_RAW_OLD_CNT] = raw - passed
 
 
 def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     """Count what the motor of encoder e has moved since the last tick."""
     f: int = ENF_BASE + e * ENF_STRIDE
     raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
-    if I[ENI_BASE + e * ENI_STRIDE + ENI_LIMIT_HZ] > 0:
-        raw = encoder_filter(F, I, e, raw, 1.0 / rate_hz)
     scaled: float = (raw - F[f + ENF_RAW_OLD_CNT]) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
     F[f + ENF_RAW_OLD_CNT] = raw
     scaled += F[f + ENF_PARTIAL_CNT]
@@ -305,7 +315,9 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
             locked: bool = I[ENI_BASE + k * ENI_STRIDE + ENI_LOCKED_TO] != 0
             if not locked and ideal_follows(I, S, n):
                 ideal_step(F, I, n, k, rate_hz)
-        return encoder_count(I, k)
+        if I[KRI_BASE + KRI_LINKED_ENCODERS]:
+            return encoder_count(I, k)
+        return I[encoder_row(k) + ENC_ENCODER_POSITION]
     if source == FROM_ADC and 0 <= k < 16:
         return wrap32(adc_counts(S, k) + I[i + AXI_POSITION_OFFSET])
     if source == FROM_STEPPER and 0 <= k < 16:

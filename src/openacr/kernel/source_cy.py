@@ -58,7 +58,9 @@ from openacr.map.numbers import (
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
-    ENI_TURNED,
+    ENXI_BASE,
+    ENXI_STRIDE,
+    ENXI_TURNED,
     KIND_FP32,
     KIND_FP64,
     KIND_LONG,
@@ -204,7 +206,7 @@ def source_shown(I: I32, t: int, value: float) -> float:
     k: int = I[i + SRI_INDEX]
     if I[i + SRI_KIND] != FROM_COUNTER or not 0 <= k < ENCODER_COUNT:
         return value
-    return encoder_turn(I, k, wrap32(round32(value) - I[ENI_BASE + k * ENI_STRIDE + ENI_TURNED]))
+    return encoder_turn(I, k, wrap32(round32(value) - I[ENXI_BASE + k * ENXI_STRIDE + ENXI_TURNED]))
 
 
 def source_wraps(I: I32, kind: int, k: int) -> bool:

@@ -11,7 +11,12 @@ from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
 from openacr.kernel.fast_flags_cy import fast_flags_step
 from openacr.kernel.fast_status_cy import fast_status_step
-from openacr.kernel.feedback_cy import encoder_links_step, encoder_step, feedback_step
+from openacr.kernel.feedback_cy import (
+    encoder_filters_step,
+    encoder_links_step,
+    encoder_step,
+    feedback_step,
+)
 from openacr.kernel.jog_cy import jog_step
 from openacr.kernel.limits_cy import limits_step
 from openacr.kernel.master_cy import master_busy, master_step
@@ -54,6 +59,7 @@ from openacr.map.numbers import (
     HWI_STRIDE,
     KRI_AXES,
     KRI_BASE,
+    KRI_FILTERED_ENCODERS,
     KRI_KINEMATICS,
     KRI_LINKED_ENCODERS,
     KRI_MASTERS,
@@ -150,6 +156,8 @@ def tick(F: F64, I: I32, S: F32) -> None:
     rate_hz: float = 1.0 / period_s
     axes: int = I[KRI_BASE + KRI_AXES]
     masters: int = I[KRI_BASE + KRI_MASTERS]
+    if I[KRI_BASE + KRI_FILTERED_ENCODERS]:
+        encoder_filters_step(F, I, period_s)
     for e in range(MODELLED):
         if I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
             encoder_step(F, I, e, rate_hz)

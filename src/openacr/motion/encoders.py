@@ -10,12 +10,15 @@ from openacr.map.numbers import (
     ENC_ENCODER_POSITION,
     ENI_BASE,
     ENI_DESTINATION,
-    ENI_LIMIT_HZ,
     ENI_LOCKED_TO,
-    ENI_ROTARY,
     ENI_SEEN,
     ENI_STRIDE,
+    ENXI_BASE,
+    ENXI_LIMIT_HZ,
+    ENXI_ROTARY,
+    ENXI_STRIDE,
     KRI_BASE,
+    KRI_FILTERED_ENCODERS,
     KRI_LINKED_ENCODERS,
 )
 from openacr.messages import INVALID_ARGUMENT
@@ -75,7 +78,7 @@ def copy_to(card: Card, number: int, parameter: int | None) -> None:
 
 def turn_length(card: Card, number: int) -> int:
     """The length of a turn, 0 for a linear encoder."""
-    return card.memory.I[_row(number, ENI_ROTARY)]
+    return card.memory.I[_extra(number, ENXI_ROTARY)]
 
 
 def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
@@ -84,32 +87,38 @@ def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
         raise CardError(INVALID_ARGUMENT)
     was = turn_length(card, number)
     _encoder_roll(card.memory.I, number, length_cnt)
-    _count_link(card, was, length_cnt)
+    _count(card, KRI_LINKED_ENCODERS, was, length_cnt)
 
 
 def edge_limit(card: Card, number: int) -> int:
     """The rate of the quickest edges that count, 0 for all."""
-    return card.memory.I[_row(number, ENI_LIMIT_HZ)]
+    return card.memory.I[_extra(number, ENXI_LIMIT_HZ)]
 
 
 def set_edge_limit(card: Card, number: int, hz: int) -> None:
     """ENC LIMIT: filter the signals; the position stays."""
     if not 0 <= hz <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
+    was = edge_limit(card, number)
     _encoder_limit(card.memory.F, card.memory.I, number, hz)
+    _count(card, KRI_FILTERED_ENCODERS, was, hz)
 
 
 def _row(number: int, row: int) -> int:
     return ENI_BASE + number * ENI_STRIDE + row
 
 
+def _extra(number: int, row: int) -> int:
+    return ENXI_BASE + number * ENXI_STRIDE + row
+
+
 def _link(card: Card, number: int, row: int, value: int) -> None:
     """Change a link."""
     old = card.memory.I[_row(number, row)]
     card.memory.I[_row(number, row)] = value
-    _count_link(card, old, value)
+    _count(card, KRI_LINKED_ENCODERS, old, value)
 
 
-def _count_link(card: Card, old: int, new: int) -> None:
-    """Count how many links there are: without any the kernel looks at none."""
-    card.memory.I[KRI_BASE + KRI_LINKED_ENCODERS] += bool(new) - bool(old)
+def _count(card: Card, row: int, old: int, new: int) -> None:
+    """Count how many encoders use something: without any the kernel looks at none."""
+    card.memory.I[KRI_BASE + row] += bool(new) - bool(old)

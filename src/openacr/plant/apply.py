@@ -87,15 +87,6 @@ _INTS = (
 )
 
 
-# What an encoder of the card has seen of its motor.
-_SEEN_ROWS = (
-    at.ENF_RAW_OLD_CNT,
-    at.ENF_FILTER_OLD_CNT,
-    at.ENF_FILTER_LEVEL_CNT,
-    at.ENF_FILTERED_CNT,
-)
-
-
 def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
     """The state of the world outside, which survives a restart of the card."""
     memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] = bus.now_s(memory)
@@ -115,9 +106,9 @@ def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) 
             memory.I[index] = number
     for motor in range(at.PL_COUNT):
         raw = memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_RAW_COUNT]
-        encoder = at.ENF_BASE + motor * at.ENF_STRIDE
-        for row in _SEEN_ROWS:
-            memory.F[encoder + row] = raw
+        memory.F[at.ENF_BASE + motor * at.ENF_STRIDE + at.ENF_RAW_OLD_CNT] = raw
+        for row in (at.ENXF_FILTER_OLD_CNT, at.ENXF_FILTER_LEVEL_CNT):
+            memory.F[at.ENXF_BASE + motor * at.ENXF_STRIDE + row] = raw
 
 
 def push(memory: Memory, motor: int, by_cnt: float) -> bool:

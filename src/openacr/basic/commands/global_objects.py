@@ -19,10 +19,12 @@ from openacr.map.numbers import (
     DAC_DAC_OUTPUT,
     DAC_STRIDE,
     ENI_BASE,
-    ENI_CLOCK_HZ,
     ENI_SOURCE,
     ENI_STRIDE,
-    ENI_WIDTH,
+    ENXI_BASE,
+    ENXI_CLOCK_HZ,
+    ENXI_STRIDE,
+    ENXI_WIDTH,
     STPR_BASE,
     STPR_STEPPER_COUNT,
     STPR_STRIDE,
@@ -77,8 +79,8 @@ def of_adc(row: int) -> Setting:
 
 
 ENCODER_SOURCE = Setting(Kind.LONG, ENI_BASE + ENI_SOURCE, ENI_STRIDE, pulse_source)
-SERIAL_CLOCK = Setting(Kind.LONG, ENI_BASE + ENI_CLOCK_HZ, ENI_STRIDE, settings.not_negative)
-SERIAL_WIDTH = Setting(Kind.LONG, ENI_BASE + ENI_WIDTH, ENI_STRIDE, word_width)
+SERIAL_CLOCK = Setting(Kind.LONG, ENXI_BASE + ENXI_CLOCK_HZ, ENXI_STRIDE, settings.not_negative)
+SERIAL_WIDTH = Setting(Kind.LONG, ENXI_BASE + ENXI_WIDTH, ENXI_STRIDE, word_width)
 STEPPER_COUNT = Setting(Kind.LONG, STPR_BASE + STPR_STEPPER_COUNT, STPR_STRIDE)
 
 object_values(

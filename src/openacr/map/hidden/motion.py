@@ -331,10 +331,6 @@ ENCODER = HiddenBlock(
         "raw_old_cnt",
         "partial_cnt",  # fraction of a count that MULT below 4 has left
         "step_cnt",  # counted in the last tick
-        "filter_old_cnt",  # LIMIT: raw count of the last tick
-        "filter_level_cnt",  # raw count whose signals have passed the filter last
-        "filtered_cnt",  # raw counts without those that were lost
-        "filter_since_s",  # since the last edge
     ),
     ints=(
         "mult",
@@ -342,6 +338,20 @@ ENCODER = HiddenBlock(
         "locked_to",  # 1 + the encoder whose counts are added; 0 none
         "seen",  # position of that encoder in the last tick
         "destination",  # parameter that gets the position; 0 none
+    ),
+)
+
+# What few encoders need, apart from the rows that every tick reads.
+ENCODER_EXTRA = HiddenBlock(
+    prefix="ENX",
+    count=24,
+    doubles=(
+        "filter_old_cnt",  # LIMIT: raw count of the last tick
+        "filter_level_cnt",  # raw count whose signals have passed the filter last
+        "passed_cnt",  # edges that have passed in the last tick
+        "filter_since_s",  # since the last edge
+    ),
+    ints=(
         "rotary",  # length of a turn, 0 linear
         "turned",  # what the wraps of ROTARY have taken off the position
         "shaft",  # what wraps and presets have taken off since power-up
@@ -366,6 +376,7 @@ KERNEL = HiddenBlock(
         "adc_channels",
         "moves_waiting",
         "linked_encoders",  # how many are locked to another, have a destination, or wrap
+        "filtered_encoders",  # how many have a LIMIT
         "kinematics",  # mask of the masters with INVK ON
         "synced",  # some masters are synchronised
         "sync_manual",  # SYNC MDI
