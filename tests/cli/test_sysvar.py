@@ -241,3 +241,21 @@ def test_system_parameters_are_changed_with_the_right_password_only(path: Path) 
     assert run("password", "--new", "").exit_code == 2
     assert run("password", "--new", "", "--password", "s3cret!").exit_code == 0
     assert run("set", "P650002=13").exit_code == 0
+
+
+@pytest.mark.req("MILL-M-CUSTOM")
+def test_the_folder_of_m_codes_of_the_user_is_chosen_by_the_service(path: Path) -> None:
+    folder = path.parent / "own"
+    folder.mkdir()
+    (folder / "M300.TXT").write_text("G91 G1 X1 F10\nG90\nRET\n")
+    part = path.parent / "P.NC"
+    part.write_text("M300\nM2\n")
+
+    def checked() -> Result:
+        return CliRunner().invoke(app, ["mill", "check", str(part)])
+
+    run("password", "--new", "s3cret!")
+    assert run("set", "P900010=own").exit_code == 2
+    assert "P.NC:1:1: E205 unknown M code: M300" in checked().output
+    assert run("set", "P900010=own", "--password", "s3cret!").exit_code == 0
+    assert "moves: 1 lines" in checked().output

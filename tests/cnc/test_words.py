@@ -60,7 +60,6 @@ def test_p_is_a_parameter_and_in_cycles_the_dwell() -> None:
     assert "dwell 2" in run("G82 X1 Z-1 R0 P2 F10" + CYCLES).story
 
 
-@pytest.mark.req("MILL-WORD-S")
 def test_s_is_the_speed_of_the_spindle() -> None:
     assert run("S1500 M3\nS2000\nM5").story == ["M3 S1500", "M3 S2000", "M5 S2000", "end"]
 
@@ -87,6 +86,13 @@ def test_t_stands_beside_other_codes() -> None:
 def test_q_is_the_peck() -> None:
     done = run("G83 Z-1 R0 Q.5 F10" + CYCLES, {250_141: 0.1})
     assert [end[2] for end in done.ends] == [-0.5, 0, -0.4, -1, 0]
+
+
+@pytest.mark.req("MILL-WORD-R")
+def test_r_is_the_level_of_cycles_and_the_angle_of_a_rotation() -> None:
+    levels = [z for _, _, z in run("G98 G81 X1 Z-1 R.25 F10" + CYCLES, start=(0, 0, 2)).ends]
+    assert levels == [2, 0.25, -1, 2]
+    assert run("F10 G68 X0 Y0 R90\nX1\nG68 X0 Y0 R180\nX1 Y0").ends == [(0, 1, 0), (-1, 0, 0)]
 
 
 @pytest.mark.req("MILL-WORD-L")

@@ -44,7 +44,9 @@ def volts(shop: Shop, dac: int = 3) -> float:
     return float(shop.controller.p[6400 + 16 * dac])
 
 
-@pytest.mark.req("MILL-SPINDLE-1500", "MILL-SPINDLE-CLAMP", "MILL-SYS-SPINDLE-SCALING")
+@pytest.mark.req(
+    "MILL-WORD-S", "MILL-SPINDLE-1500", "MILL-SPINDLE-CLAMP", "MILL-SYS-SPINDLE-SCALING"
+)
 @pytest.mark.parametrize(
     ("rpm", "scaling", "wanted"),
     [(1500, 0.00333, 5.0), (3000, 0.00333, 10.0), (9000, 0.00333, 10.0), (1500, 0.001, 1.5),

@@ -39,7 +39,6 @@ MOST_DIGITS = 15
 LAST_LABEL = 999_999
 FEED_LETTER = 5
 CODE_LETTER = 6
-LABEL_LETTER = 13
 
 __all__ = ["scan_lines", "skim_lines"]
 
