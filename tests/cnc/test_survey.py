@@ -75,3 +75,17 @@ def test_all_gouges_are_found() -> None:
     text = "G0 X0.5 Y0.2\nG42 D1 G1 F10 X0.5 Y0\nX0\nY0.4\nX1\nY0\nX0.5\nG40 X0.5 Y0.2\nM2"
     errors = of(text, {1001: 0.25}).errors
     assert {(e.code, e.line) for e in errors if e.code == "E322"} >= {("E322", 4), ("E322", 6)}
+
+
+def test_errors_of_the_geometry_are_found_beside_errors_at_load() -> None:
+    text = "G1 X1 F10\nG2 X5 Y5 I100\nG4 F0.05\nX(1/0)\nM2"
+    assert [(f.code, f.line) for f in of(text).errors] == [("E240", 3)]
+    narrow = "G0 X0.5 Y0.2\nG42 D1 G1 F10 X0.5 Y0\nX0\nY0.4\nX1\nY0\nX0.5\nG40 X0.5 Y0.2\n"
+    found = of(f"{narrow}X1 X2\nX(1/0)\nM2", {1001: 0.25})
+    assert [(f.code, f.line) for f in found.errors] == [("E322", 4), ("E322", 6), ("E202", 9)]
+    assert found.move_cnts["feed"] == 0
+
+
+def test_an_error_in_front_of_a_wrong_line_is_found_too() -> None:
+    found = of("X1 F10\nX(1/P150)\nX1 X2\nM2", {150: 0})
+    assert [(f.code, f.line) for f in found.errors] == [("E210", 2), ("E202", 3)]

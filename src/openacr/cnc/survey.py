@@ -103,19 +103,33 @@ def survey(
 ) -> Survey:
     """Read a program to its end; `look` sees every entry. Nothing is written to the cells.
 
-    A program with errors at load is not run. The first error at run time ends the run, but
-    all errors of the geometry are found.
+    The first error at run time ends the run, but all errors of the geometry are found. Of a
+    program with errors at load only the findings in front of the first wrong line are added.
     """
     shadow = Shadow(cells)
     options = options or Options()
     options.collects_errors = True
     run = Interpreter(program, shadow, machine or VirtualMachine(), dialect, options)
     found = Survey(run.planner.axes, program.line_cnt, findings=list(program.findings))
-    if not program.errors:
+    if program.errors:
+        found.findings += _found_before(program.errors, run)
+    else:
         _Count(found, run).all(look)
-        found.findings += [*run.errors, *run.warnings]
-        _sort(found.findings)
+    found.findings += [*run.errors, *run.warnings]
+    _sort(found.findings)
     return found
+
+
+def _found_before(errors: list[Finding], run: Interpreter) -> list[Finding]:
+    """The error that ends the run, if it is none of those known from the load."""
+    try:
+        for _entry in run.entries():
+            pass
+    except BlockError as error:
+        known = {(finding.file, finding.line) for finding in errors}
+        found = error.finding
+        return [] if (found.file, found.line) in known else [found]
+    return []
 
 
 def _sort(findings: list[Finding]) -> None:
