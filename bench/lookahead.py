@@ -23,6 +23,7 @@ from openacr.motion.orders import Target
 
 FEED_UPS, ACCEL_UPS2, JERK_UPS3 = 100.0, 1000.0, 20_000.0
 TOLERANCE_U = 0.01
+ROUND_U = 0.5  # enough to be quicker than exact corners under jerk
 FINE_U = 0.0005
 DEPTH = 250
 LAW_TO_DEG = 90.0
@@ -157,9 +158,10 @@ def _optimum_rounded_s(points: Sequence[Point]) -> float:
     return float(np.sum(2 * step / np.maximum(v[1:] + v[:-1], 1e-9)))
 
 
-def _acceleration(places: Reals, period_s: float) -> float:
-    still = np.vstack([[[0.0, 0.0]] * 2, places, [places[-1]] * 2])
-    return float(np.linalg.norm(np.diff(still, n=2, axis=0), axis=1).max() / period_s**2)
+def _derivative(places: Reals, order: int, period_s: float = 0.0005) -> float:
+    """The largest vector acceleration (2) or jerk (3) of a path from rest to rest."""
+    still = np.vstack([[[0.0, 0.0]] * order, places, [places[-1]] * order])
+    return float(np.linalg.norm(np.diff(still, n=order, axis=0), axis=1).max() / period_s**order)
 
 
 def _planning() -> None:
@@ -186,7 +188,7 @@ def main() -> None:
         took, places, speeds = _run(points, TOLERANCE_U, 0.0)
         best = _optimum_rounded_s(points)
         at_most(f"{name}, 0.01 tolerance: time by optimum", took / best, 1.03, "")
-        accel = _acceleration(places, 0.0005) / ACCEL_UPS2
+        accel = _derivative(places, 2) / ACCEL_UPS2
         at_most(f"{name}, 0.01 tolerance: largest acceleration", accel, 1.0001, "of ACC")
         at_most(f"{name}, 0.01 tolerance: highest speed", speeds.max() / FEED_UPS, 1.0001, "of F")
     took, _, speeds = _run(PROGRAMS["surface"], 0.0, JERK_UPS3)
@@ -194,6 +196,23 @@ def main() -> None:
     ramps = np.diff([0.0, 0.0, *speeds, 0.0], n=2) / 0.0005**2
     at_most("surface, JRK 20 000: largest jerk", np.abs(ramps).max() / JERK_UPS3, 1.001, "of JRK")
     value_only("surface, JRK 20 000: cycle time", took, "s")
+    _jerk_and_tolerance(times["surface"])
+
+
+def _jerk_and_tolerance(surface_s: float) -> None:
+    """Chains of short moves stay exact under jerk; long ones are rounded within all limits."""
+    took, _, _ = _run(PROGRAMS["surface"], TOLERANCE_U, JERK_UPS3)
+    text = "surface, JRK 20 000, 0.01 tolerance (exact): time by its time without JRK"
+    at_most(text, took / surface_s, 2.3, "")
+    for name in ("corner", "pocket"):
+        exact, _, _ = _run(PROGRAMS[name], 0.0, JERK_UPS3)
+        took, places, _ = _run(PROGRAMS[name], ROUND_U, JERK_UPS3)
+        text = f"{name}, JRK 20 000, 0.5 tolerance:"
+        at_most(f"{text} time by exact", took / exact, 1.0, "")
+        at_most(
+            f"{text} largest acceleration", _derivative(places, 2) / ACCEL_UPS2, 1.001, "of ACC"
+        )
+        at_most(f"{text} largest jerk", _derivative(places, 3) / JERK_UPS3, 1.001, "of JRK")
 
 
 if __name__ == "__main__":

@@ -378,3 +378,33 @@ def test_curves_of_many_packets_wait_for_room() -> None:
         sender.move({0: 100 * step}, **SPLINE)
     sender.move({0: 4000}, **TIMED_SPLINE, scaling=(-1.0, 0.0)).rest()
     assert sender.at == (4000, 0, 0)
+
+
+def rounded(*, is_restored: bool = False) -> list[tuple[float, ...]]:
+    """Places on the way round a corner of which only the packet knows a tolerance."""
+    sender = Sender("ACC 1000 DEC 1000 STP 1000")
+    stopping = {"code0": Code0.STP_RAMP | Code0.FVEL_LOCKOUT}
+    for n in range(1, 16):  # more than the buffer holds
+        side = {0: 1000 * n, 1: 1000 * n} if n % 2 else {0: 1000 * (n + 1), 1: 1000 * n}
+        sender.move(side, tolerance=0.2, **stopping)
+    if is_restored:
+        snapshot = sender.card.snapshot()
+        sender.card = Controller()
+        sender.card.restore(snapshot)
+    places = []
+    while sender.card.bit[IN_MOTION]:
+        places.append(sender.ticks(1).at)
+    return places
+
+
+def test_a_packet_brings_a_path_tolerance_along_without_look() -> None:
+    places = rounded()
+    assert places[-1][:2] == (15000, 15000)
+    nearest = min(math.dist(place[:2], (3000, 2000)) for place in places)
+    turn, reach = math.dist((0.0, 1.0), (2 / 5**0.5, 1 / 5**0.5)), 500  # half a move
+    assert nearest == pytest.approx(reach * turn / 4, rel=0.02)
+    assert nearest < 200
+
+
+def test_tolerances_of_waiting_packets_survive_a_snapshot() -> None:
+    assert rounded(is_restored=True) == rounded()

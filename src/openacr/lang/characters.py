@@ -4,7 +4,6 @@ Text inside the card has one character per byte. What a person writes in strings
 may be UTF-8: the card keeps and sends the bytes, and only who shows them needs to know.
 """
 
-
 # Quotes and dashes of the Windows code page.
 _TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
 

@@ -215,7 +215,11 @@ class Planner(Generic[Moves]):
         for move in reversed(self._moves):
             move.exit_ups = 0.0
             if after is not None:
-                reach = math.sqrt(pieces(after, move.corner).start)
+                if after.corner is None and move.corner is None:  # moves come by the thousand
+                    start2 = after.exit_ups**2 + 2.0 * after.ramp_ups2 * after.length_u
+                else:
+                    start2 = pieces(after, move.corner).start
+                reach = math.sqrt(start2)
                 move.exit_ups = min(move.corner_ups, reach)
             after = move
 
