@@ -9,6 +9,7 @@ from openacr.map import numbers as at
 KAMR_X, KAMR_Y, KILL_MOVES, STOP_MOVES = 8467, 8499, 522, 523
 ACTIVE, IN_MOTION = 792, 516
 CURRENT, ACTUAL, PSP, JOG = 12288, 12290, 12294, 12297
+IDEAL_MOTOR = 3
 KILLED = "Associated Slave Kill Motion Request Active"
 
 
@@ -127,8 +128,9 @@ def test_the_terminal_dialogue_of_the_guide() -> None:
 
 @pytest.mark.req("ACR-KAMR-15")
 def test_a_drive_fault_kills_the_axis() -> None:
-    made = bench("SET 8468").ticks(2)
-    made.all("DRIVE ON X").seconds(0.02)
+    made = bench("SET 8468")
+    made.memory.I[at.PLI_BASE + at.PLI_KIND] = IDEAL_MOTOR
+    made.ticks(2).all("DRIVE ON X").seconds(0.02)
     assert made.type("DRIVE X") == "DRIVE ON X"
     made.memory.I[at.PLI_BASE + at.PLI_DRIVE_FAULT] = 1
     made.ticks(2)
