@@ -179,8 +179,8 @@ def print_text(run: Run, items: tuple[PrintItem, ...]) -> str:
 class Channel(Object):
     """A channel by its word: COM1, STREAM3, FIFO, DPCB."""
 
-    def __init__(self) -> None:
-        super().__init__("COM", "STREAM", singles=("FIFO", "DPCB"))
+    def __init__(self, *, optional: bool = False) -> None:
+        super().__init__("COM", "STREAM", singles=("FIFO", "DPCB"), optional=optional)
 
 
 def channel_name(channel: ObjectRef) -> str:

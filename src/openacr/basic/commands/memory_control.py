@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.basic import targets
+from openacr.basic.commands.character_io import Channel, channel_name
 from openacr.basic.grammar import Form, Object, ObjectRef
 from openacr.basic.nodes import Expr
 from openacr.basic.program_memory import PROGRAMS
@@ -147,14 +148,13 @@ def _dim_local(run: Run, what: Dimension) -> None:
     "CLEAR",
     group=GROUP,
     levels=ANY,
-    grammar=(Object("COM", "STREAM", singles=("FIFO", "DPCB"), optional=True),),
+    grammar=(Channel(optional=True),),
     ref="PG Memory Allocations",
 )
 def clear(run: Run, stream: ObjectRef | None) -> None:
     """Free memory: everything at SYS, the locals at a program, or the buffer of a stream."""
     if stream is not None:
-        name = stream.word if stream.number < 0 else f"{stream.word}{stream.number}"
-        run.system.storage.clear_stream(name)
+        run.system.storage.clear_stream(channel_name(stream))
     elif run.level is Level.SYS:
         _clear_system(run)
     elif run.program is not None:
