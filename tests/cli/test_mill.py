@@ -75,6 +75,18 @@ def test_time_is_that_of_the_run_within_a_percent(tmp_path: Path) -> None:
     )
 
 
+def test_time_of_a_tolerance_is_that_of_the_run_and_exact_that_of_a_real_card(
+    tmp_path: Path,
+) -> None:
+    rounding = program(tmp_path, ";dialect rs274ngc\nG64 P.01\nF900 G1 X1\nY1\nX0\nY0\nM2\n")
+    time_s = as_json("time", rounding)["time_s"]
+    assert time_s == pytest.approx(as_json("run", rounding)["time_s"], rel=0.02)
+    exact_s = as_json("time", rounding, "--exact")["time_s"]
+    free = program(tmp_path, ";dialect rs274ngc\nG64\nF900 G1 X1\nY1\nX0\nY0\nM2\n")
+    assert exact_s == as_json("time", free)["time_s"]
+    assert exact_s < time_s - 0.03  # real axes have to jump
+
+
 def test_run_ends_where_the_program_ends(tmp_path: Path) -> None:
     code, text = mill("run", program(tmp_path, SQUARE))
     assert code == 0

@@ -333,6 +333,16 @@ def test_under_jerk_a_feedhold_near_a_corner_keeps_all_limits(tick: int) -> None
     assert jerks(places).max() <= 20_000 * (1 + 1e-3)
 
 
+@pytest.mark.parametrize("tick", range(61, 400, 12))
+@pytest.mark.parametrize("what", ["hold", "fov"])
+def test_under_jerk_and_look_events_near_a_corner_keep_all_limits(tick: int, what: str) -> None:
+    made = rig(0.5, jrk=20_000.0)
+    events: list[Event] = [(tick, what, 0.2), (300, "go", 0.0), (1, "fov", 1.5)]
+    places = follow(made, SQUARE, disturbed(made, events))
+    keeps_its_limits(places, SQUARE, 0.5)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
 @settings(max_examples=examples(15))
 @given(polylines(), st.lists(st.none() | TOLERANCES, min_size=12, max_size=12))
 def test_both_builds_agree_about_binary_chains(
