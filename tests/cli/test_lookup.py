@@ -3,16 +3,12 @@
 import json
 
 import pytest
-import typer
 from typer.testing import CliRunner, Result
 
-from openacr.cli.lookup import show_flag, show_parameter
+from openacr.cli.main import app
 
 
 def run(command: str, *arguments: str) -> Result:
-    app = typer.Typer()
-    app.command("param")(show_parameter)
-    app.command("flag")(show_flag)
     return CliRunner().invoke(app, [command, *arguments], env={"COLUMNS": "100"})
 
 

@@ -2,11 +2,11 @@
 
 import json as json_format
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from openacr.errors import MapError
+from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags_of
 from openacr.map.block import RESERVED, UNDOCUMENTED, Access, Kind, Packet
 from openacr.map.numbers import FLAG_LAST, PUBLIC_COUNT
@@ -47,7 +47,7 @@ def show_parameter(text: What, json: AsJson = False) -> None:
     try:
         found = find_parameter(text)
     except MapError as error:
-        _refuse(error, PARAMETER_HINT)
+        raise UserError(f"{error} ({PARAMETER_HINT})") from None
     if json:
         _print_json([_parameter_fields(parameter) for parameter in found])
     elif len(found) > 1:
@@ -63,7 +63,7 @@ def show_flag(text: What, json: AsJson = False) -> None:
     try:
         found = find_flag(text)
     except MapError as error:
-        _refuse(error, FLAG_HINT)
+        raise UserError(f"{error} ({FLAG_HINT})") from None
     if json:
         _print_json([_flag_fields(flag) for flag in found])
     elif len(found) > 1:
@@ -77,11 +77,6 @@ def show_flag(text: What, json: AsJson = False) -> None:
 def _say_more(count: int) -> None:
     if count > 0:
         typer.echo(f"and {count} more; say more of the name, or --json for all", err=True)
-
-
-def _refuse(error: MapError, hint: str) -> NoReturn:
-    typer.echo(f"error: {error} ({hint})", err=True)
-    raise typer.Exit(2)
 
 
 def _print_parameter(parameter: Parameter) -> None:

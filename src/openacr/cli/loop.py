@@ -8,29 +8,43 @@ import typer
 
 from openacr.cli.monitor import AXES, axes_on
 from openacr.cli.online import Baud, Silence, Target, connected
+from openacr.map import numbers as at
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from openacr.client import Card
 
-FIRST_PARAMETER, PARAMETERS_PER_AXIS = 12288, 256
-PATH = (
-    "current position", "gear offset", "jog offset", "cam offset", "primary setpoint",
-    "ballscrew offset", "backlash offset", "secondary setpoint", "actual position",
-    "following error",
-)  # fmt: skip
-GAINS = (
-    "PGAIN", "IGAIN", "ILIMIT", "IDELAY", "DGAIN", "DWIDTH", "FFVEL", "FFACC", "FBVEL",
-)  # fmt: skip
-OUTPUT = ("summation point", "filter output", "output signal")
-ROWS = dict(
-    zip(
-        (*PATH, *GAINS, *OUTPUT),
-        (0, 8, 9, 10, 6, 11, 12, 7, 2, 3, 16, 17, 18, 19, 20, 21, 22, 23, 64, 29, 30, 31),
-        strict=True,
-    )
-)
+# Names shown, in the order in which the signals flow, and their rows in the block of an axis.
+PATH = {
+    "current position": at.AX_CURRENT_POSITION,
+    "gear offset": at.AX_GEAR_OFFSET,
+    "jog offset": at.AX_JOG_OFFSET,
+    "cam offset": at.AX_CAM_OFFSET,
+    "primary setpoint": at.AX_PRIMARY_SETPOINT,
+    "ballscrew offset": at.AX_BALLSCREW_OFFSET,
+    "backlash offset": at.AX_BACKLASH_OFFSET,
+    "secondary setpoint": at.AX_SECONDARY_SETPOINT,
+    "actual position": at.AX_ACTUAL_POSITION,
+    "following error": at.AX_FOLLOWING_ERROR,
+}
+GAINS = {
+    "PGAIN": at.AX_PROPORTIONAL_GAIN,
+    "IGAIN": at.AX_INTEGRAL_GAIN,
+    "ILIMIT": at.AX_INTEGRAL_LIMIT,
+    "IDELAY": at.AX_INTEGRAL_DELAY,
+    "DGAIN": at.AX_DERIVATIVE_GAIN,
+    "DWIDTH": at.AX_DERIVATIVE_WIDTH,
+    "FFVEL": at.AX_FEEDFORWARD_VELOCITY,
+    "FFACC": at.AX_FEEDFORWARD_ACCEL,
+    "FBVEL": at.AX_FBVEL_GAIN_SETTING,
+}
+OUTPUT = {
+    "summation point": at.AX_SUMMATION_POINT,
+    "filter output": at.AX_FILTER_OUTPUT_SIGNAL,
+    "output signal": at.AX_OUTPUT_SIGNAL,
+}
+ROWS = PATH | GAINS | OUTPUT
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +81,7 @@ def loop(
 
 def read_loop(card: "Card", axis: int) -> Loop:
     """Ask the card for one axis, all values of one moment."""
-    first = FIRST_PARAMETER + PARAMETERS_PER_AXIS * axis
+    first = at.AX_BASE + at.AX_STRIDE * axis
     values = dict(zip(ROWS, card.read_many([first + row for row in ROWS.values()]), strict=True))
     return Loop(
         axis,

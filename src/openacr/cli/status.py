@@ -9,14 +9,16 @@ import typer
 
 from openacr.cli.monitor import axes_on
 from openacr.cli.online import Baud, Silence, Target, connected
+from openacr.map import numbers as at
+from openacr.map.block import FLAG_WORD_BASE
 
 if TYPE_CHECKING:
     from openacr.client import Card
 
-DIAGNOSTICS, MISC_CONTROL, BUS_STATE = 7044, 4272, 32779
+BUS_STATE = at.CAN_BASE + at.CAN_BUS_STATE
 INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED = 5646, 5645, 11268
-DRIVE_WORDS, LIMIT_WORDS, ENCODER_FLAGS = 4360, 4600, 2560
-KILLED, FAULT, LOST = 19, 0, 1
+ENCODER_FLAGS = 32 * (at.EF_WORD - FLAG_WORD_BASE)
+FAULT, LOST = 0, 1
 SIDES = (("positive", 0), ("negative", 1))
 
 
@@ -79,7 +81,7 @@ def read_status(card: "Card") -> Status:
     """Ask the card."""
     from openacr.client.lights import bus_light, power_light
 
-    words = card.read_many([DIAGNOSTICS, MISC_CONTROL, BUS_STATE])
+    words = card.read_many([at.P_DIAGNOSTICS, at.W_MISC_CONTROL_1, BUS_STATE])
     diagnostics, control, bus = map(int, words)
     is_open, is_latched, has_bus = card.read_bits([INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED])
     return Status(
@@ -91,9 +93,9 @@ def read_status(card: "Card") -> Status:
 
 
 def _axis(card: "Card", axis: int) -> AxisStatus:
-    from openacr.client.lights import DRIVE_ENABLED, axis_light
+    from openacr.client.lights import axis_light
 
-    drive, limits = map(int, card.read_many([DRIVE_WORDS + axis, LIMIT_WORDS + axis]))
+    drive, limits = map(int, card.read_many([at.AF4_WORD + axis, at.AF5_WORD + axis]))
     first = int(card.command(f"AXIS{axis} HLBIT")[0])
     encoder = 32 * _encoder(card, axis) + ENCODER_FLAGS
     is_faulty, is_lost = card.read_bits([encoder + FAULT, encoder + LOST])
@@ -101,8 +103,8 @@ def _axis(card: "Card", axis: int) -> AxisStatus:
     return AxisStatus(
         axis,
         axis_light(drive),
-        bool(drive & DRIVE_ENABLED),
-        bool(drive >> KILLED & 1),
+        bool(drive & at.AF4_DRIVE_ENABLED),
+        bool(drive & at.AF4_KILL_ALL_MOTION_REQUEST),
         is_faulty,
         is_lost,
         tuple(_limit(limits, first, side, name, inputs[side]) for name, side in SIDES),

@@ -2,9 +2,10 @@
 
 from enum import StrEnum
 
+from openacr.map import numbers as at
+
 SUPPLIES = 0b1100011  # P7044: ISO, EXT, VEE, VDD
 FLASH_INVALID = 0b111 << 24  # flags 5656 to 5658: boot flash and both system flashes
-FAULT_INPUT, DRIVE_ENABLED, FAULT_LATCHED = 1 << 0, 1 << 17, 1 << 29  # quaternary axis flags
 
 
 class Light(StrEnum):
@@ -39,9 +40,9 @@ def power_light(*, is_there: bool, diagnostics: int = 0, misc_control: int = 0) 
 
 def axis_light(drive_flags: int) -> Light:
     """An axis: red with a fault (or without a cable: the fault input is on), green enabled."""
-    if drive_flags & (FAULT_INPUT | FAULT_LATCHED):
+    if drive_flags & (at.AF4_DRIVE_FAULT_INPUT | at.AF4_DRIVE_FAULT):
         return Light.RED
-    return Light.GREEN if drive_flags & DRIVE_ENABLED else Light.OFF
+    return Light.GREEN if drive_flags & at.AF4_DRIVE_ENABLED else Light.OFF
 
 
 def bus_light(bus_state: int, *, is_installed: bool) -> Light:

@@ -57,7 +57,6 @@ class Packet:
 
     __slots__ = ()
     HEADER: ClassVar[bytes]
-    REFERENCE: ClassVar[str] = "UG2 ch. 6"
 
     @classmethod
     def total_length(cls, prefix: bytes) -> int:

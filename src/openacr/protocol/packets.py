@@ -3,12 +3,10 @@
 Importing this module loads the header table.
 """
 
-from openacr.protocol import bits, data, memory, move, override, parameter
+from openacr.protocol import bits, data, memory, move, override, parameter  # noqa: F401
 from openacr.protocol.packet import HEADER_IDS, PACKETS, Packet, PacketError, Part, packet_class
 
-FAMILIES = (data, parameter, memory, bits, override, move)
 __all__ = [
-    "FAMILIES",
     "HEADER_IDS",
     "PACKETS",
     "Packet",
