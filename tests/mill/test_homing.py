@@ -53,6 +53,7 @@ def test_an_axis_finds_its_switch_and_then_its_marker(world: Controller) -> None
         shop.pass_time(0.02)
         seen.append(shop.runner.reason)
     assert [text for text in dict.fromkeys(seen) if text] == ["homing X"]
+    assert shop.said == ["X: + to its switch at input 2, at most 1050 units"]
     assert shop.controller.p[12288] == 0
     assert shop.runner.settings.is_homed(0)
     assert abs(shop.controller.axis(0).actual_cnt) <= 8

@@ -9,6 +9,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 from openacr.cnc import canonical as c
 from openacr.cnc.findings import BlockError, Finding
 from openacr.controller import Controller
+from openacr.errors import StoreError
 from openacr.mill.alarms import AlarmError
 from openacr.mill.states import State
 from openacr.mill.workshop import Workshop
@@ -228,6 +229,27 @@ def test_a_hardware_limit_is_an_alarm() -> None:
     place = shop.place()
     shop.pass_time(0.5)
     assert shop.place() == place
+
+
+def test_a_store_that_cannot_be_written_holds_until_it_can(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shop = Shop()
+    shop.start(line(1, at(1)), c.SetCell(src(2), 500, 7.0), line(3, at(5)), end())
+    real = shop.store.write
+
+    def full(n: int, value: float) -> None:
+        raise StoreError(f"P{n}: disk is full")
+
+    monkeypatch.setattr(shop.store, "write", full)
+    shop.pass_time(0.4)
+    assert (shop.runner.state, codes(shop)) == (State.PAUSED, [63])
+    assert "disk is full" in shop.runner.alarms.active[0].text
+    monkeypatch.setattr(shop.store, "write", real)
+    assert shop.runner.acknowledge() == []
+    shop.runner.resume()
+    shop.until(State.IDLE)
+    assert (shop.pulses()[0], shop.store.read(500)) == (50000, 7.0)
 
 
 @pytest.mark.req("MILL-ALM-LOG", "MILL-SYS-CTL-ERRFILE")

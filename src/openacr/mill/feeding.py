@@ -238,7 +238,8 @@ class Feed:
     ) -> Iterator[Say | SetCell | Output | Coolant]:
         """The notes whose moment has come."""
         while self.notes and tracker.is_done(self.notes[0].behind, is_at_rest=is_at_rest):
-            yield self.notes.popleft().entry
+            yield self.notes[0].entry
+            self.notes.popleft()  # not before it has taken effect
 
     def go_on(self) -> None:
         """The halt is over; one that was set aside for a stop behind a block comes next."""

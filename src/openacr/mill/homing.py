@@ -73,6 +73,13 @@ class Axis:
         self._axis = axis
         self._row: HomeSettings = panel.settings.home(axis.index)
 
+    @property
+    def outlook(self) -> str:
+        """Where the axis is going to go, for whoever stands beside it."""
+        way, sign = BEYOND_SHARE * self._longest_u(), "-" if self._row.is_negative else "+"
+        switch = f"its switch at input {self._row.switch_input}"
+        return f"{self._axis.name}: {sign} to {switch}, at most {way:g} units"
+
     def home(self) -> Steps:
         """All steps; the axis is at rest and its position is known at the end."""
         if not self._panel.has_input(self._row.switch_input):
@@ -192,10 +199,18 @@ class Axis:
         return self._machine.card.read_bit(flag)
 
 
-def home(panel: Panel, axes: Iterable[int], compensation: Compensation) -> Steps:
-    """Home the chosen axes, priority after priority; the store learns which are homed."""
+def home(
+    panel: Panel, axes: Iterable[int], compensation: Compensation, say: Callable[[str], None]
+) -> Steps:
+    """Home the chosen axes, priority after priority; the store learns which are homed.
+
+    How far each of them may go is said before: its switch may not be wired to anything.
+    """
     for group in groups(panel, axes):
-        ways = [Axis(panel, panel.settings.axis(axis)).home() for axis in group]
+        homing = [Axis(panel, panel.settings.axis(axis)) for axis in group]
+        for each in homing:
+            say(each.outlook)
+        ways = [each.home() for each in homing]
         for axis in group:
             homed.note(panel, axis, False)
         compensation.renew()

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from openacr.cnc import canonical as c
-from openacr.errors import UserError
+from openacr.errors import StoreError, UserError
+from openacr.mill import alarms
 from openacr.mill.alarms import Alarm, Alarms
 from openacr.mill.ballscrew import Compensation
 from openacr.mill.burning import Burner
@@ -53,6 +54,7 @@ class Runner:
     ) -> None:
         self.machine = machine
         self.settings = Settings(store)
+        self._say = say
         self._compensation = Compensation(machine.card, self.settings, compensated)
         self.panel = panel = Panel(machine, self.settings)
         self.doing = doing = Doing(panel, store, say)
@@ -152,7 +154,7 @@ class Runner:
     def home(self, axes: Sequence[int]) -> None:
         """HOME: find the reference points of axes, priority after priority."""
         self._require_idle("home")
-        self._script.begin(home(self.panel, axes, self._compensation))
+        self._script.begin(home(self.panel, axes, self._compensation, self._say))
         self._status.state = State.WAIT
         self._status.is_homing = True
         self._times.restart()
@@ -272,6 +274,8 @@ class Runner:
             self._do(self.machine.look())
         except LINK_ERRORS:
             self._supervision.lose_link()
+        except StoreError as error:
+            self._supervision.give(alarms.STORE_FAILED, error)
 
     def _do(self, look: Look) -> None:
         self._times.look(self.machine.now_s)

@@ -79,8 +79,9 @@ class Supervision:
                 status.is_homing = False
                 status.state = State.RUN if self._course.has_program else State.IDLE
 
-    def give(self, kind: Kind, detail: str) -> None:
+    def give(self, kind: Kind, about: object) -> None:
         """An alarm comes up, and takes effect unless it was up before."""
+        detail = str(about)
         is_new = not self._alarms.is_up(kind, detail)
         self._alarms.give(kind, detail, self._panel.machine.now_s)
         if not is_new or kind.effect is Effect.NONE:
