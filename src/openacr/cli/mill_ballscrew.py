@@ -23,7 +23,7 @@ def import_table(
     password: Password = None,
 ) -> None:
     """Check the table of an axis, keep it beside the store and switch it on."""
-    from openacr.cli.output import require_writable, write_whole
+    from openacr.cli.output import require_writable, write_text
     from openacr.mill.ballscrew import FILE, ON, read
     from openacr.mill.settings import OFFSETS, cell
     from openacr.sysvar.location import open_to_write
@@ -34,7 +34,7 @@ def import_table(
         require_service(cells, [cell(OFFSETS, ON + number)], password)
         kept = _folder(cells) / f"ballscrew_{name}.txt"
         require_writable(kept)
-        write_whole(kept, lambda partial: _fill(partial, table))
+        write_text(kept, table.text())
         with cells.transaction():
             cells.write_text(cell(OFFSETS, FILE + number), kept.name)
             cells.write(cell(OFFSETS, ON + number), 1)
@@ -105,18 +105,14 @@ def _folder(cells: "Store") -> Path:
 
 
 def _give(table: "Table", file: Path | None) -> None:
-    from openacr.cli.output import require_writable, write_whole
+    from openacr.cli.output import require_writable, write_text
 
     if file is None:
         typer.echo(table.text(), nl=False)
         return
     require_writable(file)
-    write_whole(file, lambda partial: _fill(partial, table))
+    write_text(file, table.text())
     typer.echo(f"{file}: {_summary(table)}")
-
-
-def _fill(path: Path, table: "Table") -> None:
-    path.write_text(table.text(), encoding="ascii", newline="\n")
 
 
 def _summary(table: "Table") -> str:

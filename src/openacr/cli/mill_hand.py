@@ -47,7 +47,7 @@ def run_blocks(
 
     Blocks are those of the command line, or lines of the terminal until an empty one.
     """
-    from openacr.cli.output import require_writable, write_whole
+    from openacr.cli.output import require_writable, write_text
     from openacr.mill.dialects import dialect_of
 
     if save is not None:
@@ -61,13 +61,8 @@ def run_blocks(
                 typer.echo(place_text(shop, place))
         finally:
             if save is not None:
-                text = "".join(f"{block}\n" for block in shop.typed)
-                write_whole(save, lambda partial: _fill(partial, text))
+                write_text(save, "".join(f"{block}\n" for block in shop.typed))
         end_with_alarms(shop)
-
-
-def _fill(partial: Path, text: str) -> None:
-    partial.write_text(text)
 
 
 def _piped() -> "Iterator[str]":

@@ -78,7 +78,7 @@ def import_drawing(
     as_json: Annotated[bool, typer.Option("--json", help="Say what was done as JSON.")] = False,
 ) -> None:
     """Make a part program of a DXF drawing: a path, or holes to drill."""
-    from openacr.cli.output import require_writable, write_whole
+    from openacr.cli.output import require_writable, write_text
     from openacr.cnc.dxf import Options, Pattern, convert
     from openacr.cnc.library import tool_radius
     from openacr.sysvar.location import open_to_read
@@ -109,7 +109,7 @@ def import_drawing(
             lead=_positive("--lead", _given(lead, cells, LEAD_IN)),
         )
     conversion = convert(file, options)
-    write_whole(target, lambda partial: _write(partial, conversion.text))
+    write_text(target, conversion.text)
     _report(conversion, options, target, as_json)
 
 
@@ -155,10 +155,6 @@ def _positive(option: str, value: float) -> float:
     if not 0.0 < value < float("inf"):
         raise UserError(f"{option} {value:g}: it must be above 0")
     return value
-
-
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def _report(conversion: "Conversion", options: "Options", target: Path, as_json: bool) -> None:

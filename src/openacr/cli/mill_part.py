@@ -211,14 +211,10 @@ def _values(ready: "Ready") -> dict[str, Any]:
 
 
 def _write(out: Path, ready: "Ready") -> None:
-    from openacr.cli.output import require_writable, write_whole
+    from openacr.cli.output import require_writable, write_text
 
     require_writable(out)
-
-    def fill(path: Path) -> None:
-        path.write_text(ready.program, encoding="utf-8", newline="\n")
-
-    write_whole(out, fill)
+    write_text(out, ready.program)
     typer.echo(f"{out}: {ready.part.title}")
 
 

@@ -76,10 +76,14 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
             partial.unlink()
 
 
+def write_text(path: Path, text: str) -> None:
+    """Write a text, whole or not at all."""
+    write_whole(path, lambda partial: _write_bytes(partial, text.encode()))
+
+
 def write_summary(path: Path, summary: dict[str, Any]) -> None:
     """Write the summary as indented JSON."""
-    data = summary_text(summary).encode()
-    write_whole(path, lambda partial: _write_bytes(partial, data))
+    write_text(path, summary_text(summary))
 
 
 def _write_bytes(path: Path, data: bytes) -> None:

@@ -16,7 +16,8 @@ from statistics import fmean
 from openacr.client import Card
 from openacr.client.values import number_text
 from openacr.errors import UserError
-from openacr.mill.settings import HOME, OFFSETS, AxisSettings, Settings, Store, cell
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import HOME, OFFSETS, Settings, Store, cell
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 LINE = re.compile(rf"\s*([A-Za-z])\s*({NUMBER})\s*[Ee]\s*({NUMBER})\s*")

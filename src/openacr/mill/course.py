@@ -37,7 +37,7 @@ class Course:
         self._machine = panel.machine
         self._doing = doing
         self._depth = depth
-        self._probing = Probing(panel, self._send)
+        self._probing = Probing(panel, self._send, self.host.position)
         self._encoder = Encoder(panel.settings)
         self._feed: Feed | None = None
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
@@ -127,7 +127,7 @@ class Course:
         """G31, from rest to rest."""
         feed = self._feed
         if feed is not None:
-            yield from self._probing.steps(feed.probe(entry), self._encoder.job, entry.end)
+            yield from self._probing.steps(feed.probe(entry), self._encoder.job)
             feed.position = self.host.position()
 
     # --- back and again ---------------------------------------------------------------

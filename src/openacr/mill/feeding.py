@@ -29,7 +29,8 @@ from openacr.mill.alarms import Kind
 from openacr.mill.encoding import Encoder, Job
 from openacr.mill.limits import first_excess, unhomed
 from openacr.mill.planning import CornerRules, Planner
-from openacr.mill.settings import Settings, Speeds
+from openacr.mill.rows import Speeds
+from openacr.mill.settings import Settings
 from openacr.mill.tracking import Tracker
 
 READ_TOGETHER = 32

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from openacr.mill.rounding import Direction
-from openacr.mill.settings import AxisSettings, Settings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import Settings
 from openacr.mill.setup import LINEAR
 
 Point = Sequence[float]  # machine position, one value per axis 0..7

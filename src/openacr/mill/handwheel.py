@@ -14,7 +14,8 @@ from openacr.map import numbers as n
 from openacr.mill.actions import Steps, Until
 from openacr.mill.jogging import Jogging
 from openacr.mill.panel import Panel
-from openacr.mill.settings import AXIS, NONE, AxisSettings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import AXIS, NONE
 
 COUNTS_PER_CLICK = 4  # one period of the encoder, at MULT 4
 WRAP = 1 << 32

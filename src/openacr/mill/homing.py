@@ -21,7 +21,7 @@ from openacr.mill.alarms import AlarmError
 from openacr.mill.ballscrew import Compensation
 from openacr.mill.machine import Look, flag_of
 from openacr.mill.panel import Panel
-from openacr.mill.settings import AxisSettings, HomeSettings
+from openacr.mill.rows import AxisSettings, HomeSettings
 
 FIRST_MARKER = 0  # INTCAP mode: rising edge of the marker of the axis' own encoder
 TRAVEL_SHARE, TRAVEL_U = 1.1, 1000.0

@@ -21,7 +21,8 @@ from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.panel import Panel
-from openacr.mill.settings import JOG, AxisSettings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import JOG
 
 FIRST_INCREMENT, INCREMENTS = 6, 5
 JOG_ACTIVE = n.AF1_JOG_ACTIVE

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from openacr.cnc.canonical import Arc, Point
 from openacr.mill.encoding import Job, Motion, along
-from openacr.mill.settings import AxisSettings, Settings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import Settings
 
 QUARTER = 0.5 * math.pi
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from openacr.cnc.canonical import Line, Polyline, Source
 from openacr.mill.geometry import Point
-from openacr.mill.settings import AxisSettings, Settings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import Settings
 from openacr.mill.setup import LINEAR
 
 Column = NDArray[np.float64]

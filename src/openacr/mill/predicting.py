@@ -18,7 +18,8 @@ from dataclasses import dataclass
 
 from openacr.cnc import canonical as c
 from openacr.mill.encoding import Encoder, Job
-from openacr.mill.planning import CornerRules, Planner, pieces
+from openacr.mill.feeding import corner_rules
+from openacr.mill.planning import Planner, pieces
 from openacr.mill.rounding import Corner
 from openacr.mill.settings import Settings
 
@@ -49,10 +50,7 @@ class Predictor:
     ) -> None:
         """`rounds`: of the virtual machine, which knows path tolerances."""
         self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
-        speeds = settings.speeds
-        rules = CornerRules(
-            speeds.angle1_deg, speeds.angle2_deg, speeds.corner_ups, speeds.corner_step_ups
-        )
+        rules = corner_rules(settings.speeds)
         self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
         self._position = begin
         self._speed_ups = 0.0

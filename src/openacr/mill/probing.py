@@ -19,13 +19,16 @@ SOFTWARE_TRIGGER = 113
 class Probing:
     """Probing moves of one machine; `point` is where the last one tripped, None if nowhere."""
 
-    def __init__(self, panel: Panel, send: Callable[[list[Job]], None]) -> None:
+    def __init__(
+        self, panel: Panel, send: Callable[[list[Job]], None], position: Callable[[], Point]
+    ) -> None:
         self._panel = panel
         self._machine = panel.machine
         self._send = send
+        self._position = position  # where the axes have come to rest
         self.point: Point | None = None
 
-    def steps(self, job: Job, job_to: Callable[[Line, Point], Job], position: Point) -> Steps:
+    def steps(self, job: Job, job_to: Callable[[Line, Point], Job]) -> Steps:
         """The move, and if the probe trips, back to the point of the trip at feed."""
         wiring = self._panel.settings.wiring
         self.point = None
@@ -44,7 +47,7 @@ class Probing:
         yield Until("kill is cleared", lambda look: not look.is_killed)
         self.point = self._captured(job)
         back = Line(job.entry.source, self.point, _pace_back(job, wiring.probe_back_ups))
-        returning = job_to(back, self._commanded(position))
+        returning = job_to(back, self._position())
         self._send([returning])
         yield Until("back to the probed point", lambda look: is_over(look, returning))
 
@@ -97,14 +100,6 @@ class Probing:
         for axis_number, is_done in done.items():
             if not is_done:
                 point[axis_number] = job.begin[axis_number] + share * way[axis_number]
-        return tuple(point)
-
-    def _commanded(self, position: Point) -> Point:
-        """Where the axes have come to rest."""
-        pulses = self._machine.axis_values(n.AX_CURRENT_POSITION)
-        point = list(position)
-        for axis, count in zip(self._panel.settings.axes, pulses, strict=True):
-            point[axis.index] = count / axis.pulses_per_unit
         return tuple(point)
 
 

@@ -10,7 +10,8 @@ from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.mill.ballscrew import Table, install
-from openacr.mill.settings import AXES, AxisSettings, Settings
+from openacr.mill.rows import AxisSettings
+from openacr.mill.settings import AXES, Settings
 
 GAIN_WORDS = (
     "PGAIN",

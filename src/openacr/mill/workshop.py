@@ -24,7 +24,6 @@ from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
-from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
@@ -236,15 +235,11 @@ class Workshop:
 
     def home(self, names: str, attend: Callable[["Workshop"], None]) -> list[str]:
         """Find the reference points of the axes named, or of all that have a priority."""
-        axes = self.runner.settings.axes
-        known = {axis.name for axis in axes}
-        for name in names:
-            if name not in known:
-                raise UserError(f"axis {name} is not configured: {' '.join(sorted(known))} are")
-        chosen = [axis for axis in axes if not names or axis.name in names]
+        settings = self.runner.settings
+        chosen = [settings.named(name) for name in names or settings.names()]
         self.runner.home([axis.index for axis in chosen])
         self._finish(attend)
-        return [axis.name for axis in chosen if self.runner.settings.is_homed(axis.index)]
+        return [axis.name for axis in chosen if settings.is_homed(axis.index)]
 
     def _finish(self, attend: Callable[["Workshop"], None]) -> None:
         while self.runner.is_busy:
