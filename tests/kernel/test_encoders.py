@@ -124,6 +124,15 @@ def test_a_captured_source_position_is_one_of_the_turn() -> None:
     assert turn(made, 10).p(38912) == 5
 
 
+def test_a_marker_of_another_encoder_starts_a_gear_within_the_tick() -> None:
+    """The register names encoder 0: its marker comes after a quarter of the way of the tick."""
+    made = Bench("X").all("ENC0 MULT 4", "TLM X0", "GEAR SRC X ENC10", "GEAR ON TRG X(0, 0)")
+    made.memory.I[at.PLI_BASE + at.PLI_MARKER_EDGES] = 1
+    made.memory.F[at.PLF_BASE + at.PLF_MARKER_RISE_CNT] = 10.0
+    made.memory.I[WHEEL] += 100
+    assert moved(0, made, 40.0).memory.F[GEAR] == 75.0
+
+
 def test_ihpos_counts_the_source_beyond_a_setpoint_of_the_turn() -> None:
     made = Bench("X").all("ENC10 ROTARY 100", "GEAR SRC X ENC10")
     turn(made, 70, 70)  # at 40
