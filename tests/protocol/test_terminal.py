@@ -285,6 +285,16 @@ def test_on_the_dpcb_set_and_clr_always_have_four_bytes() -> None:
     ]
 
 
+@pytest.mark.parametrize("flag", [SetBit(516), ClearBit(8467)])
+@pytest.mark.parametrize("move", [Move.of({0: 2.0}), Move.of({0: 0.0}), Move.of({0: 1.5}, vel=2.0)])
+def test_a_flag_packet_behind_a_move_is_not_taken_for_its_last_bytes(
+    move: Move, flag: SetBit | ClearBit
+) -> None:
+    stream = terminal()
+    stream.receive_data(move.encode() + flag.encode(), 0)
+    assert list(events(stream)) == [Received(move), Received(flag)]
+
+
 @pytest.mark.req("BIN-112")
 def test_both_forms_of_a_short_move_are_understood() -> None:
     documented = Move.of({0: 2.5})

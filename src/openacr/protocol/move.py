@@ -11,10 +11,12 @@ The path tolerance is an extension: bit 0 of header code 5 announces it, which t
 leaves reserved. It is for cards of openacr alone.
 """
 
+import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
+from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.move_codes import (
     ACC,
     ARC,
@@ -40,6 +42,9 @@ from openacr.protocol.move_codes import (
     profile_of,
 )
 from openacr.protocol.packet import WORD_BYTES, Packet, PacketError, Part, pack_word, register
+
+FLAG_BYTES = 3  # of a SET or CLR packet
+NO_TARGET = 1e-9  # no target is a float so small
 
 
 @register
@@ -247,6 +252,8 @@ def unpadded(segment: bytes) -> bytes | None:
 
     One host sends that form. It is told apart by length: the segment holds exactly this
     one packet, three bytes longer than its header announces, and those three are zero.
+    A SET or CLR packet behind the documented form makes the same length; read as the end of
+    a float, the number of its flag would be the exponent of next to nothing.
     """
     if len(segment) < PADDED_HEADER or segment[5:PADDED_HEADER] != bytes(3):
         return None
@@ -255,4 +262,8 @@ def unpadded(segment: bytes) -> bytes | None:
         return None
     if len(segment) != PADDED_HEADER + header.fields.size:
         return None
+    if header.floating and segment[-FLAG_BYTES:][:1] in (SetBit.HEADER, ClearBit.HEADER):
+        (last,) = struct.unpack("<f", segment[-WORD_BYTES:])
+        if abs(last) < NO_TARGET:
+            return None
     return segment[:MIDDLE_HEADER] + segment[PADDED_HEADER:]
