@@ -255,3 +255,9 @@ def test_length_and_radius_are_those_of_the_tool_in_the_spindle() -> None:
     cells = {235: 3.0, 2003: 1.5, 1003: 0.25}
     assert ngc("G43\nG0 Z1", cells).moves == ["R Z2.5"]
     assert ngc("G41 G1 X0 Y1 F10\nX2\nG40 X3", cells).ends[:2] == [(0, 1.25, 0), (2, 1.25, 0)]
+
+
+def test_the_feed_of_inverse_time_belongs_to_its_block() -> None:
+    entries = ngc("F10 G1 X1\nG93 X3 F2\nG94 X4\nX5 F20").entries
+    feeds = [each.pace.feed_upm for each in entries if isinstance(each, Line)]
+    assert feeds == [10, 4, 10, 20]

@@ -22,6 +22,7 @@ MODES = {
     63: PathMode.LOCKED,
     64: PathMode.FREE,
 }
+INVERSE_TIME, PER_MINUTE = 93, 94
 START_CHOSEN = 100_010
 COMPATIBILITY = 700_000
 
@@ -43,7 +44,7 @@ class Modal:
     tolerance: float = 0.0  # G64 P
     centres: int = 2  # G200 F0, F1, F2
     feed: float = 0.0  # default units per minute
-    feed_mode: int = 94
+    feed_mode: int = PER_MINUTE
     speed: float = 0.0
     spin: Spin = Spin.OFF
     mist: bool = False
@@ -136,7 +137,7 @@ RESETS = (
     Reset("tolerance", _always(0.0)),
     Reset("centres", _cell(250_003), _centres),
     Reset("feed", _feed, _feed),
-    Reset("feed_mode", _always(94)),
+    Reset("feed_mode", _always(PER_MINUTE)),
     Reset("has_feed", lambda cells: cells.read(START_FEED) > 0.0),
     Reset("spin", _always(Spin.OFF)),
     Reset("mist", _always(False)),

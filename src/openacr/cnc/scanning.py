@@ -16,6 +16,7 @@ from openacr.cnc.canonical import AXES, Polyline, Source
 from openacr.cnc.codes import ROTARY
 from openacr.cnc.gcodes.motion import MOTIONS
 from openacr.cnc.labels import Place, Rows
+from openacr.cnc.modal import PER_MINUTE
 from openacr.cnc.program import Part
 from openacr.cnc.text import decoded
 from openacr.compiled import pick
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 8192
 LEAST_ROWS = 16  # fewer lines are read one by one
-FEED_PER_MINUTE = 94
 _scan_lines = pick(scan.scan_lines)
 _skim_lines = pick(scan.skim_lines)
 
@@ -101,7 +101,7 @@ class Scanner:
             and run.macro is None
             and path.elements is None
             and path.shape is None
-            and modal.feed_mode == FEED_PER_MINUTE
+            and modal.feed_mode == PER_MINUTE
             and modal.cycle == 80
             and path.coordinates.is_plain
             and run.motions is MOTIONS

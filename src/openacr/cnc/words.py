@@ -22,6 +22,7 @@ from openacr.cnc.cells import (
 from openacr.cnc.codes import Limit, Step
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Formula
+from openacr.cnc.modal import INVERSE_TIME
 from openacr.cnc.parameters import number
 from openacr.cnc.tables import ACROMILL
 
@@ -38,6 +39,8 @@ def feed(run: Interpreter, b: Turn) -> None:
     """Feed in active units per minute."""
     if b.words["F"] <= 0.0:
         raise b.fault("E222", "F", f"F{b.words['F']:g}", "the feed is above 0")
+    if run.modal.feed_mode == INVERSE_TIME:
+        return  # moves per minute, of this block alone
     run.modal.feed = run.path.length(b.words["F"])
     run.modal.has_feed = True
     run.path.change_pace()

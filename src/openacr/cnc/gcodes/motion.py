@@ -10,6 +10,7 @@ from openacr.cnc import arcs
 from openacr.cnc.cells import EPSILON
 from openacr.cnc.codes import Group, Step
 from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
+from openacr.cnc.modal import INVERSE_TIME
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 gcode, letter = ACROMILL.gcode, ACROMILL.letter
 NO_CYCLE, NO_MOTION = 80, 80
-INVERSE_TIME = 93
 CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
 _LENGTHS = "IJKR"
 
