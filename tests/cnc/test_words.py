@@ -360,3 +360,12 @@ def test_inverted_inputs_and_outputs_read_as_they_act(
     done = run(text, inverted, machine=Bench(bits={1, 40}))
     assert [done.p(n) for n in range(200, 205)] == read
     assert done.p(205) == 1
+
+
+def test_an_answer_goes_to_the_local_of_a_macro_where_it_is_asked_for_by_hash() -> None:
+    text = 'G65 P5 X9\nM2\nN5 INPUT "how many", #1\nP200=#1\nINPUT "and", P1\nP201=#1\nRET'
+    done = run(text, machine=Bench(answers={1: 7.0}))
+    assert (done.p(200), done.p(201)) == (7.0, 7.0)
+    assert done.machine.parameters == {1: 7.0}
+    done = run('G65 P5 X9\nM2\nN5 INPUT "n", P1\nP200=#1\nRET', machine=Bench(answers={1: 7.0}))
+    assert done.p(200) == 9.0

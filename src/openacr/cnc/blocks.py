@@ -89,6 +89,7 @@ class Input:
     text: str
     parameter: Node
     column: int
+    is_hash: bool = False  # in a macro, #1 to #33 are its locals
 
 
 @dataclass(frozen=True, slots=True)

@@ -134,8 +134,9 @@ class StatementReader(ExpressionReader):
             raise self.fault("E108")
         if not self.peek() or self.peek() not in self.grammar.parameters:
             raise self.fault("E108")
+        is_hash = self.text[self.pos] == "#"
         self.pos += 1
-        return Input(text, self.index(), at)
+        return Input(text, self.index(), at, is_hash)
 
     def include(self, at: int) -> Include:
         """What follows $I."""

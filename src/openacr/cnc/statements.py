@@ -101,6 +101,7 @@ def shown(value: float) -> str:
 
 def _input(statement: Input, run: Interpreter, node: Node) -> Act:
     index = Formula(statement.parameter, run.parameters)
+    kind = "#" if statement.is_hash else "P"
 
     def act(node: Node) -> Iterator[Entry]:
         yield from run.sync(node.source)
@@ -110,7 +111,7 @@ def _input(statement: Input, run: Interpreter, node: Node) -> Act:
         answer = run.machine.answer(parameter)
         if answer is None:
             raise CodeError("A61", statement.column, statement.text)
-        run.parameters.write("P", parameter, answer)
+        run.parameters.write(kind, parameter, answer)
 
     return act
 
