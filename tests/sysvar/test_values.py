@@ -138,6 +138,7 @@ def test_an_unclear_name_lists_what_it_can_mean() -> None:
         ("P5", "variable of the card"),
         ("P4096", "parameter of the card"),
         ("P250015", "P250015 is not in the store"),
+        ("9" * 5000, "no parameter of the store is called '999"),
     ],
 )
 def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:

@@ -8,7 +8,7 @@ from openacr.errors import MapError
 from openacr.sysvar.schema import FIRST_SYSTEM, Parameter, Tab
 from openacr.sysvar.tabs import CELLS, TAB_CELLS, TABS
 
-_NUMBER = re.compile(r"[Pp]?\s*(\d+)")
+_NUMBER = re.compile(r"[Pp]?\s*(\d{1,9})")
 _WORD = re.compile(r"[a-z0-9]+|[+%-]")
 AXIS_LETTERS = "XYZABCUV"
 _AXIS_WORDS = frozenset(("axis", *AXIS_LETTERS.lower()))
