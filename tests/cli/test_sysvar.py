@@ -61,6 +61,7 @@ def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_o
         assert store.read(250_101) == pytest.approx(0.002)
     output = run("get", "P650002", "--unit", "mm").output
     assert "Cut Speed = 300 mm/min" in output
+    assert "default 254 mm/min, typically 254; takes a number above 0 up to 254" in output
     assert "takes a number above 0 up to 25400000 [mm/min]" in output
     run("set", "jog feedrate a=360", "jog feedrate x=254", "--unit", "mm")
     with Store(path) as store:

@@ -161,9 +161,27 @@ def _about(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
 
     n = parameter.number
     default = _value_text(cells, parameter, cells.default(n), unit)
-    typical = f", typically {parameter.row.typical}" if parameter.row.typical else ""
+    typical = _typical(cells, parameter, unit)
+    typical = f", typically {typical}" if typical else ""
     takes = accepted(parameter, is_metric_in(cells, unit), cells.letter_of(parameter))
     return f"  {parameter.tab}: {parameter.row.doc}\n  default {default}{typical}; takes {takes}"
+
+
+def _typical(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
+    """The typical value; lengths are written in inches in the tables."""
+    from openacr.sysvar.values import scaled, shown
+    from openacr.units import MM_PER_INCH
+
+    text = parameter.row.typical
+    if not parameter.is_length:
+        return text
+    try:
+        inches = float(text)
+    except ValueError:  # words
+        return text
+    letter = cells.letter_of(parameter)
+    stored = scaled(parameter, inches, MM_PER_INCH if cells.is_metric else 1.0, letter)
+    return shown(parameter, _in_unit(cells, parameter, stored, unit))
 
 
 def _print_table(cells: "Store", found: list["Parameter"], unit: str | None) -> None:
@@ -205,7 +223,7 @@ def _fields(cells: "Store", parameter: "Parameter", unit: str | None) -> dict[st
         "unit": unit_of(parameter, is_metric_in(cells, unit), cells.letter_of(parameter)),
         "value": given(cells.value(n)),
         "default": given(cells.default(n)),
-        "typical": parameter.row.typical,
+        "typical": _typical(cells, parameter, unit),
         "choices": {str(value): word for value, word in parameter.row.words.items()},
         "description": parameter.row.doc,
     }
