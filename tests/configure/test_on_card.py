@@ -59,6 +59,15 @@ def test_the_sample_project_is_set_up_without_warnings(tmp_path: Path) -> None:
     assert shown == ["ON"] * 3 + ["OFF"] * 5
     attached = card.send("ATTACH\r").splitlines()
     assert attached[:3] == [f"ATTACH AXIS{n} ENC{n} DAC{n} ENC{n}" for n in range(3)]
+    reports = {
+        "PROG0": {"PGAIN X": "0.002441", "TLM X": "10,-10", "EXC X": "0.2,-0.2", "SLM X": "24,0",
+                  "HLDEC X": "500", "DAC0 GAIN": "3276.8", "ENC0 MULT": "4", "ACC": "10",
+                  "VEL": "5"},
+        "PROG1": {"PPU Z": "40000", "SLM Z": "6,0", "ACC": "20", "STP": "20", "VEL": "10"},
+    }  # fmt: skip
+    for level, wanted in reports.items():
+        card.send(f"{level}\r")
+        assert {query: card.send(f"{query}\r").strip() for query in wanted} == wanted
 
 
 @pytest.mark.req("ACR-TUT-02")
