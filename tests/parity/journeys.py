@@ -30,6 +30,22 @@ counts_per_rev = 4000
 motor = { inertia_kgm2 = 2e-5, torque_nm_per_a = 0.5 }
 drive = { mode = "torque", amps_per_volt = 0.3, peak_amps = 20.0, fault_input = 20 }
 load = { coulomb_nm = 0.01, viscous_nms = 1e-4 }
+
+[[axis]]
+number = 3
+counts_per_rev = 4000
+motor = { inertia_kgm2 = 2e-5, torque_nm_per_a = 0.5, pole_pairs = 2, electrical_zero_deg = 30.0 }
+drive = { mode = "phases", dacs = [3, 4], amps_per_volt = 0.3, peak_amps = 20.0 }
+load = { coulomb_nm = 0.01, viscous_nms = 1e-4 }
+
+[[analog]]
+input = 1
+axis = 0
+volts_per_unit = 2.5
+
+[[analog]]
+input = 2
+dac = 1
 """
 SET_UP = (
     "SYS", "HALT ALL", "NEW ALL", "DETACH ALL", "DIM P(10)", "DIM PROG0(4000)",
@@ -75,6 +91,13 @@ JOURNEYS: dict[str, tuple[Step, ...]] = {
         "IF (P0<9) THEN GOTO LOOP", "ENDP", "PROG1", "PROGRAM", "DIM LV(2)", "_AGAIN", "LV0=LV0+1",
         "P1=SIN(LV0)*P6916",
         "DWL 0.005", "GOTO AGAIN", "ENDP", "RUN", "PROG0", "RUN", 300, "HALT PROG1", 60,
+    ),
+    "encoders": (
+        "ENC0 ROTARY 300", "ENC1 LIMIT 9000", "ENC5 LOCK 0", "ADC POS 0 1", "ADC NEG 0 2",
+        "AXIS4 OFF", "ATTACH AXIS3 ENC3 CMT0", "CMT0 ENC3 ENC3", "CMT0 DAC3 DAC4", "CMT0 PPR 1000",
+        "ENC3 MULT 4", "CMT0 ERPMR 2", "CMT0 SHIFT 167", "CMT0 MODE 1", "CMT0 ON",
+        "AXIS3 JOG ACC 9000", "AXIS3 JOG VEL 3000", "AXIS3 JOG FWD", "X0.2 Y0.1", 150, "ENC5 RES 7",
+        "ENC0 LIMIT 3000", "X0 Y0.2", 120, "RES X1", "ENC1 LIMIT 0", "ENC0 ROTARY 0", 60,
     ),
     "filters": (
         "LOPASS Y200", "NOTCH Y(100,50)", "FFVEL Y0.0001", "IGAIN Y0.1", "ILIMIT Y1", "SET 786",
