@@ -1,6 +1,7 @@
 """`openacr mill drip` and `receive`, and the console of `mill run`."""
 
 import os
+import termios
 import threading
 import time
 from collections.abc import Iterator
@@ -38,7 +39,9 @@ def sending(master: int, data: bytes) -> None:
     """Send in pieces, when the far end has opened its port."""
 
     def work() -> None:
-        time.sleep(0.5)
+        while termios.tcgetattr(master)[3] & termios.ECHO:
+            time.sleep(0.02)
+        time.sleep(0.3)  # opening a port ends with forgetting what has arrived
         for n in range(0, len(data), 9):
             os.write(master, data[n : n + 9])
             time.sleep(0.01)
