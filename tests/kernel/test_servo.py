@@ -192,3 +192,16 @@ def test_a_gain_that_is_no_number_leaves_no_trace() -> None:
     follow(rig, np.array([1.0, 2.0]), "output_signal")
     rig.axis(kvi=0.0, kvp=0.0)
     assert follow(rig, np.array([1.0, 2.0]), "output_signal")[0][-1] == 2.0
+
+
+@pytest.mark.parametrize("setting", ["proportional_gain", "integral_limit", "derivative_gain"])
+@pytest.mark.parametrize("value", [float("nan"), float("inf")])
+def test_a_setting_that_is_no_number_puts_out_nothing_or_the_limit(
+    setting: str, value: float
+) -> None:
+    rig = open_loop(proportional_gain=1.0)
+    rig.axis(0, **{setting: value})
+    voltages, *_ = follow(rig, np.array([1.0, 2.0, 3.0]), "output_signal")
+    assert all(abs(volts) <= 10.0 for volts in voltages)
+    rig.axis(0, **{setting: 0.0})
+    assert all(volts in (0.0, 1.0) for volts in follow(rig, np.array([1.0]), "output_signal")[0])

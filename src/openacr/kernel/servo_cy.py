@@ -175,8 +175,14 @@ def integrate(F: F64, S: F32, n: int, value: float, rate: float, period_s: float
     total: float = F[a + AXF_INTEGRAL_V]
     if delay <= 0.0 or F[a + AXF_IDLE_S] >= delay:
         total += rate * value * period_s
-    total = max(-limit, min(limit, total))
-    F[a + AXF_INTEGRAL_V] = total
+    return integral_keep(F, n, max(-limit, min(limit, total)))
+
+
+def integral_keep(F: F64, n: int, total: float) -> float:
+    """Store the integral; what is no number must not stay in it."""
+    if total - total != 0.0:
+        total = 0.0
+    F[AXF_BASE + n * AXF_STRIDE + AXF_INTEGRAL_V] = total
     return total
 
 
@@ -272,12 +278,8 @@ def velocity_integral(F: F64, S: F32, n: int, value: float, period_s: float) -> 
     p: int = AX_BASE + n * AX_STRIDE
     if S[p + AX_INTEGRAL_LIMIT] > 0.0:
         return integrate(F, S, n, value, S[p + AX_KVI], period_s)
-    a: int = AXF_BASE + n * AXF_STRIDE
-    total: float = F[a + AXF_INTEGRAL_V] + S[p + AX_KVI] * value * period_s
-    if total - total != 0.0:  # a gain that is no number must not stay in the integral
-        total = 0.0
-    F[a + AXF_INTEGRAL_V] = total
-    return total
+    total: float = F[AXF_BASE + n * AXF_STRIDE + AXF_INTEGRAL_V]
+    return integral_keep(F, n, total + S[p + AX_KVI] * value * period_s)
 
 
 def servo_closed(I: I32, n: int) -> bool:
@@ -319,6 +321,8 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
         I[i + AXI_CLIPPED] = 1 if output != total else 0
     else:
         F[a + AXF_ERROR_OLD_CNT] = error
+    if output - output != 0.0:  # a gain or limit that is no number
+        output = 0.0
     S[p + AX_OUTPUT_SIGNAL] = output
     k: int = I[i + AXI_SIGNAL_INDEX]
     if I[i + AXI_SIGNAL_SOURCE] == TO_DAC:
