@@ -190,6 +190,13 @@ def test_a_wrong_capture_is_refused(line: str, message: str) -> None:
     assert made.type("INTCAP X") == "OFF"
 
 
+def test_the_copy_of_a_capture_is_for_that_capture_only() -> None:
+    made = Bench("X").all("ACC 0 STP 0 VEL 10", "INTCAP X11 P38912").ticks(1)
+    made.all("SET 113").ticks(1).all("P38912=-7", "MSEEK X(10,11)").ticks(50)
+    made.all("SET 113").ticks(1)
+    assert (made.bit(777), made.p(38912)) == (True, -7)
+
+
 def seeking(line: str = "MSEEK X(1,2)") -> Bench:
     """An axis of 1000 pulses per unit that seeks the first external input."""
     return Bench("X", "Y").all("PPU X1000 Y1000", "ACC 0 DEC 0 STP 100 VEL 2", "CLR 24", line)

@@ -87,9 +87,10 @@ SOFTWARE = 7
 
 
 def capture_arm(F: F64, I: I32, n: int, mode: int) -> None:
-    """Arm the capture of axis n in `mode`, or disarm it with -1."""
+    """Arm the capture of axis n in `mode`, without a copy, or disarm it with -1."""
     i: int = AXI_BASE + n * AXI_STRIDE
     I[i + AXI_CAPTURE_MODE] = mode
+    I[i + AXI_CAPTURE_COPY] = 0
     if mode >= 0:
         I[axis_word(n)] &= ~AF1_CAPTURE_COMPLETE
         F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = 0.0

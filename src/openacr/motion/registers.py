@@ -7,6 +7,7 @@ from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AXF_POSITION_CNT,
     AXF_ROTARY_U,
+    AXF_TARGET_CNT,
     AXI_CAPTURE_COPY,
     AXI_CAPTURE_MODE,
 )
@@ -17,6 +18,7 @@ from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
 _axis_preload = pick(axis_cy.axis_preload)
 _axis_renew = pick(axis_cy.axis_renew)
 _axis_settled = pick(axis_cy.axis_settled)
+_axis_target_changed = pick(axis_cy.axis_target_changed)
 _feedback_set = pick(feedback_cy.feedback_set)
 _capture_arm = pick(capture_cy.capture_arm)
 
@@ -56,10 +58,19 @@ def norm(card: Card, axis: int) -> None:
     card.show(axis)
 
 
+def set_position(card: Card, axis: int, position_cnt: float) -> None:
+    """Let an axis whose master rests have this coordinated position; offsets stay."""
+    memory = card.memory
+    memory.F[axis_reals(axis) + AXF_POSITION_CNT] = position_cnt
+    memory.F[axis_reals(axis) + AXF_TARGET_CNT] = position_cnt
+    _axis_target_changed(memory.F, memory.I, axis)
+    card.show(axis)
+
+
 def arm_capture(card: Card, axis: int, mode: int, copy_to: int = 0) -> None:
     """INTCAP: capture the position at the edge `mode` names (0-15), once."""
-    card.memory.I[axis_ints(axis) + AXI_CAPTURE_COPY] = copy_to
     _capture_arm(card.memory.F, card.memory.I, axis, mode)
+    card.memory.I[axis_ints(axis) + AXI_CAPTURE_COPY] = copy_to
 
 
 def disarm_capture(card: Card, axis: int) -> None:
