@@ -298,6 +298,41 @@ def test_after_a_software_limit_an_inward_jog_needs_no_clearing() -> None:
     assert made.p(PSP) < 1000
 
 
+def test_what_follows_a_source_is_stopped_again_beyond_a_software_limit() -> None:
+    made = bench("SLM X(1,-1)", "SLIM X3", "SLDEC X10000", "GEAR SRC X P12550", "GEAR PPU X1000")
+    made.all("JOG FWD Y", "GEAR ON X").seconds(0.5)
+    place = made.psp(0)
+    assert 1000 <= place < 1020
+    made.all("CLR 522", "JOG FWD Y", "GEAR ON X").ticks(40)
+    assert place < made.psp(0) < place + 30
+    assert made.type("AXIS0 GEAR") == "OFF"
+
+
+def test_the_jog_flag_starts_no_jog_farther_out() -> None:
+    made = bench("SLM X(1,-1)", "SLIM X3", "JOG FWD X").seconds(0.5)
+    place = made.psp(0)
+    made.all("CLR 522", "SET 796").ticks(20)
+    assert (made.psp(0), made.bit(796)) == (place, False)
+    made.all("SET 797").ticks(20)
+    assert made.psp(0) == pytest.approx(place - 100)
+
+
+def test_a_software_limit_switched_off_bars_nothing() -> None:
+    made = bench("SLM X(1,-1)", "SLIM X3", "JOG FWD X").seconds(0.5)
+    assert made.type("JOG FWD X") == "Soft limit"
+    made.all("SLIM X0").ticks(1)
+    made.all("JOG FWD X").ticks(20)
+    assert made.psp(0) == pytest.approx(1100, abs=10)
+
+
+def test_limits_follow_the_units_of_an_axis_with_negative_ppu() -> None:
+    made = bench("PPU X-1000", "SLM X(1,-1)", "SLIM X3", "JOG FWD X").seconds(0.5)
+    assert made.p(12294) == pytest.approx(-1000, abs=10)
+    assert made.type("JOG FWD X") == "Soft limit"
+    made.all("JOG REV X").seconds(0.5)
+    assert made.p(12294) == pytest.approx(1000, abs=10)
+
+
 @pytest.mark.req("ACR-LIM-22")
 def test_a_software_limit_before_the_switch_keeps_the_axis_off_it() -> None:
     made = bench("SLIM X1 : SLM X(2,0) : SLDEC X100 : HLIM X1 : HLDEC X1000", "X10")

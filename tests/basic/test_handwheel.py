@@ -153,6 +153,12 @@ def test_a_locked_axis_follows_unit_for_unit() -> None:
     assert made.type("LOCK") == ""
 
 
+@pytest.mark.parametrize("flag", [788 + 32, 790 + 32, 796 + 32, 797 + 32, 17160 + 32])
+def test_flags_do_not_move_a_locked_axis(flag: int) -> None:
+    made = bench("GEAR SRC Y CLK", "LOCK X Y", f"SET {flag}").ticks(100)
+    assert (made.psp(1), made.bit(flag)) == (0, False)
+
+
 def test_the_leader_may_have_the_higher_number() -> None:
     made = bench("LOCK Y X", "JOG INC Y1")
     for _ in range(100):

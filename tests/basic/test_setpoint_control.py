@@ -7,6 +7,7 @@ from openacr.basic.registry import Level
 from openacr.map import numbers as at
 
 ACTIVE, DIRECTION, AT_SPEED, STOPPING, FORWARD, REVERSE, LIMIT_CHECK, LOCKOUT = range(792, 800)
+HOMING, HOME_REQUEST, VELOCITY = 16131, 17160, 12346
 CURRENT, ACTUAL, PSP, SSP, GEAR, JOG, CAM = 12288, 12290, 12294, 12295, 12296, 12297, 12298
 
 
@@ -146,6 +147,40 @@ def test_jog_lockout_keeps_an_axis_at_rest() -> None:
     made.type("CLR 799")
     made.ticks(20)
     assert made.p(JOG) == 100
+
+
+@pytest.mark.parametrize("start", ["JOG HOME X1", f"SET {HOME_REQUEST}"])
+def test_jog_lockout_keeps_homing_from_starting(start: str) -> None:
+    made = bench("JOG VEL X10", "SET 799", start).ticks(20)
+    assert (made.psp(0), made.bit(ACTIVE), made.bit(HOMING)) == (0, False, False)
+    made.all("CLR 799", start).ticks(20)
+    assert made.psp(0) > 0
+
+
+def test_the_flag_that_starts_homing_does_nothing_while_the_axis_moves() -> None:
+    made = bench("JOG VEL X10 : VEL 1", "X1", f"SET {HOME_REQUEST}").ticks(20)
+    assert (made.p(JOG), made.bit(HOMING), made.bit(HOME_REQUEST)) == (0, False, False)
+
+
+def test_a_search_takes_over_a_jog_vel_set_later() -> None:
+    made = bench("JOG ACC X0", "JOG HOME X1").ticks(20)
+    assert (made.psp(0), made.bit(HOMING)) == (0, True)
+    made.all("JOG VEL X10").ticks(20)
+    assert made.psp(0) == pytest.approx(100)
+
+
+def test_with_negative_ppu_forward_is_where_the_units_count_up() -> None:
+    made = Bench("X").all("PPU X-1000", "JOG ACC X0 : JOG DEC X0 : JOG VEL X10", "JOG FWD X")
+    made.ticks(20)
+    assert (made.p(JOG), made.p(VELOCITY), made.bit(DIRECTION)) == (-100, 10, False)
+    made.all("JOG REV X").ticks(40)
+    assert (made.p(JOG), made.p(VELOCITY), made.bit(DIRECTION)) == (100, -10, True)
+    made.all("JOG OFF X", "JLM X(0.5,-0.2)", "SET 798", "JOG FWD X").seconds(0.2)
+    assert made.p(JOG) == -500
+    made.all("JOG REV X").seconds(0.2)
+    assert made.p(JOG) == 200
+    made.all("JOG OFF X").ticks(2).all("JOG HOME X-1").ticks(20)
+    assert made.p(JOG) == 300
 
 
 @pytest.mark.req("ACR-CMD-JOG-VEL", "ACR-JOG-06")
@@ -347,10 +382,19 @@ def test_jog_ren_and_res_share_the_sum_anew_without_motion(
 def test_jog_ren_and_res_are_refused_while_their_profiler_moves() -> None:
     made = bench("JOG VEL X10", "ACC 0 STP 0 VEL 1", "X10")
     assert made.type("JOG REN X") == "Not valid while in motion"
-    assert made.type("JOG RES X") == ""
+    assert made.type("JOG RES X") == "Not valid while in motion"
     made.until_clear(516)
     made.all("JOG FWD X")
     assert made.type("JOG RES X") == "Not valid while in motion"
+
+
+def test_jog_ren_during_a_jog_moves_nothing_and_keeps_the_target() -> None:
+    made = bench("JOG ACC X0 : JOG DEC X0 : JOG VEL X10", "JOG ABS X3").ticks(100)
+    before = made.psp(0)
+    made.all("JOG REN X1").ticks(1)
+    assert made.psp(0) == pytest.approx(before + 5)
+    made.until_clear(ACTIVE)
+    assert (made.p(CURRENT), made.p(JOG), made.p(PSP)) == (1000, 3000, 4000)
 
 
 # homing

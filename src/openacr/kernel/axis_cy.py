@@ -12,6 +12,11 @@ from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
     AF1_WORD,
     AF1_WORD_HIGH,
+    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_WORD,
     AX_ACCELERATION,
     AX_ACTUAL_POSITION,
     AX_BACKLASH_OFFSET,
@@ -78,7 +83,15 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["axis_preload", "axis_renew", "axis_settled", "axis_show", "axis_take_written"]
+__all__ = [
+    "axis_jog_set",
+    "axis_preload",
+    "axis_renew",
+    "axis_settled",
+    "axis_show",
+    "axis_take_written",
+    "axis_target_changed",
+]
 
 
 def axis_word(n: int) -> int:
@@ -90,6 +103,21 @@ def axis_scale(S: F32, n: int) -> float:
     """Pulses per unit of axis n with its sign; a 0, infinity or NaN written counts as 1."""
     ppu: float = S[AX_BASE + n * AX_STRIDE + AX_PPU]
     return ppu if ppu != 0.0 and ppu - ppu == 0.0 else 1.0
+
+
+def axis_sense(S: F32, n: int) -> int:
+    """+1 or -1: the direction of pulses in which the units of axis n count up."""
+    return -1 if axis_scale(S, n) < 0.0 else 1
+
+
+def limit_latched(I: I32, n: int, positive: bool) -> bool:
+    """Whether a limit that axis n has met bars its way in the positive or negative direction."""
+    limits: int = (
+        AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+        if positive
+        else AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    )
+    return I[AF5_WORD + n] & limits != 0
 
 
 def axis_sum(F: F64, n: int) -> None:

@@ -16,9 +16,9 @@ m = -e.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_preload, axis_scale
+from openacr.kernel.axis_cy import axis_preload, axis_scale, axis_sense
 from openacr.kernel.capture_cy import capture_input_position, encoder_shift
-from openacr.kernel.jogplan_cy import FAR_CNT, jog_ramp_down, jog_run, jog_setting
+from openacr.kernel.jogplan_cy import FAR_CNT, JOG_PROFILE, jog_ramp_down, jog_run, jog_setting
 from openacr.kernel.profile_cy import DECELERATING
 from openacr.map.numbers import (
     AF4_KILL_ALL_MOTION_REQUEST,
@@ -56,8 +56,13 @@ from openacr.map.numbers import (
     PLGI_BASE,
     PLGI_FALLS,
     PLGI_RISES,
+    PRF_BASE,
+    PRF_STRIDE,
+    PRF_TARGET_VELOCITY,
 )
 from openacr.views import F32, F64, I32
+
+__all__ = ["home_abort", "home_begin"]
 
 HOME_OFF = 0
 HOME_START = 1
@@ -85,11 +90,11 @@ def home_final(I: I32, n: int) -> int:
 
 
 def home_run(F: F64, I: I32, S: F32, n: int, state: int, sign: int, speed: float) -> None:
-    """Enter `state` and move in direction `sign` without a target."""
+    """Enter `state` and move in direction `sign` of the units, without a target."""
     i: int = AXI_BASE + n * AXI_STRIDE
     I[i + AXI_HOME_STATE] = state
     I[i + AXI_HOME_MOVING] = sign
-    jog_run(F, I, S, n, sign, FAR_CNT, speed)
+    jog_run(F, I, S, n, sign * axis_sense(S, n), FAR_CNT, speed)
 
 
 def home_brake(F: F64, I: I32, S: F32, n: int, state: int) -> None:
@@ -149,6 +154,15 @@ def home_limit(F: F64, I: I32, S: F32, n: int) -> None:
     jog_ramp_down(F, I, n, rate * fabs(axis_scale(S, n)), 0.0, DECELERATING)
 
 
+def home_begin(I: I32, n: int, direction: int) -> None:
+    """Let the search in `direction` begin with the next tick."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    results: int = AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED
+    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~results) | AF5_HOMING_IN_PROGRESS
+    I[i + AXI_HOME_SEARCH] = direction
+    I[i + AXI_HOME_STATE] = HOME_START
+
+
 def home_start(F: F64, I: I32, S: F32, n: int) -> None:
     """Begin the search; a home input that is already on is left towards its edge first."""
     i: int = AXI_BASE + n * AXI_STRIDE
@@ -171,6 +185,8 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
         return False
     if I[i + AXI_HOME_LIMIT_HIT]:
         home_limit(F, I, S, n)
+    if I[i + AXI_HOME_STATE] == HOME_SEARCH:
+        home_pace(F, I, S, n)
     now: int = I[AF5_WORD + n] & AF5_HOME_INPUT
     old: int = I[i + AXI_HOME_INPUT_OLD]
     I[i + AXI_HOME_INPUT_OLD] = now
@@ -193,6 +209,13 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
             return True
         home_brake(F, I, S, n, HOME_STOP2)
     return False
+
+
+def home_pace(F: F64, I: I32, S: F32, n: int) -> None:
+    """Follow a JOG VEL changed during the search."""
+    speed: float = jog_setting(S, n, AX_JOG_VELOC_SETTING)
+    if speed != F[PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE + PRF_TARGET_VELOCITY]:
+        home_run(F, I, S, n, HOME_SEARCH, I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_MOVING], speed)
 
 
 def home_passed(I: I32, n: int) -> bool:

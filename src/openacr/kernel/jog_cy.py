@@ -9,8 +9,8 @@ command velocity) and runs the homing sequence.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_scale, axis_word
-from openacr.kernel.homing_cy import HOME_START, home_abort, home_arrived, home_step
+from openacr.kernel.axis_cy import axis_scale, axis_sense, axis_word, limit_latched
+from openacr.kernel.homing_cy import home_abort, home_arrived, home_begin, home_step
 from openacr.kernel.jogplan_cy import (
     FAR_CNT,
     JOG_PROFILE,
@@ -22,6 +22,9 @@ from openacr.kernel.jogplan_cy import (
 from openacr.kernel.profile_cy import STOPPING, profile_advance, profile_reset, profile_stop
 from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.numbers import (
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVATE,
+    AF1_GEAR_ACTIVE,
     AF1_JOG_ACTIVE,
     AF1_JOG_AT_SPEED,
     AF1_JOG_DIRECTION,
@@ -32,10 +35,6 @@ from openacr.map.numbers import (
     AF1_JOG_STOPPING,
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
-    AF5_HOME_FAILED,
-    AF5_HOME_SUCCESSFUL,
-    AF5_HOMING_IN_PROGRESS,
-    AF5_WORD,
     AF6_JOG_HOME_DIRECTION,
     AF6_JOG_HOME_REQUEST,
     AF6_WORD,
@@ -54,14 +53,16 @@ from openacr.map.numbers import (
     AXF_PSP_VELOCITY_CPS,
     AXF_STRIDE,
     AXI_BASE,
-    AXI_HOME_SEARCH,
-    AXI_HOME_STATE,
     AXI_JOG_MODE,
     AXI_JOG_REPLAN,
     AXI_JOG_SIGN,
     AXI_JOG_TURNING,
     AXI_JOG_WANT,
+    AXI_MASTER,
     AXI_STRIDE,
+    MSI_BASE,
+    MSI_QUEUED,
+    MSI_STRIDE,
     PRF_ACCEL,
     PRF_BASE,
     PRF_DISTANCE,
@@ -87,6 +88,7 @@ JOG_KILLED = 4  # kill, limit
 JOG_HOMING = 5
 
 JOG_WANTED = AF1_JOG_FORWARD | AF1_JOG_REVERSE
+HOME_BARS = AF1_JOG_LOCKOUT | AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE
 JOG_STATES = AF1_JOG_ACTIVE | AF1_JOG_DIRECTION | AF1_JOG_AT_SPEED | AF1_JOG_STOPPING
 
 
@@ -96,22 +98,24 @@ def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
     i: int = AXI_BASE + n * AXI_STRIDE
     speed: float = jog_speed(F, I, S, n)
     I[i + AXI_JOG_REPLAN] = 0
-    sign: int = I[i + AXI_JOG_WANT]
+    want: int = I[i + AXI_JOG_WANT]
+    sign: int = want * axis_sense(S, n)
     distance: float = FAR_CNT
     if I[i + AXI_JOG_MODE] == JOG_TO_TARGET:
         distance = F[a + AXF_JOG_TARGET_CNT] - F[a + AXF_JOG_CNT]
         sign = 1 if distance >= 0.0 else -1
         distance = fabs(distance)
     elif I[axis_word(n)] & AF1_JOG_LIMIT_CHECK:
-        distance = max(jog_room(F, S, n, sign), 0.0)
+        distance = max(jog_room(F, S, n, want), 0.0)
     I[i + AXI_JOG_TURNING] = 0 if jog_run(F, I, S, n, sign, distance, speed) else 1
 
 
-def jog_room(F: F64, S: F32, n: int, sign: int) -> float:
-    """Pulses from the present jog offset to the jog limit (JLM) in direction `sign`."""
+def jog_room(F: F64, S: F32, n: int, want: int) -> float:
+    """Pulses from the present jog offset to the jog limit (JLM) in direction `want`."""
     p: int = AX_BASE + n * AX_STRIDE
-    limit: float = S[p + AX_PLUS_JOG_LIMIT] if sign > 0 else S[p + AX_MINUS_JOG_LIMIT]
-    return sign * (limit * axis_scale(S, n) - F[AXF_BASE + n * AXF_STRIDE + AXF_JOG_CNT])
+    limit: float = S[p + AX_PLUS_JOG_LIMIT] if want > 0 else S[p + AX_MINUS_JOG_LIMIT]
+    way: float = limit * axis_scale(S, n) - F[AXF_BASE + n * AXF_STRIDE + AXF_JOG_CNT]
+    return want * axis_sense(S, n) * way
 
 
 def jog_brake(F: F64, I: I32, S: F32, n: int) -> None:
@@ -147,19 +151,26 @@ def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
 
 
 def jog_home_request(I: I32, n: int) -> None:
-    """The flag form of JOG HOME: start the search at rest, unless a kill bars it."""
-    i: int = AXI_BASE + n * AXI_STRIDE
+    """The flag form of JOG HOME: start the search at rest, unless something bars it."""
     flags: int = I[AF6_WORD + n]
+    negative: bool = flags & AF6_JOG_HOME_DIRECTION != 0
     I[AF6_WORD + n] = flags & ~AF6_JOG_HOME_REQUEST
-    if I[i + AXI_JOG_MODE] != JOG_IDLE or I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
+    if home_barred(I, n) or limit_latched(I, n, not negative):
         return
-    if I[SRI_BASE + (n * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK:
-        return
-    results: int = AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED
-    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~results) | AF5_HOMING_IN_PROGRESS
-    I[i + AXI_HOME_SEARCH] = -1 if flags & AF6_JOG_HOME_DIRECTION else 1
-    I[i + AXI_HOME_STATE] = HOME_START
-    I[i + AXI_JOG_MODE] = JOG_HOMING
+    home_begin(I, n, -1 if negative else 1)
+    I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] = JOG_HOMING
+
+
+def home_barred(I: I32, n: int) -> bool:
+    """Whether axis n moves, is killed, locked out or jogs by another time base."""
+    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+    if m >= 0 and I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED]:
+        return True
+    if I[axis_word(n)] & HOME_BARS or I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
+        return True
+    if I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] != JOG_IDLE:
+        return True
+    return I[SRI_BASE + (n * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK
 
 
 def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
@@ -180,6 +191,9 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
         want += 1
     if flags & AF1_JOG_REVERSE:
         want -= 1
+    if want != 0 and limit_latched(I, n, want > 0):
+        I[axis_word(n)] = flags & ~JOG_WANTED
+        want = 0
     if want != 0:
         if mode == JOG_IDLE and flags & AF1_JOG_LOCKOUT:
             return
@@ -264,14 +278,14 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     f: int = PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE
     sign: int = I[i + AXI_JOG_SIGN]
     velocity: float = sign * F[f + PRF_VELOCITY]
-    units: float = 1.0 / fabs(axis_scale(S, n))
+    units: float = 1.0 / axis_scale(S, n)
     S[p + AX_CURRENT_JOG_VELOC] = velocity * units
     S[p + AX_CURRENT_JOG_ACCEL] = sign * F[f + PRF_ACCEL] * units
     word: int = axis_word(n)
     flags: int = I[word] & ~JOG_STATES
     if I[i + AXI_JOG_MODE] != JOG_IDLE:
         flags |= AF1_JOG_ACTIVE
-        if velocity < 0.0:
+        if velocity * units < 0.0:
             flags |= AF1_JOG_DIRECTION
         if I[PRI_BASE + (JOG_PROFILE + n) * PRI_STRIDE + PRI_KIND] == STOPPING:
             flags |= AF1_JOG_STOPPING

@@ -6,13 +6,16 @@ Axes on the same master stop together, each at its own rate. An end-of-travel li
 only on motion into it, so that an axis can always be driven off a switch.
 """
 
-from openacr.kernel.axis_cy import axis_scale
+from openacr.kernel.axis_cy import axis_scale, axis_word
 from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
-from openacr.kernel.jog_cy import JOG_HOMING, jog_take_over
+from openacr.kernel.jog_cy import JOG_HOMING, JOG_KILLED, jog_take_over
 from openacr.kernel.offset_cy import followers_halt, lock_leader
 from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import (
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVATE,
+    AF1_GEAR_ACTIVE,
     AF4_DISABLE_DRIVE_ON_KILL,
     AF4_DRIVE_ENABLED,
     AF4_KILL_ALL_MOTION_REQUEST,
@@ -44,8 +47,12 @@ from openacr.map.numbers import (
     AXI_KAMR_OLD,
     AXI_MASTER,
     AXI_STRIDE,
+    FLI_BASE,
+    FLI_ON,
+    FLI_STRIDE,
     MF1_KILL_ALL_MOVES_REQUEST,
     MSI_BASE,
+    MSI_MOVING,
     MSI_SLAVE_AXIS,
     MSI_STRIDE,
 )
@@ -59,11 +66,14 @@ FLAG_WORDS = 4096
 LAST_FLAG = 17663
 PREVIOUS_SHIFT = 8
 INVERT_SHIFT = 16
-ENABLES = (
+FOLLOWING = AF1_GEAR_ACTIVE | AF1_GEAR_ACTIVATE | AF1_CAM_ACTIVATE
+WATCHED = (
     AF5_POSITIVE_HARDWARE_LIMIT_ENABLE
     | AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE
     | AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE
     | AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE
+    | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
 )
 
 
@@ -143,45 +153,65 @@ def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> 
         return
     i: int = AXI_BASE + n * AXI_STRIDE
     if I[i + AXI_JOG_MODE] == JOG_HOMING:
-        home_limit_hit(F, I, n, HARD_LIMIT_HIT)
+        home_limit_hit(I, n, HARD_LIMIT_HIT, velocity)
     else:
         I[AF5_WORD + n] |= hit
         axis_kill(F, I, S, n)
 
 
-def home_limit_hit(F: F64, I: I32, n: int, kind: int) -> None:
+def home_limit_hit(I: I32, n: int, kind: int, velocity: float) -> None:
     """Tell the homing sequence of axis n about a limit.
 
     In the tick in which a search turns round the axis has still moved into the limit.
     """
     i: int = AXI_BASE + n * AXI_STRIDE
-    if F[AXF_BASE + n * AXF_STRIDE + AXF_PSP_VELOCITY_CPS] * I[i + AXI_HOME_MOVING] > 0.0:
+    if velocity * I[i + AXI_HOME_MOVING] > 0.0:
         I[i + AXI_HOME_LIMIT_HIT] = kind
 
 
 def soft_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:
-    """Trip an enabled software limit that the primary setpoint passes; re-arm it inside."""
+    """Trip a software limit that the primary setpoint passes; re-arm it inside or disabled."""
     a: int = AXF_BASE + n * AXF_STRIDE
     position: float = F[a + AXF_PSP_CNT] / axis_scale(S, n)
+    beyond: bool = False
     if flags & AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE:
-        beyond: bool = position > F[a + AXF_SLM_PLUS_U]
-        soft_limit(F, I, S, n, AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED, beyond, velocity > 0.0)
+        beyond = position > F[a + AXF_SLM_PLUS_U]
+    soft_limit(F, I, S, n, 1, beyond, velocity)
+    beyond = False
     if flags & AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE:
-        below: bool = position < F[a + AXF_SLM_MINUS_U]
-        soft_limit(F, I, S, n, AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED, below, velocity < 0.0)
+        beyond = position < F[a + AXF_SLM_MINUS_U]
+    soft_limit(F, I, S, n, -1, beyond, velocity)
 
 
-def soft_limit(F: F64, I: I32, S: F32, n: int, latch: int, beyond: bool, outward: bool) -> None:
-    """One side: stop the axes of the master when it is passed, clear the latch inside."""
+def soft_limit(F: F64, I: I32, S: F32, n: int, side: int, beyond: bool, velocity: float) -> None:
+    """One side: stop the axes of the master when it is passed, clear the latch inside.
+
+    What takes an axis farther out after that stop is stopped as well.
+    """
     i: int = AXI_BASE + n * AXI_STRIDE
     word: int = AF5_WORD + n
+    latch: int = AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    if side < 0:
+        latch = AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
     if not beyond:
         I[word] &= ~latch
-    elif outward and I[i + AXI_JOG_MODE] == JOG_HOMING:
-        home_limit_hit(F, I, n, SOFT_LIMIT_HIT)
-    elif outward and not I[word] & latch:
+    elif not side * velocity > 0.0:
+        return
+    elif I[i + AXI_JOG_MODE] == JOG_HOMING:
+        home_limit_hit(I, n, SOFT_LIMIT_HIT, velocity)
+    elif not I[word] & latch or followed(I, n):
         I[word] |= latch
         soft_stop(F, I, S, n)
+
+
+def followed(I: I32, n: int) -> bool:
+    """Whether axis n follows a source or a path, and is not being stopped."""
+    if I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] == JOG_KILLED:
+        return False
+    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+    if m >= 0 and I[MSI_BASE + m * MSI_STRIDE + MSI_MOVING]:
+        return True
+    return I[axis_word(n)] & FOLLOWING != 0 or I[FLI_BASE + n * FLI_STRIDE + FLI_ON] != 0
 
 
 def soft_stop(F: F64, I: I32, S: F32, n: int) -> None:
@@ -210,7 +240,7 @@ def limits_step(F: F64, I: I32, S: F32, n: int) -> None:
             axis_kill(F, I, S, n)
     else:
         I[i + AXI_KAMR_OLD] = 0
-    if not flags & ENABLES:
+    if not flags & WATCHED:
         return
     velocity: float = F[AXF_BASE + n * AXF_STRIDE + AXF_PSP_VELOCITY_CPS]
     if axis_scale(S, n) < 0.0:

@@ -13,7 +13,7 @@ unit for unit; the difference of the two following errors drives the outputs tog
 """
 
 from openacr.cmath import fabs, trunc
-from openacr.kernel.axis_cy import axis_scale, axis_target_changed, axis_word
+from openacr.kernel.axis_cy import axis_scale, axis_target_changed, axis_word, limit_latched
 from openacr.kernel.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
 from openacr.kernel.feedback_cy import FROM_ENCODER
 from openacr.kernel.gear_cy import gear_halt, gear_step
@@ -32,8 +32,12 @@ from openacr.kernel.source_cy import (
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import (
+    AF1_CAM_ACTIVATE,
+    AF1_GEAR_ACTIVATE,
     AF1_JOG_ACTIVE,
+    AF1_JOG_FORWARD,
     AF1_JOG_LOCKOUT,
+    AF1_JOG_REVERSE,
     AF2_DIR_LIMIT_ACTIVATE,
     AF2_DIR_LIMIT_TRIPPED,
     AF2_NEGATIVE_DIR_LIMIT,
@@ -42,11 +46,8 @@ from openacr.map.numbers import (
     AF3_WORD,
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
-    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_WORD,
+    AF6_JOG_HOME_REQUEST,
+    AF6_WORD,
     AX_ACTUAL_POSITION,
     AX_BACKLASH_SETTING,
     AX_BASE,
@@ -132,6 +133,7 @@ BACKLASH_BY_DIRECTION = 0
 BACKLASH_SPREAD_S = 0.01
 AXES = 16
 ENCODERS = 24
+OWN_MOTION = AF1_JOG_FORWARD | AF1_JOG_REVERSE | AF1_GEAR_ACTIVATE | AF1_CAM_ACTIVATE
 
 
 def source_delta(F: F64, n: int, use: int) -> float:
@@ -197,16 +199,11 @@ def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
 # hand wheel and time base of jogs
 
 
-def wheel_barred(I: I32, n: int, outward: bool) -> bool:
+def wheel_barred(I: I32, n: int, positive: bool) -> bool:
     """Whether a kill, the lockout or a limit already hit bars the hand wheel."""
     if I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST or I[axis_word(n)] & AF1_JOG_LOCKOUT:
         return True
-    limits: int = (
-        AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
-        if outward
-        else AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
-    )
-    return I[AF5_WORD + n] & limits != 0
+    return limit_latched(I, n, positive)
 
 
 def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
@@ -290,7 +287,12 @@ def backlash_step(F: F64, S: F32, n: int, psp_cnt: float, dt: float) -> None:
 
 
 def lock_step(F: F64, I: I32, S: F32, n: int) -> None:
-    """Let the locked axis n follow its leader; runs behind the setpoints of the leader."""
+    """Let the locked axis n follow its leader; runs behind the setpoints of the leader.
+
+    Flags that would move it on its own are taken back, as commands are refused.
+    """
+    I[axis_word(n)] &= ~OWN_MOTION
+    I[AF6_WORD + n] &= ~AF6_JOG_HOME_REQUEST
     f: int = FOF_BASE + n * FOF_STRIDE
     leader: int = I[FOI_BASE + n * FOI_STRIDE + FOI_LEADER] - 1
     now: float = F[AXF_BASE + leader * AXF_STRIDE + AXF_PSP_CNT]

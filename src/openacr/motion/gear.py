@@ -13,20 +13,16 @@ from openacr.map.numbers import (
     AXF_CAM_CNT,
     AXF_GEAR_CNT,
     AXF_POSITION_CNT,
-    AXF_TARGET_CNT,
-    AXI_MASTER,
-    AXI_SLAVE,
     GRF_BASE,
     GRF_RATIO_NOW,
     GRF_STRIDE,
-    MSF_TARGET_CNT,
 )
-from openacr.motion import sources
+from openacr.motion import registers, sources
 from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_gear_defaults
 from openacr.motion.jog import needs_no_moves
 from openacr.motion.permits import needs_no_kill, needs_on, scale_of
-from openacr.motion.rows import axis_ints, axis_reals, axis_word, axis_word2, master_reals
+from openacr.motion.rows import axis_reals, axis_word, axis_word2
 
 
 def permit(card: Card, axis: int) -> None:
@@ -105,13 +101,8 @@ def transfer(card: Card, axis: int, part: int, offset_u: float) -> None:
     """Set one offset and give the difference to the coordinated position; PSP stays."""
     needs_no_moves(card, axis)
     card.take_written(axis)
-    reals, ints, memory = axis_reals(axis), axis_ints(axis), card.memory
+    reals, memory = axis_reals(axis), card.memory
     offset_cnt = offset_u * scale_of(card, axis)
     position = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + part] - offset_cnt
     memory.F[reals + part] = offset_cnt
-    memory.F[reals + AXF_POSITION_CNT] = position
-    memory.F[reals + AXF_TARGET_CNT] = position
-    master = memory.I[ints + AXI_MASTER]
-    if master >= 0:
-        memory.F[master_reals(master) + MSF_TARGET_CNT + memory.I[ints + AXI_SLAVE]] = position
-    card.show(axis)
+    registers.set_position(card, axis, position)

@@ -1,7 +1,8 @@
 """Jog commands of an axis. Commands do not wait; the jog profiler does the rest."""
 
+from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel.homing_cy import HOME_START
+from openacr.kernel import axis_cy, homing_cy
 from openacr.kernel.jog_cy import JOG_CONTINUOUS, JOG_HOMING, JOG_IDLE, JOG_TO_TARGET
 from openacr.kernel.jogplan_cy import FAR_CNT
 from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
@@ -10,27 +11,18 @@ from openacr.map.numbers import (
     AF1_JOG_FORWARD,
     AF1_JOG_LOCKOUT,
     AF1_JOG_REVERSE,
-    AF5_HOME_FAILED,
-    AF5_HOME_SUCCESSFUL,
-    AF5_HOMING_IN_PROGRESS,
-    AF5_WORD,
     AXF_JOG_CNT,
     AXF_JOG_TARGET_CNT,
     AXF_POSITION_CNT,
-    AXF_TARGET_CNT,
-    AXI_HOME_SEARCH,
-    AXI_HOME_STATE,
     AXI_JOG_MODE,
     AXI_JOG_REPLAN,
     AXI_JOG_WANT,
-    AXI_MASTER,
-    AXI_SLAVE,
-    MSF_TARGET_CNT,
     SRI_BASE,
     SRI_KIND,
     SRI_STRIDE,
 )
 from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE, NOT_VALID_WHILE_IN_MOTION
+from openacr.motion import registers
 from openacr.motion.card import Card
 from openacr.motion.permits import (
     master_moving,
@@ -41,7 +33,11 @@ from openacr.motion.permits import (
     needs_rest,
     scale_of,
 )
-from openacr.motion.rows import axis_ints, axis_reals, axis_word, master_reals
+from openacr.motion.rows import axis_ints, axis_reals, axis_word
+
+_axis_jog_set = pick(axis_cy.axis_jog_set)
+_home_abort = pick(homing_cy.home_abort)
+_home_begin = pick(homing_cy.home_begin)
 
 
 def permit(card: Card, axis: int, direction: float) -> None:
@@ -93,7 +89,7 @@ def _to_target(card: Card, axis: int, target_cnt: float) -> None:
     permit(card, axis, distance / scale_of(card, axis))
     ints, word = axis_ints(axis), axis_word(axis)
     if memory.I[ints + AXI_JOG_MODE] == JOG_HOMING:
-        _leave_homing(card, axis)
+        _home_abort(memory.I, axis)
     memory.F[axis_reals(axis) + AXF_JOG_TARGET_CNT] = target_cnt
     memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
     if distance == 0.0 and not memory.I[word] & AF1_JOG_ACTIVE:
@@ -112,18 +108,12 @@ def off(card: Card, axis: int) -> None:
     memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
     mode = memory.I[ints + AXI_JOG_MODE]
     if mode == JOG_HOMING:
-        _leave_homing(card, axis)
+        _home_abort(memory.I, axis)
     if mode in (JOG_HOMING, JOG_TO_TARGET):
         memory.I[ints + AXI_JOG_WANT] = 0
         memory.I[ints + AXI_JOG_MODE] = JOG_CONTINUOUS  # without a direction: ramp to rest
     elif mode == JOG_IDLE:
         memory.I[word] &= ~AF1_JOG_ACTIVE
-
-
-def _leave_homing(card: Card, axis: int) -> None:
-    card.memory.I[axis_ints(axis) + AXI_HOME_STATE] = 0
-    flags = card.memory.I[AF5_WORD + axis] & ~AF5_HOMING_IN_PROGRESS
-    card.memory.I[AF5_WORD + axis] = flags | AF5_HOME_FAILED
 
 
 def permit_home(card: Card, axis: int, direction: int) -> None:
@@ -135,16 +125,14 @@ def permit_home(card: Card, axis: int, direction: int) -> None:
 
 
 def home(card: Card, axis: int, direction: int) -> None:
-    """JOG HOME: start the homing sequence in `direction` (+1 or -1)."""
+    """JOG HOME: start the homing sequence in `direction` (+1 or -1), unless locked out."""
     permit_home(card, axis, direction)
-    memory = card.memory
-    ints = axis_ints(axis)
-    memory.I[AF5_WORD + axis] &= ~(AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED)
-    memory.I[AF5_WORD + axis] |= AF5_HOMING_IN_PROGRESS
-    memory.I[ints + AXI_HOME_SEARCH] = direction
-    memory.I[ints + AXI_HOME_STATE] = HOME_START
-    memory.I[ints + AXI_JOG_MODE] = JOG_HOMING
-    memory.I[axis_word(axis)] |= AF1_JOG_ACTIVE
+    rows, word = card.memory.I, axis_word(axis)
+    if rows[word] & AF1_JOG_LOCKOUT:
+        return
+    _home_begin(rows, axis, direction)
+    rows[axis_ints(axis) + AXI_JOG_MODE] = JOG_HOMING
+    rows[word] |= AF1_JOG_ACTIVE
 
 
 def needs_no_moves(card: Card, axis: int) -> None:
@@ -174,6 +162,7 @@ def renew(card: Card, axis: int, position_u: float) -> None:
 def reset(card: Card, axis: int, offset_u: float) -> None:
     """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest."""
     needs_no_jog(card, axis)
+    needs_no_moves(card, axis)
     reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
@@ -184,14 +173,5 @@ def reset(card: Card, axis: int, offset_u: float) -> None:
 
 def _share(card: Card, axis: int, position_cnt: float, jog_cnt: float) -> None:
     """Divide the sum of coordinated position and jog offset anew; no setpoint changes."""
-    reals, ints = axis_reals(axis), axis_ints(axis)
-    memory = card.memory
-    memory.F[reals + AXF_POSITION_CNT] = position_cnt
-    memory.F[reals + AXF_TARGET_CNT] = position_cnt
-    memory.F[reals + AXF_JOG_CNT] = jog_cnt
-    memory.F[reals + AXF_JOG_TARGET_CNT] = jog_cnt
-    master = memory.I[ints + AXI_MASTER]
-    if master >= 0:
-        slave = memory.I[ints + AXI_SLAVE]
-        memory.F[master_reals(master) + MSF_TARGET_CNT + slave] = position_cnt
-    card.show(axis)
+    _axis_jog_set(card.memory.F, card.memory.I, axis, jog_cnt)
+    registers.set_position(card, axis, position_cnt)
