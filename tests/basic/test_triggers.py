@@ -168,6 +168,23 @@ def test_trg_waits_for_a_capture() -> None:
     assert made.psp(0) == 1000
 
 
+def test_a_capture_that_trg_waits_for_is_copied_to_its_parameter() -> None:
+    made = bench("JOG VEL X1", "JOG FWD X", "TRG X(11, P38912)").ticks(50)
+    made.all("SET 113").ticks(2)
+    captured = made.p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    assert captured > 0
+    assert made.p(38912) == captured
+
+
+@pytest.mark.parametrize(
+    "line", ["TRG X(16)", "TRG X(11, 38912)", "TRG X(11, P0)", "TRG X(11) Y(11)"]
+)
+def test_trg_takes_a_known_mode_of_one_axis_and_a_long_parameter(line: str) -> None:
+    made = bench()
+    made.type(line)
+    assert not made.bit(TRG_PENDING)
+
+
 @pytest.mark.parametrize("line", ["TRG OFF", "SET 522", "HALT"])
 def test_trg_is_lifted_by_off_kill_and_halt(line: str) -> None:
     made = bench(f"TRG {FLAG}", "X1").ticks(3)

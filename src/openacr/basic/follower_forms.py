@@ -113,10 +113,11 @@ class PassingForm(Form):
 
 
 class CapturedForm(Form):
-    """`(mode {, Pnnnn|register})`; the handler gets a `Captured`."""
+    """`(mode {, Pnnnn|register})`, or without registers; the handler gets a `Captured`."""
 
-    def __init__(self) -> None:
-        super().__init__("(mode{, Pnnnn|register})")
+    def __init__(self, *, has_registers: bool = True) -> None:
+        super().__init__(f"(mode{{, Pnnnn{'|register' if has_registers else ''}}})")
+        self.has_registers = has_registers
         self.mode = Int("mode", 0, LAST_CAPTURE_MODE)
         self.copy = ParameterName()
         self.register = Int("register", 0, LAST_CAPTURE_REGISTER)
@@ -131,7 +132,7 @@ class CapturedForm(Form):
         mode = p.numeric()
         copy, register = None, None
         if p.accept(","):
-            if self.copy.starts(p):
+            if self.copy.starts(p) or not self.has_registers:
                 copy = self.copy.parse(p)
             else:
                 register = p.numeric()
@@ -144,9 +145,10 @@ class CapturedForm(Form):
         if read[2] is not None:
             return Captured(mode, register=self.register.evaluate(run, read[2]))
         copy = self.copy.evaluate(run, read[1])
-        if copy is not None and kind_of(run.card.memory.I, copy.number) != KIND_LONG:
-            raise CardError(INVALID_PARAMETER)
-        return Captured(mode, 0 if copy is None else copy.number)
+        if copy is None:
+            return Captured(mode)
+        needs_long(run, copy.number)
+        return Captured(mode, copy.number)
 
 
 class SegmentForm(Form):
@@ -191,6 +193,12 @@ class AxisSources(AxisList):
 def needs_parameter(run: Run, number: int) -> None:
     """`Invalid parameter` for one that is not defined."""
     if kind_of(run.card.memory.I, number) == KIND_NONE:
+        raise CardError(INVALID_PARAMETER)
+
+
+def needs_long(run: Run, number: int) -> None:
+    """Positions are pulses: they are copied to LONG parameters."""
+    if kind_of(run.card.memory.I, number) != KIND_LONG:
         raise CardError(INVALID_PARAMETER)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from openacr.basic.commands.interpolation import room
+from openacr.basic.follower_forms import LAST_CAPTURE_MODE, needs_long
 from openacr.basic.grammar import (
     Axes,
     Axis,
@@ -24,9 +25,8 @@ from openacr.basic.registry import BY_OBJECT, PROG, command
 from openacr.basic.run import Run, Wait, whole
 from openacr.basic.value_commands import Value, axis_values, report_all, set_or_print
 from openacr.errors import CardError
-from openacr.map.kinds_cy import kind_of
-from openacr.map.numbers import AX_PPU, AXF_ROTARY_U, KIND_LONG
-from openacr.messages import INVALID_ARGUMENT, INVALID_PARAMETER
+from openacr.map.numbers import AX_PPU, AXF_ROTARY_U
+from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import moves, permits, registers, settings
 from openacr.motion.settings import not_negative, not_zero, of_axis, of_axis_real
 
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 GROUP = "Feedback Control"
 REF = "PG Feedback Control"
-LAST_MODE = 15
 
 axis_values(
     (
@@ -114,7 +113,7 @@ class CaptureForm(Form):
 
     def __init__(self) -> None:
         super().__init__("mode {Pnnnn}|OFF", optional=True)
-        self.mode = Int("mode", 0, LAST_MODE)
+        self.mode = Int("mode", 0, LAST_CAPTURE_MODE)
         self.off = Word("OFF")
         self.copy = ParameterName()
 
@@ -157,19 +156,14 @@ def intcap(run: Run, axes: tuple[tuple[Axis, CaptureGiven], ...] | None) -> None
         elif given[0] is None:
             registers.disarm_capture(run.card, axis.number)
         else:
-            check_copy(run, given[1])
+            if given[1] is not None:
+                needs_long(run, given[1])
             registers.arm_capture(run.card, axis.number, given[0], given[1] or 0)
 
 
 def _capture_text(run: Run, axis: Axis) -> str:
     mode = registers.capture_mode(run.card, axis.number)
     return "OFF" if mode is None else str(mode)
-
-
-def check_copy(run: Run, number: int | None) -> None:
-    """Positions are pulses: they go to LONG parameters."""
-    if number is not None and kind_of(run.card.memory.I, number) != KIND_LONG:
-        raise CardError(INVALID_PARAMETER)
 
 
 @command(
@@ -185,7 +179,7 @@ def mseek(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
     for item in axes:
-        if not 0 <= item.values[1] <= LAST_MODE:
+        if not 0 <= item.values[1] <= LAST_CAPTURE_MODE:
             raise CardError(INVALID_ARGUMENT)
     if len(axes) > moves.capacity(run.card, master):
         raise CardError(INVALID_ARGUMENT)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from openacr.basic.commands.feedback_control import LAST_MODE, check_copy
 from openacr.basic.commands.interpolation import flag_state, room
-from openacr.basic.grammar import AxisGroups, AxisValue, Bit, BitState, Either
+from openacr.basic.follower_forms import LAST_CAPTURE_MODE, Captured, CapturedForm
+from openacr.basic.grammar import Axis, AxisGroups, AxisList, AxisValue, Bit, BitState, Either
 from openacr.basic.registry import PROG, command
 from openacr.basic.run import Run, Wait, whole
 from openacr.errors import CardError
@@ -19,25 +19,19 @@ NO_FLAG = -1
     "TRG",
     group="Logic Function",
     levels=PROG,
-    grammar=(Either(AxisGroups("mode", "cap", fewest=1), Bit(signed=True)),),
+    grammar=(Either(AxisList(CapturedForm(has_registers=False)), Bit(signed=True)),),
     ref="PG Logic Function",
 )
-def trg(run: Run, given: BitState | tuple[AxisValue, ...]) -> None:
+def trg(run: Run, given: BitState | tuple[tuple[Axis, Captured], ...]) -> None:
     """Let the next move wait for a flag, or for a capture of an axis."""
     master = moves.needed_master(run.card, run.needed_program())
     if isinstance(given, BitState):
         triggers.on_flag(run.card, master, flag_state(run, given))
         return
-    (item,) = given if len(given) == 1 else _refused()
-    mode, copy = (*item.values, 0.0)[:2]
-    if not 0 <= mode <= LAST_MODE:
+    if len(given) != 1:
         raise CardError(INVALID_ARGUMENT)
-    check_copy(run, whole(copy) or None)
-    triggers.on_capture(run.card, master, item.axis.number, int(mode), whole(copy))
-
-
-def _refused() -> tuple[AxisValue, ...]:
-    raise CardError(INVALID_ARGUMENT)
+    ((axis, captured),) = given
+    triggers.on_capture(run.card, master, axis.number, captured.mode, captured.copy_to)
 
 
 @command("TRG OFF", group="Logic Function", levels=PROG, ref="PG Logic Function")
@@ -58,10 +52,12 @@ def hsint(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
     """Move to a target; a capture in the window leads to a way behind it instead."""
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
-    (item,) = axes if len(axes) == 1 else _refused()
+    if len(axes) != 1:
+        raise CardError(INVALID_ARGUMENT)
+    (item,) = axes
     left_out = (0.0, 0.0, float(NO_FLAG))
     mode, target, way, window, start, abort = item.values + left_out[len(item.values) - 3 :]
-    if not 0 <= mode <= LAST_MODE or window < 0 or start < 0:
+    if not 0 <= mode <= LAST_CAPTURE_MODE or window < 0 or start < 0:
         raise CardError(INVALID_ARGUMENT)
     if not moves.has_room(run.card, master):
         return room(run, master)
