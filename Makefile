@@ -27,7 +27,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 MADE := $(VENV)/.made
 INSTALLED := $(VENV)/.installed
 BUILT := $(VENV)/.built
-CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/cmath.py src/openacr/views.py \
+CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
 	$(wildcard src/openacr/map/numbers.py) $(shell find src -name '*_cy.py')
 # Tests of the core run a second time as plain Python where the core is compiled.
 PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)

@@ -10,7 +10,8 @@ import pytest
 from openacr import compiled, unity
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
-from openacr.unity import UnityError, source_hash, unity_source, write_unity
+from openacr.unity import source_hash, unity_source, write_unity
+from openacr.unity_c import UnityError
 
 HEAD = "from openacr.views import F64\n\nLIMIT = 4\n\n"
 

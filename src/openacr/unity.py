@@ -21,6 +21,17 @@ import hashlib
 import re
 from pathlib import Path
 
+from openacr.unity_c import (
+    Inline,
+    Number,
+    UnityError,
+    compiled_function,
+    entrance,
+    is_docstring,
+    pass_one_pointer,
+    state_places,
+)
+
 PACKAGE = Path(__file__).parent
 ORDER = (
     "map/kinds_cy.py",
@@ -93,15 +104,6 @@ ORDER = (
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)
 
-SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
-VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
-STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
-Number = int | float
-
-
-class UnityError(Exception):
-    """A compiled source uses something that cannot be compiled faithfully."""
-
 
 def source_files() -> list[Path]:
     """The compiled sources in the order in which they are joined."""
@@ -111,7 +113,8 @@ def source_files() -> list[Path]:
 def source_hash() -> str:
     """Fingerprint of everything that decides the content of the extension."""
     digest = hashlib.blake2b(digest_size=16)
-    for path in [*source_files(), PACKAGE / "map" / "numbers.py", Path(__file__)]:
+    joining = [Path(__file__), PACKAGE / "unity_c.py"]
+    for path in [*source_files(), PACKAGE / "map" / "numbers.py", *joining]:
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
@@ -140,13 +143,13 @@ def unity_source(*, checked: bool = False) -> str:
         f"SOURCE_HASH = {source_hash()!r}",
         f"CHECKED = {checked!r}",
     ]
-    entrances = [_entrance(functions[name], checked=checked) for name in exported]
+    entrances = [entrance(functions[name], checked=checked) for name in exported]
     if not checked:
-        places = {name: _state_places(function) for name, function in functions.items()}
+        places = {name: state_places(function) for name, function in functions.items()}
         for function in functions.values():
-            _pass_one_pointer(function, places)
+            pass_one_pointer(function, places)
     for function in functions.values():
-        blocks.append(ast.unparse(_compiled_function(function, checked=checked)))
+        blocks.append(ast.unparse(compiled_function(function, checked=checked)))
     blocks.extend(entrances)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
 
@@ -194,7 +197,7 @@ def _collect(
     exported: list[str],
 ) -> None:
     constants = dict(_module_constants(path))
-    inliner = _Inline(constants)
+    inliner = Inline(constants)
     for node in ast.parse(path.read_text(), str(path)).body:
         if isinstance(node, ast.ImportFrom):
             _check_import(node, path, math_names)
@@ -205,7 +208,7 @@ def _collect(
             functions[node.name] = inliner.visit(node)
         elif _is_all(node):
             exported.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
-        elif not _take_constant(node, constants) and not _is_docstring(node):
+        elif not _take_constant(node, constants) and not is_docstring(node):
             raise UnityError(
                 f"{path.name}:{node.lineno}: only functions and constants are compiled"
             )
@@ -233,130 +236,3 @@ def _is_all(node: ast.stmt) -> bool:
         and isinstance(node.targets[0], ast.Name)
         and node.targets[0].id == "__all__"
     )
-
-
-def _is_docstring(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-
-
-class _Inline(ast.NodeTransformer):
-    """Constants become literals, int() and float() become C casts."""
-
-    def __init__(self, constants: dict[str, Number]) -> None:
-        self.constants = constants
-
-    def visit_Name(self, node: ast.Name) -> ast.expr:
-        if isinstance(node.ctx, ast.Load) and node.id in self.constants:
-            return _literal(self.constants[node.id])
-        return node
-
-    def visit_Constant(self, node: ast.Constant) -> ast.expr:
-        return _literal(node.value) if type(node.value) is int else node
-
-    def visit_Call(self, node: ast.Call) -> ast.expr:
-        self.generic_visit(node)
-        if isinstance(node.func, ast.Name) and node.func.id in ("int", "float"):
-            kind = ast.parse(SCALARS[node.func.id], mode="eval").body
-            cast = ast.parse("cython.cast", mode="eval").body
-            return ast.Call(cast, [kind, *node.args], [])
-        return node
-
-
-def _literal(number: Number) -> ast.expr:
-    """A literal of C type; wide integers get the suffix that keeps them out of Python."""
-    if isinstance(number, int) and not -(2**31) < number < 2**31:
-        name = ast.Name(f"_wide_{abs(number)}", ast.Load())
-        return name if number >= 0 else ast.UnaryOp(ast.USub(), name)
-    return ast.Constant(number)
-
-
-def _c_type(annotation: ast.expr | None, *, checked: bool, where: str) -> ast.expr:
-    name = annotation.id if isinstance(annotation, ast.Name) else None
-    if name == "M":
-        text = "cython.p_char"
-    elif name in SCALARS:
-        text = SCALARS[name]
-    elif name in VIEWS:
-        text = f"cython.{VIEWS[name]}[::1]" if checked else f"cython.p_{VIEWS[name]}"
-    elif isinstance(annotation, ast.Constant) and annotation.value is None:
-        text = "cython.void"
-    else:
-        raise UnityError(f"{where}: every argument and result needs a simple type")
-    return ast.parse(text, mode="eval").body
-
-
-def _state_places(function: ast.FunctionDef) -> list[int]:
-    """Which parameters of a function are views of the state buffer."""
-    return [place for place, a in enumerate(function.args.args) if a.arg in STATE]
-
-
-def _pass_one_pointer(function: ast.FunctionDef, places: dict[str, list[int]]) -> None:
-    """Pass the state as one pointer `M` instead of up to three into the same buffer.
-
-    The C compiler then keeps one register for what took three, and knows that all rows lie
-    at fixed distances from each other.
-    """
-    for call in ast.walk(function):
-        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name):
-            state = places.get(call.func.id)
-            if state:
-                if not all(ast.unparse(call.args[place]) in STATE for place in state):
-                    raise UnityError(
-                        f"{function.name}: {call.func.id} has to get F, I and S as they are"
-                    )
-                rest = [a for place, a in enumerate(call.args) if place not in state]
-                call.args = [ast.Name("M", ast.Load()), *rest]
-    state = places[function.name]
-    if not state:
-        return
-    views = [function.args.args[place].arg for place in state]
-    others = [a for place, a in enumerate(function.args.args) if place not in state]
-    function.args.args = [ast.arg("M", ast.Name("M")), *others]
-    lines = [f"{v}: {STATE[v]} = cython.cast(cython.p_{VIEWS[STATE[v]]}, M)" for v in views]
-    function.body = [*ast.parse("\n".join(lines)).body, *function.body]
-
-
-def _compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
-    where = function.name
-    for argument in function.args.args:
-        argument.annotation = _c_type(argument.annotation, checked=checked, where=where)
-    function.returns = _c_type(function.returns, checked=checked, where=where)
-    for node in ast.walk(function):
-        if isinstance(node, ast.AnnAssign):
-            node.annotation = _c_type(node.annotation, checked=checked, where=where)
-    function.body = [node for node in function.body if not _is_docstring(node)] or [ast.Pass()]
-    decorators = ["cython.cfunc", "cython.nogil", "cython.exceptval(check=False)"]
-    function.decorator_list = [ast.parse(text, mode="eval").body for text in decorators]
-    return function
-
-
-def _view_types(element: str) -> tuple[str, str]:
-    """The two forms in which a view of `element` is passed."""
-    return (f"cython.p_{element}", f"cython.{element}[::1]")
-
-
-def _entrance(function: ast.FunctionDef, *, checked: bool) -> str:
-    """The Python-callable wrapper of a compiled function."""
-    parameters, arguments, state = [], [], []
-    for argument in function.args.args:
-        name = argument.arg
-        kind = argument.annotation.id if isinstance(argument.annotation, ast.Name) else ""
-        if kind in VIEWS:
-            parameters.append(f"{name}: cython.{VIEWS[kind]}[::1]")
-            address = f"cython.address({name}[0])"
-            if checked:
-                arguments.append(name)
-            elif name in STATE:
-                state.append(f"cython.cast(cython.p_char, {address})")
-            else:
-                arguments.append(address)
-        else:
-            parameters.append(f"{name}: {SCALARS[kind]}")
-            arguments.append(name)
-    guard = "".join(
-        f"    if {state[0]} != {other}:\n        raise ValueError('views of two buffers')\n"
-        for other in state[1:]
-    )
-    call = f"{function.name}({', '.join(state[:1] + arguments)})"
-    returns = "" if ast.unparse(function.returns or ast.Constant(None)) == "None" else "return "
-    return f"def py_{function.name}({', '.join(parameters)}):\n{guard}    {returns}{call}"

@@ -1,0 +1,136 @@
+"""What C needs of a core function: types, literals, one pointer to the state, an entrance."""
+
+import ast
+
+SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
+VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
+STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
+Number = int | float
+
+
+class UnityError(Exception):
+    """A compiled source uses something that cannot be compiled faithfully."""
+
+
+def is_docstring(node: ast.stmt) -> bool:
+    """Whether a statement is a bare constant."""
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+class Inline(ast.NodeTransformer):
+    """Constants become literals, int() and float() become C casts."""
+
+    def __init__(self, constants: dict[str, Number]) -> None:
+        self.constants = constants
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        if isinstance(node.ctx, ast.Load) and node.id in self.constants:
+            return _literal(self.constants[node.id])
+        return node
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        return _literal(node.value) if type(node.value) is int else node
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in ("int", "float"):
+            kind = ast.parse(SCALARS[node.func.id], mode="eval").body
+            cast = ast.parse("cython.cast", mode="eval").body
+            return ast.Call(cast, [kind, *node.args], [])
+        return node
+
+
+def _literal(number: Number) -> ast.expr:
+    """A literal of C type; wide integers get the suffix that keeps them out of Python."""
+    if isinstance(number, int) and not -(2**31) < number < 2**31:
+        name = ast.Name(f"_wide_{abs(number)}", ast.Load())
+        return name if number >= 0 else ast.UnaryOp(ast.USub(), name)
+    return ast.Constant(number)
+
+
+def _c_type(annotation: ast.expr | None, *, checked: bool, where: str) -> ast.expr:
+    name = annotation.id if isinstance(annotation, ast.Name) else None
+    if name == "M":
+        text = "cython.p_char"
+    elif name in SCALARS:
+        text = SCALARS[name]
+    elif name in VIEWS:
+        text = f"cython.{VIEWS[name]}[::1]" if checked else f"cython.p_{VIEWS[name]}"
+    elif isinstance(annotation, ast.Constant) and annotation.value is None:
+        text = "cython.void"
+    else:
+        raise UnityError(f"{where}: every argument and result needs a simple type")
+    return ast.parse(text, mode="eval").body
+
+
+def state_places(function: ast.FunctionDef) -> list[int]:
+    """Which parameters of a function are views of the state buffer."""
+    return [place for place, a in enumerate(function.args.args) if a.arg in STATE]
+
+
+def pass_one_pointer(function: ast.FunctionDef, places: dict[str, list[int]]) -> None:
+    """Pass the state as one pointer `M` instead of up to three into the same buffer.
+
+    The C compiler then keeps one register for what took three, and knows that all rows lie
+    at fixed distances from each other.
+    """
+    for call in ast.walk(function):
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name):
+            state = places.get(call.func.id)
+            if state:
+                if not all(ast.unparse(call.args[place]) in STATE for place in state):
+                    raise UnityError(
+                        f"{function.name}: {call.func.id} has to get F, I and S as they are"
+                    )
+                rest = [a for place, a in enumerate(call.args) if place not in state]
+                call.args = [ast.Name("M", ast.Load()), *rest]
+    state = places[function.name]
+    if not state:
+        return
+    views = [function.args.args[place].arg for place in state]
+    others = [a for place, a in enumerate(function.args.args) if place not in state]
+    function.args.args = [ast.arg("M", ast.Name("M")), *others]
+    lines = [f"{v}: {STATE[v]} = cython.cast(cython.p_{VIEWS[STATE[v]]}, M)" for v in views]
+    function.body = [*ast.parse("\n".join(lines)).body, *function.body]
+
+
+def compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
+    """The function with types of C, as one that cannot raise."""
+    where = function.name
+    for argument in function.args.args:
+        argument.annotation = _c_type(argument.annotation, checked=checked, where=where)
+    function.returns = _c_type(function.returns, checked=checked, where=where)
+    for node in ast.walk(function):
+        if isinstance(node, ast.AnnAssign):
+            node.annotation = _c_type(node.annotation, checked=checked, where=where)
+    function.body = [node for node in function.body if not is_docstring(node)] or [ast.Pass()]
+    decorators = ["cython.cfunc", "cython.nogil", "cython.exceptval(check=False)"]
+    function.decorator_list = [ast.parse(text, mode="eval").body for text in decorators]
+    return function
+
+
+def entrance(function: ast.FunctionDef, *, checked: bool) -> str:
+    """The Python-callable wrapper of a compiled function."""
+    parameters, arguments, state = [], [], []
+    for argument in function.args.args:
+        name = argument.arg
+        kind = argument.annotation.id if isinstance(argument.annotation, ast.Name) else ""
+        if kind in VIEWS:
+            parameters.append(f"{name}: cython.{VIEWS[kind]}[::1]")
+            address = f"cython.address({name}[0])"
+            if checked:
+                arguments.append(name)
+            elif name in STATE:
+                state.append(f"cython.cast(cython.p_char, {address})")
+            else:
+                arguments.append(address)
+        else:
+            parameters.append(f"{name}: {SCALARS[kind]}")
+            arguments.append(name)
+    guard = "".join(
+        f"    if {state[0]} != {other}:\n        raise ValueError('views of two buffers')\n"
+        for other in state[1:]
+    )
+    call = f"{function.name}({', '.join(state[:1] + arguments)})"
+    returns = "" if ast.unparse(function.returns or ast.Constant(None)) == "None" else "return "
+    return f"def py_{function.name}({', '.join(parameters)}):\n{guard}    {returns}{call}"
