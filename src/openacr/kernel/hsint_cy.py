@@ -12,7 +12,7 @@ from openacr.cmath import fabs
 from openacr.kernel.axis_cy import axis_offsets, axis_scale, axis_word
 from openacr.kernel.capture_cy import capture_arm
 from openacr.kernel.interrupt_cy import flag_state, master_cut, response_period
-from openacr.kernel.path_cy import SLAVE_COUNT, move_geometry, move_record
+from openacr.kernel.path_cy import move_geometry, move_record, move_stop_rate
 from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
 from openacr.map.numbers import (
@@ -23,15 +23,16 @@ from openacr.map.numbers import (
     AXF_CAPTURE_CNT,
     AXF_POSITION_CNT,
     AXF_STRIDE,
+    AXI_BASE,
+    AXI_SLAVE,
+    AXI_STRIDE,
     MQF_BASE,
-    MQF_DEC_UPS2,
     MQF_DELTA_CNT,
     MQF_HSINT_START_CNT,
     MQF_HSINT_WAY_CNT,
     MQF_HSINT_WINDOW_CNT,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
-    MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQI_BASE,
@@ -43,7 +44,6 @@ from openacr.map.numbers import (
     MSI_BASE,
     MSI_HSINT_PHASE,
     MSI_RESPONSE,
-    MSI_SLAVE_AXIS,
     MSI_STRIDE,
     PRF_ACCEL,
     PRF_BASE,
@@ -71,14 +71,6 @@ def hsint_begin(F: F64, I: I32, m: int) -> None:
     I[MSI_BASE + m * MSI_STRIDE + MSI_HSINT_PHASE] = HSINT_SEARCHING
 
 
-def hsint_slave(I: I32, m: int, axis: int) -> int:
-    """The slave number of an axis."""
-    for s in range(SLAVE_COUNT):
-        if I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s] == axis:
-            return s
-    return 0
-
-
 def hsint_step(F: F64, I: I32, S: F32, m: int) -> None:
     """Every tick of the move: abort flag, captures, and the turn to the new end."""
     i: int = MSI_BASE + m * MSI_STRIDE
@@ -104,7 +96,7 @@ def hsint_captured(F: F64, I: I32, m: int, record: int, axis: int) -> None:
     """A capture: take it if it lies in the window, else wait for the next."""
     i: int = MSI_BASE + m * MSI_STRIDE
     q: int = MQF_BASE + record * MQF_STRIDE
-    s: int = hsint_slave(I, m, axis)
+    s: int = I[AXI_BASE + axis * AXI_STRIDE + AXI_SLAVE]
     delta: float = F[q + MQF_DELTA_CNT + s]
     captured: float = F[AXF_BASE + axis * AXF_STRIDE + AXF_CAPTURE_CNT]
     travel: float = captured - axis_offsets(F, axis) - (F[q + MQF_TARGET_CNT + s] - delta)
@@ -125,10 +117,8 @@ def hsint_turn(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:
     i: int = MSI_BASE + m * MSI_STRIDE
     f: int = PRF_BASE + m * PRF_STRIDE
     q: int = MQF_BASE + record * MQF_STRIDE
-    s: int = hsint_slave(I, m, axis)
-    rate: float = F[q + MQF_STP_UPS2]
-    if rate <= 0.0:
-        rate = F[q + MQF_DEC_UPS2]
+    s: int = I[AXI_BASE + axis * AXI_STRIDE + AXI_SLAVE]
+    rate: float = move_stop_rate(F, record)
     position: float = F[AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT]
     way: float = (hsint_end_cnt(F, record, axis) - position) / axis_scale(S, axis)
     travel: float = F[q + MQF_DELTA_CNT + s] / axis_scale(S, axis)
@@ -155,8 +145,8 @@ def hsint_end_cnt(F: F64, record: int, axis: int) -> float:
 
 def hsint_lead(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:
     """Make the new end the target of the move, from where the axis is."""
-    end: float = hsint_end_cnt(F, record, axis)
-    F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + hsint_slave(I, m, axis)] = end
+    s: int = I[AXI_BASE + axis * AXI_STRIDE + AXI_SLAVE]
+    F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s] = hsint_end_cnt(F, record, axis)
     I[MQI_BASE + record * MQI_STRIDE + MQI_RELATIVE] = 0
     move_geometry(F, I, S, m)
     I[MSI_BASE + m * MSI_STRIDE + MSI_HSINT_PHASE] = HSINT_LAST

@@ -1,7 +1,7 @@
 """Flags and captures that start a move (TRG) or end it early (INT)."""
 
 from openacr.kernel.axis_cy import axis_word
-from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record
+from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record, move_stop_rate
 from openacr.kernel.profile_cy import STOPPING, profile_stop
 from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,
@@ -17,10 +17,8 @@ from openacr.map.numbers import (
     MF1_START_MOVE_INHIBIT,
     MF1_TRG_PENDING,
     MQF_BASE,
-    MQF_DEC_UPS2,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
-    MQF_STP_UPS2,
     MQF_STRIDE,
     MQI_BASE,
     MQI_INTERRUPT,
@@ -78,9 +76,7 @@ def master_cut(F: F64, I: I32, S: F32, m: int) -> None:
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
     if I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] == STOPPING:
         return
-    rate: float = F[q + MQF_STP_UPS2]
-    if rate <= 0.0:
-        rate = F[q + MQF_DEC_UPS2]
+    rate: float = move_stop_rate(F, move_record(I, m))
     f: int = MSF_BASE + m * MSF_STRIDE
     if I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
         I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE] = 0

@@ -45,11 +45,13 @@ from openacr.map.numbers import (
     MF2_WORD,
     MF2_WORD_HIGH,
     MQF_BASE,
+    MQF_DEC_UPS2,
     MQF_DELTA_CNT,
     MQF_ENTER,
     MQF_LEAVE,
     MQF_LENGTH_U,
     MQF_MAXVEL_UPS,
+    MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQF_VEL_UPS,
@@ -154,6 +156,12 @@ def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> 
     if F[q + MQF_MAXVEL_UPS] > 0.0:
         velocity = min(velocity, F[q + MQF_MAXVEL_UPS])
     return velocity if velocity > 0.0 else 0.0
+
+
+def move_stop_rate(F: F64, record: int) -> float:
+    """Rate at which a move is ended early: STP, DEC where that is 0."""
+    q: int = MQF_BASE + record * MQF_STRIDE
+    return F[q + MQF_STP_UPS2] if F[q + MQF_STP_UPS2] > 0.0 else F[q + MQF_DEC_UPS2]
 
 
 def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:

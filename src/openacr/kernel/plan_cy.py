@@ -7,8 +7,8 @@ from openacr.kernel.lookahead_cy import (
     look_through,
 )
 from openacr.kernel.path_cy import master_limit, master_word, move_record
-from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan
-from openacr.kernel.round_cy import round_plan, round_through
+from openacr.kernel.profile_cy import profile_plan
+from openacr.kernel.round_cy import round_decelerate, round_plan, round_through
 from openacr.map.numbers import (
     MF1_FVEL_ZERO_ACTIVE,
     MF4_LOOK_AHEAD_SLOWDOWN,
@@ -36,10 +36,6 @@ from openacr.map.numbers import (
     PRF_BASE,
     PRF_DISTANCE,
     PRF_STRIDE,
-    PRI_BASE,
-    PRI_SEG_COUNT,
-    PRI_SEG_KIND,
-    PRI_STRIDE,
 )
 from openacr.views import F32, F64, I32
 
@@ -119,15 +115,7 @@ def look_plan(F: F64, I: I32, S: F32, m: int) -> None:
         F[q + MQF_JRK_UPS3],
     )
     if not ends:
-        look_decelerate(I, m)
-
-
-def look_decelerate(I: I32, m: int) -> None:
-    """The ramp to a junction is a slow-down inside the path, not the end of it."""
-    p: int = PRI_BASE + m * PRI_STRIDE
-    for k in range(I[p + PRI_SEG_COUNT]):
-        if I[p + PRI_SEG_KIND + k] == STOPPING:
-            I[p + PRI_SEG_KIND + k] = DECELERATING
+        round_decelerate(I, m)
 
 
 def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:

@@ -5,7 +5,7 @@ The captured position becomes 0.
 
 from openacr.kernel.axis_cy import axis_offsets, axis_preload, axis_word
 from openacr.kernel.capture_cy import capture_arm, encoder_shift
-from openacr.kernel.path_cy import SLAVE_COUNT, move_geometry, move_record
+from openacr.kernel.path_cy import move_geometry, move_record, move_stop_rate
 from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
 from openacr.map.numbers import (
@@ -13,11 +13,12 @@ from openacr.map.numbers import (
     AXF_BASE,
     AXF_CAPTURE_CNT,
     AXF_STRIDE,
+    AXI_BASE,
+    AXI_SLAVE,
+    AXI_STRIDE,
     MQF_BASE,
-    MQF_DEC_UPS2,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
-    MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TARGET_CNT,
     MQI_BASE,
@@ -26,7 +27,6 @@ from openacr.map.numbers import (
     MQI_STRIDE,
     MSI_BASE,
     MSI_SEEK_PHASE,
-    MSI_SLAVE_AXIS,
     MSI_STRIDE,
 )
 from openacr.views import F32, F64, I32
@@ -44,9 +44,7 @@ def seek_step(F: F64, I: I32, S: F32, m: int) -> None:
     axis: int = I[MQI_BASE + record * MQI_STRIDE + MQI_SEEK_AXIS] - 1
     if I[axis_word(axis)] & AF1_CAPTURE_COMPLETE:
         q: int = MQF_BASE + record * MQF_STRIDE
-        rate: float = F[q + MQF_STP_UPS2]
-        if rate <= 0.0:
-            rate = F[q + MQF_DEC_UPS2]
+        rate: float = move_stop_rate(F, record)
         I[i + MSI_SEEK_PHASE] = SEEK_STOPPING
         jerk: float = F[q + MQF_JRK_UPS3]
         profile_stop(F, I, m, F[q + MQF_LENGTH_U], rate, jerk, STOPPING)
@@ -62,10 +60,9 @@ def seek_end(F: F64, I: I32, S: F32, m: int) -> bool:
     a: int = AXF_BASE + axis * AXF_STRIDE
     if phase == SEEK_STOPPING:
         # Jog, gear and cam offsets take part in the captured actual position.
-        for s in range(SLAVE_COUNT):
-            if I[i + MSI_SLAVE_AXIS + s] == axis:
-                F[q + MQF_TARGET_CNT + s] = F[a + AXF_CAPTURE_CNT] - axis_offsets(F, axis)
-                I[MQI_BASE + record * MQI_STRIDE + MQI_RELATIVE] = 0
+        s: int = I[AXI_BASE + axis * AXI_STRIDE + AXI_SLAVE]
+        F[q + MQF_TARGET_CNT + s] = F[a + AXF_CAPTURE_CNT] - axis_offsets(F, axis)
+        I[MQI_BASE + record * MQI_STRIDE + MQI_RELATIVE] = 0
         move_geometry(F, I, S, m)
         I[i + MSI_SEEK_PHASE] = SEEK_RETURNING
         profile_reset(F, I, m, 0.0, 0.0)

@@ -12,10 +12,11 @@ from openacr.kernel.path_cy import (
     master_word,
     master_word2,
     move_geometry,
+    move_limit,
     move_record,
 )
 from openacr.kernel.profile_cy import profile_reset
-from openacr.kernel.timed_cy import plan_seconds, timed_bound
+from openacr.kernel.timed_cy import plan_seconds
 from openacr.map.numbers import (
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
@@ -79,7 +80,7 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
     move_geometry(F, I, S, m)
     record: int = move_record(I, m)
     time: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S]
-    bound: float = timed_bound(F, S, m, record)
+    bound: float = move_limit(F, I, S, m, record, 1.0)
     if not bound > 0.0 or F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U] <= 0.0:
         return time
     profile_reset(F, I, m, 0.0, 0.0)

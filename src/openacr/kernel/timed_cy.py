@@ -6,13 +6,12 @@ on plans, whose time falls as their cruising speed rises.
 """
 
 from openacr.cmath import sqrt
-from openacr.kernel.path_cy import master_word, master_word2, move_record
+from openacr.kernel.path_cy import master_word, master_word2, move_limit, move_record
 from openacr.kernel.profile_cy import profile_plan
 from openacr.map.numbers import (
     MA_BASE,
     MA_STRIDE,
     MA_TMOV_VELOCITY,
-    MA_VEL_LIMIT,
     MF1_FVEL_ZERO_ACTIVE,
     MF2_MASTER_SHORT_TIME,
     MQF_ACC_UPS2,
@@ -21,7 +20,6 @@ from openacr.map.numbers import (
     MQF_FVEL_UPS,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
-    MQF_MAXVEL_UPS,
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQF_TMOV_S,
@@ -64,17 +62,6 @@ def plan_seconds(F: F64, I: I32, m: int, cruise: float) -> float:
     return total
 
 
-def timed_bound(F: F64, S: F32, m: int, record: int) -> float:
-    """The highest speed a move may take without overrides."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    velocity: float = F[q + MQF_VEL_UPS]
-    if S[MA_BASE + m * MA_STRIDE + MA_VEL_LIMIT] > 0.0:
-        velocity = min(velocity, S[MA_BASE + m * MA_STRIDE + MA_VEL_LIMIT])
-    if F[q + MQF_MAXVEL_UPS] > 0.0:
-        velocity = min(velocity, F[q + MQF_MAXVEL_UPS])
-    return velocity
-
-
 def timed_closed(F: F64, m: int, q: int, time: float) -> float:
     """Speed of a trapezoid from rest to rest, -1 where the move is none."""
     acc: float = F[q + MQF_ACC_UPS2]
@@ -96,7 +83,7 @@ def move_timed(F: F64, I: I32, S: F32, m: int) -> None:
     record: int = move_record(I, m)
     q: int = MQF_BASE + record * MQF_STRIDE
     time: float = F[q + MQF_TMOV_S]
-    bound: float = timed_bound(F, S, m, record)
+    bound: float = move_limit(F, I, S, m, record, 1.0)
     if not bound > 0.0 or F[q + MQF_LENGTH_U] <= 0.0:
         return
     word2: int = master_word2(m)
