@@ -42,6 +42,15 @@ def test_a_refused_resume_does_not_forget_where_the_machine_was_held() -> None:
     assert shop.pulses() == (20000, 0, 0)
 
 
+@pytest.mark.parametrize("gap_s", [0.0, 0.005, 0.02, 0.1])
+def test_a_resume_close_behind_the_stop_goes_on(gap_s: float) -> None:
+    shop = Shop(P650_008=2.0)
+    paused(shop, "G1 F600 X30\nM2\n", 2.0, rest_s=gap_s)
+    shop.runner.resume()
+    shop.until(State.IDLE)
+    assert shop.pulses() == (300_000, 0, 0)
+
+
 def test_a_machine_moved_before_its_first_move_comes_back_before_it_begins() -> None:
     shop = Shop()
     paused(shop, "G1 F600 X2\nM2\n", 0.0)

@@ -163,7 +163,8 @@ class Machine:
         self._request(n.MF1_FEEDHOLD_REQUEST)
 
     def go_on(self) -> None:
-        """Cycle start."""
+        """Cycle start; a feed hold that the card has not looked at yet is taken back."""
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
         self._request(n.MF1_CYCLE_START_REQUEST)
 
     def stop(self) -> None:
