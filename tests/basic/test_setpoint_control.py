@@ -388,6 +388,36 @@ def test_jog_ren_and_res_are_refused_while_their_profiler_moves() -> None:
     assert made.type("JOG RES X") == "Not valid while in motion"
 
 
+def test_what_jog_res_takes_into_a_held_path_is_jog_offset_again_when_it_goes_on() -> None:
+    made = bench("JOG VEL X10 : JOG ACC X0 : JOG DEC X0", "ACC 0 DEC 0 STP 0 VEL 1", "X1").ticks(
+        100
+    )
+    made.all("SET 520").seconds(0.2)
+    held = made.p(CURRENT)
+    made.all("JOG INC X0.5").until_clear(ACTIVE)
+    made.all("JOG RES X")
+    assert (made.p(CURRENT), made.p(JOG), made.p(PSP)) == (held + 500, 0, held + 500)
+    made.all("SET 521")
+    psp = made.psp(0)
+    while made.bit(516):
+        made.ticks(1)
+        assert abs(made.psp(0) - psp) < 1.01 * 0.5
+        psp = made.psp(0)
+    assert (made.p(CURRENT), made.p(JOG), made.p(PSP)) == (1000, 500, 1500)
+
+
+def test_what_jog_res_takes_into_a_held_path_stays_when_its_moves_are_dropped() -> None:
+    made = bench("JOG VEL X10 : JOG ACC X0 : JOG DEC X0", "ACC 0 DEC 0 STP 0 VEL 1", "X1").ticks(
+        100
+    )
+    made.all("SET 520").seconds(0.2)
+    held = made.p(CURRENT)
+    made.all("JOG INC X0.5").until_clear(ACTIVE)
+    made.all("JOG RES X", "SET 522").ticks(10).all("CLR 522", "VEL 10", "X2")
+    made.until_clear(516)
+    assert (made.p(CURRENT), made.p(JOG), held < 1000) == (2000, 0, True)
+
+
 def test_jog_ren_during_a_jog_moves_nothing_and_keeps_the_target() -> None:
     made = bench("JOG ACC X0 : JOG DEC X0 : JOG VEL X10", "JOG ABS X3").ticks(100)
     before = made.psp(0)

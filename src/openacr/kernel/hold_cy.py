@@ -1,5 +1,6 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
+from openacr.kernel.axis_cy import axis_jog_set
 from openacr.kernel.bezier_cy import is_bezier
 from openacr.kernel.corner_cy import corner_drop
 from openacr.kernel.curveflags_cy import curve_drop
@@ -18,6 +19,8 @@ from openacr.kernel.round_cy import round_hold_rate, round_holds
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_STOPPING
 from openacr.map.numbers import (
     AXF_BASE,
+    AXF_FOLDED_CNT,
+    AXF_JOG_CNT,
     AXF_POSITION_CNT,
     AXF_STRIDE,
     AXF_TARGET_CNT,
@@ -125,6 +128,7 @@ def master_settle(F: F64, I: I32, S: F32, m: int) -> None:
         if axis >= 0:
             a: int = AXF_BASE + axis * AXF_STRIDE
             F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
+            F[a + AXF_FOLDED_CNT] = 0.0
             F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + s] = F[a + AXF_POSITION_CNT]
     p: int = MA_BASE + m * MA_STRIDE
     S[p + MA_VECTOR_VELOCITY] = 0.0
@@ -171,6 +175,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
 def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     """End a feedhold: the path speeds up again (Cycle Start)."""
     i: int = MSI_BASE + m * MSI_STRIDE
+    path_unfold(F, I, m)
     I[i + MSI_HOLD] = NOT_HELD
     I[i + MSI_DROP_AT_REST] = 0
     I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
@@ -181,6 +186,17 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
         profile_stop(F, I, m, F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE], 0.0, 0.0, STOPPING)
     else:
         master_plan(F, I, S, m)
+
+
+def path_unfold(F: F64, I: I32, m: int) -> None:
+    """What JOG RES took into a held path is jog offset again: the path goes on where it was."""
+    for s in range(SLAVE_COUNT):
+        axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+        if axis >= 0 and F[AXF_BASE + axis * AXF_STRIDE + AXF_FOLDED_CNT] != 0.0:
+            a: int = AXF_BASE + axis * AXF_STRIDE
+            F[a + AXF_POSITION_CNT] -= F[a + AXF_FOLDED_CNT]
+            axis_jog_set(F, I, axis, F[a + AXF_JOG_CNT] + F[a + AXF_FOLDED_CNT])
+            F[a + AXF_FOLDED_CNT] = 0.0
 
 
 def ends_early(I: I32, m: int) -> bool:

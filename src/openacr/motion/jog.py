@@ -11,12 +11,15 @@ from openacr.map.numbers import (
     AF1_JOG_FORWARD,
     AF1_JOG_LOCKOUT,
     AF1_JOG_REVERSE,
+    AXF_FOLDED_CNT,
     AXF_JOG_CNT,
     AXF_JOG_TARGET_CNT,
     AXF_POSITION_CNT,
     AXI_JOG_MODE,
     AXI_JOG_REPLAN,
     AXI_JOG_WANT,
+    MF1_IN_FEEDHOLD,
+    MSI_QUEUED,
     SRI_BASE,
     SRI_KIND,
     SRI_STRIDE,
@@ -33,7 +36,7 @@ from openacr.motion.permits import (
     needs_rest,
     scale_of,
 )
-from openacr.motion.rows import axis_ints, axis_reals, axis_word
+from openacr.motion.rows import axis_ints, axis_reals, axis_word, master_ints, master_word
 
 _axis_jog_set = pick(axis_cy.axis_jog_set)
 _home_abort = pick(homing_cy.home_abort)
@@ -142,6 +145,14 @@ def needs_no_moves(card: Card, axis: int) -> None:
         raise CardError(NOT_VALID_WHILE_IN_MOTION)
 
 
+def path_held(card: Card, axis: int) -> bool:
+    """Whether the axis belongs to a path with moves that rests in a feedhold."""
+    master = master_of(card, axis)
+    if master is None or not card.memory.I[master_ints(master) + MSI_QUEUED]:
+        return False
+    return card.memory.I[master_word(master)] & MF1_IN_FEEDHOLD != 0
+
+
 def needs_no_jog(card: Card, axis: int) -> None:
     """Refuse while the axis jogs."""
     if card.memory.I[axis_word(axis)] & AF1_JOG_ACTIVE:
@@ -160,15 +171,27 @@ def renew(card: Card, axis: int, position_u: float) -> None:
 
 
 def reset(card: Card, axis: int, offset_u: float) -> None:
-    """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest."""
+    """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest.
+
+    In a feedhold the path keeps its place for the way on.
+    """
     needs_no_jog(card, axis)
-    needs_no_moves(card, axis)
+    is_held = path_held(card, axis)
+    if not is_held:
+        needs_no_moves(card, axis)
     reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
-    total = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + AXF_JOG_CNT]
+    jog = memory.F[reals + AXF_JOG_CNT]
     kept = offset_u * scale_of(card, axis)
-    _share(card, axis, total - kept, kept)
+    position = memory.F[reals + AXF_POSITION_CNT] + jog - kept
+    if not is_held:
+        _share(card, axis, position, kept)
+        return
+    memory.F[reals + AXF_FOLDED_CNT] += jog - kept
+    memory.F[reals + AXF_POSITION_CNT] = position
+    _axis_jog_set(memory.F, memory.I, axis, kept)
+    card.show(axis)
 
 
 def _share(card: Card, axis: int, position_cnt: float, jog_cnt: float) -> None:

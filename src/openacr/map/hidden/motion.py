@@ -237,6 +237,7 @@ AXIS = HiddenBlock(
         "target_cnt",  # target of the coordinated profiler
         "jog_target_cnt",
         "jog_origin_cnt",  # jog offset where the present jog plan started
+        "folded_cnt",  # jog offset that JOG RES has taken into a path that is held
         "hldec_ups2",
         "sldec_ups2",
         "slm_plus_u",
