@@ -266,3 +266,21 @@ def test_block_skip_leaves_slashed_lines_out(tmp_path: Path) -> None:
     for words, y in ((["--block-skip"], 0.0), ([], 0.1)):
         result = CliRunner().invoke(app, ["mill", "run", str(part), "--json", *words])
         assert json.loads(result.output)["end"]["Y"] == y
+
+
+def test_check_tests_soft_limits_with_the_offsets_of_the_store(tmp_path: Path) -> None:
+    file = program(tmp_path, "G90 G54 F60\nG1 X1\nX1.75 Y1\nM2\n")
+    with Store(tmp_path / "sysvar.db") as store:
+        for number, value in ((200_000, 2.0), (200_001, -2.0), (200_002, 0.0), (271, 1.0)):
+            store.write(number, value)
+    assert mill("check", file)[0] == 0
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(910, 0.5)  # G54 of X
+    code, text = mill("check", file)
+    assert code == 1
+    assert "PART.NC:3:1: E401 target beyond soft limit: axis X 0.25 beyond 2\n" in text
+    assert "    X1.75 Y1\n    ^\n" in text
+    result = CliRunner().invoke(app, ["mill", "check", file, "--json"])
+    assert result.exit_code == 1
+    found = json.loads(result.stdout)["errors"]
+    assert [(one["code"], one["line"], one["block"]) for one in found] == [("E401", 3, "X1.75 Y1")]

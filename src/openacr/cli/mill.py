@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from openacr.cnc.findings import Finding
     from openacr.cnc.program import Program
     from openacr.cnc.survey import Survey
-    from openacr.mill.predicting import Prediction
+    from openacr.mill.predicting import Prediction, Reader
     from openacr.sysvar import Store
 
 FAILED = 1
@@ -97,7 +97,7 @@ def check_program(
     """Find every error of a part program, and say what it does."""
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        survey, prediction = _surveyed(program, cells, name, is_dry=False)
+        survey, prediction = _checked(program, cells, name)
     if as_json:
         typer.echo(json_format.dumps(_as_data(survey, prediction), indent=1))
     else:
@@ -133,8 +133,25 @@ def time_program(
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
 
 
+def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey, Prediction]":
+    """A program read once, with what the machine of the store would say to its moves."""
+    from openacr.mill.desk import Desk
+    from openacr.mill.settings import Settings
+
+    desk = Desk(Settings(cells))
+    found, prediction = _surveyed(program, cells, dialect, is_dry=False, reader=desk)
+    found.add(desk.findings(program.text_of))
+    return found, prediction
+
+
 def _surveyed(
-    program: "Program", cells: "Store", dialect: str, *, is_dry: bool, rounds: bool = True
+    program: "Program",
+    cells: "Store",
+    dialect: str,
+    *,
+    is_dry: bool,
+    rounds: bool = True,
+    reader: "Reader | None" = None,
 ) -> "tuple[Survey, Prediction]":
     """Read a program once, for the survey and for its time."""
     from openacr.cnc.interpreter import Options
@@ -142,7 +159,8 @@ def _surveyed(
     from openacr.mill.predicting import Predictor
     from openacr.mill.settings import Settings
 
-    predictor = Predictor(Settings(cells), (0.0,) * 8, is_dry=is_dry, rounds=rounds)
+    settings = Settings(cells)
+    predictor = Predictor(settings, (0.0,) * 8, is_dry=is_dry, rounds=rounds, reader=reader)
     found = survey(program, cells, dialect, Options(is_dry=is_dry), look=predictor.add)
     predictor.rest()
     return found, predictor.found

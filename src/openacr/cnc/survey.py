@@ -62,6 +62,11 @@ class Survey:
         """What is doubtful."""
         return [finding for finding in self.findings if not finding.is_error]
 
+    def add(self, findings: Iterable[Finding]) -> None:
+        """What somebody else found in the program."""
+        self.findings += findings
+        _sort(self.findings)
+
     def data(self) -> dict[str, Any]:
         """All of it for JSON."""
         axes = list(self.letters.values())

@@ -197,10 +197,10 @@ class Encoder:
         return nearest if exact >= 0 else -nearest
 
     def beyond_pulses(self, job: Job) -> str | None:
-        """E403: what does not fit the 32 bits of pulses that a packet has for an axis."""
+        """The axis and position that do not fit the 32 bits a packet has for pulses."""
         for axis, end in zip(self._axes, job.finish_cnt, strict=True):
             if abs(end) > LONG_MAX:
-                return f"E403 axis {axis}: {job.finish[axis]:g} is beyond 32 bits of pulses"
+                return f"axis {axis}: {job.finish[axis]:g}"
         return None
 
     # --- forms the card knows ---------------------------------------------------------

@@ -201,7 +201,8 @@ class Feed:
             return Fault(alarms.TARGET_BEYOND, f"line {source.line}, {excess}", source)
         beyond = self._encoder.beyond_pulses(job)
         if beyond is not None:
-            return Fault(alarms.PROGRAM_ERROR, f"line {source.line}: {beyond}", source)
+            detail = f"line {source.line}: E403 {beyond} is beyond 32 bits of pulses"
+            return Fault(alarms.PROGRAM_ERROR, detail, source)
         return None
 
     def probe(self, entry: Probe) -> Job:

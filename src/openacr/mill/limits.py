@@ -1,7 +1,7 @@
 """Soft limits: the end of a move and the outermost points of its arc, before it is sent."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from openacr.cnc.canonical import Arc, Point
@@ -26,14 +26,24 @@ class Excess:
 
 def first_excess(job: Job, settings: Settings) -> Excess | None:
     """The first axis a move takes beyond its soft limits; un-homed axes have none."""
+    acting = [axis for axis in limited(settings) if settings.is_homed(axis.index)]
+    return next(excesses(job, acting), None)
+
+
+def limited(settings: Settings) -> list[AxisSettings]:
+    """The axes whose soft limits are not disabled."""
+    return [axis for axis in settings.axes if axis.soft_limits is not None]
+
+
+def excesses(job: Job, axes: Sequence[AxisSettings]) -> Iterator[Excess]:
+    """Every point of a move where it takes one of these axes beyond a soft limit."""
     for point in outermost(job.entry, job.begin):
-        for axis in settings.axes:
-            if axis.soft_limits is None or not settings.is_homed(axis.index):
+        for axis in axes:
+            if axis.soft_limits is None:
                 continue
             excess = _excess(axis, point[axis.index], *axis.soft_limits)
             if excess is not None and point[axis.index] != job.begin[axis.index]:
-                return excess
-    return None
+                yield excess
 
 
 def _excess(axis: AxisSettings, at_u: float, high_u: float, low_u: float) -> Excess | None:

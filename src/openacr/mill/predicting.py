@@ -15,6 +15,7 @@ of them as above. Waits for people and signals count as nothing.
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Protocol
 
 from openacr.cnc import canonical as c
 from openacr.mill.encoding import Encoder, Job
@@ -24,6 +25,7 @@ from openacr.mill.rounding import Corner
 from openacr.mill.settings import Settings
 
 TOGETHER = 512  # moves planned at once
+Passage = tuple[float, float, float]  # seconds, speed at the end, highest speed
 MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe
 
 
@@ -42,11 +44,27 @@ class Prediction:
         return self.rapid_s + self.feed_s + self.dwell_s
 
 
+class Reader(Protocol):
+    """Who looks at the moves while their times are added up."""
+
+    def read(self, job: Job) -> None:
+        """A move of the program, not planned yet."""
+
+    def passed(self, job: Job, top_ups: float) -> None:
+        """A move that is planned, and the highest speed it comes to."""
+
+
 class Predictor:
     """Adds up the times of moves as they would be sent."""
 
     def __init__(
-        self, settings: Settings, begin: c.Point, *, is_dry: bool = False, rounds: bool = True
+        self,
+        settings: Settings,
+        begin: c.Point,
+        *,
+        is_dry: bool = False,
+        rounds: bool = True,
+        reader: Reader | None = None,
     ) -> None:
         """`rounds`: of the virtual machine, which knows path tolerances."""
         self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
@@ -55,6 +73,7 @@ class Predictor:
         self._position = begin
         self._speed_ups = 0.0
         self._behind: Corner | None = None
+        self._reader = reader
         self.found = Prediction()
 
     def add(self, entry: c.Entry) -> None:
@@ -72,6 +91,8 @@ class Predictor:
                 self.found.dwell_s += entry.seconds
 
     def _move(self, job: Job) -> None:
+        if self._reader is not None:
+            self._reader.read(job)
         self._position = job.finish
         if job.length_u > 0.0:
             self._planner.add(job)
@@ -85,8 +106,10 @@ class Predictor:
 
     def _take(self, *, is_complete: bool) -> None:
         for job in self._planner.take(1 << 30, is_complete=is_complete):
-            seconds, self._speed_ups = travel(job, self._speed_ups, self._behind)
+            seconds, self._speed_ups, top = travel(job, self._speed_ups, self._behind)
             self._behind = job.corner
+            if self._reader is not None:
+                self._reader.passed(job, top)
             self.found.moves += 1
             if job.is_rapid:
                 self.found.rapid_s += seconds
@@ -94,8 +117,8 @@ class Predictor:
                 self.found.feed_s += seconds
 
 
-def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> tuple[float, float]:
-    """The time of a move that begins at a speed, and the speed it ends with."""
+def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> Passage:
+    """The time of a move that begins at a speed, the speed it ends with and its highest."""
     a, way, seconds = job.ramp_ups2, job.length_u, 0.0
     begin = min(begin_ups, job.feed_ups)
     may = pieces(job, behind)
@@ -104,12 +127,12 @@ def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> tuple[fl
         seconds += _even(behind.reach_u, begin, line)
         begin, way = line, way - behind.reach_u
     if job.corner is None:
-        more, end = _straight(way, begin, job.exit_ups, job.feed_ups, a)
-        return seconds + more, end
+        more, end, top = _straight(way, begin, job.exit_ups, job.feed_ups, a)
+        return seconds + more, end, top
     way -= job.corner.reach_u
-    more, entry = _straight(way, begin, math.sqrt(may.ahead), job.feed_ups, a)
+    more, entry, top = _straight(way, begin, math.sqrt(may.ahead), job.feed_ups, a)
     end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2, a))
-    return seconds + more + _even(job.corner.reach_u, entry, end), end
+    return seconds + more + _even(job.corner.reach_u, entry, end), end, top
 
 
 def _even(way_u: float, begin: float, end: float) -> float:
@@ -117,14 +140,12 @@ def _even(way_u: float, begin: float, end: float) -> float:
     return 2.0 * way_u / (begin + end)
 
 
-def _straight(
-    length: float, begin: float, end: float, feed: float, a: float
-) -> tuple[float, float]:
-    """The time of a straight way, and the speed it ends with."""
+def _straight(length: float, begin: float, end: float, feed: float, a: float) -> Passage:
+    """The time of a straight way, the speed it ends with and its highest."""
     end = min(end, math.sqrt(begin * begin + 2.0 * a * length))
     peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
     ramps = ((peak * peak - begin * begin) + (peak * peak - end * end)) / (2.0 * a)
-    return (2.0 * peak - begin - end) / a + max(length - ramps, 0.0) / peak, end
+    return (2.0 * peak - begin - end) / a + max(length - ramps, 0.0) / peak, end, peak
 
 
 def predicted(
