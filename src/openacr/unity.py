@@ -57,6 +57,8 @@ ORDER = (
     "kernel/corner_cy.py",
     "kernel/path_cy.py",
     "kernel/lookahead_cy.py",
+    "kernel/round_law_cy.py",
+    "kernel/round_pass_cy.py",
     "kernel/round_cy.py",
     "kernel/plan_cy.py",
     "kernel/seek_cy.py",

@@ -139,7 +139,7 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
         return 0.0
     velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
     rounded: bool = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U] > 0.0
-    if rounded and look_beyond(I, m, a):  # see round_cy
+    if rounded and look_beyond(I, m, a):  # see round_law_cy
         return min(velocity, F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_UPS])
     if same_curve(I, a, b) or is_timed(I, a):
         return velocity

@@ -1,6 +1,6 @@
 """Corners that the card rounds within a path tolerance, as the planner and the prediction see them.
 
-The card plans such corners itself (kernel/round_cy.py); what it will do is computed here by
+The card plans such corners itself (kernel/round_law_cy.py); what it will do is computed here by
 the same functions: a corner is entered and left within `reach_u` of the programmed one, its
 two halves are passed at a constant acceleration each.
 """
@@ -9,15 +9,15 @@ import math
 from dataclasses import dataclass
 
 from openacr.compiled import pick
-from openacr.kernel import round_cy
+from openacr.kernel import round_law_cy
 
 Direction = tuple[float, ...]
 NO_JERK = 0.0
 REACH = 4.0  # per tolerance and change of direction
 
-_cap = pick(round_cy.round_cap)
-_ramp2 = pick(round_cy.round_ramp2)
-_brake = pick(round_cy.round_brake)
+_cap = pick(round_law_cy.round_cap)
+_ramp2 = pick(round_law_cy.round_ramp2)
+_brake = pick(round_law_cy.round_brake)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +34,7 @@ class Corner:
     ) -> "Corner | None":
         """The corner between two straight moves, the shorter one so long; None: straight on."""
         turn = math.dist(before, after)
-        if turn <= round_cy.STRAIGHT:
+        if turn <= round_law_cy.STRAIGHT:
             return None
         reach = min(REACH * tolerance_u / turn, 0.5 * shorter_u)
         return cls(turn, reach, _cap(turn, reach, ramp, NO_JERK))
