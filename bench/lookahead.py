@@ -18,7 +18,7 @@ from openacr.compiled import pick
 from openacr.controller import Controller
 from openacr.kernel import plan_cy
 from openacr.map import numbers as at
-from openacr.motion import corners, moves
+from openacr.motion import moves
 from openacr.motion.orders import Target
 
 FEED_UPS, ACCEL_UPS2, JERK_UPS3 = 100.0, 1000.0, 20_000.0
@@ -63,8 +63,8 @@ def _card(tolerance: float, jerk: float) -> Controller:
     type_lines(
         card, "PPU X10000 Y10000", f"DIM MBUF({DEPTH})", "MBUF ON", "LOOK ON",
         f"ACC {ACCEL_UPS2} DEC {ACCEL_UPS2} STP {ACCEL_UPS2} JRK {jerk} VEL {FEED_UPS}",
+        f"LOOK TOL {tolerance}",
     )  # fmt: skip
-    corners.set_tolerance(card.card, 0, tolerance)
     return card
 
 

@@ -34,7 +34,7 @@ def rig(
     )
     made.depth(10)
     made.I[at.MF4_WORD] |= at.MF4_LOOK_AHEAD_MODE
-    corners.set_tolerance(made.card, 0, tolerance)
+    made.F[at.MSF_BASE + at.MSF_TOLERANCE_U] = tolerance
     return made
 
 
@@ -125,10 +125,9 @@ def test_a_move_has_a_tolerance_of_its_own() -> None:
 
 def test_a_tolerance_is_a_length() -> None:
     made = rig(0.25)
-    assert corners.tolerance(made.card, 0) == 0.25
     for wrong in (-0.1, math.nan, math.inf):
         with pytest.raises(CardError, match="Invalid argument"):
-            corners.set_tolerance(made.card, 0, wrong)
+            corners.set_of_move(made.card, 0, 0, wrong)
 
 
 def test_an_axis_that_takes_part_in_one_move_only_leaves_and_comes_smoothly() -> None:

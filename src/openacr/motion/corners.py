@@ -10,12 +10,11 @@ from openacr.map.numbers import (
     MQF_BASE,
     MQF_STRIDE,
     MQF_TOLERANCE_U,
-    MSF_TOLERANCE_U,
     MSI_ROUNDING,
 )
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
-from openacr.motion.rows import master_ints, master_reals
+from openacr.motion.rows import master_ints
 
 LARGEST_U = 1e9
 
@@ -25,24 +24,10 @@ def is_tolerance(value: float) -> bool:
     return 0.0 <= value < LARGEST_U
 
 
-def tolerance(card: Card, master: int) -> float:
-    """The path tolerance of the moves to come of a master, in its units."""
-    return card.memory.F[master_reals(master) + MSF_TOLERANCE_U]
-
-
-def set_tolerance(card: Card, master: int, tolerance_u: float) -> None:
-    """Give all moves to come of a master a path tolerance."""
-    card.memory.F[master_reals(master) + MSF_TOLERANCE_U] = _checked(tolerance_u)
-
-
 def set_of_move(card: Card, master: int, record: int, tolerance_u: float) -> None:
     """Give the move just put into a record a tolerance of its own for the corner at its end."""
-    card.memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TOLERANCE_U] = _checked(tolerance_u)
-    if tolerance_u > 0.0:
-        card.memory.I[master_ints(master) + MSI_ROUNDING] = 1
-
-
-def _checked(tolerance_u: float) -> float:
     if not is_tolerance(tolerance_u):
         raise CardError(INVALID_ARGUMENT)
-    return tolerance_u
+    card.memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TOLERANCE_U] = tolerance_u
+    if tolerance_u > 0.0:
+        card.memory.I[master_ints(master) + MSI_ROUNDING] = 1
