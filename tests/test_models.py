@@ -9,19 +9,21 @@ def test_the_default_card_is_an_eight_axis_acr9000() -> None:
     assert (ACR9000.axes, ACR9000.masters, ACR9000.slaves) == (8, 8, 8)
 
 
-def test_models_differ_in_axes_and_masters() -> None:
-    assert {model.name: (model.axes, model.masters) for model in MODELS.values()} == {
-        "ACR1200": (2, 8),
-        "ACR1500": (4, 8),
-        "ACR1505": (8, 16),
-        "ACR2000": (4, 8),
-        "ACR7000": (8, 16),
-        "ACR8000": (8, 8),
-        "ACR8010": (8, 8),
-        "ACR8020": (16, 16),
-        "ACR9000": (8, 8),
-        "ACR9030": (16, 16),
-        "ACR9040": (16, 16),
+def test_models_differ_in_axes_connectors_and_masters() -> None:
+    assert {
+        model.name: (model.axes, model.connected_axes, model.masters) for model in MODELS.values()
+    } == {
+        "ACR1200": (8, 2, 8),
+        "ACR1500": (8, 4, 8),
+        "ACR1505": (8, 8, 16),
+        "ACR2000": (8, 4, 8),
+        "ACR7000": (8, 8, 16),
+        "ACR8000": (8, 8, 8),
+        "ACR8010": (8, 8, 8),
+        "ACR8020": (16, 16, 16),
+        "ACR9000": (8, 8, 8),
+        "ACR9030": (16, 16, 16),
+        "ACR9040": (16, 16, 16),
     }
 
 

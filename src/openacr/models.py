@@ -13,11 +13,17 @@ UPDATE = 15
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Model:
-    """One controller model; `has_drive_control`: drive, limit and homing flags."""
+    """One controller model; `has_drive_control`: drive, limit and homing flags.
+
+    `axes` counts those of the firmware, which ATTACH knows; a small board has `connectors` for
+    some of them, the others keep their default attachment (Programmer's Guide, Output Module
+    Software Configuration Examples 4 to 7).
+    """
 
     name: str
     card_type: int
     axes: int = 16
+    connectors: int | None = None  # None: for every axis
     masters: int = 16
     slaves: int = 16
     programs: int = 16
@@ -31,6 +37,11 @@ class Model:
     has_digits_in_names: bool = False  # of aliases
     has_battery: bool = False  # keeps programs and variables without power
     system_memory_bytes: int = SYSTEM_MEMORY_BYTES
+
+    @property
+    def connected_axes(self) -> int:
+        """How many axes the board can drive."""
+        return self.axes if self.connectors is None else self.connectors
 
     @property
     def version(self) -> str:
@@ -50,9 +61,15 @@ _CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
 _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
 # Boards of the front end's guide; what is not written here they have like the others.
-ACR1200 = Model(name="ACR1200", card_type=1200, axes=2, masters=8, streams=_BOX_STREAMS)
-ACR1500 = Model(name="ACR1500", card_type=1500, axes=4, masters=8, streams=_CARD_STREAMS)
-ACR2000 = Model(name="ACR2000", card_type=2000, axes=4, masters=8, streams=_CARD_STREAMS)
+ACR1200 = Model(
+    name="ACR1200", card_type=1200, axes=8, connectors=2, masters=8, streams=_BOX_STREAMS
+)
+ACR1500 = Model(
+    name="ACR1500", card_type=1500, axes=8, connectors=4, masters=8, streams=_CARD_STREAMS
+)
+ACR2000 = Model(
+    name="ACR2000", card_type=2000, axes=8, connectors=4, masters=8, streams=_CARD_STREAMS
+)
 ACR8000 = Model(name="ACR8000", card_type=8000, axes=8, masters=8, streams=_CARD_STREAMS)
 ACR8010 = Model(name="ACR8010", card_type=8010, axes=8, masters=8, streams=_CARD_STREAMS)
 ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS, has_battery=True)

@@ -19,10 +19,10 @@ def check_firmware(card: Card) -> None:
 
 
 def check_axes(model: Model, settings: Settings) -> None:
-    """Refuse a machine with axes that its card model does not have."""
-    beyond = [axis.name for axis in settings.axes if axis.index >= model.axes]
+    """Refuse a machine with axes that its card model cannot drive."""
+    beyond = [axis.name for axis in settings.axes if axis.index >= model.connected_axes]
     if beyond:
-        lacking = f"{model.name}: axis {' '.join(beyond)}, it has {model.axes} axes"
+        lacking = f"{model.name}: axis {' '.join(beyond)}, it has {model.connected_axes} axes"
         raise AlarmError(alarms.LACKS_FUNCTION, lacking)
 
 

@@ -1,8 +1,10 @@
 """The hardware a card is fitted with: what CONFIG names, and what it leaves out.
 
 CONFIG speaks of the first eight encoders, analog outputs, stepper outputs and analog inputs;
-objects beyond belong to other boards. Outputs are numbered through both modules: with STEPPER4
-on each, module 1 has steppers 4 to 7. Hardware that is left out reads 0 and is not driven.
+objects beyond belong to other boards. An output is numbered by the socket of its module: module 0
+has outputs 0 to 3, module 1 has 4 to 7, so that `DAC4 STEPPER4` gives DAC0 to DAC3 and STEPPER4 to
+STEPPER7 (Programmer's Guide, Output Module Software Configuration Examples 2 and 3). Hardware that
+is left out reads 0 and is not driven.
 """
 
 from collections.abc import Sequence
@@ -17,21 +19,23 @@ from openacr.map.numbers import (
 from openacr.motion.card import Card
 
 OF_EACH = 8
+OF_MODULE = 4
 _OUTPUTS = {"DAC": ("DAC",), "STEPPER": ("STEPPER",), "DACSTEP": ("DAC", "STEPPER")}
 
 
 def fit(card: Card, modules: Sequence[str]) -> None:
     """Fit the card with these modules: encoders, module 0, module 1, module 2."""
     encoders, first, second, inputs = modules
-    outputs = {"DAC": 0, "STEPPER": 0}
-    for word, count in (_parts(first), _parts(second)):
+    present = {"DAC": 0, "STEPPER": 0}
+    for socket, module in enumerate((first, second)):
+        word, count = _parts(module)
         for kind in _OUTPUTS.get(word, ()):
-            outputs[kind] += count
+            present[kind] |= _first(count) << socket * OF_MODULE
     rows = card.memory.I
-    rows[KRI_BASE + KRI_MISSING_ENCODERS] = _behind(_parts(encoders)[1])
-    rows[KRI_BASE + KRI_MISSING_DACS] = _behind(outputs["DAC"])
-    rows[KRI_BASE + KRI_MISSING_STEPPERS] = _behind(outputs["STEPPER"])
-    rows[KRI_BASE + KRI_MISSING_ADCS] = _behind(_parts(inputs)[1])
+    rows[KRI_BASE + KRI_MISSING_ENCODERS] = _missing(_first(_parts(encoders)[1]))
+    rows[KRI_BASE + KRI_MISSING_DACS] = _missing(present["DAC"])
+    rows[KRI_BASE + KRI_MISSING_STEPPERS] = _missing(present["STEPPER"])
+    rows[KRI_BASE + KRI_MISSING_ADCS] = _missing(_first(_parts(inputs)[1]))
 
 
 def _parts(module: str) -> tuple[str, int]:
@@ -40,6 +44,11 @@ def _parts(module: str) -> tuple[str, int]:
     return word, int(module[len(word) :] or 0)
 
 
-def _behind(count: int) -> int:
-    """The mask of all of the first eight but so many."""
-    return (1 << OF_EACH) - (1 << min(count, OF_EACH))
+def _first(count: int) -> int:
+    """The mask of the first `count` objects."""
+    return (1 << count) - 1
+
+
+def _missing(present: int) -> int:
+    """The mask of the first eight that are not present."""
+    return _first(OF_EACH) & ~present
