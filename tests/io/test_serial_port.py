@@ -52,6 +52,56 @@ def test_a_serial_line_is_a_stream_like_any_other() -> None:
     asyncio.run(body())
 
 
+def test_an_answer_longer_than_a_serial_line_is_given_together_arrives_whole() -> None:
+    async def body() -> None:
+        ours, theirs = pty.openpty()
+        tty.setraw(theirs)
+        server, stop = CardServer(card), asyncio.Event()
+        server.open_serial(os.ttyname(theirs), LineSettings())
+        running = asyncio.create_task(server.run(stop))
+        os.write(ours, b"SPAM 3000\r")
+        answer = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
+        assert answer == b"SPAM 3000\r\n" + (b"x" * 98 + b"\r\n") * 3000 + b"SYS>"
+        stop.set()
+        await asyncio.wait_for(running, 5)
+        os.close(ours)
+        os.close(theirs)
+
+    card = FakeCard()
+    asyncio.run(body())
+
+
+def test_xoff_of_a_host_stops_a_long_answer_within_two_slices() -> None:
+    async def body() -> None:
+        ours, theirs = pty.openpty()
+        tty.setraw(theirs)
+        server, stop = CardServer(card), asyncio.Event()
+        server.open_serial(os.ttyname(theirs), LineSettings())
+        running = asyncio.create_task(server.run(stop))
+        os.write(ours, b"SPAM 3000\r")  # 300 kB: more than the pseudo terminal takes
+        output = next(iter(card.streams.values())).terminal.output
+        while not output.waiting_bytes:
+            await asyncio.sleep(0.001)
+        assert output.waiting_bytes > 200_000  # waits in the card, where XOFF can stop it
+        os.write(ours, b"\x13")
+        while not output.stopped:
+            await asyncio.sleep(0.001)
+        held = output.waiting_bytes
+        seen = await asyncio.to_thread(read_until, ours, b"SYS>", 0.3)
+        assert output.waiting_bytes == held
+        assert len(seen) + held == len(b"SPAM 3000\r\n") + 300_000 + len(b"SYS>")
+        os.write(ours, b"\x11")
+        rest = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
+        assert len(rest) == held
+        stop.set()
+        await asyncio.wait_for(running, 5)
+        os.close(ours)
+        os.close(theirs)
+
+    card = FakeCard()
+    asyncio.run(body())
+
+
 def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
     async def body() -> None:
         ours, theirs = pty.openpty()

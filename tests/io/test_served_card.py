@@ -12,6 +12,9 @@ from pathlib import Path
 import pytest
 from tests.io.served import LOOPBACK, Caller, Served, openacr, serving
 
+from openacr.client import Card as Client
+from openacr.client import Level
+
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="signals and terminals of POSIX")
 AXIS = (
     "PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "PPU X1000", "DRIVE ON X",
@@ -42,6 +45,16 @@ def wait_for(host: Caller, query: str, value: str) -> None:
     while host.value(query) != value:
         assert time.monotonic() < deadline, query
         time.sleep(0.01)
+
+
+def test_a_program_of_300_kb_is_downloaded_compared_and_read_back() -> None:
+    text = "PROGRAM\n" + "".join(f" REM {n:05} {'x' * 190}\n" for n in range(1500)) + "ENDP\n"
+    with serving("--no-journal") as served:
+        with Client.open(f"127.0.0.1:{served.ascii_port}") as host:
+            host.command("DIM PROG1(500000)")
+            assert host.download(text, to=Level.program(1)).sent == 1502
+            assert host.upload(Level.program(1)) == text
+        assert served.end() == (0, "")
 
 
 def test_a_connection_is_silent_until_the_host_types(card: Served) -> None:

@@ -9,6 +9,7 @@ import pytest
 from tests.io.fake_card import FakeCard
 
 from openacr.errors import UserError
+from openacr.io.peers import SEND_LIMIT_BYTES, TcpPeer
 from openacr.io.server import LOOPBACK, Address, CardServer, Guests
 from openacr.protocol.stream import StreamKind
 
@@ -207,11 +208,81 @@ def test_a_peer_that_does_not_read_disturbs_nobody_and_memory_stays_bounded() ->
             slow.writer.write(b"SPAM 5000\r")
             answer = await other.ask(b"LEN\r")
             assert answer == b"LEN\r\n3\r\nSYS>"
-        await asyncio.sleep(0.05)
-        waiting = [p.output for p in (s.terminal for s in bench.card.streams.values())]
-        assert all(output.take() == b"" for output in waiting)
+        waiting = [stream.terminal.output.waiting_bytes for stream in bench.card.streams.values()]
+        assert 1 << 20 <= max(waiting) < (1 << 20) + 100
+        assert min(waiting) == 0
 
     serve(body)
+
+
+def test_an_answer_longer_than_what_is_kept_for_a_connection_arrives_whole() -> None:
+    async def body(bench: Bench) -> None:
+        host = await bench.connect()
+        answer = await read_to_prompt(host, b"SPAM 9000\r")
+        assert answer == b"SPAM 9000\r\n" + (b"x" * 98 + b"\r\n") * 9000 + b"SYS>"
+
+    serve(body)
+
+
+def test_a_reader_that_pauses_gets_all_of_a_long_answer_later() -> None:
+    async def body(bench: Bench) -> None:
+        slow, other = await bench.connect(), await bench.connect()
+        slow.reader._transport.pause_reading()  # type: ignore[attr-defined]
+        slow.writer.write(b"SPAM 9000\r")
+        for _ in range(20):
+            assert await other.ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
+        slow.reader._transport.resume_reading()  # type: ignore[attr-defined]
+        answer = await read_to_prompt(slow, b"")
+        assert len(answer) == len(b"SPAM 9000\r\n") + 100 * 9000 + len(b"SYS>")
+
+    serve(body)
+
+
+def test_what_a_connection_does_not_read_waits_in_the_card_with_one_warning(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    peer, transport = TcpPeer(StreamKind.TERMINAL, CardServer(FakeCard())), Stuck()
+    peer.connection_made(transport)
+    transport.unread = SEND_LIMIT_BYTES - 1
+    assert peer.takes_output
+    assert not caplog.records
+    transport.unread = SEND_LIMIT_BYTES
+    assert not peer.takes_output
+    assert not peer.takes_output
+    assert [record.message for record in caplog.records] == [
+        "10.0.0.7:4711 does not read what it is sent; its output waits"
+    ]
+    transport.unread = 0
+    assert peer.takes_output
+    transport.socket.close()
+
+
+class Stuck(asyncio.Transport):
+    """A connection whose far end reads when the test says so."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.socket = socket.socket()
+        self.unread = 0
+
+    def get_extra_info(self, name: str, default: object = None) -> object:
+        return ("10.0.0.7", 4711) if name == "peername" else self.socket
+
+    def get_write_buffer_size(self) -> int:
+        return self.unread
+
+    def is_closing(self) -> bool:
+        return False
+
+
+async def read_to_prompt(host: Host, line: bytes) -> bytes:
+    """What comes back for a line, prompt included, however long."""
+    host.writer.write(line)
+    seen = bytearray()
+    async with asyncio.timeout(WAIT_S):
+        while not seen.endswith(b"\nSYS>"):
+            seen += await host.reader.read(65536)
+    return bytes(seen)
 
 
 def test_a_flood_of_lines_is_held_back_and_fully_answered() -> None:

@@ -350,11 +350,47 @@ def test_the_binary_port_ignores_everything_but_packets() -> None:
     assert sent(stream) == b""
 
 
-def test_output_nobody_takes_is_dropped_whole() -> None:
+def test_output_beyond_a_mebibyte_is_dropped_whole_until_some_is_taken() -> None:
     stream = terminal()
-    stream.send_bytes(b"x" * (1 << 20))
+    stream.send_bytes(b"x" * ((1 << 20) - 1))
+    stream.send_text("y")
     stream.send_text("SYS>")
-    assert stream.data_to_send() == b"x" * (1 << 20)
-    assert stream.output.dropped_bytes == 4
+    stream.send_packet(GET)
+    assert stream.output.dropped_bytes == 8
+    assert stream.data_to_send() == b"x" * 4096
     stream.send_text("SYS>")
-    assert stream.data_to_send() == b"SYS>"
+    assert everything(stream) == b"x" * ((1 << 20) - 1 - 4096) + b"y" + b"SYS>"
+    assert stream.output.dropped_bytes == 8
+
+
+def test_one_answer_may_be_longer_than_what_is_kept_of_many() -> None:
+    stream = terminal()
+    stream.send_bytes(b"x" * (1 << 21))
+    assert len(everything(stream)) == 1 << 21
+    assert stream.output.dropped_bytes == 0
+
+
+def test_long_text_leaves_in_writes_of_4_kib_and_a_packet_in_one() -> None:
+    stream = terminal()
+    stream.send_bytes(b"x" * 4096)
+    stream.send_packet(b"\0" * 5000)
+    stream.send_bytes(b"y" * 8193)
+    sizes = [len(write) for write in iter(stream.data_to_send, b"")]
+    assert sizes == [4096, 5000, 4096, 4096, 1]
+
+
+def test_xoff_holds_back_what_is_left_of_a_long_text() -> None:
+    stream = terminal(StreamKind.SERIAL)
+    stream.send_bytes(b"x" * 5000)
+    assert len(stream.data_to_send()) == 4096
+    stream.receive_data(b"\x13", 0)
+    list(events(stream))
+    assert stream.data_to_send() == b""
+    stream.receive_data(b"\x11", 0)
+    list(events(stream))
+    assert stream.data_to_send() == b"x" * 904
+
+
+def everything(stream: Terminal) -> bytes:
+    """All writes together."""
+    return b"".join(iter(stream.data_to_send, b""))

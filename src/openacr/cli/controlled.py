@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -131,7 +132,7 @@ class ControlledMachine:
 
     def _read_terminals(self) -> None:
         for stream in self._streams.values():
-            if data := self._controller.take_output(stream):
+            if data := b"".join(iter(partial(self._controller.take_output, stream), b"")):
                 self._was_heard = True
                 self._overhear(readable(data.decode("latin-1")))
 

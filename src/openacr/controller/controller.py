@@ -146,7 +146,7 @@ class Controller(Running):
     def send(self, text: str) -> str:
         """Type text on the console; what the card has answered so far."""
         self.receive(self.console, as_typed(text))
-        return self.take_output(self.console).decode("latin-1")
+        return b"".join(iter(lambda: self.take_output(self.console), b"")).decode("latin-1")
 
     def press(self, key: ControlKey) -> None:
         """Ctrl-X kills motion and ends programs, Ctrl-Y lifts kills, Ctrl-Z also drops drives."""

@@ -1,9 +1,9 @@
 """The far ends of the card's streams: TCP connections (serial ports: `serial_port`).
 
-A peer that does not read is never waited for. At most SEND_LIMIT_BYTES are kept for it;
-writes beyond that are dropped whole (never a part of one), with one warning per
-connection. A peer that floods is held back by not reading from it, and every read is
-small, so that the others get their turn.
+A peer that does not read is never waited for. Once SEND_LIMIT_BYTES wait for it here, the rest
+stays in the card (`protocol.output` bounds that), with one warning per connection. A peer
+that floods is held back by not reading from it, and every read is small, so that the
+others get their turn.
 """
 
 import asyncio
@@ -28,8 +28,12 @@ class Peer(Protocol):
     kind: StreamKind
     stream: int
 
+    @property
+    def takes_output(self) -> bool:
+        """False while so much waits for it that more is better left in the card."""
+
     def send(self, data: bytes) -> None:
-        """One write, whole or not at all."""
+        """One write."""
 
     def hold(self, held: bool) -> None:
         """Stop or resume reading."""
@@ -64,7 +68,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
         self._held = self._joined = False
-        self._dropped = 0
+        self._was_behind = False
         self._name = ""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -103,17 +107,21 @@ class TcpPeer(asyncio.BufferedProtocol):
             log.info("%s disconnected", self._name)
             self._board.left(self)
 
+    @property
+    def takes_output(self) -> bool:
+        """False while the peer has too much unread."""
+        if self._transport is None:
+            return False
+        is_behind = self._transport.get_write_buffer_size() >= SEND_LIMIT_BYTES
+        if is_behind and not self._was_behind:
+            self._was_behind = True
+            log.warning("%s does not read what it is sent; its output waits", self._name)
+        return not is_behind
+
     def send(self, data: bytes) -> None:
-        """One write, dropped whole when the peer has too much unread."""
-        transport = self._transport
-        if transport is None or transport.is_closing():
-            return
-        if transport.get_write_buffer_size() + len(data) <= SEND_LIMIT_BYTES:
-            transport.write(data)
-            return
-        if not self._dropped:
-            log.warning("%s does not read what it is sent; dropping output", self._name)
-        self._dropped += len(data)
+        """One write."""
+        if self._transport is not None and not self._transport.is_closing():
+            self._transport.write(data)
 
     def hold(self, held: bool) -> None:
         """Stop or resume reading."""

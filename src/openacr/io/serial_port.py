@@ -3,7 +3,8 @@
 pyserial blocks, so one thread reads and one writes; both only hand bytes to and from the
 loop. XON/XOFF is the card's own business, not the driver's: what a host sends is acted on in
 `protocol.terminal`; what holds the host back leaves from here, ahead of all output that
-waits, but never inside a write, where it could be taken for a byte of a packet.
+waits, but never inside a write, where it could be taken for a byte of a packet. Little
+output waits here, so that XOFF acts on nearly all of it.
 """
 
 import asyncio
@@ -16,7 +17,8 @@ from dataclasses import dataclass
 import serial
 
 from openacr.errors import UserError, reason
-from openacr.io.peers import SEND_LIMIT_BYTES, Switchboard
+from openacr.io.peers import Switchboard
+from openacr.protocol.output import SLICE_BYTES
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import XOFF, XON
 
@@ -101,10 +103,13 @@ class SerialPeer:
         for work in (self._read, self._write):
             threading.Thread(target=work, name=f"{self._path} {work.__name__}", daemon=True).start()
 
+    @property
+    def takes_output(self) -> bool:
+        """False while a whole slice waits to be written."""
+        return self._queued - self._sent < SLICE_BYTES
+
     def send(self, data: bytes) -> None:
-        """One write, dropped whole when the line is too far behind."""
-        if self._queued - self._sent + len(data) > SEND_LIMIT_BYTES:
-            return
+        """One write."""
         self._queued += len(data)
         self._outgoing.put(data)
 

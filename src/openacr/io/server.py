@@ -147,7 +147,7 @@ class CardServer:
             peer.hold(not self._card.accepts_input(peer.stream))
 
     def _flush(self, peer: Peer) -> None:
-        while data := self._card.take_output(peer.stream):
+        while peer.takes_output and (data := self._card.take_output(peer.stream)):
             peer.send(data)
 
     # --- peers ------------------------------------------------------------------------

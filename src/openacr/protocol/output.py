@@ -1,18 +1,23 @@
 """What one stream still has to send, kept in the pieces that one write each should carry.
 
 Hosts look at the last piece they received: value and prompt of a line therefore leave
-together, and a packet reply leaves alone.
+together, and a packet reply leaves alone. Only a long text leaves in several writes, so
+that XOFF and a slow line hold back what is left of it.
 """
 
 from collections import deque
 from dataclasses import dataclass, field
 
 LIMIT_BYTES = 1 << 20
+SLICE_BYTES = 4096  # of text in one write; about a second at 38400 baud
 
 
 @dataclass(slots=True)
 class Output:
-    """A bounded queue of writes; what does not fit is dropped whole and counted."""
+    """A queue of writes that takes no more, and counts what it drops, once LIMIT_BYTES wait.
+
+    What it does take it takes whole: one listing may be longer than the limit.
+    """
 
     stopped: bool = False  # XOFF received
     dropped_bytes: int = 0
@@ -35,16 +40,26 @@ class Output:
 
     def _fits(self, data: bytes) -> bool:
         """Room for this piece; nothing is ever sent in part."""
-        if not data or self._size + len(data) > LIMIT_BYTES:
+        if not data or self._size >= LIMIT_BYTES:
             self.dropped_bytes += len(data)
             return False
         self._size += len(data)
         return True
 
+    @property
+    def waiting_bytes(self) -> int:
+        """How much has not been taken."""
+        return self._size
+
     def take(self) -> bytes:
         """The bytes of the next write; none while there is nothing or XOFF holds."""
         if self.stopped or not self._writes:
             return b""
-        data, _ = self._writes.popleft()
+        first, is_packet = self._writes[0]
+        data = bytes(first if is_packet else first[:SLICE_BYTES])
+        if len(data) == len(first):
+            self._writes.popleft()
+        else:
+            del first[:SLICE_BYTES]
         self._size -= len(data)
-        return bytes(data)
+        return data
