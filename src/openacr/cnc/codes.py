@@ -21,6 +21,7 @@ from openacr.cnc.grammar import Grammar
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Entry
     from openacr.cnc.interpreter import Interpreter
+    from openacr.cnc.modal import Rule
     from openacr.cnc.parameters import Parameters
     from openacr.cnc.turn import Turn
 
@@ -242,12 +243,12 @@ class Dialect:
     grammar: Grammar
     table: Table
     order: tuple[Step, ...]
-    start: dict[str, object] = field(default_factory=dict)  # of Modal, beside the start set
+    start: dict[str, Rule] = field(default_factory=dict)  # of Modal, before the start set
     assigns_last: bool = False  # assignments act behind the reading of the block
     labels: bool = True  # N words are targets
     parameters: type[Parameters] | None = None  # where numbers mean something else
     has_own_cycles: bool = False  # without $I
-    rises_first: bool = False  # cycles that begin below R go up to it
+    rises_first: bool = False  # a series of cycles has one initial level and goes up to R first
     clearance_inch: float | None = None  # of G73 and G83; None: as in the store
     radius_tolerance: tuple[float, float] | None = None  # of arcs: inch, share; None any
     has_custom: bool = True  # M codes from files

@@ -253,8 +253,8 @@ class Interpreter:
         self.motions = MOTIONS
         self.path.shape = None
         self.parameters.reset()
-        for name, value in self.dialect.start.items():
-            setattr(self.modal, name, value)
+        for name, rule in self.dialect.start.items():
+            setattr(self.modal, name, rule(self.cells))
         self.path.coordinates.clear()
         for cell in (RADIUS_WEAR, LENGTH, LENGTH_WEAR):
             self.cells.write(cell, 0.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 from openacr.cnc.canonical import PathMode, Plane, Spin
-from openacr.cnc.cells import CUT_SPEED, START_FEED, TOOL, TOOL_IN_SPINDLE
+from openacr.cnc.cells import CUT_SPEED, DEFAULT_UNIT, START_FEED, TOOL, TOOL_IN_SPINDLE
 from openacr.cnc.hosts import Cells
 
 PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}
@@ -23,6 +23,7 @@ MODES = {
     64: PathMode.FREE,
 }
 INVERSE_TIME, PER_MINUTE = 93, 94
+INCH, METRIC = 20, 21
 START_CHOSEN = 100_010
 COMPATIBILITY = 700_000
 
@@ -102,11 +103,17 @@ def _feed(cells: Cells) -> float:
     return cells.read(START_FEED) or cells.read(CUT_SPEED)
 
 
+def store_unit(cells: Cells) -> int:
+    """G20 or G21, as the unit of the machine (Default Units) is."""
+    return METRIC if cells.read(DEFAULT_UNIT) else INCH
+
+
 def _path(cells: Cells) -> int:
     return 62 if cells.read(COMPATIBILITY) and cells.read(100_016) == 64 else _cell(100_016)(cells)
 
 
-def _always(value: object) -> Rule:
+def always(value: object) -> Rule:
+    """The same on every machine."""
     return lambda cells: value
 
 
@@ -122,32 +129,32 @@ class Reset:
 
 
 RESETS = (
-    Reset("motion", _always(1), _cell(100_011)),
-    Reset("plane", _always(17), _cell(100_012)),
+    Reset("motion", always(1), _cell(100_011)),
+    Reset("plane", always(17), _cell(100_012)),
     Reset("distance", _cell(250_111), _or(100_013, 250_111)),
     Reset("unit", _cell(850_030), _or(100_014, 850_030)),
-    Reset("compensation", _always(40)),
-    Reset("length", _always(49)),
-    Reset("length_number", _always(0)),
-    Reset("fixture", _always(0)),
-    Reset("cycle", _always(80)),
-    Reset("return_level", _always(98), _cell(100_017)),
-    Reset("work", _always(1), lambda cells: max(0, int(cells.read(100_015)) - 53), at_abort=False),
+    Reset("compensation", always(40)),
+    Reset("length", always(49)),
+    Reset("length_number", always(0)),
+    Reset("fixture", always(0)),
+    Reset("cycle", always(80)),
+    Reset("return_level", always(98), _cell(100_017)),
+    Reset("work", always(1), lambda cells: max(0, int(cells.read(100_015)) - 53), at_abort=False),
     Reset("path", lambda cells: 62 if cells.read(COMPATIBILITY) else 64, _path),
-    Reset("tolerance", _always(0.0)),
+    Reset("tolerance", always(0.0)),
     Reset("centres", _cell(250_003), _centres),
     Reset("feed", _feed, _feed),
-    Reset("feed_mode", _always(PER_MINUTE)),
+    Reset("feed_mode", always(PER_MINUTE)),
     Reset("has_feed", lambda cells: cells.read(START_FEED) > 0.0),
-    Reset("spin", _always(Spin.OFF)),
-    Reset("mist", _always(False)),
-    Reset("flood", _always(False)),
+    Reset("spin", always(Spin.OFF)),
+    Reset("mist", always(False)),
+    Reset("flood", always(False)),
     Reset("tool", _cell(TOOL)),
     Reset("tool_in_spindle", _cell(TOOL_IN_SPINDLE)),
-    Reset("radius_number", _always(0)),
-    Reset("tangent", _always(0)),
-    Reset("is_feed_locked", _always(False)),
-    Reset("has_work", _always(False)),
+    Reset("radius_number", always(0)),
+    Reset("tangent", always(0)),
+    Reset("is_feed_locked", always(False)),
+    Reset("has_work", always(False)),
     Reset("memory", lambda cells: {}),
 )
 

@@ -19,11 +19,9 @@ from openacr.cnc.codes import ROTARY
 from openacr.cnc.coordinates import ORIGIN, Coordinates
 from openacr.cnc.elements import Element
 from openacr.cnc.hosts import Cells
-from openacr.cnc.modal import COMPATIBILITY, Modal
+from openacr.cnc.modal import COMPATIBILITY, METRIC, Modal
 from openacr.cnc.turn import Turn
 from openacr.units import MM_PER_INCH
-
-METRIC = 21
 
 
 class Path:

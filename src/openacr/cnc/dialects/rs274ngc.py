@@ -2,6 +2,7 @@
 
 from openacr.cnc.codes import DIALECTS, Dialect, Step
 from openacr.cnc.grammar import RS274NGC as GRAMMAR
+from openacr.cnc.modal import always, store_unit
 from openacr.cnc.ngc import gcodes, mcodes  # noqa: F401  fill the table
 from openacr.cnc.ngc.parameters import NgcParameters
 from openacr.cnc.tables import RS274NGC
@@ -40,14 +41,14 @@ DIALECTS["rs274ngc"] = Dialect(
     RS274NGC,
     ORDER,
     start={
-        "motion": 1,
-        "plane": 17,
-        "distance": 90,
-        "unit": 20,
-        "work": 1,
-        "path": 64,
-        "return_level": 98,
-        "centres": 1,
+        "motion": always(1),
+        "plane": always(17),
+        "distance": always(90),
+        "unit": store_unit,
+        "work": always(1),
+        "path": always(64),
+        "return_level": always(98),
+        "centres": always(1),
     },
     assigns_last=True,
     labels=False,

@@ -67,9 +67,11 @@ def cycle(run: Interpreter, b: Turn) -> Iterator[Entry]:
     run.offset_path.refuse(b, "E312")
     if not (run.program.has_cycles or run.dialect.has_own_cycles):
         raise b.fault("E251", hint="$I CYCLES.TXT behind M2")
-    if run.modal.cycle == NONE or run.drilling is None:
+    is_first = run.modal.cycle == NONE or run.drilling is None
+    if run.drilling is None or is_first:
         run.drilling = Drilling()
-    run.drilling.initial = run.path.program[run.modal.plane_axes.drill]
+    if is_first or not run.dialect.rises_first:
+        run.drilling.initial = run.path.program[run.modal.plane_axes.drill]
     run.modal.cycle = int(b.number)
     yield from drill(run, b)
 
@@ -86,9 +88,9 @@ def drill(run: Interpreter, b: Turn) -> Iterator[Entry]:
     r, bottom = drilling.levels
     if bottom > r:
         run.warn(b, "W214", "Z")
-    if run.dialect.rises_first and drilling.initial < r:
+    if run.dialect.rises_first and run.path.program[plane.drill] < r:
         up = list(run.path.program)
-        up[plane.drill] = drilling.initial = r
+        up[plane.drill] = r
         run.path.rapid(b, tuple(up))
     repeat_cnt = b.whole("L", 1, "E250")
     for left in range(repeat_cnt, 0, -1):
@@ -156,7 +158,7 @@ def _cells(run: Interpreter, drilling: Drilling, left: int) -> list[float]:
     modal, path, read = run.modal, run.path, run.cells.read
     plane, code = modal.plane_axes, modal.cycle
     r, bottom = drilling.levels
-    i = drilling.initial
+    i = max(drilling.initial, r) if run.dialect.rises_first else drilling.initial
     first, second = path.placed[plane.first], path.placed[plane.second]
     is_to_r = modal.return_level == 99 and code not in TO_INITIAL
     placed = [_level(run, plane, z) for z in (bottom, r, i, r if is_to_r else i)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.codes import Group, Limit, Step
+from openacr.cnc.modal import INCH, METRIC
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -12,7 +13,6 @@ if TYPE_CHECKING:
     from openacr.cnc.turn import Turn
 
 gcode = ACROMILL.gcode
-INCH, METRIC = 20, 21
 READING = Limit("F", 0, 2, "E222", is_needed=True, is_whole=True)
 
 
