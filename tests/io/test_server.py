@@ -369,6 +369,45 @@ def test_guests_come_from_the_networks_named(networks: str, host: str, is_admitt
     assert Guests.of(networks).admits(host) is is_admitted
 
 
+WEB = (
+    b"POST /x HTTP/1.1\r\nHost: 127.0.0.1:5002\r\n\r\n\x18\r\nLEN 12\r\n",
+    b"GET /chat HTTP/1.1\r\nUpgrade: websocket\r\n\r\n\x18",
+    b"OPTIONS / HTTP/1.1\r\nAccess-Control-Request-Method: PUT\r\n\r\n\x18",
+    b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\x18\x30\x02\x01",
+)
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("size", [2, 3, 1024])
+@pytest.mark.parametrize("request_bytes", WEB, ids=["POST", "WebSocket", "preflight", "https"])
+def test_a_connection_of_a_web_page_is_closed_before_anything_is_executed(
+    request_bytes: bytes, size: int, binary: bool, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def body(bench: Bench) -> None:
+        page = await bench.connect(binary)
+        page.writer.transport.get_extra_info("socket").setsockopt(
+            socket.IPPROTO_TCP, socket.TCP_NODELAY, 1
+        )
+        seen = b""
+        with suppress(ConnectionError):
+            for at in range(0, len(request_bytes), size):
+                page.writer.write(request_bytes[at : at + size])
+                await page.writer.drain()
+                await asyncio.sleep(0)
+            seen = await asyncio.wait_for(page.reader.read(), WAIT_S)
+        assert b">" not in seen  # at most the echo of the request line
+        assert bench.card.controls == []
+        async with asyncio.timeout(WAIT_S):
+            while bench.card.streams:
+                await asyncio.sleep(0.001)
+        assert await (await bench.connect()).ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
+
+    serve(body)
+    refused = [record.message for record in caplog.records if record.levelname == "WARNING"]
+    assert len(refused) == 1
+    assert refused[0].endswith(" refused: it speaks HTTP or TLS, as a web page does")
+
+
 def test_a_stranger_is_turned_away_before_the_card_hears_of_it() -> None:
     class Nobody(Guests):
         def admits(self, host: str) -> bool:

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from openacr.protocol.stream import StreamKind
+from openacr.protocol.web import Opening
 
 log = logging.getLogger(__name__)
 
@@ -70,6 +71,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         self._held = self._joined = False
         self._was_behind = False
         self._name = ""
+        self._opening = Opening()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Set the socket up and ask for a stream; nothing is sent (no greeting)."""
@@ -95,9 +97,15 @@ class TcpPeer(asyncio.BufferedProtocol):
         return self._buffer
 
     def buffer_updated(self, nbytes: int) -> None:
-        """Hand over what arrived together."""
-        if self._joined:
-            self._board.received(self, bytes(self._buffer[:nbytes]))
+        """Hand over what arrived together, unless it comes from a web page."""
+        data = bytes(self._buffer[:nbytes])
+        if not self._joined or self._transport is None or self._transport.is_closing():
+            return
+        if self._opening.is_web(data):
+            log.warning("%s refused: it speaks HTTP or TLS, as a web page does", self._name)
+            self._transport.abort()
+        else:
+            self._board.received(self, data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Free the stream."""
