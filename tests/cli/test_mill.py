@@ -127,7 +127,7 @@ def test_what_a_virtual_run_writes_is_forgotten(tmp_path: Path) -> None:
 
 
 def test_start_at_a_line_goes_there_first(tmp_path: Path) -> None:
-    found = as_json("run", program(tmp_path, SQUARE), "--line", "5")
+    found = as_json("run", program(tmp_path, SQUARE), "--line", "5", "--safe-z", "1")
     assert found["end"] == {"X": 1.0, "Y": 1.0, "Z": 0.0}
     code, text = mill("run", program(tmp_path, SQUARE), "--line", "9")
     assert code == 2
@@ -247,7 +247,7 @@ def test_m_codes_of_the_machine_lie_beside_its_store(
 def test_another_tool_in_the_spindle_bars_a_start_at_a_line_unless_told_otherwise(
     tmp_path: Path,
 ) -> None:
-    part = program(tmp_path, "T5 M6\nF600\nG1 X1\nG1 X2\nM2\n")
+    part = program(tmp_path, "T5 M6\nF600 G0 Z1\nG1 X1\nG1 X2\nM2\n")
     code, text = mill("run", part, "--line", "4")
     assert (code, "--any-tool" in text) == (2, True)
     code, _ = mill("run", part, "--line", "4", "--any-tool")

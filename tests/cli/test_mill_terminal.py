@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.mill_terminal import Attendant
+from openacr.cli.mill_terminal import Attendant, require_yes
 from openacr.cnc.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
@@ -183,3 +183,94 @@ def test_mdi_reads_the_dialect_of_the_store(card: Controller) -> None:
         store.write(700_005, 1)
     code, text = mill("mdi", "#<depth>=[1+1]", "G4 P0.1")
     assert (code, "error" in text) == (0, False)
+
+
+# --- start at a line --------------------------------------------------------------------
+
+CUT = "G0 Z1\nG0 X1\nM3 S500\nM8\nG1 Z-1 F600\nG1 X3\nG1 X5\nM2\n"
+FLOOD = 800_010
+
+
+@pytest.fixture
+def part(tmp_path: Path, card: Controller) -> str:
+    """A program that cuts at Z-1, and a machine whose tool is at depth, 3 inches away."""
+    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+        for axis in range(3):
+            store.write(200_007 + 1000 * axis, 0)
+        store.write(SPINDLE_CW, 40)
+        store.write(FLOOD, 41)
+    file = tmp_path / "CUT.NC"
+    file.write_text(CUT)
+    shop = Workshop.real("card", Store())
+    shop.card.command("DRIVE ON X Y Z", program=0)
+    shop.card.command("RES X4 Z-1", program=0)
+    shop.close()
+    return str(file)
+
+
+def states(card: Controller, monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, ...]]:
+    """X and Z in inches, spindle and flood, at every look of a run."""
+    seen: list[tuple[float, ...]] = []
+    real = Workshop.step
+
+    def step(shop: Workshop) -> None:
+        real(shop)
+        x, z = card.p[12288] / 1e4, card.p[12288 + 512] / 1e4
+        seen.append((x, z, float(card.bit[40]), float(card.bit[41])))
+
+    monkeypatch.setattr(Workshop, "step", step)
+    return seen
+
+
+def test_a_start_in_the_cut_retracts_and_comes_down_with_the_spindle_on(
+    card: Controller, part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen = states(card, monkeypatch)
+    code, text = mill("run", part, "--line", "7", "--yes", "--quiet")
+    assert (code, seen[-1][:2]) == (0, (5.0, -1.0))
+    assert "spindle: now 5, at the line 3" in text
+    assert "position: now 4 0 -1 0 0 0 0 0, at the line 3 0 -1 0 0 0 0 0" in text
+    over = [(x, z) for x, z, *_ in seen if 3.0 < x < 4.0]
+    assert over[0][1] == 1.0  # on the way back all of it above the part
+    down = [(spin, flood) for x, z, spin, flood in seen if x == 3.0 and -1.0 < z < 1.0]
+    assert down
+    assert set(down) == {(1.0, 1.0)}
+
+
+def test_a_start_at_a_line_is_not_agreed_to_where_nobody_is(card: Controller, part: str) -> None:
+    code, text = mill("run", part, "--line", "7")
+    assert (code, card.p[12288], card.p[12800]) == (2, 40000, -10000)
+    assert "spindle: now 5, at the line 3" in text
+    assert "nobody is at the terminal to agree to it; use --yes" in text
+
+
+def test_a_level_that_only_the_operator_knows_is_asked_for(card: Controller, part: str) -> None:
+    Path(part).write_text("G1 Z-1 F600\nX3\nX5\nM2\n")
+    code, text = mill("run", part, "--line", "3", "--yes")
+    assert (code, "--safe-z names its machine position" in text) == (2, True)
+    assert mill("run", part, "--line", "3", "--yes", "--safe-z", "0.5", "--quiet")[0] == 0
+    assert (card.p[12288], card.p[12800]) == (50000, -10000)
+
+
+@pytest.mark.parametrize(("typed", "is_agreed"), [("y", True), ("YES", True), ("", False)])
+def test_only_a_yes_starts(
+    wires: tuple[TextIO, TextIO],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    typed: str,
+    is_agreed: bool,
+) -> None:
+    bench = Bench(*wires)
+    to_type = iter([f"{typed}\n"])
+
+    def step() -> None:
+        bench.keys.write(next(to_type, ""))
+        time.sleep(0.01)
+
+    monkeypatch.setattr(bench.shop, "step", step)
+    if is_agreed:
+        require_yes(bench.shop, bench.attend, "start?", "nobody")
+    else:
+        with pytest.raises(UserError, match="not started"):
+            require_yes(bench.shop, bench.attend, "start?", "nobody")
+    assert capsys.readouterr().err == "start? [y/N] "

@@ -19,8 +19,8 @@ STEP_S = 0.05
 class Console:
     """Takes the lines somebody types, one command each."""
 
-    def __init__(self, source: TextIO | None = None) -> None:
-        self._lines = Lines(source)
+    def __init__(self, source: TextIO | None = None, lines: Lines | None = None) -> None:
+        self._lines = lines or Lines(source)
         self._shown = ""
 
     def attend(self, shop: "Workshop") -> None:

@@ -20,7 +20,7 @@ from openacr.cli.mill import (
 )
 from openacr.cli.mill_console import Console
 from openacr.cli.mill_shop import ToHost, end_with_alarms, place_text, workshop
-from openacr.cli.mill_terminal import Attendant
+from openacr.cli.mill_terminal import Attendant, require_yes
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -43,6 +43,13 @@ def run_program(
     line: Annotated[int, typer.Option("--line", min=1, help="Start at this line.")] = 1,
     accepts_tool: Annotated[
         bool, typer.Option("--any-tool", help="Start at a line with another tool in the spindle.")
+    ] = False,
+    safe_z: Annotated[
+        float | None,
+        typer.Option("--safe-z", metavar="Z", help="Machine position of Z where the tool is free."),
+    ] = None,
+    is_agreed: Annotated[
+        bool, typer.Option("--yes", help="Start at a line without a question.")
     ] = False,
     is_skipping: Annotated[
         bool, typer.Option("--block-skip", help="Leave blocks with a slash out.")
@@ -76,13 +83,18 @@ def run_program(
         stops_optionally=stops_optionally,
         is_repeated=host is not None,  # on the virtual machine nobody would end it
         accepts_tool=accepts_tool,
+        safe_z=safe_z,
     )
     with opened_store(store, is_written=host is not None) as cells:
         program, name = _checked(file, cells, dialect)
         with workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.course.host.answers.update(map(_answer, answers or []))
-            keep = Console().attend if has_console else Attendant()
-            _run(shop, program, _with_dialect(start, name), is_quiet or as_json, keep)
+            start = _with_dialect(start, name)
+            terminal, replay = Attendant(), None
+            if line > 1:
+                replay = _rehearsed(shop, program, start, None if is_agreed else terminal)
+            keep = Console(lines=terminal.lines).attend if has_console else terminal
+            _run(shop, program, start, is_quiet or as_json, keep, replay)
             _report(shop, as_json, is_quiet)
 
 
@@ -156,12 +168,11 @@ def _run(
     start: "Start",
     is_quiet: bool,
     keep: "Callable[[Workshop], None]",
+    replay: "Replay | None" = None,
 ) -> None:
     from openacr.cli.online import progress_bar
 
-    replay = shop.start(program, start)
-    if replay is not None:
-        _show_replay(replay, start)
+    shop.start(program, start, replay)
     with progress_bar(Path(program.main.text.name).name) as show:
         count = 0
         while shop.runner.is_busy:
@@ -173,7 +184,11 @@ def _run(
                 show(source.line, program.line_cnt)
 
 
-def _show_replay(replay: "Replay", start: "Start") -> None:
+def _rehearsed(
+    shop: "Workshop", program: "Program", start: "Start", terminal: Attendant | None
+) -> "Replay":
+    """The lines before a start line: differences are shown, and a real machine asks to start."""
+    replay = shop.rehearse(program, start)
     for warning in replay.warnings:
         typer.echo(f"warning: {warning}", err=True)
     for each in replay.differences:
@@ -181,6 +196,11 @@ def _show_replay(replay: "Replay", start: "Start") -> None:
         typer.echo(f"{each.name}: now {now}, at the line {then}", err=True)
     if replay.needs_tool and not start.accepts_tool:
         raise UserError("another tool is in the spindle; --any-tool starts all the same")
+    if terminal is not None and not shop.is_virtual:
+        level = _numbers(replay.safe_level())
+        text = f"line {start.line}: Z to {level}, then over it and down at feed: start?"
+        require_yes(shop, terminal, text, "nobody is at the terminal to agree to it; use --yes")
+    return replay
 
 
 def _numbers(value: object) -> str:

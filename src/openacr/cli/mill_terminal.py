@@ -96,17 +96,34 @@ class Attendant:
         """What was typed for a question that is put once; None while nothing was."""
         if not self.is_there or (self._lines is not None and self._lines.are_over):
             raise UserError(nobody)
-        if self._lines is None:
-            self._lines = Lines(self._source)
+        lines = self.lines
         if text != self._asked:
-            while self._lines.take() is not None:
+            while lines.take() is not None:
                 pass  # typed before the question was put
             self._asked = text
             typer.echo(f"{text} ", nl=False, err=True)
-        line = self._lines.take()
+        line = lines.take()
         if line is not None:
             self._asked = ""
         return line
+
+    @property
+    def lines(self) -> Lines:
+        """What is typed at this terminal."""
+        if self._lines is None:
+            self._lines = Lines(self._source)
+        return self._lines
+
+
+def require_yes(shop: "Workshop", terminal: Attendant, text: str, nobody: str) -> None:
+    """Ask before something dangerous: only a y goes on; the machine is watched meanwhile."""
+    while True:
+        line = terminal.answer(f"{text} [y/N]", nobody)
+        if line is not None:
+            if line.lower() in YES - {""}:
+                return
+            raise UserError("not started")
+        shop.step()
 
 
 def _question(runner: "Runner") -> Question | None:

@@ -3,6 +3,11 @@
 What they leave behind - modal state, offsets, parameters, the position, outputs - is
 collected, compared with how the machine stands, and put in place by the entries of
 `approach` before the program goes on at line N.
+
+The tool may be deep in a part: a program is started again after an emergency stop in the
+cut. So the approach retracts it along the tool axis to a safe level before anything else
+moves. That level is the highest one the lines before N bring the tool to at rapid, or one
+the operator names. The tool axis is Z in every plane, as it is for the tool length.
 """
 
 from __future__ import annotations
@@ -11,12 +16,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from openacr.cnc.canonical import (
+    AXES,
     Arc,
     Coolant,
     Entry,
     Line,
     Output,
     Pace,
+    Plane,
     Point,
     Probe,
     Rapid,
@@ -35,6 +42,8 @@ from openacr.errors import UserError
 MOST_BLOCKS = 10_000_000
 NO_OUTPUT = -1
 LIVE = "values of the card were read as they are now"
+TOOL_AXIS = Plane.XY.drill
+ABSOLUTE = 90
 
 
 class StartError(UserError):
@@ -91,6 +100,27 @@ class _Rehearsal:
 
 
 @dataclass(slots=True)
+class Reached:
+    """What the moves of replayed lines say about positions, wherever they began."""
+
+    rapid_level: float | None = None  # the highest they bring the tool axis to at rapid
+    by_increments: set[int] = field(default_factory=set)  # axes that know no other positions
+    _known: set[int] = field(default_factory=set)  # axes sent to a position
+
+    def note(self, begin: Point, entry: Rapid | Line | Arc | Probe, *, is_absolute: bool) -> None:
+        """One move."""
+        moved = {axis for axis in range(AXES) if begin[axis] != entry.end[axis]}
+        if is_absolute:
+            self._known |= moved
+            self.by_increments -= moved
+        else:
+            self.by_increments |= moved - self._known
+        if isinstance(entry, Rapid) and TOOL_AXIS in self._known:
+            level = entry.end[TOOL_AXIS]
+            self.rapid_level = level if self.rapid_level is None else max(level, self.rapid_level)
+
+
+@dataclass(slots=True)
 class Replay:
     """The state in front of line N; `entries` begin with the approach."""
 
@@ -103,7 +133,8 @@ class Replay:
     outputs: dict[int, Output] = field(default_factory=dict)
     bits: dict[int, SetBit] = field(default_factory=dict)
     variables: dict[int, float] = field(default_factory=dict)  # of the card
-    last_move: Entry | None = None
+    reached: Reached = field(default_factory=lambda: Reached())
+    level: float | None = None  # where the tool is free, as the operator says
 
     @property
     def needs_tool(self) -> bool:
@@ -112,35 +143,53 @@ class Replay:
 
     def entries(self) -> Iterator[Entry]:
         """The approach, then the program from line N on; parameters are written now."""
+        self.present = self.run.machine.position() or self.present
+        approach = list(self.approach())
         self.shadow.commit()
         for n, value in self.variables.items():
             self.run.machine.write_parameter(n, value)
-        yield from self.approach()
+        yield from approach
         yield from self.run.go_on()
 
     def approach(self) -> Iterator[Entry]:
-        """Drill axis up, the others over, spindle and coolant on, drill axis down."""
+        """Tool up to a safe level, the others over, spindle and coolant on, down at feed."""
         modal, wanted = self.run.modal, self.run.path.issued
         source = Source(self.run.program.main.text.name, self.line, "")
-        drill = modal.plane_axes.drill
-        place = list(self.present)
-        place[drill] = max(place[drill], wanted[drill])
-        yield Rapid(source, tuple(place), is_inserted=True)
-        over = [*wanted[:drill], place[drill], *wanted[drill + 1 :]]
-        yield Rapid(source, tuple(over), is_inserted=True)
+        level = self.safe_level()
+        yield Rapid(source, _at_level(self.present, level), is_inserted=True)
+        yield Rapid(source, _at_level(wanted, level), is_inserted=True)
         yield Spindle(source, modal.spin, modal.speed)
         yield Coolant(source, modal.mist, modal.flood)
         yield from self.outputs.values()
         yield from self.bits.values()
-        if isinstance(self.last_move, Rapid | None):
-            yield Rapid(source, wanted, is_inserted=True)
-        else:
-            yield Line(source, wanted, Pace(modal.feed), is_inserted=True)
+        yield Line(source, wanted, Pace(modal.feed), is_inserted=True)
+
+    def safe_level(self) -> float:
+        """The level of the tool axis at which the others move; never lower than the tool.
+
+        StartError where they have to and nothing says at which level the tool is free.
+        """
+        wanted = self.run.path.issued
+        free = [each for each in (self.reached.rapid_level, self.level) if each is not None]
+        moves_over = _at_level(self.present, 0.0) != _at_level(wanted, 0.0)
+        if moves_over and not free and TOOL_AXIS in self.run.planner.axes.values():
+            raise StartError(
+                f"line {self.line}: no line before it brings Z at rapid to a level where the tool"
+                " is free: --safe-z names its machine position"
+            )
+        return max(self.present[TOOL_AXIS], wanted[TOOL_AXIS], *free)
 
 
-def start_at(run: Interpreter, line: int) -> Replay:
+def _at_level(point: Point, level: float) -> Point:
+    """A point with the tool axis at a level."""
+    return (*point[:TOOL_AXIS], level, *point[TOOL_AXIS + 1 :])
+
+
+def start_at(run: Interpreter, line: int, level: float | None = None) -> Replay:
     """Replay everything in front of a line; StartError where it is never reached.
 
+    `level`: the machine position of the tool axis at which the tool is free, in default units;
+    StartError where the approach needs one and neither it nor the lines name it.
     The cells of the interpreter have to be a Shadow: they are written when it goes on.
     """
     last = run.program.line_cnt
@@ -153,25 +202,30 @@ def start_at(run: Interpreter, line: int) -> Replay:
     before = {n: run.cells.read(n) for n in (TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT)}
     rehearsal = _Rehearsal(machine)
     run.machine = rehearsal
-    replay = Replay(run, line, present, run.cells, variables=rehearsal.written)
+    replay = Replay(run, line, present, run.cells, variables=rehearsal.written, level=level)
     try:
         _rehearse(replay, line)
     finally:
         run.machine = machine
     if rehearsal.has_read_card:
         replay.warnings.append(LIVE)
+    if replay.reached.by_increments:
+        replay.warnings.append(_increments(replay))
+    replay.safe_level()  # a start that would be refused is not asked about
     replay.differences += _differences(replay, before)
     return replay
 
 
 def _rehearse(replay: Replay, line: int) -> None:
-    run = replay.run
+    run, place = replay.run, replay.present
     for count, entry in enumerate(run.entries_until(line)):
         if count > MOST_BLOCKS:
             raise StartError(f"line {line} is not reached within {MOST_BLOCKS} steps")
         match entry:
             case Rapid() | Line() | Arc() | Probe():
-                replay.last_move = entry
+                is_absolute = run.modal.distance == ABSOLUTE
+                replay.reached.note(place, entry, is_absolute=is_absolute)
+                place = entry.end
             case Output() if entry.number != NO_OUTPUT:
                 replay.outputs[entry.number] = entry
             case SetBit():
@@ -182,6 +236,12 @@ def _rehearse(replay: Replay, line: int) -> None:
         raise StartError(f"line {line} is never reached")
     if run.flow.frames:
         raise StartError(f"line {line} belongs to a subroutine")
+
+
+def _increments(replay: Replay) -> str:
+    names = {axis: letter for letter, axis in replay.run.planner.axes.items()}
+    listed = " ".join(names[axis] for axis in sorted(replay.reached.by_increments))
+    return f"{listed}: increments were counted from where the machine is now"
 
 
 def _differences(replay: Replay, before: dict[int, float]) -> Iterator[Difference]:

@@ -24,6 +24,7 @@ from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
+from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
@@ -62,6 +63,7 @@ class Start:
     stops_optionally: bool = False
     is_repeated: bool = True  # where the store says Repeat Forever
     accepts_tool: bool = False  # start at a line although another tool is in the spindle
+    safe_z: float | None = None  # machine position of Z where the tool is free, for a start line
 
 
 class Workshop:
@@ -162,27 +164,26 @@ class Workshop:
         text = self.program.text_of(source) if self.program else source.text
         return source.line, text.strip()
 
-    def start(self, program: Program, start: Start) -> Replay | None:
-        """Begin a program; the replay of the lines before, when it begins later."""
-        replay: Replay | None = None
+    def rehearse(self, program: Program, start: Start) -> Replay:
+        """Replay the lines before a start line: nothing moves, nothing is written."""
+        return start_at(self._interpreter(program, start), start.line, start.safe_z)
+
+    def start(self, program: Program, start: Start, replay: Replay | None = None) -> None:
+        """Begin a program; at a later line behind the replay that was rehearsed and agreed to."""
         self.program = program
         options = Options(
             is_dry=start.is_dry,
             stops_optionally=start.stops_optionally,
             is_repeated=start.is_repeated,
         )
-        host = self.runner.course.host
-        host.skips_always = start.is_skipping
-        reading = self._interpreter(program, start)
-        first: Callable[[], Iterator[c.Entry]] = reading.entries
-        if start.line > 1:
-            replay = start_at(reading, start.line)
-            if replay.needs_tool and not start.accepts_tool:
-                return replay
-            first = replay.entries
+        if start.line > 1 and replay is None:
+            replay = self.rehearse(program, start)
+        if replay is not None and replay.needs_tool and not start.accepts_tool:
+            raise UserError("another tool is in the spindle; --any-tool starts all the same")
+        reading = replay.run if replay is not None else self._interpreter(program, start)
+        first: Callable[[], Iterator[c.Entry]] = replay.entries if replay else reading.entries
         passes = chain([first], repeat(reading.entries))
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
-        return replay
 
     def start_drip(self, drip: Drip, start: Start) -> None:
         """Begin a program that is still arriving."""
@@ -193,6 +194,7 @@ class Workshop:
 
     def _interpreter(self, program: Program, start: Start) -> Interpreter:
         reading = Reading(is_dry=start.is_dry, has_block_ends=True)
+        self.runner.course.host.skips_always = start.is_skipping
         cells = Shadow(self.cells) if start.line > 1 else self.cells
         return Interpreter(program, cells, self.runner.course.host, start.dialect, reading)
 
