@@ -5,6 +5,7 @@
 #   make lint    the checks alone
 #   make bench   how many simulated seconds per second this machine reaches
 #   make soak    the long-running tests
+#   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages anew
 #   make clean   remove everything that can be made again (also .venv)
 #
@@ -14,7 +15,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak docs clean
+.PHONY: help setup demo test lint bench soak mutate docs clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -34,7 +35,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,9s/^# *//p' Makefile
+	@sed -n '3,10s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -84,6 +85,10 @@ bench: $(BUILT)
 
 soak: $(BUILT)
 	$(PY) -m pytest -n 0 -m soak --timeout 0
+
+# Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/limits_cy.py protocol".
+mutate: $(BUILT)
+	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
 
 docs: $(BUILT)
 	$(PY) -m openacr.basic.reference docs/reference examples
