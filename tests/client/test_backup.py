@@ -1,9 +1,16 @@
 from pathlib import Path
 
 import pytest
-from tests.client.cards import load_example, with_axis, wrapped
+from tests.client.cards import WrappedLink, load_example, with_axis, wrapped
 
-from openacr.client import Card, Level
+from openacr.client import (
+    Card,
+    ConnectionLostError,
+    DownloadError,
+    Level,
+    Options,
+    RestoreError,
+)
 from openacr.controller import Controller
 from openacr.errors import UserError
 
@@ -33,6 +40,146 @@ def test_a_backup_is_a_project(tmp_path: Path) -> None:
     card.backup(tmp_path / "backup")
     again = Controller.from_project(tmp_path / "backup")
     assert again.p[12375] == 8000
+
+
+def test_an_extension_is_in_a_backup_only_where_it_is_set(tmp_path: Path) -> None:
+    card = Card.open(Controller())
+    load_example(card, "gantry")
+    card.backup(tmp_path / "plain")
+    assert "LOOK TOL" not in texts(tmp_path / "plain")["setup.8k"]
+    card.command("LOOK TOL 0.25", program=1)
+    card.backup(tmp_path / "set")
+    lines = texts(tmp_path / "set")["setup.8k"].splitlines()
+    assert [line for line in lines if "LOOK TOL" in line] == ["LOOK TOL 0.25"]
+    at = lines.index("LOOK TOL 0.25")
+    assert [line for line in lines[:at] if line.startswith("PROG")][-1] == "PROG1"
+
+
+class OtherCard(WrappedLink):
+    """A card that does not know LOOK TOL, or whose line breaks or is interrupted at a text."""
+
+    fails_at: tuple[bytes, BaseException] | None = None
+
+    def write(self, data: bytes) -> None:
+        if self.fails_at is not None and self.fails_at[0] in data:
+            failure, self.fails_at = self.fails_at[1], None
+            raise failure
+        super().write(data.replace(b"LOOK TOL", b"LOOK TOX"))
+
+    def read(self, timeout_s: float | None) -> bytes:
+        return super().read(timeout_s).replace(b"LOOK TOX", b"LOOK TOL")
+
+
+def other_card(reconnect_s: float = 10.0) -> tuple[Card, OtherCard]:
+    link = OtherCard(Controller())
+    return Card(link, Options(reconnect_s=reconnect_s)), link
+
+
+def contents(card: Card, folder: Path) -> dict[str, str]:
+    card.backup(folder)
+    return texts(folder)
+
+
+def gantry_backup(folder: Path, *lines: str) -> Path:
+    card = Card.open(Controller())
+    load_example(card, "gantry")
+    for line in lines:
+        card.command(line, program=1)
+    card.backup(folder)
+    return folder
+
+
+def test_a_backup_with_a_setting_the_card_does_not_know_changes_nothing(tmp_path: Path) -> None:
+    backup = gantry_backup(tmp_path / "b", "LOOK TOL 0.25")
+    number = texts(backup)["setup.8k"].splitlines().index("LOOK TOL 0.25") + 1
+    card, _ = other_card()
+    load_example(card, "square")
+    card.go(Level.program(3))
+    before = contents(card, tmp_path / "before")
+    with pytest.raises(DownloadError) as refused:
+        card.restore(backup)
+    assert str(refused.value) == (
+        f"{backup}/setup.8k:{number}: the card does not know LOOK TOL: Unknown command"
+        " (an extension of openacr: real cards refuse it; nothing was changed)"
+    )
+    assert contents(card, tmp_path / "after") == before
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("AXIS20 PPU 5", "AXIS20 PPU: Invalid argument"),
+        ("AXIS0 TMOV 1", "AXIS0 TMOV: Syntax error"),
+        ("AXIS0 ALM (5,-5)\nENC99 MULT 4", "ENC99 MULT: Invalid argument"),
+    ],
+)
+def test_a_backup_of_another_model_changes_nothing(tmp_path: Path, line: str, text: str) -> None:
+    Card.open(Controller("ACR9000")).backup(tmp_path / "b")
+    setup = tmp_path / "b" / "setup.8k"
+    setup.write_text(setup.read_text() + line + "\n")
+    card = Card.open(Controller())
+    card.p["axis0.ppu"] = 5
+    with pytest.raises(DownloadError) as refused:
+        card.restore(tmp_path / "b")
+    assert refused.value.text == f"the card does not know {text}"
+    assert refused.value.hint == "nothing was changed"
+    assert card.p["axis0.ppu"] == 5
+
+
+def test_a_card_that_refuses_a_line_gets_its_former_contents_back(tmp_path: Path) -> None:
+    backup = gantry_backup(tmp_path / "b")
+    (backup / "prog1.8k").write_text("PROGRAM\nX1\nFOO BAR 1\nENDP\n")
+    card = Card.open(Controller())
+    load_example(card, "error_handler")
+    card.p[5] = 1.25
+    before = contents(card, tmp_path / "before")
+    with pytest.raises(RestoreError) as failed:
+        card.restore(backup)
+    assert failed.value.is_back
+    assert failed.value.former == before
+    assert str(failed.value).startswith(f"{backup}/prog1.8k:2: Unknown command")
+    assert str(failed.value).endswith("; the card has its former contents again")
+    assert contents(card, tmp_path / "after") == before
+
+
+def test_a_line_that_breaks_in_a_restore_leaves_the_former_contents(tmp_path: Path) -> None:
+    backup = gantry_backup(tmp_path / "b")
+    card, link = other_card()
+    load_example(card, "square")
+    before = contents(card, tmp_path / "before")
+    link.fails_at = (b"AXIS3 JOG VEL 0", ConnectionLostError("the line broke"))
+    with pytest.raises(
+        RestoreError, match=r"the line broke; the card has its former contents again"
+    ):
+        card.restore(backup)
+    assert contents(card, tmp_path / "after") == before
+
+
+def test_ctrl_c_in_a_restore_leaves_the_former_contents(tmp_path: Path) -> None:
+    backup = gantry_backup(tmp_path / "b")
+    card, link = other_card()
+    load_example(card, "square")
+    before = contents(card, tmp_path / "before")
+    link.fails_at = (b"AXIS3 JOG VEL 0", KeyboardInterrupt())
+    with pytest.raises(KeyboardInterrupt):
+        card.restore(backup)
+    assert contents(card, tmp_path / "after") == before
+
+
+def test_former_contents_that_cannot_be_put_back_are_in_the_error(tmp_path: Path) -> None:
+    backup = gantry_backup(tmp_path / "b")
+    card, link = other_card(reconnect_s=0)
+    load_example(card, "square")
+    before = contents(card, tmp_path / "before")
+    link.is_reachable = False  # once it is closed
+    link.fails_at = (b"AXIS3 JOG VEL 0", ConnectionLostError("the line broke"))
+    with pytest.raises(RestoreError) as failed:
+        card.restore(backup)
+    assert not failed.value.is_back
+    assert failed.value.former == before
+    assert str(failed.value) == (
+        "the line broke; the former contents could not be put back either: cannot connect"
+    )
 
 
 def test_what_a_card_does_not_know_is_left_out_with_a_remark(tmp_path: Path) -> None:

@@ -230,6 +230,11 @@ def find(name: str) -> Command:
     return _commands[name]
 
 
+def known(name: str) -> Command | None:
+    """The command with exactly these words, if there is one."""
+    return _commands.get(name)
+
+
 def find_function(name: str) -> Function:
     """The function of this name."""
     return functions[name]

@@ -17,6 +17,7 @@ from openacr.client.errors import (
     GarbledError,
     NoReplyError,
     RefusedError,
+    RestoreError,
     VerificationError,
 )
 from openacr.client.moves import MoveStream
@@ -41,5 +42,6 @@ __all__ = [
     "RefusedError",
     "Remark",
     "Report",
+    "RestoreError",
     "VerificationError",
 ]

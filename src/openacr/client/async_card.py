@@ -222,8 +222,13 @@ class AsyncCard:
         return list(files)
 
     async def restore(self, folder: str | Path, progress: Progress | None = None) -> list[Report]:
-        """Stop everything, clear the card and put a backup back."""
-        from openacr.client.backup import read_folder, restore
+        """Stop everything, clear the card and put a backup back.
+
+        DownloadError: the card does not know a setting of it, nothing was changed. RestoreError:
+        it failed later, and the card has its former contents or the error has them.
+        """
+        from openacr.client.backup import read_folder
+        from openacr.client.restore import restore
 
         return await self._do(restore(self._talk, read_folder(Path(folder)), progress))
 

@@ -13,24 +13,29 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeAlias
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic import registry
 from openacr.basic.grammar import AxisList, Either, Num
+from openacr.basic.registry import INDEX, Command
 from openacr.client import values
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
 from openacr.client.names import flag_number
 from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
-from openacr.client.transfer import Progress, Report, download, upload
+from openacr.client.transfer import Progress, upload
 from openacr.errors import UserError, unreadable, unwritable
+
+Files: TypeAlias = list[tuple[Path, Level, str]]
 
 AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
 # Said better by another row, or not to be written back.
 _LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "AXIS # ON", "AXIS # OFF", "FOV", "ROV"))
+_SYSTEM_ROWS = ("PERIOD", "ADC MODE", "ADC MAX")
 _OF_MASTER = "VECDEF"  # of an axis, but only while it has a master
 _FLAGS = (
     "drive fault level invert",
@@ -79,12 +84,16 @@ class _Reader:
             self.lines.append(f"REM not readable: {query}: {refused.text}")
             return ()
 
-    def setting(self, command: str, *, at: Level = SYS) -> Op[None]:
-        """A command that reports its value, with that value behind it."""
+    def setting(self, row: Command, command: str = "", *, at: Level = SYS) -> Op[None]:
+        """A command that reports its value, with that value after it; `command` as it is asked.
+
+        An extension is left out unless it is set: real cards refuse it.
+        """
+        command = command or row.name
         for value in (yield from self.ask(command, at=at)):
             if not _VALUE.fullmatch(value):
                 self.lines.append(f"REM not understood: {command}: {value}")
-            else:
+            elif not (row.is_extension and float(value) == float(row.default or 0)):
                 self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
 
     def commands(self, query: str, word: str, *, at: Level = SYS) -> Op[list[str]]:
@@ -127,8 +136,8 @@ def _read_system(reader: _Reader) -> Op[None]:
     rows = list(_object_rows()), list(_axis_rows()), list(_master_rows())
     reader.total = 2 * len(axes) + len(axes) * (len(rows[0]) + len(rows[1])) + 3 * PROGRAMS
     reader.lines += [*sizes, *aliases]
-    for command in _system_rows():
-        yield from reader.setting(command)
+    for words in _SYSTEM_ROWS:
+        yield from reader.setting(registry.find(words))
     reader.lines += attachments
     for axis in axes:
         yield from _read_axis(reader, axis, rows[0], rows[1])
@@ -147,11 +156,13 @@ def _axes_that_answer(reader: _Reader) -> Op[list[int]]:
     return list(range(AXES))
 
 
-def _read_axis(reader: _Reader, axis: int, objects: list[str], commands: list[str]) -> Op[None]:
-    for command in objects:
-        yield from reader.setting(command.replace("#", str(axis)).replace(" ", "", 1))
-    for command in commands:
-        yield from reader.setting(f"AXIS{axis} {command}")
+def _read_axis(
+    reader: _Reader, axis: int, objects: list[Command], commands: list[Command]
+) -> Op[None]:
+    for row in objects:
+        yield from reader.setting(row, row.name.replace(f" {INDEX}", str(axis)))
+    for row in commands:
+        yield from reader.setting(row, f"AXIS{axis} {row.name}")
     yield from _read_flags(reader, axis)
     for state in (yield from reader.ask(f"AXIS{axis}")):
         if state in ("ON", "OFF"):
@@ -176,15 +187,16 @@ def _read_variables(reader: _Reader, sizes: Iterable[str]) -> Op[None]:
             reader.lines.append(f"P{number}={values.number_text(value)}")
 
 
-def _read_program(reader: _Reader, level: Level, commands: list[str]) -> Op[None]:
+def _read_program(reader: _Reader, level: Level, commands: list[Command]) -> Op[None]:
     attachments = yield from reader.commands("ATTACH", "ATTACH", at=level)
     sizes = yield from reader.commands("DIM", "DIM", at=level)
     if attachments or sizes:
         reader.lines += [str(level), *attachments, *sizes]
-    for command in commands if attachments else ():
-        yield from reader.setting(command, at=level)
+    for row in commands if attachments else ():
+        yield from reader.setting(row, at=level)
     for axis in (found[1] for found in map(_SLAVE.match, attachments) if found):
-        yield from reader.setting(f"AXIS{axis} {_OF_MASTER}", at=level)
+        row = registry.find(_OF_MASTER)
+        yield from reader.setting(row, f"AXIS{axis} {_OF_MASTER}", at=level)
 
 
 def _levels() -> Iterator[Level]:
@@ -199,34 +211,34 @@ def _file_name(level: Level) -> str:
 # --- which commands report a setting ------------------------------------------------------
 
 
-def _saved() -> Iterator[tuple[str, object]]:
-    """Words and first argument form of every command whose value is saved."""
+def _saved() -> Iterator[Command]:
+    """Every command whose value is saved and reported."""
     for row in registry.commands():
-        words = " ".join(row.words)
-        if row.saved and row.grammar and words not in _LEFT_OUT:
-            yield words, row.grammar[0]
+        if row.saved and row.grammar and row.name not in _LEFT_OUT:
+            yield row
 
 
-def _axis_rows() -> Iterator[str]:
+def _axis_rows() -> Iterator[Command]:
     """Commands of one axis; PPU first, since the others count in units."""
-    found = (words for words, form in _saved() if isinstance(form, AxisList | Either))
-    own = (words for words in found if words != _OF_MASTER)
-    yield from sorted(own, key=lambda words: words != "PPU")
+    found = (row for row in _saved() if isinstance(row.grammar[0], AxisList | Either))
+    own = (row for row in found if row.name != _OF_MASTER)
+    yield from sorted(own, key=lambda row: row.name != "PPU")
 
 
-def _object_rows() -> Iterator[str]:
+def _object_rows() -> Iterator[Command]:
     """Commands of encoders, outputs and inputs."""
-    yield from (words for words, form in _saved() if "#" in words and isinstance(form, Num))
+    yield from (row for row in _saved() if _is_of_object(row) and isinstance(row.grammar[0], Num))
 
 
-def _master_rows() -> Iterator[str]:
-    for words, form in _saved():
-        if isinstance(form, Num) and words not in _system_rows() and "#" not in words:
-            yield words
+def _master_rows() -> Iterator[Command]:
+    for row in _saved():
+        is_number = isinstance(row.grammar[0], Num)
+        if is_number and row.name not in _SYSTEM_ROWS and not _is_of_object(row):
+            yield row
 
 
-def _system_rows() -> tuple[str, ...]:
-    return ("PERIOD", "ADC MODE", "ADC MAX")
+def _is_of_object(row: Command) -> bool:
+    return INDEX in row.words
 
 
 # --- folders ------------------------------------------------------------------------------
@@ -244,29 +256,23 @@ def write_folder(files: dict[str, str], folder: Path) -> None:
         raise unwritable(folder, failure) from None
 
 
-def read_folder(folder: Path) -> list[tuple[Path, Level, str]]:
+def read_folder(folder: Path) -> Files:
     """The files of a backup in the order they are sent: set-up, programs, PLCs."""
-    setup = folder / SETUP_FILE
-    if not setup.is_file():
+    present = [(folder / name, level) for name, level in _file_names() if (folder / name).is_file()]
+    if not present or present[0][0].name != SETUP_FILE:
         raise UserError(f"{folder}: there is no {SETUP_FILE}, so this is no backup")
-    found = [(setup, SYS)]
-    for level in _levels():
-        path = folder / _file_name(level)
-        found += [(path, level)] if path.is_file() else []
     try:
-        return [(path, level, path.read_text(encoding="latin-1")) for path, level in found]
+        return [(path, level, path.read_text(encoding="latin-1")) for path, level in present]
     except OSError as failure:
         raise unreadable(folder, failure) from None
 
 
-def restore(
-    talk: Talk, files: list[tuple[Path, Level, str]], progress: Progress | None = None
-) -> Op[list[Report]]:
-    """Stop everything, clear the card and send a backup; DownloadError, VerificationError."""
-    reports: list[Report] = []
-    for path, level, text in files:
-        reports.append((yield from download(
-            talk, text, path=str(path), to=level, progress=progress
-        )))  # fmt: skip
-    yield from talk.go(SYS)
-    return reports
+def files_of(texts: dict[str, str]) -> Files:
+    """A backup as `backup` gives it, in the order its files are sent."""
+    return [(Path(name), level, texts[name]) for name, level in _file_names() if name in texts]
+
+
+def _file_names() -> Iterator[tuple[str, Level]]:
+    """Every file a backup may have, in the order they are sent."""
+    yield SETUP_FILE, SYS
+    yield from ((_file_name(level), level) for level in _levels())

@@ -72,6 +72,26 @@ class VerificationError(ClientError, SourceError):
     """The card lists something else than was sent."""
 
 
+class RestoreError(ClientError):
+    """A backup could not be put back; `former` is what was on the card, as files by name.
+
+    `is_back`: the card has its former contents again.
+    """
+
+    def __init__(
+        self, failure: BaseException, former: dict[str, str], second: BaseException | None = None
+    ) -> None:
+        self.failure, self.former, self.is_back = failure, former, second is None
+        ended = str(failure) or "interrupted"
+        if second is None:
+            super().__init__(f"{ended}; the card has its former contents again")
+        else:
+            super().__init__(
+                f"{ended}; the former contents could not be put back either:"
+                f" {str(second) or 'interrupted'}"
+            )
+
+
 def message_of(text: str) -> Message | None:
     """The card's known message with this text."""
     found = (message for pattern, message in _TEXTS if pattern.fullmatch(text))

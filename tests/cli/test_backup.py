@@ -1,0 +1,58 @@
+"""`openacr restore` where the card cannot be given its former contents back."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from openacr.cli import backup as cli
+from openacr.cli.main import app
+from openacr.client import Card, ConnectionLostError, RestoreError
+from openacr.controller import Controller
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    Card.open(Controller()).backup(tmp_path / "mine")
+    return tmp_path / "mine"
+
+
+def failing(monkeypatch: pytest.MonkeyPatch, failure: RestoreError) -> None:
+    class FailingCard:
+        def restore(self, folder: Path, progress: object) -> None:
+            raise failure
+
+    @contextmanager
+    def connected(target: str, baud: int, silence_s: float) -> Iterator[FailingCard]:
+        yield FailingCard()
+
+    monkeypatch.setattr(cli, "connected", connected)
+
+
+def test_contents_that_could_not_be_put_back_are_kept_beside_the_backup(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lost = ConnectionLostError("the line broke")
+    failing(monkeypatch, RestoreError(lost, {"setup.8k": "SYS\n"}, ConnectionLostError("gone")))
+    for name in ("mine-before", "mine-before1"):
+        result = CliRunner().invoke(app, ["restore", "card:1", str(folder), "--yes"])
+        assert result.exit_code == 1
+        kept = folder.with_name(name)
+        assert result.stderr == (
+            "error: the line broke; the former contents could not be put back either: gone\n"
+            f"what was on the card is in {kept}: openacr restore card:1 {kept}\n"
+        )
+        assert [path.name for path in kept.iterdir()] == ["setup.8k"]
+        assert (kept / "setup.8k").read_text() == "SYS\n"
+
+
+def test_contents_that_are_back_need_no_folder(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    failing(monkeypatch, RestoreError(ConnectionLostError("noise"), {"setup.8k": "SYS\n"}))
+    result = CliRunner().invoke(app, ["restore", "card:1", str(folder), "--yes"])
+    assert result.exit_code == 1
+    assert result.stderr == "error: noise; the card has its former contents again\n"
+    assert [path.name for path in folder.parent.iterdir()] == ["mine"]
