@@ -55,6 +55,7 @@ def test_a_machine_moved_before_its_first_move_comes_back_before_it_begins() -> 
     shop = Shop()
     paused(shop, "G1 F600 X2\nM2\n", 0.0)
     moved_by_hand(shop, 1, 0.5)
+    moved_by_hand(shop, 2, 0.5)
     shop.runner.resume()
     shop.until(State.IDLE)
     assert shop.pulses() == (20000, 0, 0)

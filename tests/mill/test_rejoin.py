@@ -3,9 +3,11 @@
 import math
 
 import pytest
+from tests.cnc.programs import run
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
+from openacr.errors import UserError
 from openacr.mill.states import State
 
 RADIUS = 0.25
@@ -21,29 +23,138 @@ def jogged(shop: Shop, x: float, y: float, z: float) -> None:
         shop.card.command(f"JOG RES {name}", program=0)
 
 
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_it_comes_back_on_an_arc_that_touches_the_path(side: float) -> None:
-    shop = Shop()
-    shop.start(line(1, at(10, 0)), line(2, at(10, 5)), end())
-    shop.pass_time(0.4)
+def held(shop: Shop, *entries: c.Entry) -> tuple[float, float, float]:
+    """Started, held on its way along X and at rest: where."""
+    shop.start(*entries, end())
+    while shop.place()[0] < 1.0:
+        shop.pass_time(0.02)
     shop.runner.stop()
-    shop.pass_time(0.5)
-    left = shop.place()
-    jogged(shop, 0.5, side * 1.5, 2.0)
+    shop.pass_time(1.0)
+    return shop.place()
+
+
+def resumed(shop: Shop) -> list[tuple[float, float, float]]:
+    """The path to the end of the program."""
     shop.runner.resume()
     shop.path.clear()
     shop.until(State.IDLE)
+    return shop.path
+
+
+@pytest.mark.req("MILL-RUN-RESUME-OFFPATH")
+@pytest.mark.parametrize("away", [1.5, -1.5])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_compensated_path_is_met_on_an_arc_on_the_side_of_the_tool(
+    side: int, away: float
+) -> None:
+    shop = Shop()
+    left = held(shop, line(1, at(10, 0), side=side), line(2, at(10, 5)))
+    jogged(shop, 0.5, away, 2.0)  # the operator may step aside to either side
+    path = resumed(shop)
     assert shop.pulses() == (100000, 50000, 0)
+    low = [p for p in path if p[2] < 1.9 and p[0] < left[0] + 0.3]
     centre = (left[0], side * RADIUS)
-    on_arc = [p for p in shop.path if p[0] < left[0] - 0.001 and abs(p[1]) < RADIUS - 0.001]
+    start = left[0] - RADIUS
+    assert low
+    down = [p for p in low if p[2] > 1e-4]
+    assert all((x, y) == pytest.approx((start, centre[1]), abs=2e-4) for x, y, _ in down)
+    on_arc = [p for p in low if p[2] < 1e-4 and p[0] < left[0] - 0.001]
     assert len(on_arc) > 3
-    for x, y, z in on_arc:
+    for x, y, _ in on_arc:
         assert math.hypot(x - centre[0], y - centre[1]) == pytest.approx(RADIUS, abs=3e-4)
-        assert z == pytest.approx(0.0, abs=1e-4)
-    off = [p for p in shop.path if p[2] > 0.001 and p[0] > left[0] + 0.2]
-    assert off  # the drill axis stays up on the way to the arc
-    behind = shop.path[shop.path.index(on_arc[-1]) + 1 :]
+        assert y * side > 0.0
+    behind = path[path.index(on_arc[-1]) + 1 :]
     assert all(abs(y) < 2e-4 for x, y, _ in behind if x < 9.99)
+
+
+@pytest.mark.parametrize("side", [0, 1, -1])
+def test_a_tool_that_was_only_raised_comes_straight_down_at_feed(side: int) -> None:
+    shop = Shop()
+    left = held(shop, rapid(1, at(0, 0, 3)), line(2, at(0)), line(3, at(10), side=side))
+    assert 0.0 < left[0] < 10.0
+    jogged(shop, 0.0, 0.0, 2.0)
+    path = resumed(shop)
+    assert all(p[:2] == left[:2] for p in path if p[2] > 1e-4)
+    assert max(p[2] for p in path) == 2.0  # no higher than it was raised
+    (down, *_) = [n for n, p in enumerate(path) if p[2] < 1.5]
+    (bottom, *_) = [n for n, p in enumerate(path) if p[2] < 0.5]
+    assert bottom - down == pytest.approx(1.0 / 10.0 / 0.005, abs=2)  # F600: 10 in/s
+
+
+def test_a_path_without_compensation_is_met_where_it_was_left() -> None:
+    shop = Shop()
+    left = held(shop, line(1, at(10, 0)), line(2, at(10, 5)))
+    jogged(shop, 0.5, 1.5, 2.0)
+    path = resumed(shop)
+    assert all(p[:2] == pytest.approx(left[:2], abs=2e-4) for p in path if 1e-4 < p[2] < 1.99)
+    assert all(abs(y) < 2e-4 for x, y, z in path if z < 1e-4 and x < 9.99)
+    assert shop.pulses() == (100000, 50000, 0)
+
+
+def test_a_tool_beside_its_path_goes_over_at_the_level_of_the_rapids() -> None:
+    shop = Shop()
+    left = held(
+        shop, rapid(1, at(0, 0, 3)), rapid(2, at(0, 0, 1)), line(3, at(0)), line(4, at(10))
+    )  # fmt: skip
+    assert 0.0 < left[0] < 10.0
+    jogged(shop, 0.0, 1.0, 0.0)  # through the stock, the operator knows why
+    path = resumed(shop)
+    assert all(z == 3.0 for _, y, z in path if 1e-4 < y < 0.9999)
+    assert shop.pulses() == (100000, 0, 0)
+
+
+def test_at_the_level_of_the_cut_the_tool_does_not_go_back_over_the_part() -> None:
+    shop = Shop()
+    left = held(shop, line(1, at(10, 0)))
+    jogged(shop, 0.0, 1.0, 0.0)
+    with pytest.raises(UserError, match=r"beside its path.*raise Z by hand first"):
+        shop.runner.resume()
+    shop.pass_time(0.5)
+    assert (shop.runner.state, shop.place()) == (State.PAUSED, (left[0], 1.0, 0.0))
+    jogged(shop, 0.0, 0.0, 0.5)
+    path = resumed(shop)
+    assert all(z == 0.5 for _, y, z in path if 1e-4 < y < 0.9999)
+
+
+def test_a_rapid_at_a_level_below_zero_counts() -> None:
+    shop = Shop()
+    held(shop, rapid(1, at(0, 0, -1)), line(2, at(0, 0, -2)), line(3, at(10, 0, -2)))
+    jogged(shop, 0.0, 1.0, 0.0)
+    path = resumed(shop)
+    assert {z for _, y, z in path if 1e-4 < y < 0.9999} == {-1.0}
+
+
+def test_after_a_stop_the_tool_does_not_come_back_over_the_part_either() -> None:
+    shop = Shop()
+    stop = c.Stop(src(2), c.Pause.STOP)
+    shop.start(line(1, at(1, 0, -1)), stop, line(3, at(2, 0, -1)), end())
+    shop.until(State.HOLD)
+    jogged(shop, 0.0, 1.0, 0.0)
+    with pytest.raises(UserError, match="raise Z by hand first"):
+        shop.runner.start()
+    assert shop.runner.state is State.HOLD
+    jogged(shop, 0.0, 0.0, 2.0)
+    shop.runner.start()
+    shop.path.clear()
+    shop.until(State.IDLE)
+    assert {z for _, y, z in shop.path if 1e-4 < y < 0.9999} == {1.0}
+    assert shop.pulses() == (20000, 0, -10000)
+
+
+@pytest.mark.parametrize(
+    ("code", "radius", "side"),
+    [("G41", 0.25, 1), ("G42", 0.25, -1), ("G41", 0.0, 1), ("G42", -0.25, 0), ("G40", 0.25, 0)],
+)
+def test_the_program_says_on_which_side_the_tool_is(code: str, radius: float, side: int) -> None:
+    text = f"F10 D1\n{code} G1 X1 Y1\nX3\nY4\nG40 X9 Y9\nM2"
+    done = run(text, {1001: radius})
+    sides = [entry.pace.side for entry in done.of(c.Line) if isinstance(entry, c.Line)]
+    assert sides == [side, side, side, 0]
+
+
+def test_a_side_in_another_plane_says_nothing_of_xy() -> None:
+    done = run("F10 D1 G18\nG41 G1 X1 Z1\nX3\nG40 Z9 X9\nM2", {1001: 0.25})
+    assert {entry.pace.side for entry in done.of(c.Line) if isinstance(entry, c.Line)} == {0}
 
 
 def test_without_a_jog_the_held_move_simply_goes_on() -> None:
@@ -95,11 +206,11 @@ def test_in_a_rapid_it_comes_back_straight() -> None:
 
 def test_an_arc_that_would_leave_the_limits_is_not_taken() -> None:
     shop = Shop(P201_000=0.1, P201_001=-5.0, P201_002=0, P271=2)
-    shop.start(line(1, at(10, 0)), end())
+    shop.start(line(1, at(10, 0), side=1), end())
     shop.pass_time(0.4)
     shop.runner.stop()
     shop.pass_time(0.5)
-    jogged(shop, 0.0, 0.05, 0.0)
+    jogged(shop, 0.0, 0.05, 1.0)
     shop.runner.resume()
     shop.path.clear()
     shop.until(State.IDLE)

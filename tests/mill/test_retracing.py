@@ -126,6 +126,7 @@ def test_a_tool_jogged_aside_behind_a_trace_comes_back_to_the_path() -> None:
     traced(shop, -1, 0.5)
     left = shop.place()[0]
     shop.runner.jog(lambda jog: jog.move(1, 1.0, fast=True))
+    shop.runner.jog(lambda jog: jog.move(2, 0.5, fast=True))
     shop.pass_time(3.0)
     with pytest.raises(UserError, match="off its path"):
         shop.runner.trace(-1)

@@ -58,6 +58,7 @@ class OffsetPath:
         if self._is_arc(b):
             raise b.fault("E313")
         run.modal.compensation = code
+        run.path.change_pace()
         run.path.elements = self._add
         self._hand_on(self._compensator.switch(SIDES.get(code), self._radius()))
         self._look_whether_off()
@@ -84,6 +85,7 @@ class OffsetPath:
         """D or a wear value has changed: it holds from the next element on."""
         side = SIDES.get(self._run.modal.compensation)
         if side is not None:
+            self._run.path.change_pace()
             self._hand_on(self._compensator.switch(side, self._radius()))
 
     # --- moves and what stands between them -----------------------------------------------

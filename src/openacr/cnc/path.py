@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from openacr.cnc.arcs import Bow
 from openacr.cnc.canonical import Arc, Entry, Line, Pace, PathMode, Plane, Point, Rapid, Source
-from openacr.cnc.cells import DEFAULT_UNIT
+from openacr.cnc.cells import DEFAULT_UNIT, RADIUS, RADIUS_WEAR
 from openacr.cnc.codes import ROTARY
 from openacr.cnc.coordinates import ORIGIN, Coordinates
 from openacr.cnc.elements import Element
@@ -22,6 +22,8 @@ from openacr.cnc.hosts import Cells
 from openacr.cnc.modal import COMPATIBILITY, METRIC, Modal
 from openacr.cnc.turn import Turn
 from openacr.units import MM_PER_INCH
+
+FREE_SIDES = {41: 1, 42: -1}
 
 
 class Path:
@@ -81,8 +83,17 @@ class Path:
             modal = self._modal
             mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
             is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
-            pace = self._pace = Pace(modal.feed, mode, is_locked, modal.path == 61, modal.tolerance)
+            pace = self._pace = Pace(
+                modal.feed, mode, is_locked, modal.path == 61, modal.tolerance, self._side()
+            )
         return pace
+
+    def _side(self) -> int:
+        """The side of the path that is free; a negative radius leaves open where the part is."""
+        modal = self._modal
+        radius = self._cells.read(RADIUS) + self._cells.read(RADIUS_WEAR)
+        is_known = modal.plane_axes is Plane.XY and radius >= 0.0
+        return FREE_SIDES.get(modal.compensation, 0) if is_known else 0
 
     # --- places ------------------------------------------------------------------------
 

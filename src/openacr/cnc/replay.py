@@ -17,13 +17,13 @@ from dataclasses import dataclass, field
 
 from openacr.cnc.canonical import (
     AXES,
+    TOOL_AXIS,
     Arc,
     Coolant,
     Entry,
     Line,
     Output,
     Pace,
-    Plane,
     Point,
     Probe,
     Rapid,
@@ -42,7 +42,6 @@ from openacr.errors import UserError
 MOST_BLOCKS = 10_000_000
 NO_OUTPUT = -1
 LIVE = "values of the card were read as they are now"
-TOOL_AXIS = Plane.XY.drill
 ABSOLUTE = 90
 
 

@@ -7,6 +7,7 @@ happens to them here.
 from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc import canonical as c
+from openacr.errors import UserError
 from openacr.mill.actions import Steps, Until
 from openacr.mill.doing import Doing
 from openacr.mill.encoding import Encoder, Job, Motion
@@ -16,7 +17,7 @@ from openacr.mill.limits import first_excess
 from openacr.mill.machine import Look
 from openacr.mill.panel import Panel
 from openacr.mill.probing import Probing
-from openacr.mill.rejoin import Place, first_of, lead_in, place, rest_of, straight_back
+from openacr.mill.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
 from openacr.mill.tracking import Tracker
 
 SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
@@ -41,6 +42,7 @@ class Course:
         self._encoder = Encoder(panel.settings)
         self._feed: Feed | None = None
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
+        self._rapid_level: float | None = None  # the highest its rapids brought the tool to
 
     def begin(self, entries: Entries, *, is_dry: bool, is_single: bool) -> None:
         """A program from its first block on."""
@@ -49,7 +51,7 @@ class Course:
         self.tracker.trail.restart([])
         rounds = self._machine.rounds_corners
         self._encoder = Encoder(self.settings, is_dry=is_dry, rounds=rounds)
-        self._begin = self.host.position()
+        self._begin, self._rapid_level = self.host.position(), None
         self._feed = Feed(entries(self.host), self._begin, self.settings, self._encoder)
         self._feed.is_single = is_single
 
@@ -119,6 +121,9 @@ class Course:
             self.tracker.add(job, has_packet=packet is not None)
             if packet is not None:
                 packets.append(packet)
+            if isinstance(job.entry, c.Rapid):
+                before, level = self._rapid_level, job.finish[c.TOOL_AXIS]
+                self._rapid_level = level if before is None else max(before, level)
         if packets:
             self._machine.send(packets)
             self.moves += len(packets)
@@ -139,11 +144,38 @@ class Course:
 
     def is_off(self, point: c.Point) -> bool:
         """Whether the machine has been moved away from where it was held."""
-        here = self.host.position()
-        return any(
-            abs(here[axis.index] - point[axis.index])
-            > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
+        return bool(self._moved_axes(self.host.position(), point))
+
+    def _moved_axes(self, here: c.Point, point: c.Point) -> set[int]:
+        """The axes that are not at a point any more."""
+        return {
+            axis.index
             for axis in self.settings.axes
+            if abs(here[axis.index] - point[axis.index])
+            > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
+        }
+
+    def require_way_back(self, point: c.Point) -> None:
+        """Refuse to come back to a point over a part: it is not known where the tool is free."""
+        self._level(self.host.position(), point)
+
+    def _level(self, here: c.Point, target: c.Point) -> float:
+        """The level of the tool axis at which the tool goes over to a point.
+
+        A tool that was only moved along its axis needs none. Any other goes up to the highest
+        level of the rapids of this program, or where it was raised to by hand.
+        """
+        moved, axis = self._moved_axes(here, target), c.TOOL_AXIS
+        high = max(here[axis], target[axis])
+        if moved <= {axis} or all(one.index != axis for one in self.settings.axes):
+            return high
+        if self._rapid_level is not None:
+            return max(high, self._rapid_level)
+        if axis in moved and here[axis] > target[axis]:
+            return high
+        raise UserError(
+            "the tool was moved beside its path, and the program has not said yet at which"
+            f" level it is free: raise {self.settings.axis(axis).name} by hand first"
         )
 
     def retake(self) -> Steps:
@@ -170,22 +202,27 @@ class Course:
             self._feed.replace(jobs)
 
     def rejoin(self, target: c.Point, left: Place | None) -> Steps:
-        """Back to where the machine was held, then the rest of the way.
-
-        A path is met again on an arc that touches it; without one the way is straight.
-        """
+        """Back to where the machine was held, then the rest of the path."""
         feed = self._feed
         if feed is None:
             return
         here = self.host.position()
+        leading = self._leading(here, target, left)
         jobs = self._taken_back(target)
         yield from self.drop_moves()
-        leading = self._straight_back(here, target)
-        if left is not None:
-            leading = self._jobs(lead_in(left, here, self.settings.lead_in_u), here)
-            if any(first_excess(job, self.settings) for job in leading):
-                leading = self._jobs(lead_in(left, here, 0.0), here)
         feed.replace([*leading, *jobs])
+
+    def _leading(self, here: c.Point, target: c.Point, left: Place | None) -> list[Job]:
+        """The moves back to where the machine was held: on an arc where there is one to be had."""
+        if left is None:
+            return self._straight_back(here, target)
+        level_u = self._level(here, target)
+        was_raised = self._moved_axes(here, target) <= {c.TOOL_AXIS}
+        radius_u = 0.0 if was_raised else self.settings.lead_in_u
+        leading = self._jobs(lead_in(left, here, level_u, radius_u), here)
+        if any(first_excess(job, self.settings) for job in leading):
+            leading = self._jobs(lead_in(left, here, level_u, 0.0), here)
+        return leading
 
     def come_back(self, target: c.Point) -> None:
         """Back to a point the machine rested at, straight, before anything else."""
@@ -194,12 +231,19 @@ class Course:
             self._feed.replace(jobs)
 
     def _straight_back(self, here: c.Point, target: c.Point) -> list[Job]:
-        source = self.tracker.source or c.Source("", 1, "")
-        return self._jobs(straight_back(source, here, target, c.Plane.XY.drill), here)
+        job = self.tracker.current
+        source, pace = (job.entry.source, pace_of(job)) if job else (c.Source("", 1, ""), None)
+        level_u = self._level(here, target)
+        return self._jobs(straight_back(source, here, target, level_u, pace), here)
 
     def return_to_begin(self) -> Steps:
-        """Straight to where the program was started, the drill axis up first."""
-        self._send(self._straight_back(self.host.position(), self._begin))
+        """Straight to where the program was started, where the tool can be raised before."""
+        try:
+            jobs = self._straight_back(self.host.position(), self._begin)
+        except UserError as refused:
+            yield from self._doing.steps(c.Say(c.Source("", 1, ""), f"stays: {refused}"))
+            return
+        self._send(jobs)
         yield Until("back to the start", self.tracker.is_at_end)
 
     def drop_moves(self) -> Steps:

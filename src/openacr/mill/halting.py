@@ -46,7 +46,9 @@ class Halting:
         self._course.go_on()
 
     def go_on(self) -> None:
-        """Cycle Start behind a stop: from where it came to rest."""
+        """Cycle Start after a stop: from where it came to rest; a refusal changes nothing."""
+        if self._rest is not None:
+            self._course.require_way_back(self._rest)
         self._status.state, self._status.reason = State.RUN, ""
         self._course.go_on()
         if self._rest is not None:

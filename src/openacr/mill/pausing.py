@@ -56,6 +56,8 @@ class Pausing:
         is_off = point is not None and self._course.is_off(point)
         if is_off and self._script.is_active:
             raise UserError("the machine was moved while an action waits: move it back, or abort")
+        if point is not None and is_off:
+            self._course.require_way_back(point)
         self._go_on(point if is_off else None, left)
         self._rest = self._left = None
         self._status.state = State.RUN

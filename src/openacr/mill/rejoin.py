@@ -1,11 +1,15 @@
-r"""The way back to a path that was left: what is left of a move, and how it is joined.
+r"""Back to a path that was left: what is left of a move, and how it is joined.
 
-After a stop the machine may have been moved by hand. It comes back on a quarter arc that
-touches the path at the point P where it was left:
+After a stop the machine may have been moved by hand. A tool that was only raised comes
+straight down where it left the path, at the point P. One that was moved beside the path
+first goes up to where it is free, over, and down at feed. Where cutter radius compensation
+says on which side of the path the part is not (+1 left, -1 right), it comes down there and
+joins the path on a quarter arc that touches it at P:
 
-    side    s = sign(t x (position - P)), the side of the path the tool is on now
-    centre  C = P + s r n,  n = t turned by +90 degrees
+    centre  C = P + s r n,  s = side, n = t turned by +90 degrees
     start   E = C - r t,    from E the arc turns through 90 degrees into P
+
+Everywhere else it comes down at P itself: no other place is known to be free.
 """
 
 import math
@@ -13,7 +17,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Rapid, Source
+from openacr.cnc.canonical import (
+    TOOL_AXIS,
+    Arc,
+    Line,
+    Pace,
+    PathMode,
+    Plane,
+    Point,
+    Rapid,
+    Source,
+)
 from openacr.mill.encoding import Job, Motion
 
 RIGHT_ANGLE = 0.5 * math.pi
@@ -55,23 +69,21 @@ def _turned(arc: Arc, begin: Point, here: Point) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a path was left: the point, the direction there, and the move."""
+    """Where a path was left: the point, the direction in XY, and the move."""
 
     point: Point
-    tangent: tuple[float, float] | None  # in the plane; None where nothing moved in it
-    plane: Plane
+    tangent: tuple[float, float] | None  # None where nothing moved in XY
     job: Job
 
 
 def place(job: Job, here: Point) -> Place:
-    """The place of a machine that stands at `here` on a move."""
-    plane = job.entry.plane if isinstance(job.entry, Arc) else Plane.XY
-    return Place(here, _tangent(job, here, plane), plane, job)
+    """The place of a machine that is at `here` on a move."""
+    return Place(here, _tangent(job, here), job)
 
 
-def _tangent(job: Job, here: Point, plane: Plane) -> tuple[float, float] | None:
-    first, second = plane.first, plane.second
-    if isinstance(job.entry, Arc):
+def _tangent(job: Job, here: Point) -> tuple[float, float] | None:
+    first, second = Plane.XY.first, Plane.XY.second
+    if isinstance(job.entry, Arc) and job.entry.plane is Plane.XY:
         x, y = here[first] - job.entry.centre[0], here[second] - job.entry.centre[1]
         turn = math.copysign(1.0, job.entry.sweep_rad)
         x, y = -turn * y, turn * x
@@ -81,43 +93,43 @@ def _tangent(job: Job, here: Point, plane: Plane) -> tuple[float, float] | None:
     return (x / length, y / length) if length > 0.0 else None
 
 
-def lead_in(left: Place, here: Point, radius_u: float) -> Iterator[Motion]:
-    """The moves from where the machine stands now to the place where it left the path."""
-    plane, source, target = left.plane, left.job.entry.source, left.point
-    if left.tangent is None or radius_u <= 0.0 or isinstance(left.job.entry, Rapid):
-        yield from straight_back(source, here, target, plane.drill)
+def lead_in(left: Place, here: Point, level_u: float, radius_u: float) -> Iterator[Motion]:
+    """The moves from where the machine is now to the place where it left the path.
+
+    `level_u` is where the tool is free, above both; a `radius_u` of 0 wants no arc.
+    """
+    source, target, pace = left.job.entry.source, left.point, pace_of(left.job)
+    if pace is None or pace.side == 0 or left.tangent is None or radius_u <= 0.0:
+        yield from straight_back(source, here, target, level_u, pace)
         return
-    drill = plane.drill
-    up = _with(here, drill, max(here[drill], target[drill]))
-    yield Rapid(source, up, is_inserted=True)
-    (tx, ty), pace = left.tangent, _pace(left.job)
-    dx, dy = here[plane.first] - target[plane.first], here[plane.second] - target[plane.second]
-    side = -1.0 if tx * dy - ty * dx < 0.0 else 1.0
-    centre = (
-        target[plane.first] - side * radius_u * ty,
-        target[plane.second] + side * radius_u * tx,
-    )
-    start = _with(target, plane.first, centre[0] - radius_u * tx)
-    start = _with(start, plane.second, centre[1] - radius_u * ty)
-    yield Rapid(source, _with(start, drill, up[drill]), is_inserted=True)
-    yield Line(source, start, pace, is_inserted=True)
+    (tx, ty), side = left.tangent, float(pace.side)
+    first, second = Plane.XY.first, Plane.XY.second
+    centre = (target[first] - side * radius_u * ty, target[second] + side * radius_u * tx)
+    start = _with(target, first, centre[0] - radius_u * tx)
+    start = _with(start, second, centre[1] - radius_u * ty)
+    yield from straight_back(source, here, start, level_u, pace)
     yield Arc(
-        source, target, plane, centre, side * RIGHT_ANGLE, radius_u, radius_u, pace,
+        source, target, Plane.XY, centre, side * RIGHT_ANGLE, radius_u, radius_u, pace,
         is_inserted=True,
     )  # fmt: skip
 
 
-def straight_back(source: Source, here: Point, target: Point, drill: int) -> Iterator[Rapid]:
-    """To a point in rapids: the drill axis up first if it has to, and down last."""
-    level = max(here[drill], target[drill])
-    yield Rapid(source, _with(here, drill, level), is_inserted=True)
-    yield Rapid(source, _with(target, drill, level), is_inserted=True)
-    yield Rapid(source, target, is_inserted=True)
+def straight_back(
+    source: Source, here: Point, target: Point, level_u: float, pace: Pace | None
+) -> Iterator[Rapid | Line]:
+    """Up to a level, over, and down to a point: in rapids, the last one at a pace if there is."""
+    yield Rapid(source, _with(here, TOOL_AXIS, level_u), is_inserted=True)
+    yield Rapid(source, _with(target, TOOL_AXIS, level_u), is_inserted=True)
+    if pace is None:
+        yield Rapid(source, target, is_inserted=True)
+    else:
+        yield Line(source, target, pace, is_inserted=True)
 
 
-def _pace(job: Job) -> Pace:
+def pace_of(job: Job) -> Pace | None:
+    """How a tool comes down to a move: at its feed, None for at rapid."""
     if isinstance(job.entry, Rapid):
-        return Pace(job.feed_ups * 60.0)
+        return None
     return replace(job.entry.pace, mode=PathMode.FREE, is_confirmed=False)
 
 

@@ -31,7 +31,7 @@ from openacr.cnc.canonical.actions import (
     Transfer,
     WaitBit,
 )
-from openacr.cnc.canonical.common import AXES, Pace, PathMode, Plane, Point, Source
+from openacr.cnc.canonical.common import AXES, TOOL_AXIS, Pace, PathMode, Plane, Point, Source
 from openacr.cnc.canonical.moves import Arc, Line, Polyline, Probe, Rapid
 
 Motion = Rapid | Line | Arc | Polyline | Probe
@@ -55,6 +55,7 @@ Entry = Motion | Action | BlockEnd | Sync | End
 
 __all__ = [
     "AXES",
+    "TOOL_AXIS",
     "Action",
     "Arc",
     "Ask",

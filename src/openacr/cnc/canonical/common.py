@@ -5,6 +5,8 @@ from enum import Enum
 
 AXES = 8
 Point = tuple[float, ...]  # one value for each of the 8 axes
+# Z in every plane: the tool length acts along it, and the tool is retracted along it.
+TOOL_AXIS = 2
 
 
 class PathMode(Enum):
@@ -55,7 +57,9 @@ class Pace:
     The feed holds along the linear axes; where only rotary axes move, in degrees per
     minute of the fastest one. `is_confirmed` adds the wait until all axes are in
     position (G9, G61). With `tolerance_u` the path may leave corners that far to keep moving;
-    machines that cannot do that go exactly through them.
+    machines that cannot do that go exactly through them. `side` is where cutter radius
+    compensation in the XY plane has the tool, and the part is not: 1 left of its path, -1
+    right, 0 where that is not known.
     """
 
     feed_upm: float
@@ -63,3 +67,4 @@ class Pace:
     is_locked: bool = False  # feed override has no effect (G63, tapping)
     is_confirmed: bool = False
     tolerance_u: float = 0.0
+    side: int = 0
