@@ -8,6 +8,7 @@ import numpy as np
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
 from openacr.cli.report import AxisReport
+from openacr.cli.watched import Watched
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.scenario import Condition
@@ -76,7 +77,7 @@ class FakeMachine:
     def axis_reports(self) -> tuple[AxisReport, ...]:
         return self.reports
 
-    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
+    def record(self, every_tk: int, *, keep_peaks: bool, watched: Sequence[Watched] = ()) -> None:
         self.recorded_every_tk, self.keeps_peaks = every_tk, keep_peaks
 
     def curves(self, title: str) -> Curves:

@@ -9,8 +9,9 @@ import numpy as np
 
 from openacr.basic.lister import Lister
 from openacr.cli import card_view
-from openacr.cli.plots import AxisCurves, BitCurve, Curves
+from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.report import AxisReport
+from openacr.cli.watched import Watched
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import WATCHES
@@ -42,6 +43,7 @@ class ControlledMachine:
         self._overhear: Callable[[str], None] = lambda text: None
         self._awaits_text = False
         self._was_heard = False
+        self._watched: tuple[Watched, ...] = ()
 
     @property
     def memory(self) -> Memory:
@@ -174,9 +176,11 @@ class ControlledMachine:
             for found in (self._controller.statistics(number),)
         ]
 
-    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
-        """Record every so many ticks from now on, with the peaks between them if wanted."""
-        self._controller.record(every_tk, keep_peaks=keep_peaks)
+    def record(self, every_tk: int, *, keep_peaks: bool, watched: Sequence[Watched] = ()) -> None:
+        """Record once in `every_tk` ticks from now on, with the peaks between if wanted."""
+        samples = [one.sample(self.memory) for one in watched]
+        self._watched = tuple(watched)
+        self._controller.record(every_tk, keep_peaks=keep_peaks, samples=samples)
 
     def curves(self, title: str) -> Curves:
         """Give what was recorded, in time since the start of the run."""
@@ -196,11 +200,18 @@ class ControlledMachine:
             )
             for number, axis in enumerate(trace.axes)
         )
+        chosen = list(zip(self._watched, trace.values.T, strict=True))
         bits = tuple(
             BitCurve(FIRST_OUTPUT + output, (trace.outputs >> output & 1).astype(np.bool_))
             for output in range(OUTPUTS)
         )
-        return Curves(trace.time_s - self._begin_s, axes, bits, title)
+        return Curves(
+            trace.time_s - self._begin_s,
+            axes,
+            bits,
+            title,
+            watched=tuple(ValueCurve(one, values) for one, values in chosen),
+        )
 
     def _names(self) -> dict[int, str]:
         """Name every axis as its first program calls it, else as the machine file does."""

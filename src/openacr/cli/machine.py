@@ -12,6 +12,7 @@ from openacr.scenario import Condition, State
 if TYPE_CHECKING:
     from openacr.cli.plots import Curves
     from openacr.cli.report import AxisReport
+    from openacr.cli.watched import Watched
 
 
 class Machine(Protocol):
@@ -69,8 +70,8 @@ class Machine(Protocol):
     def axis_reports(self) -> Sequence["AxisReport"]:
         """Position and extremes of every axis."""
 
-    def record(self, every_tk: int, *, keep_peaks: bool) -> None:
-        """Record every so many ticks from now on, with the peaks between them if wanted."""
+    def record(self, every_tk: int, *, keep_peaks: bool, watched: Sequence["Watched"] = ()) -> None:
+        """Record once in `every_tk` ticks from now on, with the peaks between if wanted."""
 
     def curves(self, title: str) -> "Curves":
         """Give what was recorded."""

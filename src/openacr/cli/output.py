@@ -1,7 +1,9 @@
 """The files a run writes: checked before the run, written whole or not at all after it.
 
-A trace has one row per recorded tick: `time_s`, then for every axis n `axis_n_commanded`,
-`axis_n_actual` (units), `axis_n_velocity` (units/s) and `axis_n_following_error` (units).
+A trace has one row per recorded tick: `time_s`, then for every axis n that has a master or has
+moved `axis_n_commanded`, `axis_n_actual` (units), `axis_n_velocity` (units/s) and
+`axis_n_following_error` (units), then what `--watch` names (`P12290` in its own unit, `BIT516`
+as 0 or 1).
 """
 
 import os
@@ -106,16 +108,20 @@ def write_trace(path: Path, curves: "Curves") -> None:
 def trace_columns(curves: "Curves") -> Iterator[tuple[str, "Array"]]:
     """Name the columns of a trace."""
     yield "time_s", curves.time_s
-    for axis in curves.axes:
+    for axis in curves.used:
         values = (axis.commanded_u, axis.actual_u, axis.velocity_ups, axis.following_error_u)
         for quantity, column in zip(QUANTITIES, values, strict=True):
             yield f"axis_{axis.number}_{quantity}", column
+    for one in curves.watched:
+        yield one.watched.column, one.values
 
 
 def _write_csv(path: Path, curves: "Curves") -> None:
     columns = dict(trace_columns(curves))
-    # Nine digits keep every count of a 32-bit position; repr of a float would double the file.
-    form = ",".join(["%.9g"] * len(columns))
+    # Nine digits keep every count of a position below 1e9, ten every 32-bit word; repr of a
+    # float would double the file.
+    watched = len(curves.watched)
+    form = ",".join(["%.9g"] * (len(columns) - watched) + ["%.10g"] * watched)
     rows = zip(*(values.tolist() for values in columns.values()), strict=True)
     with path.open("w", encoding="ascii", newline="\n") as file:
         lines = (form % row for row in rows)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.watched import watched
 from openacr.errors import MapError, UserError
 from openacr.project import decode, find_project
 
@@ -56,6 +57,13 @@ def run(
     plot: Annotated[
         Path | None, typer.Option(help="Draw the motion of all axes (.png, .svg, .html).")
     ] = None,
+    watch: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="P12290|BIT516|IN3|OUT0|NAME",
+            help="Trace and plot this parameter, flag, input or output, too; repeat for more.",
+        ),
+    ] = None,
     summary: Annotated[Path | None, typer.Option(help="Write the outcome as JSON.")] = None,
     journal: Annotated[
         Path | None, typer.Option(help="Write all that enters the card, for `openacr replay`.")
@@ -83,6 +91,9 @@ def run(
     found = find_project(project)
     wanted = parse_until(until)
     check_outputs(trace, plot, summary, journal)
+    chosen = watched(watch or [])
+    if chosen and not (trace or plot):
+        raise UserError("--watch: nothing shows the values; give --trace or --plot, too")
 
     from openacr.cli.session import Options, Session, Until  # heavy: not for a slip above
     from openacr.scenario import load_scenario
@@ -99,6 +110,7 @@ def run(
         trace=trace,
         trace_every_tk=trace_every,
         plot=plot,
+        watched=chosen,
         summary=summary,
         is_quiet=quiet,
         is_json=as_json,

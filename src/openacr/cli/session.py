@@ -17,6 +17,7 @@ from openacr.cli.report import (
     show_verdicts,
     summary,
 )
+from openacr.cli.watched import Watched
 from openacr.compiled import is_compiled
 from openacr.scenario import Condition, Play, Scenario
 
@@ -63,6 +64,7 @@ class Options:
     trace: Path | None = None
     trace_every_tk: int | None = None
     plot: Path | None = None
+    watched: tuple[Watched, ...] = ()
     summary: Path | None = None
     is_quiet: bool = False
     is_json: bool = False
@@ -109,13 +111,13 @@ class Session:
         self._machine.listen(self._hear, self._play.heard)
         if not self._has_scenario:
             self._start()
-        lived_tk = self._end_tk - self._begin_tk
+        lived_tk, watched = self._end_tk - self._begin_tk, self._options.watched
         if self._options.trace:
             every_tk = self._options.trace_every_tk or -(-lived_tk // TRACE_SAMPLES)
-            self._machine.record(every_tk, keep_peaks=False)
+            self._machine.record(every_tk, keep_peaks=False, watched=watched)
         elif self._options.plot:
             every_tk = -(-lived_tk // PLOT_SAMPLES)
-            self._machine.record(every_tk, keep_peaks=every_tk > 1)
+            self._machine.record(every_tk, keep_peaks=every_tk > 1, watched=watched)
 
     def _start(self) -> None:
         """Start the programs if nothing else will: nothing runs and nobody is to type RUN."""

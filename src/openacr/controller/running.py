@@ -12,10 +12,12 @@ from openacr.compiled import pick
 from openacr.controller.machine import Machine
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.engine import loop_cy
+from openacr.engine.samples import Sample, set_samples
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 from openacr.engine.watches import Watch, set_watches
 from openacr.map.numbers import (
     ENGI_BASE,
+    ENGI_SAMPLE_COUNT,
     ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_TRACE_EVERY,
@@ -36,6 +38,7 @@ from openacr.views import F64
 TRACE_CHUNK_ROWS = 65536
 
 _engine_run = pick(loop_cy.engine_run)
+_SAMPLE_COUNT = ENGI_BASE + ENGI_SAMPLE_COUNT
 _NO_TRACE = memoryview(bytearray(8)).cast("d")
 
 
@@ -135,13 +138,20 @@ class Running(Machine):
         if self._look is not None:
             self._set_engine(ENGI_STOP, 1)
 
-    def record(self, every_tk: int = 1, *, keep_peaks: bool = False) -> None:
-        """Record all axes every so many ticks from now on.
+    def record(
+        self,
+        every_tk: int = 1,
+        *,
+        keep_peaks: bool = False,
+        samples: Sequence[Sample] = (),
+    ) -> None:
+        """Record all axes, and the chosen samples, once in `every_tk` ticks from now on.
 
         With `keep_peaks` no peak of velocity or following error between two samples is lost:
         every other sample has the lowest value since the one before, the next the highest.
         """
         self._trace_parts = []
+        set_samples(self.memory, samples)
         self._set_engine(ENGI_TRACE_PEAKS, int(keep_peaks))
         self._set_engine(ENGI_TRACE_EVERY, every_tk)
         self._set_engine(ENGI_TRACE_WAIT, 1)
@@ -149,6 +159,17 @@ class Running(Machine):
 
     def trace(self) -> Trace:
         """What has been recorded so far."""
+        return self._traced()
+
+    def take_trace(self) -> Trace:
+        """What has been recorded since the last call; the rows are dropped."""
+        found = self._traced()
+        self._trace_parts = []
+        if self._trace_buffer is not None:
+            self._new_trace_buffer()
+        return found
+
+    def _traced(self) -> Trace:
         columns = self._trace_columns
         parts = [part.reshape(-1, columns) for part in self._trace_parts]
         if self._trace_buffer is not None:
@@ -160,7 +181,7 @@ class Running(Machine):
 
     @property
     def _trace_columns(self) -> int:
-        return TRACE_HEAD + TRACE_AXIS * self.model.axes
+        return TRACE_HEAD + TRACE_AXIS * self.model.axes + self.memory.I[_SAMPLE_COUNT]
 
     def _new_trace_buffer(self) -> None:
         self._trace_buffer = np.zeros(TRACE_CHUNK_ROWS * self._trace_columns)

@@ -24,19 +24,24 @@ class AxisTrace:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """What was recorded: time, onboard inputs and outputs as bit masks, every axis."""
+    """What was recorded: time, onboard inputs and outputs as bit masks, every axis.
+
+    `values` has a column for each value chosen beside the axes, shape (rows, chosen).
+    """
 
     time_s: Reals
     inputs: NDArray[np.int64]
     outputs: NDArray[np.int64]
     axes: tuple[AxisTrace, ...]
+    values: Reals
 
 
 def build_trace(samples: Reals, pulses_per_unit: list[float]) -> Trace:
-    """Name the columns of the raw samples, shape (n, 3 + 4 * axes)."""
+    """Name the columns of the raw samples, shape (n, 3 + 4 * axes + chosen values)."""
     axes = []
     for axis, ppu in enumerate(pulses_per_unit):
         first = TRACE_HEAD + TRACE_AXIS * axis
         axes.append(AxisTrace(*(samples[:, first + k] / ppu for k in range(TRACE_AXIS))))
     masks = samples[:, 1:TRACE_HEAD].astype(np.int64) & 0xFFFFFFFF
-    return Trace(samples[:, 0], masks[:, 0], masks[:, 1], tuple(axes))
+    values = samples[:, TRACE_HEAD + TRACE_AXIS * len(axes) :]
+    return Trace(samples[:, 0], masks[:, 0], masks[:, 1], tuple(axes), values)

@@ -176,5 +176,5 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
         tick(F, I, S)
         plc_step(F, I)
         if I[e + ENGI_TRACE_EVERY] > 0:
-            trace_tick(F, I, trace)
+            trace_tick(F, I, S, trace)
         I[e + ENGI_IN_TICK] = SERVO_DONE

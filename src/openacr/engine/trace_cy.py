@@ -1,5 +1,6 @@
-"""Samples of all axes over time, recorded while the engine runs."""
+"""Samples of all axes over time, and of chosen values, recorded while the engine runs."""
 
+from openacr.engine.watch_cy import WATCH_WORD, watch_value
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AX_BASE,
@@ -9,18 +10,24 @@ from openacr.map.numbers import (
     AXF_SSP_CNT,
     AXF_STRIDE,
     ENGI_BASE,
+    ENGI_SAMPLE_COUNT,
     ENGI_TRACE_EVERY,
     ENGI_TRACE_PEAKS,
     ENGI_TRACE_ROW,
     ENGI_TRACE_WAIT,
     KRI_AXES,
     KRI_BASE,
+    SMVI_BASE,
+    SMVI_KIND,
+    SMVI_MASK,
+    SMVI_ROW,
+    SMVI_STRIDE,
     SYSF_BASE,
     SYSF_TIME_S,
     W_INPUTS,
     W_OUTPUTS,
 )
-from openacr.views import F64, I32
+from openacr.views import F32, F64, I32
 
 __all__ = ["trace_tick"]
 
@@ -28,10 +35,15 @@ TRACE_HEAD = 3  # time, input word, output word
 TRACE_AXIS = 4  # setpoint, actual position, velocity, following error
 
 
-def trace_place(F: F64, I: I32, trace: F64, row: int) -> None:
-    """Write time, inputs, outputs and the positions of this tick into a row of the trace."""
+def trace_columns(I: I32) -> int:
+    """Numbers in a row of the trace."""
+    return TRACE_HEAD + TRACE_AXIS * I[KRI_BASE + KRI_AXES] + I[ENGI_BASE + ENGI_SAMPLE_COUNT]
+
+
+def trace_place(F: F64, I: I32, S: F32, trace: F64, row: int) -> None:
+    """Write time, inputs, outputs, positions and chosen values of this tick into a row."""
     axes: int = I[KRI_BASE + KRI_AXES]
-    at: int = row * (TRACE_HEAD + TRACE_AXIS * axes)
+    at: int = row * trace_columns(I)
     trace[at] = F[SYSF_BASE + SYSF_TIME_S]
     trace[at + 1] = I[W_INPUTS]
     trace[at + 2] = I[W_OUTPUTS]
@@ -40,12 +52,19 @@ def trace_place(F: F64, I: I32, trace: F64, row: int) -> None:
         trace[at] = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
         trace[at + 1] = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
         at += TRACE_AXIS
+    for k in range(I[ENGI_BASE + ENGI_SAMPLE_COUNT]):
+        v: int = SMVI_BASE + k * SMVI_STRIDE
+        place: int = I[v + SMVI_ROW]
+        if I[v + SMVI_KIND] == WATCH_WORD:
+            trace[at + k] = 1.0 if I[place] & I[v + SMVI_MASK] else 0.0
+        else:
+            trace[at + k] = watch_value(F, I, S, I[v + SMVI_KIND], place)
 
 
 def trace_rates(F: F64, I: I32, trace: F64, low: int, high: int, first: bool) -> None:
     """Keep the lowest velocities and following errors in one row, the highest in another."""
     axes: int = I[KRI_BASE + KRI_AXES]
-    columns: int = TRACE_HEAD + TRACE_AXIS * axes
+    columns: int = trace_columns(I)
     for n in range(axes):
         a: int = AXF_BASE + n * AXF_STRIDE
         place: int = TRACE_HEAD + TRACE_AXIS * n + 2
@@ -63,7 +82,7 @@ def trace_rates(F: F64, I: I32, trace: F64, low: int, high: int, first: bool) ->
             trace[highest + 1] = error
 
 
-def trace_tick(F: F64, I: I32, trace: F64) -> None:
+def trace_tick(F: F64, I: I32, S: F32, trace: F64) -> None:
     """Record this tick if it is its turn.
 
     To keep the peaks, rows are written in pairs for twice the time between two samples. The
@@ -77,12 +96,12 @@ def trace_tick(F: F64, I: I32, trace: F64) -> None:
     wait: int = I[e + ENGI_TRACE_WAIT]
     if wait <= 0:
         pair: int = 1 if I[e + ENGI_TRACE_PEAKS] else 0
-        trace_place(F, I, trace, row)
-        trace_place(F, I, trace, row + pair)
+        trace_place(F, I, S, trace, row)
+        trace_place(F, I, S, trace, row + pair)
         trace_rates(F, I, trace, row, row + pair, True)
         I[e + ENGI_TRACE_ROW] = row + 1 + pair
         I[e + ENGI_TRACE_WAIT] = every + every * pair
     elif I[e + ENGI_TRACE_PEAKS] and row >= 2:
         if wait == every:
-            trace_place(F, I, trace, row - 1)
+            trace_place(F, I, S, trace, row - 1)
         trace_rates(F, I, trace, row - 2, row - 1, False)

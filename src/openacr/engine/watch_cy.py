@@ -1,4 +1,4 @@
-"""Values that are watched, so that whoever waits for them need not look at every tick."""
+"""Values that are watched, so that a caller that waits for them need not poll in every tick."""
 
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,

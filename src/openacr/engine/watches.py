@@ -7,12 +7,14 @@ from enum import Enum
 from openacr.compiled import pick
 from openacr.engine import watch_cy
 from openacr.map import numbers as at
+from openacr.map.kinds_cy import kind_of
 from openacr.map.memory import Memory
 
 WATCHES = at.WAT_COUNT
 _ROWS = (
     (at.ENGI_BASE, at.ENG_COUNT * at.ENGI_STRIDE),
     (at.WATI_BASE, at.WAT_COUNT * at.WATI_STRIDE),
+    (at.SMVI_BASE, at.SMV_COUNT * at.SMVI_STRIDE),
 )
 _BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
 _IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
@@ -28,6 +30,23 @@ class Place(Enum):
     FP32 = watch_cy.WATCH_FP32
     FP64 = watch_cy.WATCH_FP64
     AXIS = watch_cy.WATCH_AXIS
+
+
+_PLACES = {at.KIND_LONG: Place.LONG, at.KIND_FP32: Place.FP32, at.KIND_FP64: Place.FP64}
+
+
+def flag_place(number: int) -> tuple[int, int]:
+    """Row and mask of the word of a flag."""
+    word, bit = divmod(number, 32)
+    return at.FLAG_WORD_BASE + word, 1 << bit if bit < 31 else -(1 << 31)
+
+
+def parameter_place(memory: Memory, number: int) -> tuple[Place, int] | None:
+    """Where a parameter is; None where the card has no such number."""
+    place = _PLACES.get(kind_of(memory.I, number))
+    if place is None:
+        return None
+    return place, number + at.USER_BASE if place is Place.FP64 else number
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,11 @@ by whoever looks (`Play.step`). A condition that cannot change needs no watch.
 
 from collections.abc import Iterator
 
-from openacr.engine.watches import Place, Watch
+from openacr.engine.watches import Place, Watch, flag_place, parameter_place
 from openacr.map import numbers as at
-from openacr.map.kinds_cy import kind_of
 from openacr.map.memory import Memory
 from openacr.scenario.schema import Condition
 
-_PLACES = {at.KIND_LONG: Place.LONG, at.KIND_FP32: Place.FP32, at.KIND_FP64: Place.FP64}
 _STATES = (
     at.PF_PAUSE_MODE_WAITING
     | at.PF_BLOCK_MODE_WAITING
@@ -25,9 +23,7 @@ _STATES = (
 def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
     """List what decides whether a condition holds; printed texts are heard, not watched."""
     if condition.bit is not None:
-        word, bit = divmod(condition.bit, 32)
-        mask = 1 << bit if bit < 31 else -(1 << 31)
-        yield Watch(Place.WORD, at.FLAG_WORD_BASE + word, mask)
+        yield Watch(Place.WORD, *flag_place(condition.bit))
     elif condition.program is not None:
         yield Watch(Place.WORD, at.PF_WORD + condition.program, _STATES)
         yield Watch(Place.WORD, at.THI_BASE + condition.program * at.THI_STRIDE + at.THI_ERROR)
@@ -38,13 +34,14 @@ def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
 
 
 def _parameter(condition: Condition, number: int, memory: Memory) -> Iterator[Watch]:
-    place = _PLACES.get(kind_of(memory.I, number))
+    found = parameter_place(memory, number)
+    if found is None:
+        return
+    place, row = found
     if place is Place.FP64:
         # A user variable exists as soon as enough of them are dimensioned.
         yield Watch(Place.WORD, at.SYSI_BASE + at.SYSI_P_COUNT)
-        number += at.USER_BASE
-    if place is not None:
-        yield from _bounds(condition, place, number)
+    yield from _bounds(condition, place, row)
 
 
 def _bounds(condition: Condition, place: Place, row: int) -> Iterator[Watch]:

@@ -61,7 +61,7 @@ def test_only_axes_that_moved_and_flags_that_changed_are_shown() -> None:
     blink = (TIME_S % 0.5) < 0.25
     curves = run(axis(0), axis(1, moves=False), bits=(BitCurve(32, off), BitCurve(33, blink)))
     assert [shown.number for shown in curves.moved] == [0]
-    assert [bit.number for bit in curves.changed_bits] == [33]
+    assert [bit.number for bit in curves.strips] == [33]
 
 
 def test_the_plane_is_the_first_two_moving_axes_of_one_master() -> None:

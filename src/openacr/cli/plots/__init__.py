@@ -1,6 +1,6 @@
 """Pictures of a run: `draw(curves, path)` writes a PNG, SVG or HTML file."""
 
-from openacr.cli.plots.curves import AxisCurves, BitCurve, Curves
+from openacr.cli.plots.curves import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.plots.formats import FORMATS, draw, require
 
-__all__ = ["FORMATS", "AxisCurves", "BitCurve", "Curves", "draw", "require"]
+__all__ = ["FORMATS", "AxisCurves", "BitCurve", "Curves", "ValueCurve", "draw", "require"]

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from openacr.cli.watched import Watched
+
 Array = npt.NDArray[np.float64]
 Index = npt.NDArray[np.intp]
 
@@ -51,6 +53,19 @@ class BitCurve:
 
 
 @dataclass(frozen=True, slots=True)
+class ValueCurve:
+    """A parameter or flag over time that was chosen to be recorded."""
+
+    watched: Watched
+    values: Array
+
+    @property
+    def as_bit(self) -> BitCurve:
+        """A flag as the strip of a picture."""
+        return BitCurve(self.watched.number, self.values > 0.5, self.watched.title)
+
+
+@dataclass(frozen=True, slots=True)
 class Curves:
     """Everything recorded of a run that a picture can show."""
 
@@ -58,6 +73,7 @@ class Curves:
     axes: tuple[AxisCurves, ...]
     bits: tuple[BitCurve, ...] = ()
     title: str = ""
+    watched: tuple[ValueCurve, ...] = ()
     moved: tuple[AxisCurves, ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -65,9 +81,23 @@ class Curves:
         object.__setattr__(self, "moved", moved)
 
     @property
-    def changed_bits(self) -> tuple[BitCurve, ...]:
-        """The flags that were both on and off."""
-        return tuple(bit for bit in self.bits if bit.is_on.any() and not bit.is_on.all())
+    def used(self) -> tuple[AxisCurves, ...]:
+        """The axes that have a master or have moved."""
+        moved = {axis.number for axis in self.moved}
+        return tuple(a for a in self.axes if a.master is not None or a.number in moved)
+
+    @property
+    def strips(self) -> tuple[BitCurve, ...]:
+        """The outputs that were both on and off, then every flag that was chosen."""
+        chosen = tuple(one.as_bit for one in self.watched if one.watched.is_flag)
+        numbers = {bit.number for bit in chosen}
+        changed = (bit for bit in self.bits if bit.is_on.any() and not bit.is_on.all())
+        return (*(bit for bit in changed if bit.number not in numbers), *chosen)
+
+    @property
+    def numbers(self) -> tuple[ValueCurve, ...]:
+        """The parameters that were chosen."""
+        return tuple(one for one in self.watched if not one.watched.is_flag)
 
     @property
     def plane(self) -> tuple[AxisCurves, AxisCurves] | None:

@@ -2,7 +2,8 @@
 
 One column per axis, so that position, velocity and following error of one axis stand
 below each other on one time axis; the path in the plane of one master beside them, with
-equal scales; outputs that changed as strips below.
+equal scales; parameters that were chosen, and as strips outputs that changed and flags that were
+chosen, below.
 """
 
 import math
@@ -17,7 +18,7 @@ from matplotlib.gridspec import GridSpec
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 
-from openacr.cli.plots.curves import Array, AxisCurves, Curves, edges, envelope
+from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope
 
 # Okabe and Ito's palette: told apart with every common colour vision deficiency, and in grey.
 ACTUAL = "#0072B2"
@@ -28,7 +29,8 @@ STRIP = "#56B4E9"
 QUIET = "#666666"
 
 COLUMNS = 4  # axes beside each other; more axes go into further blocks below
-COLUMN_INCHES, PATH_INCHES, BLOCK_INCHES, STRIP_INCHES = 4.8, 6.2, 7.6, 0.26
+COLUMN_INCHES, PATH_INCHES, BLOCK_INCHES = 4.8, 6.2, 7.6
+NUMBER_INCHES, STRIP_INCHES = 1.7, 0.26
 HEIGHTS = (2.4, 1.6, 1.6)  # position, velocity, following error
 
 _STYLE: Any = {
@@ -57,14 +59,15 @@ def write_image(curves: Curves, path: Path) -> None:
 def build_figure(curves: Curves) -> Figure:
     """Lay the panels out and fill them."""
     axes = curves.moved
-    if not axes:
+    if not axes and not curves.watched:
         return _nothing_moved(curves)
-    columns = min(len(axes), COLUMNS)
+    columns = max(1, min(len(axes), COLUMNS))
     widths = [COLUMN_INCHES] * columns + ([PATH_INCHES] if curves.plane else [])
     heights = [height * BLOCK_INCHES / sum(HEIGHTS) for height in HEIGHTS]
     heights *= math.ceil(len(axes) / columns)
-    if curves.changed_bits:
-        heights.append(STRIP_INCHES * len(curves.changed_bits) + 0.9)
+    heights += [NUMBER_INCHES] * len(curves.numbers)
+    if curves.strips:
+        heights.append(STRIP_INCHES * len(curves.strips) + 0.9)
     figure = Figure(
         figsize=(sum(widths), sum(heights) + 0.5),
         layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.05),
@@ -100,8 +103,14 @@ def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
     if curves.plane:
         # The path shares the height of the first block and is as tall as it is wide.
         _path_panel(figure.add_subplot(grid[: len(HEIGHTS), columns]), *curves.plane)
-    if curves.changed_bits:
+    top = math.ceil(len(curves.moved) / columns) * len(HEIGHTS)
+    for row, number in enumerate(curves.numbers, top):
+        panel = figure.add_subplot(grid[row, :columns], sharex=first)
+        first = first or panel
+        _number_panel(panel, number, curves.time_s)
+    if curves.strips:
         strips = figure.add_subplot(grid[-1, :columns], sharex=first)
+        first = first or strips
         _strip_panel(strips, curves)
     if first is not None:
         first.set_xlim(min(0.0, float(curves.time_s[0])), float(curves.time_s[-1]))
@@ -169,13 +178,21 @@ def _path_panel(panel: Axes, first: AxisCurves, second: AxisCurves) -> None:
     panel.set_ylabel(f"{second.title} [{second.unit}]")
 
 
+def _number_panel(panel: Axes, curve: ValueCurve, time_s: Array) -> None:
+    _line(panel, time_s, curve.values, ACTUAL, "", 1.0)
+    panel.set_title(curve.watched.title, loc="left", fontweight="bold", pad=6)
+    panel.set_ylabel(f"[{curve.watched.unit}]" if curve.watched.unit else "")
+    panel.yaxis.set_major_locator(MaxNLocator(4))
+    panel.set_xlabel("time [s]")
+
+
 def _strip_panel(panel: Axes, curves: Curves) -> None:
-    bits = curves.changed_bits
+    bits = curves.strips
     for row, bit in enumerate(bits):
         spans = [(on, off - on) for on, off in edges(bit, curves.time_s)]
         panel.broken_barh(spans, (row - 0.35, 0.7), facecolors=STRIP, edgecolor=STRIP)
     panel.set_yticks(range(len(bits)), [bit.title for bit in bits])
     panel.set_ylim(len(bits) - 0.4, -0.6)
-    panel.set_title("outputs", loc="left", fontweight="bold", pad=6)
+    panel.set_title("outputs and flags", loc="left", fontweight="bold", pad=6)
     panel.set_xlabel("time [s]")
     panel.tick_params(axis="y", length=0)

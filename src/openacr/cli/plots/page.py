@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from openacr.cli.plots.curves import Array, AxisCurves, Curves, edges, envelope
+from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope
 
 # A page can be zoomed into, so it keeps more than a picture does.
 PAGE_BUCKETS = 5000
@@ -38,7 +38,8 @@ def page_data(curves: Curves) -> dict[str, Any]:
         "span": span,
         "axes": [_axis(axis, time_s) for axis in curves.moved],
         "path": _path(*plane, time_s) if plane else None,
-        "bits": [{"title": b.title, "on": edges(b, time_s)} for b in curves.changed_bits],
+        "bits": [{"title": b.title, "on": edges(b, time_s)} for b in curves.strips],
+        "numbers": [_number(one, time_s) for one in curves.numbers],
     }
 
 
@@ -52,6 +53,16 @@ def _axis(axis: AxisCurves, time_s: Array) -> dict[str, Any]:
     kept = envelope(*columns.values(), buckets=PAGE_BUCKETS)
     data: dict[str, Any] = {name: _short(values[kept]) for name, values in columns.items()}
     return {"title": axis.title, "unit": axis.unit, "t": _short(time_s[kept]), **data}
+
+
+def _number(curve: ValueCurve, time_s: Array) -> dict[str, Any]:
+    kept = envelope(curve.values, buckets=PAGE_BUCKETS)
+    return {
+        "title": curve.watched.title,
+        "unit": curve.watched.unit,
+        "t": _short(time_s[kept]),
+        "actual": _short(curve.values[kept]),
+    }
 
 
 def _path(first: AxisCurves, second: AxisCurves, time_s: Array) -> dict[str, Any]:

@@ -17,6 +17,7 @@ ENGINE = HiddenBlock(
         "trace_rows",
         "trace_peaks",  # keep the extremes between samples, see engine/trace_cy.py
         "watch_count",
+        "sample_count",  # values recorded in the trace beside the axes
         "stop",  # return at the end of this tick
     ),
 )
@@ -33,4 +34,11 @@ WATCH = HiddenBlock(
         "is_above",  # a number is compared with the bound: 1 above it, 0 below it
         "state",
     ),
+)
+
+# Values that a trace records beside the axes.
+SAMPLE = HiddenBlock(
+    prefix="SMV",
+    count=64,
+    ints=("kind", "row", "mask"),  # as those of WATCH
 )

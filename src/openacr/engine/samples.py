@@ -1,0 +1,46 @@
+"""Tell the engine which values a trace records beside the axes."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openacr.engine.watches import Place, flag_place, parameter_place
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+
+SAMPLES = at.SMV_COUNT
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A number of the map, or whether masked bits of a word are set (1.0 or 0.0)."""
+
+    place: Place
+    row: int
+    mask: int = -1
+
+
+def sample_of_flag(number: int) -> Sample:
+    """What records a flag."""
+    row, mask = flag_place(number)
+    return Sample(Place.WORD, row, mask)
+
+
+def sample_of_parameter(memory: Memory, number: int) -> Sample | None:
+    """What records a parameter; None where the card has no such number.
+
+    A user variable (P0 to P4095) records 0 until it is dimensioned.
+    """
+    found = parameter_place(memory, number)
+    return None if found is None else Sample(*found)
+
+
+def set_samples(memory: Memory, samples: Sequence[Sample]) -> None:
+    """Record these, at most SAMPLES, in every row of a trace from now on."""
+    if len(samples) > SAMPLES:
+        raise ValueError(f"{len(samples)} values cannot be recorded at once, at most {SAMPLES}")
+    for index, sample in enumerate(samples):
+        row = at.SMVI_BASE + index * at.SMVI_STRIDE
+        memory.I[row + at.SMVI_KIND] = sample.place.value
+        memory.I[row + at.SMVI_ROW] = sample.row
+        memory.I[row + at.SMVI_MASK] = sample.mask
+    memory.I[at.ENGI_BASE + at.ENGI_SAMPLE_COUNT] = len(samples)
