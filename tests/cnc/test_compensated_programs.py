@@ -64,7 +64,7 @@ def test_the_radius_of_the_setup_holds_without_d() -> None:
         "G41 D1 F10 G2 X2 I1 J0",
         "G41 D1 F10 G1 X2\nX4\nG40 G3 X6 I1 J0",
         "G41 D1 F10\nG2 X2 I1 J0",
-        "G41 D1 F10 G1 X2\nX4\nG40\nG3 X6 I1 J0",
+        "G41 D1 F10 G1 X2\nX4\nG40\nG3 X6 I5 J0",
     ],
 )
 def test_compensation_begins_and_ends_with_lines(text: str) -> None:

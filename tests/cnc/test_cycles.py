@@ -347,3 +347,28 @@ def test_g92_reads_right_under_scaling_and_rotation() -> None:
     assert done.moves == ["L X2", "L X4"]
     done = run("F10 G68 X0 Y0 R90\nX1\nG92 X5 Y0\nX6")
     assert done.moves == ["L Y1", "L Y2"]
+
+
+@pytest.mark.parametrize(
+    ("text", "warnings"),
+    [
+        ("G0 Z.5\nG98 G81 X1 Z-1 R1", ["G98 level below R: 0.5 of R 1"]),
+        ("G0 Z.5\nG99 G81 X1 Z-1 R1\nX2\nG98 X3", ["G98 level below R: 0.5 of R 1"]),
+        ("G0 Z1\nG98 G81 X1 Z-1 R1", []),
+        ("G0 Z.5\nG99 G81 X1 Z-1 R1", []),
+        ("G0 Z-.5\nG91 G98 G81 X1 Z-1 R.25", ["G98 level below R: -0.5 of R -0.25"]),
+        ("G0 Z1\nG98 G81 X1 Z-1 R.5\nX2 R2", ["G98 level below R: 1 of R 2"]),
+    ],
+)
+def test_a_way_between_holes_that_is_deeper_than_r_is_doubted(
+    text: str, warnings: list[str]
+) -> None:
+    done = run(f"F10\n{text}{CYCLES}")
+    found = [each for each in done.interpreter.warnings if each.code == "W219"]
+    assert [each.text for each in found] == warnings
+    assert all(each.hint == "the cycle began below R" for each in found)
+
+
+def test_other_controls_go_up_to_r_and_need_no_doubt() -> None:
+    done = run("F10\nG0 Z.5\nG98 G81 X1 Z-1 R1", dialect="rs274ngc")
+    assert "W219" not in done.codes

@@ -7,6 +7,7 @@ import pytest
 from tests.cnc.programs import Bench, Run, errors, run, shown
 
 from openacr.cnc.canonical import Arc, Line, PathMode, Probe
+from openacr.cnc.cells import SPIRALS
 from openacr.cnc.load import Folders
 
 
@@ -248,7 +249,7 @@ def test_the_same_text_means_what_its_dialect_says() -> None:
     assert here.centre == there.centre == (1, 0)
     moves = ngc("F10 G1 X1\nG2 X3 I1 J0").moves
     assert moves == ["L X1", "A X3 about 2,0 -180"]
-    assert run("F10 G1 X1\nG2 X3 I1 J1").moves == ["L X1", "A X3 about 1,1 -297"]
+    assert run("F10 G1 X1\nG2 X3 I1 J1", {SPIRALS: 1}).moves == ["L X1", "A X3 about 1,1 -297"]
 
 
 def test_length_and_radius_are_those_of_the_tool_in_the_spindle() -> None:

@@ -1,7 +1,7 @@
 """The rs274ngc dialect: the unit it starts in, and cycles in incremental distances."""
 
 import pytest
-from tests.cnc.programs import Run, run
+from tests.cnc.programs import Run, errors, run
 
 DEFAULT_UNIT, POWER_UP_UNIT, IS_START_CHOSEN, START_UNIT = 250_001, 850_030, 100_010, 100_014
 
@@ -69,3 +69,32 @@ def test_the_feed_of_a_program_without_a_unit_is_millimetres_on_a_metric_machine
 )
 def test_incremental_cycles_count_r_from_the_level_they_began_at(text: str, z: list[float]) -> None:
     assert [end[2] for end in ngc(f"F10|{text}").ends] == z
+
+
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        ("G0 G17 G40 G49 G80 G90|X1", ["R X1"]),
+        ("G80 G0 Z1|X2", ["R Z1", "R X2 Z1"]),
+        ("G0 G80 Z1", ["R Z1"]),
+        ("F3 G80 G1 X1|Y1", ["L X1", "L X1 Y1"]),
+        ("F3 G80 G2 X2 R1", ["A X2 about 1,0 -180"]),
+        ("G90 G80 G40 G0 X1 Y1", ["R X1 Y1"]),
+    ],
+)
+def test_g80_goes_with_the_motion_of_its_block(dialect: str, text: str, moves: list[str]) -> None:
+    assert run(text.replace("|", "\n"), dialect=dialect).moves == moves
+
+
+@pytest.mark.parametrize("text", ["G80 G0 Z2", "G0 G80 Z2"])
+def test_g80_beside_a_motion_ends_the_cycle_before_it_moves(text: str) -> None:
+    moves = ngc(f"F10 G0 Z1|G81 X1 Z-1 R.5|{text}|X3").ends
+    assert moves[-2:] == [(1, 0, 2), (3, 0, 2)]
+
+
+def test_g80_alone_still_leaves_no_motion() -> None:
+    assert errors("G0 X1\nG80\nX2", dialect="rs274ngc") == ["E206"]
+    assert errors("G0 X1\nG80 X2", dialect="rs274ngc") == ["E206"]
+    assert errors("G80 G80", dialect="rs274ngc") == ["E201"]
+    assert errors("G0 G1 X2", dialect="rs274ngc") == ["E201"]

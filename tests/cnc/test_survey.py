@@ -89,3 +89,12 @@ def test_errors_of_the_geometry_are_found_beside_errors_at_load() -> None:
 def test_an_error_in_front_of_a_wrong_line_is_found_too() -> None:
     found = of("X1 F10\nX(1/P150)\nX1 X2\nM2", {150: 0})
     assert [(f.code, f.line) for f in found.errors] == [("E210", 2), ("E202", 3)]
+
+
+def test_of_too_many_findings_the_errors_are_kept() -> None:
+    """150 spirals, each with a warning, and then a move that cannot be read."""
+    text = "F10\n" + "G2 X2 I.9 J0\nG0 X0\n" * 150 + "G2 X1 I0 J1\n"
+    found = of(text)
+    assert len(found.findings) == 100
+    assert [(each.code, each.line) for each in found.errors] == [("E230", 302)]
+    assert [each.line for each in found.warnings] == list(range(2, 200, 2))

@@ -46,13 +46,14 @@ def bow_of(
             raise b.fault("E231", "R")
         centre = _centre_by_radius(b, a, z, lengths["R"], direction, epsilon)
     else:
-        centre = _centre_by_words(b, plane, a, reading, lengths)
+        centre = centre_by_words(b, plane, a, reading, lengths)
     return _bow(b, a, z, centre, direction)
 
 
-def _centre_by_words(
+def centre_by_words(
     b: Turn, plane: Plane, start: Pair, reading: int, lengths: dict[str, float]
 ) -> Pair:
+    """The centre I, J, K mean: start minus words (0), start plus words (1), a position (2)."""
     letters = CENTRE_WORDS[plane.first], CENTRE_WORDS[plane.second]
     if not any(letter in lengths for letter in letters):
         raise b.fault("E231", hint="I, J, K or R")

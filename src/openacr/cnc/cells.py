@@ -5,6 +5,7 @@ CMP_RAD = 100_020  # radius of programs without D
 START_FEED = 100_021  # RUN SETUP FEEDRATE, 0: Cut Speed
 DEFAULT_UNIT = 250_001  # 0 inch, 1 mm
 LIBRARY_CENTRES = 250_004  # reading of I, J, K in library parts
+SPIRALS = 250_131  # arcs of any two radii are meant
 EPSILON = 250_101  # for compensation; ends nearer than this are one
 CUT_SPEED = 650_002
 HASH_TEST = 700_001

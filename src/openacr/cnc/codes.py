@@ -250,7 +250,8 @@ class Dialect:
     has_own_cycles: bool = False  # without $I
     rises_first: bool = False  # a series of cycles has one initial level and goes up to R first
     clearance_inch: float | None = None  # of G73 and G83; None: as in the store
-    radius_tolerance: tuple[float, float] | None = None  # of arcs: inch, share; None any
+    has_spirals: bool = True  # arcs whose radii differ
+    centre_codes: dict[int, str] = field(default_factory=dict)  # how to choose readings of I, J
     has_custom: bool = True  # M codes from files
 
 

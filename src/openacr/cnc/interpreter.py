@@ -42,7 +42,7 @@ from openacr.cnc.codes import DIALECTS, Dialect
 from openacr.cnc.compensation import Watch
 from openacr.cnc.coordinates import ORIGIN
 from openacr.cnc.execution import Execution
-from openacr.cnc.findings import BlockError, CodeError, Finding, found
+from openacr.cnc.findings import MOST, BlockError, CodeError, Finding, found
 from openacr.cnc.flow import Flow
 from openacr.cnc.gcodes.cycles import Drilling
 from openacr.cnc.gcodes.macros import ModalMacro
@@ -207,12 +207,12 @@ class Interpreter:
         yield Sync(source)
         self.is_rested = True
 
-    def warn(self, b: Turn, code: str, letter: str = "", detail: str = "") -> None:
+    def warn(self, b: Turn, code: str, letter: str = "", detail: str = "", hint: str = "") -> None:
         """Note something doubtful about a block."""
         node = b.node
         name, column = node.part.text.name, b.plan.column(letter)
-        finding = found(code, name, node.line, column, detail, "", node.raw)
-        if finding not in self.warnings:
+        finding = found(code, name, node.line, column, detail, hint, node.raw)
+        if sum(each.code == code for each in self.warnings) < MOST and finding not in self.warnings:
             self.warnings.append(finding)
 
     def complain(self, code: str, text: str, source: Source) -> None:

@@ -138,8 +138,10 @@ def _found_before(errors: list[Finding], run: Interpreter) -> list[Finding]:
 
 
 def _sort(findings: list[Finding]) -> None:
-    findings.sort(key=lambda f: (f.file, f.line, f.column))
+    """By place; where there are too many, errors are kept before warnings."""
+    findings.sort(key=lambda f: (not f.is_error, f.file, f.line, f.column))
     del findings[MOST:]
+    findings.sort(key=lambda f: (f.file, f.line, f.column))
 
 
 class _Count:

@@ -40,4 +40,14 @@ ORDER = (
     Step.COOLANT_OFF,
     Step.STOP,
 )
-DIALECTS["acromill"] = Dialect("acromill", GRAMMAR, ACROMILL, ORDER)
+DIALECTS["acromill"] = Dialect(
+    "acromill",
+    GRAMMAR,
+    ACROMILL,
+    ORDER,
+    centre_codes={
+        0: "G200 F0 or P250003 = 0",
+        1: "G200 F1, P250003 = 1 or --dialect rs274ngc",
+        2: "G200 F2 or P250003 = 2",
+    },
+)

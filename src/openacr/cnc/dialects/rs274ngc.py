@@ -56,5 +56,6 @@ DIALECTS["rs274ngc"] = Dialect(
     has_own_cycles=True,
     rises_first=True,
     clearance_inch=0.010,
-    radius_tolerance=(0.0005, 0.001),
+    has_spirals=False,
+    centre_codes={1: "G91.1", 2: "G90.1"},
 )

@@ -88,6 +88,7 @@ def drill(run: Interpreter, b: Turn) -> Iterator[Entry]:
     r, bottom = drilling.levels
     if bottom > r:
         run.warn(b, "W214", "Z")
+    _check_return(run, b, drilling, r)
     if run.dialect.rises_first and run.path.program[plane.drill] < r:
         up = list(run.path.program)
         up[plane.drill] = r
@@ -121,6 +122,14 @@ def _check(b: Turn, drilling: Drilling, code: int) -> None:
         raise b.fault("E250", "Q", "Q above 0")
     if code in SHIFTS and "Q" not in drilling.words:
         raise b.fault("E252")
+
+
+def _check_return(run: Interpreter, b: Turn, drilling: Drilling, r: float) -> None:
+    """Doubt a G98 that ends below R: the way to the next hole is deeper than R."""
+    if run.dialect.rises_first or run.modal.return_level != 98 or drilling.initial >= r:
+        return
+    levels = f"{run.path.shown(drilling.initial):.5g} of R {run.path.shown(r):.5g}"
+    run.warn(b, "W219", detail=levels, hint="the cycle began below R")
 
 
 def _hole(run: Interpreter, b: Turn, plane: Plane) -> Point:

@@ -11,6 +11,7 @@ from openacr.cnc.cells import EPSILON
 from openacr.cnc.codes import Group, Step
 from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.modal import INVERSE_TIME
+from openacr.cnc.radii import Words, check_radii
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
@@ -84,17 +85,6 @@ def _pace(run: Interpreter, b: Turn, end: Point, bow: Bow | None) -> Pace:
     return replace(run.path.pace(b), feed_upm=b.words["F"] * length)
 
 
-def _check_radii(run: Interpreter, b: Turn, bow: Bow) -> None:
-    """Radii of an arc may differ as far as the dialect allows."""
-    allowed = run.dialect.radius_tolerance
-    if allowed is None:
-        return
-    apart = abs(bow.end_radius - bow.start_radius)
-    inch, share = allowed
-    if apart > max(run.path.inches(inch), share * bow.start_radius):
-        raise b.fault("E230", detail=f"{bow.start_radius:.5g} and {bow.end_radius:.5g}")
-
-
 def _arc(run: Interpreter, b: Turn, direction: int) -> None:
     check_words(b, _LENGTHS)
     path, modal = run.path, run.modal
@@ -102,7 +92,7 @@ def _arc(run: Interpreter, b: Turn, direction: int) -> None:
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
     epsilon = run.cells.read(EPSILON)
     bow = arcs.bow_of(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
-    _check_radii(run, b, bow)
+    check_radii(run, b, bow, Words(plane, path.program, end, lengths))
     bow = arcs.placed(b, bow, plane, path.coordinates, path.program)
     path.arc(b, end, bow, _pace(run, b, end, bow))
 

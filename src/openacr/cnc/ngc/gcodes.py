@@ -53,9 +53,9 @@ def dwell(run: Interpreter, b: Turn) -> None:
     run.tell(Dwell(b.source, b.words["P"]))
 
 
-@gcode(80, step=Step.CYCLE_OFF, group=Group.MOTION)
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE)
 def no_motion(run: Interpreter, b: Turn) -> None:
-    """No motion is active: axis words have no meaning until one is chosen."""
+    """No motion is active: axis words have no meaning until one is chosen, here or later."""
     run.modal.cycle = cycles.NONE
     run.modal.motion = motion.NO_MOTION
     run.drilling = None

@@ -107,6 +107,9 @@ CONTROL.real(122, "DXF drill R", "u", 0.1, doc="Level above imported holes.")
 CONTROL.real(123, "DXF drill F", "u/m", 10, low=0, is_low_open=True, doc="Feed of holes.")
 CONTROL.integer(124, "I/O Expansion Modules", low=0, high=4, doc="Modules on the card.")
 CONTROL.boolean(130, "Gouge Stop", 1, doc="True: a gouge refuses the program.")
+CONTROL.boolean(
+    131, "Spirals Allowed", doc="True: arcs whose two radii differ by any amount are meant."
+)
 CONTROL.real(140, "G73 Retract", "u", 0.02, low=0, doc="Of each peck of G73.")
 CONTROL.real(141, "G83 Clearance", "u", 0.05, low=0, doc="Above the last bottom of G83.")
 CONTROL.choice(
