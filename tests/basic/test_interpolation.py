@@ -205,26 +205,37 @@ def test_a_move_shows_its_target_at_once() -> None:
         ("SET 8499", "Associated Slave Kill Motion Request Active"),
         ("SET 522", "Master Kill All Moves Request Active"),
         ("AXIS0 OFF", "Axis is off"),
-        ("SET 16132", "Hard limit"),
-        ("SET 16140", "Soft limit"),
+        ("HLIM X1 : SET 0", "Hard limit"),
+        ("SLIM X1 : SLM X(-1,-2)", "Soft limit"),
     ],
 )
 def test_a_move_is_refused_with_the_reason(setup: str, message: str) -> None:
     made = bench()
     made.type(setup)
+    made.ticks(1)
     assert made.type("X10") == message
     assert not made.bit(IN_MOTION)
     made.ticks(20)
     assert positions(made) == [0, 0, 0]
 
 
-@pytest.mark.parametrize(("latch", "inward"), [(16132, "X-10"), (16133, "X10")])
-def test_a_limit_latch_refuses_outward_moves_only(latch: int, inward: str) -> None:
-    made = bench()
-    made.type(f"SET {latch}")
+@pytest.mark.parametrize(("switch", "inward"), [(0, "X-10"), (1, "X10")])
+def test_an_active_limit_refuses_outward_moves_only(switch: int, inward: str) -> None:
+    made = bench().all("HLIM X3", f"SET {switch}").ticks(1)
+    assert made.type("X10" if switch == 0 else "X-10") == "Hard limit"
     assert made.type(inward) == ""
     made.until_clear(IN_MOTION)
     assert made.p(12288) == float(inward[1:])
+
+
+@pytest.mark.parametrize("latch", [16132, 16133, 16140, 16141])
+def test_a_limit_that_was_met_refuses_no_move(latch: int) -> None:
+    made = bench().all("HLIM X3", "SLIM X3", "SLM X(20,-20)", f"SET {latch}").ticks(1)
+    for target in (10, -10):
+        assert made.type(f"X{target}") == ""
+        made.until_clear(IN_MOTION)
+        assert made.p(12288) == target
+    assert made.bit(latch) == (latch < 16140)  # those of hardware limits are kept
 
 
 @pytest.mark.parametrize("line", ["X(1,2)", "X", "MOV", "X/"])

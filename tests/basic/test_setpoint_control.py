@@ -332,20 +332,20 @@ def test_a_jog_by_name_needs_attachments_and_one_by_number_does_not() -> None:
         ("SET 8467", "JOG FWD X", "Associated Slave Kill Motion Request Active"),
         ("SET 8499", "JOG INC X1", "Associated Slave Kill Motion Request Active"),
         ("AXIS0 OFF", "JOG ABS X1", "Axis is off"),
-        ("SET 16132", "JOG FWD X", "Hard limit"),
-        ("SET 16133", "JOG REV X", "Hard limit"),
-        ("SET 16140", "JOG INC X1", "Soft limit"),
-        ("SET 16141", "JOG ABS X-1", "Soft limit"),
+        ("HLIM X1 : SET 0", "JOG FWD X", "Hard limit"),
+        ("HLIM X2 : SET 1", "JOG REV X", "Hard limit"),
+        ("SLIM X1 : SLM X(-1,-2)", "JOG INC X1", "Soft limit"),
+        ("SLIM X2 : SLM X(2,1)", "JOG ABS X-1", "Soft limit"),
     ],
 )
 def test_a_jog_is_refused_with_the_reason(setup: str, line: str, message: str) -> None:
-    made = bench("JOG VEL X10 Y10", setup)
+    made = bench("JOG VEL X10 Y10", setup).ticks(1)
     assert made.type(line) == message
     assert not made.bit(ACTIVE)
 
 
 def test_a_refused_axis_lets_none_of_the_statement_start() -> None:
-    made = bench("JOG VEL X10 Y10", "SET 16164")
+    made = bench("JOG VEL X10 Y10", "HLIM Y1 : SET 3").ticks(1)
     assert made.type("JOG FWD X Y") == "Hard limit"
     assert not made.bit(ACTIVE)
     assert made.type("JOG INC X1 Y1") == "Hard limit"

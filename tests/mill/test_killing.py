@@ -8,6 +8,7 @@ from tests.mill.shop import PULSES, Shop
 from openacr.client.errors import RefusedError
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.mill.alarms import AlarmError
 from openacr.mill.states import State
 from openacr.mill.workshop import Workshop
 from openacr.sysvar import Store
@@ -106,10 +107,16 @@ def test_an_axis_on_its_limit_switch_is_acknowledged_and_jogged_away() -> None:
     shop.runner.jog(lambda jog: jog.move(0, -0.2))
     shop.pass_time(3.0)
     assert (shop.pulses()[0], codes(shop)) == (at - 2000, [])
+    with pytest.raises(AlarmError, match="Hardware limit axis X"):  # the switch is still on
+        shop.runner.jog(lambda jog: jog.move(0, 0.2))
+    assert shop.pulses()[0] == at - 2000
+    shop.controller.set_input(8, False)
+    shop.pass_time(0.1)
+    assert shop.runner.acknowledge() == []
+    shop.pass_time(0.1)
     shop.runner.jog(lambda jog: jog.move(0, 0.2))
-    shop.pass_time(1.0)
-    assert codes(shop) == [13]
-    assert shop.pulses()[0] < at - 1900
+    shop.pass_time(3.0)
+    assert (shop.pulses()[0], codes(shop)) == (at, [])
 
 
 def test_a_jog_that_lost_its_host_becomes_position_at_the_next_set_up() -> None:

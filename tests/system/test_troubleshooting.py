@@ -27,12 +27,25 @@ def test_nothing_is_wrong_to_begin_with(card: Console) -> None:
     assert moves(card, 1)
 
 
-@pytest.mark.req("ACR-TRB-14", "ACR-TRB-22")
-def test_cause_1_a_latched_limit_refuses_outward_motion_until_it_is_cleared(card: Console) -> None:
-    card.type("SET 16132")  # Positive Hardware Limit Encountered
-    assert card.type("X1") == "Hard limit"
-    assert not moves(card, 1)
+@pytest.mark.req("ACR-TRB-22")
+def test_cause_1_a_limit_was_encountered_and_its_kill_is_still_set(card: Console) -> None:
+    card.type("HLIM X3", "X5")
+    card.card.advance(seconds=0.2)
+    card.type("SET 0")
+    card.card.advance(seconds=0.1)
+    assert card.type("X-1") == "Associated Slave Kill Motion Request Active"
     card.type("CLR 16132", "CLR 8467", "CLR 522")
+    assert card.type("X5") == "Hard limit"  # the switch is still active
+    assert moves(card, -1)
+    card.type("CLR 0")
+    card.card.advance(seconds=0.01)
+    assert moves(card, 1)
+    card.type("SLIM X3", "SLM X(2,-2)", "X5")
+    card.card.advance(seconds=0.5)
+    card.type("JOG VEL X10", "JOG INC X-1")  # jog off the software limit
+    card.card.advance(seconds=0.5)
+    assert card.type("X1") == "Master Kill All Moves Request Active"
+    card.type("CLR 16140", "CLR 522")
     assert moves(card, 1)
 
 

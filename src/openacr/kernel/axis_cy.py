@@ -12,10 +12,12 @@ from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
     AF1_WORD,
     AF1_WORD_HIGH,
-    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE,
+    AF5_NEGATIVE_LIMIT_INPUT,
+    AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE,
+    AF5_POSITIVE_HARDWARE_LIMIT_ENABLE,
+    AF5_POSITIVE_LIMIT_INPUT,
+    AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE,
     AF5_WORD,
     AX_ACCELERATION,
     AX_ACTUAL_POSITION,
@@ -47,6 +49,8 @@ from openacr.map.numbers import (
     AXF_POSITION_CNT,
     AXF_PSP_CNT,
     AXF_PSP_VELOCITY_CPS,
+    AXF_SLM_MINUS_U,
+    AXF_SLM_PLUS_U,
     AXF_SSP_ACCEL_CPS2,
     AXF_SSP_CNT,
     AXF_SSP_OLD_CNT,
@@ -91,7 +95,13 @@ __all__ = [
     "axis_show",
     "axis_take_written",
     "axis_target_changed",
+    "limit_bars",
 ]
+
+NOT_BARRED = 0
+HARD_BARRED = 1
+SOFT_BARRED = 2
+ROUNDING_CNT = 1e-6  # of sums of offsets and points of curves; far below one pulse
 
 
 def axis_word(n: int) -> int:
@@ -110,14 +120,45 @@ def axis_sense(S: F32, n: int) -> int:
     return -1 if axis_scale(S, n) < 0.0 else 1
 
 
-def limit_latched(I: I32, n: int, positive: bool) -> bool:
-    """Whether a limit that axis n has met bars its way in the positive or negative direction."""
-    limits: int = (
-        AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
-        if positive
-        else AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
-    )
-    return I[AF5_WORD + n] & limits != 0
+def limit_bars(F: F64, I: I32, S: F32, n: int, side: int) -> int:
+    """Which limit bars axis n on `side` (+1 or -1) now: hard, soft or none.
+
+    A hard limit bars while its switch is active, a soft one while the setpoint is beyond it,
+    each where it is enabled. The "encountered" flags are records of the past and bar nothing.
+    """
+    if hard_limit_active(I[AF5_WORD + n], side):
+        return HARD_BARRED
+    if soft_limit_crossed(F, S, n, I[AF5_WORD + n], side):
+        return SOFT_BARRED
+    return NOT_BARRED
+
+
+def hard_limit_active(flags: int, side: int) -> bool:
+    """Whether the hardware limit of a side is enabled and its switch active."""
+    if side > 0:
+        return (
+            flags & AF5_POSITIVE_HARDWARE_LIMIT_ENABLE != 0
+            and flags & AF5_POSITIVE_LIMIT_INPUT != 0
+        )
+    return flags & AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE != 0 and flags & AF5_NEGATIVE_LIMIT_INPUT != 0
+
+
+def soft_limit_crossed(F: F64, S: F32, n: int, flags: int, side: int) -> bool:
+    """Whether the software limit of a side is enabled and the primary setpoint beyond it.
+
+    The limit is compared in pulses, formed as the target of a move is: a move that ends
+    exactly on it does not cross it.
+    """
+    a: int = AXF_BASE + n * AXF_STRIDE
+    limit_u: float = F[a + AXF_SLM_PLUS_U]
+    enabled: int = flags & AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE
+    if side < 0:
+        limit_u = F[a + AXF_SLM_MINUS_U]
+        enabled = flags & AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE
+    if enabled == 0:
+        return False
+    beyond_cnt: float = F[a + AXF_PSP_CNT] - limit_u * axis_scale(S, n)
+    return side * axis_sense(S, n) * beyond_cnt > ROUNDING_CNT
 
 
 def axis_sum(F: F64, n: int) -> None:

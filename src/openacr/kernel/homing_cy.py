@@ -16,7 +16,7 @@ m = -e.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_preload, axis_scale, axis_sense
+from openacr.kernel.axis_cy import axis_preload, axis_scale, axis_sense, limit_bars
 from openacr.kernel.capture_cy import capture_input_position, encoder_shift
 from openacr.kernel.jogplan_cy import FAR_CNT, JOG_PROFILE, jog_ramp_down, jog_run, jog_setting
 from openacr.kernel.profile_cy import DECELERATING
@@ -164,7 +164,10 @@ def home_begin(I: I32, n: int, direction: int) -> None:
 
 
 def home_start(F: F64, I: I32, S: F32, n: int) -> None:
-    """Begin the search; a home input that is already on is left towards its edge first."""
+    """Begin the search; a home input that is already on is left towards its edge first.
+
+    A limit that bars the direction already turns the search round before anything moves.
+    """
     i: int = AXI_BASE + n * AXI_STRIDE
     flags: int = I[AF5_WORD + n]
     sign: int = I[i + AXI_HOME_SEARCH]
@@ -173,6 +176,12 @@ def home_start(F: F64, I: I32, S: F32, n: int) -> None:
     I[i + AXI_HOME_INPUT_OLD] = flags & AF5_HOME_INPUT
     I[i + AXI_HOME_REVERSED] = 0
     I[i + AXI_HOME_LIMIT_HIT] = 0
+    if limit_bars(F, I, S, n, sign):
+        I[i + AXI_HOME_REVERSED] = 1
+        sign = -sign
+        if limit_bars(F, I, S, n, sign):
+            home_fail(I, n)
+            return
     home_run(F, I, S, n, HOME_SEARCH, sign, jog_setting(S, n, AX_JOG_VELOC_SETTING))
 
 

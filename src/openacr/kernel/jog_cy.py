@@ -9,7 +9,7 @@ command velocity) and runs the homing sequence.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_scale, axis_sense, axis_word, limit_latched
+from openacr.kernel.axis_cy import axis_scale, axis_sense, axis_word, limit_bars
 from openacr.kernel.homing_cy import home_abort, home_arrived, home_begin, home_step
 from openacr.kernel.jogplan_cy import (
     FAR_CNT,
@@ -155,7 +155,7 @@ def jog_home_request(I: I32, n: int) -> None:
     flags: int = I[AF6_WORD + n]
     negative: bool = flags & AF6_JOG_HOME_DIRECTION != 0
     I[AF6_WORD + n] = flags & ~AF6_JOG_HOME_REQUEST
-    if home_barred(I, n) or limit_latched(I, n, not negative):
+    if home_barred(I, n):
         return
     home_begin(I, n, -1 if negative else 1)
     I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] = JOG_HOMING
@@ -191,7 +191,7 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
         want += 1
     if flags & AF1_JOG_REVERSE:
         want -= 1
-    if want != 0 and limit_latched(I, n, want > 0):
+    if want != 0 and limit_bars(F, I, S, n, want):
         I[axis_word(n)] = flags & ~JOG_WANTED
         want = 0
     if want != 0:

@@ -3,10 +3,11 @@
 A stop hands the whole command velocity of the axis to its jog profiler, which ramps it
 down (HLDEC for kills and hardware limits, SLDEC for software limits; 0 stops at once).
 Axes on the same master stop together, each at its own rate. An end-of-travel limit acts
-only on motion into it, so that an axis can always be driven off a switch.
+only on motion into it, so that an axis can always be driven off a switch; it bars a
+direction while it is active (`limit_bars`). That it was met is recorded in a flag.
 """
 
-from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_scale, axis_word, hard_limit_active, soft_limit_crossed
 from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, JOG_KILLED, jog_take_over
@@ -22,22 +23,17 @@ from openacr.map.numbers import (
     AF4_WORD,
     AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE,
     AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_NEGATIVE_LIMIT_INPUT,
     AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE,
     AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
     AF5_POSITIVE_HARDWARE_LIMIT_ENABLE,
     AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_LIMIT_INPUT,
     AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE,
     AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
     AF5_WORD,
     AXF_BASE,
     AXF_HLDEC_UPS2,
-    AXF_PSP_CNT,
     AXF_PSP_VELOCITY_CPS,
     AXF_SLDEC_UPS2,
-    AXF_SLM_MINUS_U,
-    AXF_SLM_PLUS_U,
     AXF_STRIDE,
     AXI_BASE,
     AXI_HLBIT,
@@ -136,21 +132,11 @@ def axis_kill_one(F: F64, I: I32, S: F32, n: int) -> None:
 
 def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:
     """Trip an enabled hardware limit that is active while the axis moves into it."""
-    hit: int = 0
-    if (
-        velocity > 0.0
-        and flags & AF5_POSITIVE_LIMIT_INPUT
-        and flags & AF5_POSITIVE_HARDWARE_LIMIT_ENABLE
-    ):
-        hit = AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
-    elif (
-        velocity < 0.0
-        and flags & AF5_NEGATIVE_LIMIT_INPUT
-        and flags & AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE
-    ):
-        hit = AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
-    if hit == 0:
+    if velocity == 0.0 or not hard_limit_active(flags, 1 if velocity > 0.0 else -1):
         return
+    hit: int = AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
+    if velocity < 0.0:
+        hit = AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
     i: int = AXI_BASE + n * AXI_STRIDE
     if I[i + AXI_JOG_MODE] == JOG_HOMING:
         home_limit_hit(I, n, HARD_LIMIT_HIT, velocity)
@@ -169,45 +155,37 @@ def home_limit_hit(I: I32, n: int, kind: int, velocity: float) -> None:
         I[i + AXI_HOME_LIMIT_HIT] = kind
 
 
-def soft_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:
-    """Trip a software limit that the primary setpoint passes; re-arm it inside or disabled."""
-    a: int = AXF_BASE + n * AXF_STRIDE
-    position: float = F[a + AXF_PSP_CNT] / axis_scale(S, n)
-    beyond: bool = False
-    if flags & AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE:
-        beyond = position > F[a + AXF_SLM_PLUS_U]
-    soft_limit(F, I, S, n, 1, beyond, velocity)
-    beyond = False
-    if flags & AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE:
-        beyond = position < F[a + AXF_SLM_MINUS_U]
-    soft_limit(F, I, S, n, -1, beyond, velocity)
+def soft_limit(F: F64, I: I32, S: F32, n: int, flags: int, side: int, velocity: float) -> None:
+    """One software limit: stop the axes of the master at its crossing, record it while beyond.
 
-
-def soft_limit(F: F64, I: I32, S: F32, n: int, side: int, beyond: bool, velocity: float) -> None:
-    """One side: stop the axes of the master when it is passed, clear the latch inside.
-
-    What takes an axis farther out after that stop is stopped as well.
+    What the axis follows is stopped again if it leads farther out. A stop that is under way
+    goes on as it is, so does a jog inwards that first has to turn round: jogs outwards are
+    refused as long as the limit bars them.
     """
-    i: int = AXI_BASE + n * AXI_STRIDE
     word: int = AF5_WORD + n
     latch: int = AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
     if side < 0:
         latch = AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
-    if not beyond:
+    if not soft_limit_crossed(F, S, n, flags, side):
         I[word] &= ~latch
     elif not side * velocity > 0.0:
         return
-    elif I[i + AXI_JOG_MODE] == JOG_HOMING:
+    elif I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] == JOG_HOMING:
         home_limit_hit(I, n, SOFT_LIMIT_HIT, velocity)
-    elif not I[word] & latch or followed(I, n):
+    else:
+        leads: int = lock_leader(I, n)  # a locked axis is moved and stopped by its leader
+        if leads < 0:
+            leads = n
+        crossed: bool = I[word] & latch == 0
         I[word] |= latch
-        soft_stop(F, I, S, n)
+        if I[AXI_BASE + leads * AXI_STRIDE + AXI_JOG_MODE] == JOG_KILLED:
+            return
+        if crossed or followed(I, leads):
+            soft_stop(F, I, S, n)
 
 
 def followed(I: I32, n: int) -> bool:
-    """Whether axis n follows a source or a path, and is not being stopped."""
-    if I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE] == JOG_KILLED:
-        return False
+    """Whether axis n follows a source or a path."""
     m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
     if m >= 0 and I[MSI_BASE + m * MSI_STRIDE + MSI_MOVING]:
         return True
@@ -247,4 +225,5 @@ def limits_step(F: F64, I: I32, S: F32, n: int) -> None:
         velocity = -velocity
     if not I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
         hard_limits(F, I, S, n, flags, velocity)
-    soft_limits(F, I, S, n, flags, velocity)
+    soft_limit(F, I, S, n, flags, 1, velocity)
+    soft_limit(F, I, S, n, flags, -1, velocity)

@@ -13,7 +13,7 @@ unit for unit; the difference of the two following errors drives the outputs tog
 """
 
 from openacr.cmath import fabs, trunc
-from openacr.kernel.axis_cy import axis_scale, axis_target_changed, axis_word, limit_latched
+from openacr.kernel.axis_cy import axis_scale, axis_target_changed, axis_word, limit_bars
 from openacr.kernel.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
 from openacr.kernel.feedback_cy import FROM_ENCODER
 from openacr.kernel.gear_cy import gear_halt, gear_step
@@ -199,11 +199,11 @@ def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
 # hand wheel and time base of jogs
 
 
-def wheel_barred(I: I32, n: int, positive: bool) -> bool:
-    """Whether a kill, the lockout or a limit already hit bars the hand wheel."""
+def wheel_barred(F: F64, I: I32, S: F32, n: int, side: int) -> bool:
+    """Whether a kill, the lockout or an active limit bars the hand wheel on a side."""
     if I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST or I[axis_word(n)] & AF1_JOG_LOCKOUT:
         return True
-    return limit_latched(I, n, positive)
+    return limit_bars(F, I, S, n, side) != 0
 
 
 def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
@@ -216,7 +216,7 @@ def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
     if delta == 0.0 or F[w + HWF_PPU] == 0.0 or (mode != JOG_IDLE and mode != JOG_TO_TARGET):
         return
     way_u: float = delta / F[w + HWF_PPU] * F[w + HWF_RATIO]
-    if way_u == 0.0 or wheel_barred(I, n, way_u > 0.0):
+    if way_u == 0.0 or wheel_barred(F, I, S, n, 1 if way_u > 0.0 else -1):
         return
     if mode == JOG_IDLE:
         F[a + AXF_JOG_TARGET_CNT] = F[a + AXF_JOG_CNT]

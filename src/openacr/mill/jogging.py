@@ -14,9 +14,11 @@ from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
 
+from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.messages import HARD_LIMIT
 from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
@@ -83,7 +85,7 @@ class Jogging:
         if limit is not None and (end - limit) * way_u > 0.0:
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
         self._moving.add(axis)  # before it is told: it has to be stopped in any case
-        self._type(f"JOG INC {row.name}{number_text(way_u)}")
+        self._start(row, f"JOG INC {row.name}{number_text(way_u)}")
 
     def settle(self) -> Steps:
         """Wait for rest, then make positions of the offsets."""
@@ -124,7 +126,16 @@ class Jogging:
     def aim(self, row: AxisSettings, target_u: float) -> None:
         """Set the machine position an axis is to go to."""
         self._moving.add(row.index)
-        self._type(f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
+        self._start(row, f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
+
+    def _start(self, row: AxisSettings, line: str) -> None:
+        """Send a jog; AlarmError where the card refuses it for an active limit switch."""
+        try:
+            self._type(line)
+        except RefusedError as refused:
+            if refused.message != HARD_LIMIT:
+                raise
+            raise AlarmError(alarms.HARDWARE_LIMIT, row.name) from refused
 
     def _is_going_on(self) -> bool:
         """Whether axes are on their way; those of held controls get more of it."""

@@ -38,13 +38,11 @@ from openacr.map.numbers import (
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
 from openacr.motion import corners, curve_modes
 from openacr.motion.card import Card
-from openacr.motion.moves import start_cnt
+from openacr.motion.moves import permit_ways, start_cnt
 from openacr.motion.orders import Circle, Direction, Part
 from openacr.motion.permits import (
     master_moving,
-    needs_free_way,
     needs_moves,
-    needs_on,
     scale_of,
 )
 from openacr.motion.records import Way, append
@@ -139,7 +137,8 @@ def issue(card: Card, move: HostMove) -> None:
     needs_moves(card, move.master)
     if move.tolerance_u is not None and not corners.is_tolerance(move.tolerance_u):
         raise CardError(INVALID_ARGUMENT)
-    ways = _permitted(card, _ways(card, move))
+    ways = _ways(card, move)
+    permit_ways(card, ways, here=not master_moving(card, move.master))
     _take_profile(card, move)
     if move.arc is None and not any(way.delta_cnt for way in ways):
         if not master_moving(card, move.master):
@@ -164,7 +163,7 @@ def take_point(card: Card, point: HostPoint) -> None:
     needs_moves(card, point.master)
     here = not master_moving(card, point.master)
     ways = _straight(card, point.master, point.targets_cnt, here=here, relative=point.relative)
-    _permitted(card, ways)
+    permit_ways(card, ways, here=here)
     if not ways and point.family is curve_modes.Family.SPLINE:
         raise CardError(INVALID_ARGUMENT)
     if curve_modes.family(card, point.master) is not point.family:
@@ -172,14 +171,6 @@ def take_point(card: Card, point: HostPoint) -> None:
     _take_profile(card, point)
     values = {way.slave: way.target_cnt for way in ways}
     curve_modes.take(card, program, point.master, values, point.knot, point.weight)
-
-
-def _permitted(card: Card, ways: list[Way]) -> list[Way]:
-    """The ways, refused if one of them is barred."""
-    for way in ways:
-        needs_on(card, way.axis)
-        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
-    return ways
 
 
 def _count_at_once(card: Card, move: HostMove) -> None:

@@ -119,17 +119,18 @@ def off(card: Card, axis: int) -> None:
         memory.I[word] &= ~AF1_JOG_ACTIVE
 
 
-def permit_home(card: Card, axis: int, direction: int) -> None:
-    """Refuse homing of an axis that moves or may not."""
+def permit_home(card: Card, axis: int) -> None:
+    """Refuse homing of an axis that moves or may not; a limit only turns the search round."""
     needs_rest(card, axis)
-    permit(card, axis, direction)
+    needs_no_kill(card, axis)
+    needs_on(card, axis)
     if card.memory.I[SRI_BASE + (axis * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK:
         raise CardError(INVALID_SOURCE)
 
 
 def home(card: Card, axis: int, direction: int) -> None:
     """JOG HOME: start the homing sequence in `direction` (+1 or -1), unless locked out."""
-    permit_home(card, axis, direction)
+    permit_home(card, axis)
     rows, word = card.memory.I, axis_word(axis)
     if rows[word] & AF1_JOG_LOCKOUT:
         return

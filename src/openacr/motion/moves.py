@@ -96,9 +96,7 @@ def issue(
     needs_moves(card, master)
     here = replace or not master_moving(card, master)
     ways = [_way(card, program, master, target, here=here) for target in end_points(parts)]
-    for way in ways:
-        needs_on(card, way.axis)
-        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    permit_ways(card, ways, here=here)
     if here and not replace and _is_nothing(ways, parts):
         return
     if replace:
@@ -119,11 +117,20 @@ def point(
     needs_moves(card, master)
     here = not master_moving(card, master)
     ways = [_way(card, program, master, target, here=here) for target in targets]
-    for way in ways:
-        needs_on(card, way.axis)
-        needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    permit_ways(card, ways, here=here)
     values = {way.slave: way.target_cnt for way in ways}
     curve_modes.take(card, program, master, values, knot, weight)
+
+
+def permit_ways(card: Card, ways: Sequence[Way], *, here: bool) -> None:
+    """Refuse a move of axes that are off or, if it starts `here` and now, barred by a limit.
+
+    Where a buffered move will start is not known yet: the limits watch it when it runs.
+    """
+    for way in ways:
+        needs_on(card, way.axis)
+        if here:
+            needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
 
 
 def _is_nothing(ways: list[Way], parts: Sequence[Part]) -> bool:
@@ -169,9 +176,9 @@ def _single(card: Card, program: int, target: Target) -> int | None:
     """Append a move of one axis; its record, None if there is nothing to do."""
     master = needed_master(card, program)
     needs_moves(card, master)
-    needs_on(card, target.axis)
-    way = _way(card, program, master, target, here=not master_moving(card, master))
-    needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+    here = not master_moving(card, master)
+    way = _way(card, program, master, target, here=here)
+    permit_ways(card, [way], here=here)
     return append(card, program, master, [way], [target]) if way.delta_cnt else None
 
 

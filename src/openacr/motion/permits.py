@@ -2,7 +2,9 @@
 
 from math import isfinite
 
+from openacr.compiled import pick
 from openacr.errors import CardError
+from openacr.kernel import axis_cy
 from openacr.map.numbers import (
     AF1_CAM_ACTIVATE,
     AF1_GEAR_ACTIVATE,
@@ -10,11 +12,6 @@ from openacr.map.numbers import (
     AF1_JOG_ACTIVE,
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
-    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_WORD,
     AX_PPU,
     AXI_MASTER,
     AXI_ON,
@@ -43,6 +40,8 @@ from openacr.motion.rows import (
     master_ints,
     master_word,
 )
+
+_limit_bars = pick(axis_cy.limit_bars)
 
 OFFSETS_MOVING = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE
 
@@ -112,19 +111,12 @@ def needs_on(card: Card, axis: int) -> None:
 
 
 def needs_free_way(card: Card, axis: int, direction: float) -> None:
-    """Refuse motion farther outward while the limit latch of that side is set."""
-    flags = card.memory.I[AF5_WORD + axis]
-    if direction > 0:
-        hard, soft = (
-            AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-            AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-        )
-    else:
-        hard, soft = (
-            AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-            AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-        )
-    if direction and flags & hard:
+    """Refuse motion that starts now towards a limit that is active (its sign is the side)."""
+    if not direction:
+        return
+    rows = card.memory
+    barred = _limit_bars(rows.F, rows.I, rows.S, axis, 1 if direction > 0 else -1)
+    if barred == axis_cy.HARD_BARRED:
         raise CardError(HARD_LIMIT)
-    if direction and flags & soft:
+    if barred == axis_cy.SOFT_BARRED:
         raise CardError(SOFT_LIMIT)

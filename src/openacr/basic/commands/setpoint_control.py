@@ -110,7 +110,7 @@ def jog_home(run: Run, axes: tuple[AxisValue, ...]) -> None:
     for axis, direction in found:
         if direction == 0:
             raise CardError(INVALID_ARGUMENT)
-        jog.permit_home(run.card, axis, direction)
+        jog.permit_home(run.card, axis)
     for axis, direction in found:
         jog.home(run.card, axis, direction)
 
