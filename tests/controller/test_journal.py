@@ -38,8 +38,14 @@ def recorded(folder: Path) -> Path:
     packets.send(b"\x00\x30\x02\x03")
     card.drag(0, 0.25)
     card.set_input(5, True)
+    card.set_input(6, True)
+    card.fault(3, "obstacle", 0.5)
+    card.fault(2, "encoder-noise")
     card.set_analog(33288, 2.5)
     card.until(40, timeout_s=2.0)
+    card.release_input(6)
+    card.mend(2, "encoder-noise")
+    card.mend(3)
     card.p[3] = 2.5
     card.bit[130] = True
     card.advance(seconds=1.3)
@@ -96,7 +102,9 @@ def test_a_replay_stops_where_it_is_told(tmp_path: Path) -> None:
     assert again.lived_s == 100.0
 
 
-@pytest.mark.parametrize("what", list(Entered)[:9])
+@pytest.mark.parametrize(
+    "what", [each for each in Entered if each not in (Entered.DIGEST, Entered.END)]
+)
 def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> None:
     """Of every kind, one that has an effect at all."""
     card = Controller(world=WITH_A_NODE)
@@ -110,6 +118,13 @@ def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> 
             other.close()
     elif what is Entered.INPUT:
         card.set_input(3, True)
+    elif what is Entered.RELEASE:
+        card.set_input(3, True)
+        card.release_input(3)
+    elif what in (Entered.FAULT, Entered.MEND):
+        card.fault(3, "obstacle", 0.5)
+        if what is Entered.MEND:
+            card.mend(3)
     elif what is Entered.ANALOG:
         card.set_analog(33288, 1.0)
     elif what is Entered.DRAG:

@@ -243,3 +243,12 @@ def test_a_servo_loop_behaves_as_an_independent_integration_says(motor: Build) -
         old = now
         assert rig.position == pytest.approx(truth[0], abs=8.0)
     assert rig.position == pytest.approx(3000.5, abs=15)
+
+
+@pytest.mark.parametrize(("fault", "edges"), [(0, 3), (1, 3), (2, 0), (4, 0)])
+def test_an_encoder_without_signals_has_no_marker(motor: Build, fault: int, edges: int) -> None:
+    rig = motor("marker = 0.0\n")
+    rig.memory.I[at.PLI_BASE + at.PLI_ENCODER_FAULT] = fault
+    rig.throw(4000 / 0.0005)  # a turn in a period
+    rig.turn(ticks=1)
+    assert rig.flag(at.PLI_MARKER_EDGES) == edges

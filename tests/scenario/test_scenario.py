@@ -41,6 +41,16 @@ class Bench:
         self.bits[bit] = on
         self.deeds.append((self.tick, "input", bit, on))
 
+    def release_input(self, bit: int) -> None:
+        self.bits[bit] = False
+        self.deeds.append((self.tick, "release", bit))
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        self.deeds.append((self.tick, "fault", axis, kind, value))
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        self.deeds.append((self.tick, "mend", axis, kind))
+
     def type_text(self, text: str, stream: str | None) -> None:
         self.deeds.append((self.tick, "type", text, stream))
 
@@ -106,7 +116,7 @@ def test_timed_actions_happen_at_their_tick_in_the_order_of_the_file() -> None:
 
 def test_a_button_is_released_after_its_time() -> None:
     bench, _ = play("at = [{time_s = 0.001, press = [5], press_s = 0.002}]", ticks=20)
-    assert bench.deeds == [(2, "input", 5, True), (6, "input", 5, False)]
+    assert bench.deeds == [(2, "input", 5, True), (6, "release", 5)]
 
 
 def test_a_load_is_dragged_evenly_over_its_time() -> None:
@@ -437,3 +447,100 @@ def test_everything_that_could_not_be_played_is_refused_with_its_place(
     with pytest.raises(SourceError) as caught:
         parse_scenario(text, "s.toml")
     assert str(caught.value).startswith(message)
+
+
+def test_faults_are_put_in_and_taken_back() -> None:
+    bench, _ = play(
+        """
+        [[at]]
+        time_s = 0.001
+        fault = {axis = 2, kind = "jam"}
+        release = [3]
+        [[at]]
+        time_s = 0.001
+        fault = {axis = 3, kind = "obstacle", at = -12.5}
+        [[at]]
+        time_s = 0.001
+        fault = {axis = 4, kind = "friction", torque_nm = 0.5}
+        [[at]]
+        time_s = 0.002
+        mend = {axis = 2, kind = "jam"}
+        [[at]]
+        time_s = 0.002
+        mend = {axis = 3}
+        """,
+        8,
+    )
+    assert bench.deeds == [
+        (2, "release", 3),
+        (2, "fault", 2, "jam", 0.0),
+        (2, "fault", 3, "obstacle", -12.5),
+        (2, "fault", 4, "friction", 0.5),
+        (4, "mend", 2, "jam"),
+        (4, "mend", 3, None),
+    ]
+
+
+def repeated(condition: str, world: Callable[[Bench, Play], None], more: str = "") -> list[int]:
+    """Ticks at which an action with `every` was performed."""
+    text = f"at = [{{when = {{{condition}}}, every = true, set = [5]{more}}}]"
+    bench, _ = play(text, 30, world)
+    return [int(str(deed[0])) for deed in bench.deeds]
+
+
+def blinking(bench: Bench, _: Play) -> None:
+    bench.bits[516] = bench.tick % 10 >= 7
+
+
+def test_every_repeats_an_action_each_time_its_condition_becomes_true() -> None:
+    assert repeated("bit = 516", blinking) == [7, 17, 27]
+    assert repeated("bit = 516, is = false", blinking) == [0, 10, 20]
+    assert repeated("bit = 516, becomes = true", blinking) == [7, 17, 27]
+    assert repeated("bit = 516, becomes = false", blinking) == [10, 20]
+
+
+def test_a_delayed_repetition_happens_once_for_each_time() -> None:
+    assert repeated("bit = 516", blinking, ", delay_s = 0.006") == [19, 29]
+
+
+def test_every_hears_a_text_each_time_it_is_printed() -> None:
+    def printing(bench: Bench, run: Play) -> None:
+        if bench.tick in (3, 4, 9):
+            run.heard("part\r\n")
+
+    assert repeated('printed = "part"', printing) == [3, 4, 9]
+
+
+def test_a_repeated_action_keeps_its_place_in_the_order_of_the_file() -> None:
+    bench, _ = play(
+        """
+        at = [{when = {bit = 516}, every = true, set = [1]}, {time_s = 0.0035, set = [2]}]
+        """,
+        10,
+        blinking,
+    )
+    assert bench.deeds == [(7, "input", 1, True), (7, "input", 2, True)]
+
+
+def test_a_repeated_action_that_has_happened_is_not_reported_as_idle() -> None:
+    text = "at = [{when = {bit = 516}, every = true, set = [1]}]"
+    assert play(text, 10, blinking)[1].idle_actions == []
+    assert play(text, 5, blinking)[1].idle_actions == ["when BIT516 is set"]
+
+
+@pytest.mark.parametrize(
+    ("entry", "text"),
+    [
+        ("time_s = 1, every = true, set = [1]", "`every` needs `when`"),
+        ("when = {bit = 3}, every = true, checkpoint = 'a'", "a checkpoint is one moment"),
+        ("time_s = 1, fault = {axis = 0, kind = 'jam', at = 3}", "`at` does not belong to the"),
+        ("time_s = 1, fault = {axis = 0, kind = 'obstacle'}", "the fault obstacle needs `at`"),
+        ("time_s = 1, fault = {axis = 0, kind = 'friction', at = 1}", "`at` does not belong"),
+        ("time_s = 1, fault = {axis = 0, kind = 'friction'}", "friction needs `torque_nm`"),
+        ("time_s = 1, fault = {axis = 0, kind = 'rust'}", "allowed: encoder-lost, encoder-noise"),
+        ("time_s = 1, release = [40]", "bit 40 is not an input"),
+    ],
+)
+def test_faults_and_repetitions_that_make_no_sense_are_refused(entry: str, text: str) -> None:
+    with pytest.raises(SourceError, match=text):
+        parse_scenario(f"at = [{{{entry}}}]")

@@ -153,6 +153,18 @@ class ControlledMachine:
         """Switch an input."""
         self._controller.set_input(bit, on)
 
+    def release_input(self, bit: int) -> None:
+        """Let go of an input that was switched."""
+        self._controller.release_input(bit)
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        """Let something go wrong with an axis of the machine."""
+        self._controller.fault(axis, kind, value)
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        """End one kind of fault of an axis, or all."""
+        self._controller.mend(axis, kind)
+
     def set_analog(self, parameter: int, value: float) -> None:
         """Bring a value to the analog input a parameter shows."""
         self._controller.set_analog(parameter, value)

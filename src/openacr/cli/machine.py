@@ -59,7 +59,16 @@ class Machine(Protocol):
         """Say what ended a program with an error, and the text of the line that did."""
 
     def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input."""
+        """Switch an input; one that the machine drives is forced until it is released."""
+
+    def release_input(self, bit: int) -> None:
+        """Let go of an input that was switched."""
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        """Let something go wrong with an axis of the machine."""
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        """End one kind of fault of an axis, or all."""
 
     def set_analog(self, parameter: int, value: float) -> None:
         """Bring a value to the analog input a parameter shows."""
@@ -84,6 +93,9 @@ class MachineWorld:
         self._machine = machine
         self._begin_tk = machine.tick
         self.set_input = machine.set_input
+        self.release_input = machine.release_input
+        self.fault = machine.fault
+        self.mend = machine.mend
         self.set_analog = machine.set_analog
         self.type_text = machine.type_text
         self.drag = machine.drag

@@ -14,31 +14,24 @@ from pathlib import Path
 from openacr.controller import snapshot as snapshots
 from openacr.controller.journal import Entered
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError
-from openacr.controller.running import Running
 from openacr.controller.streams import CONSOLE
+from openacr.controller.surroundings import Surroundings
 from openacr.controller.views import AxisView
 from openacr.engine.watches import give_orders, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.characters import as_typed
 from openacr.map.numbers import (
-    AX_ACTUAL_POSITION,
     AXF_PEAK_ERROR_CNT,
     AXF_PEAK_VELOCITY_CPS,
     AXF_TRAVEL_CNT,
-    AXI_POSITION_INDEX,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
 )
 from openacr.models import Model
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import axis_ints, axis_parameter, axis_reals
-from openacr.plant import analogs, apply, load, schema, terminals
+from openacr.motion.rows import axis_reals
+from openacr.plant import load, schema
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.stream import StreamKind
-
-RAW_COUNTS = 4  # of an encoder per line, at MULT 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +45,7 @@ class AxisStatistics:
     peak_following_error_u: float
 
 
-class Controller(Running):
+class Controller(Surroundings):
     """A virtual card; see design notes in docs/overview.md."""
 
     def __init__(
@@ -114,7 +107,8 @@ class Controller(Running):
         self.streams.close(stream)
 
     def receive(self, stream: int, data: bytes) -> None:
-        """Bytes that arrived together, at the present tick."""
+        """Bytes that arrived together, at the present tick; UserError for a stream not open."""
+        self.streams.opened(stream)
         self._note(Entered.BYTES, stream, text=data.decode("latin-1"))
         self.streams.receive(stream, data, self.tick)
         if self._wants_reboot:
@@ -150,6 +144,10 @@ class Controller(Running):
 
     def press(self, key: ControlKey) -> None:
         """Ctrl-X kills motion and ends programs, Ctrl-Y lifts kills, Ctrl-Z also drops drives."""
+        if key not in set(ControlKey):
+            raise UserError(
+                f"key {key!r}: known are {', '.join(known.name for known in ControlKey)}"
+            )
         self._note(Entered.KEY, int(key))
         self._press(key)
 
@@ -157,50 +155,16 @@ class Controller(Running):
         """Call `hear(program, text)` with everything programs print."""
         self.system.listeners.taps.append(hear)
 
-    # the world
-
-    def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input that no part of the world drives, onboard or at a CANopen node."""
-        if terminals.input_terminal(bit) is None:
-            self.memory.set_bit(bit, on)
-        elif not terminals.switch(self.memory, bit, on):
-            raise UserError(f"input {bit}: no CANopen node of the machine has it")
-        self._note(Entered.INPUT, bit, on)
-
-    def set_analog(self, parameter: int, value: float) -> None:
-        """Bring a value, in its unit, to the analog input that a parameter shows."""
-        channel = analogs.terminal(parameter)
-        place = terminals.analog_input(self.memory, parameter)
-        if channel is not None:
-            analogs.put_volts(self.memory, channel, value)
-        elif place is None:
-            raise UserError(f"P{parameter} shows no analog input")
-        else:
-            self.memory.F[place] = value
-        self._note(Entered.ANALOG, parameter, value)
-
-    def drag(self, axis: int, by_u: float) -> None:
-        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
-        encoder = self.memory.I[axis_ints(axis) + AXI_POSITION_INDEX]
-        mult = self.memory.I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] or 1
-        pulses = by_u * scale_of(self.card, axis)
-        if not apply.push(self.memory, encoder, pulses * RAW_COUNTS / mult):
-            row = axis_parameter(axis) + AX_ACTUAL_POSITION
-            self.memory.write(row, self.memory.I[row] + round(pulses))
-        self._note(Entered.DRAG, axis, by_u)
-
     # reading
 
     def axis(self, number: int) -> AxisView:
         """One axis, for reading."""
-        if not 0 <= number < self.model.axes:
-            raise UserError(
-                f"axis {number}: the {self.model.name} has axes 0-{self.model.axes - 1}"
-            )
+        self._needs_axis(number)
         return AxisView(self.card, number)
 
     def statistics(self, axis: int) -> AxisStatistics:
         """What an axis has done since power-up."""
+        self._needs_axis(axis)
         scale = abs(scale_of(self.card, axis))
         reals = axis_reals(axis)
         view = AxisView(self.card, axis)

@@ -8,8 +8,11 @@ A journal file is text, one record per line:
     [tick, "bytes", stream, text]           bytes that arrived together, as Latin-1
     [tick, "close", stream]                 it ends
     [tick, "input", flag, 0 or 1]           an input switches
+    [tick, "release", flag]                 an input that was forced is let go
     [tick, "analog", parameter, value]      a value at an analog input
     [tick, "drag", axis, units]             a load is pushed by hand
+    [tick, "fault", axis, kind, value]      something goes wrong in the machine
+    [tick, "mend", axis, kind]              it ends; "" for all kinds
     [tick, "parameter", number, value]      a parameter written from Python
     [tick, "flag", number, 0 or 1]          a flag written from Python
     [tick, "key", code]                     Ctrl-X, Ctrl-Y or Ctrl-Z pressed from Python
@@ -46,8 +49,11 @@ class Entered(StrEnum):
     BYTES = "bytes"
     CLOSE = "close"
     INPUT = "input"
+    RELEASE = "release"
     ANALOG = "analog"
     DRAG = "drag"
+    FAULT = "fault"
+    MEND = "mend"
     PARAMETER = "parameter"
     FLAG = "flag"
     KEY = "key"
@@ -60,7 +66,8 @@ class JournalEntry:
     """One thing that entered the card, `tick` ticks into its life.
 
     `number` is the stream, input, axis, parameter, flag or key. `text` holds bytes (one
-    character each), the kind of a stream, or a digest; `name` the stream that was asked for.
+    character each), the kind of a stream, or a digest; `name` the stream that was asked for, or the
+    kind of a fault.
     """
 
     tick: int
@@ -133,8 +140,12 @@ def _record(entry: JournalEntry) -> list[Any]:
     head.append(entry.number)
     if entry.what is Entered.OPEN:
         return [*head, entry.text, entry.name]
-    if entry.what in (Entered.CLOSE, Entered.KEY):
+    if entry.what in (Entered.CLOSE, Entered.KEY, Entered.RELEASE):
         return head
+    if entry.what is Entered.FAULT:
+        return [*head, entry.name, entry.value]
+    if entry.what is Entered.MEND:
+        return [*head, entry.name]
     return [*head, entry.value]
 
 
@@ -147,6 +158,10 @@ def _entry(record: list[Any]) -> JournalEntry:
         return JournalEntry(tick, what, rest[0], rest[1], name=rest[2])
     if what is Entered.BYTES:
         return JournalEntry(tick, what, rest[0], rest[1])
+    if what is Entered.FAULT:
+        return JournalEntry(tick, what, rest[0], value=rest[2], name=rest[1])
+    if what is Entered.MEND:
+        return JournalEntry(tick, what, rest[0], name=rest[1])
     value = rest[1] if len(rest) > 1 else 0.0
     return JournalEntry(tick, what, rest[0], value=value)
 

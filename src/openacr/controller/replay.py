@@ -74,6 +74,12 @@ class Replay:
             self._apply_to_stream(entry)
         elif what is Entered.INPUT:
             card.set_input(entry.number, bool(entry.value))
+        elif what is Entered.RELEASE:
+            card.release_input(entry.number)
+        elif what is Entered.FAULT:
+            card.fault(entry.number, entry.name, entry.value)
+        elif what is Entered.MEND:
+            card.mend(entry.number, entry.name or None)
         elif what is Entered.ANALOG:
             card.set_analog(entry.number, entry.value)
         elif what is Entered.DRAG:

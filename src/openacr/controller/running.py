@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import cast
@@ -15,6 +16,7 @@ from openacr.engine import loop_cy
 from openacr.engine.samples import Sample, set_samples
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 from openacr.engine.watches import Watch, set_watches
+from openacr.errors import UserError
 from openacr.map.numbers import (
     ENGI_BASE,
     ENGI_SAMPLE_COUNT,
@@ -59,13 +61,24 @@ class Running(Machine):
         self._trace_view = _NO_TRACE
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
-        """Let the card live for so many ticks (or seconds), or until a watch ends it."""
+        """Let the card live for `ticks` ticks and `seconds`, or until a watch ends it.
+
+        UserError for a negative time, and for one that is no number.
+        """
+        if not (ticks >= 0 and 0.0 <= seconds < math.inf):
+            raise UserError(f"advance by {ticks} ticks and {seconds} s: time only goes forward")
         self._live(ticks + round(seconds / self.period_s))
 
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
     ) -> bool:
-        """Let the card live until a flag has this state; False if it has not in time."""
+        """Let the card live until a flag has this state; False if it has not in time.
+
+        MapError for a flag that does not exist, UserError for a negative time.
+        """
+        if not (0.0 <= timeout_s < math.inf and (ticks is None or ticks >= 0)):
+            limit_s = f"{timeout_s} s" if ticks is None else f"{ticks} ticks"
+            raise UserError(f"wait {limit_s} for flag {bit}: time only goes forward")
         if self.memory.bit(bit) == is_:
             return True
         self._set_engine(ENGI_UNTIL_WORD, 4096 + (bit >> 5))
@@ -145,11 +158,13 @@ class Running(Machine):
         keep_peaks: bool = False,
         samples: Sequence[Sample] = (),
     ) -> None:
-        """Record all axes, and the chosen samples, once in `every_tk` ticks from now on.
+        """Record all axes, and the chosen samples, once in `every_tk` ticks (1 or more) from now.
 
         With `keep_peaks` no peak of velocity or following error between two samples is lost:
         every other sample has the lowest value since the one before, the next the highest.
         """
+        if every_tk < 1:
+            raise UserError(f"record every {every_tk} ticks: 1 is the least")
         self._trace_parts = []
         set_samples(self.memory, samples)
         self._set_engine(ENGI_TRACE_PEAKS, int(keep_peaks))

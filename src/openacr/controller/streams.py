@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from openacr.basic import session as sessions
 from openacr.basic.session import Session
 from openacr.controller.packets import PacketHost
+from openacr.errors import UserError
 from openacr.protocol.escape import BinaryMode
 from openacr.protocol.events import (
     NEED_DATA,
@@ -86,9 +87,15 @@ class Streams:
         if stream is not None and stream.session is not None:
             stream.session.disconnect()
 
+    def opened(self, number: int) -> Stream:
+        """The stream of a number; UserError where none is open."""
+        if number not in self._open:
+            raise UserError(f"stream {number}: no such stream is open")
+        return self._open[number]
+
     def receive(self, number: int, data: bytes, tick: int) -> None:
-        """Bytes that arrived together at `tick`."""
-        stream = self._open[number]
+        """Bytes that arrived together at `tick`; UserError for a stream that is not open."""
+        stream = self.opened(number)
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
@@ -109,19 +116,19 @@ class Streams:
 
     def accepts_input(self, number: int) -> bool:
         """False while the sender should be held back."""
-        stream = self._open[number]
+        stream = self.opened(number)
         if stream.moves_of is not None and self.moves.is_full(stream.moves_of):
             return False
         return stream.terminal.accepts_input
 
     def is_busy(self, number: int) -> bool:
         """Whether a line of the stream is still being executed."""
-        session = self._open[number].session
+        session = self.opened(number).session
         return session is not None and session.busy
 
     def session(self, number: int) -> Session | None:
         """The session of a stream."""
-        return self._open[number].session
+        return self.opened(number).session
 
     def number_of(self, name: str) -> int | None:
         """The stream whose session has this name."""

@@ -3,6 +3,9 @@
 Drive Enabled (quaternary flag 17) is a status: a command or a write of the flag starts
 enabling, the flag follows 10 ms later. It stays clear, silently, while something bars the
 drive. With the drive I/O off the flag follows at once and a fault input has no meaning.
+
+A signal fault or loss of the encoder that closes the loop disables the axis: its drive drops and
+all its motion is killed (KAMR). ENC RES clears the fault flags.
 """
 
 from openacr.map.numbers import (
@@ -20,6 +23,7 @@ from openacr.map.numbers import (
     AXI_DRIVE_SEEN,
     AXI_DRIVE_WIRED,
     AXI_ENABLE_TICKS,
+    AXI_FEEDBACK_BROKEN,
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
     AXI_RESET_TICKS,
@@ -36,6 +40,7 @@ from openacr.map.numbers import (
     PLI_DRIVE_ENABLED,
     PLI_DRIVE_FAULT,
     PLI_FAULT_MASK,
+    PLI_FAULT_REPORT,
     PLI_KIND,
     PLI_STRIDE,
     W_MISC_CONTROL_1,
@@ -53,15 +58,22 @@ RESET_S = 0.05
 
 def drive_barred(I: I32, n: int) -> bool:
     """Whether something keeps the drive of axis n from being enabled."""
-    i: int = AXI_BASE + n * AXI_STRIDE
     if I[W_MISC_CONTROL_1] & (MEI_OPEN | MEI_LATCHED):
         return True
-    if drive_faulted(I, n):
-        return True
+    return drive_faulted(I, n) or feedback_broken(I, n) != 0
+
+
+def feedback_broken(I: I32, n: int) -> int:
+    """1 while an encoder that axis n takes its position or velocity from has a signal fault."""
+    i: int = AXI_BASE + n * AXI_STRIDE
     e: int = I[i + AXI_POSITION_INDEX]
+    found: int = 0
     if I[i + AXI_POSITION_SOURCE] == 0 and 0 <= e < 24:
-        return I[EF_WORD + e] & (EF_ENCODER_SIGNAL_FAULT | EF_ENCODER_SIGNAL_LOST) != 0
-    return False
+        found = I[EF_WORD + e]
+    e = I[i + AXI_VELOCITY_INDEX]
+    if I[i + AXI_VELOCITY_SOURCE] == 0 and 0 <= e < 24:
+        found |= I[EF_WORD + e]
+    return 1 if found & (EF_ENCODER_SIGNAL_FAULT | EF_ENCODER_SIGNAL_LOST) else 0
 
 
 def drive_faulted(I: I32, n: int) -> bool:
@@ -107,7 +119,9 @@ def drive_wiring(I: I32, n: int) -> None:
     flags: int = I[AF4_WORD + n]
     if I[row + PLI_DRIVE_FAULT]:
         flags |= AF4_DRIVE_FAULT_INPUT
-    elif I[row + PLI_FAULT_MASK]:  # without a fault line the flag is the user's
+    elif (
+        I[row + PLI_FAULT_MASK] | I[row + PLI_FAULT_REPORT]
+    ):  # without a fault line the flag is the user's
         flags &= ~AF4_DRIVE_FAULT_INPUT
     I[AF4_WORD + n] = flags
     enabled: bool = flags & AF4_DRIVE_ENABLED != 0 or not flags & AF4_DRIVE_I_O_ENABLE
@@ -121,13 +135,16 @@ def drive_resting(I: I32, n: int) -> bool:
     k: int = I[i + AXI_POSITION_INDEX]
     if flags != I[i + AXI_DRIVE_SEEN] or I[i + AXI_ENABLE_TICKS] or k != I[i + AXI_DRIVE_WIRED]:
         return False
+    if feedback_broken(I, n) != I[i + AXI_FEEDBACK_BROKEN]:
+        return False
     k = I[i + AXI_DRIVE_MOTOR]
     if k < 0:
         return True
     shown: bool = flags & AF4_DRIVE_FAULT_INPUT != 0
     if I[PLI_BASE + k * PLI_STRIDE + PLI_DRIVE_FAULT]:
         return shown
-    return not shown or not I[PLI_BASE + k * PLI_STRIDE + PLI_FAULT_MASK]
+    k = PLI_BASE + k * PLI_STRIDE
+    return not shown or not I[k + PLI_FAULT_MASK] | I[k + PLI_FAULT_REPORT]
 
 
 def drive_step(I: I32, n: int, period_s: float) -> None:
@@ -149,6 +166,11 @@ def drive_step(I: I32, n: int, period_s: float) -> None:
     if drive_faulted(I, n) and not I[word] & AF4_DRIVE_FAULT:
         I[word] |= AF4_DRIVE_FAULT | AF4_KILL_ALL_MOTION_REQUEST
         I[word] &= ~AF4_DRIVE_ENABLED
+    if feedback_broken(I, n) != I[i + AXI_FEEDBACK_BROKEN]:
+        I[i + AXI_FEEDBACK_BROKEN] = feedback_broken(I, n)
+        if I[i + AXI_FEEDBACK_BROKEN]:
+            I[word] |= AF4_KILL_ALL_MOTION_REQUEST
+            I[word] &= ~AF4_DRIVE_ENABLED
     I[i + AXI_DRIVE_OLD] = I[word] & AF4_DRIVE_ENABLED
     I[i + AXI_DRIVE_SEEN] = I[word]  # a change of the fault line has to be looked at again
     I[i + AXI_DRIVE_WIRED] = I[i + AXI_POSITION_INDEX]

@@ -48,6 +48,9 @@ from openacr.map.numbers import (
     AXI_POSITION_SOURCE,
     AXI_SHOWN_ACTUAL,
     AXI_STRIDE,
+    EF_ENCODER_SIGNAL_FAULT,
+    EF_ENCODER_SIGNAL_LOST,
+    EF_WORD,
     ENC_BASE,
     ENC_ENCODER_POSITION,
     ENC_ENCODER_VELOCITY,
@@ -83,6 +86,7 @@ from openacr.map.numbers import (
     PLF_RAW_COUNT,
     PLF_STRIDE,
     PLI_BASE,
+    PLI_ENCODER_FAULT,
     PLI_KIND,
     PLI_STRIDE,
     STPR_BASE,
@@ -234,9 +238,29 @@ def encoder_filters_step(F: F64, I: I32, period_s: float) -> None:
             F[ENF_BASE + e * ENF_STRIDE + ENF_RAW_OLD_CNT] = raw - passed
 
 
+def encoder_broken(F: F64, I: I32, e: int, fault: int) -> None:
+    """Show what is wrong with the signals of encoder e, and leave out the edges it does not see.
+
+    Without signals it sees none. With disturbed ones two change at once in every period in which
+    it turns: one edge, that towards which it turns, is lost.
+    """
+    f: int = ENF_BASE + e * ENF_STRIDE
+    raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
+    I[EF_WORD + e] |= fault & (EF_ENCODER_SIGNAL_FAULT | EF_ENCODER_SIGNAL_LOST)
+    if fault != EF_ENCODER_SIGNAL_FAULT:
+        F[f + ENF_RAW_OLD_CNT] = raw
+    elif raw > F[f + ENF_RAW_OLD_CNT]:
+        F[f + ENF_RAW_OLD_CNT] += 1.0
+    elif raw < F[f + ENF_RAW_OLD_CNT]:
+        F[f + ENF_RAW_OLD_CNT] -= 1.0
+
+
 def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     """Count what the motor of encoder e has moved since the last tick."""
     f: int = ENF_BASE + e * ENF_STRIDE
+    fault: int = I[PLI_BASE + e * PLI_STRIDE + PLI_ENCODER_FAULT]
+    if fault:
+        encoder_broken(F, I, e, fault)
     raw: float = F[PLF_BASE + e * PLF_STRIDE + PLF_RAW_COUNT]
     scaled: float = (raw - F[f + ENF_RAW_OLD_CNT]) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
     F[f + ENF_RAW_OLD_CNT] = raw

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import analogs, apply_networks, apply_phases, bus, terminals
+from openacr.plant import analogs, apply_networks, apply_phases, bus
 from openacr.plant.counts import count_of
+from openacr.plant.inputs import WORD_BITS, input_place, output_place, place, word_row
 from openacr.plant.schema import (
     Axis,
     Contact,
@@ -49,8 +50,6 @@ _KINDS = {
     PhaseDrive: PHASE_DRIVE,
 }
 FULL_DAC_BITS = 16
-FLAG_WORDS = 4096
-WORD_BITS = 32
 
 
 def apply_world(world: World, memory: Memory) -> None:
@@ -83,7 +82,7 @@ _INTS = (
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
     (at.PLGI_BASE, at.PLGI_STRIDE),
     *apply_networks.INTS,
-    (FLAG_WORDS, 1),  # the onboard inputs
+    (at.W_INPUTS, 1),  # the onboard inputs
 )
 
 
@@ -137,8 +136,8 @@ def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
         at.PLF_OFFSET_V: axis.drive.offset_v,
         at.PLF_POSITION_CNT: count_of(axis, axis.initial),
         **_drive_rows(axis),
-        **_load_rows(axis),
-        **_stop_rows(axis),
+        **load_rows(axis),
+        **stop_rows(axis),
         **_marker_rows(axis),
     }
     base = at.PLF_BASE + axis.number * at.PLF_STRIDE
@@ -158,7 +157,7 @@ def _int_rows(axis: Axis) -> dict[int, int]:
     if isinstance(drive, PhaseDrive):
         rows[at.PLI_DAC] = drive.dacs[0]
     if drive.fault_input is not None:
-        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = _place(drive.fault_input)
+        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = place(drive.fault_input)
         rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)
     return rows
 
@@ -171,7 +170,7 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
         speed = sign * drive.revs_per_s_per_volt * axis.counts
         return {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
     motor = _motor(axis)
-    per_amp = motor.torque_nm_per_a * _accel_per_nm(axis)
+    per_amp = motor.torque_nm_per_a * accel_per_nm(axis)
     rows = {at.PLF_PEAK_ACCEL: drive.peak_amps * per_amp}
     if isinstance(drive, VelocityDrive):
         speed = sign * drive.revs_per_s_per_volt * axis.counts
@@ -186,16 +185,16 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
     return rows
 
 
-def _load_rows(axis: Axis) -> dict[int, float]:
-    """Friction per inertia; an ideal drive knows no load."""
+def load_rows(axis: Axis) -> dict[int, float]:
+    """Friction per inertia, by row; an ideal drive knows no load."""
     if isinstance(axis.drive, IdealDrive):
         return {}
     load = axis.load
     static_nm = load.coulomb_nm if load.static_nm is None else load.static_nm
     return {
         at.PLF_VISCOUS_PER_S: load.viscous_nms / _inertia_kgm2(axis),
-        at.PLF_COULOMB_ACCEL: load.coulomb_nm * _accel_per_nm(axis),
-        at.PLF_STATIC_ACCEL: static_nm * _accel_per_nm(axis),
+        at.PLF_COULOMB_ACCEL: load.coulomb_nm * accel_per_nm(axis),
+        at.PLF_STATIC_ACCEL: static_nm * accel_per_nm(axis),
     }
 
 
@@ -209,11 +208,13 @@ def _inertia_kgm2(axis: Axis) -> float:
     return _motor(axis).inertia_kgm2 + axis.load.inertia_kgm2
 
 
-def _accel_per_nm(axis: Axis) -> float:
+def accel_per_nm(axis: Axis) -> float:
+    """Counts/s^2 that a newton metre at the shaft of the motor gives."""
     return axis.counts / (2 * math.pi * _inertia_kgm2(axis))
 
 
-def _stop_rows(axis: Axis) -> dict[int, float]:
+def stop_rows(axis: Axis) -> dict[int, float]:
+    """The counts between which an axis can move, by row."""
     if axis.travel is None:
         return {at.PLF_LOW_STOP_CNT: -NO_BORDER_CNT, at.PLF_HIGH_STOP_CNT: NO_BORDER_CNT}
     low, high = sorted(count_of(axis, end) for end in axis.travel)
@@ -286,22 +287,18 @@ def _write_input_words(memory: Memory, world: World) -> dict[int, int]:
     """List the words that hold wired inputs; the onboard inputs always come first."""
     on, off = world.inputs.on, world.inputs.off
     wired = [*(box.input for box in _boxes(world)), *(wire.input for wire in world.wire), *on, *off]
-    words = sorted({_input(number)[0] for number in wired} | {at.W_INPUTS})
+    words = sorted({input_place(number)[0] for number in wired} | {at.W_INPUTS})
     slots = {word: slot for slot, word in enumerate(words)}
     for word, slot in slots.items():
-        memory.I[_word_row(slot) + at.PLNI_WORD] = word
+        memory.I[word_row(slot) + at.PLNI_WORD] = word
     for number in wired:
-        word, mask = _input(number)
-        memory.I[_word_row(slots[word]) + at.PLNI_WIRED] |= mask
+        word, mask = input_place(number)
+        memory.I[word_row(slots[word]) + at.PLNI_WIRED] |= mask
     for number in on:
-        word, mask = _input(number)
-        memory.I[_word_row(slots[word]) + at.PLNI_LEVEL] |= mask
+        word, mask = input_place(number)
+        memory.I[word_row(slots[word]) + at.PLNI_LEVEL] |= mask
     memory.I[at.PLGI_BASE + at.PLGI_WORDS] = len(slots)
     return slots
-
-
-def _word_row(slot: int) -> int:
-    return at.PLNI_BASE + slot * at.PLNI_STRIDE
 
 
 def _write_wires(memory: Memory, world: World, slots: dict[int, int]) -> None:
@@ -320,19 +317,19 @@ def _write_wires(memory: Memory, world: World, slots: dict[int, int]) -> None:
 def _write_target(
     memory: Memory, entry: int, number: int, contact: Contact, slots: dict[int, int]
 ) -> None:
-    word, mask = _input(number)
+    word, mask = input_place(number)
     base = at.PLWI_BASE + entry * at.PLWI_STRIDE
     memory.I[base + at.PLWI_SLOT] = slots[word]
     memory.I[base + at.PLWI_MASK] = mask
     memory.I[base + at.PLWI_BIT] = number % WORD_BITS
     if contact is Contact.CLOSED:
         memory.I[base + at.PLWI_CLOSED] = 1
-        memory.I[_word_row(slots[word]) + at.PLNI_LEVEL] |= mask
+        memory.I[word_row(slots[word]) + at.PLNI_LEVEL] |= mask
 
 
 def _write_output(memory: Memory, entry: int, wire: Wire) -> None:
     base = at.PLWI_BASE + entry * at.PLWI_STRIDE
-    word, mask = _output(wire.output or 0)
+    word, mask = output_place(wire.output or 0)
     memory.I[base + at.PLWI_OUTPUT_WORD], memory.I[base + at.PLWI_OUTPUT_MASK] = word, mask
     memory.F[at.PLWF_BASE + entry * at.PLWF_STRIDE + at.PLWF_DELAY_S] = wire.delay_s
 
@@ -354,23 +351,3 @@ def _write_box(memory: Memory, entry: int, box: _Box, slots: dict[int, int]) -> 
 def _all_but_last(sides: Iterable[_Side]) -> list[bool]:
     count = len(list(sides))
     return [position < count - 1 for position in range(count)]
-
-
-def _input(flag: int) -> tuple[int, int]:
-    """Word and mask of what drives an input: of a node it is the level at its terminal."""
-    terminal = terminals.input_terminal(flag)
-    word, mask = _place(flag)
-    return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
-
-
-def _output(flag: int) -> tuple[int, int]:
-    """Word and mask of an output; of a node it is the level at its terminal."""
-    terminal = terminals.output_terminal(flag)
-    word, mask = _place(flag)
-    return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
-
-
-def _place(flag: int) -> tuple[int, int]:
-    """Parameter number of the word that holds a flag, and the flag's signed mask."""
-    word, bit = divmod(flag, WORD_BITS)
-    return FLAG_WORDS + word, 1 << bit if bit < WORD_BITS - 1 else -(1 << bit)

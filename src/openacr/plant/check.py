@@ -11,6 +11,7 @@ from openacr.plant.check_networks import (
     output_ranges,
 )
 from openacr.plant.complaint import Complaint, Path
+from openacr.plant.inputs import WIRED_RANGES, within
 from openacr.plant.schema import (
     Axis,
     IdealDrive,
@@ -23,8 +24,6 @@ from openacr.plant.schema import (
 
 BOX_SIDES = 64
 INPUT_WORDS = 16
-# The onboard inputs and those of the four expansion boards; all other flags belong to the card.
-INPUT_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
 OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
 
 
@@ -173,7 +172,7 @@ def _wires(world: World) -> Iterator[Complaint]:
             yield from _region_faults(wire.region, labels, (*path, "region"))
             if wire.delay_s:
                 yield Complaint((*path, "delay_s"), "delay_s has a meaning only with output")
-        elif wire.output is not None and not _within(wire.output, _outputs(world)):
+        elif wire.output is not None and not within(wire.output, _outputs(world)):
             text = f"output {wire.output} is not an output"
             yield Complaint((*path, "output"), text, _ranges("outputs", _outputs(world)))
 
@@ -197,9 +196,9 @@ def _region_faults(
 def _inputs(world: World) -> Iterator[Complaint]:
     """Every input has at most one source."""
     taken: dict[int, str] = {}
-    ranges = INPUT_RANGES + input_ranges(world)
+    ranges = WIRED_RANGES + input_ranges(world)
     for path, number, what in _sources(world):
-        if not _within(number, ranges):
+        if not within(number, ranges):
             text = f"{what} is wired to {number}, which is not an input"
             yield Complaint(path, text, _ranges("inputs", ranges))
         elif number in taken:
@@ -222,11 +221,11 @@ def _sources(world: World) -> Iterator[tuple[Path, int, str]]:
 def _fault_inputs(world: World) -> Iterator[Complaint]:
     for index, axis in enumerate(world.axis):
         number = axis.drive.fault_input
-        if number is not None and not _within(number, INPUT_RANGES):
+        if number is not None and not within(number, WIRED_RANGES):
             yield Complaint(
                 ("axis", index, "drive", "fault_input"),
                 f"axis {axis.label}: fault_input {number} is not an input",
-                _ranges("inputs", INPUT_RANGES),
+                _ranges("inputs", WIRED_RANGES),
             )
 
 
@@ -242,10 +241,6 @@ def _size(world: World) -> Iterator[Complaint]:
 
 def _outputs(world: World) -> tuple[tuple[int, int], ...]:
     return OUTPUT_RANGES + output_ranges(world)
-
-
-def _within(number: int, ranges: tuple[tuple[int, int], ...]) -> bool:
-    return any(first <= number <= last for first, last in ranges)
 
 
 def _ranges(what: str, ranges: tuple[tuple[int, int], ...]) -> str:

@@ -44,12 +44,14 @@ from openacr.map.numbers import (
     PLF_VELOCITY_CPS,
     PLF_VISCOUS_PER_S,
     PLF_VOLTS,
+    PLI_CABLE_CUT,
     PLI_DAC,
     PLI_DRIVE_ENABLED,
     PLI_DRIVE_FAULT,
     PLI_DRIVE_READY,
     PLI_FAULT_CLOSED,
     PLI_FAULT_MASK,
+    PLI_FAULT_REPORT,
     PLI_FAULT_WORD,
 )
 from openacr.views import F32, F64, I32
@@ -59,18 +61,22 @@ DAC_COUNTS_PER_VOLT = 3276.8
 VOLTS_PER_DAC_COUNT = 10.0 / 32768.0
 ROUNDING_SHIFT = 6755399441055744.0
 STANDSTILL_CPS = 1e-9
+FAULT_TAKEN_BACK = 1
+FAULT_REPORTED = 2
 
 
 def drive_ready(I: I32, i: int) -> int:
-    """1 while the drive is enabled and has no fault."""
+    """1 while the drive is enabled and has no fault, and its motor is connected."""
     if I[i + PLI_FAULT_MASK] != 0:
         level: int = 0
         if (I[I[i + PLI_FAULT_WORD]] & I[i + PLI_FAULT_MASK]) != 0:
             level = 1
         I[i + PLI_DRIVE_FAULT] = level ^ I[i + PLI_FAULT_CLOSED]
+    elif I[i + PLI_FAULT_REPORT] != 0:
+        I[i + PLI_DRIVE_FAULT] = 1 if I[i + PLI_FAULT_REPORT] == FAULT_REPORTED else 0
     ready: int = 0
     if I[i + PLI_DRIVE_ENABLED] != 0 and I[i + PLI_DRIVE_FAULT] == 0:
-        ready = 1
+        ready = 1 if I[i + PLI_CABLE_CUT] == 0 else 0
     I[i + PLI_DRIVE_READY] = ready
     return ready
 

@@ -31,6 +31,7 @@ from openacr.map.numbers import (
     PLGI_FOLLOWS,
     PLGI_RISES,
     PLI_BASE,
+    PLI_ENCODER_FAULT,
     PLI_KIND,
     PLI_MARKER_EDGES,
     PLI_STRIDE,
@@ -61,6 +62,12 @@ TORQUE_DRIVE = 1
 VELOCITY_DRIVE = 2
 IDEAL_DRIVE = 3
 PHASE_DRIVE = 4
+
+# of encoder_fault
+EDGES_LOST = 1
+SIGNALS_LOST = 2
+NO_ENCODER = 4
+NO_SIGNALS = 6
 
 NO_ACCEL_LIMIT = 1e30
 SPEED_BOUND_CPS = 1e10  # keeps a runaway axis within what a double can count for days
@@ -130,7 +137,8 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     I[i + PLI_MARKER_EDGES] = 0
     if F[f + PLF_QUIET_LOW_CNT] <= position and position < F[f + PLF_QUIET_HIGH_CNT]:
         return 0
-    marker_edges(F, I, f, i)
+    if (I[i + PLI_ENCODER_FAULT] & NO_SIGNALS) == 0:
+        marker_edges(F, I, f, i)
     motor_borders(F, I, n)
     return 1
 

@@ -49,17 +49,6 @@ def output_terminal(flag: int) -> tuple[int, int] | None:
     return _place(flag, at.CANDO_WORD)
 
 
-def switch(memory: Memory, flag: int, on: bool) -> bool:
-    """Switch a digital input of a node; False if no node has it."""
-    place = input_terminal(flag)
-    if place is None or place[1] >= memory.I[ints(place[0]) + at.BUSNI_DIGITAL_INPUTS]:
-        return False
-    row, bit = terminal_row(*place, at.BUSNI_LEVELS), flag % WORD_BITS
-    mask = 1 << bit if bit < WORD_BITS - 1 else -(1 << bit)
-    memory.I[row] = memory.I[row] | mask if on else memory.I[row] & ~mask
-    return True
-
-
 def analog_input(memory: Memory, parameter: int) -> int | None:
     """Index (into F) of what is at the analog input a parameter shows; None if there is none."""
     channel, offset = divmod(parameter - at.CANADC_BASE, at.CANADC_STRIDE)

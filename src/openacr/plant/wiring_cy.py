@@ -35,6 +35,8 @@ from openacr.map.numbers import (
     PLNI_BASE,
     PLNI_LEVEL,
     PLNI_STRIDE,
+    PLNI_STUCK,
+    PLNI_STUCK_LEVEL,
     PLNI_WIRED,
     PLNI_WORD,
     PLWF_BASE,
@@ -213,14 +215,15 @@ def _box_edges(F: F64, I: I32, w: int, inside: int, enter: float, leave: float) 
 def _wire_edge(F: F64, I: I32, w: int, active: int, fraction: float) -> None:
     """Note the new level of the input a wire drives and, for onboard inputs, the moment."""
     r: int = PLWI_BASE + w * PLWI_STRIDE
-    level: int = PLNI_BASE + I[r + PLWI_SLOT] * PLNI_STRIDE + PLNI_LEVEL
+    slot: int = PLNI_BASE + I[r + PLWI_SLOT] * PLNI_STRIDE
+    level: int = slot + PLNI_LEVEL
     on: int = active ^ I[r + PLWI_CLOSED]
     I[r + PLWI_ACTIVE] = active
     if on != 0:
         I[level] |= I[r + PLWI_MASK]
     else:
         I[level] &= ~I[r + PLWI_MASK]
-    if I[r + PLWI_SLOT] != 0:
+    if I[r + PLWI_SLOT] != 0 or (I[slot + PLNI_STUCK] & I[r + PLWI_MASK]) != 0:
         return
     if on != 0:
         I[PLGI_BASE + PLGI_RISES] |= I[r + PLWI_MASK]
@@ -249,11 +252,13 @@ def follow_outputs(F: F64, I: I32, dt: float) -> None:
 
 
 def write_wired_inputs(I: I32) -> None:
-    """Wired inputs show their wires; the others keep what was written last."""
+    """Wired inputs show their wires, or what they are forced to; the others are left alone."""
     k: int = 0
     r: int = 0
     word: int = 0
+    level: int = 0
     for k in range(I[PLGI_BASE + PLGI_WORDS]):
         r = PLNI_BASE + k * PLNI_STRIDE
         word = I[r + PLNI_WORD]
-        I[word] = (I[word] & ~I[r + PLNI_WIRED]) | I[r + PLNI_LEVEL]
+        level = (I[r + PLNI_LEVEL] & ~I[r + PLNI_STUCK]) | I[r + PLNI_STUCK_LEVEL]
+        I[word] = (I[word] & ~I[r + PLNI_WIRED]) | level

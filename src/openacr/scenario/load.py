@@ -1,11 +1,13 @@
 """Read a scenario file and refuse, with its place, everything that could not be played."""
 
+from enum import Enum
 from pathlib import Path
 
 import msgspec
 
 from openacr.errors import SourceError
 from openacr.plant import toml_file
+from openacr.plant.faults import Kind
 from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
 
@@ -43,7 +45,7 @@ def _wrong(message: str, text: str, path: str) -> SourceError:
 
 
 def _choices(name: str) -> str:
-    kinds: dict[str, type[Key] | type[State]] = {"key": Key, "state": State}
+    kinds: dict[str, type[Enum]] = {"key": Key, "state": State, "kind": Kind}
     if name in kinds:
         return "allowed: " + ", ".join(member.value for member in kinds[name])
     if name in STRUCT_OF_KEY:

@@ -38,7 +38,10 @@ class World(Protocol):
         """Say what a program is doing."""
 
     def set_input(self, bit: int, on: bool) -> None:
-        """Switch one input."""
+        """Switch one input; one that the machine drives is forced until it is released."""
+
+    def release_input(self, bit: int) -> None:
+        """Let go of an input: off, or what the machine drives it to."""
 
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream."""
@@ -49,8 +52,14 @@ class World(Protocol):
     def set_analog(self, parameter: int, value: float) -> None:
         """Bring a value to the analog input a parameter shows."""
 
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        """Let something go wrong with an axis of the machine."""
 
-@dataclass(slots=True)
+    def mend(self, axis: int, kind: str | None) -> None:
+        """End one kind of fault of an axis, or all."""
+
+
+@dataclass(slots=True, eq=False)
 class _Pending:
     """One entry that has not happened yet, and how far it has come."""
 
@@ -58,6 +67,7 @@ class _Pending:
     due_tk: int | None = None
     is_watched: bool = False
     was_false: bool = False
+    is_repeated: bool = False
     heard_from: int = 0
 
 
@@ -94,7 +104,9 @@ class Play:
     @property
     def idle_actions(self) -> list[str]:
         """Actions whose moment has not come."""
-        waiting = (p.item for p in self._pending if isinstance(p.item, Action))
+        waiting = (
+            p.item for p in self._pending if isinstance(p.item, Action) and not p.is_repeated
+        )
         return [_moment_text(action) for action in waiting]
 
     def heard(self, text: str) -> None:
@@ -119,7 +131,7 @@ class Play:
         """Do everything that is due now; one checkpoint may make others due at once."""
         for release in [r for r in self._releases if r[0] <= world.tick]:
             self._releases.remove(release)
-            world.set_input(release[1], False)
+            world.release_input(release[1])
         self._pull(world)
         while any(self._look(pending, world) for pending in self._pending):
             pass  # looked at from the start again, so that the order of the file holds
@@ -160,8 +172,12 @@ class Play:
     def _look(self, pending: _Pending, world: World) -> bool:
         """Perform one entry if its moment is now; True when it was."""
         if pending.is_watched and self._has_come(pending, world):
+            due_tk = world.tick + self._ticks(pending.item.delay_s)
+            if isinstance(pending.item, Action) and pending.item.every:
+                self._repeat(pending, due_tk)
+                return False
             pending.is_watched = False
-            pending.due_tk = world.tick + self._ticks(pending.item.delay_s)
+            pending.due_tk = due_tk
         if pending.due_tk is None or pending.due_tk > world.tick:
             return False
         self._pending.remove(pending)
@@ -171,12 +187,19 @@ class Play:
             self._judge(pending.item, world)
         return True
 
+    def _repeat(self, pending: _Pending, due_tk: int) -> None:
+        """Enter one occurrence of a repeated action beside it, and wait for the next."""
+        self._pending.insert(self._pending.index(pending) + 1, _Pending(pending.item, due_tk))
+        pending.heard_from, pending.was_false = len(self._printed), False
+        pending.is_repeated = True
+
     def _has_come(self, pending: _Pending, world: World) -> bool:
         condition = pending.item.when
         if condition is None:
             return True
         holds = self._holds(condition, world, self._printed[pending.heard_from :])
-        if condition.becomes is None:
+        is_again = pending.is_repeated and condition.printed is None
+        if condition.becomes is None and not is_again:
             return holds
         came = holds and pending.was_false
         pending.was_false = pending.was_false or not holds
@@ -202,6 +225,8 @@ class Play:
             world.set_input(bit, True)
         for bit in action.clear:
             world.set_input(bit, False)
+        for bit in action.release:
+            world.release_input(bit)
         release = world.tick + max(1, self._ticks(action.press_s))
         self._releases += [(release, bit) for bit in action.press]
         if action.send is not None or action.key is not None:
@@ -215,6 +240,11 @@ class Play:
                 self._pulls.append(pull)
         if action.analog is not None:
             world.set_analog(action.analog.input, action.analog.value)
+        if action.fault is not None:
+            world.fault(action.fault.axis, action.fault.kind.value, action.fault.value)
+        if action.mend is not None:
+            kind = action.mend.kind
+            world.mend(action.mend.axis, None if kind is None else kind.value)
         if action.checkpoint is not None:
             self._reach(action.checkpoint, world.tick)
 

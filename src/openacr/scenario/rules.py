@@ -9,16 +9,25 @@ from msgspec.structs import fields
 
 from openacr.errors import MapError
 from openacr.map import flag, parameter
-from openacr.scenario.schema import Action, Analog, Condition, Drag, Expectation, Scenario
+from openacr.plant import inputs
+from openacr.plant.faults import QUANTITIES
+from openacr.scenario.schema import (
+    Action,
+    Analog,
+    Condition,
+    Drag,
+    Expectation,
+    Fault,
+    Mend,
+    Scenario,
+)
 
 Step = str | int
 
-# The 32 opto-isolated inputs and the 32 miscellaneous ones are the card's input pins; the
-# others are the digital and analog inputs of up to four CANopen nodes.
-_NODES = [range(first, first + 512) for first in range(11520, 15616, 1024)]
-INPUT_BITS = frozenset([*range(32), *range(64, 96), *(bit for node in _NODES for bit in node)])
+# The analog inputs of the card and of up to four CANopen nodes.
 ANALOG_INPUTS = frozenset([*range(6408, 6536, 16), *range(33288, 35328, 16)])
 STREAMS = ("FIFO", "COM1", "COM2", "DPCB", *(f"STREAM{n}" for n in range(1, 6)))
+_INPUTS = "inputs are bits " + ", ".join(f"{first}..{last}" for first, last in inputs.RANGES)
 START, END = "start", "end"
 
 STRUCT_OF_KEY: dict[str, type[Struct]] = {
@@ -27,10 +36,13 @@ STRUCT_OF_KEY: dict[str, type[Struct]] = {
     "when": Condition,
     "drag": Drag,
     "analog": Analog,
+    "fault": Fault,
+    "mend": Mend,
 }
 
 _SUBJECTS = ("parameter", "flag", "axis", "program", "printed", "between")
-_DEEDS = ("set", "clear", "press", "send", "key", "drag", "analog", "checkpoint")
+_DEEDS = ("set", "clear", "release", "press", "send", "key", "drag", "analog", "fault", "mend",
+          "checkpoint")  # fmt: skip
 _COMPANIONS = {
     "parameter": {"is", "above", "below", "tolerance"},
     "flag": {"is"},
@@ -155,11 +167,17 @@ def _action(where: tuple[Step, ...], action: Action) -> Iterator[Problem]:
     keys = given(action)
     if not keys & set(_DEEDS):
         yield Problem(where, "this entry does nothing", "one of " + ", ".join(_DEEDS))
-    for key in ("set", "clear", "press"):
+    for key in ("set", "clear", "release", "press"):
         for bit in getattr(action, key):
-            if bit not in INPUT_BITS:
-                hint = "inputs are bits 0..31, 64..95, and 11520..12031 + 1024 n of node n"
-                yield Problem((*where, key), f"bit {bit} is not an input", hint)
+            if not inputs.within(bit, inputs.RANGES):
+                yield Problem((*where, key), f"bit {bit} is not an input", _INPUTS)
+    if action.fault is not None:
+        yield from _fault((*where, "fault"), action.fault)
+    if action.every and action.when is None:
+        hint = "it repeats an action each time the condition becomes true again"
+        yield Problem((*where, "every"), "`every` needs `when`", hint)
+    if action.every and action.checkpoint is not None:
+        yield Problem((*where, "every"), "a checkpoint is one moment: `every` has more")
     if action.analog is not None and action.analog.input not in ANALOG_INPUTS:
         text = f"P{action.analog.input} is not an analog input"
         yield Problem(
@@ -174,6 +192,17 @@ def _action(where: tuple[Step, ...], action: Action) -> Iterator[Problem]:
     if action.stream is not None and action.stream not in STREAMS:
         hint = "one of " + ", ".join(STREAMS)
         yield Problem((*where, "stream"), f"no stream {action.stream!r}", hint)
+
+
+def _fault(where: tuple[Step, ...], fault: Fault) -> Iterator[Problem]:
+    """Each kind has its own quantity, or none."""
+    wanted = QUANTITIES.get(fault.kind)
+    for key in ("at", "torque_nm"):
+        is_given = getattr(fault, key) is not None
+        if is_given and key != wanted:
+            yield Problem((*where, key), f"`{key}` does not belong to the fault {fault.kind}")
+        if key == wanted and not is_given:
+            yield Problem(where, f"the fault {fault.kind} needs `{key}`")
 
 
 def _expectation(

@@ -2,13 +2,16 @@
 
 Moments. An action or expectation names when it applies: `time_s` (seconds from the start),
 `when` (a condition) and/or `after` (a checkpoint reached before), and `delay_s` on top of
-the last two. An expectation without a moment applies at the end of the run.
+the last two; `every` repeats an action each time its condition becomes true again. An expectation
+without a moment applies at the end of the run.
 """
 
 from enum import Enum
 from typing import Annotated
 
 from msgspec import UNSET, Meta, Struct, UnsetType
+
+from openacr.plant.faults import Kind
 
 Seconds = Annotated[float, Meta(ge=0.0)]
 Bit = Annotated[int, Meta(ge=0, le=32767)]
@@ -66,6 +69,27 @@ class Drag(Struct, frozen=True, forbid_unknown_fields=True):
     over_s: Seconds = 0.0
 
 
+class Fault(Struct, frozen=True, forbid_unknown_fields=True):
+    """Let something go wrong with an axis of the machine, by its number in machine.toml."""
+
+    axis: Sixteenth
+    kind: Kind
+    at: float | None = None
+    torque_nm: Annotated[float, Meta(ge=0.0)] | None = None
+
+    @property
+    def value(self) -> float:
+        """The number that belongs to the kind, 0 where there is none."""
+        return self.torque_nm or self.at or 0.0
+
+
+class Mend(Struct, frozen=True, forbid_unknown_fields=True):
+    """End one kind of fault of an axis, or all."""
+
+    axis: Sixteenth
+    kind: Kind | None = None
+
+
 class Analog(Struct, frozen=True, forbid_unknown_fields=True):
     """Bring a value to an analog input, named by the parameter that shows it."""
 
@@ -80,8 +104,10 @@ class Action(Struct, frozen=True, forbid_unknown_fields=True):
     when: Condition | None = None
     after: Text | None = None
     delay_s: Seconds = 0.0
+    every: bool = False
     set: tuple[Bit, ...] = ()
     clear: tuple[Bit, ...] = ()
+    release: tuple[Bit, ...] = ()
     press: tuple[Bit, ...] = ()
     press_s: Seconds = 0.1
     send: Text | None = None
@@ -89,6 +115,8 @@ class Action(Struct, frozen=True, forbid_unknown_fields=True):
     stream: Text | None = None
     drag: Drag | None = None
     analog: Analog | None = None
+    fault: Fault | None = None
+    mend: Mend | None = None
     checkpoint: Text | None = None
 
 

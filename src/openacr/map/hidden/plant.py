@@ -63,6 +63,10 @@ MOTOR = HiddenBlock(
         "fault_closed",
         "marker",  # 1 while the marker is present
         "marker_edges",  # of the last tick: 1 rising, 2 falling, 3 both
+        # faults from outside
+        "encoder_fault",  # 1 edges are lost, 2 no signals, as the encoder flags; 4 no encoder
+        "fault_report",  # of a drive without fault input: 0 none ever, 1 taken back, 2 fault
+        "cable_cut",  # 1 while the motor gets no current
     ),
 )
 
@@ -101,7 +105,18 @@ WIRE = HiddenBlock(
 )
 
 # The words in which inputs are wired.
-INPUT_WORD = HiddenBlock(prefix="PLN", count=16, doubles=(), ints=("word", "wired", "level"))
+INPUT_WORD = HiddenBlock(
+    prefix="PLN",
+    count=16,
+    doubles=(),
+    ints=(
+        "word",
+        "wired",
+        "level",
+        "stuck",  # forced from outside, whatever drives them
+        "stuck_level",
+    ),
+)
 
 GENERAL = HiddenBlock(
     prefix="PLG",

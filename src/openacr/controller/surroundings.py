@@ -1,0 +1,106 @@
+"""The surroundings of a card as a caller acts on them: inputs, loads moved by hand, faults.
+
+Everything is noted in the journal with its tick.
+"""
+
+import math
+
+from openacr.controller.journal import Entered
+from openacr.controller.running import Running
+from openacr.errors import UserError
+from openacr.map.numbers import (
+    AX_ACTUAL_POSITION,
+    AXI_POSITION_INDEX,
+    ENI_BASE,
+    ENI_MULT,
+    ENI_STRIDE,
+)
+from openacr.motion.permits import scale_of
+from openacr.motion.rows import axis_ints, axis_parameter
+from openacr.plant import analogs, apply, faults, inputs, terminals
+
+RAW_COUNTS = 4  # of an encoder per line, at MULT 4
+_INPUTS = "inputs are " + ", ".join(f"{first}-{last}" for first, last in inputs.RANGES)
+
+
+def _needs_finite(what: str, value: float) -> None:
+    if not math.isfinite(value):
+        raise UserError(f"{what}: {value} is not a finite number")
+
+
+def _fault_kind(word: str) -> faults.Kind:
+    try:
+        return faults.Kind(word)
+    except ValueError:
+        raise UserError(f"fault {word!r}: known are {', '.join(faults.Kind)}") from None
+
+
+class Surroundings(Running):
+    """A card in its machine, which can be interfered with."""
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch an input; one that the world drives is forced to this level until it is released.
+
+        Inputs are those onboard (0-31), the miscellaneous ones (64-95), those of expansion boards
+        and of CANopen nodes; UserError for any other number.
+        """
+        self._needs_input(bit)
+        inputs.switch(self.memory, bit, on)
+        self._note(Entered.INPUT, bit, on)
+
+    def release_input(self, bit: int) -> None:
+        """Let go of an input: it shows what drives it again, and is off where nothing does."""
+        self._needs_input(bit)
+        inputs.release(self.memory, bit)
+        self._note(Entered.RELEASE, bit)
+
+    def _needs_input(self, bit: int) -> None:
+        if not inputs.exists(self.memory, bit):
+            of_node = terminals.input_terminal(bit) is not None
+            why = "no CANopen node of the machine has it" if of_node else _INPUTS
+            raise UserError(f"input {bit}: {why}")
+
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value, in its unit, to the analog input that a parameter shows."""
+        _needs_finite(f"P{parameter}", value)
+        channel = analogs.terminal(parameter)
+        place = terminals.analog_input(self.memory, parameter)
+        if channel is not None:
+            analogs.put_volts(self.memory, channel, value)
+        elif place is None:
+            raise UserError(f"P{parameter} shows no analog input")
+        else:
+            self.memory.F[place] = value
+        self._note(Entered.ANALOG, parameter, value)
+
+    def drag(self, axis: int, by_u: float) -> None:
+        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
+        self._needs_axis(axis)
+        _needs_finite(f"axis {axis}", by_u)
+        encoder = self.memory.I[axis_ints(axis) + AXI_POSITION_INDEX]
+        mult = self.memory.I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] or 1
+        pulses = by_u * scale_of(self.card, axis)
+        if not apply.push(self.memory, encoder, pulses * RAW_COUNTS / mult):
+            row = axis_parameter(axis) + AX_ACTUAL_POSITION
+            self.memory.write(row, self.memory.I[row] + round(pulses))
+        self._note(Entered.DRAG, axis, by_u)
+
+    def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
+        """Let something go wrong with an axis of the machine, by its number in machine.toml.
+
+        Kinds: encoder-lost, encoder-noise, drive, motor-cable, jam, obstacle (`value`: where, in
+        units of the axis), friction (`value`: torque in Nm). It lasts until `mend`.
+        """
+        _needs_finite(f"axis {axis}", value)
+        faults.inject(self.world, self.memory, axis, _fault_kind(kind), value)
+        self._note(Entered.FAULT, axis, value, name=kind)
+
+    def mend(self, axis: int, kind: str | None = None) -> None:
+        """End one kind of fault of an axis, or all of them."""
+        faults.mend(self.world, self.memory, axis, None if kind is None else _fault_kind(kind))
+        self._note(Entered.MEND, axis, name=kind or "")
+
+    def _needs_axis(self, number: int) -> None:
+        if not 0 <= number < self.model.axes:
+            known = f"the {self.model.name} has axes 0-{self.model.axes - 1}"
+            raise UserError(f"axis {number}: {known}")

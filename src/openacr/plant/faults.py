@@ -1,0 +1,176 @@
+"""Faults of the machine around the card, put in and taken back while it runs.
+
+Everything is kept in the rows of the world, so that snapshots, restarts of the card and replayed
+journals have it. What a fault has changed is written anew from the machine file when it ends.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from openacr.errors import UserError
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plant import apply, inputs
+from openacr.plant.counts import count_of
+from openacr.plant.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK
+from openacr.plant.schema import Axis, Contact, IdealDrive, World
+from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
+
+
+class Kind(StrEnum):
+    """What can go wrong with an axis of the machine."""
+
+    ENCODER_LOST = "encoder-lost"
+    ENCODER_NOISE = "encoder-noise"
+    DRIVE = "drive"
+    MOTOR_CABLE = "motor-cable"
+    JAM = "jam"
+    OBSTACLE = "obstacle"
+    FRICTION = "friction"
+
+
+# What the number of a fault says; the others have none.
+QUANTITIES = {Kind.OBSTACLE: "at", Kind.FRICTION: "torque_nm"}
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """An axis of the world and the first indices of its rows."""
+
+    memory: Memory
+    axis: Axis
+    reals: int
+    ints: int
+
+    @property
+    def position_cnt(self) -> float:
+        return self.memory.F[self.reals + at.PLF_POSITION_CNT]
+
+    def put(self, row: int, value_cnt: float) -> None:
+        self.memory.F[self.reals + row] = value_cnt
+
+    def set(self, row: int, value: int) -> None:
+        self.memory.I[self.ints + row] = value
+
+
+def inject(world: World, memory: Memory, axis: int, kind: Kind, value: float) -> None:
+    """Let something go wrong with an axis; UserError where it makes no sense.
+
+    `value` is the position of an obstacle in units of the axis, or the torque of friction in Nm
+    at the shaft of the motor.
+    """
+    _START[kind](_place(world, memory, axis), value)
+
+
+def mend(world: World, memory: Memory, axis: int, kind: Kind | None = None) -> None:
+    """Take one kind of fault of an axis back, or all."""
+    place = _place(world, memory, axis)
+    for one in Kind if kind is None else (kind,):
+        _END[one](place)
+
+
+def _place(world: World, memory: Memory, number: int) -> _Place:
+    for axis in world.axis:
+        if axis.number == number:
+            rows = at.PLF_BASE + number * at.PLF_STRIDE, at.PLI_BASE + number * at.PLI_STRIDE
+            return _Place(memory, axis, *rows)
+    known = ", ".join(str(axis.number) for axis in world.axis) or "none"
+    raise UserError(f"axis {number}: the machine has no such axis (it has {known})")
+
+
+def _lose_signals(place: _Place, _: float) -> None:
+    place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= SIGNALS_LOST
+
+
+def _disturb_signals(place: _Place, _: float) -> None:
+    place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= EDGES_LOST
+
+
+def _repair(bit: int) -> Callable[[_Place], None]:
+    def end(place: _Place) -> None:
+        place.memory.I[place.ints + at.PLI_ENCODER_FAULT] &= ~bit
+
+    return end
+
+
+def _report_drive(place: _Place, _: float) -> None:
+    drive = place.axis.drive
+    place.set(at.PLI_FAULT_REPORT, FAULT_REPORTED)
+    if drive.fault_input is not None:
+        inputs.switch(place.memory, drive.fault_input, drive.fault_contact is Contact.OPEN)
+
+
+def _end_drive(place: _Place) -> None:
+    drive = place.axis.drive
+    if place.memory.I[place.ints + at.PLI_FAULT_REPORT] != FAULT_REPORTED:
+        return
+    place.set(at.PLI_FAULT_REPORT, FAULT_TAKEN_BACK)
+    if drive.fault_input is None:
+        return
+    if inputs.is_driven(place.memory, drive.fault_input):
+        inputs.release(place.memory, drive.fault_input)
+    else:
+        inputs.switch(place.memory, drive.fault_input, drive.fault_contact is Contact.CLOSED)
+
+
+def _cut_cable(place: _Place, _: float) -> None:
+    place.set(at.PLI_CABLE_CUT, 1)
+
+
+def _join_cable(place: _Place) -> None:
+    place.set(at.PLI_CABLE_CUT, 0)
+
+
+def _jam(place: _Place, _: float) -> None:
+    for row in (at.PLF_LOW_STOP_CNT, at.PLF_HIGH_STOP_CNT):
+        place.put(row, place.position_cnt)
+
+
+def _block(place: _Place, at_u: float) -> None:
+    """Put an obstacle into the travel, on the side of the load on which it is."""
+    border = count_of(place.axis, at_u)
+    is_above = border >= place.position_cnt
+    place.put(at.PLF_HIGH_STOP_CNT if is_above else at.PLF_LOW_STOP_CNT, border)
+
+
+def _free(place: _Place) -> None:
+    for row, stop in apply.stop_rows(place.axis).items():
+        place.put(row, stop)
+
+
+def _rub(place: _Place, torque_nm: float) -> None:
+    if isinstance(place.axis.drive, IdealDrive):
+        hint = "an ideal drive moves whatever the load; give it another mode and a motor"
+        raise UserError(f"axis {place.axis.label}: friction has no effect ({hint})")
+    if torque_nm < 0.0:
+        raise UserError(f"axis {place.axis.label}: friction of {torque_nm:g} Nm; it is 0 or more")
+    _smooth(place)
+    for row in (at.PLF_COULOMB_ACCEL, at.PLF_STATIC_ACCEL):
+        own = place.memory.F[place.reals + row]
+        place.put(row, own + torque_nm * apply.accel_per_nm(place.axis))
+
+
+def _smooth(place: _Place) -> None:
+    for row, accel in apply.load_rows(place.axis).items():
+        place.put(row, accel)
+
+
+_START: dict[Kind, Callable[[_Place, float], None]] = {
+    Kind.ENCODER_LOST: _lose_signals,
+    Kind.ENCODER_NOISE: _disturb_signals,
+    Kind.DRIVE: _report_drive,
+    Kind.MOTOR_CABLE: _cut_cable,
+    Kind.JAM: _jam,
+    Kind.OBSTACLE: _block,
+    Kind.FRICTION: _rub,
+}
+_END: dict[Kind, Callable[[_Place], None]] = {
+    Kind.ENCODER_LOST: _repair(SIGNALS_LOST),
+    Kind.ENCODER_NOISE: _repair(EDGES_LOST),
+    Kind.DRIVE: _end_drive,
+    Kind.MOTOR_CABLE: _join_cable,
+    Kind.JAM: _free,
+    Kind.OBSTACLE: _free,
+    Kind.FRICTION: _smooth,
+}

@@ -1,0 +1,104 @@
+"""Inputs by the flag that shows them: which there are, what drives them, and forcing their level.
+
+A scenario or a test switches inputs with `switch`. An input that nothing in the world drives
+just takes the level. One that a limit switch, a region, an output or `[inputs]` drives is
+forced to it, as by a stuck contact or a cut wire, until `release`; meanwhile the world goes on
+behind it.
+"""
+
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.plant import terminals
+
+FLAG_WORDS = 4096
+WORD_BITS = 32
+# The onboard inputs and those of the four expansion boards, which wires may lead to.
+WIRED_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
+MISCELLANEOUS = (64, 95)
+NODE_RANGES = tuple(
+    (first, first + at.BUSNI_LEVELS_SIZE * WORD_BITS - 1)
+    for node in range(at.BUSN_COUNT)
+    for first in ((at.CANDI_WORD + node * at.CANDI_WORD_STRIDE - FLAG_WORDS) * WORD_BITS,)
+)
+RANGES = tuple(sorted((*WIRED_RANGES, MISCELLANEOUS, *NODE_RANGES)))
+
+
+def place(flag: int) -> tuple[int, int]:
+    """Parameter number of the word that holds a flag, and the flag's signed mask."""
+    word, bit = divmod(flag, WORD_BITS)
+    return FLAG_WORDS + word, 1 << bit if bit < WORD_BITS - 1 else -(1 << bit)
+
+
+def input_place(flag: int) -> tuple[int, int]:
+    """Word and mask of what drives an input: of a node it is the level at its terminal."""
+    terminal = terminals.input_terminal(flag)
+    word, mask = place(flag)
+    return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
+
+
+def output_place(flag: int) -> tuple[int, int]:
+    """Word and mask of an output; of a node it is the level at its terminal."""
+    terminal = terminals.output_terminal(flag)
+    word, mask = place(flag)
+    return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
+
+
+def word_row(slot: int) -> int:
+    """Index (into I) of the rows of a word with wired inputs."""
+    return at.PLNI_BASE + slot * at.PLNI_STRIDE
+
+
+def within(number: int, ranges: tuple[tuple[int, int], ...]) -> bool:
+    """Whether a flag is in one of these ranges."""
+    return any(first <= number <= last for first, last in ranges)
+
+
+def exists(memory: Memory, flag: int) -> bool:
+    """Whether the card, an expansion board or a node of the machine has this input."""
+    terminal = terminals.input_terminal(flag)
+    if terminal is None:
+        return within(flag, RANGES)
+    node, number = terminal
+    return number < memory.I[terminals.ints(node) + at.BUSNI_DIGITAL_INPUTS]
+
+
+def switch(memory: Memory, flag: int, on: bool) -> None:
+    """Give an input a level; one that the world drives keeps it until it is released."""
+    word, mask = input_place(flag)
+    slot = _driven(memory, word, mask)
+    if slot is not None:
+        row = word_row(slot)
+        memory.I[row + at.PLNI_STUCK] |= mask
+        _put(memory, row + at.PLNI_STUCK_LEVEL, mask, on)
+    _put(memory, word, mask, on)
+
+
+def release(memory: Memory, flag: int) -> None:
+    """Let go of an input: it shows what drives it again, and is off where nothing does."""
+    word, mask = input_place(flag)
+    slot = _driven(memory, word, mask)
+    if slot is None:
+        _put(memory, word, mask, False)
+        return
+    row = word_row(slot)
+    for stuck in (at.PLNI_STUCK, at.PLNI_STUCK_LEVEL):
+        memory.I[row + stuck] &= ~mask
+    _put(memory, word, mask, memory.I[row + at.PLNI_LEVEL] & mask != 0)
+
+
+def is_driven(memory: Memory, flag: int) -> bool:
+    """Whether something in the world drives an input."""
+    return _driven(memory, *input_place(flag)) is not None
+
+
+def _driven(memory: Memory, word: int, mask: int) -> int | None:
+    """The slot of an input that the world drives."""
+    for slot in range(memory.I[at.PLGI_BASE + at.PLGI_WORDS]):
+        row = word_row(slot)
+        if memory.I[row + at.PLNI_WORD] == word and memory.I[row + at.PLNI_WIRED] & mask:
+            return slot
+    return None
+
+
+def _put(memory: Memory, row: int, mask: int, on: bool) -> None:
+    memory.I[row] = memory.I[row] | mask if on else memory.I[row] & ~mask
