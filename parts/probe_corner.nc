@@ -1,4 +1,5 @@
 ; Finds the lower left corner of a block with a probe and makes it the zero of G54, then marks it.
+; Needs a probe: P600000 is its input (24), P600006 is true where it is wired to 25 for Y, too.
 ; The ball of the probe has a radius of .125 inch. Begin left of and below the corner, tip at its side.
 G20 G90 G17
 G53 ; machine coordinates

@@ -260,6 +260,19 @@ def test_repeat_forever_does_not_hold_a_virtual_run(tmp_path: Path) -> None:
     assert as_json("run", program(tmp_path, SQUARE))["passes"] == 1
 
 
+@pytest.mark.req("MILL-SYS-PROBE-NONE")
+def test_check_refuses_a_probing_move_where_the_store_has_no_probe(tmp_path: Path) -> None:
+    part = "parts/probe_corner.nc"
+    code, text = mill("check", part)
+    assert (code, "probe_corner.nc:7:1: E243" in text, "no probe input" in text) == (1, True, True)
+    code, text = mill("run", part, "--quiet")
+    assert (code, "no probe input" in text) == (1, True)
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(600_000, 24)
+    assert mill("check", part)[0] == 0
+    assert mill("run", part, "--quiet")[0] == 0
+
+
 def test_block_skip_leaves_slashed_lines_out(tmp_path: Path) -> None:
     part = tmp_path / "S.NC"
     part.write_text("F60\n" + "G1 X.1\n/G1 Y.1\n" * 3 + "M2\n")

@@ -154,14 +154,16 @@ def _surveyed(
     reader: "Reader | None" = None,
 ) -> "tuple[Survey, Prediction]":
     """Read a program once, for the survey and for its time."""
+    from openacr.cnc.hosts import VirtualMachine
     from openacr.cnc.interpreter import Options
     from openacr.cnc.survey import survey
     from openacr.mill.predicting import Predictor
-    from openacr.mill.settings import Settings
+    from openacr.mill.settings import NONE, Settings
 
     settings = Settings(cells)
     predictor = Predictor(settings, (0.0,) * 8, is_dry=is_dry, rounds=rounds, reader=reader)
-    found = survey(program, cells, dialect, Options(is_dry=is_dry), look=predictor.add)
+    machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
+    found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
     predictor.rest()
     return found, predictor.found
 

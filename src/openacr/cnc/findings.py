@@ -80,6 +80,7 @@ TEXTS = {
     "W324": "chain broken by a waiting block",
     "W402": "feed never reached",
     "W403": "limits not testable",
+    "W404": "probe not captured by the card",
     "A33": "axis not homed",
     "A36": "probe did not trip",
     "A61": "answer missing",

@@ -88,6 +88,7 @@ class VirtualMachine:
     """A machine for reading programs: cells of its own, nothing trips, nobody answers."""
 
     is_skipping: bool = False
+    is_probed: bool = True
     parameters: dict[int, float] = field(default_factory=dict)
     bits: set[int] = field(default_factory=set)
 
@@ -124,5 +125,5 @@ class VirtualMachine:
         return True
 
     def has_probe(self) -> bool:
-        """Taken for granted."""
-        return True
+        """As set."""
+        return self.is_probed

@@ -38,7 +38,7 @@ class Course:
         self._machine = panel.machine
         self._doing = doing
         self._depth = depth
-        self._probing = Probing(panel, self._send, self.host.position)
+        self._probing = Probing(panel, self._send, self.host.position, doing.say)
         self._encoder = Encoder(panel.settings)
         self._feed: Feed | None = None
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started

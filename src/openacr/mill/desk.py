@@ -7,8 +7,9 @@ at the desk every axis is tested as if it were homed, and one warning names thos
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from openacr.cnc.canonical import Rapid, Source
+from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.cnc.findings import Finding, found
+from openacr.mill.capture import capture_of
 from openacr.mill.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.limits import Excess, excesses, limited
 from openacr.mill.settings import S_PER_MIN, Settings
@@ -70,6 +71,8 @@ class Desk:
         self._untested: dict[str, Source] = {}
         self._beyond: dict[tuple[int, bool], Beyond] = {}
         self._unsayable: tuple[Source, str] | None = None
+        self._settings = settings
+        self._polled: dict[str, Source] = {}  # why a probe is polled, and the first line
         self._chain: Slow | None = None
         self._slow: Slow | None = None  # the slowest of all
         self._first_slow: Source | None = None
@@ -84,9 +87,18 @@ class Desk:
                 self._note(job, excess)
         if self._unhomed:
             self._miss(job)
+        if isinstance(job.entry, Probe):
+            self._note_probe(job)
         if self._unsayable is None and max(map(abs, job.finish_cnt)) > LONG_MAX:
             text = self._encoder.beyond_pulses(job) or ""
             self._unsayable = job.entry.source, text
+
+    def _note_probe(self, job: Job) -> None:
+        """Whether the card captures the positions of a probing move."""
+        travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
+        capture = capture_of(self._settings, travel_u, is_rising=True)
+        if capture.reason:
+            self._polled.setdefault(capture.reason, job.entry.source)
 
     def _note(self, job: Job, excess: Excess) -> None:
         limits = excess.axis.soft_limits
@@ -148,6 +160,8 @@ class Desk:
             names = " ".join(self._untested)
             source = next(iter(self._untested.values()))
             yield "W403", source, f"{names} not homed", "tested as if homed"
+        for reason, source in self._polled.items():
+            yield "W404", source, reason, "the probe is polled, and less exact"
         if self._first_slow is not None and self._slow is not None:
             slow = self._slow
             worst = f"line {slow.source.line} comes to {100.0 * slow.share:.3g} % of F"

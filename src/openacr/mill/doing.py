@@ -28,7 +28,7 @@ class Doing:
     def __init__(self, panel: Panel, store: Store, say: Callable[[str], None]) -> None:
         self._panel = panel
         self._store = store
-        self._say = say
+        self.say = say
         self.spindle = Spindle(panel)
         self.coolant = Coolant(panel)
         self.changer = ToolChanger(panel, self.spindle)
@@ -115,7 +115,7 @@ class Doing:
 
     @steps.register
     def _(self, entry: c.Say) -> Steps:
-        self._say(entry.text)
+        self.say(entry.text)
         yield from ()
 
     @steps.register

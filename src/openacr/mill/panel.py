@@ -42,6 +42,10 @@ class Panel:
         """Whether there is an input of this number."""
         return number in self.inputs
 
+    def is_inverted(self, number: int) -> bool:
+        """Whether an input is active when it is off."""
+        return number in self._inverted_in
+
     def is_in(self, look: Look, number: int) -> bool:
         """Whether an input is active; one that is not there is not."""
         return self.has_input(number) and look.input(number) != (number in self._inverted_in)

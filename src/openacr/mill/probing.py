@@ -1,106 +1,117 @@
-"""G31: a move that ends where the probe trips, and what was captured there."""
+"""G31: a move that ends where the probe trips, and what was captured there.
+
+The input is watched in every mode: a contact that the hardware does not capture stops the
+move at once, and is alarm 36 then.
+"""
 
 from collections.abc import Callable
 
-from openacr.cnc.canonical import Line, Pace, PathMode, Point
+from openacr.cnc.canonical import Line, Pace, PathMode, Point, Probe
 from openacr.map import numbers as n
 from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
+from openacr.mill.capture import SOFTWARE_TRIGGER, Capture, capture_of
 from openacr.mill.encoding import Job
 from openacr.mill.machine import Look, flag_of
 from openacr.mill.panel import Panel
 from openacr.mill.settings import S_PER_MIN
-
-HARDWARE_LEADING, HARDWARE_TRAILING, SOFTWARE_LEADING, SOFTWARE_TRAILING = 2, 6, 11, 15
-SOFTWARE_TRIGGER = 113
 
 
 class Probing:
     """Probing moves of one machine; `point` is where the last one tripped, None if nowhere."""
 
     def __init__(
-        self, panel: Panel, send: Callable[[list[Job]], None], position: Callable[[], Point]
+        self,
+        panel: Panel,
+        send: Callable[[list[Job]], None],
+        position: Callable[[], Point],
+        say: Callable[[str], None],
     ) -> None:
         self._panel = panel
         self._machine = panel.machine
         self._send = send
         self._position = position  # where the axes have come to rest
+        self._say = say
+        self._said = ""
         self.point: Point | None = None
 
     def steps(self, job: Job, job_to: Callable[[Line, Point], Job]) -> Steps:
         """The move, and if the probe trips, back to the point of the trip at feed."""
         wiring = self._panel.settings.wiring
         self.point = None
-        if wiring.is_probe_checked and self._is_active():
-            raise AlarmError(alarms.PROBE_ACTIVE)
-        self._arm()
+        is_away = isinstance(job.entry, Probe) and job.entry.is_away
+        is_contact = wiring.is_probe_trailing == is_away  # what trips: contact made, or lost
+        if wiring.is_probe_checked and self._is_at(self._machine.look(), is_contact):
+            raise AlarmError(alarms.PROBE_IDLE if is_away else alarms.PROBE_ACTIVE)
+        capture = self._armed(job, is_contact)
+        has_tripped = False
+
+        def is_done(look: Look) -> bool:
+            nonlocal has_tripped  # a contact that is seen once counts, also if it is lost again
+            is_at_end = is_over(look, job)
+            has_tripped = has_tripped or self._has_tripped(look, capture, is_contact)
+            return has_tripped or is_at_end
+
         self._send([job])
-        yield Until("probing", lambda look: self._has_tripped(look) or is_over(look, job))
-        if not self._is_captured():
-            if self._is_active():
-                raise AlarmError(alarms.PROBE_MISSED)
+        yield Until("probing", is_done)
+        if not has_tripped:
             return
         self._machine.stop()
         yield Until("probe stops", lambda look: not look.is_moving)
         self._machine.clear_kill()
         yield Until("kill is cleared", lambda look: not look.is_killed)
-        self.point = self._captured(job)
+        if not self._is_captured(capture):
+            raise AlarmError(alarms.PROBE_MISSED)
+        self.point = self._captured(job, capture)
         back = Line(job.entry.source, self.point, _pace_back(job, wiring.probe_back_ups))
         returning = job_to(back, self._position())
         self._send([returning])
         yield Until("back to the probed point", lambda look: is_over(look, returning))
 
-    def _is_active(self) -> bool:
-        wiring = self._panel.settings.wiring
-        is_on = self._panel.is_in(self._machine.look(), wiring.probe)
-        return is_on != wiring.is_probe_trailing
+    def _is_at(self, look: Look, is_contact: bool) -> bool:
+        """Whether the input is as it is after the probe has tripped."""
+        return self._panel.is_in(look, self._panel.settings.wiring.probe) == is_contact
 
-    def _arm(self) -> None:
-        wiring = self._panel.settings.wiring
-        if wiring.is_probe_software:
-            mode = SOFTWARE_TRAILING if wiring.is_probe_trailing else SOFTWARE_LEADING
-        else:
-            mode = HARDWARE_TRAILING if wiring.is_probe_trailing else HARDWARE_LEADING
-        names = (axis.name for axis in self._panel.settings.axes)
-        self._machine.type(f"INTCAP {name} {mode}" for name in names)
+    def _armed(self, job: Job, is_contact: bool) -> Capture:
+        """Arm the capture; what is polled although hardware is wanted is said once."""
+        probe = self._panel.settings.wiring.probe
+        is_rising = is_contact != self._panel.is_inverted(probe)
+        travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
+        capture = capture_of(self._panel.settings, travel_u, is_rising=is_rising)
+        if capture.reason and capture.reason != self._said:
+            self._said = capture.reason
+            self._say(f"{capture.reason}: the probe is polled, and less exact")
+        self._machine.type(f"INTCAP {axis.name} {capture.mode}" for axis in capture.axes)
+        return capture
 
-    def _flag(self, axis: int) -> int:
-        return flag_of(n.AF1_WORD + axis, n.AF1_CAPTURE_COMPLETE)
+    def _captures(self, capture: Capture) -> list[bool]:
+        flags = [flag_of(n.AF1_WORD + a.index, n.AF1_CAPTURE_COMPLETE) for a in capture.axes]
+        return self._machine.card.read_bits(flags)
 
-    def _captures(self) -> list[bool]:
-        return self._machine.card.read_bits([self._flag(axis) for axis in self._machine.axes])
+    def _is_captured(self, capture: Capture) -> bool:
+        return all(self._captures(capture))
 
-    def _is_captured(self) -> bool:
-        return any(self._captures())
+    def _has_tripped(self, look: Look, capture: Capture, is_contact: bool) -> bool:
+        """Whether the input has changed or a position was captured."""
+        is_changed = self._is_at(look, is_contact)
+        if is_changed and capture.is_polled and not self._is_captured(capture):
+            self._machine.set_flag(SOFTWARE_TRIGGER, True)
+        return is_changed or self._is_captured(capture)
 
-    def _has_tripped(self, look: Look) -> bool:
-        """Whether a position was captured; software capture is triggered from here."""
-        wiring = self._panel.settings.wiring
-        if wiring.is_probe_software:
-            is_on = self._panel.is_in(look, wiring.probe)
-            if is_on != wiring.is_probe_trailing:
-                self._machine.set_flag(SOFTWARE_TRIGGER, True)
-        return self._is_captured()
-
-    def _captured(self, job: Job) -> Point:
+    def _captured(self, job: Job, capture: Capture) -> Point:
         """The positions at the trip; an axis without capture gets its share of the line."""
-        captured = self._machine.axis_values(n.AX_HARDWARE_CAPTURE)
-        pulses = dict(zip(self._machine.axes, captured, strict=True))
-        done = dict(zip(self._machine.axes, self._captures(), strict=True))
-        point = list(job.begin)
-        for axis in self._panel.settings.axes:
-            if done[axis.index]:
-                point[axis.index] = pulses[axis.index] / axis.pulses_per_unit
-        way = [end - start for start, end in zip(job.begin, job.finish, strict=True)]
-        longest = max((a for a in done if done[a]), key=lambda a: abs(way[a]))
+        pulses = dict(
+            zip(self._machine.axes, self._machine.axis_values(n.AX_HARDWARE_CAPTURE), strict=True)
+        )
+        travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
+        caught = {axis.index: pulses[axis.index] / axis.pulses_per_unit for axis in capture.axes}
+        longest = max(caught, key=lambda axis: abs(travel_u[axis]))
         share = 0.0
-        if way[longest]:
-            share = (point[longest] - job.begin[longest]) / way[longest]
-        for axis_number, is_done in done.items():
-            if not is_done:
-                point[axis_number] = job.begin[axis_number] + share * way[axis_number]
-        return tuple(point)
+        if travel_u[longest]:
+            share = (caught[longest] - job.begin[longest]) / travel_u[longest]
+        along = [begin + share * way for begin, way in zip(job.begin, travel_u, strict=True)]
+        return tuple(caught.get(axis, value) for axis, value in enumerate(along))
 
 
 def is_over(look: Look, job: Job) -> bool:

@@ -111,6 +111,7 @@ class Wiring:
     probe: int
     is_probe_trailing: bool
     is_probe_software: bool
+    is_probe_on_each: bool  # on the capture input of every axis, not of one
     probe_back_ups: float
     is_probe_checked: bool
     reference_s: float

@@ -187,6 +187,7 @@ class Settings:
             probe=self._int(PROBE, 0),
             is_probe_trailing=bool(self._int(PROBE, 1)),
             is_probe_software=bool(self._int(PROBE, 2)),
+            is_probe_on_each=bool(self._int(PROBE, 6)),
             probe_back_ups=self._per_s(PROBE, 3),
             is_probe_checked=bool(self._int(PROBE, 4)),
             reference_s=self._real(PROBE, 5),

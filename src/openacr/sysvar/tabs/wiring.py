@@ -50,6 +50,7 @@ PROBE.choice(2, "Capture", {0: "hardware", 1: "software"}, doc="How positions ar
 PROBE.real(3, "Back-up feed", "u/m", low=0, high=1e6, doc="Back to the trip point, 0 = F.")
 PROBE.boolean(4, "Tripped-at-start check", 1, doc="Refuse G31 on a tripped probe.")
 PROBE.real(5, "Reference input wait", "s", 1, low=0, high=3600, doc="Of G27.")
+PROBE.boolean(6, "Wired to each axis", 0, doc="The probe is on the capture input of each axis.")
 
 SPINDLE = Tab("SPINDLE", 800_000)
 SPINDLE.motion()
