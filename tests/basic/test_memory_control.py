@@ -150,6 +150,17 @@ def test_clear_frees_everything_at_sys_and_locals_at_a_program(bench: Bench) -> 
     assert bench.type("SYS", "CLEAR", "DIM", "MEM", "DEF") == f"SYS>SYS>SYS>{FACTORY_FREE}|SYS>SYS>"
 
 
+@pytest.mark.parametrize(
+    "line", ["CLEAR PROG3", "CLEAR PLC0", "CLEAR DEF", "CLEAR STREAM", "CLEAR COM", "CLEAR LV(1)"]
+)
+def test_clear_with_anything_it_does_not_know_changes_nothing(bench: Bench, line: str) -> None:
+    bench.type("DIM PROG0(8192)", "DIM P(10)", "DIM DEF(3)", "#DEFINE A P0", "PROG 3", "DIM LV(5)")
+    kept = bench.type("SYS", "DIM", "MEM", "DEF", "PROG 3", "DIM")
+    assert bench.type("SYS", line) == "SYS>Syntax error|SYS>"
+    assert bench.type("PROG 3", line) == "P03>Syntax error|P03>"
+    assert bench.type("SYS", "DIM", "MEM", "DEF", "PROG 3", "DIM") == kept
+
+
 @pytest.mark.req("ACR-MEM-37")
 def test_stream_buffers_can_be_enlarged(bench: Bench) -> None:
     bench.type("DIM DPCB(2000)")

@@ -216,6 +216,8 @@ def test_reboot_restarts_the_card(bench: Bench) -> None:
 def test_a_password_keeps_program_text_from_being_listed(bench: Bench) -> None:
     bench.type("PROG 0", "10 DWL 1", "SYS")
     assert bench.type("PASSWORD") == "OFF|SYS>"
+    for unclear in ('PASSWORD "secret"', "PASSWORD ON", "PASSWORD OFF"):
+        assert bench.type(unclear, "PASSWORD") == "Syntax error|SYS>OFF|SYS>"
     assert bench.type('PASSWORD ON "secret"', "PASSWORD") == "SYS>ON|SYS>"
     assert bench.type("PROG 0", "LIST") == "P00>Program is protected|P00>"
     assert bench.type("SYS", 'PASSWORD OFF "other"') == "SYS>Invalid password|SYS>"

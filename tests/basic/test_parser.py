@@ -136,6 +136,46 @@ def test_several_axes_take_their_values_greedily() -> None:
     assert words("PPU X 2000 Y 2000 ACC 5") == [["PPU", "ACC"]]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "CLEAR PROG3", "CLEAR PLC0", "CLEAR DEF", "CLEAR STREAM", "CLEAR P", "CLEAR DIM P(10)",
+        "HALT AXIS0 ON", "HALT X5", "DETACH AXIS0", "MEM DEF", "DEF CLEAR VER", "REBOOT VER",
+        "VEL LIMIT0", "ACC DEC", "RES ENC0", "LIST VER", "RUN P5=3", "DETACH ALL MEM",
+        "SAMP CLEAR DIM", "VER AXIS0", "FSTAT CLEAR VER",
+    ],
+)  # fmt: skip
+def test_a_word_that_a_bare_command_does_not_know_is_no_command(text: str) -> None:
+    assert refusal(text) == "Syntax error"
+
+
+@pytest.mark.parametrize(
+    "text", ["CLEAR PROG3", "ERASE DEF", "ESAVE DEF", "ELOAD VER", "BRESET MEM", "CONFIG VER"]
+)
+def test_a_word_that_a_bare_command_does_not_know_is_no_command_at_sys(text: str) -> None:
+    assert refusal(text, SYS) == "Syntax error"
+    first = text.split(" ")[0]
+    assert words(text.replace(" ", " : "), SYS)[0] == [first]
+
+
+@pytest.mark.parametrize(
+    "text", ["HALT PROG1 PROG2", "NEW PROG1 PLC2", "ACC 5 SYS", "HALT ALL SYS"]
+)
+def test_a_change_of_level_begins_a_block(text: str) -> None:
+    assert refusal(text) == "Syntax error"
+    *_, level = text.split(" ")
+    assert words(text.replace(f" {level}", f" : {level}"))[1] == [level.rstrip("12")]
+    assert words("PROG2 ACC 5") == [["PROG", "ACC"]]
+
+
+def test_switches_and_objects_are_complete_without_arguments() -> None:
+    assert words("TARC ON X5") == [["TARC ON", "MOVE"]]
+    assert words("TANG OFF X5") == [["TANG OFF", "MOVE"]]
+    assert words("ENC0 RES ENC1 RES") == [["ENC # RES", "ENC # RES"]]
+    assert words("AXIS0 REN AXIS1 REN") == [["REN", "REN"]]
+    assert words("JOG OFF X Y ACC 5") == [["JOG OFF", "ACC"]]
+
+
 @pytest.mark.parametrize("text", ["SET 32", "SET BIT32", "SET BIT 32", "SET(32)", "SET32"])
 def test_all_forms_of_a_flag_mean_the_same(text: str) -> None:
     assert arguments(text) == arguments("SET 32")

@@ -68,7 +68,7 @@ def test_a_negative_profile_value_is_refused_and_changes_nothing(word: str) -> N
 def test_several_profile_commands_fit_in_one_line() -> None:
     made = Bench("X")
     assert made.type("ACC500 DEC 400 STP500 VEL(100+5)") == ""
-    assert made.type("ACC DEC STP VEL") == "500|400|500|105"
+    assert made.type("ACC : DEC : STP : VEL") == "500|400|500|105"
 
 
 @pytest.mark.req("ACR-CMD-F")
@@ -96,7 +96,7 @@ def test_the_master_prefix_reaches_a_master_from_anywhere() -> None:
     made = Bench("X")
     assert made.at(Level.PROG, 3).type("MASTER0 VEL500") == ""
     assert made.at(Level.SYS).type("MASTER0 ACC 7 MASTER0 VEL") == "500"
-    assert made.at(Level.PROG, 0).type("VEL ACC") == "500|7"
+    assert made.at(Level.PROG, 0).type("VEL : ACC") == "500|7"
 
 
 def test_profile_commands_need_a_master_or_a_level() -> None:
@@ -114,7 +114,7 @@ def test_profile_values_stay_in_force() -> None:
     made.until_clear(IN_MOTION)
     made.type("X2")
     made.until_clear(IN_MOTION)
-    assert made.type("ACC STP VEL") == "100|100|50"
+    assert made.type("ACC : STP : VEL") == "100|100|50"
 
 
 # the profiles of one move

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from openacr.basic.parser import LEVEL_WORDS
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine, line_number, opens_capture
 from openacr.basic.registry import Level
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from openacr.basic.session import Session
     from openacr.basic.system import System
 
-LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))
 _REMARK = re.compile(r":|REM(?![A-Za-z])", re.IGNORECASE)
 
 

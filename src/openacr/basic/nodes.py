@@ -203,6 +203,12 @@ class Statement:
     prefix: Prefix | None = None
     column: int = 1
 
+    @property
+    def is_bare(self) -> bool:
+        """Whether nothing was written that says what it acts on: no argument, object or switch."""
+        is_alone = all(argument is None for argument in self.arguments)
+        return is_alone and not (self.indices or self.prefix or self.command.is_switch)
+
 
 @dataclass(frozen=True, slots=True)
 class Move:

@@ -1,7 +1,9 @@
 """Read one line of AcroBASIC into a tree.
 
 Every command takes its own arguments as far as they go; the next word then begins a new
-command, so `ACC 10 DEC 10 VEL 5 X10` needs no separators. What the arguments of a
+command, so `ACC 10 DEC 10 VEL 5 X10` needs no separators. After a command without
+arguments that word may be an argument the command does not have: it is refused, and a
+separator makes it a new command (`CLEAR PROG3`, `CLEAR : PROG3`). What the arguments of a
 command look like is said by its row in the registry; this module knows the rules that
 hold for all of them.
 """
@@ -25,6 +27,7 @@ from openacr.messages import (
 
 LONGEST_LABEL = 32
 PREFIXES = frozenset(("AXIS", "MASTER"))
+LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))  # as a command each begins a block
 
 
 def parse_line(text: str | bytes, scope: Scope, line: int = 1) -> Line:
@@ -85,7 +88,10 @@ class Parser(ExpressionParser):
         """The statements up to a colon; all targets among them become one move at the end."""
         done: list[Statement | Move] = []
         parts: list[Statement] = []
+        statement: Statement | None = None
         while not self.at_block_end:
+            if statement is not None and (statement.is_bare or self.is_word(*LEVEL_WORDS)):
+                raise self.error(SYNTAX_ERROR)
             statement = self.statement()
             (parts if statement.command.move else done).append(statement)
         if parts:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from openacr.basic.grammar import Form
 
 EXTENSION = "extension"  # in place of the manual: no card of the family has it
+SWITCHES = frozenset(("ON", "OFF"))
 INDEX = "#"  # stands in the words of a command for the number of an object: `ENC # RES`
 
 
@@ -82,6 +83,11 @@ class Command:
     def is_extension(self) -> bool:
         """Whether only openacr has it: a real card refuses it."""
         return self.ref == EXTENSION
+
+    @property
+    def is_switch(self) -> bool:
+        """Whether it turns something on or off and is complete without arguments."""
+        return self.words[-1] in SWITCHES
 
     @property
     def forms(self) -> tuple[Form, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from openacr.basic import registry
 from openacr.basic.aliases import Aliases
-from openacr.basic.grammar import Form, Int, Num, Str, Word
+from openacr.basic.grammar import Form, Int, Num, Str
 from openacr.basic.lister import Lister
 from openacr.basic.nodes import Alias, Expr, resolved
 from openacr.basic.number_format import double_text
@@ -197,22 +197,19 @@ def period(run: Run, period_s: float | None) -> None:
     filters.change_period(run.card, period_s)
 
 
-@command(
-    "PASSWORD",
-    group=GROUP,
-    levels=SYS,
-    use=IMMEDIATE,
-    grammar=(Word("ON", "OFF", optional=True), Str("text", optional=True)),
-    ref=REF,
-)
-def password(run: Run, switch: str | None, text: str | None) -> None:
-    """Protect program text from LIST, or show whether it is protected."""
-    store = run.system.programs
-    if switch is None:
-        run.print("OFF" if store.password is None else "ON")
-    elif text is None:
-        raise CardError(INVALID_ARGUMENT)
-    elif switch == "ON":
-        store.protect(text)
-    else:
-        store.unprotect(text)
+@command("PASSWORD", group=GROUP, levels=SYS, use=IMMEDIATE, ref=REF)
+def password(run: Run) -> None:
+    """Print whether the text of programs is protected: ON or OFF."""
+    run.print("OFF" if run.system.programs.password is None else "ON")
+
+
+@command("PASSWORD ON", group=GROUP, levels=SYS, use=IMMEDIATE, grammar=(Str("text"),), ref=REF)
+def password_on(run: Run, text: str) -> None:
+    """Protect the text of programs from LIST."""
+    run.system.programs.protect(text)
+
+
+@command("PASSWORD OFF", group=GROUP, levels=SYS, use=IMMEDIATE, grammar=(Str("text"),), ref=REF)
+def password_off(run: Run, text: str) -> None:
+    """Make the text of programs readable again; the password must be the one set."""
+    run.system.programs.unprotect(text)
