@@ -2,7 +2,7 @@
 
 from tests.controller.hosts import Host, store
 
-BLOCK_MODE, WAITING, FIRST = 1042, 1043, 1044
+RUNNING, BLOCK_CONTROL, BLOCK_MODE, WAITING, FIRST = 1024, 1040, 1042, 1043, 1044
 IN_MOTION, INHIBIT = 516, 540
 MOVES = ("X1", "X2", "Y3", "INH -516", "SET 128")
 
@@ -60,13 +60,36 @@ def test_aut_lets_everything_go_on_at_once(axes: Host) -> None:
     assert axes.card.bit[128]
 
 
-def test_a_run_behind_a_stepped_program_moves_as_ever(axes: Host) -> None:
+def test_block_mode_chosen_before_run_stops_at_the_first_line(axes: Host) -> None:
+    store(axes, "SET 130", "X1", "SET 131")
+    axes.type("BLK")
+    assert [axes.card.bit[n] for n in (BLOCK_CONTROL, BLOCK_MODE, WAITING, FIRST)] == [
+        True, True, False, True,
+    ]  # fmt: skip
+    axes.type("RUN")
+    axes.card.advance(2000)
+    assert [axes.card.bit[n] for n in (RUNNING, BLOCK_MODE, WAITING, FIRST)] == [True] * 4
+    assert (axes.card.bit[130], at(axes)) == (False, (0, 0))
+    assert step(axes) == (0, 0), "the line PROGRAM"
+    assert not axes.card.bit[FIRST]
+    step(axes)
+    assert (axes.card.bit[130], at(axes)) == (True, (0, 0))
+    assert step(axes) == (1, 0)
+    assert not axes.card.bit[131]
+
+
+def test_block_mode_lasts_over_halt_and_run_until_aut(axes: Host) -> None:
     store(axes, *MOVES)
     axes.type("RUN", "BLK")
     axes.card.advance(100)
     step(axes)
     step(axes)
     axes.type("HALT", "RUN")
+    axes.card.advance(4000)
+    assert at(axes) == (1, 0), "stopped at the first line again"
+    assert [axes.card.bit[n] for n in (BLOCK_CONTROL, BLOCK_MODE, WAITING)] == [True] * 3
+    axes.type("HALT", "AUT", "RUN")
+    assert [axes.card.bit[n] for n in (BLOCK_CONTROL, BLOCK_MODE, FIRST)] == [False] * 3
     axes.card.advance(4000)
     assert at(axes) == (2, 3)
     assert not axes.card.bit[IN_MOTION]

@@ -75,11 +75,7 @@ class ProgramControl:
     def run(self, owner: int, line: int | None = None) -> None:
         """RUN: begin at the first line or at `line`."""
         if owner < PROGRAMS:
-            was_stepped = bool(self._flags(owner) & at.PF_BLOCK_MODE)
             self._executor.run_program(owner, line)
-            master = self._master(owner)
-            if was_stepped and master is not None:
-                moves.end_steps(self._card, master)
         elif self._plcs is None:
             raise CardError(NOT_SUPPORTED)
         else:

@@ -37,13 +37,10 @@ if TYPE_CHECKING:
     from openacr.basic.system import System
 
 _HOLDS = at.PF_BLOCK_MODE | at.PF_PAUSE_MODE
-_CLEARED_BY_RUN = (
+_CLEARED_BY_RUN = (  # block mode stays until AUT
     ENDS_WITH_PROGRAM
-    | _HOLDS
     | at.PF_PROGRAM_MODIFIED
-    | at.PF_BLOCK_CONTROL
-    | at.PF_BLOCK_EDGE_DETECT
-    | at.PF_STEP_FIRST_BLOCK
+    | at.PF_PAUSE_MODE
     | at.PF_PAUSE_CONTROL
     | at.PF_PAUSE_EDGE_DETECT
 )

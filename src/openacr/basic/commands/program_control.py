@@ -101,7 +101,7 @@ def resume(run: Run, target: ObjectRef | None) -> None:
 
 @command("BLK", group=GROUP, levels=BY_TARGET, grammar=(Target(),), ref="PG Program Control")
 def blk(run: Run, target: ObjectRef | None) -> None:
-    """Turn block mode on: the program waits before every line."""
+    """Turn block mode on until AUT: a program waits before every line, also before its first."""
     for owner in targets.owners(run, target):
         run.system.control.block(owner)
 
