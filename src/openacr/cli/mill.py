@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from openacr.cli.mill_trace import Every, ToTrace, require_trace, trace_file
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -116,11 +117,17 @@ def time_program(
         bool, typer.Option("--exact", help="G64 P goes exactly through corners, as on a real card.")
     ] = False,
     as_json: AsJson = False,
+    trace: ToTrace = None,
+    every_s: Every = None,
 ) -> None:
     """Predict how long a part program runs, from the plan of its moves."""
+    require_trace(trace, every_s)
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        survey, prediction = _surveyed(program, cells, name, is_dry=is_dry, rounds=not is_exact)
+        with _sampled(cells, trace, every_s) as reader:
+            survey, prediction = _surveyed(
+                program, cells, name, is_dry=is_dry, rounds=not is_exact, reader=reader
+            )
     if survey.errors:
         show_findings(survey.errors)
         raise typer.Exit(FAILED)
@@ -131,6 +138,22 @@ def time_program(
     typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
+
+
+@contextmanager
+def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Iterator[Reader | None]":
+    """What samples the plan of a program into a trace, where one is wanted."""
+    if path is None:
+        yield None
+        return
+    from openacr.mill.settings import Settings
+    from openacr.mill.trajectory import PERIOD_S, Trajectory
+
+    settings = Settings(cells)
+    with trace_file(path, [axis.name for axis in settings.axes]) as write:
+        trajectory = Trajectory(settings, every_s or PERIOD_S, write)
+        yield trajectory
+        trajectory.close()
 
 
 def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey, Prediction]":

@@ -2,6 +2,7 @@
 
 import json as json_format
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,6 +22,7 @@ from openacr.cli.mill import (
 from openacr.cli.mill_console import Console
 from openacr.cli.mill_shop import ToHost, end_with_alarms, place_text, workshop
 from openacr.cli.mill_terminal import Attendant, require_yes
+from openacr.cli.mill_trace import Every, ToTrace, require_trace, trace_file
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -68,6 +70,8 @@ def run_program(
             " abort, fov N.",
         ),
     ] = False,
+    trace: ToTrace = None,
+    every_s: Every = None,
 ) -> None:
     """Run a part program on the virtual machine, or on a card.
 
@@ -76,6 +80,12 @@ def run_program(
     """
     from openacr.mill.workshop import Start
 
+    require_trace(trace, every_s)
+    if trace is not None and host is not None:
+        raise UserError(
+            "--trace: only the virtual machine records the setpoints of every servo period; "
+            "on a card SAMP does"
+        )
     start = Start(
         line=line,
         is_dry=is_dry,
@@ -94,7 +104,8 @@ def run_program(
             if line > 1:
                 replay = _rehearsed(shop, program, start, None if is_agreed else terminal)
             keep = Console(lines=terminal.lines).attend if has_console else terminal
-            _run(shop, program, start, is_quiet or as_json, keep, replay)
+            with _traced(shop, trace, every_s, keep) as attend:
+                _run(shop, program, start, is_quiet or as_json, attend, replay)
             _report(shop, as_json, is_quiet)
 
 
@@ -182,6 +193,26 @@ def _run(
             source = shop.runner.source
             if not is_quiet and source is not None and count % SHOW_EVERY == 0:
                 show(source.line, program.line_cnt)
+
+
+@contextmanager
+def _traced(
+    shop: "Workshop", path: Path | None, every_s: float | None, keep: "Callable[[Workshop], None]"
+) -> "Iterator[Callable[[Workshop], None]]":
+    """What is done after every step of a run: `keep`, and rows of a trace where one is wanted."""
+    if path is None or shop.virtual_card is None:
+        yield keep
+        return
+    from openacr.mill.tracing import RunTrace
+
+    with trace_file(path, [axis.name for axis in shop.runner.settings.axes]) as write:
+        record = RunTrace(shop.virtual_card, shop.runner, every_s, write)
+
+        def attend(shop: "Workshop") -> None:
+            record.note()
+            keep(shop)
+
+        yield attend
 
 
 def _rehearsed(

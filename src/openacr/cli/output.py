@@ -8,7 +8,7 @@ as 0 or 1).
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
@@ -60,6 +60,23 @@ def require_trace(path: Path) -> None:
         raise UserError(
             f"{path}: .parquet traces need pyarrow: pip install pyarrow; a .csv trace needs nothing"
         )
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """A file beside `path` that takes its place at the end, also after an interrupt or an error."""
+    if path.exists() and not path.is_file():  # a terminal, a pipe, /dev/null
+        yield path
+        return
+    partial = path.with_name(f".{path.stem}.partial{path.suffix}")
+    try:
+        yield partial
+    finally:
+        if partial.exists():
+            try:
+                os.replace(partial, path)
+            except OSError as error:
+                raise unwritable(path, error) from None
 
 
 def write_whole(path: Path, write: Callable[[Path], None]) -> None:

@@ -12,6 +12,7 @@ from openacr.cnc.findings import Finding, found
 from openacr.mill.capture import capture_of
 from openacr.mill.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.limits import Excess, excesses, limited
+from openacr.mill.predicting import Phases
 from openacr.mill.settings import S_PER_MIN, Settings
 
 REACHED = 1.0 - 1e-6  # of the feed; the speeds of the plan come out of square roots
@@ -116,7 +117,10 @@ class Desk:
                 self._untested[name] = job.entry.source
                 del self._unhomed[axis]
 
-    def passed(self, job: Job, top_ups: float) -> None:
+    def rested(self, seconds: float) -> None:
+        """The machine rests: nothing is to be tested."""
+
+    def passed(self, job: Job, phases: Phases) -> None:
         """A planned move: how fast it gets."""
         entry = job.entry
         if isinstance(entry, Rapid):
@@ -126,7 +130,8 @@ class Desk:
             self._close()
             chain = self._chain = Slow(entry.source, feed_ups)
         chain.cnt += 1
-        chain.top_ups = max(chain.top_ups, top_ups)
+        for _, begin_ups, end_ups in phases:
+            chain.top_ups = max(chain.top_ups, begin_ups, end_ups)
         if job.exit_ups == 0.0:
             self._close()
 

@@ -26,13 +26,18 @@ class Way:
     share: tuple[float, ...]
 
 
+def linear_axes(settings: Settings) -> list[int]:
+    """The axes along which the feed counts; tangents have a component for each."""
+    return [one.index for one in settings.axes if one.name in LINEAR]
+
+
 class Geometry:
     """Lengths and limits for one set of axes."""
 
     def __init__(self, settings: Settings) -> None:
         self._axes = settings.axes
         self._speeds = settings.speeds
-        self._linear = [one.index for one in settings.axes if one.name in LINEAR]
+        self._linear = linear_axes(settings)
         self._rotary = [one.index for one in settings.axes if one.name not in LINEAR]
 
     def line(self, start: Point, end: Point) -> Way:

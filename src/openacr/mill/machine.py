@@ -97,10 +97,14 @@ class Machine:
     def _watched(self) -> list[int]:
         drives = [n.AF4_WORD + axis for axis in self.axes]
         limits = [n.AF5_WORD + axis for axis in self.axes]
-        counter = n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
-        head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, counter, n.W_INPUTS]
+        head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, self.counter, n.W_INPUTS]
         modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
         return head + drives + limits + modules
+
+    @property
+    def counter(self) -> int:
+        """The parameter that counts the packets of the master."""
+        return n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
 
     def watch_modules(self, count: int) -> None:
         """Look at the inputs of so many expansion modules, too; before the first look."""
@@ -219,7 +223,7 @@ class Machine:
 
     def reset_counter(self) -> None:
         """Count the packets from zero again."""
-        self.card.write(self._watched[2], 0)
+        self.card.write(self.counter, 0)
 
     def type(self, lines: Iterable[str]) -> None:
         """Lines of text at the program of the master."""

@@ -25,7 +25,9 @@ from openacr.mill.rounding import Corner
 from openacr.mill.settings import Settings
 
 TOGETHER = 512  # moves planned at once
-Passage = tuple[float, float, float]  # seconds, speed at the end, highest speed
+# Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
+# tuples, as every move of a program has three of them.
+Phases = list[tuple[float, float, float]]
 MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe
 
 
@@ -45,13 +47,16 @@ class Prediction:
 
 
 class Reader(Protocol):
-    """Who looks at the moves while their times are added up."""
+    """A caller that reads the moves while their times are added up."""
 
     def read(self, job: Job) -> None:
         """A move of the program, not planned yet."""
 
-    def passed(self, job: Job, top_ups: float) -> None:
-        """A move that is planned, and the highest speed it comes to."""
+    def passed(self, job: Job, phases: Phases) -> None:
+        """A move that is planned, and the phases in which it is made."""
+
+    def rested(self, seconds: float) -> None:
+        """The machine is at rest, for the time of a dwell or for none."""
 
 
 class Predictor:
@@ -86,9 +91,7 @@ class Predictor:
         elif isinstance(entry, c.Say | c.SetCell | c.BlockEnd):
             return
         else:
-            self.rest()
-            if isinstance(entry, c.Dwell):
-                self.found.dwell_s += entry.seconds
+            self.rest(entry.seconds if isinstance(entry, c.Dwell) else 0.0)
 
     def _move(self, job: Job) -> None:
         if self._reader is not None:
@@ -99,17 +102,21 @@ class Predictor:
         if self._planner.ready() >= TOGETHER:
             self._take(is_complete=False)
 
-    def rest(self) -> None:
-        """The machine comes to rest here."""
+    def rest(self, dwell_s: float = 0.0) -> None:
+        """The machine comes to rest here, and stays for a time."""
         self._take(is_complete=True)
         self._speed_ups, self._behind = 0.0, None
+        self.found.dwell_s += dwell_s
+        if self._reader is not None:
+            self._reader.rested(dwell_s)
 
     def _take(self, *, is_complete: bool) -> None:
         for job in self._planner.take(1 << 30, is_complete=is_complete):
-            seconds, self._speed_ups, top = travel(job, self._speed_ups, self._behind)
-            self._behind = job.corner
+            phases = travel(job, self._speed_ups, self._behind)
+            self._speed_ups, self._behind = phases[-1][2], job.corner
             if self._reader is not None:
-                self._reader.passed(job, top)
+                self._reader.passed(job, phases)
+            seconds = sum(seconds_of(*phase) for phase in phases)
             self.found.moves += 1
             if job.is_rapid:
                 self.found.rapid_s += seconds
@@ -117,35 +124,38 @@ class Predictor:
                 self.found.feed_s += seconds
 
 
-def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> Passage:
-    """The time of a move that begins at a speed, the speed it ends with and its highest."""
-    a, way, seconds = job.ramp_ups2, job.length_u, 0.0
+def travel(job: Job, begin_ups: float, behind: Corner | None = None) -> Phases:
+    """How a move is made that begins at a speed, after the corner `behind` if there was one."""
+    a, rest_u = job.ramp_ups2, job.length_u
     begin = min(begin_ups, job.feed_ups)
     may = pieces(job, behind)
+    phases: Phases = []
     if behind is not None:
         line = math.sqrt(behind.pass2(begin * begin, may.line, a))
-        seconds += _even(behind.reach_u, begin, line)
-        begin, way = line, way - behind.reach_u
+        phases.append((behind.reach_u, begin, line))
+        begin, rest_u = line, rest_u - behind.reach_u
     if job.corner is None:
-        more, end, top = _straight(way, begin, job.exit_ups, job.feed_ups, a)
-        return seconds + more, end, top
-    way -= job.corner.reach_u
-    more, entry, top = _straight(way, begin, math.sqrt(may.ahead), job.feed_ups, a)
+        return phases + _straight(rest_u, begin, job.exit_ups, job.feed_ups, a)
+    rest_u -= job.corner.reach_u
+    phases += _straight(rest_u, begin, math.sqrt(may.ahead), job.feed_ups, a)
+    entry = phases[-1][2]
     end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2, a))
-    return seconds + more + _even(job.corner.reach_u, entry, end), end, top
+    phases.append((job.corner.reach_u, entry, end))
+    return phases
 
 
-def _even(way_u: float, begin: float, end: float) -> float:
-    """The time of a way at constant acceleration."""
-    return 2.0 * way_u / (begin + end)
-
-
-def _straight(length: float, begin: float, end: float, feed: float, a: float) -> Passage:
-    """The time of a straight way, the speed it ends with and its highest."""
+def _straight(length: float, begin: float, end: float, feed: float, a: float) -> Phases:
+    """A straight part: up to the peak, along at it, down to the end."""
     end = min(end, math.sqrt(begin * begin + 2.0 * a * length))
     peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
-    ramps = ((peak * peak - begin * begin) + (peak * peak - end * end)) / (2.0 * a)
-    return (2.0 * peak - begin - end) / a + max(length - ramps, 0.0) / peak, end, peak
+    up = (peak * peak - begin * begin) / (2.0 * a)
+    down = (peak * peak - end * end) / (2.0 * a)
+    return [(up, begin, peak), (max(length - up - down, 0.0), peak, peak), (down, peak, end)]
+
+
+def seconds_of(length: float, begin: float, end: float) -> float:
+    """The time of one phase: its mean speed is that of begin and end."""
+    return 2.0 * length / (begin + end) if length > 0.0 else 0.0
 
 
 def predicted(

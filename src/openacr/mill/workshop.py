@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain, repeat
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from openacr.client import Card
 from openacr.client.links import Host
@@ -40,6 +41,9 @@ from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare, user_variables
 from openacr.mill.states import Options, State
 from openacr.sysvar import AT_START, Store
+
+if TYPE_CHECKING:
+    from openacr.controller import Controller
 
 POLL_S = 0.02
 LINK_S = 2.0  # without an answer of the card, and the link is lost
@@ -83,6 +87,7 @@ class Workshop:
         self.cells = cells
         self.card = card
         self.is_virtual = is_virtual
+        self.virtual_card: Controller | None = None
         self.program: Program | None = None
         self.typed: list[str] = []  # blocks run in MDI: the text of a program
         with cells.transaction():
@@ -120,6 +125,7 @@ class Workshop:
         check_axes(controller.model, Settings(cells))
         card = Card.open(controller)
         shop = cls(card, cells, say, is_virtual=True, folder=_folder_of(store))
+        shop.virtual_card = controller
         names = " ".join(axis.name for axis in shop.runner.settings.axes)
         shop.card.command(f"DRIVE ON {names}", program=shop.machine.master)
         return shop
