@@ -43,8 +43,7 @@ def test_a_backup_is_a_project(tmp_path: Path) -> None:
 
 
 def test_an_extension_is_in_a_backup_only_where_it_is_set(tmp_path: Path) -> None:
-    card = Card.open(Controller())
-    load_example(card, "gantry")
+    card = one_axis(Card.open(Controller()), "PROG1", "ATTACH MASTER1")
     card.backup(tmp_path / "plain")
     assert "LOOK TOL" not in texts(tmp_path / "plain")["setup.8k"]
     card.command("LOOK TOL 0.25", program=1)
@@ -80,27 +79,40 @@ def contents(card: Card, folder: Path) -> dict[str, str]:
     return texts(folder)
 
 
-def gantry_backup(folder: Path, *lines: str) -> Path:
-    card = Card.open(Controller())
-    load_example(card, "gantry")
-    for line in lines:
-        card.command(line, program=1)
+ONE_AXIS = (
+    "DETACH ALL", "ATTACH AXIS0 ENC0 DAC0 ENC0", "DIM PROG0(2000)", "PROG0", "ATTACH MASTER0",
+    'ATTACH SLAVE0 AXIS0 "X"', "SYS",
+)  # fmt: skip
+
+
+def one_axis(card: Card, *lines: str) -> Card:
+    """A card that is quickly read, with a program."""
+    for line in (*ONE_AXIS, *lines):
+        card.command(line)
+    card.download("PROGRAM\nX1\nENDP\n", to=Level.program(0))
+    return card
+
+
+def small_backup(folder: Path, *lines: str) -> Path:
+    """A backup that differs from what `one_axis` gives."""
+    card = one_axis(Card.open(Controller()), "AXIS0 JOG VEL 7", "PROG0", *lines)
     card.backup(folder)
     return folder
 
 
 def test_a_backup_with_a_setting_the_card_does_not_know_changes_nothing(tmp_path: Path) -> None:
-    backup = gantry_backup(tmp_path / "b", "LOOK TOL 0.25")
+    backup = small_backup(tmp_path / "b", "LOOK TOL 0.25")
     number = texts(backup)["setup.8k"].splitlines().index("LOOK TOL 0.25") + 1
     card, _ = other_card()
-    load_example(card, "square")
+    one_axis(card)
     card.go(Level.program(3))
     before = contents(card, tmp_path / "before")
     with pytest.raises(DownloadError) as refused:
         card.restore(backup)
-    assert str(refused.value) == (
-        f"{backup}/setup.8k:{number}: the card does not know LOOK TOL: Unknown command"
-        " (an extension of openacr: real cards refuse it; nothing was changed)"
+    assert (refused.value.path, refused.value.line) == (f"{backup}/setup.8k", number)
+    assert refused.value.text.startswith("the card does not know LOOK TOL: ")
+    assert (
+        refused.value.hint == "an extension of openacr: real cards refuse it; nothing was changed"
     )
     assert contents(card, tmp_path / "after") == before
 
@@ -114,7 +126,7 @@ def test_a_backup_with_a_setting_the_card_does_not_know_changes_nothing(tmp_path
     ],
 )
 def test_a_backup_of_another_model_changes_nothing(tmp_path: Path, line: str, text: str) -> None:
-    Card.open(Controller("ACR9000")).backup(tmp_path / "b")
+    small_backup(tmp_path / "b")
     setup = tmp_path / "b" / "setup.8k"
     setup.write_text(setup.read_text() + line + "\n")
     card = Card.open(Controller())
@@ -127,27 +139,25 @@ def test_a_backup_of_another_model_changes_nothing(tmp_path: Path, line: str, te
 
 
 def test_a_card_that_refuses_a_line_gets_its_former_contents_back(tmp_path: Path) -> None:
-    backup = gantry_backup(tmp_path / "b")
-    (backup / "prog1.8k").write_text("PROGRAM\nX1\nFOO BAR 1\nENDP\n")
-    card = Card.open(Controller())
-    load_example(card, "error_handler")
-    card.p[5] = 1.25
+    backup = small_backup(tmp_path / "b")
+    (backup / "prog0.8k").write_text("PROGRAM\nX1\nFOO BAR 1\nENDP\n")
+    card = one_axis(Card.open(Controller()), "DIM P(10)", "P5=1.25", "AXIS0 PPU 8000")
     before = contents(card, tmp_path / "before")
     with pytest.raises(RestoreError) as failed:
         card.restore(backup)
     assert failed.value.is_back
     assert failed.value.former == before
-    assert str(failed.value).startswith(f"{backup}/prog1.8k:2: Unknown command")
+    assert str(failed.value).startswith(f"{backup}/prog0.8k:3: Unknown command")
     assert str(failed.value).endswith("; the card has its former contents again")
     assert contents(card, tmp_path / "after") == before
 
 
 def test_a_line_that_breaks_in_a_restore_leaves_the_former_contents(tmp_path: Path) -> None:
-    backup = gantry_backup(tmp_path / "b")
+    backup = small_backup(tmp_path / "b")
     card, link = other_card()
-    load_example(card, "square")
+    one_axis(card)
     before = contents(card, tmp_path / "before")
-    link.fails_at = (b"AXIS3 JOG VEL 0", ConnectionLostError("the line broke"))
+    link.fails_at = (b"AXIS0 JOG VEL 7", ConnectionLostError("the line broke"))
     with pytest.raises(
         RestoreError, match=r"the line broke; the card has its former contents again"
     ):
@@ -156,23 +166,23 @@ def test_a_line_that_breaks_in_a_restore_leaves_the_former_contents(tmp_path: Pa
 
 
 def test_ctrl_c_in_a_restore_leaves_the_former_contents(tmp_path: Path) -> None:
-    backup = gantry_backup(tmp_path / "b")
+    backup = small_backup(tmp_path / "b")
     card, link = other_card()
-    load_example(card, "square")
+    one_axis(card)
     before = contents(card, tmp_path / "before")
-    link.fails_at = (b"AXIS3 JOG VEL 0", KeyboardInterrupt())
+    link.fails_at = (b"AXIS0 JOG VEL 7", KeyboardInterrupt())
     with pytest.raises(KeyboardInterrupt):
         card.restore(backup)
     assert contents(card, tmp_path / "after") == before
 
 
 def test_former_contents_that_cannot_be_put_back_are_in_the_error(tmp_path: Path) -> None:
-    backup = gantry_backup(tmp_path / "b")
+    backup = small_backup(tmp_path / "b")
     card, link = other_card(reconnect_s=0)
-    load_example(card, "square")
+    one_axis(card)
     before = contents(card, tmp_path / "before")
     link.is_reachable = False  # once it is closed
-    link.fails_at = (b"AXIS3 JOG VEL 0", ConnectionLostError("the line broke"))
+    link.fails_at = (b"AXIS0 JOG VEL 7", ConnectionLostError("the line broke"))
     with pytest.raises(RestoreError) as failed:
         card.restore(backup)
     assert not failed.value.is_back

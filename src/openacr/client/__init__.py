@@ -22,8 +22,8 @@ from openacr.client.errors import (
 )
 from openacr.client.moves import MoveStream
 from openacr.client.objects import Axis, Master
+from openacr.client.options import Options
 from openacr.client.requests import Level
-from openacr.client.talk import Options
 from openacr.client.transfer import Remark, Report
 
 __all__ = [

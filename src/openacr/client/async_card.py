@@ -16,8 +16,9 @@ from openacr.client.links import DEFAULT_BAUD, Host, link_to
 from openacr.client.moves import MoveStream
 from openacr.client.names import What
 from openacr.client.objects import Axis, Master
+from openacr.client.options import Options
 from openacr.client.requests import Follow, Level, Press
-from openacr.client.talk import Options, Talk
+from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number, next_due_s
 from openacr.protocol.events import ControlKey
@@ -32,7 +33,7 @@ class AsyncCard:
 
     def __init__(self, link: AsyncLink, options: Options | None = None) -> None:
         self._link = link
-        self._talk = Talk(link.name, link.kind, options or Options())
+        self._talk = Talk(link.name, link.kind, options or Options(), link.now_s)
         self._lock = Lock()
 
     @classmethod

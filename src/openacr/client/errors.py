@@ -41,12 +41,14 @@ class RefusedError(ClientError):
 
 
 class NoReplyError(ClientError, TimeoutError):
-    """The card did not answer in time."""
+    """The card did not answer in time; `is_begun`: it did not finish its answer."""
 
-    def __init__(self, link: str, sent: str, wait_s: float) -> None:
-        self.sent = sent
+    def __init__(self, link: str, sent: str, wait_s: float, *, is_begun: bool = False) -> None:
+        self.sent, self.is_begun = sent, is_begun
+        what = "no end of the reply" if is_begun else "no reply"
+        within = f"{round(wait_s, 2):g} s"
         super().__init__(
-            f"{link}: no reply within {wait_s:g} s to {sent} (is the card's terminal there, and"
+            f"{link}: {what} within {within} to {sent} (is the card's terminal there, and"
             " the line free? lines that wait, such as DWL, INH or a move with a full buffer,"
             " need a longer time-out)"
         )

@@ -14,6 +14,7 @@ from itertools import islice
 
 from openacr.client import values
 from openacr.client.effects import Op, Pause
+from openacr.client.errors import NoReplyError
 from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.map.numbers import MA_BASE, MA_MOVE_COUNTER, MA_STRIDE
@@ -26,10 +27,15 @@ POLL_S = 0.002
 
 @dataclass(slots=True)
 class MoveStream:
-    """The moves of one master on their way to a card with a buffer of `depth` moves."""
+    """The moves of one master on their way to a card with a buffer of `depth` moves.
+
+    While the buffer is full and no move starts for `stall_s` (None: any time; a feedhold, a
+    very long move), `send` ends with NoReplyError.
+    """
 
     master: int = 0
     depth: int = DEPTH
+    stall_s: float | None = 600.0
     sent: int = 0
     started: int = 0
     origin: int | None = None  # of the move counter
@@ -59,16 +65,22 @@ class MoveStream:
             yield from self.update(talk)
         before = self.sent
         while batch := list(islice(source, max(self.depth - self.waiting, 1))):
+            full_s = talk.now_s()
             while self.waiting >= self.depth:
-                yield from self._make_room(talk)
+                if (yield from self._has_started_some(talk)):
+                    full_s = talk.now_s()
+                elif self.stall_s is not None and talk.now_s() - full_s > self.stall_s:
+                    raise NoReplyError(talk.name, "moves (none starts)", self.stall_s)
             yield from talk.tell(self._counted(batch))
             self.sent += len(batch)
         return self.sent - before
 
-    def _make_room(self, talk: Talk) -> Op[None]:
+    def _has_started_some(self, talk: Talk) -> Op[bool]:
         before = self.started
-        if (yield from self.update(talk)) == before:
-            yield Pause(POLL_S)
+        if (yield from self.update(talk)) != before:
+            return True
+        yield Pause(POLL_S)
+        return False
 
     def _counted(self, moves: Iterable[Move]) -> Iterator[Move]:
         """The moves for this master, counting up."""

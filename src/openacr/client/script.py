@@ -5,7 +5,6 @@ Each line is sent after the prompt of the one before it. Where no prompt can be 
 """
 
 import re
-import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
@@ -48,21 +47,27 @@ class Script:
             self._prompts = not int(echo[1]) & EchoMode.NO_PROMPT
         silent_key = _KEYS.fullmatch(line) is not None and ESC not in line
         if interrupted or silent_key or not self._prompts:
-            self._until_quiet()
+            self._until_quiet(line)
         else:
             self._until_prompt(line)
 
-    def _until_quiet(self) -> None:
+    def _until_quiet(self, line: bytes) -> None:
+        deadline_s = self.link.now_s() + self.wait_s
         while data := self.link.read(QUIET_S):
             self.show(data)
+            self._left_s(deadline_s, line)
 
     def _until_prompt(self, line: bytes) -> None:
         seen = b""
-        deadline_s = time.monotonic() + self.wait_s
+        deadline_s = self.link.now_s() + self.wait_s
         while not _PROMPT.search(seen):
-            left_s = deadline_s - time.monotonic()
-            if left_s <= 0:
-                raise NoReplyError(self.link.name, line.decode("utf-8", "replace"), self.wait_s)
-            data = self.link.read(left_s)
+            data = self.link.read(self._left_s(deadline_s, line))
             self.show(data)
             seen = (seen + data)[-64:]
+
+    def _left_s(self, deadline_s: float, line: bytes) -> float:
+        """How long the reply may still take; NoReplyError when that is over."""
+        left_s = deadline_s - self.link.now_s()
+        if left_s <= 0:
+            raise NoReplyError(self.link.name, line.decode("utf-8", "replace"), self.wait_s)
+        return left_s

@@ -18,6 +18,7 @@ repeated request, so text and packets may alternate on one stream.
 import re
 from collections.abc import Callable
 
+from openacr.client.lines import bytes_of, split
 from openacr.client.requests import (
     SYS,
     Align,
@@ -44,13 +45,9 @@ ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))
 _PROMPT = rb"(SYS>|P\d\d>|PLC\d>)"
 _AT_LINE_START = re.compile(rb"(?:^|\n)" + _PROMPT + rb"\Z")
 _ANYWHERE = re.compile(_PROMPT + rb"\Z")
+PROMPT_BYTES = len(b"\nPLC0>")  # the longest there is
 # The end of a text that may turn out to be a prompt or a line end.
 _UNFINISHED = re.compile(rb"(?:^|\n)(?:SY?|SYS|P\d{0,2}|PLC?|PLC\d)\Z|\r\Z")
-_CONTROL = re.compile(r"[\x00-\x08\x0a-\x1f\x7f]")  # keys, line ends, headers of packets
-# Typographic characters of published text and what the card understands instead.
-_PLAIN = str.maketrans(
-    "\u201c\u201d\u201e\u2018\u2019\u201a\u2013\u2014\u2212\u00a0", "\"\"\"'''--- "
-)
 
 Event = Answer | Heard | NeedData
 
@@ -67,6 +64,8 @@ class Session:
         self.is_listening = False
         self._request: Request | None = None
         self._received = bytearray()
+        self._total = 0
+        self._scanned = 0  # so far there is no mark
         self._marks = 0
         self._mark = b""
         self._is_echoed = False  # the echo of the line that began listening is gone
@@ -90,20 +89,28 @@ class Session:
         return bytes(self._received)
 
     @property
+    def received_bytes(self) -> int:
+        """How much has come back since the last event, understood or thrown away."""
+        return self._total
+
+    @property
     def is_fitting(self) -> bool:
         """What has come back so far can be the beginning of the answer."""
-        if isinstance(self._request, Line) and self.echo & EchoMode.CHARACTERS:
-            expected = bytes_of(self._request.text) + CRLF
-        elif isinstance(self._request, Ask):
-            expected = self._wires[0]
-        else:
-            return True
+        expected = self._expected
         return self._received[: len(expected)] == expected[: len(self._received)]
+
+    @property
+    def _expected(self) -> bytes:
+        """What the answer begins with."""
+        if isinstance(self._request, Line) and self.echo & EchoMode.CHARACTERS:
+            return bytes_of(self._request.text) + CRLF
+        return self._wires[0] if isinstance(self._request, Ask) else b""
 
     def forget(self) -> None:
         """Drop an unfinished request, as after a lost connection."""
         self._request = None
         self._received.clear()
+        self._total = self._scanned = 0
         self.is_listening = False
 
     # --- requests ---------------------------------------------------------------------
@@ -112,7 +119,7 @@ class Session:
         """The bytes to send; what was received for the request before is forgotten."""
         if not isinstance(request, Ask | Press | Leave):
             self.forget()
-        self._request = request
+        self._request, self._total, self._scanned = request, 0, 0
         if isinstance(request, Line):
             return self._typed(request.text) + self._fence()
         if isinstance(request, Follow):
@@ -143,13 +150,19 @@ class Session:
     def receive_data(self, data: bytes) -> None:
         """Take what has arrived."""
         self._received += data
+        self._total += len(data)
 
     @property
     def may_be_done(self) -> bool:
         """What is there could be a whole answer: wait a moment only, then `end_of_data`."""
         if not self.has_prompts:
             return self.is_listening and bool(self._received)
-        return _ANYWHERE.search(self._received) is not None or self.is_listening
+        return self.is_listening or _ANYWHERE.search(self._received, self._tail) is not None
+
+    @property
+    def _tail(self) -> int:
+        """Where a prompt at the end of what was received can begin."""
+        return max(0, len(self._received) - PROMPT_BYTES)
 
     def next_event(self) -> Event:
         """What the received bytes mean; Answer once the request is dealt with."""
@@ -197,24 +210,29 @@ class Session:
 
     def _without_end(self, is_silent: bool) -> bytes | None:
         """The answer without prompt or mark, once its end is there."""
-        text = bytes(self._received)
         if not self.has_prompts:
-            body, end, _ = text.partition(self._mark + CRLF)
-            return body if end else None
-        # The echo may contain anything, so a prompt counts only behind its line end.
-        begin = text.find(CRLF) + 2 if self.echo & EchoMode.CHARACTERS else 0
-        if self.echo & EchoMode.CHARACTERS and begin < 2:
+            end = self._received.find(self._mark + CRLF, self._scanned)
+            self._scanned = max(0, len(self._received) - len(self._mark + CRLF))
+            return None if end < 0 else bytes(self._received[:end])
+        # The echo may contain anything, so a prompt counts only behind it.
+        begin = len(self._expected) if self.is_fitting else 0
+        if len(self._received) < begin:
             return None
         pattern = _ANYWHERE if is_silent else _AT_LINE_START
-        found = pattern.search(text, begin) or _AT_LINE_START.match(text[begin:])
+        found = pattern.search(self._received, max(begin, self._tail))
+        found = found or _ANYWHERE.fullmatch(self._received, begin)
         if found is None:
             return None
-        self._reach(found[1])
-        return text[: -len(found[1])]
+        self._reach(bytes(found[1]))
+        return bytes(self._received[: found.start(1)])
 
     def _aligned(self, is_silent: bool) -> Event:
-        _, end, behind = bytes(self._received).rpartition(self._mark + CRLF)
-        if not end or (self.has_prompts and not _AT_LINE_START.match(behind)):
+        end = self._mark + CRLF
+        at = self._received.rfind(end)
+        if at < 0:
+            del self._received[: -len(end)]  # what the stream was doing before is thrown away
+            return NEED_DATA
+        if self.has_prompts and not _ANYWHERE.fullmatch(self._received, at + len(end)):
             return NEED_DATA
         self.level = SYS
         return self._done(Answer())
@@ -227,11 +245,11 @@ class Session:
             return NEED_DATA
         at, data, found = 0, b"", []
         for packet, wire in zip(request.packets, self._wires, strict=True):
+            if not self.is_listening and not wire.startswith(self._received[at : at + len(wire)]):
+                return self._done(Answer(is_garbled=True, raw=self.received))
             begin = self._received.find(wire, at)
             if begin < 0:
                 return NEED_DATA
-            if begin > at and not self.is_listening:
-                return self._done(Answer(is_garbled=True, raw=self.received))
             reply = self._reply_data(packet, begin + len(wire))
             if reply is None:
                 return NEED_DATA
@@ -276,6 +294,7 @@ class Session:
         """Give out the first bytes; what follows has to wait."""
         if not length:
             return NEED_DATA
+        self._total = 0
         text = readable(self._received[:length].decode("latin-1"))
         del self._received[:length]
         return Heard(text.replace("\r\n", "\n"))
@@ -294,19 +313,3 @@ class Session:
             return NEED_DATA
         self.is_listening = False
         return self._done(Answer())
-
-
-def bytes_of(text: str) -> bytes:
-    """The text as a card takes it: one byte per character, quotes and dashes plain."""
-    if control := _CONTROL.search(text):
-        raise UserError(f"{control[0]!r} cannot be part of a line: {text!r}")
-    try:
-        return text.translate(_PLAIN).encode("latin-1")
-    except UnicodeEncodeError as wrong:
-        raise UserError(f"{text[wrong.start]!r} cannot be sent to a card: {text}") from None
-
-
-def split(text: bytes) -> tuple[str, ...]:
-    """The lines of an answer; the last one may lack its end."""
-    lines = readable(text.decode("latin-1")).split("\r\n")
-    return tuple(lines[:-1] if not lines[-1] else lines)

@@ -5,8 +5,7 @@ bytes, wait for bytes, pause - and is resumed with the result. A blocking and an
 shell drive the same generators (`card`, `async_card`); tests can drive them with neither.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 
 from openacr.client.effects import Close, Op, Open, Pause, Receive, Send
 from openacr.client.errors import (
@@ -16,6 +15,7 @@ from openacr.client.errors import (
     RefusedError,
     message_of,
 )
+from openacr.client.options import Options, Patience
 from openacr.client.requests import (
     SYS,
     Align,
@@ -37,30 +37,22 @@ from openacr.protocol.stream import EchoMode, StreamKind
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Options:
-    """How to talk to a card.
-
-    `timeout_s`: longest silence while a reply is awaited (None: any). `reconnect_s`: how long
-    to try again after a lost connection (0: not at all). `uses_packets`: read parameters with
-    binary packets, exact and up to eight at once; otherwise by text.
-    """
-
-    timeout_s: float | None = 5.0
-    reconnect_s: float = 10.0
-    echo: EchoMode = EchoMode.CHARACTERS
-    uses_packets: bool = True
+LONGEST_REPLY_BYTES = 1 << 22  # a listing of all the memory a card has is shorter
 
 
 class Talk:
-    """One card at the other end of a link that is called `name` in messages."""
+    """One card at the other end of a link that is called `name` in messages.
 
-    def __init__(self, name: str, kind: StreamKind, options: Options) -> None:
+    `now_s` is the clock that time-outs count in.
+    """
+
+    def __init__(
+        self, name: str, kind: StreamKind, options: Options, now_s: Callable[[], float]
+    ) -> None:
         self.name = name
         self.kind = kind
         self.options = options
+        self.now_s = now_s
         self.session = Session(options.echo)
         self._home = SYS  # the level to come back to
         self._is_open = False
@@ -108,7 +100,9 @@ class Talk:
         was_listening = self.is_listening
         self._is_aligned = False  # until the answer is there, whatever happens
         yield Send(self.session.begin(request))
-        answer = yield from self._answer(request, wait_s or self.options.timeout_s)
+        silence_s = wait_s or self.options.timeout_s
+        patience = Patience(silence_s, self.now_s(), self.options.deadline_s)
+        answer = yield from self._answer(request, patience)
         if answer.is_garbled:
             raise GarbledError(self.name, str(request), answer.raw)
         self._is_aligned = True
@@ -116,18 +110,18 @@ class Talk:
             self._home = self.session.level
         return answer
 
-    def _answer(self, request: Request, wait_s: float | None) -> Op[Answer]:
+    def _answer(self, request: Request, patience: Patience) -> Op[Answer]:
         if isinstance(request, Follow):
             return Answer()
         event = self.session.next_event()
         while not isinstance(event, Answer):
             if event is NEED_DATA:
-                event = yield from self._more(request, wait_s)
+                event = yield from self._more(request, patience)
             else:  # text of a followed program, while something else is awaited
                 event = self.session.next_event()
         return event
 
-    def _more(self, request: Request, wait_s: float | None) -> Op[Event]:
+    def _more(self, request: Request, patience: Patience) -> Op[Event]:
         """Wait for bytes; only for a moment when what is there could be all."""
         if self.session.may_be_done:
             data = yield Receive(QUIET_S)
@@ -135,18 +129,29 @@ class Talk:
                 return event
         else:
             data = b""
-        data = data or (yield Receive(wait_s))
-        if not data:
-            self._give_up(request, wait_s or 0)
-        self.session.receive_data(data or b"")
+        left_s = patience.left_s(self.now_s(), self.session.received_bytes)
+        if not data and (left_s is None or left_s > 0):
+            data = yield Receive(left_s)
+        if not data or (left_s is not None and left_s <= 0):
+            self._give_up(request, patience)
+        return self._take(data or b"", request)
+
+    def _take(self, data: bytes, request: object) -> Event:
+        """What the bytes mean that have arrived; GarbledError when a reply does not end."""
+        self.session.receive_data(data)
+        if self.session.received_bytes > LONGEST_REPLY_BYTES:
+            received = self.session.received
+            self.session.forget()
+            raise GarbledError(self.name, str(request), received)
         return self.session.next_event()
 
-    def _give_up(self, request: Request, wait_s: float) -> None:
+    def _give_up(self, request: Request, patience: Patience) -> None:
         received, is_fitting = self.session.received, self.session.is_fitting
         self.session.forget()
         if not is_fitting:
             raise GarbledError(self.name, str(request), received)
-        raise NoReplyError(self.name, str(request), wait_s)
+        waited_s = self.now_s() - patience.begin_s if received else patience.silence_s
+        raise NoReplyError(self.name, str(request), waited_s or 0, is_begun=bool(received))
 
     # --- following a program ----------------------------------------------------------
 
@@ -165,11 +170,16 @@ class Talk:
         return event.text if isinstance(event, Heard) else ""
 
     def _next_heard(self, wait_s: float | None) -> Op[Event]:
-        while (event := self.session.next_event()) is NEED_DATA:
-            data = yield Receive(QUIET_S if self.session.received else wait_s)
+        event = self.session.next_event()
+        end_s = None if wait_s is None else self.now_s() + wait_s
+        while event is NEED_DATA:
+            left_s = None if end_s is None else end_s - self.now_s()
+            if self.session.received_bytes:
+                left_s = QUIET_S if left_s is None else min(QUIET_S, left_s)
+            data = (yield Receive(left_s)) if left_s is None or left_s > 0 else b""
             if not data:
                 return self.session.end_of_data()
-            self.session.receive_data(data)
+            event = self._take(data, "the program that is followed")
         return event
 
     # --- connection -------------------------------------------------------------------
@@ -190,16 +200,15 @@ class Talk:
 
     def _connect(self) -> Op[None]:
         """Open the link; once it has been open before, keep trying."""
-        patience_s = self.options.reconnect_s if self._was_open else 0.0
+        end_s = self.now_s() + (self.options.reconnect_s if self._was_open else 0.0)
         pause_s = FIRST_PAUSE_S
         while True:
             try:
                 yield Open()
             except ConnectionLostError:
-                if patience_s <= 0:
+                if self.now_s() >= end_s:
                     raise
                 yield Pause(pause_s)
-                patience_s -= pause_s
                 pause_s = min(2 * pause_s, LONGEST_PAUSE_S)
             else:
                 self._is_open = self._was_open = True

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from openacr.client import Card
 from openacr.client.links import Host
-from openacr.client.talk import Options as Talking
+from openacr.client.options import Options as Talking
 from openacr.cnc import canonical as c
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter

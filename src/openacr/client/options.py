@@ -1,0 +1,41 @@
+"""How to talk to a card, and how long to wait for it."""
+
+from dataclasses import dataclass
+
+from openacr.protocol.stream import EchoMode
+
+SLOWEST_BYTES_PER_S = 1024  # what a line may take for a long reply, beyond the deadline
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Options:
+    """How to talk to a card.
+
+    `timeout_s`: longest silence while a reply is awaited (None: any, and no deadline).
+    `deadline_s`: longest time until a reply is whole, plus a second for every KiB of it (None:
+    any). `reconnect_s`: how long to try again after a lost connection (0: not at all).
+    `uses_packets`: read parameters with binary packets, exact and up to eight at once; otherwise
+    by text.
+    """
+
+    timeout_s: float | None = 5.0
+    deadline_s: float | None = 60.0
+    reconnect_s: float = 10.0
+    echo: EchoMode = EchoMode.CHARACTERS
+    uses_packets: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Patience:
+    """How long a reply may take: silence at most, and until what time it has to be whole."""
+
+    silence_s: float | None
+    begin_s: float
+    deadline_s: float | None
+
+    def left_s(self, now_s: float, received_bytes: int) -> float | None:
+        """How long the next bytes may take; 0 or less when the deadline has passed."""
+        if self.silence_s is None or self.deadline_s is None:
+            return self.silence_s
+        allowed_s = max(self.deadline_s, self.silence_s) + received_bytes / SLOWEST_BYTES_PER_S
+        return min(self.silence_s, self.begin_s + allowed_s - now_s)
