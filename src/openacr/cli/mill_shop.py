@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from openacr.sysvar import Store
 
 FAILED, INTERRUPTED = 1, 130
-REST_S = 60.0  # longest time a machine may take to come to rest
+REST_S = 90.0  # longer than any wait of an ending: the card does not do what it is told
+LEFT_ALONE = "its watchdog stops it, if it has one; else it ends the moves it has, outputs stay on"
 
 ToHost = Annotated[
     str | None,
@@ -29,7 +30,7 @@ AtHost = Annotated[
 @contextmanager
 def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "Iterator[Workshop]":
     """The machine of a command; it comes to rest however the command ends."""
-    from openacr.cli.signals import terminations_as_interrupts
+    from openacr.cli.signals import deaf, terminations_as_interrupts
     from openacr.client import ConnectionLostError
     from openacr.mill.alarms import AlarmError
     from openacr.mill.machine import LINK_ERRORS
@@ -38,32 +39,50 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
     def say(text: str) -> None:
         typer.echo(text, err=to_stderr)
 
-    try:
-        shop = Workshop.real(host, cells, say) if host is not None else Workshop.virtual(cells, say)
+    with terminations_as_interrupts():
+        try:
+            shop = (
+                Workshop.real(host, cells, say)
+                if host is not None
+                else Workshop.virtual(cells, say)
+            )
+        except ConnectionLostError as lost:
+            raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
+        except KeyboardInterrupt:
+            typer.echo("interrupted: nothing was started", err=True)
+            raise typer.Exit(INTERRUPTED) from None
         shop.show_message = partial(show_message, to_stderr=to_stderr)
-    except ConnectionLostError as lost:
-        raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
-    try:
-        with terminations_as_interrupts():
+        try:
             if host is not None:
                 shop.step()  # what is wrong with the machine is known before anything is asked
             yield shop
-    except KeyboardInterrupt:
-        _break_off(shop)
+        except KeyboardInterrupt:
+            _break_off(shop)
+            typer.echo(_at_rest(shop), err=True)
+            raise typer.Exit(INTERRUPTED) from None
+        except AlarmError as error:
+            is_up = shop.runner.alarms.bars_start
+            hint = "; `openacr mill acknowledge` clears what is over" if is_up else ""
+            raise UserError(f"{error}{hint}") from None
+        except LINK_ERRORS as lost:
+            raise UserError(f"alarm 3: Link lost ({lost}); {LEFT_ALONE}") from None
+        finally:
+            with deaf():  # also for whoever presses Ctrl-C once more
+                try:
+                    _break_off(shop)
+                finally:
+                    shop.close()
+
+
+def _at_rest(shop: "Workshop") -> str:
+    """What is known of a machine whose command was broken off."""
+    from openacr.mill.machine import LINK_ERRORS
+
+    try:
         place = place_text(shop, shop.runner.course.host.position())
-        typer.echo(f"interrupted: the machine is at rest at {place}", err=True)
-        raise typer.Exit(INTERRUPTED) from None
-    except AlarmError as error:
-        is_up = shop.runner.alarms.bars_start
-        hint = "; `openacr mill acknowledge` clears what is over" if is_up else ""
-        raise UserError(f"{error}{hint}") from None
-    except LINK_ERRORS as lost:
-        raise UserError(
-            f"alarm 3: Link lost ({lost}); the card ends the moves it has, outputs stay as they are"
-        ) from None
-    finally:
-        _break_off(shop)
-        shop.close()
+    except LINK_ERRORS:
+        return f"interrupted: the card does not answer; {LEFT_ALONE}"
+    return f"interrupted: the machine is at rest at {place}"
 
 
 def _break_off(shop: "Workshop") -> None:
@@ -79,7 +98,10 @@ def _break_off(shop: "Workshop") -> None:
         end_s = shop.card.now_s() + REST_S
         while shop.runner.is_busy:
             if shop.card.now_s() > end_s:
-                raise UserError(f"the machine has not come to rest within {REST_S:g} s")
+                shop.runner.cut_power()
+                raise UserError(
+                    f"the machine has not come to rest within {REST_S:g} s: drives are switched off"
+                )
             shop.step()
 
 

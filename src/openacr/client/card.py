@@ -97,6 +97,11 @@ class Card:
         """The level lines are typed at."""
         return self._talk.level
 
+    @property
+    def connections(self) -> int:
+        """Connections made so far; packets sent just before a new one may have been lost."""
+        return self._talk.connections
+
     def now_s(self) -> float:
         """The clock that time-outs count in."""
         return self._link.now_s()

@@ -54,6 +54,7 @@ class Talk:
         self.options = options
         self.now_s = now_s
         self.session = Session(options.echo)
+        self.connections = 0  # made so far
         self._home = SYS  # the level to come back to
         self._is_open = False
         self._was_open = False
@@ -212,6 +213,7 @@ class Talk:
                 pause_s = min(2 * pause_s, LONGEST_PAUSE_S)
             else:
                 self._is_open = self._was_open = True
+                self.connections += 1
                 return
 
     def _align(self) -> Op[None]:

@@ -106,18 +106,18 @@ class Spindle:
     def switch_off(self) -> None:
         """Off at once, as ABORT and E-stop do it."""
         try:
-            self._let_go()
-        finally:
             self._panel.output(self._row.off, True)
+        finally:
+            self._let_go()
 
     def _let_go(self) -> None:
         """Driven in no direction any more."""
         self.state = OFF
-        try:
-            self.write()
-        finally:  # outputs are told without an answer of the card
+        try:  # first what the card does not answer: no lost reply keeps it from being sent
             self._panel.output(self._row.cw, False)
             self._panel.output(self._row.ccw, False)
+        finally:
+            self.write()
 
     def _level(self, number: int, level: bool, reason: str) -> Steps:
         panel = self._panel

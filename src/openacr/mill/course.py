@@ -8,13 +8,14 @@ from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
+from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.doing import Doing
 from openacr.mill.encoding import Encoder, Job, Motion
 from openacr.mill.feeding import Feed, Halt, Starved
 from openacr.mill.host import RunHost
 from openacr.mill.limits import first_excess
-from openacr.mill.machine import Look
+from openacr.mill.machine import CLEAR_S, Look
 from openacr.mill.panel import Panel
 from openacr.mill.probing import Probing
 from openacr.mill.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
@@ -186,10 +187,19 @@ class Course:
         self.is_retaking = True
         try:
             self._machine.hold()
-            yield Until("stops", lambda look: look.is_held or not look.is_moving)
+            yield self.stops()
             yield from self.put_back(self.host.position())
         finally:
             self.is_retaking = False
+
+    def stops(self) -> Until:
+        """The wait for the rest of a feed hold; alarm 15 if it does not come."""
+        return Until(
+            "stops",
+            lambda look: look.is_held or not look.is_moving,
+            self.settings.rest_s,
+            alarms.NO_REST,
+        )
 
     def put_back(self, here: c.Point) -> Steps:
         """Take the rest of the way back from the card, for a machine that is held at `here`."""
@@ -247,15 +257,22 @@ class Course:
         yield Until("back to the start", self.tracker.is_at_end)
 
     def drop_moves(self) -> Steps:
-        """Drop what the card holds and count from zero again."""
+        """Drop what the card holds and count from zero again; alarm 15 if it moves on.
+
+        A kill that cannot be cleared was set by another host or by the card: it is alarm 14
+        from then on.
+        """
         self._machine.stop()
-        yield Until("moves end", lambda look: not look.is_moving)
+        limit_s = self.settings.rest_s
+        yield Until("moves end", lambda look: not look.is_moving, limit_s, alarms.NO_REST)
         yield Until("kill is seen", lambda look: look.is_killed, KILL_S)
         self._machine.clear_kill()
         self._machine.reset_counter()
         self.tracker.reset()
         # What was seen before the counter was reset must not pass for the end of new moves.
-        yield Until("kill is cleared", lambda look: not look.is_killed and look.counter == 0)
+        yield Until(
+            "kill is cleared", lambda look: not look.is_killed and look.counter == 0, CLEAR_S
+        )
 
     def _jobs(self, entries: Iterator[Motion], begin: c.Point) -> list[Job]:
         jobs = []

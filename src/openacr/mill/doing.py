@@ -1,6 +1,7 @@
 """What each canonical entry that is no move makes the machine do, at rest and in order."""
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from functools import singledispatchmethod
 from math import inf
 from typing import TYPE_CHECKING
@@ -34,9 +35,13 @@ class Doing:
         self.changer = ToolChanger(panel, self.spindle)
 
     def off(self) -> None:
-        """Spindle and coolant off, as ABORT and E-stop want it."""
-        self.spindle.switch_off()
-        self.coolant.set(mist=False, flood=False)
+        """Spindle, coolant and beam off, as ABORT and E-stop want it; each for itself."""
+        burning = self._panel.settings.burning
+        with ExitStack() as each:  # last one first
+            each.callback(self.spindle.switch_off)
+            each.callback(self.coolant.set, mist=False, flood=False)
+            for beam in (burning.plasma, burning.under_burn):
+                each.callback(self._panel.output, beam, False)
 
     @singledispatchmethod
     def steps(self, halt: Halt) -> Steps:

@@ -24,7 +24,7 @@ from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.panel import Panel
 from openacr.mill.rows import AxisSettings
-from openacr.mill.settings import JOG
+from openacr.mill.settings import JOG, LONGEST_REST_S, REST_S
 
 FIRST_INCREMENT, INCREMENTS = 6, 5
 JOG_ACTIVE = n.AF1_JOG_ACTIVE
@@ -47,6 +47,7 @@ class Jogging:
         self._panel = panel
         self._machine = panel.machine
         self._moving: set[int] = set()
+        self._rest_by_s: float | None = None  # when the axes have to be at rest
         self._held: dict[int, _Held] = {}
 
     @property
@@ -90,22 +91,29 @@ class Jogging:
     def settle(self) -> Steps:
         """Wait for rest, then make positions of the offsets."""
         yield Until("jog", lambda _look: not self._is_going_on())
+        self._rest_by_s = None
         for axis in sorted(self._moving):
             self._type(f"JOG RES {self._panel.settings.axis(axis).name}")
         self._moving.clear()
 
     def stop_all(self) -> None:
         """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
+        if self._rest_by_s is None:
+            self._rest_by_s = self._machine.now_s + self._rest_s()
         with ExitStack() as each:  # all of them, even if the card refuses to stop one
             for axis in self._moving:
                 each.callback(self._stop, axis)
 
+    def _rest_s(self) -> float:
+        """How long axes may take to come to rest: twice the longest ramp, and a little."""
+        rows = (self._panel.settings.axis(axis) for axis in self._moving)
+        ramps_s = (max(row.jog_ups, row.jog_rapid_ups) / _ramp(row) for row in rows if _ramp(row))
+        return min(REST_S + 2.0 * max(ramps_s, default=0.0), LONGEST_REST_S)
+
     def _stop(self, axis: int) -> None:
         row = self._panel.settings.axis(axis)
-        # Never softer than the ramp the way to a soft limit was planned with.
-        ramp = max(row.jog_stp_ups2, row.jog_dec_ups2)
         try:
-            self._type(f"JOG DEC {row.name}{number_text(ramp)}")
+            self._type(f"JOG DEC {row.name}{number_text(_ramp(row))}")
         finally:
             self.release(axis)
 
@@ -147,7 +155,10 @@ class Jogging:
                 del self._held[axis]
             else:
                 self._aim(row, held)
-        return bool(self._held) or self._is_moving()
+        is_going_on = bool(self._held) or self._is_moving()
+        if is_going_on and self._rest_by_s is not None and self._machine.now_s > self._rest_by_s:
+            raise AlarmError(alarms.NO_REST)
+        return is_going_on
 
     def _is_at_limit(self, row: AxisSettings, direction: int) -> bool:
         limit = self.limit(row, direction)
@@ -203,6 +214,11 @@ class Jogging:
 
     def _type(self, *lines: str) -> None:
         self._machine.type(lines)
+
+
+def _ramp(row: AxisSettings) -> float:
+    """The ramp of a stop, never softer than the one the way to a soft limit was planned with."""
+    return max(row.jog_stp_ups2, row.jog_dec_ups2)
 
 
 def ways(texts: Iterable[str], names: Iterable[str]) -> list[tuple[str, float]]:

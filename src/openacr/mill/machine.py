@@ -9,14 +9,17 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from openacr.client import Card, ConnectionLostError
-from openacr.client.errors import NoReplyError
+from openacr.client.errors import GarbledError, NoReplyError
+from openacr.client.values import Number
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.move import Move
 from openacr.protocol.override import FeedrateOverride, RapidOverride
+from openacr.protocol.packets import Packet
 
-LINK_ERRORS = (ConnectionLostError, NoReplyError)
+LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
+CLEAR_S = 2.0  # longest time the card takes to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096
@@ -34,6 +37,7 @@ class Look:
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
     limits: tuple[int, ...]  # quinary flag words
     modules: tuple[int, ...] = ()  # inputs of the expansion modules
+    may_have_lost: bool = False  # packets sent behind the last look: the connection is a new one
 
     @property
     def is_moving(self) -> bool:
@@ -88,8 +92,11 @@ class Machine:
         self._passed_ms = 0
         self._clock_ms: int | None = None
         self.is_dropping = False  # moves are killed on purpose
-        self._is_clearing = False
+        self._clear_by_s: float | None = None  # a kill that stays for longer is not ours
         self._modules = 0
+        self._connections = card.connections
+        self._has_told = False  # since the last look
+        self._barred = ""  # why nothing is sent to the card any more
 
     # --- seeing -----------------------------------------------------------------------
 
@@ -113,15 +120,25 @@ class Machine:
 
     def look(self) -> Look:
         """Ask the card how it stands."""
-        clock, master, counter, inputs, *words = map(int, self.card.read_many(self._watched))
+        clock, master, counter, inputs, *words = map(int, self._read_many(self._watched))
+        is_new = self.card.connections != self._connections
+        has_lost = is_new and self._has_told
+        self._connections, self._has_told = self.card.connections, False
         if self._clock_ms is not None:
             self._passed_ms += (clock - self._clock_ms) % CLOCK_PERIOD_MS
         self._clock_ms = clock
-        if self._is_clearing and not master & n.MF1_KILL_ALL_MOVES_REQUEST:
-            self.is_dropping = self._is_clearing = False
+        self._note_clearing(is_killed=bool(master & n.MF1_KILL_ALL_MOVES_REQUEST))
         count = len(self.axes)
         drives, limits, modules = words[:count], words[count : 2 * count], words[2 * count :]
-        return Look(clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules))
+        return Look(
+            clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
+            may_have_lost=has_lost,
+        )  # fmt: skip
+
+    def _note_clearing(self, *, is_killed: bool) -> None:
+        by_s = self._clear_by_s
+        if by_s is not None and (not is_killed or self.now_s > by_s):
+            self.is_dropping, self._clear_by_s = False, None
 
     @property
     def now_s(self) -> float:
@@ -134,30 +151,49 @@ class Machine:
 
     def read(self, parameter: int) -> float:
         """A parameter of the card."""
+        self._require_hold()
         return float(self.card.read(parameter))
+
+    def _read_many(self, parameters: list[int]) -> list[Number]:
+        self._require_hold()
+        return self.card.read_many(parameters)
 
     def axis_values(self, offset: int) -> list[int]:
         """One row of all axes in use, e.g. `AX_ACTUAL_POSITION`."""
         rows = [n.AX_BASE + axis * n.AX_STRIDE + offset for axis in self.axes]
-        return [int(value) for value in self.card.read_many(rows)]
+        return [int(value) for value in self._read_many(rows)]
 
     def axis_flags(self, word: int) -> list[int]:
         """One flag word of all axes in use, e.g. `AF1_WORD`."""
-        return [int(each) for each in self.card.read_many([word + axis for axis in self.axes])]
+        return [int(each) for each in self._read_many([word + axis for axis in self.axes])]
 
     # --- telling ----------------------------------------------------------------------
 
+    def let_go(self, reason: str) -> None:
+        """Exchange nothing with the card any more: every attempt is a ConnectionLostError."""
+        self._barred = reason
+
+    def _tell(self, *packets: Packet) -> None:
+        self._require_hold()
+        self._has_told = True
+        self.card.tell(*packets)
+
+    def _require_hold(self) -> None:
+        if self._barred:
+            raise ConnectionLostError(f"{self.card.name}: {self._barred}")
+
     def send(self, moves: Iterable[Move]) -> None:
         """Moves for the buffer of the master."""
-        self.card.tell(*moves)
+        self._tell(*moves)
 
     def write(self, parameter: int, value: float) -> None:
         """Set a parameter of the card."""
+        self._require_hold()
         self.card.write(parameter, value)
 
     def set_flag(self, number: int, on: bool) -> None:
         """Set or clear a flag."""
-        self.card.tell(SetBit(number) if on else ClearBit(number))
+        self._tell(SetBit(number) if on else ClearBit(number))
 
     def _request(self, mask: int, on: bool = True) -> None:
         self.set_flag(flag_of(n.MF1_WORD + self.master, mask), on)
@@ -177,14 +213,24 @@ class Machine:
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
 
     def clear_kill(self) -> None:
-        """Let the master move again."""
-        self._is_clearing = True
+        """Let the master move again.
+
+        A stop that was requested while moves were killed already waits on the card, and
+        would kill again: it is taken back first.
+        """
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
+        self.is_dropping, self._clear_by_s = True, self.now_s + CLEAR_S
         self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
 
     def kill(self) -> None:
         """Kill the motion of every axis in use."""
         self.is_dropping = True
         self._set_kills(True)
+
+    def disable(self) -> None:
+        """Ctrl-Z: kill all motion and switch all drives off, which DRIVE OFF refuses in motion."""
+        self._require_hold()
+        self.card.kill_all(disable=True)
 
     def release(self) -> None:
         """Take a kill back: axes and master may move again; drives stay as they are.
@@ -194,6 +240,7 @@ class Machine:
         self.fold_jogs()
         self._set_kills(False)
         self.clear_kill()
+        self.go_on()
 
     def _set_kills(self, on: bool) -> None:
         self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
@@ -206,7 +253,7 @@ class Machine:
     def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
         """One flag of every axis in use, all in one go."""
         flags = (flag_of(word + axis, mask) for axis in self.axes)
-        self.card.tell(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
+        self._tell(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
 
     def is_jogging(self) -> bool:
         """Whether an axis in use is jogged, or ramps down behind a kill."""
@@ -218,14 +265,15 @@ class Machine:
 
     def override(self, feed: float, rapid: float) -> None:
         """Feed and rapid override, 1 = as programmed."""
-        self.card.tell(FeedrateOverride.of([self.master], feed))
-        self.card.tell(RapidOverride.of([self.master], rapid))
+        self._tell(FeedrateOverride.of([self.master], feed))
+        self._tell(RapidOverride.of([self.master], rapid))
 
     def reset_counter(self) -> None:
         """Count the packets from zero again."""
-        self.card.write(self.counter, 0)
+        self.write(self.counter, 0)
 
     def type(self, lines: Iterable[str]) -> None:
         """Lines of text at the program of the master."""
+        self._require_hold()
         for line in lines:
             self.card.command(line, program=self.master)

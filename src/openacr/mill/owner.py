@@ -46,10 +46,11 @@ class Owner:
             self._card.write(HEARTBEAT, self._beats)
             self._beats += 1
 
-    def release(self) -> None:
-        """Let others have the machine."""
+    def release(self, *, tells_card: bool = True) -> None:
+        """Let others have the machine; a card that is out of reach is not told."""
         try:
-            self._card.write(HEARTBEAT, 0)
+            if tells_card:
+                self._card.write(HEARTBEAT, 0)
         finally:
             self._unlock()
 

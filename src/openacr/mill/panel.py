@@ -34,6 +34,11 @@ class Panel:
         self._out[number] = on
         self.machine.set_flag(number, on != self.settings.is_output_inverted(number))
 
+    def renew(self) -> None:
+        """Switch every output once more as it was switched last."""
+        for number, on in self._out.items():
+            self.output(number, on)
+
     def is_out(self, number: int) -> bool:
         """Whether an output was switched on here."""
         return self._out.get(number, False)

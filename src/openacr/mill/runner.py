@@ -7,6 +7,7 @@ machine and seconds on a virtual one.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from openacr.cnc import canonical as c
 from openacr.errors import StoreError, UserError
@@ -71,7 +72,7 @@ class Runner:
         self._halting = Halting(panel, course, doing, passes, status)
         self._supervision = Supervision(
             panel, self.alarms, course, doing, hands=hands, retrace=retrace, pausing=pausing,
-            ending=ending, script=script, status=status, compensation=self._compensation,
+            ending=ending, script=script, status=status, compensation=self._compensation, say=say,
         )  # fmt: skip
         self._burner = Burner(panel, course)
         self._switches = Switches(
@@ -125,6 +126,11 @@ class Runner:
     def is_busy(self) -> bool:
         """A program runs, waits, is held or being ended, or an axis is moved by hand."""
         return self._supervision.is_busy
+
+    @property
+    def is_out_of_reach(self) -> bool:
+        """Whether the card has not answered for so long that nothing more is sent to it."""
+        return self._supervision.is_out_of_reach
 
     @property
     def source(self) -> c.Source | None:
@@ -204,10 +210,14 @@ class Runner:
 
     def abort(self) -> None:
         """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
-        if self._status.is_over:
+        if not self.is_busy:
             raise UserError("no program runs")
         self._hands.stop()
         self._ending.abort(State.IDLE)
+
+    def cut_power(self) -> None:
+        """The last resort where nothing brings rest: kill, all drives off, alarm 15."""
+        self._supervision.give(alarms.NO_REST, "")
 
     def break_off(self) -> None:
         """Whoever drives the machine leaves: everything that moves comes to rest."""
@@ -271,7 +281,12 @@ class Runner:
     def step(self) -> None:
         """Look at the card and do what is due."""
         try:
-            self._do(self.machine.look())
+            look = self.machine.look()
+        except LINK_ERRORS as failure:
+            self._supervision.miss_look(failure)
+            return
+        try:
+            self._do(look)
         except LINK_ERRORS:
             self._supervision.lose_link()
         except StoreError as error:
@@ -283,8 +298,8 @@ class Runner:
         self._supervision.keep(look)
         self._switches.keep(look, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(look)
-        self._hands.play(look, self._times.step_s)
-        self.retrace.play(look, self._times.step_s)
+        for play in (self._hands.play, self.retrace.play):
+            self._supervision.guard(partial(play, look, self._times.step_s))
         if self.state is not State.PAUSED:
             self._supervision.play(look, self._times.step_s)
         if self._is_reading:

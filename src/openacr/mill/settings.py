@@ -22,6 +22,7 @@ AXES = 8
 NONE = -1
 S_PER_MIN = 60.0
 CLICKS = 16
+REST_S, LONGEST_REST_S = 5.0, 60.0  # to come to rest: besides the ramp, and with it
 HOMED = 271  # cell with the mask of homed axes
 
 GENERAL, SERVO, AXIS, CONTROL, HOME, JOG, IO, FOV, ROV, SOV, PROBE, SPEEDS, COMPATIBILITY = range(
@@ -71,6 +72,7 @@ class Settings:
         self.returns_to_start = bool(self._int(CONTROL, 6))
         self.lead_in_u = self._real(CONTROL, 5)
         self.on_the_fly = bool(self._int(COMPATIBILITY, 4))
+        self.link_timeout_s = self._real(CONTROL, 126)
         self.is_metric = bool(self._int(CONTROL, 1))
 
     def _real(self, tab: int, k: int, axis: int = 0) -> float:
@@ -196,6 +198,14 @@ class Settings:
             is_manual_change=bool(self._int(TOOL, 2)),
             tool_time_out_s=self._real(TOOL, 3),
         )
+
+    @property
+    def rest_s(self) -> float:
+        """How long the machine may take to come to rest: twice its longest ramp, and a little."""
+        speeds = self.speeds
+        ramps = [each for each in (speeds.rapid_acc_ups2, speeds.feed_acc_ups2) if each > 0.0]
+        ramp_s = speeds.max_ups / min(ramps) if ramps else 0.0
+        return min(REST_S + 2.0 * ramp_s, LONGEST_REST_S)
 
     def table(self, tab: int) -> tuple[float, ...]:
         """The percentages of the clicks of an override switch (FOV, ROV or SOV)."""

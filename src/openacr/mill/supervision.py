@@ -1,7 +1,10 @@
 """Alarms while a machine is driven: each is given once, and does to the machine what it must."""
 
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 
+from openacr.client import ConnectionLostError
 from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
@@ -13,12 +16,11 @@ from openacr.mill.hands import Hands
 from openacr.mill.machine import LINK_ERRORS, Look
 from openacr.mill.panel import Panel
 from openacr.mill.pausing import Pausing
+from openacr.mill.reach import Reach
 from openacr.mill.retracing import Retrace
 from openacr.mill.script import Script
 from openacr.mill.states import State, Status
 from openacr.mill.watching import Watch
-
-LOOKS_LOST = 3  # in a row, each with its time-out: the card is out of reach
 
 
 class Supervision:
@@ -38,6 +40,7 @@ class Supervision:
         script: Script,
         status: Status,
         compensation: Compensation,
+        say: Callable[[str], None],
     ) -> None:
         self._panel = panel
         self._alarms = alarm_list
@@ -50,27 +53,37 @@ class Supervision:
         self._script = script
         self._status = status
         self._compensation = compensation
+        self._say = say
         self._watch = Watch(panel)
-        self._lost_looks = 0
+        self._reach = Reach(panel.machine.card, panel.settings.link_timeout_s)
+        self._owes_rest = False  # the link was lost before the machine could be brought to rest
 
     @property
     def is_busy(self) -> bool:
         """A program runs, waits, is held or being ended, or an axis is moved by hand."""
-        return not self._status.is_over or self._script.is_active or self._hands.is_active
+        is_moved = self._script.is_active or self._hands.is_active
+        return not self._status.is_over or is_moved or self._owes_rest
+
+    @property
+    def is_out_of_reach(self) -> bool:
+        """Whether the card has not answered for so long that nothing more is sent to it."""
+        return self._reach.is_given_up
 
     def keep(self, look: Look) -> None:
         """Alarms for what is wrong, each once until it is acknowledged."""
-        self._lost_looks = 0
+        self._reach.answer()
+        if self._owes_rest:
+            self._owes_rest = False
+            self._bring_to_rest()
+        elif look.may_have_lost:
+            self._renew()
         for kind, detail in self._watch.causes(look, spins=self._spindle.is_on):
             self.give(kind, detail)
 
     def play(self, look: Look, step_s: float) -> None:
         """Go on with what is being done as far as the card lets it."""
         status, script = self._status, self._script
-        try:
-            script.play(look, step_s)
-        except AlarmError as error:
-            self.give(error.kind, error.detail)
+        self.guard(partial(script.play, look, step_s))
         if script.is_active and status.state is State.RUN:
             status.state = State.WAIT
         if status.state is State.WAIT:
@@ -78,6 +91,13 @@ class Supervision:
             if not script.is_active:
                 status.is_homing = False
                 status.state = State.RUN if self._course.has_program else State.IDLE
+
+    def guard(self, do: Callable[[], None]) -> None:
+        """Do something; an alarm it ends with takes effect."""
+        try:
+            do()
+        except AlarmError as error:
+            self.give(error.kind, error.detail)
 
     def give(self, kind: Kind, about: object) -> None:
         """An alarm comes up, and takes effect unless it was up before."""
@@ -88,14 +108,17 @@ class Supervision:
             return
         if kind is alarms.EXCESS_ERROR:
             homed.lose(self._panel, detail)
+        if kind is alarms.NO_REST:
+            self._ending.cut_power()
+            self._hands.let_go()
+            return
         if kind.effect is Effect.KILL:
             self._ending.kill()
             self._hands.let_go()
             return
         self._take_effect(kind.effect)
-        if kind is not alarms.LINK_LOST:
-            self._hands.stop()
-            self._retrace.stop()
+        self._hands.stop()
+        self._retrace.stop()
 
     def _take_effect(self, effect: Effect) -> None:
         if effect is Effect.ABORT and self.is_busy:
@@ -103,18 +126,53 @@ class Supervision:
         elif effect is Effect.HOLD and self._status.is_under_way:
             self.pause()
 
-    def lose_link(self) -> None:
-        """The card does not answer: the program is over; a card that is back is brought to rest.
+    def miss_look(self, failure: Exception) -> None:
+        """The card has not answered a look: nothing is sent before it does.
 
-        One that stays away ends the moves it has, and is not waited for.
+        A connection that is broken and comes back within the link timeout goes on.
         """
-        self._lost_looks += 1
-        with suppress(*LINK_ERRORS):
-            self.give(alarms.LINK_LOST, "")
-        if self._lost_looks >= LOOKS_LOST:
+        if isinstance(failure, ConnectionLostError) and not self._reach.is_overdue:
+            return
+        self.lose_link()
+
+    def lose_link(self) -> None:
+        """The card does not answer: alarm 3, and the program is over.
+
+        Nothing is sent before the card has answered a look again, for every attempt would
+        cost a time-out; then it is brought to rest. One that stays away is given up: its own
+        watch stops it.
+        """
+        if self._reach.lose():
+            self._owes_rest = self.is_busy
+            self._alarms.give(alarms.LINK_LOST, "", self._panel.machine.now_s)
+            self._status.end(State.ALARM)
+            self._say("alarm 3: Link lost; trying to reach the card")
+        if self.is_out_of_reach:
+            self._owes_rest = False
+            self._panel.machine.let_go("it does not answer")
             with suppress(*LINK_ERRORS):
                 self._script.close()
             self._hands.close()
+
+    def _renew(self) -> None:
+        """Packets sent before a new connection may be lost: say again what the card has to know.
+
+        Moves are taken back and sent once more from where the machine comes to rest; an
+        action that has begun cannot be repeated, so it ends the program.
+        """
+        self._panel.renew()
+        if self._status.state is State.PAUSED:
+            self._panel.machine.hold()
+        elif self._script.is_active and not self._status.is_over:
+            self.lose_link()
+        elif self._status.state is State.RUN:
+            self._script.begin(self._course.retake())
+
+    def _bring_to_rest(self) -> None:
+        """Everything off, moves and jogs to rest: the card answers again."""
+        self._ending.abort(State.ALARM)
+        self._hands.stop()
+        self._retrace.stop()
 
     def pause(self) -> None:
         """Feed hold; a homing fails by it, for it cannot be resumed."""

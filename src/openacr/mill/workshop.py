@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from openacr.controller import Controller
 
 POLL_S = 0.02
-LINK_S = 2.0  # without an answer of the card, and the link is lost
 NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
@@ -135,10 +134,12 @@ class Workshop:
         cls, target: str | Host, store: Store, say: Callable[[str], None] = print
     ) -> "Workshop":
         """A card at the other end of a link; drives are left as they are."""
-        card = Card.open(target, Talking(timeout_s=LINK_S, reconnect_s=LINK_S))
+        settings = Settings(store)
+        timeout_s = settings.link_timeout_s
+        card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
         try:
             check_firmware(card)
-            check_rest(card, Settings(store))
+            check_rest(card, settings)
             user_variables(card)
             owner = Owner(card, store.path)
         except BaseException:
@@ -156,7 +157,7 @@ class Workshop:
         """Let go of the card."""
         with suppress(*LINK_ERRORS):
             if self._owner is not None:
-                self._owner.release()
+                self._owner.release(tells_card=not self.runner.is_out_of_reach)
         self.card.close()
 
     # --- programs ---------------------------------------------------------------------

@@ -1,0 +1,261 @@
+"""A served card, machines that are run on it, and a line between them: real processes.
+
+Everything here waits for an event with a generous limit, so that a busy computer makes a
+test slow and never wrong.
+"""
+
+import os
+import re
+import select
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+import tty
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from openacr.client import Card
+from openacr.map.numbers import AF1_JOG_ACTIVE, AF1_WORD, MF1_IN_MOTION, MF1_WORD
+from openacr.sysvar import Store
+
+LIMIT_S = 60.0  # for what has to come at all
+AXIS_POSITION, AXIS_STRIDE = 12288, 256
+PULSES = 10000.0
+SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0", "--no-journal")
+
+
+def until(what: Callable[[], bool], *, limit_s: float = LIMIT_S, about: str = "") -> None:
+    """Wait for something that has to come."""
+    end_s = time.monotonic() + limit_s
+    while not what():
+        assert time.monotonic() < end_s, f"never came: {about or what}"
+        time.sleep(0.02)
+
+
+class Process:
+    """One openacr command, with all it says."""
+
+    def __init__(self, *words: str, store: Path, stdin: int | None = subprocess.DEVNULL) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "openacr", *words],
+            stdin=stdin,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env={**os.environ, "OPENACR_STORE": str(store), "COLUMNS": "200"},
+        )
+        self._text: list[str] = []
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        for line in self._process.stdout:
+            self._text.append(line)
+
+    @property
+    def text(self) -> str:
+        """What it has said so far."""
+        return "".join(self._text)
+
+    @property
+    def is_alive(self) -> bool:
+        return self._process.poll() is None
+
+    def signal(self, number: signal.Signals) -> None:
+        self._process.send_signal(number)
+
+    def ended(self, limit_s: float = LIMIT_S) -> int:
+        """Its exit code, once it has ended."""
+        code = self._process.wait(limit_s)
+        self._reader.join(limit_s)
+        return code
+
+    def close(self) -> None:
+        if self.is_alive:
+            self._process.kill()
+            self._process.wait(LIMIT_S)
+        self._reader.join(LIMIT_S)
+        assert self._process.stdout is not None
+        self._process.stdout.close()
+
+
+class Proxy:
+    """A line between host and card that can be cut, frozen and reset."""
+
+    def __init__(self, address: str) -> None:
+        host, port = address.rsplit(":", 1)
+        self._target = (host, int(port))
+        self._server = socket.create_server(("127.0.0.1", 0))
+        self.address = f"127.0.0.1:{self._server.getsockname()[1]}"
+        self._pairs: list[tuple[socket.socket, socket.socket]] = []
+        self._flows = threading.Event()
+        self._flows.set()
+        self._is_cut = self._is_over = False
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:  # fmt: skip
+        self._is_over = True
+        self._flows.set()
+        self._server.close()
+        self._close()
+
+    def _accept(self) -> None:
+        while not self._is_over:
+            try:
+                near, _ = self._server.accept()
+            except OSError:
+                return
+            if self._is_cut:
+                near.close()
+                continue
+            far = socket.create_connection(self._target)
+            self._pairs.append((near, far))
+            for source, sink in ((near, far), (far, near)):
+                source.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                threading.Thread(target=self._copy, args=(source, sink), daemon=True).start()
+
+    def _copy(self, source: socket.socket, sink: socket.socket) -> None:
+        with suppress(OSError):
+            while data := source.recv(65536):
+                self._flows.wait()
+                sink.sendall(data)
+        with suppress(OSError):
+            sink.shutdown(socket.SHUT_WR)
+
+    def freeze(self) -> None:
+        """Nothing goes through, in neither direction, and no end hears of it."""
+        self._flows.clear()
+
+    def thaw(self) -> None:
+        """What was held back arrives, and all that follows."""
+        self._flows.set()
+
+    def cut(self) -> None:
+        """Both ends are closed, and no new connection is made."""
+        self._is_cut = True
+        self._close()
+
+    def mend(self) -> None:
+        """Connections may be made again."""
+        self._is_cut = False
+
+    def reset(self) -> None:
+        """Both ends get a reset; a new connection may be made at once."""
+        for pair in self._pairs:
+            for end in pair:
+                with suppress(OSError):
+                    linger = struct.pack("ii", 1, 0)
+                    end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+        self._close()
+
+    def _close(self) -> None:
+        for pair in self._pairs:
+            for end in pair:
+                with suppress(OSError):
+                    end.shutdown(socket.SHUT_RDWR)
+                end.close()
+        self._pairs.clear()
+
+
+@contextmanager
+def serial_line() -> Iterator[tuple[str, str]]:
+    """The two ends of a serial line, as ports to be opened."""
+    masters, names, slaves = [], [], []
+    for _ in range(2):
+        master, slave = os.openpty()
+        tty.setraw(slave)
+        masters.append(master)
+        slaves.append(slave)
+        names.append(os.ttyname(slave))
+    is_over = threading.Event()
+
+    def copy() -> None:
+        while not is_over.is_set():
+            for end in select.select(masters, [], [], 0.05)[0]:
+                with suppress(OSError):
+                    os.write(masters[1 - masters.index(end)], os.read(end, 4096))
+
+    copying = threading.Thread(target=copy, daemon=True)
+    copying.start()
+    yield names[0], names[1]
+    is_over.set()
+    copying.join()
+    for end in (*masters, *slaves):
+        os.close(end)
+
+
+class Plant:
+    """A served card, seen through a connection of its own."""
+
+    def __init__(self, folder: Path, *words: str) -> None:
+        self.folder = folder
+        self.store = folder / "sysvar.db"
+        self._processes: list[Process] = []
+        self.served = self._started(*SERVE, *words)
+        until(lambda: "ascii=" in self.served.text, about="the card is served")
+        found = re.search(r"ascii=(\S+)", self.served.text)
+        assert found is not None
+        self.address = found[1]
+        self.card = Card.open(self.address)
+
+    def _started(self, *words: str, stdin: int | None = subprocess.DEVNULL) -> Process:
+        process = Process(*words, store=self.store, stdin=stdin)
+        self._processes.append(process)
+        return process
+
+    def wire(self, cells: dict[int, float]) -> None:
+        """Cells of the store of the machine."""
+        with Store(self.store) as store:
+            for number, value in cells.items():
+                store.write(number, value)
+
+    def part(self, text: str) -> str:
+        """A part program in a file."""
+        path = self.folder / "PART.NC"
+        path.write_text(text)
+        return str(path)
+
+    def mill(self, *words: str, host: str = "", stdin: int | None = subprocess.DEVNULL) -> Process:
+        """Start a command of the machine on the card."""
+        return self._started("mill", *words, "--host", host or self.address, stdin=stdin)
+
+    @property
+    def is_moving(self) -> bool:
+        words = self.card.read_many([MF1_WORD, *(AF1_WORD + axis for axis in range(3))])
+        master, *axes = map(int, words)
+        return bool(master & MF1_IN_MOTION) or any(word & AF1_JOG_ACTIVE for word in axes)
+
+    def places(self) -> list[int]:
+        """Where the axes are commanded to stand, jogs included, in pulses."""
+        rows = [AXIS_POSITION + AXIS_STRIDE * axis + k for axis in range(3) for k in (0, 9)]
+        values = [int(value) for value in self.card.read_many(rows)]
+        return [sum(values[2 * axis : 2 * axis + 2]) for axis in range(3)]
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether no axis moves for a quarter of a second."""
+        before = self.places()
+        time.sleep(0.25)
+        return self.places() == before
+
+    def outputs(self, *numbers: int) -> list[bool]:
+        return self.card.read_bits(numbers)
+
+    def close(self) -> None:
+        self.card.close()
+        for process in self._processes:
+            process.close()
