@@ -105,3 +105,17 @@ def test_sizes_are_asked_for_until_they_can_be(tmp_path: Path) -> None:
     assert "P200=3 ;" in text
     assert "P201=0.75 ;" in text
     assert "P222=0.5 ;" in text
+
+
+def test_a_file_that_is_there_is_overwritten_with_force_alone(tmp_path: Path) -> None:
+    target = tmp_path / "plate.txt"
+    target.write_text("mine")
+    refused = CliRunner().invoke(app, ["mill", "part", "circle", "-o", str(target)])
+    assert refused.exit_code == 2
+    assert refused.stderr == (
+        f"error: {target} is there already (--force overwrites it, -o names another)\n"
+    )
+    assert target.read_text() == "mine"
+    forced = CliRunner().invoke(app, ["mill", "part", "circle", "-o", str(target), "--force"])
+    assert forced.exit_code == 0
+    assert target.read_text().startswith("; CIRCLE\n")

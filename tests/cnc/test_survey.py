@@ -98,3 +98,32 @@ def test_of_too_many_findings_the_errors_are_kept() -> None:
     assert len(found.findings) == 100
     assert [(each.code, each.line) for each in found.errors] == [("E230", 302)]
     assert [each.line for each in found.warnings] == list(range(2, 200, 2))
+
+
+@pytest.mark.parametrize(
+    ("text", "store_unit", "unit", "x", "feed"),
+    [
+        ("G21 F100 G1 X50.8", 0.0, "mm", 50.8, 50.8),
+        ("G20 F10 G1 X2", 0.0, "inch", 2.0, 2.0),
+        ("G20 F10 G1 X2", 1.0, "inch", 2.0, 2.0),
+        ("G21 F10 G1 X2", 1.0, "mm", 2.0, 2.0),
+        ("F10 G1 X2", 0.0, "inch", 2.0, 2.0),
+        ("G21\nG20 F10 G1 X2\nG21 X101.6", 0.0, "inch", 4.0, 4.0),  # that of the first move
+        ("M3", 1.0, "inch", 0.0, 0.0),  # that of the start
+    ],
+)
+def test_a_program_is_reported_in_its_own_unit(
+    text: str, store_unit: float, unit: str, x: float, feed: float
+) -> None:
+    data = of(text, {250_001: store_unit}).data()
+    assert data["unit"] == unit
+    assert data["end"]["X"] == pytest.approx(x)
+    assert data["length"]["feed"] == pytest.approx(feed)
+    if x:
+        assert data["extents"]["max"][0] == pytest.approx(x)
+
+
+def test_a_rotary_axis_is_reported_in_degrees() -> None:
+    found = of("G21 F100 G1 X25.4 A90", {203_012: 1.0})
+    assert found.data()["end"] == {"X": 25.4, "Y": 0.0, "Z": 0.0, "A": 90.0}
+    assert [found.unit_of(letter) for letter in "XA"] == ["mm", "deg"]

@@ -96,6 +96,11 @@ COMMANDS: dict[str, Entry | Family] = {
             "check": Entry(
                 "mill", "check_program", "Find every error of a part program, and say what it does."
             ),
+            "dialect": Entry(
+                "mill_dialect",
+                "show_dialect",
+                "Say in which dialect a part program would be read, and what points to it.",
+            ),
             "time": Entry(
                 "mill",
                 "time_program",

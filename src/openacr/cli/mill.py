@@ -34,7 +34,7 @@ AtStore = Annotated[
 ]
 Dialect = Annotated[
     str | None,
-    typer.Option(help="acromill or rs274ngc; else as the program or the store says."),
+    typer.Option(help="acromill, rs274ngc or auto; else as the file, the store or its signs say."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes without effect.")]
@@ -50,18 +50,25 @@ def opened_store(path: Path | None, *, is_written: bool = False) -> "Iterator[St
 
 
 def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", str]:
-    """A program with everything that belongs to it, and the name of its dialect."""
+    """A program with everything that belongs to it, and the name of its dialect.
+
+    A dialect that was chosen by the signs in the file is said on the error output.
+    """
     from openacr.cnc.load import load
-    from openacr.mill.dialects import dialect_of
+    from openacr.mill.dialects import choose
     from openacr.mill.folders import folders_of
 
-    _require_file(file)
-    name = dialect_of(file, store, dialect)
+    require_file(file)
+    choice = choose(file, store, dialect)
     folder = store.path.parent if store.path else None
-    return load(file, store, name, folders_of(store, folder)), name
+    program = load(file, store, choice.name, folders_of(store, folder))
+    if choice.is_worth_saying or (program.errors and choice.is_doubtful):
+        typer.echo(f"{file}: {choice.text}", err=True)
+    return program, choice.name
 
 
-def _require_file(file: Path) -> None:
+def require_file(file: Path) -> None:
+    """Refuse a part program that cannot be read."""
     if file.is_dir():
         raise UserError(f"{file}: it is a folder, not a part program")
     if not file.exists():
@@ -100,7 +107,7 @@ def check_program(
         program, name = loaded(file, cells, dialect)
         survey, prediction = _checked(program, cells, name)
     if as_json:
-        typer.echo(json_format.dumps(_as_data(survey, prediction), indent=1))
+        typer.echo(json_format.dumps({"dialect": name} | _as_data(survey, prediction), indent=1))
     else:
         show_findings(survey.findings)
         _show_survey(survey, prediction)
@@ -133,7 +140,7 @@ def time_program(
         raise typer.Exit(FAILED)
     record = _times(prediction)
     if as_json:
-        typer.echo(json_format.dumps(record, indent=1))
+        typer.echo(json_format.dumps({"dialect": name} | record, indent=1))
         return
     typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
@@ -217,12 +224,14 @@ def _show_survey(survey: "Survey", prediction: "Prediction") -> None:
         f"moves: {counts['feed']} lines, {counts['arc']} arcs, {counts['rapid']} rapids,"
         f" {counts['dwell']} dwells"
     )
+    lengths, unit = survey.shown_lengths, survey.unit
     typer.echo(
-        f"length: {survey.lengths['feed']:.4g} at feed, {survey.lengths['rapid']:.4g} at rapid"
+        f"length: {lengths['feed']:.4g} {unit} at feed, {lengths['rapid']:.4g} {unit} at rapid"
     )
     for letter, axis in survey.letters.items():
-        if survey.low[axis] < survey.high[axis]:
-            typer.echo(f"  {letter}: {survey.low[axis]:.4f} to {survey.high[axis]:.4f}")
+        low, high = (survey.shown(letter, ends[axis]) for ends in (survey.low, survey.high))
+        if low < high:
+            typer.echo(f"  {letter}: {low:.4f} to {high:.4f} {survey.unit_of(letter)}")
     if survey.tools:
         typer.echo("tools: " + " ".join(map(str, survey.tools)))
     typer.echo(f"time: {clock(prediction.time_s)}")

@@ -78,7 +78,7 @@ def import_drawing(
     as_json: Annotated[bool, typer.Option("--json", help="Say what was done as JSON.")] = False,
 ) -> None:
     """Make a part program of a DXF drawing: a path, or holes to drill."""
-    from openacr.cli.output import require_writable, write_text
+    from openacr.cli.output import require_absent, require_writable, write_text
     from openacr.cnc.dxf import Options, Pattern, convert
     from openacr.cnc.library import tool_radius
     from openacr.sysvar.location import open_to_read
@@ -89,8 +89,7 @@ def import_drawing(
     target = out or file.with_suffix(".TXT")
     if is_asked:
         target = _asked(target)
-    if target.exists() and not is_forced:
-        raise UserError(f"{target} is there already (--force overwrites it, -o names another)")
+    require_absent(target, is_forced=is_forced)
     require_writable(target)
     with open_to_read(store) as cells:
         options = Options(

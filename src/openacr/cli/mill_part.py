@@ -61,11 +61,15 @@ def make_part(
     store: Annotated[
         Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
     ] = None,
+    is_forced: Annotated[
+        bool, typer.Option("--force", help="Overwrite a file that is there.")
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Parts, sizes or values as JSON.")
     ] = False,
 ) -> None:
     """List the parts of the library, or make the program of one of them."""
+    from openacr.cli.output import require_absent, require_writable
     from openacr.cnc.library import FOLDER, names, part_named
 
     folder = library or FOLDER
@@ -73,6 +77,9 @@ def make_part(
         _list([part_named(each, folder) for each in names(folder)], as_json)
         return
     part = part_named(name, folder)
+    if out is not None:
+        require_writable(out)
+        require_absent(out, is_forced=is_forced)
     if is_shown:
         _show(part, as_json)
         return
@@ -211,9 +218,8 @@ def _values(ready: "Ready") -> dict[str, Any]:
 
 
 def _write(out: Path, ready: "Ready") -> None:
-    from openacr.cli.output import require_writable, write_text
+    from openacr.cli.output import write_text
 
-    require_writable(out)
     write_text(out, ready.program)
     typer.echo(f"{out}: {ready.part.title}")
 

@@ -252,6 +252,7 @@ def _report(shop: "Workshop", as_json: bool, is_quiet: bool) -> None:
             "time_s": round(runner.run_s, 3),
             "moves": runner.course.moves,
             "passes": runner.passes,
+            "unit": shop.cells_unit,
             "end": {axis.name: place[axis.index] for axis in runner.settings.axes},
             "alarms": [
                 {"code": alarm.kind.code, "text": alarm.text, "at_s": alarm.at_s}

@@ -110,7 +110,8 @@ def place_text(shop: "Workshop", place: tuple[float, ...]) -> str:
     from openacr.mill.readout import Readout
 
     axes = [axis.index for axis in shop.runner.settings.axes]
-    return Readout(shop.cells).line(axes, place)
+    readout = Readout(shop.cells)
+    return f"{readout.line(axes, place)} {'mm' if readout.is_metric else 'inch'}"
 
 
 def end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:

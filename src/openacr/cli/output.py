@@ -40,6 +40,12 @@ def require_writable(path: Path) -> None:
         path.unlink()
 
 
+def require_absent(path: Path, *, is_forced: bool) -> None:
+    """Refuse to overwrite a file without --force; a terminal or pipe is written to."""
+    if path.is_file() and not is_forced:
+        raise UserError(f"{path} is there already (--force overwrites it, -o names another)")
+
+
 def require_different(paths: Iterable[Path | None]) -> None:
     """Refuse to write two results into one file."""
     seen: set[Path] = set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from openacr.cnc.blocks import Block, Word
-from openacr.cnc.codes import AXIS_LETTERS, Axes, Code, Dialect, Group, Limit
+from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Axes, Code, Dialect, Group, Limit
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Number
 from openacr.cnc.turn import NEAR
@@ -139,7 +139,16 @@ class Planner:
                 "M", tenths / 10, self._custom.step, self._custom.act,
                 axes=Axes.DATA, takes_all=True,
             )  # fmt: skip
-        raise CodeError(_UNKNOWN[word.letter], word.column, f"{word.letter}{number:g}")
+        known = self._known_to(word, tenths)
+        raise CodeError(_UNKNOWN[word.letter], word.column, f"{word.letter}{number:g}", known)
+
+    def _known_to(self, word: Word, tenths: int) -> str:
+        """Which other dialects have a code."""
+        for other in DIALECTS.values():
+            rows = other.table.gcodes if word.letter == "G" else other.table.mcodes
+            if other is not self._dialect and tenths / 10 in rows:
+                return f"a code of the dialect {other.name}: --dialect {other.name}"
+        return ""
 
     # --- the plan ---------------------------------------------------------------------
 

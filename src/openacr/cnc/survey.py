@@ -12,6 +12,7 @@ from openacr.cnc.canonical import (
     Dwell,
     Entry,
     Line,
+    Motion,
     Plane,
     Point,
     Polyline,
@@ -22,6 +23,7 @@ from openacr.cnc.canonical import (
 from openacr.cnc.findings import MOST, BlockError, Finding
 from openacr.cnc.hosts import Cells, Machine, VirtualMachine
 from openacr.cnc.interpreter import Interpreter, Options
+from openacr.cnc.modal import METRIC
 from openacr.cnc.program import Program
 from openacr.cnc.shadow import Shadow
 
@@ -35,6 +37,8 @@ _QUARTER = math.pi / 2.0
 @dataclass(slots=True)
 class Survey:
     """Counts, lengths, extents and findings of a program; lengths in default units.
+
+    `unit` is that of the words of its first move, and `per` its length in it of a default unit.
 
     Extents are where the program brings the axes. Where an axis stands before its first move
     belongs to them only if that move cuts: a rapid comes from anywhere.
@@ -51,6 +55,21 @@ class Survey:
     end: Point = (0.0,) * AXES
     tools: list[int] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
+    unit: str = ""
+    per: float = 1.0
+
+    def shown(self, letter: str, value: float) -> float:
+        """A place of an axis in the unit of the program, degrees for rotary ones."""
+        return value * self.per if letter in LINEAR else value
+
+    def unit_of(self, letter: str) -> str:
+        """The unit `shown` gives."""
+        return self.unit if letter in LINEAR else "deg"
+
+    @property
+    def shown_lengths(self) -> dict[str, float]:
+        """The lengths in the unit of the program."""
+        return {kind: length * self.per for kind, length in self.lengths.items()}
 
     @property
     def errors(self) -> list[Finding]:
@@ -68,20 +87,21 @@ class Survey:
         _sort(self.findings)
 
     def data(self) -> dict[str, Any]:
-        """All of it for JSON."""
-        axes = list(self.letters.values())
-        has_moved = any(self.low[a] < math.inf for a in axes)
+        """All of it for JSON, lengths in the unit of the program."""
+        letters = self.letters.items()
+        has_moved = any(self.low[a] < math.inf for _, a in letters)
         return {
             "lines": self.line_cnt,
             "errors": [_as_data(finding) for finding in self.errors],
             "warnings": [_as_data(finding) for finding in self.warnings],
             "moves": self.move_cnts,
-            "length": self.lengths,
+            "unit": self.unit,
+            "length": self.shown_lengths,
             "extents": {
-                "min": [self.low[a] for a in axes] if has_moved else [],
-                "max": [self.high[a] for a in axes] if has_moved else [],
+                "min": [self.shown(n, self.low[a]) for n, a in letters] if has_moved else [],
+                "max": [self.shown(n, self.high[a]) for n, a in letters] if has_moved else [],
             },
-            "end": {letter: self.end[axis] for letter, axis in self.letters.items()},
+            "end": {letter: self.shown(letter, self.end[axis]) for letter, axis in letters},
             "tools": self.tools,
         }
 
@@ -151,6 +171,7 @@ class _Count:
         self._found = found
         self._run = run
         self._at: Point = run.path.target
+        self._has_unit = False
         self._linear = [axis for letter, axis in found.letters.items() if letter in LINEAR]
         self._unplaced = set(found.letters.values())  # axes that did not move yet
 
@@ -159,15 +180,25 @@ class _Count:
         found = self._found
         try:
             for entry in self._run.entries():
+                if isinstance(entry, Motion | Polyline) and not self._has_unit:
+                    self._take_unit()
                 self.add(entry)
                 if look is not None:
                     look(entry)
         except BlockError as error:
             found.findings.append(error.finding)
+        if not self._has_unit:
+            self._take_unit()
         found.end = self._at
         if any(found.low[axis] < math.inf for axis in found.letters.values()):
             for axis in self._unplaced:
                 found.low[axis] = found.high[axis] = self._at[axis]
+
+    def _take_unit(self) -> None:
+        """The unit that is active now is that of the program."""
+        self._has_unit = True
+        self._found.unit = "mm" if self._run.modal.unit == METRIC else "inch"
+        self._found.per = self._run.path.shown(1.0)
 
     def add(self, entry: Entry) -> None:
         """One entry."""

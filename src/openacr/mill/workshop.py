@@ -17,6 +17,7 @@ from openacr.client import Card
 from openacr.client.links import Host
 from openacr.client.options import Options as Talking
 from openacr.cnc import canonical as c
+from openacr.cnc.cells import DEFAULT_UNIT
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter
 from openacr.cnc.interpreter import Options as Reading
@@ -159,6 +160,11 @@ class Workshop:
             if self._owner is not None:
                 self._owner.release(tells_card=not self.runner.is_out_of_reach)
         self.card.close()
+
+    @property
+    def cells_unit(self) -> str:
+        """The unit of the store, in which positions are."""
+        return "mm" if self.cells.read(DEFAULT_UNIT) else "inch"
 
     # --- programs ---------------------------------------------------------------------
 

@@ -129,7 +129,13 @@ COMPATIBILITY.boolean(1, "Hash Input Test", 1, doc="IF #n = 0|1 tests input n.")
 COMPATIBILITY.boolean(2, "M30 Ends Program", doc="M30 is M2, not output 6 off.")
 COMPATIBILITY.boolean(3, "Block Skip Live", doc="Blocks with / wait for the motion.")
 COMPATIBILITY.boolean(4, "M Codes On The Fly", doc="M7..M37 act without a stop.")
-COMPATIBILITY.choice(5, "Dialect", {0: "acromill", 1: "rs274ngc"}, doc="Of part programs.")
+COMPATIBILITY.choice(
+    5,
+    "Dialect",
+    {-1: "auto", 0: "acromill", 1: "rs274ngc"},
+    -1,
+    doc="Of part programs; auto: by the signs in the file.",
+)
 COMPATIBILITY.boolean(6, "Auto Include Cycles", doc="CYCLES.TXT needs no $I.")
 
 COMMUNICATIONS = Tab("COMMUNICATIONS", 750_000)

@@ -1,0 +1,52 @@
+"""Reports name the unit of their lengths."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from openacr.cli.main import app
+from openacr.sysvar import Store
+
+
+@pytest.fixture
+def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+    Path("a.nc").write_text("G21 F600 G0 X10\nG1 X60.8 A90\nM2\n")
+    with Store(tmp_path / "sysvar.db") as cells:
+        cells.write(203_012, 1.0)
+    return tmp_path
+
+
+def mill(*words: str) -> Result:
+    result = CliRunner().invoke(app, ["mill", *words])
+    assert result.exit_code == 0, result.output
+    return result
+
+
+def test_a_metric_program_is_checked_in_millimetres(store: Path) -> None:
+    lines = mill("check", "a.nc").stdout.splitlines()
+    assert lines[2:5] == [
+        "length: 50.8 mm at feed, 10 mm at rapid",
+        "  X: 10.0000 to 60.8000 mm",
+        "  A: 0.0000 to 90.0000 deg",
+    ]
+    data = json.loads(mill("check", "a.nc", "--json").stdout)
+    assert data["unit"] == "mm"
+    assert data["length"] == pytest.approx({"rapid": 10.0, "feed": 50.8})
+    assert data["end"] == pytest.approx({"X": 60.8, "Y": 0.0, "Z": 0.0, "A": 90.0})
+    assert data["extents"]["max"] == pytest.approx([60.8, 0.0, 0.0, 90.0])
+
+
+def test_a_run_names_the_unit_of_its_places(store: Path) -> None:
+    text = mill("run", "a.nc").stdout
+    assert text.rstrip().endswith("A  90.0000 inch")
+    data = json.loads(mill("run", "a.nc", "--json").stdout)
+    assert data["unit"] == "inch"
+    assert data["end"]["X"] == pytest.approx(60.8 / 25.4, abs=1e-4)
+    with Store(store / "sysvar.db") as cells:
+        cells.write(850_030, 21)
+    assert mill("run", "a.nc").stdout.rstrip().endswith(" mm")
+    assert json.loads(mill("run", "a.nc", "--json").stdout)["unit"] == "inch"
