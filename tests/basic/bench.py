@@ -10,7 +10,6 @@ from openacr.basic.nodes import (
     Binary,
     Expr,
     Flag,
-    Line,
     Local,
     Move,
     Number,
@@ -22,6 +21,7 @@ from openacr.basic.nodes import (
     Unary,
 )
 from openacr.basic.parser import parse_line
+from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.run import Evaluator, Run, Wait
 from openacr.basic.session import Session
@@ -108,14 +108,14 @@ class Steps:
         self.waiting: dict[int, Wait] = {}
         self.cancelled: list[str] = []
 
-    def start(self, session: Session, line: Line) -> None:
+    def start(self, session: Session, line: StoredLine) -> None:
         self.values.program = session.program or 0
         evaluator: Evaluator = self.values
         run = Run(
             self.system.card, session.thread, session.program, session.level, False,
             evaluator, session.write, channel=session, system=self.system,
         )  # fmt: skip
-        for block in line.blocks:
+        for block in line.tree.blocks:
             for statement in block:
                 assert not isinstance(statement, Move)
                 wait = self.values.execute(run, statement)

@@ -60,14 +60,6 @@ def test_definitions_are_listed_as_typed(aliases: Aliases) -> None:
     assert not aliases.nodes
 
 
-def test_aliases_survive_a_snapshot(aliases: Aliases) -> None:
-    aliases.define("Time", P0, "P0")
-    other = Aliases(lambda: 2)
-    other.restore(aliases.state())
-    assert list(other.lines()) == ["#DEFINE Time P0"]
-    assert other.nodes == {"Time": P0}
-
-
 @pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])
 def test_newer_models_allow_digits_behind_the_first_letter(name: str) -> None:
     bench = Bench(ACR7000)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.basic.motion_bench import Bench
 
+from openacr.basic.language_state import put_back, take
 from openacr.basic.registry import Level
 from openacr.map import numbers as at
 
@@ -165,9 +166,9 @@ def test_queries_and_refusals() -> None:
 
 def test_a_snapshot_in_the_middle_ends_the_same() -> None:
     made = bench(*CIRCLE).all("INVK ON", "X90").ticks(200)
-    kept, state = made.memory.snapshot(), made.executor.state()
+    kept, state = made.memory.snapshot(), take(made.system, made.executor)
     first = trace(made)
     made.memory.restore(kept)
-    made.executor.restore(state)
+    put_back(made.system, made.executor, state)
     assert np.array_equal(trace(made), first)
     assert all(a != b for a, b in pairwise(first[:50, 0]))

@@ -26,7 +26,7 @@ def listed(text: str) -> str:
 
 def stored(*texts: str, first: int = 10) -> list[StoredLine]:
     return [
-        StoredLine(first + 10 * place, tuple(tokens(text)), None, 0)
+        StoredLine(first + 10 * place, text, Scope(), 0, (tuple(tokens(text)), None))
         for place, text in enumerate(texts)
     ]
 

@@ -1,11 +1,11 @@
 """Program text as it is kept."""
 
-import pickle
 from collections.abc import Callable
 
 import pytest
 
 from openacr.basic.program_store import ProgramStore, StoredLine, line_number, opens_capture
+from openacr.basic.scope import Scope
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
@@ -19,7 +19,7 @@ def store() -> ProgramStore:
 
 
 def line(number: int, text: str = "DWL 1", cost: int = 12) -> StoredLine:
-    return StoredLine(number, tuple(tokens(text)), None, cost)
+    return StoredLine(number, text, Scope(), cost, (tuple(tokens(text)), None))
 
 
 def numbers(store: ProgramStore, owner: int = 0) -> list[int]:
@@ -137,8 +137,3 @@ def test_a_password_is_taken_back_with_itself_only(store: ProgramStore) -> None:
         store.unprotect("Secret")
     store.unprotect("secret")
     store.check_readable()
-
-
-def test_stored_lines_survive_a_snapshot() -> None:
-    stored = line(10, 'PRINT "a" : REM b')
-    assert pickle.loads(pickle.dumps(stored)) == stored

@@ -4,6 +4,7 @@ import pytest
 from tests.basic.rig import Rig
 
 from openacr.basic import scheduler_cy, vm_cy
+from openacr.basic.language_state import put_back, take
 from openacr.compiled import counterpart, is_compiled
 
 RUNNING, DWELLING, INHIBITED, TIMEOUT = 1024, 1025, 1026, 1028
@@ -258,12 +259,12 @@ def test_a_snapshot_continues_in_the_middle_of_a_program() -> None:
     rig = Rig()
     start(rig, 0, "FOR P0=1 TO 100", "DWL 0.002", "P1=P1+P0", "NEXT", 'PRINT "done"')
     rig.pass_ticks(100)
-    memory, state, tick = rig.memory.snapshot(), rig.executor.state(), rig.tick
+    memory, state, tick = rig.memory.snapshot(), take(rig.system, rig.executor), rig.tick
     rig.pass_ticks(1000)
     expected = rig.memory.digest()
     other = Rig()
     other.memory.restore(memory)
-    other.executor.restore(state)
+    put_back(other.system, other.executor, state)
     other.tick = tick
     other.pass_ticks(1000)
     assert other.memory.digest() == expected

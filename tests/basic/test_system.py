@@ -1,9 +1,9 @@
 """The language side of a card as a whole."""
 
-import pickle
-
+from msgspec import msgpack
 from tests.basic.machine import Machine
 
+from openacr.basic.language_state import Language, put_back, take
 from openacr.basic.loader import file_lines
 from openacr.basic.session import Attention
 
@@ -19,14 +19,13 @@ def test_a_snapshot_taken_at_any_moment_goes_on_the_same_way() -> None:
     first.key("2\r")
     first.advance(30)
     first.sent()
-    image = first.card.memory.snapshot(), pickle.dumps(first.system.state())
-    threads = first.executor.state()
+    image = first.card.memory.snapshot()
+    state = msgpack.encode(take(first.system, first.executor))
 
     second = Machine()
     second.connect("STREAM2")
-    second.card.memory.restore(image[0])
-    second.system.restore(pickle.loads(image[1]))
-    second.executor.restore(threads)
+    second.card.memory.restore(image)
+    put_back(second.system, second.executor, msgpack.decode(state, type=Language))
     for card in (first, second):
         card.advance(100)
         card.channel.escape()

@@ -185,7 +185,7 @@ def waiting_rows() -> set[int]:
 
 
 def kind_of(port: Host) -> StreamKind:
-    return port.card.streams.state()[port.stream][0]
+    return port.card.streams.state().open[port.stream].terminal.kind
 
 
 # --- a MODE that changes in the middle -------------------------------------------------------

@@ -1,13 +1,47 @@
 """Aliases: the names #DEFINE gives to parameters, flags, constants and variables."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from openacr.basic.nodes import Expr, Flag, Number, resolved
 from openacr.basic.registry import keywords
+from openacr.basic.scope import join_names
 from openacr.errors import CardError
+from openacr.lang.lexer import tokens
 from openacr.messages import ILLEGAL_NAME, OUT_OF_DEFINE_SPACE
 
+if TYPE_CHECKING:
+    from openacr.basic.parser import Parser
+
 LONGEST_ALIAS = 24
+_NONE: Mapping[str, Any] = {}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Written:
+    """The target of an alias as it is listed, and what the aliases in it stood for."""
+
+    text: str
+    uses: Mapping[str, Written]
+
+
+class Names(dict[str, Expr]):
+    """The meaning of every alias at one moment, with how each was written; never changed."""
+
+    __slots__ = ("written",)
+
+    def __init__(
+        self, meanings: Mapping[str, Expr] = _NONE, written: Mapping[str, Written] = _NONE
+    ) -> None:
+        super().__init__(meanings)
+        self.written = written
+
+    def plus(self, name: str, target: Expr, written: Written) -> Names:
+        """These and one more, or one with another target."""
+        return Names(self | {name: target}, {**self.written, name: written})
 
 
 class Aliases:
@@ -22,49 +56,55 @@ class Aliases:
     def __init__(self, capacity: Callable[[], int], *, has_digits: bool = False) -> None:
         self._capacity = capacity
         self._has_digits = has_digits
-        self._nodes: dict[str, Expr] = {}
-        self._texts: dict[str, str] = {}
+        self._nodes = Names()
 
     @property
-    def nodes(self) -> Mapping[str, Expr]:
+    def nodes(self) -> Names:
         """The meaning of every alias."""
         return self._nodes
 
     @property
     def numbered(self) -> frozenset[str]:
         """The names that hold digits: the lexer takes them apart, the parser together."""
-        return numbered_names(self._nodes) if self._has_digits else frozenset()
+        return self.numbered_in(self._nodes)
+
+    def numbered_in(self, names: Names) -> frozenset[str]:
+        """The same for other aliases."""
+        return numbered_names(names) if self._has_digits else frozenset()
 
     def define(self, name: str, target: Expr, text: str) -> None:
         """#DEFINE: give `target`, written as `text`, a name; a known name gets a new target."""
         check_name(name, has_digits=self._has_digits)
         if name not in self._nodes and len(self._nodes) >= self._capacity():
             raise CardError(OUT_OF_DEFINE_SPACE)
-        self._nodes = self._nodes | {name: target}
-        self._texts[name] = text
+        found = tokens(text)
+        join_names(found, self.numbered)
+        known = self._nodes.written
+        uses = {token.text: known[token.text] for token in found if token.text in known}
+        self._nodes = self._nodes.plus(name, target, Written(text, uses))
 
     def clear(self) -> None:
         """DEF CLEAR: forget all."""
-        self._nodes = {}
-        self._texts.clear()
+        self._nodes = Names()
+
+    def restore(self, names: Names) -> None:
+        """Take over the aliases of a snapshot."""
+        self._nodes = names
 
     def line(self, name: str) -> str | None:
         """The definition of one alias as it is typed."""
-        return f"#DEFINE {name} {self._texts[name]}" if name in self._texts else None
+        written = self._nodes.written.get(name)
+        return f"#DEFINE {name} {written.text}" if written else None
 
     def lines(self) -> Iterator[str]:
         """DEF: all definitions as they are typed, oldest first."""
-        for name, text in self._texts.items():
-            yield f"#DEFINE {name} {text}"
+        for name, written in self._nodes.written.items():
+            yield f"#DEFINE {name} {written.text}"
 
-    def state(self) -> dict[str, tuple[Expr, str]]:
-        """All aliases, for a snapshot."""
-        return {name: (node, self._texts[name]) for name, node in self._nodes.items()}
 
-    def restore(self, state: Mapping[str, tuple[Expr, str]]) -> None:
-        """Take over what `state` returned."""
-        self._nodes = {name: node for name, (node, _) in state.items()}
-        self._texts = {name: text for name, (_, text) in state.items()}
+def read_target(p: Parser) -> Expr:
+    """What an alias is given to: an alias of an alias stands for what that one stands for."""
+    return resolved(p.variable() if p.at_variable else p.value())
 
 
 def check_name(name: str, *, has_digits: bool = False) -> None:

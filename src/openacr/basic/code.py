@@ -7,11 +7,13 @@ from openacr.basic.nodes import Expr, Move, Statement
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     TH_COUNT,
+    THCI_BASE,
+    THCI_CODE_BASE,
+    THCI_NUM_BASE,
+    THCI_STRIDE,
     THI_BASE,
-    THI_CODE_BASE,
     THI_LINES_AT,
     THI_LINES_COUNT,
-    THI_NUM_BASE,
     THI_STRIDE,
 )
 from openacr.views import F64, I32
@@ -74,33 +76,24 @@ class CodeSpace:
         else:
             self._copy(thread, code_from, nums_from)
 
-    @property
-    def rooms(self) -> tuple[list[int], list[int]]:
-        """Room of every thread in both buffers: the places depend on it, so snapshots keep it."""
-        return list(self._code_room), list(self._nums_room)
-
-    @rooms.setter
-    def rooms(self, rooms: tuple[list[int], list[int]]) -> None:
-        self._code_room, self._nums_room = list(rooms[0]), list(rooms[1])
-
     def rebuild(self) -> None:
         """Lay all code out anew, and tell every thread where its own begins."""
         self.code = memoryview(array("i", bytes(4 * sum(self._code_room))))
         self.nums = memoryview(array("d", bytes(8 * sum(self._nums_room))))
         code_base = num_base = 0
         for thread in range(TH_COUNT):
-            rows = THI_BASE + thread * THI_STRIDE
-            self._memory.I[rows + THI_CODE_BASE] = code_base
-            self._memory.I[rows + THI_NUM_BASE] = num_base
+            rows = THCI_BASE + thread * THCI_STRIDE
+            self._memory.I[rows + THCI_CODE_BASE] = code_base
+            self._memory.I[rows + THCI_NUM_BASE] = num_base
             self._copy(thread, 0, 0)
             code_base += self._code_room[thread]
             num_base += self._nums_room[thread]
 
     def _copy(self, thread: int, code_from: int, nums_from: int) -> None:
         chunk = self.chunks[thread]
-        rows = THI_BASE + thread * THI_STRIDE
-        code_base = self._memory.I[rows + THI_CODE_BASE]
-        num_base = self._memory.I[rows + THI_NUM_BASE]
+        rows = THCI_BASE + thread * THCI_STRIDE
+        code_base = self._memory.I[rows + THCI_CODE_BASE]
+        num_base = self._memory.I[rows + THCI_NUM_BASE]
         code, nums = array("i", chunk.code[code_from:]), array("d", chunk.nums[nums_from:])
         code_at, nums_at = code_base + code_from, num_base + nums_from
         self.code[code_at : code_at + len(code)] = code

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from openacr.basic.channel_words import FLAG_WORDS
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.ranges import DeviceNumber, ProgramNumber
 from openacr.basic.session import Session
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -22,6 +25,15 @@ PER_PROGRAM = 4
 BS, LF, CR = 0x08, 0x0A, 0x0D
 
 Key = tuple[int, int]  # program, device number
+
+
+class Waiting(Struct, frozen=True):
+    """What a snapshot keeps of one device: bytes received and not read."""
+
+    program: ProgramNumber
+    device: DeviceNumber
+    data: bytes
+    after_cr: bool
 
 
 @dataclass(slots=True)
@@ -140,15 +152,20 @@ class Devices:
         """Index (into I) of a row of the device, to wait for."""
         return at.DQI_BASE + (key[0] * PER_PROGRAM + key[1]) * at.DQI_STRIDE + offset
 
-    def state(self) -> dict[Key, tuple[bytes, bool]]:
-        """Everything that waits to be read, for a snapshot."""
-        return {key: (bytes(queue.data), queue.after_cr) for key, queue in self._queues.items()}
+    def state(self) -> list[Waiting]:
+        """What waits to be read, for a snapshot."""
+        return [
+            Waiting(*key, bytes(queue.data), queue.after_cr)
+            for key, queue in self._queues.items()
+            if queue.data or queue.after_cr
+        ]
 
-    def restore(self, state: Mapping[Key, tuple[bytes, bool]]) -> None:
+    def restore(self, state: Iterable[Waiting]) -> None:
         """Take over what `state` returned."""
+        kept = {(each.program, each.device): each for each in state}
         for key in self._queues:
-            data, after_cr = state.get(key, (b"", False))
-            self._queues[key] = _Queue(bytearray(data), after_cr)
+            found = kept.get(key)
+            self._queues[key] = _Queue(bytearray(found.data), found.after_cr) if found else _Queue()
             self._count(key)
 
     def _session(self, key: Key) -> Session | None:

@@ -10,7 +10,7 @@ from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine, line_number, opens_capture
 from openacr.basic.registry import Level
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Kind, Token, plain, tokens
 from openacr.lang.shape import shape
 from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
 
@@ -36,7 +36,7 @@ class Entry:
             return self._captured(owner, text)
         found = tokens(text)
         if found[0].kind is Kind.NUMBER:
-            self._numbered(self._level_owner(), found)
+            self._numbered(self._level_owner(), found, text)
         elif (behind := opens_capture(text)) is not None:
             self._open(self._level_owner(), behind)
         else:
@@ -49,13 +49,14 @@ class Entry:
             raise CardError(UNKNOWN_COMMAND)
         return owner
 
-    def _numbered(self, owner: int, found: list[Token]) -> None:
+    def _numbered(self, owner: int, found: list[Token], text: str) -> None:
         """A number in front: store the rest under it, or delete the line."""
         number = line_number(found[0])
         if found[1].kind is Kind.END:
             self.store.delete(owner, number)
         else:
-            self._store(owner, number, found[1:])
+            begin = found[0].column - 1 + len(found[0].text)
+            self._store(owner, number, " " * begin + plain(text)[begin:], found[1:])
 
     def _open(self, owner: int, behind: str) -> None:
         """PROGRAM: erase the old text and store everything from here on."""
@@ -66,9 +67,9 @@ class Entry:
             raise CardError(SYNTAX_ERROR)
         self.store.erase(owner)
         self.session.capture = owner
-        self._append(owner, tokens("PROGRAM" if has_label else f"PROGRAM {behind}"))
+        self._append(owner, "PROGRAM" if has_label else f"PROGRAM {behind}")
         if has_label:
-            self._append(owner, tokens(behind))
+            self._append(owner, behind)
 
     def _captured(self, owner: int, text: str) -> list[Token] | None:
         """A line between PROGRAM and ENDP: stored, unless it ends the capture."""
@@ -80,13 +81,13 @@ class Entry:
         word = first.value if first.kind is Kind.WORD else ""
         if word in LEVEL_WORDS:
             self.session.capture = None
-            self._append(owner, tokens("ENDP"))
+            self._append(owner, "ENDP")
             return found
         if word == "ENDP":
             self.session.capture = None  # also where no room is left to store it
         if found[0].kind is Kind.NUMBER:
-            self._numbered(owner, found)
-        elif found[0].kind is not Kind.END and self._append(owner, found):
+            self._numbered(owner, found, text)
+        elif found[0].kind is not Kind.END and self._append(owner, text, found):
             self._learn(owner, kind, found, word)
         return None
 
@@ -97,7 +98,7 @@ class Entry:
         if cost_bytes is None:
             return False
         number = self.store.next_number(owner)
-        self.store.put(owner, StoredLine.unread(number, text, scope, cost_bytes))
+        self.store.put(owner, StoredLine(number, plain(text), scope, cost_bytes))
         return True
 
     def _learn(self, owner: int, kind: str, found: list[Token], word: object) -> None:
@@ -106,15 +107,16 @@ class Entry:
             scope = self.system.scope(Level.PROG, owner, stored=True)
             self.system.known_lines.learn(scope, kind, found)
 
-    def _append(self, owner: int, found: list[Token]) -> bool:
-        return self._store(owner, self.store.next_number(owner), found)
+    def _append(self, owner: int, text: str, found: list[Token] | None = None) -> bool:
+        found = tokens(text) if found is None else found
+        return self._store(owner, self.store.next_number(owner), plain(text), found)
 
-    def _store(self, owner: int, number: int, found: list[Token]) -> bool:
+    def _store(self, owner: int, number: int, text: str, found: list[Token]) -> bool:
         """Store a line; False if there was nothing to store."""
-        tree, cost_bytes = self.system.read_stored(owner, found)
-        if tree is None:
+        line = self.system.read_stored(owner, number, text, found=found)
+        if line is None:
             return False
-        self.store.put(owner, StoredLine(number, tuple(found), tree, cost_bytes))
+        self.store.put(owner, line)
         return True
 
 

@@ -7,7 +7,7 @@ scheduler is called again for the same tick.
 
 from __future__ import annotations
 
-import pickle
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -20,8 +20,9 @@ from openacr.basic.compiler import compile_line, compile_program
 from openacr.basic.computing import WHOLE_LINE, Computing
 from openacr.basic.evaluate import Blocked
 from openacr.basic.levels import CompileError
-from openacr.basic.nodes import Line, Move, Statement
+from openacr.basic.nodes import Move, Statement
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.run import Run, Wait, WaitKind
 from openacr.basic.threads import ENDS_WITH_PROGRAM, KINEMATICS
@@ -63,11 +64,11 @@ class Executor(Computing):
         """
         if self.is_running(program):
             raise CardError(PROGRAM_IS_RUNNING)
-        lines = [(stored.number, stored.tree) for stored in self.system.programs.lines(program)]
+        lines = tuple(self.system.programs.lines(program))
         if not lines:
             return
         try:
-            chunk = compile_program(lines)
+            chunk = _compiled(lines)
         except CompileError as error:
             row = at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER
             self.memory.I[row] = error.line
@@ -77,7 +78,7 @@ class Executor(Computing):
         if line is not None and line not in chunk.starts:
             raise CardError(LINE_NOT_FOUND, line)
         self._start_program(program, chunk, line)
-        self._sources[program] = lines
+        self.sources[program] = lines
 
     def _start_program(self, program: int, chunk: Chunk, line: int | None) -> None:
         word = at.PF_WORD + program
@@ -103,13 +104,13 @@ class Executor(Computing):
 
     def load_kinematics(self, master: int, program: int) -> None:
         """Compile the text of a program as the kinematics of a master."""
-        lines = [(stored.number, stored.tree) for stored in self.system.programs.lines(program)]
-        chunk = compile_program(lines)
+        lines = tuple(self.system.programs.lines(program))
+        chunk = _compiled(lines)
         thread = KINEMATICS + master
         self._start(thread, chunk, self._kinematics_run(master), 0)
         self.set_row(thread, at.THI_LOCALS, program)
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
-        self._sources[thread] = lines
+        self.sources[thread] = lines
 
     def forget_kinematics(self, master: int) -> None:
         """Forget the kinematics of a master."""
@@ -138,15 +139,15 @@ class Executor(Computing):
 
     # typed lines
 
-    def start(self, session: Session, line: Line) -> None:
+    def start(self, session: Session, line: StoredLine) -> None:
         """Execute a typed line now; what has to wait is finished by the scheduler."""
         try:
-            chunk = compile_line(line)
+            chunk = compile_line(line.tree)
         except CardError as error:
             session.finished(error)
             return
         self._start(session.thread, chunk, self._session_run(session), 0)
-        self._sources[session.thread] = line
+        self.sources[session.thread] = (line,)
         self.set_row(session.thread, at.THI_BUDGET, WHOLE_LINE)
         while self._advance(*self._views(), session.thread, self.tick):
             self.attend(session.thread)
@@ -257,27 +258,33 @@ class Executor(Computing):
 
     # snapshot
 
-    def state(self) -> bytes:
-        """What the threads execute, for a snapshot; where they stand lies in the memory."""
-        return pickle.dumps((self._sources, self.space.rooms))
-
-    def restore(self, state: bytes) -> None:
-        """Take over what `state` returned, after the memory has been restored."""
-        self.failures.clear()
-        self._sources, self.space.rooms = pickle.loads(state)
-        for thread, source in enumerate(self._sources):
-            if source is None:
+    def restore(
+        self, sources: Mapping[int, tuple[StoredLine, ...]], failures: Mapping[int, str]
+    ) -> None:
+        """Take over what threads execute; where they stand lies in the memory, restored before."""
+        self.failures = dict(failures)
+        self.sources = dict(sources)
+        for thread in range(at.TH_COUNT):
+            lines = self.sources.get(thread)
+            if lines is None:
                 self.space.chunks[thread], self._runs[thread] = Chunk(), None
             elif thread < PROGRAMS:
-                self.space.chunks[thread] = compile_program(source)
+                self.space.chunks[thread] = _compiled(lines)
                 self._runs[thread] = self._program_run(thread)
             elif thread >= KINEMATICS:
-                self.space.chunks[thread] = compile_program(source)
+                self.space.chunks[thread] = _compiled(lines)
                 self._runs[thread] = self._kinematics_run(thread - KINEMATICS)
             else:
-                self.space.chunks[thread] = compile_line(source)
+                self.space.chunks[thread] = compile_line(lines[0].tree)
                 self._runs[thread] = self._session_run(self._session(thread))
         self.space.rebuild()
 
     def _session(self, thread: int) -> Session:
-        return next(s for s in self.system.sessions.values() if s.thread == thread)
+        found = [s for s in self.system.sessions.values() if s.thread == thread]
+        if not found:
+            raise LookupError(f"thread {thread} serves no channel")
+        return found[0]
+
+
+def _compiled(lines: tuple[StoredLine, ...]) -> Chunk:
+    return compile_program([(line.number, line.tree) for line in lines])

@@ -7,7 +7,6 @@ from openacr.basic.values_cy import (
     whole_index,
 )
 from openacr.map.numbers import (
-    THI_CODE_BASE,
     THI_DEPTH,
     THI_FLOW_BACK,
     THI_FLOW_KIND,
@@ -93,10 +92,13 @@ def return_level(I: I32, rows: int) -> int:
     return -1
 
 
-def line_place(I: I32, code: I32, rows: int, line: float) -> int:
-    """The place of a stored line by bisection in the table of (line, place), or -1."""
+def line_place(I: I32, code: I32, rows: int, base: int, line: float) -> int:
+    """The place of a stored line by bisection in the table of (line, place), or -1.
+
+    `base` is where the code of the thread begins.
+    """
     number: int = whole_index(line)
-    table: int = I[rows + THI_CODE_BASE] + I[rows + THI_LINES_AT]
+    table: int = base + I[rows + THI_LINES_AT]
     low: int = 0
     high: int = I[rows + THI_LINES_COUNT]
     middle: int = 0

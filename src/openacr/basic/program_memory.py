@@ -1,7 +1,6 @@
 """Locals of the programs: variables, arrays, strings and the move buffer of DIM and CLEAR."""
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from openacr.basic.heap import ARRAYS, SCALARS, ArrayType, Heap
 from openacr.basic.memory_cost import (
@@ -10,7 +9,7 @@ from openacr.basic.memory_cost import (
     STRING_ARRAY_CHARACTERS,
     string_bytes,
 )
-from openacr.basic.string_storage import LONGEST_STRING, ProgramStrings, StringBlock
+from openacr.basic.string_storage import LONGEST_STRING, ProgramStrings, StringBlock, StringsState
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import (
@@ -141,11 +140,11 @@ class Locals:
         for program in range(PROGRAMS):
             self.clear(program)
 
-    def strings_state(self) -> list[Any]:
-        """All strings as plain lists, the only part that is not in the map."""
+    def strings_state(self) -> list[StringsState]:
+        """All strings as plain data, the only part that is not in the map."""
         return [program.state() for program in self.strings]
 
-    def restore_strings(self, state: list[Any]) -> None:
+    def restore_strings(self, state: list[StringsState]) -> None:
         """Take over what `strings_state` returned."""
         self.strings = [ProgramStrings.from_state(program) for program in state]
 

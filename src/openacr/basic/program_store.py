@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.basic.expressions import StatementError
+from openacr.basic.memory_cost import line_bytes
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.scope import Scope
 from openacr.basic.storage import Storage
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Kind, Token, spelled, tokens
 from openacr.map import numbers as at
 from openacr.messages import (
     INVALID_PASSWORD,
@@ -31,30 +33,32 @@ _PROGRAM = re.compile(r"[\s:]*PROGRAM(?![A-Za-z])\s*\d*\s*(.*)", re.IGNORECASE)
 
 
 class StoredLine:
-    """One line of a program: its number, its tokens (without the number) and its meaning.
+    """One line of a program or PLC: its number, its text without that, and what it may refer to.
 
-    `tree` is what the reader of the line made of it: a `Line`, or PLC instructions. A line
-    whose shape is known to be right is stored as text and read when somebody needs it.
+    `text` has one character per byte and is blank where the number stood. What the line means
+    (`tree`: a `Line`, or PLC instructions) and what it costs is read from the text when it is
+    needed, unless `read` (tokens and tree) is given; then `text` may be None.
     """
 
-    __slots__ = ("_read", "_unread", "cost_bytes", "number")
+    __slots__ = ("_cost_bytes", "_read", "_text", "number", "scope")
 
     def __init__(
         self,
         number: int,
-        found: tuple[Token, ...],
-        tree: Any,
-        cost_bytes: int,
-        unread: tuple[str, Scope] | None = None,
+        text: str | None,
+        scope: Scope,
+        cost_bytes: int | None = None,
+        read: tuple[tuple[Token, ...], Any] | None = None,
     ) -> None:
-        self.number, self.cost_bytes = number, cost_bytes
-        self._read = (found, tree) if unread is None else None
-        self._unread = unread
+        self.number, self.scope = number, scope
+        self._text, self._cost_bytes, self._read = text, cost_bytes, read
 
-    @classmethod
-    def unread(cls, number: int, text: str, scope: Scope, cost_bytes: int) -> StoredLine:
-        """A line without number in front that `scope` is known to accept."""
-        return cls(number, (), None, cost_bytes, (text, scope))
+    @property
+    def text(self) -> str:
+        """The line without its number, as it was typed."""
+        if self._text is None:
+            self._text = spelled(self.tokens)
+        return self._text
 
     @property
     def tokens(self) -> tuple[Token, ...]:
@@ -67,11 +71,18 @@ class StoredLine:
         return self._parts[1]
 
     @property
+    def cost_bytes(self) -> int:
+        """User memory that the line takes."""
+        if self._cost_bytes is None:
+            self._cost_bytes = line_bytes(list(self.tokens))
+        return self._cost_bytes
+
+    @property
     def _parts(self) -> tuple[tuple[Token, ...], Any]:
         if self._read is None:
-            text, scope = self._unread or ("", Scope())
-            found = tokens(text)
-            self._read, self._unread = (tuple(found), Parser(found, scope).line()), None
+            found = tokens((self._text or "").encode("latin-1"))
+            tree = Parser(found, self.scope).line()
+            self._read = tuple(found), tree
         return self._read
 
     @property
@@ -81,17 +92,6 @@ class StoredLine:
             if token.value != ":":
                 return str(token.value) if token.kind is Kind.WORD else ""
         return ""
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, StoredLine):
-            return NotImplemented
-        return self.__reduce__() == other.__reduce__()
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[type[StoredLine], tuple[int, tuple[Token, ...], Any, int]]:
-        """Pickle what was read: texts depend on what was attached and defined at the time."""
-        return StoredLine, (self.number, *self._parts, self.cost_bytes)
 
 
 @dataclass(slots=True)
@@ -177,14 +177,10 @@ class ProgramStore:
         if self.password is not None:
             raise CardError(PROGRAM_IS_PROTECTED)
 
-    def state(self) -> tuple[list[list[StoredLine]], str | None]:
-        """All text and the password, for a snapshot; what it costs stands in the map."""
-        return [self.lines(owner) for owner in range(OWNERS)], self.password
-
-    def restore(self, state: tuple[list[list[StoredLine]], str | None]) -> None:
-        """Take over what `state` returned."""
-        texts, self.password = state
+    def restore(self, texts: Iterable[Iterable[StoredLine]], password: str | None) -> None:
+        """Take over the texts of a snapshot; what they cost stands in the map."""
         self.texts = [{line.number: line for line in text} for text in texts]
+        self.password = password
         self._last = [max(text, default=0) for text in self.texts]
         self.changed.update(range(OWNERS))
 

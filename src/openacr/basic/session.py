@@ -9,18 +9,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
+
+from msgspec import Struct
 
 from openacr.basic import pass_through
 from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
 from openacr.basic.entry import Entry, split_at_level
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.program_store import StoredLine
+from openacr.basic.ranges import DeviceNumber, EchoBits, ModeBits, OwnerNumber, ProgramNumber
 from openacr.basic.registry import Level
 from openacr.basic.run import LINE_END
 from openacr.basic.scope import Scope
 from openacr.errors import CardError
-from openacr.lang.lexer import Token
+from openacr.lang.lexer import Token, spelled, tokens
 from openacr.messages import LINE_TOO_LONG
 
 if TYPE_CHECKING:
@@ -36,6 +40,27 @@ class Attention(Enum):
     LISTENING = "listening"
     PASS_THROUGH = "pass-through"
     OPEN = "open"
+
+
+class Channel(Struct, frozen=True):
+    """What a snapshot keeps of a session."""
+
+    level: Literal["SYS", "PROG", "PLC"]
+    number: ProgramNumber
+    echo: EchoBits
+    mode: ModeBits
+    busy: bool
+    capture: OwnerNumber | None
+    listening_to: ProgramNumber | None
+    until_end: bool
+    opened_by: tuple[ProgramNumber, DeviceNumber] | None
+    partner: str | None
+    has_called: bool
+    drive: ProgramNumber | None
+    echo_line_end: bool
+    typed_ahead: str
+    rest: str
+    output: bytes
 
 
 @dataclass(slots=True)
@@ -202,10 +227,11 @@ class Session:
     def _begin(self, found: list[Token]) -> bool:
         """Start a line up to its first change of level: what follows is read at the new one."""
         now, self.rest = split_at_level(found)
-        line = Parser(now, self.scope).line()
+        scope = self.scope
+        line = Parser(now, scope).line()
         if line.is_empty:
             return True
-        self.system.runner.start(self, line)
+        self.system.runner.start(self, StoredLine(0, None, scope, 0, (tuple(now), line)))
         return False
 
     # output
@@ -281,18 +307,23 @@ class Session:
 
     # snapshot
 
-    def state(self) -> dict[str, Any]:
-        """Everything but the connection, as plain data."""
-        return {
-            "level": self.level.name, "number": self.number, "echo": self.echo,
-            "mode": self.mode, "capture": self.capture, "listening_to": self.listening_to,
-            "until_end": self.until_end, "opened_by": self.opened_by, "busy": self.busy,
-            "partner": self.partner, "drive": self.drive, "echo_line_end": self.echo_line_end,
-            "typed_ahead": self.typed_ahead, "has_called": self.has_called,
-            "rest": self.rest,
-        }  # fmt: skip
+    def state(self) -> Channel:
+        """Everything but the connection."""
+        level: Any = self.level.name
+        return Channel(
+            **{name: getattr(self, name) for name in _PLAIN},
+            level=level,
+            rest=spelled(self.rest),
+            output=bytes(self._output),
+        )
 
-    def restore(self, state: dict[str, Any]) -> None:
+    def restore(self, state: Channel) -> None:
         """Take over what `state` returned."""
-        for name, value in state.items():
-            setattr(self, name, Level[value] if name == "level" else value)
+        for name in _PLAIN:
+            setattr(self, name, getattr(state, name))
+        self.level = Level[state.level]
+        self.rest = tokens(state.rest.encode("latin-1")) if state.rest else []
+        self._output[:] = state.output
+
+
+_PLAIN = tuple(set(Channel.__struct_fields__) - {"level", "rest", "output"})

@@ -35,11 +35,9 @@ class Setup:
             address.check_host(IpAddress.read(self.addresses["MASK"]))
         self.addresses = self.addresses | {name: str(address)}
 
-    def state(self) -> tuple[tuple[str, ...], dict[str, str]]:
-        """Both settings, for a snapshot."""
-        return self.config, dict(self.addresses)
-
-    def restore(self, state: tuple[tuple[str, ...], dict[str, str]]) -> None:
-        """Take over what `state` returned."""
-        config, addresses = state
-        self.config, self.addresses = config, dict(addresses)
+    def restore(self, config: tuple[str, ...], addresses: dict[str, str]) -> None:
+        """Take over both settings from a snapshot."""
+        if addresses.keys() != self.addresses.keys():
+            raise CardError(INVALID_ARGUMENT)
+        self.configure(config)
+        self.addresses = {name: str(IpAddress.read(text)) for name, text in addresses.items()}

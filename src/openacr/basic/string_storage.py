@@ -1,17 +1,21 @@
 """Strings of the programs: the one part of their storage that lives in Python lists."""
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TypeAlias
 
 from openacr.basic.memory_cost import (
     ARRAY_REFERENCES,
     STRING_ARRAY_CHARACTERS,
     string_bytes,
 )
+from openacr.basic.ranges import StringLength, StringText
 from openacr.errors import CardError
 from openacr.messages import SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
 
 LONGEST_STRING = 255
+
+BlockState: TypeAlias = tuple[StringLength, list[StringText]]
+StringsState: TypeAlias = tuple[BlockState | None, list[BlockState | None]]
 
 
 @dataclass(slots=True)
@@ -74,20 +78,20 @@ class ProgramStrings:
             used += STRING_ARRAY_CHARACTERS.bytes(count * length)
         return used
 
-    def state(self) -> list[Any]:
-        """Everything as plain lists, for a snapshot."""
-        return [_block_state(self.variables), [_block_state(block) for block in self.arrays]]
+    def state(self) -> StringsState:
+        """Everything as plain data, for snapshots and stored images."""
+        return _block_state(self.variables), [_block_state(block) for block in self.arrays]
 
     @classmethod
-    def from_state(cls, state: list[Any]) -> "ProgramStrings":
+    def from_state(cls, state: StringsState) -> "ProgramStrings":
         """What `state` described."""
         variables, arrays = state
         return cls(_state_block(variables), [_state_block(block) for block in arrays])
 
 
-def _block_state(block: StringBlock | None) -> list[Any] | None:
-    return [block.length, list(block.values)] if block else None
+def _block_state(block: StringBlock | None) -> BlockState | None:
+    return (block.length, list(block.values)) if block else None
 
 
-def _state_block(state: list[Any] | None) -> StringBlock | None:
+def _state_block(state: BlockState | None) -> StringBlock | None:
     return StringBlock(state[0], list(state[1])) if state else None

@@ -12,23 +12,22 @@ from openacr.basic.devices import Devices
 from openacr.basic.known_lines import KnownLines
 from openacr.basic.listeners import Listeners
 from openacr.basic.memory_cost import PLC_INSTRUCTION, line_bytes
-from openacr.basic.nodes import Line
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.program_store import OWNERS, ProgramStore
+from openacr.basic.program_store import OWNERS, ProgramStore, StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope
 from openacr.basic.session import Session
 from openacr.basic.setup import Setup
 from openacr.basic.storage import STREAMS, Storage
 from openacr.errors import CardError
-from openacr.lang.lexer import Token
+from openacr.lang.lexer import Token, tokens
 from openacr.messages import NOT_SUPPORTED
 
 if TYPE_CHECKING:
     from openacr.motion.card import Card
 
-PlcReader = Callable[[list[Token]], tuple[Any, int]]
+PlcReader = Callable[[list[Token], Scope], tuple[Any, int]]
 
 
 class Control(Protocol):
@@ -65,7 +64,7 @@ class Control(Protocol):
 class Runner(Protocol):
     """Who executes immediate lines: each channel has a thread of its own."""
 
-    def start(self, session: Session, line: Line) -> None:
+    def start(self, session: Session, line: StoredLine) -> None:
         """Begin a line; `session.finished` is called when it is done."""
 
     def cancel(self, session: Session) -> None:
@@ -106,7 +105,7 @@ class NonVolatile(Protocol):
         """FIRMWARE CHECKSUM."""
 
 
-def _no_plc(found: list[Token]) -> tuple[Any, int]:
+def _no_plc(found: list[Token], scope: Scope) -> tuple[Any, int]:
     raise CardError(NOT_SUPPORTED)
 
 
@@ -156,20 +155,38 @@ class System:
         return self._last_scope
 
     def read_stored(
-        self, owner: int, found: list[Token], names: frozenset[str] = frozenset()
-    ) -> tuple[Any, int]:
-        """Meaning and cost of a line to be stored; no meaning if there is nothing to store.
+        self,
+        owner: int,
+        number: int,
+        text: str,
+        names: frozenset[str] = frozenset(),
+        *,
+        found: list[Token] | None = None,
+    ) -> StoredLine | None:
+        """A line to be stored, from its text and tokens; None if there is nothing to store.
 
         `names` are axes it may name besides those that are attached.
         """
+        if found is None:
+            found = tokens(text.encode("latin-1"))
         if owner >= PROGRAMS:
-            tree, count = self.read_plc(found)
-            return tree, count * PLC_INSTRUCTION.each
+            return self.read_plc_line(number, text, self.scope(Level.PLC, None, stored=True), found)
         scope = self.scope(Level.PROG, owner, stored=True)
         if names:
             scope = replace(scope, axes=scope.axes | names)
         line = Parser(found, scope).line()
-        return (None, 0) if line.is_empty else (line, line_bytes(found))
+        if line.is_empty:
+            return None
+        return StoredLine(number, text, scope, line_bytes(found), (tuple(found), line))
+
+    def read_plc_line(
+        self, number: int, text: str, scope: Scope, found: list[Token]
+    ) -> StoredLine | None:
+        """A line of a PLC."""
+        tree, count = self.read_plc(found, scope)
+        if tree is None:
+            return None
+        return StoredLine(number, text, scope, count * PLC_INSTRUCTION.each, (tuple(found), tree))
 
     def start_boot_programs(self) -> None:
         """Start every program and PLC whose first statement is PBOOT.
@@ -207,30 +224,9 @@ class System:
         else:
             self.forget()
             self.setup = Setup()
-        self.devices.restore({})
+        self.devices.restore([])
         for session in self.sessions.values():
             session.power_up()
-
-    def state(self) -> dict[str, Any]:
-        """Everything that is not in the memory map, for a snapshot; it can be pickled."""
-        return {
-            "aliases": self.aliases.state(),
-            "programs": self.programs.state(),
-            "strings": self.storage.locals.strings_state(),
-            "devices": self.devices.state(),
-            "sessions": {name: each.state() for name, each in self.sessions.items()},
-            "setup": self.setup.state(),
-        }
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Take over what `state` returned; the memory map has been restored before."""
-        self.aliases.restore(state["aliases"])
-        self.programs.restore(state["programs"])
-        self.storage.locals.restore_strings(state["strings"])
-        self.devices.restore(state["devices"])
-        self.setup.restore(state["setup"])
-        for name, each in state["sessions"].items():
-            self.sessions[name].restore(each)
 
     def owners(self) -> range:
         """All programs and PLCs."""

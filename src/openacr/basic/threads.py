@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from openacr.basic import scheduler_cy as scheduler
 from openacr.basic.code import Chunk, CodeSpace
 from openacr.basic.program_memory import PROGRAMS
+from openacr.basic.program_store import StoredLine
 from openacr.basic.run import Run
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -47,7 +48,7 @@ class Threads:
         self.memory = system.card.memory
         self.space = CodeSpace(self.memory)
         self._runs: list[Run | None] = [None] * at.TH_COUNT
-        self._sources: list[Any] = [None] * at.TH_COUNT
+        self.sources: dict[int, tuple[StoredLine, ...]] = {}  # what each thread executes
         self.failures: dict[int, str] = {}  # of programs that an error has ended
 
     @property
@@ -97,7 +98,7 @@ class Threads:
         self.set_row(thread, at.THI_DEPTH, 0)
         self._mark(thread, active=False)
         self._runs[thread] = None
-        self._sources[thread] = None
+        self.sources.pop(thread, None)
 
     def _end(self, thread: int, error: CardError | None) -> None:
         """A thread is done, or stopped by an error: tell who wants to know."""

@@ -7,7 +7,7 @@ as the bytes of their view (little-endian 32-bit words).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -18,12 +18,13 @@ from openacr.basic.nodes import AxisRef
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine
+from openacr.basic.ranges import LineNumber, OwnerNumber, ProgramNumber
 from openacr.basic.registry import Command, Level
 from openacr.basic.retained import LONG_VARIABLES
 from openacr.basic.storage import PLCS
-from openacr.basic.string_storage import ProgramStrings
+from openacr.basic.string_storage import ProgramStrings, StringsState
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import spelled, tokens
 from openacr.map import numbers as at
 
 if TYPE_CHECKING:
@@ -40,18 +41,18 @@ Memo: TypeAlias = dict[int, tuple[StoredLine, str, frozenset[str]]]
 class Text(Struct, frozen=True):
     """One program (0-15) or PLC (16-23): lines by number, and the axis names they use."""
 
-    owner: int
-    lines: list[tuple[int, str]]
+    owner: OwnerNumber
+    lines: list[tuple[LineNumber, str]]
     axes: list[str]
 
 
 class Local(Struct, frozen=True):
     """What one program has dimensioned: variables and arrays as bytes, strings as lists."""
 
-    program: int
+    program: ProgramNumber
     scalars: dict[str, bytes]
     arrays: dict[str, list[bytes]]
-    strings: list[Any]
+    strings: StringsState
     move_buffer: int
 
 
@@ -92,7 +93,7 @@ def take_text(system: System, owner: int, memo: Memo | None = None) -> Text:
     lines = system.programs.lines(owner)
     for line in lines:
         if line.number not in memo or memo[line.number][0] is not line:
-            memo[line.number] = line, _source(line.tokens), frozenset(_axis_names(line.tree))
+            memo[line.number] = line, spelled(line.tokens), frozenset(_axis_names(line.tree))
     names = frozenset[str]().union(*(memo[line.number][2] for line in lines))
     return Text(owner, [(line.number, memo[line.number][1]) for line in lines], sorted(names))
 
@@ -160,15 +161,6 @@ def _blank(local: Local) -> Local:
         strings.state(),
         local.move_buffer,
     )
-
-
-def _source(found: Iterable[Token]) -> str:
-    """The line as it was typed, one character per byte."""
-    text = ""
-    for token in found:
-        part = token.text + str(token.value) if token.kind is Kind.REMARK else token.text
-        text = text.ljust(token.column - 1) + part
-    return text.rstrip()
 
 
 def _axis_names(node: Any) -> Iterator[str]:
@@ -275,10 +267,8 @@ def _write(heap: Heap, start: int, held: bytes) -> None:
 def _put_text(system: System, text: Text) -> Iterator[str]:
     for number, written in text.lines:
         try:
-            found = tokens(written.encode("latin-1"))
-            tree, cost = system.read_stored(text.owner, found, frozenset(text.axes))
-            if tree is not None:
-                line = StoredLine(number, tuple(found), tree, cost)
+            line = system.read_stored(text.owner, number, written, frozenset(text.axes))
+            if line is not None:
                 system.programs.put(text.owner, line)
         except CardError as error:
             is_plc = text.owner >= PROGRAMS

@@ -126,6 +126,10 @@ from openacr.map.numbers import (
     STI_STRIDE,
     SYSI_BASE,
     SYSI_P_COUNT,
+    THCI_BASE,
+    THCI_CODE_BASE,
+    THCI_NUM_BASE,
+    THCI_STRIDE,
     THF_BASE,
     THF_ERROR_DETAIL,
     THF_FLOW_LIMIT,
@@ -136,13 +140,11 @@ from openacr.map.numbers import (
     THF_STRIDE,
     THI_BASE,
     THI_BUDGET,
-    THI_CODE_BASE,
     THI_DEPTH,
     THI_ERROR,
     THI_FLOW_BACK,
     THI_LINE,
     THI_LOCALS,
-    THI_NUM_BASE,
     THI_PASSED,
     THI_PC,
     THI_SP,
@@ -171,8 +173,8 @@ def vm_run(
     """Execute thread t for at most `budget` statements; one of the VM_ numbers above."""
     rows: int = THI_BASE + t * THI_STRIDE
     reals: int = THF_BASE + t * THF_STRIDE
-    base: int = I[rows + THI_CODE_BASE]
-    num_base: int = I[rows + THI_NUM_BASE]
+    base: int = I[THCI_BASE + t * THCI_STRIDE + THCI_CODE_BASE]
+    num_base: int = I[THCI_BASE + t * THCI_STRIDE + THCI_NUM_BASE]
     bottom: int = reals + THF_STACK
     top: int = bottom + I[rows + THI_SP]  # place of the next number to be pushed
     pc: int = base + I[rows + THI_PC]
@@ -392,7 +394,7 @@ def vm_run(
                 pc = base + code[pc + 1]
         elif op == DO_GOTO_LINE or op == DO_GOSUB_LINE:
             top -= 1
-            word = line_place(I, code, rows, F[top])
+            word = line_place(I, code, rows, base, F[top])
             if word < 0:
                 error = ERROR_LINE_NOT_FOUND
                 F[reals + THF_ERROR_DETAIL] = F[top]

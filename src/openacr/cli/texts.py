@@ -10,7 +10,7 @@ from openacr.basic.parser import LONGEST_LABEL
 from openacr.basic.program_store import StoredLine
 from openacr.basic.scope import Scope
 from openacr.errors import CardError
-from openacr.lang.lexer import Token, tokens
+from openacr.lang.lexer import Token, plain, tokens
 from openacr.lang.source import Span
 from openacr.plc.reader import PlcLine
 
@@ -50,9 +50,9 @@ class TextLine(NamedTuple):
     @property
     def stored(self) -> StoredLine:
         """The line as the card holds it."""
-        if self.rung is not None:
-            return StoredLine(self.number, self.tokens, self.rung, 0)
-        return StoredLine.unread(self.number, self.place.text[self.start :], self.scope, 0)
+        text = plain(self.place.text[self.start :])
+        read = None if self.rung is None else (self.tokens, self.rung)
+        return StoredLine(self.number, text, self.scope, 0, read)
 
 
 @dataclass(slots=True)

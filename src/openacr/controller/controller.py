@@ -17,9 +17,10 @@ from openacr.controller.loading import PATIENCE_S, Loader, LoadError
 from openacr.controller.streams import CONSOLE
 from openacr.controller.surroundings import Surroundings
 from openacr.controller.views import AxisView
-from openacr.engine.watches import give_orders, take_orders
+from openacr.engine.watches import give_orders, state_image, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.characters import as_typed
+from openacr.map.memory import digest_of
 from openacr.map.numbers import (
     AXF_PEAK_ERROR_CNT,
     AXF_PEAK_VELOCITY_CPS,
@@ -179,17 +180,11 @@ class Controller(Surroundings):
 
     def digest(self) -> str:
         """Fingerprint of the state; what this process asked of the engine does not count."""
-        orders = take_orders(self.memory)
-        digest = self.memory.digest()
-        give_orders(self.memory, orders)
-        return digest
+        return digest_of(self.image())
 
-    def image(self) -> bytes:
+    def image(self) -> bytearray:
         """A copy of the state that `digest` speaks of."""
-        orders = take_orders(self.memory)
-        image = self.memory.snapshot()
-        give_orders(self.memory, orders)
-        return image
+        return state_image(self.memory)
 
     # snapshots
 
@@ -205,9 +200,11 @@ class Controller(Surroundings):
         if self.recorder is not None:
             raise StoreError("a card that writes a journal cannot return to a snapshot")
         orders = take_orders(self.memory)
-        snapshots.put_back(self, snapshot)
-        give_orders(self.memory, orders)
-        self._lived_before_tk = snapshot.lived_before_tk
+        try:
+            snapshots.put_back(self, snapshot)
+        finally:
+            give_orders(self.memory, orders)
+        self._lived_before_tk = snapshot.beside.lived_before_tk
 
     def take_over(self, snapshot: snapshots.Snapshot) -> None:
         """Become the card of a snapshot, with everybody who was connected to it."""

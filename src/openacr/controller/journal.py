@@ -36,6 +36,7 @@ from typing import Any
 import msgspec
 
 from openacr.controller import snapshot as snapshots
+from openacr.controller import snapshot_file
 from openacr.errors import StoreError, reason
 from openacr.plant import schema
 
@@ -120,7 +121,7 @@ class Journal:
                 f"the journal was written by openacr {self.header.program} with another layout"
                 " of the memory; replay it with that version"
             )
-        return snapshots.decode(b64decode(self.header.snapshot))
+        return snapshot_file.decode(b64decode(self.header.snapshot))
 
 
 # records

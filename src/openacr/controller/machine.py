@@ -14,7 +14,7 @@ from openacr.basic.control import ProgramControl
 from openacr.basic.executor import Executor
 from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.scope import join_names
+from openacr.basic.scope import Scope, join_names
 from openacr.basic.system import System
 from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.packets import PacketHost
@@ -155,9 +155,9 @@ class Machine:
         for line in self.system.programs.lines(PROGRAMS + plc):
             yield line.number, line.tree
 
-    def _read_plc(self, found: list[Token]) -> tuple[PlcLine | None, int]:
-        join_names(found, self.system.aliases.numbered)
-        line = read_line(found, PlcNames(self.system.aliases.nodes))
+    def _read_plc(self, found: list[Token], scope: Scope) -> tuple[PlcLine | None, int]:
+        join_names(found, scope.numbered)
+        line = read_line(found, PlcNames(scope.aliases))
         return line, line.count if line else 0
 
     def _set_engine(self, row: int, value: int) -> None:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from openacr.controller import snapshot as snapshots
+from openacr.controller import snapshot_file
 from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
 from openacr.errors import StoreError, reason
 from openacr.map.memory import digest_of
@@ -126,7 +127,7 @@ class Recorder:
                 period_s,
                 digest_of(image),
                 every_tk,
-                b64encode(snapshots.encode(kept)).decode(),
+                b64encode(snapshot_file.encode(kept)).decode(),
                 project,
                 fingerprint,
             )

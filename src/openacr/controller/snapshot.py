@@ -1,118 +1,111 @@
-"""The whole state of a card at one tick, to come back to, in this process or from a file.
+"""The whole state of a card at one tick, to come back to.
 
-In a file the parts beside the memory are pickles. They are read with a list of what they
-may contain - data of this package - so that a journal somebody sends runs no code.
+A snapshot is the rows of the memory map and, beside them, plain data: texts of programs and
+lines, what waits to be read or sent, what the card keeps without power. Nothing in it is an
+object of this program: what programs and PLCs execute is made anew from text and rows.
+`snapshot_file.py` writes and reads it as bytes.
 """
 
 from __future__ import annotations
 
-import io
-import pickle
-import zlib
-from dataclasses import dataclass
 from functools import cache
 from hashlib import blake2b
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import msgspec
+from msgspec import Struct
 
-from openacr.basic import registry
+from openacr.basic import language_state
+from openacr.basic.language_state import Language
+from openacr.basic.ranges import Index
+from openacr.controller.streams import StreamsState
 from openacr.errors import StoreError
 from openacr.map import numbers
+from openacr.plant import schema
+from openacr.protocol.packet import PacketError
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
 
-COMPRESSION = 1  # the memory is mostly zeros: more effort gains nothing
-_OURS = (
-    "openacr.basic.",
-    "openacr.lang.",
-    "openacr.motion.attachments",
-    "openacr.plc.",
-    "openacr.protocol.",
-)
-_PLAIN = {("builtins", "bytearray"), ("builtins", "set"), ("builtins", "frozenset")}
-_PLAIN |= {("collections", "deque")}
-_FUNCTIONS = (registry.find, registry.find_function)
+
+class Beside(Struct, frozen=True):
+    """The state of a card beside the memory map."""
+
+    language: Language
+    streams: StreamsState
+    moves: list[bytes]  # packets of binary moves that wait for room
+    stored: dict[str, bytes]  # what is kept without power
+    lived_before_tk: Index
 
 
-@dataclass(frozen=True, slots=True)
-class Snapshot:
-    """Memory and everything beside it; independent of the card it was taken from."""
+class Snapshot(Struct, frozen=True):
+    """A snapshot; it fits cards of the same model, world and layout of the memory."""
 
-    memory: bytes
-    language: bytes
-    execution: bytes
-    stored: dict[str, bytes]
-    streams: bytes
-    moves: list[bytes]
-    lived_before_tk: int
+    model: str
+    world: str
+    layout: str
+    rows: bytes
+    beside: Beside
 
 
 def take(card: Controller) -> Snapshot:
     """Take a snapshot of a card."""
-    language = pickle.dumps((card.card.attachments, card.system.state()))
     return Snapshot(
-        card.memory.snapshot(),
-        language,
-        card.executor.state(),
-        card.nonvolatile.state(),
-        pickle.dumps(card.streams.state()),
-        card.streams.moves.state(),
-        card.lived_tk - card.tick,
+        card.model.name,
+        world_print(card.world),
+        layout(),
+        bytes(card.image()),
+        Beside(
+            language_state.take(card.system, card.executor),
+            card.streams.state(),
+            card.streams.moves.state(),
+            card.nonvolatile.state(),
+            card.lived_tk - card.tick,
+        ),
     )
 
 
 def put_back(card: Controller, snapshot: Snapshot) -> None:
-    """Return a card to a snapshot; who is connected stays connected."""
-    card.memory.restore(snapshot.memory)
-    card.card.attachments, language = pickle.loads(snapshot.language)
-    card.system.restore(language)
-    card.executor.restore(snapshot.execution)
-    card.nonvolatile.restore(snapshot.stored)
-    card.streams.moves.restore(snapshot.moves)
+    """Return a card to a snapshot; who is connected stays connected.
+
+    StoreError, and the card as it was, if the snapshot does not fit the card.
+    """
+    check_fits(card, snapshot)
+    rows = card.memory.snapshot()
+    language = language_state.take(card.system, card.executor)
+    moves = card.streams.moves.state()
+    try:
+        _put_back(card, snapshot.rows, snapshot.beside.language, snapshot.beside.moves)
+    except StoreError:
+        _put_back(card, rows, language, moves)
+        raise
+    card.nonvolatile.restore(snapshot.beside.stored)
+
+
+def _put_back(card: Controller, rows: bytes, language: Language, moves: list[bytes]) -> None:
+    card.memory.restore(rows)
+    language_state.put_back(card.system, card.executor, language)
+    try:
+        card.streams.moves.restore(moves)
+    except (PacketError, ValueError, LookupError) as error:
+        raise StoreError(f"the snapshot holds a move that cannot be read: {error}") from None
 
 
 def put_back_streams(card: Controller, snapshot: Snapshot) -> None:
     """Connect a new card to everything that was connected."""
-    card.streams.restore(pickle.loads(snapshot.streams))
+    card.streams.restore(snapshot.beside.streams)
 
 
-# files
-
-
-def encode(snapshot: Snapshot) -> bytes:
-    """A snapshot as bytes."""
-    return zlib.compress(msgspec.msgpack.encode(snapshot), COMPRESSION)
-
-
-def decode(data: bytes) -> Snapshot:
-    """The snapshot `encode` made; StoreError for anything else, before any of it is used."""
-    try:
-        snapshot = msgspec.msgpack.decode(zlib.decompress(data), type=Snapshot)
-        for part in (snapshot.language, snapshot.execution, snapshot.streams):
-            _Reader(io.BytesIO(part)).load()
-    except StoreError:
-        raise
-    except Exception as error:  # a pickle can fail in any way
-        raise StoreError(f"the snapshot cannot be read: {error}") from None
-    return snapshot
-
-
-class _Reader(pickle.Unpickler):
-    """Reads pickles that contain nothing but data of this package."""
-
-    def find_class(self, module: str, name: str) -> Any:
-        """A class or one of two look-ups; everything else is refused."""
-        if (module, name) in _PLAIN:
-            return super().find_class(module, name)
-        if module.startswith(_OURS) and "." not in name:
-            found = getattr(import_module(module), name, None)
-            is_own = getattr(found, "__module__", "") == module
-            if is_own and (isinstance(found, type) or found in _FUNCTIONS):
-                return found
-        raise StoreError(f"the snapshot contains {module}.{name}, which no card has")
+def check_fits(card: Controller, snapshot: Snapshot) -> None:
+    """StoreError if a snapshot is of another layout, model or world."""
+    if snapshot.layout != layout():
+        raise StoreError("the snapshot is of another version of openacr, with other rows")
+    if snapshot.model != card.model.name:
+        raise StoreError(
+            f"the snapshot is of an {snapshot.model}, the card is an {card.model.name}"
+        )
+    if snapshot.world != world_print(card.world):
+        raise StoreError("the snapshot is of a card with another machine around it")
 
 
 @cache
@@ -120,3 +113,8 @@ def layout() -> str:
     """Fingerprint of the places of all rows: snapshots fit cards with the same one."""
     places = sorted((name, value) for name, value in vars(numbers).items() if name.isupper())
     return blake2b(repr(places).encode(), digest_size=8).hexdigest()
+
+
+def world_print(world: schema.World) -> str:
+    """Fingerprint of the machine around a card."""
+    return blake2b(msgspec.json.encode(world), digest_size=8).hexdigest()

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from msgspec import Struct
+
 from openacr.basic import session as sessions
+from openacr.basic.ranges import Index, ProgramNumber
 from openacr.basic.session import Session
 from openacr.controller.packets import PacketHost
-from openacr.errors import UserError
+from openacr.errors import StoreError, UserError
 from openacr.protocol.escape import BinaryMode
 from openacr.protocol.events import (
     NEED_DATA,
@@ -25,7 +28,7 @@ from openacr.protocol.events import (
 from openacr.protocol.execute import execute
 from openacr.protocol.move import Move
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
-from openacr.protocol.terminal import Terminal
+from openacr.protocol.terminal import Terminal, TerminalState
 
 _NAMES = {
     StreamKind.TERMINAL: ("STREAM2", "STREAM3", "STREAM4", "STREAM5"),
@@ -34,6 +37,21 @@ _NAMES = {
 }
 _ATTENTION = {each: Attention(each.value) for each in sessions.Attention}
 CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
+
+
+class StreamState(Struct, frozen=True):
+    """What a snapshot keeps of one connection."""
+
+    terminal: TerminalState
+    channel: str | None
+    moves_of: ProgramNumber | None
+
+
+class StreamsState(Struct, frozen=True):
+    """What a snapshot keeps of all connections; `next` is the number of the next one."""
+
+    next: Index
+    open: dict[Index, StreamState]
 
 
 @dataclass(slots=True)
@@ -148,28 +166,37 @@ class Streams:
                 stream.session.connect()
                 self._settle(stream)
 
-    def state(self) -> dict[int, tuple[StreamKind, dict[str, object], str | None]]:
-        """All connections, for a snapshot: kind, terminal and name of the session."""
-        return {
-            number: (
-                stream.terminal.kind,
+    def state(self) -> StreamsState:
+        """All connections, for a snapshot."""
+        opened = {
+            number: StreamState(
                 stream.terminal.state(),
                 stream.session.name if stream.session else None,
+                stream.moves_of,
             )
             for number, stream in self._open.items()
         }
+        return StreamsState(self._next, opened)
 
-    def restore(self, state: dict[int, tuple[StreamKind, dict[str, object], str | None]]) -> None:
+    def restore(self, state: StreamsState) -> None:
         """Take over what `state` returned; sessions have been restored before."""
         self._open.clear()
-        for number, (kind, kept, name) in state.items():
-            terminal = Terminal(kind, timeout_tk=1)
-            terminal.restore(kept)
-            session = self._sessions[name] if name else None
-            if session is not None:
-                session.is_connected = True
-            self._open[number] = Stream(terminal, session)
-        self._next = max(state, default=0) + 1
+        for each in self._sessions.values():
+            each.is_connected = False
+        for number, kept in state.open.items():
+            kind = kept.terminal.kind
+            terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
+            terminal.restore(kept.terminal)
+            session = None if kept.channel is None else self._restored(kept.channel, kind)
+            self._open[number] = Stream(terminal, session, kept.moves_of)
+        self._next = max(state.next, *(number + 1 for number in state.open), 1)
+
+    def _restored(self, name: str, kind: StreamKind) -> Session:
+        session = self._sessions.get(name)
+        if session is None or session.is_connected or kind is StreamKind.PACKETS:
+            raise StoreError(f"the snapshot connects a stream of packets or two streams to {name}")
+        session.is_connected = True
+        return session
 
     def _pump(self, stream: Stream) -> None:
         while (event := stream.terminal.next_event()) is not NEED_DATA:

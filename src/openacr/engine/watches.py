@@ -16,6 +16,7 @@ _ROWS = (
     (at.WATI_BASE, at.WAT_COUNT * at.WATI_STRIDE),
     (at.SMVI_BASE, at.SMV_COUNT * at.SMVI_STRIDE),
 )
+_OF_PROCESS = (*_ROWS, (at.THCI_BASE, at.THC_COUNT * at.THCI_STRIDE))
 _BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
 _IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
 
@@ -80,6 +81,22 @@ class Orders:
 
     rows: tuple["memoryview[int]", ...]
     bounds: "memoryview[float]"
+
+
+def state_image(memory: Memory) -> bytearray:
+    """A copy of the state of the card, without what belongs to this process.
+
+    That is what was asked of the engine, and where the code of programs lies: a card that is
+    restored in another process compiles it anew.
+    """
+    image = memory.image()
+    rows = memoryview(image).cast("i")
+    in_tick = rows[_IN_TICK]
+    for first, count in _OF_PROCESS:
+        rows[first : first + count] = memoryview(bytes(4 * count)).cast("i")
+    rows[_IN_TICK] = in_tick
+    image[8 * _BOUNDS.start : 8 * _BOUNDS.stop] = bytes(8 * (_BOUNDS.stop - _BOUNDS.start))
+    return image
 
 
 def take_orders(memory: Memory) -> Orders:

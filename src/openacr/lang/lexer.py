@@ -5,7 +5,7 @@ without blanks. Everything a word may mean is left to the parser.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from enum import IntEnum
 from math import inf
 from typing import NamedTuple
@@ -130,6 +130,18 @@ def tokens(line: str | bytes, number: int = 1) -> list[Token]:
         else:
             raise LexError(SYNTAX_ERROR, Span(number, start))
     return found
+
+
+def spelled(found: Iterable[Token]) -> str:
+    """The line whose tokens these are, one character per byte, each in its column.
+
+    A comment behind an apostrophe is no token and is left out.
+    """
+    text = ""
+    for token in found:
+        part = token.text + str(token.value) if token.kind is Kind.REMARK else token.text
+        text = text.ljust(token.column - 1) + part
+    return text.rstrip()
 
 
 def _upper(word: str) -> str:

@@ -85,6 +85,10 @@ class Memory:
         """The whole state; `restore` brings it back."""
         return self._buffer.tobytes()
 
+    def image(self) -> bytearray:
+        """The same, to be changed."""
+        return bytearray(self._buffer)
+
     def restore(self, snapshot: bytes) -> None:
         """Return to a snapshot of a card with the same memory layout."""
         if len(snapshot) != len(self._buffer):
@@ -102,7 +106,7 @@ class Memory:
         return digest_of(self._buffer)
 
 
-def digest_of(image: bytes | memoryview) -> str:
+def digest_of(image: bytes | bytearray | memoryview) -> str:
     """Fingerprint of the state in a snapshot."""
     return blake2b(image, digest_size=16).hexdigest()
 

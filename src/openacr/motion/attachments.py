@@ -5,6 +5,15 @@ names exist only here.
 """
 
 from dataclasses import dataclass, field
+from typing import Annotated, TypeAlias
+
+from msgspec import Meta
+
+_Number: TypeAlias = Annotated[int, Meta(ge=0, le=15)]  # of a program, master, slave or axis
+AttachmentsState: TypeAlias = tuple[
+    list[tuple[_Number, _Number]],  # program and its master
+    list[tuple[_Number, _Number, _Number, str]],  # program, slave, axis and its name
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +110,20 @@ class Attachments:
         self._slaves.clear()
         self._names.clear()
 
-    def copy(self) -> "Attachments":
-        """An independent copy, for snapshots."""
-        return Attachments(
-            dict(self._masters), {program: dict(s) for program, s in self._slaves.items()}
-        )
+    def state(self) -> AttachmentsState:
+        """Everything in its order, for a snapshot."""
+        slaves = [
+            (program, each.number, each.axis, each.name)
+            for program, found in self._slaves.items()
+            for each in found.values()
+        ]
+        return list(self._masters.items()), slaves
+
+    @classmethod
+    def from_state(cls, state: AttachmentsState) -> "Attachments":
+        """What `state` described."""
+        masters, slaves = state
+        made = cls(dict(masters))
+        for program, number, axis, name in slaves:
+            made.put_slave(program, Slave(number, axis, name))
+        return made

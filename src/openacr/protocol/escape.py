@@ -63,26 +63,26 @@ class Decoder:
     """Gives back the data bytes of one transfer, received byte by byte."""
 
     mode: BinaryMode
-    _prefixed: bool = False
-    _high: bool = False
+    prefixed: bool = False
+    high: bool = False
 
     def feed(self, byte: int) -> int | None:
         """The data byte that `byte` completes, or None when more must follow."""
         if not self.mode.prefixes:
             return byte
-        if self._prefixed:
+        if self.prefixed:
             return self._deliver(byte ^ TOGGLE if 0x3F <= byte <= 0x5F else byte)
         if byte == PREFIX:
-            self._prefixed = True
+            self.prefixed = True
             return None
-        if byte == HIGH and self.mode.strips and not self._high:
-            self._high = True
+        if byte == HIGH and self.mode.strips and not self.high:
+            self.high = True
             return None
         return self._deliver(byte)
 
     def _deliver(self, byte: int) -> int:
-        value = byte | 0x80 if self._high else byte
-        self._prefixed = self._high = False
+        value = byte | 0x80 if self.high else byte
+        self.prefixed = self.high = False
         return value
 
 

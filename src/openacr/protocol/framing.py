@@ -9,6 +9,9 @@ DPCB, FOV and ROV of hosts written after the first edition of the manual (`overr
 """
 
 from dataclasses import dataclass, field
+from typing import Annotated
+
+from msgspec import Meta, Struct
 
 from openacr.protocol.escape import BinaryMode, Decoder
 from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
@@ -16,6 +19,18 @@ from openacr.protocol.packets import Packet, PacketError, decode, total_length
 
 DPCB_PADDED = frozenset((0x1C, 0x1D))
 LONGEST_HEAD = 9  # bytes that tell the length of any packet: all codes of a move
+LONGEST_PACKET = 1024  # more than any packet has
+
+
+class ReaderState(Struct, frozen=True):
+    """What a snapshot keeps of a packet that is not complete."""
+
+    data: Annotated[bytes, Meta(max_length=LONGEST_PACKET)]
+    tick: int
+    wanted: Annotated[int, Meta(ge=0, le=LONGEST_PACKET)]
+    mode: Annotated[int, Meta(ge=0, le=3)]
+    prefixed: bool
+    high: bool
 
 
 @dataclass(slots=True)
@@ -102,3 +117,19 @@ class PacketReader:
             return None
         self._data.clear()
         return decode(lengthened(so_far))
+
+    # snapshot
+
+    def state(self) -> ReaderState:
+        """Everything but what the stream is, for a snapshot."""
+        mode = int(self._decoder.mode)
+        pending = self._decoder.prefixed, self._decoder.high
+        return ReaderState(bytes(self._data), self._tick, self._wanted, mode, *pending)
+
+    def restore(self, state: ReaderState) -> None:
+        """Take over what `state` returned."""
+        mode = BinaryMode(state.mode)
+        self._data, self._tick = bytearray(state.data), state.tick
+        self._wanted = max(state.wanted, len(state.data) + 1)
+        self._decoder = Decoder(mode, state.prefixed, state.high)
+        self._is_plain = not mode.prefixes

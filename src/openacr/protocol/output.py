@@ -8,8 +8,18 @@ that XOFF and a slow line hold back what is left of it.
 from collections import deque
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 LIMIT_BYTES = 1 << 20
 SLICE_BYTES = 4096  # of text in one write; about a second at 38400 baud
+
+
+class OutputState(Struct, frozen=True):
+    """What a snapshot keeps: bytes of each write, and whether it is a packet of its own."""
+
+    stopped: bool
+    dropped_bytes: int
+    writes: list[tuple[bytes, bool]]
 
 
 @dataclass(slots=True)
@@ -63,3 +73,14 @@ class Output:
             del first[:SLICE_BYTES]
         self._size -= len(data)
         return data
+
+    def state(self) -> OutputState:
+        """Everything, for a snapshot."""
+        writes = [(bytes(data), alone) for data, alone in self._writes]
+        return OutputState(self.stopped, self.dropped_bytes, writes)
+
+    def restore(self, state: OutputState) -> None:
+        """Take over what `state` returned."""
+        self.stopped, self.dropped_bytes = state.stopped, state.dropped_bytes
+        self._writes = deque((bytearray(data), alone) for data, alone in state.writes)
+        self._size = sum(len(data) for data, _ in self._writes)

@@ -23,7 +23,11 @@ What the bytes mean (for TERMINAL and SERIAL streams):
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated, TypeAlias
 
+from msgspec import Meta, Struct
+
+from openacr.lang.lexer import LINE_LIMIT
 from openacr.protocol.escape import BinaryMode, encode_packet
 from openacr.protocol.events import (
     NEED_DATA,
@@ -38,12 +42,12 @@ from openacr.protocol.events import (
     Received,
     Typed,
 )
-from openacr.protocol.framing import PacketReader
+from openacr.protocol.framing import PacketReader, ReaderState
 from openacr.protocol.move import Move, unpadded
-from openacr.protocol.output import Output
+from openacr.protocol.output import Output, OutputState
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
 from openacr.protocol.stream import EchoMode, StreamKind
-from openacr.protocol.typed_line import TypedLine
+from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
 
 BACKLOG_LIMIT_BYTES = 1 << 16
 RESUME_BYTES = BACKLOG_LIMIT_BYTES // 2  # so that a sender is not held and let go all the time
@@ -51,6 +55,7 @@ BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B,
 CRLF = b"\r\n"
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
+LineBytes: TypeAlias = Annotated[bytes, Meta(max_length=LINE_LIMIT)]
 
 
 @dataclass(slots=True)
@@ -64,6 +69,26 @@ class _Segment:
     @property
     def rest(self) -> bytes:
         return self.data[self.at :]
+
+
+class TerminalState(Struct, frozen=True):
+    """What a snapshot keeps of a terminal; a line that was too long is None."""
+
+    kind: StreamKind
+    echo: Annotated[int, Meta(ge=0, le=7)]
+    mode: Annotated[int, Meta(ge=0, le=3)]
+    attention: Attention
+    busy: bool
+    echo_line_end: bool
+    timeout_tk: Annotated[int, Meta(ge=1)]
+    output: OutputState
+    segments: list[tuple[bytes, int, bool]]  # bytes, their tick, none of them is scanned yet
+    lines: list[LineBytes | None]
+    is_full: bool
+    typed: LineBytes
+    typed_excess: Annotated[int, Meta(ge=0)]
+    after_cr: bool
+    reader: ReaderState
 
 
 class Terminal:
@@ -298,13 +323,46 @@ class Terminal:
 
     # --- snapshot ---------------------------------------------------------------------
 
-    def state(self) -> dict[str, object]:
-        """Everything but the kind, for a snapshot; it can be pickled."""
-        return {name: value for name, value in vars(self).items() if name != "_keys"}
+    def state(self) -> TerminalState:
+        """Everything, as plain data."""
+        return TerminalState(
+            kind=self.kind,
+            echo=self.echo,
+            mode=int(self.mode),
+            attention=self.attention,
+            busy=self.busy,
+            echo_line_end=self.echo_line_end,
+            timeout_tk=self.timeout_tk,
+            output=self.output.state(),
+            segments=[(segment.rest, segment.tick, segment.at == 0) for segment in self._segments],
+            lines=[bytes_of(line.text) if isinstance(line, Line) else None for line in self._lines],
+            is_full=self._is_full,
+            typed=bytes(self._typing.kept),
+            typed_excess=self._typing.excess,
+            after_cr=self._after_cr,
+            reader=self._reader.state(),
+        )
 
-    def restore(self, state: dict[str, object]) -> None:
-        """Take over what `state` returned."""
-        vars(self).update(state)
+    def restore(self, state: TerminalState) -> None:
+        """Take over what `state` returned, of a terminal of the same kind."""
+        self.echo, self.mode = state.echo, BinaryMode(state.mode)
+        self.attention, self.busy = state.attention, state.busy
+        self.echo_line_end, self.timeout_tk = state.echo_line_end, state.timeout_tk
+        self.output.restore(state.output)
+        self._segments = deque(_segment(*each) for each in state.segments if each[0])
+        self._lines = deque(
+            LineTooLong() if line is None else Line(text_of(line)) for line in state.lines
+        )
+        self._backlog = sum(len(segment.rest) for segment in self._segments)
+        self._backlog += sum(map(_size, self._lines))
+        self._is_full, self._after_cr = state.is_full, state.after_cr
+        self._typing = TypedLine(bytearray(state.typed), state.typed_excess)
+        self._reader.restore(state.reader)
+
+
+def _segment(rest: bytes, tick: int, is_whole: bool) -> _Segment:
+    """Bytes that are not scanned yet; of a segment that is begun the first byte is past."""
+    return _Segment(rest, tick) if is_whole else _Segment(b"\0" + rest, tick, 1)
 
 
 def _is_control(byte: int) -> bool:

@@ -45,3 +45,8 @@ class TypedLine:
 def text_of(line: bytes | bytearray) -> str:
     """Typed bytes as text: UTF-8 where they are; other bytes stay what they are (PEP 383)."""
     return line.decode("utf-8", "surrogateescape")
+
+
+def bytes_of(text: str) -> bytes:
+    """The typed bytes of a text."""
+    return text.encode("utf-8", "surrogateescape")

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.basic import registry
-from openacr.basic.aliases import Aliases
+from openacr.basic.aliases import Aliases, read_target
 from openacr.basic.grammar import Form, Int, Num, Str
 from openacr.basic.lister import Lister
-from openacr.basic.nodes import Alias, Expr, resolved
+from openacr.basic.nodes import Expr
 from openacr.basic.number_format import double_text
 from openacr.basic.registry import ANY, IMMEDIATE, SYS, Level, command
 from openacr.basic.run import Run
@@ -102,9 +102,9 @@ class DefinitionForm(Form):
         start = p.position
         if p.at_block_end:
             return Definition(name, None, "")
-        target = p.variable() if p.at_variable else p.value()
+        target = read_target(p)
         text = Lister(p.aliases).line(p.tokens[start : p.position])
-        return Definition(name, _without_alias(target), text)
+        return Definition(name, target, text)
 
     @staticmethod
     def _name(p: Parser) -> str:
@@ -115,11 +115,6 @@ class DefinitionForm(Form):
             text += p.token.text
             end += len(p.advance().text)
         return text
-
-
-def _without_alias(node: Expr) -> Expr:
-    """An alias of an alias stands for what that one stands for."""
-    return resolved(node) if isinstance(node, Alias) else node
 
 
 @command(

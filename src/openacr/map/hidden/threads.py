@@ -32,8 +32,6 @@ THREAD = HiddenBlock(
         "line",  # line number of the present statement
         "trap",  # Python statement to execute
         "error",
-        "code_base",  # where code and constants of this thread begin in the shared buffers
-        "num_base",
         "lines_at",  # table of line numbers for computed jumps
         "lines_count",
         "locals",  # program whose locals and flags are meant, -1 none
@@ -48,6 +46,9 @@ THREAD = HiddenBlock(
         ("flow_back", DEPTH),  # GOSUB: where to return
     ),
 )
+
+# Where code and constants of each thread begin in the buffers of this process.
+THREAD_CODE = HiddenBlock(prefix="THC", count=48, ints=("code_base", "num_base"))
 
 SCHEDULER = HiddenBlock(
     prefix="SCH",

@@ -1,0 +1,98 @@
+"""Snapshots as bytes, and back.
+
+    openacr snapshot 1 LF
+    a header in MessagePack: Header, the lengths and the fingerprint of what follows
+    compressed with zlib: the state beside the rows in MessagePack (snapshot.Beside), the rows
+
+The rows are the memory map as it lies in memory, little-endian. Everything is checked before it
+is used: types and ranges of the plain data, and of every row what its declaration says.
+"""
+
+from __future__ import annotations
+
+import zlib
+from hashlib import blake2b
+from importlib.metadata import version
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta, Struct
+
+from openacr.controller.snapshot import Beside, Snapshot, layout
+from openacr.errors import StoreError
+from openacr.map.numbers import MEMORY_BYTES
+
+MAGIC = b"openacr snapshot 1\n"
+COMPRESSION = 1  # the memory is mostly zeros: more effort gains nothing
+MOST_BESIDE_BYTES = 1 << 26
+
+
+class Header(Struct, frozen=True):
+    """What a snapshot is of, and what must follow."""
+
+    program: str
+    layout: str
+    model: str
+    world: str
+    beside_bytes: Annotated[int, Meta(ge=0, le=MOST_BESIDE_BYTES)]
+    rows_bytes: int
+    digest: bytes  # of the content before it was compressed
+
+
+_HEADER_BYTES = 4  # length of the header, little-endian
+
+
+def encode(snapshot: Snapshot) -> bytes:
+    """A snapshot as bytes."""
+    beside = msgspec.msgpack.encode(snapshot.beside)
+    content = beside + snapshot.rows
+    header = msgspec.msgpack.encode(
+        Header(
+            version("openacr"), snapshot.layout, snapshot.model, snapshot.world,
+            len(beside), len(snapshot.rows), _digest(content),
+        )
+    )  # fmt: skip
+    length = len(header).to_bytes(_HEADER_BYTES, "little")
+    return MAGIC + length + header + zlib.compress(content, COMPRESSION)
+
+
+def decode(data: bytes) -> Snapshot:
+    """The snapshot `encode` made; StoreError for anything else, before any of it is used."""
+    if not data.startswith(MAGIC):
+        raise StoreError("the snapshot cannot be read: it is none, or of another version")
+    begin = len(MAGIC) + _HEADER_BYTES
+    end = begin + int.from_bytes(data[len(MAGIC) : begin], "little")
+    try:
+        header = msgspec.msgpack.decode(data[begin:end], type=Header)
+    except (msgspec.MsgspecError, RecursionError) as error:
+        raise StoreError(f"the snapshot cannot be read: {error}") from None
+    if header.layout != layout() or header.rows_bytes != MEMORY_BYTES:
+        raise StoreError(
+            f"the snapshot was written by openacr {header.program} with another layout of the"
+            " memory; use that version"
+        )
+    content = _inflated(data[end:], header.beside_bytes + header.rows_bytes)
+    if _digest(content) != header.digest:
+        raise StoreError("the snapshot is damaged: its fingerprint is another one")
+    rows = content[header.beside_bytes :]
+    try:
+        beside = msgspec.msgpack.decode(content[: header.beside_bytes], type=Beside)
+    except (msgspec.MsgspecError, RecursionError) as error:
+        raise StoreError(f"the snapshot cannot be read: {error}") from None
+    return Snapshot(header.model, header.world, header.layout, rows, beside)
+
+
+def _inflated(data: bytes, size: int) -> bytes:
+    """Exactly so many bytes; a stream that would give more is not read to its end."""
+    inflater = zlib.decompressobj()
+    try:
+        content = inflater.decompress(data, size + 1)
+    except zlib.error as error:
+        raise StoreError(f"the snapshot is damaged: {error}") from None
+    if len(content) != size or not inflater.eof or inflater.unused_data:
+        raise StoreError("the snapshot is damaged: it is shorter or longer than its header says")
+    return content
+
+
+def _digest(content: bytes) -> bytes:
+    return blake2b(content, digest_size=16).digest()
