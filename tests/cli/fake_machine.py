@@ -68,6 +68,15 @@ class FakeMachine:
     def set_input(self, bit: int, on: bool) -> None:
         self.memory.set_bit(bit, on)
 
+    def release_input(self, bit: int) -> None:
+        self.memory.set_bit(bit, False)
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        return None
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        return None
+
     def drag(self, axis: int, by_u: float) -> None:
         return None
 

@@ -104,3 +104,11 @@ def test_an_interrupt_ends_quietly_with_130(tmp_path: Path) -> None:
     )
     assert result.returncode == 130
     assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("words", [(), ("run",), ("mill",), ("mill", "run"), ("sysvar", "get")])
+def test_h_is_help_everywhere(words: tuple[str, ...]) -> None:
+    short, long = (CliRunner().invoke(app, [*words, option]) for option in ("-h", "--help"))
+    assert short.exit_code == 0
+    assert short.output == long.output
+    assert "Usage:" in short.output

@@ -226,6 +226,9 @@ COMMANDS: dict[str, Entry | Family] = {
 }
 
 
+HELP = {"help_option_names": ["-h", "--help"]}
+
+
 class LazyGroup(TyperGroup):
     """Sub-commands by name, imported when they are used."""
 
@@ -247,7 +250,7 @@ class LazyGroup(TyperGroup):
             return None
         if isinstance(entry, Family):
             return _group(cmd_name, entry)
-        single = typer.Typer(add_completion=False, rich_markup_mode=None)
+        single = typer.Typer(add_completion=False, rich_markup_mode=None, context_settings=HELP)
         module = import_module(f"openacr.cli.{entry.module}")
         single.command(cmd_name)(getattr(module, entry.function))
         return typer.main.get_command(single)
@@ -261,7 +264,9 @@ class LazyGroup(TyperGroup):
 def _group(name: str, family: Family) -> Any:
     """The click group of a family."""
     members = type("Members", (LazyGroup,), {"table": family.entries})
-    single = typer.Typer(cls=members, no_args_is_help=True, rich_markup_mode=None)
+    single = typer.Typer(
+        cls=members, no_args_is_help=True, rich_markup_mode=None, context_settings=HELP
+    )
     single.callback(help=family.summary)(_nothing)
     made = typer.main.get_command(single)
     made.name = name
@@ -291,6 +296,7 @@ app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
+    context_settings=HELP,
 )
 
 
@@ -314,6 +320,7 @@ def openacr(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; Ctrl-C ends it without a trace."""
+    _open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         # Program output may hold characters that the terminal cannot show.
         if hasattr(stream, "reconfigure"):
@@ -326,6 +333,26 @@ def main(arguments: Sequence[str] | None = None) -> None:
         _silence(sys.stdout)
         print(f"error: output cannot be written: {error.strerror}", file=sys.stderr)
         sys.exit(BAD_INPUT)
+
+
+def _open_closed_streams() -> None:
+    """Connect standard streams that were closed before the start (`>&-`) with nothing.
+
+    Python gives None for them; and the next file that is opened would get their descriptor.
+    """
+    for descriptor, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            mode = "r" if descriptor == 0 else "w"
+            setattr(sys, name, open(_at(descriptor), mode))  # for the whole life
+
+
+def _at(descriptor: int) -> int:
+    """The null device at this descriptor."""
+    found = os.open(os.devnull, os.O_RDWR)
+    if found != descriptor:
+        os.dup2(found, descriptor)
+        os.close(found)
+    return descriptor
 
 
 def _silence(stream: TextIO) -> None:

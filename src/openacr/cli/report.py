@@ -49,6 +49,7 @@ class Report:
     programs: tuple[ProgramReport, ...]
     flags: tuple[int, ...]
     verdicts: tuple[Verdict, ...] = ()
+    unjudged: tuple[str, ...] = ()  # expectations whose moment an interrupted run did not reach
     checkpoints_s: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -116,10 +117,11 @@ def summary(report: Report) -> dict[str, Any]:
         },
         "flags": list(report.flags),
     }
-    if report.verdicts or report.checkpoints_s:
+    if report.verdicts or report.unjudged or report.checkpoints_s:
         result["scenario"] = {
             "checkpoints": report.checkpoints_s,
             "expectations": [_verdict(verdict) for verdict in report.verdicts],
+            "not_reached": list(report.unjudged),
         }
     return result
 
@@ -161,7 +163,7 @@ def show_failures(report: Report, console: "Console") -> None:
 
 def show_verdicts(report: Report, console: "Console") -> None:
     """Print how the expectations of the scenario came out; every failed one in full."""
-    if not report.verdicts:
+    if not report.verdicts and not report.unjudged:
         return
     failed = [verdict for verdict in report.verdicts if not verdict.ok]
     for verdict in failed:
@@ -169,7 +171,10 @@ def show_verdicts(report: Report, console: "Console") -> None:
             f"failed: {verdict}", style="red", highlight=False, markup=False, soft_wrap=True
         )
     met = len(report.verdicts) - len(failed)
-    console.print(f"{met} of {len(report.verdicts)} expectations met", highlight=False)
+    text = f"{met} of {len(report.verdicts) + len(report.unjudged)} expectations met"
+    if report.unjudged:
+        text += f", {len(report.unjudged)} not reached"
+    console.print(text, highlight=False)
 
 
 def _times(speed: float) -> str:

@@ -17,6 +17,7 @@ from openacr.cli.report import (
     show_verdicts,
     summary,
 )
+from openacr.cli.signals import terminations_as_interrupts
 from openacr.cli.watched import Watched
 from openacr.compiled import is_compiled
 from openacr.scenario import Condition, Play, Scenario
@@ -100,7 +101,8 @@ class Session:
         if not is_compiled:
             self._note("no compiled core is used: running the slower pure-Python kernel")
         self._prepare()
-        stop, wall_s = self._live()
+        with terminations_as_interrupts():
+            stop, wall_s = self._live()
         has_failed = self._conclude(wall_s)
         if stop is Stop.INTERRUPT:
             return INTERRUPTED
@@ -227,7 +229,8 @@ class Session:
             period_s = self._machine.period_s
             times = {name: tick * period_s for name, tick in self._play.checkpoints.items()}
             verdicts = tuple(self._play.verdicts)
-            report = replace(report, verdicts=verdicts, checkpoints_s=times)
+            unjudged = tuple(self._play.unjudged)
+            report = replace(report, verdicts=verdicts, unjudged=unjudged, checkpoints_s=times)
         self._show(report)
         self._write(report)
         return report.has_failed

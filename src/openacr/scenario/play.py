@@ -102,6 +102,12 @@ class Play:
         return [verdict for verdict in self.verdicts if not verdict.ok]
 
     @property
+    def unjudged(self) -> list[str]:
+        """Expectations that the run ended before: their moments."""
+        waiting = [p.item for p in self._pending if isinstance(p.item, Expectation)]
+        return [item.name or _moment_text(item) for item in (*waiting, *self._at_end)]
+
+    @property
     def idle_actions(self) -> list[str]:
         """Actions whose moment has not come."""
         waiting = (
@@ -145,6 +151,7 @@ class Play:
         self._pending = [p for p in self._pending if isinstance(p.item, Action)]
         for item in self._at_end:
             self._judge(item, world)
+        self._at_end = []
 
     def _pull(self, world: World) -> None:
         for pull in self._pulls:
