@@ -14,6 +14,7 @@ from openacr.cli.main import app
 from openacr.cli.mill import loaded, opened_store
 from openacr.cli.plots.toolpath import RAPID, Scene, shade
 from openacr.cli.plots.toolpath_image import build_figure
+from openacr.mill import plot
 from openacr.mill.view import COLORS
 
 pytest.importorskip("matplotlib")
@@ -224,3 +225,41 @@ def test_shades_go_from_dark_to_light() -> None:
     assert shade("#808080", 0, 3) == "#2d2d2d"
     assert shade("#808080", 1, 3) == "#808080"
     assert shade("#808080", 2, 3) == "#d3d3d3"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["@DATA@.nc", "@TITLE@@DATA@.nc", "a$x_{1$b$.nc", "<!--<script>.nc", "<_script>&amp;.nc",
+     "\\1\\g<0>.nc", "-x.nc", "\udcff.nc"],
+)  # fmt: skip
+@pytest.mark.parametrize("suffix", [".html", ".png", ".svg"])
+def test_no_name_of_a_file_can_spoil_the_picture(tmp_path: Path, name: str, suffix: str) -> None:
+    part = tmp_path / name
+    part.write_text("F10 G1 X1\nY1\n")
+    picture = tmp_path / f"p{suffix}"
+    code, _ = plotted(part, picture)
+    assert code == 0
+    if suffix == ".html":
+        page = picture.read_text()
+        found = re.search(r'<script id="data" type="application/json">(.*?)</script>', page)
+        assert found is not None
+        shown = name.encode("utf-8", "replace").decode()
+        assert json.loads(found[1])["title"] == shown
+        assert "<" not in found[1]
+        assert page.count("<title>") == 1
+        assert len(re.findall("@DATA@|@TITLE@", page)) == 2 * len(
+            re.findall("@DATA@|@TITLE@", shown)
+        )
+    else:
+        assert picture.stat().st_size > 5000
+
+
+def test_a_picture_of_too_many_moves_is_cut_and_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plot, "MOST_POINTS", 100)
+    part = tmp_path / "long.nc"
+    part.write_text("F10\nP200=0\nN10 P200=P200+1\nG1 X(P200)\nIF P200<500 THEN GOTO 10\n")
+    code, text = plotted(part, tmp_path / "long.svg")
+    assert (code, text.splitlines()[0]) == (0, "note: the picture shows the first 100 points")
+    assert text.splitlines()[1].endswith(": 500 moves")

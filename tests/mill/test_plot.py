@@ -5,11 +5,12 @@ from math import cos, hypot, pi
 import numpy as np
 import pytest
 
-from openacr.cnc.canonical import Plane, Polyline, Source
+from openacr.cnc.canonical import Line, Pace, PathMode, Plane, Polyline, Source
 from openacr.cnc.hosts import VirtualMachine
 from openacr.cnc.interpreter import Interpreter, Options
 from openacr.cnc.load import load
 from openacr.cnc.shadow import Shadow
+from openacr.mill import plot
 from openacr.mill.plot import Drawing, Kind, ToolPath, chords, thinned
 from openacr.sysvar import Store
 
@@ -126,3 +127,19 @@ def test_thinning_keeps_ends_gaps_and_the_picture() -> None:
     assert few[1].tolist() == few[-1].tolist() == spiral[0].tolist()
     steps = np.diff(few[~np.isnan(few[:, 0])], axis=0)
     assert np.hypot(*steps.T).max() <= hypot(0.5, 0.5) * 2 * (1 + cos(0))
+
+
+def test_a_picture_keeps_three_values_a_point_and_a_bounded_count(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(plot, "MOST_POINTS", 10)
+    monkeypatch.setattr(plot, "AT_ONCE", 4)
+    path = ToolPath((0, 1, 2), 0.001)
+    for n in range(30):
+        end = (float(n + 1), 0.0, 0.0, *(0.0,) * 5)
+        path.add(Line(Source("", n + 1, ""), end, Pace(1.0, PathMode.FREE)))
+        assert path.is_full == (n >= 9)
+    drawing = path.finished()
+    assert drawing.points[:, 0].tolist() == [float(n) for n in range(11)]
+    assert drawing.lines.tolist() == list(range(1, 11))
+    assert drawing.points.shape == (11, 3)

@@ -60,6 +60,10 @@ def plot_program(
         if survey.errors:
             raise typer.Exit(FAILED)
         raise UserError(f"{file}: nothing moves")
+    if scene.is_cut:
+        typer.echo(
+            f"note: the picture shows the first {len(scene.drawing.kinds):,} points", err=True
+        )
     write_whole(target, lambda partial: draw_path(scene, partial))
     typer.echo(f"{target}: {sum(survey.move_cnts.values()) - survey.move_cnts['dwell']} moves")
     if survey.errors:
@@ -86,7 +90,7 @@ def scene_of(
     readout, is_metric = Readout(cells), bool(cells.read(DEFAULT_UNIT))
     scene = Scene(
         path.finished(),
-        Path(program.main.text.name).name,
+        Path(program.main.text.name).name.encode("utf-8", "replace").decode(),
         names,
         "mm" if is_metric else "inch",
         low=_of_axes(survey.low, axes),
@@ -94,6 +98,7 @@ def scene_of(
         view=view,
         digits=tuple(readout.format(axis, is_metric=is_metric).right for axis in axes),
         has_errors=bool(survey.errors),
+        is_cut=path.is_full,
     )
     return scene, survey
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum, auto
 
@@ -43,6 +44,7 @@ class Flow:
         self.last: Node | None = None
         self.place: Place | None = None
         self.frames: list[Frame] = []
+        self.jumped: Callable[[], None] | None = None  # sees every jump that may be a loop
 
     def start(self) -> None:
         """At the first line, in no call."""
@@ -113,6 +115,12 @@ class Flow:
     def go(self, node: Node | None) -> None:
         """Go on there, or end the program."""
         self.next, self.last, self.place = node, None, None
+
+    def jump(self, node: Node) -> None:
+        """GOTO."""
+        if self.jumped is not None:
+            self.jumped()
+        self.go(node)
 
     def call_sub(self, node: Node) -> None:
         """GOSUB."""

@@ -49,6 +49,7 @@ from openacr.cnc.gcodes.macros import ModalMacro
 from openacr.cnc.gcodes.motion import MOTIONS, Motions
 from openacr.cnc.hosts import Cells, Machine
 from openacr.cnc.load import planner_of
+from openacr.cnc.loops import Loops
 from openacr.cnc.modal import Modal, reset
 from openacr.cnc.ngc.owords import OWords
 from openacr.cnc.offset_path import OFF, OffsetPath
@@ -108,6 +109,8 @@ class Interpreter:
         self.motions: Motions = MOTIONS
         self.is_rested = True
         self.is_ended = False
+        if self.options.collects_errors:
+            self.flow.jumped = Loops(self).jumped
         self.power_up()
 
     @property

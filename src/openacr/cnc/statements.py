@@ -25,7 +25,7 @@ def statement_of(statement: Statement, run: Interpreter, node: Node) -> Act:
 
 
 def _goto(statement: Goto, run: Interpreter, node: Node) -> Act:
-    return _jump(statement, run, node, run.flow.go)
+    return _jump(statement, run, node, run.flow.jump)
 
 
 def _gosub(statement: Gosub, run: Interpreter, node: Node) -> Act:

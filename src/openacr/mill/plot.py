@@ -18,6 +18,8 @@ Array = npt.NDArray[np.float64]
 Index = npt.NDArray[np.intp]
 
 DRAWN_CNT = 3
+MOST_POINTS = 2_000_000  # of one picture, about 100 MB; what follows is left out
+AT_ONCE = 4096  # points that are kept as they come, before they are put into an array
 FINEST_RAD, COARSEST_RAD = math.radians(1.0), math.radians(5.0)
 
 
@@ -50,11 +52,14 @@ class ToolPath:
     _ends: list[Point] = field(default_factory=list)
     _lines: list[int] = field(default_factory=list)
     _kind: Kind = Kind.RAPID
+    _cnt: int = 0
 
     # --- what comes in -------------------------------------------------------------------
 
     def add(self, entry: Entry) -> None:
-        """The next entry of a program."""
+        """The next entry of a program; nothing where the picture is full."""
+        if self.is_full:
+            return
         match entry:
             case Line() | Probe():
                 self._move(_kind_of(entry), entry.source.line, [entry.end])
@@ -65,7 +70,9 @@ class ToolPath:
                 self._move(_kind_of(entry), entry.source.line, self._arc(entry))
             case Polyline():
                 self._close()
-                self._parts.append((entry.ends, Kind.FEED, self._tool, entry.lines))
+                self._cnt += len(entry.ends)
+                drawn = self._drawn(entry.ends)
+                self._parts.append((drawn, Kind.FEED, self._tool, entry.lines))
                 self._at = tuple(entry.ends[-1].tolist())
             case Tool():
                 self._close()
@@ -77,13 +84,22 @@ class ToolPath:
             self._kind = kind
         self._ends += points
         self._lines += [line] * len(points)
+        self._cnt += len(points)
         self._at = points[-1]
+        if len(self._ends) >= AT_ONCE:
+            self._close()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether later moves are left out."""
+        return self._cnt >= MOST_POINTS
 
     def _close(self) -> None:
         """Moves of one kind and tool have come together."""
         if self._ends:
             lines = np.array(self._lines, dtype=np.int64)
-            self._parts.append((np.array(self._ends), self._kind, self._tool, lines))
+            drawn = self._drawn(np.array(self._ends))
+            self._parts.append((drawn, self._kind, self._tool, lines))
             self._ends, self._lines = [], []
 
     def _arc(self, arc: Arc) -> list[Point]:
@@ -92,7 +108,10 @@ class ToolPath:
     # --- as Watch of the compensation -----------------------------------------------------
 
     def contour(self, element: Element) -> None:
-        """An element of a programmed contour."""
+        """An element of a programmed contour; nothing where the picture is full."""
+        if self.is_full:
+            return
+        self._cnt += 1
         last = self.contours[-1] if self.contours else []
         if not last or last[-1] != element.start:
             last = [element.start]
@@ -121,7 +140,7 @@ class ToolPath:
         """Everything as arrays."""
         self._close()
         parts = self._parts
-        ends = [self._drawn(np.asarray(ends)) for ends, _, _, _ in parts]
+        ends = [drawn for drawn, _, _, _ in parts]
         sizes = [len(each) for each in ends]
         tools = [tool if self.has_tools else 0 for _, _, tool, _ in parts]
         return Drawing(

@@ -81,7 +81,7 @@ def build_figure(curves: Curves) -> Figure:
 def _headline(figure: Figure, curves: Curves) -> None:
     seconds = float(curves.time_s[-1]) if curves.time_s.size else 0.0
     text = f"{curves.title or 'openacr run'}   {seconds:.4g} s simulated"
-    figure.suptitle(text, fontsize=12, x=0.01, ha="left")
+    figure.suptitle(text, fontsize=12, parse_math=False, x=0.01, ha="left")
 
 
 def _nothing_moved(curves: Curves) -> Figure:

@@ -1,14 +1,12 @@
 """Write the curves of a run as one self-contained HTML page: zoom, cross-hair, readings."""
 
-import html
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 
 from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope
+from openacr.cli.plots.template import filled
 
 # A page can be zoomed into, so it keeps more than a picture does.
 PAGE_BUCKETS = 5000
@@ -21,11 +19,7 @@ def write_page(curves: Curves, path: Path) -> None:
 
 def build_page(curves: Curves) -> str:
     """Put the data of the curves into the page."""
-    template = files("openacr.cli.plots").joinpath("page.html").read_text(encoding="utf-8")
-    # A name of an axis must not be able to close the script it stands in.
-    data = msgspec.json.encode(page_data(curves)).decode().replace("</", "<\\/")
-    title = html.escape(curves.title or "openacr run")
-    return template.replace("@TITLE@", title).replace("@DATA@", data)
+    return filled("page.html", curves.title or "openacr run", page_data(curves))
 
 
 def page_data(curves: Curves) -> dict[str, Any]:

@@ -26,6 +26,7 @@ class Scene:
     view: View = field(default_factory=View)
     digits: tuple[int, ...] = (4, 4, 4)  # behind the point, by axis
     has_errors: bool = False
+    is_cut: bool = False  # there are more moves than a picture holds
 
     @property
     def has_contours(self) -> bool:

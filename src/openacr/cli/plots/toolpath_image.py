@@ -74,6 +74,7 @@ def _headline(figure: Figure, scene: Scene) -> None:
     figure.suptitle(
         scene.title + ("   (with errors: up to the first, or past gouges)" * scene.has_errors),
         fontsize=13,
+        parse_math=False,  # a name may have dollar signs
         x=0.012,
         ha="left",
         color="#B00020" if scene.has_errors else "black",

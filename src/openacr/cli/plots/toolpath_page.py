@@ -1,14 +1,12 @@
 """Write a tool path as one self-contained HTML page: turn, zoom, step through, read lines."""
 
 import base64
-import html
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 
+from openacr.cli.plots.template import filled
 from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of
 from openacr.mill.plot import Array
 
@@ -20,10 +18,7 @@ def write_page(scene: Scene, path: Path) -> None:
 
 def build_page(scene: Scene) -> str:
     """Put the moves into the page."""
-    template = files("openacr.cli.plots").joinpath("toolpath.html").read_text(encoding="utf-8")
-    # The name of a file must not be able to close the script it stands in.
-    data = msgspec.json.encode(page_data(scene)).decode().replace("</", "<\\/")
-    return template.replace("@TITLE@", html.escape(scene.title)).replace("@DATA@", data)
+    return filled("toolpath.html", scene.title, page_data(scene))
 
 
 def page_data(scene: Scene) -> dict[str, Any]:

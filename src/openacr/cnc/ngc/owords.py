@@ -112,8 +112,18 @@ class OWords:
         found = [one for one in before if one.kind in kinds]
         return found[-1] if found else None
 
+    @property
+    def left(self) -> dict[tuple[int, str], int]:
+        """Passes left of the loops in progress, by call and name: a copy."""
+        return dict(self._left)
+
     def _go_to(self, target: OPlace) -> None:
         self._run.flow.go_place(target.place)
+
+    def _loop(self) -> None:
+        """One more pass begins."""
+        if self._run.flow.jumped is not None:
+            self._run.flow.jumped()
 
     def _go_behind(self, target: OPlace) -> None:
         at = self._run.flow.at(target.place)
@@ -127,6 +137,7 @@ class OWords:
         is_on = values[0].now() != 0.0
         if before is not None and before.kind == "DO":
             if is_on:
+                self._loop()
                 self._go_behind(before)
         elif not is_on:
             self._go_behind(self._next(word, node, ENDS["WHILE"]))
@@ -138,6 +149,7 @@ class OWords:
         start = self._last(word, node, (kind,))
         if start is None:
             raise CodeError("E108", word.column, f"O{word.name} {kind.lower()} missing")
+        self._loop()
         self._go_to(start)
 
     def _do(self, word: OWord, node: Node, values: list[Formula]) -> None:

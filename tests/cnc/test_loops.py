@@ -1,0 +1,84 @@
+"""Loops that move without end: a check ends with the line, programs that end are not touched."""
+
+import pytest
+from tests.cnc.programs import STORE, made
+
+from openacr.cnc import loops
+from openacr.cnc.canonical import Line
+from openacr.cnc.load import load
+from openacr.cnc.shadow import Shadow
+from openacr.cnc.survey import Survey, survey
+
+SAME = "endless loop: the same moves again and again"
+HINT = "it does not end by itself; a machine runs it until it is ended"
+
+
+def of(text: str, dialect: str = "acromill", cells: dict[int, float] | None = None) -> Survey:
+    shadow = Shadow(STORE)
+    for n, value in (cells or {}).items():
+        shadow.write(n, value)
+    return survey(load(text.replace("|", "\n"), shadow, dialect), shadow, dialect)
+
+
+def found(survey: Survey) -> list[tuple[str, int, str]]:
+    return [(each.text, each.line, each.hint) for each in survey.errors]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "dialect"),
+    [
+        ("F10|N10 G1 X1|X0|GOTO 10", 4, "acromill"),
+        ("F10|N10 G1 X1|X0|IF 1=1 THEN GOTO 10|M2", 4, "acromill"),
+        ("F10|N10 G1 X1|X0|GOTO (5*2)", 4, "acromill"),
+        ("F10|N10 G1 X1|GOSUB 20|GOTO 10|M2|N20 G1 X0|RET", 4, "acromill"),
+        # the state comes back every third pass only
+        ("F10|P200=0|N10 P200=(P200+1) MOD 3|G1 X(P200)|GOTO 10", 5, "acromill"),
+        ("F10|N10 P50=1-P50|G1 X(P50)|GOTO 10", 4, "acromill"),
+        ("F10|O1 while [1]|G1 X1|X0|O1 endwhile", 5, "rs274ngc"),
+        ("F10|O1 do|G1 X1|X0|O1 while [1]", 5, "rs274ngc"),
+        ("F10|#40=0|O1 while [1]|#40=[1-#40]|G1 X#40|O1 endwhile", 6, "rs274ngc"),
+        ("F10|O1 while [1]|G4 P1|O1 endwhile", 4, "rs274ngc"),
+    ],
+)
+def test_a_loop_that_moves_without_end_is_an_error(text: str, line: int, dialect: str) -> None:
+    assert found(of(text, dialect)) == [(SAME, line, HINT)]
+
+
+def test_a_loop_that_changes_for_ever_ends_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(loops, "MOST_PASSES", 1000)
+    text = "F10|P200=0|N10 P200=P200+.001|G1 X(P200)|{}GOTO 10|M2"
+    more = "endless loop: more than 1,000 passes"
+    assert found(of(text.format(""))) == [(more, 5, HINT)]
+    assert found(of(text.format("IF P200<1.0005 THEN "))) == []  # 1000 jumps
+    assert found(of(text.format("IF P200<1.0015 THEN "))) == [(more, 5, HINT)]
+
+
+@pytest.mark.parametrize(
+    ("text", "moves", "dialect"),
+    [
+        ("F10|P200=0|N10 P200=P200+1|G1 X1|X0|IF P200<40 THEN GOTO 10", 80, "acromill"),
+        ("F10|P50=0|N10 P50=P50+1|G1 X1|X0|IF P50<40 THEN GOTO 10", 80, "acromill"),
+        ("F10|N10 G91 G1 X1|IF P101<0 THEN GOTO 10|M2", 1, "acromill"),
+        # one place and state, reached from several lines
+        ("F10|GOSUB 20|GOSUB 20|GOSUB 20|M2|N20 G1 X1|X0|IF 1=1 THEN GOTO 30|N30 RET", 6,
+         "acromill"),
+        ("F10|G65 P20|G65 P20|M2|N20 G1 X1|X0|#1=#1+1|IF #1<3 THEN GOTO 20|RET", 12, "acromill"),
+        ("F10|O1 repeat [40]|G1 X1|X0|O1 endrepeat", 80, "rs274ngc"),
+        ("F10|O1 repeat [3]|O2 repeat [3]|G1 X1|X0|O2 endrepeat|O1 endrepeat", 18, "rs274ngc"),
+        ("F10|#<a>=0|O1 while [#<a> LT 5]|#<a>=[#<a>+1]|G1 X1|X0|O1 endwhile", 10, "rs274ngc"),
+        ("F10|#<_a>=0|O1 while [#<_a> LT 5]|#<_a>=[#<_a>+1]|G1 X1|X0|O1 endwhile", 10, "rs274ngc"),
+        ("F10|#40=0|O1 do|#40=[#40+1]|G1 X1|X0|O1 while [#40 LT 5]", 10, "rs274ngc"),
+        ("F10|O9 sub|#1=0|O1 while [#1 LT 3]|#1=[#1+1]|G1 X1|X0|O1 endwhile|O9 endsub|O9 call|"
+         "O9 call", 12, "rs274ngc"),
+    ],
+)  # fmt: skip
+def test_a_loop_that_ends_is_read_to_its_end(text: str, moves: int, dialect: str) -> None:
+    data = of(text, dialect)
+    assert found(data) == []
+    assert data.move_cnts["feed"] == moves
+
+
+def test_a_machine_runs_an_endless_loop_until_it_is_ended() -> None:
+    entries = made("F10\nN10 G1 X1\nX0\nGOTO 10").interpreter.entries()
+    lines = [entry for entry, _ in zip(entries, range(5000), strict=False)]
+    assert sum(isinstance(each, Line) for each in lines) == 5000
