@@ -92,6 +92,8 @@ ORDER = (
     "basic/scheduler_cy.py",
     "plant/drive_cy.py",
     "plant/phases_cy.py",
+    "plant/stepper_cy.py",
+    "plant/exact_cy.py",
     "plant/analog_cy.py",
     "plant/wiring_cy.py",
     "plant/step_cy.py",

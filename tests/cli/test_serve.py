@@ -1,5 +1,6 @@
 """`openacr serve` as a process: one line when ready, a clean end on a signal."""
 
+import os
 import re
 import signal
 import socket
@@ -15,13 +16,15 @@ import asyncio, signal
 signal.signal(signal.SIGHUP, signal.{hangup})
 from openacr.cli.serve import Ports, serve_card
 from tests.io.fake_card import FakeCard
-asyncio.run(serve_card(FakeCard(), Ports({host!r})))
+asyncio.run(serve_card(FakeCard(), Ports({host!r}, serial={serial!r})))
 """
 
 
-def start(host: str = "127.0.0.1", hangup: str = "SIG_DFL") -> "subprocess.Popen[str]":
+def start(
+    host: str = "127.0.0.1", hangup: str = "SIG_DFL", serial: str | None = None
+) -> "subprocess.Popen[str]":
     return subprocess.Popen(
-        [sys.executable, "-c", PROGRAM.format(host=host, hangup=hangup)],
+        [sys.executable, "-c", PROGRAM.format(host=host, hangup=hangup, serial=serial)],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -62,6 +65,20 @@ def test_with_nohup_it_outlives_its_terminal() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_it_names_the_serial_port_it_serves() -> None:
+    ours, theirs = os.openpty()
+    try:
+        with start(serial=os.ttyname(theirs)) as process:
+            assert process.stdout is not None
+            line = process.stdout.readline()
+            assert line.endswith(f" serial={os.ttyname(theirs)}\n")
+            process.terminate()
+            process.communicate(timeout=10)
+    finally:
+        os.close(ours)
+        os.close(theirs)
+
+
 def test_it_warns_when_other_machines_can_reach_it() -> None:
     with start("0.0.0.0") as process:
         assert process.stdout is not None

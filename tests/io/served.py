@@ -75,6 +75,9 @@ class Served:
         return self.process.returncode, error
 
 
+LISTENING = r"listening ascii=[\d.]+:(\d+) binary=[\d.]+:(\d+)(?: serial=\S+)?\n"
+
+
 @contextmanager
 def serving(*arguments: str | Path) -> Iterator[Served]:
     """A server on free ports of this machine."""
@@ -85,7 +88,7 @@ def serving(*arguments: str | Path) -> Iterator[Served]:
         try:
             assert process.stdout is not None
             line = process.stdout.readline()
-            found = re.fullmatch(r"listening ascii=[\d.]+:(\d+) binary=[\d.]+:(\d+)\n", line)
+            found = re.fullmatch(LISTENING, line)
             assert found, f"{line!r}: {process.stderr.read() if process.stderr else ''}"
             yield Served(process, int(found[1]), int(found[2]))
         finally:

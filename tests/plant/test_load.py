@@ -54,12 +54,12 @@ FAULTS = {
         'machine.toml:6:1: axis[0].encoder_direction is "left"; it must be one of "up", "down"',
     HEAD + "[axis.drive]\nmode = 'magic'\n":
         'machine.toml:6:1: axis[0].drive.mode is "magic"; it must be one of "torque", "velocity", '
-        '"ideal", "phases"',
+        '"ideal", "phases", "stepper", "exact"',
     HEAD + "[axis.drive]\npeak_amps = 1.0\n":
         "machine.toml:5:2: [axis.drive] lacks the key 'mode' (known keys: mode)",
     HEAD + "[axis.drive]\nmode = 'ideal'\npeak_amps = 1.0\nrevs_per_s_per_volt = 1\n":
-        "machine.toml:7:1: unknown key 'peak_amps' in [axis.drive] (known keys: mode, offset_v, "
-        "fault_input, fault_contact, revs_per_s_per_volt, lag_s)",
+        "machine.toml:7:1: unknown key 'peak_amps' in [axis.drive] (known keys: mode, "
+        "fault_input, fault_contact, offset_v, revs_per_s_per_volt, lag_s)",
     X + "[axis.load]\nviscous_nms = -1\n":
         "machine.toml:7:1: axis[0].load.viscous_nms is -1; it must be a number from 0 to 1e+06",
     HEAD + TORQUE + "[axis.motor]\ninertia_kgm2 = -1\ntorque_nm_per_a = 1\n":
@@ -80,8 +80,8 @@ FAULTS = {
     X + MOTOR:
         'machine.toml:6:1: axis X: an ideal drive has no use for a motor (or set mode = "torque")',
     HEAD + TORQUE:
-        "machine.toml:1:3: axis X: the motor is missing (add [axis.motor]; only an ideal drive "
-        "needs none)",
+        "machine.toml:1:3: axis X: the motor is missing (add [axis.motor]; only an ideal or exact "
+        "drive needs none)",
     HEAD + MOTOR + TORQUE.replace(" }", ", supply_v = 80 }"):
         "machine.toml:6:66: axis X: supply_v limits nothing without resistance_ohm of the motor "
         "(add resistance_ohm to [axis.motor])",

@@ -12,14 +12,17 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.plant.apply import apply_world
 from openacr.plant.schema import (
+    LOADLESS,
     Analog,
     Axis,
+    ExactDrive,
     HomeSwitch,
     IdealDrive,
     LimitSwitch,
     Load,
     Motor,
     PhaseDrive,
+    StepperDrive,
     TorqueDrive,
     VelocityDrive,
     Wire,
@@ -52,6 +55,15 @@ drives = st.one_of(
         dacs=st.permutations(range(8)).map(lambda dacs: (dacs[0], dacs[1])),
     ),
     st.builds(IdealDrive, revs_per_s_per_volt=positive, lag_s=st.floats(0, 10)),
+    st.builds(
+        StepperDrive,
+        output=st.integers(0, 15),
+        steps_per_rev=st.integers(4, 100_000),
+        torque_nm=st.sampled_from([((0.0, 1.0),), ((0.0, 1.0), (3.0, 0.5), (9.0, 0.0))]),
+        full_steps_per_rev=st.sampled_from([4, 48, 200, 500]),
+        damping=st.floats(0, 2),
+    ),
+    st.just(ExactDrive()),
 )
 
 
@@ -71,7 +83,7 @@ def worlds(draw: st.DrawFn) -> World:
         number=draw(st.integers(0, 7)),
         name="X",
         drive=drive,
-        motor=None if isinstance(drive, IdealDrive) else motor,
+        motor=None if isinstance(drive, LOADLESS) else motor,
         load=Load(viscous_nms=draw(friction), coulomb_nm=coulomb, static_nm=coulomb * 1.25),
         counts_per_rev=draw(st.integers(4, 100_000)),
         travel=draw(st.sampled_from([None, (-3.0, 5.0)])),
@@ -98,6 +110,14 @@ def play(step: Callable[..., None], world: World, journal: list[float]) -> Memor
     for tick, value in enumerate(journal):
         memory.I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = int(tick % 9 < 7)
         memory.set_bit(32, tick % 7 < 5)
+        commanded = min(max(value, -100.0), 100.0) if math.isfinite(value) else 0.0
+        for output in range(16):
+            row = at.STOF_BASE + output * at.STOF_STRIDE + at.STOF_PULSES
+            memory.F[row] += round(commanded * (output + 1))
+        memory.I[at.AXI_BASE + n * at.AXI_STRIDE + at.AXI_ON] = 1
+        memory.I[at.AXI_BASE + n * at.AXI_STRIDE + at.AXI_POSITION_INDEX] = n
+        memory.I[at.ENI_BASE + n * at.ENI_STRIDE + at.ENI_MULT] = 3
+        memory.F[at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_SSP_CNT] = commanded * 7
         for dac in range(8):
             memory.S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = value * (n - dac + 1)
         step(memory.F, memory.I, memory.S, 8, 0.0005)

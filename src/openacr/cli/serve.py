@@ -26,7 +26,9 @@ BAD_INPUT = 2
 def serve(
     project: Annotated[
         Path | None,
-        typer.Argument(metavar="PROJECT", help="Project folder or .8k file; default: eight axes."),
+        typer.Argument(
+            metavar="PROJECT", help="Project folder or .8k file; default: eight exact axes."
+        ),
     ] = None,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     allow: Annotated[
@@ -128,10 +130,11 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
     """A card with a project; refused lines are printed and end it with exit code 2."""
     from openacr.controller import Controller
     from openacr.errors import SourceError
+    from openacr.plant.schema import exact_world
     from openacr.project import find_project
 
     if path is None:
-        card, refused = Controller(data=data), list[SourceError]()
+        card, refused = Controller(world=exact_world(), data=data), list[SourceError]()
     else:
         card, refused = Controller.load(find_project(path), data=data)
     for notice in card.nonvolatile.notices:
@@ -164,14 +167,16 @@ async def serve_card(
     except BaseException:
         await server.close()
         raise
-    _announce(terminal, packets, server.allowed)
+    _announce(terminal, packets, server.allowed, ports.serial)
     gc.collect()
     gc.freeze()  # what is loaded now stays: later collections are short
     await server.run(stop)
     log.info("%s", server.report())
 
 
-def _announce(terminal: "Address", packets: "Address", guests: "Guests") -> None:
+def _announce(
+    terminal: "Address", packets: "Address", guests: "Guests", serial: str | None
+) -> None:
     if not terminal.is_loopback:
         typer.secho(
             f"WARNING: {terminal} can be reached from other machines. The card's protocols"
@@ -181,7 +186,8 @@ def _announce(terminal: "Address", packets: "Address", guests: "Guests") -> None
             bold=True,
             err=True,
         )
-    print(f"listening ascii={terminal} binary={packets}", flush=True)
+    port = "" if serial is None else f" serial={serial}"
+    print(f"listening ascii={terminal} binary={packets}{port}", flush=True)
 
 
 def _stop_on_signals(stop: asyncio.Event) -> None:

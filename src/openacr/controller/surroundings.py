@@ -8,13 +8,14 @@ import math
 from openacr.controller.journal import Entered
 from openacr.controller.running import Running
 from openacr.errors import UserError
+from openacr.map import numbers as at
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
+    AXI_DRIVE_MOTOR,
     AXI_POSITION_INDEX,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
+    AXI_POSITION_SOURCE,
 )
+from openacr.motion.attach import Feedback
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
@@ -77,13 +78,27 @@ class Surroundings(Running):
         """Push the load of an axis by hand, at once; it takes part in the physics after that."""
         self._needs_axis(axis)
         _needs_finite(f"axis {axis}", by_u)
-        encoder = self.memory.I[axis_ints(axis) + AXI_POSITION_INDEX]
-        mult = self.memory.I[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] or 1
         pulses = by_u * scale_of(self.card, axis)
-        if not apply.push(self.memory, encoder, pulses * RAW_COUNTS / mult):
+        if not self._push(axis, pulses):
             row = axis_parameter(axis) + AX_ACTUAL_POSITION
             self.memory.write(row, self.memory.I[row] + round(pulses))
         self._note(Entered.DRAG, axis, by_u)
+
+    def _push(self, axis: int, pulses: float) -> bool:
+        """Move the motor of an axis; False if there is none."""
+        rows = self.memory.I
+        ints = axis_ints(axis)
+        motor = rows[ints + AXI_POSITION_INDEX]
+        if rows[ints + AXI_POSITION_SOURCE] == Feedback.STEPPER:
+            motor = rows[ints + AXI_DRIVE_MOTOR]
+            if motor < 0:
+                return False
+            field = at.PLTF_BASE + motor * at.PLTF_STRIDE
+            counts = pulses * self.memory.F[field + at.PLTF_COUNTS_PER_PULSE]
+        else:
+            mult = rows[at.ENI_BASE + motor * at.ENI_STRIDE + at.ENI_MULT] or 1
+            counts = pulses * RAW_COUNTS / mult
+        return apply.push(self.memory, motor, counts)
 
     def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
         """Let something go wrong with an axis of the machine, by its number in machine.toml.

@@ -54,6 +54,9 @@ MEI_LATCHED = 8192  # BIT5645
 MEI_OPEN = 16384  # BIT5646
 MEI_RESET = 32768  # BIT5647
 RESET_S = 0.05
+TO_DAC = 0
+TO_STEPPER = 1
+STEPPER_MOTOR = 5  # kind of a motor of the world
 
 
 def drive_barred(I: I32, n: int) -> bool:
@@ -93,18 +96,21 @@ def drive_motor(I: I32, n: int) -> int:
     """Motor that axis n drives, -1 if there is none.
 
     It is that of its position encoder, else of its velocity encoder (the other one counts the
-    load), else the one on its analog output (feedback comes from an analog input).
+    load), else the one on its analog or stepper output.
     """
     i: int = AXI_BASE + n * AXI_STRIDE
     if is_motor(I, I[i + AXI_POSITION_SOURCE], I[i + AXI_POSITION_INDEX]):
         return I[i + AXI_POSITION_INDEX]
     if is_motor(I, I[i + AXI_VELOCITY_SOURCE], I[i + AXI_VELOCITY_INDEX]):
         return I[i + AXI_VELOCITY_INDEX]
-    if I[i + AXI_SIGNAL_SOURCE] == 0:
+    if I[i + AXI_SIGNAL_SOURCE] == TO_DAC or I[i + AXI_SIGNAL_SOURCE] == TO_STEPPER:
+        wants_stepper: bool = I[i + AXI_SIGNAL_SOURCE] == TO_STEPPER
         for m in range(MODELLED):
             row: int = PLI_BASE + m * PLI_STRIDE
+            is_stepper: bool = I[row + PLI_KIND] == STEPPER_MOTOR
             if I[row + PLI_KIND] and I[row + PLI_DAC] == I[i + AXI_SIGNAL_INDEX]:
-                return m
+                if is_stepper == wants_stepper:
+                    return m
     return -1
 
 

@@ -18,7 +18,7 @@ from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.commutator_cy import commutator_step, dac_put
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, encoder_row
 from openacr.kernel.maintain_cy import maintain_step
-from openacr.kernel.words_cy import round32
+from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
     AF1_BIQUAD_FILTER_ACTIVATE,
     AF1_CLAMP_OUTPUT_SIGNAL,
@@ -79,6 +79,7 @@ from openacr.map.numbers import (
     AXF_PM_CNT,
     AXF_SSP_ACCEL_CPS2,
     AXF_SSP_CNT,
+    AXF_SSP_OLD_CNT,
     AXF_SSP_VELOCITY_CPS,
     AXF_STRIDE,
     AXF_VELOCITY_SUM_CNT,
@@ -106,6 +107,11 @@ from openacr.map.numbers import (
     FOF_STRIDE,
     KRI_BASE,
     KRI_MISSING_STEPPERS,
+    STOF_BASE,
+    STOF_PM_OLD_CNT,
+    STOF_PULSES,
+    STOF_SENT_CNT,
+    STOF_STRIDE,
     STPR_BASE,
     STPR_STEPPER_COUNT,
     STPR_STEPPER_SIGNAL,
@@ -117,6 +123,7 @@ __all__ = ["servo_step"]
 
 TO_DAC = 0
 TO_STEPPER = 1
+OWN_STEPS = 2  # as position feedback
 TO_COMMUTATOR = 2
 TINY = 1e-30  # filter states below this are 0: denormal numbers are very slow
 
@@ -331,6 +338,26 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
         commutator_step(I, S, n, k, output)
 
 
+def pulses_put(F: F64, I: I32, n: int, k: int, count: int) -> None:
+    """Add what axis n sends to stepper output k: the travel of its setpoint, without jumps.
+
+    Registers that are set (RES, homing) change the count of an axis that has its own pulses as
+    feedback, so the difference to its new count is motion. With an encoder as feedback the count
+    jumps with the setpoint: there the motion itself is summed up.
+    """
+    a: int = AXF_BASE + n * AXF_STRIDE
+    f: int = STOF_BASE + k * STOF_STRIDE
+    i: int = AXI_BASE + n * AXI_STRIDE
+    if I[i + AXI_POSITION_SOURCE] == OWN_STEPS and I[i + AXI_POSITION_INDEX] == k:
+        F[f + STOF_SENT_CNT] = F[f + STOF_PULSES]
+        F[f + STOF_SENT_CNT] += wrap32(count - I[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT])
+    else:
+        F[f + STOF_SENT_CNT] += F[a + AXF_SSP_CNT] - F[a + AXF_SSP_OLD_CNT]
+        F[f + STOF_SENT_CNT] += F[a + AXF_PM_CNT] - F[f + STOF_PM_OLD_CNT]
+    F[f + STOF_PM_OLD_CNT] = F[a + AXF_PM_CNT]
+    F[f + STOF_PULSES] = rint(F[f + STOF_SENT_CNT])
+
+
 def stepper_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     """A stepper axis puts out its setpoint as steps; its own count is its feedback."""
     i: int = AXI_BASE + n * AXI_STRIDE
@@ -342,9 +369,10 @@ def stepper_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
             maintain_step(F, I, S, n, period_s)
         setpoint: float = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT]
         setpoint += F[AXF_BASE + n * AXF_STRIDE + AXF_PM_CNT]
+        pulses_put(F, I, n, k, round32(setpoint))
         I[row + STPR_STEPPER_COUNT] = round32(setpoint)
         S[row + STPR_STEPPER_SIGNAL] = F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_VELOCITY_CPS]
-        if I[i + AXI_POSITION_SOURCE] == 2 and I[i + AXI_POSITION_INDEX] == k:
+        if I[i + AXI_POSITION_SOURCE] == OWN_STEPS and I[i + AXI_POSITION_INDEX] == k:
             I[p + AX_ACTUAL_POSITION] = I[row + STPR_STEPPER_COUNT]
     I[p + AX_FOLLOWING_ERROR] = round32(
         F[AXF_BASE + n * AXF_STRIDE + AXF_SSP_CNT] - I[p + AX_ACTUAL_POSITION]

@@ -17,17 +17,20 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.plant import analogs, apply_networks, apply_phases, bus
+from openacr.plant import analogs, apply_networks, apply_phases, apply_stepper, bus
 from openacr.plant.counts import count_of
 from openacr.plant.inputs import WORD_BITS, input_place, output_place, place, word_row
 from openacr.plant.schema import (
+    LOADLESS,
     Axis,
     Contact,
     Direction,
+    ExactDrive,
     IdealDrive,
     Motor,
     PhaseDrive,
     Space,
+    StepperDrive,
     TorqueDrive,
     VelocityDrive,
     Wire,
@@ -35,8 +38,11 @@ from openacr.plant.schema import (
     switches,
 )
 from openacr.plant.step_cy import (
+    EXACT_DRIVE,
     IDEAL_DRIVE,
+    NO_ENCODER,
     PHASE_DRIVE,
+    STEPPER_DRIVE,
     TORQUE_DRIVE,
     VELOCITY_DRIVE,
     plant_refresh,
@@ -48,6 +54,8 @@ _KINDS = {
     VelocityDrive: VELOCITY_DRIVE,
     IdealDrive: IDEAL_DRIVE,
     PhaseDrive: PHASE_DRIVE,
+    StepperDrive: STEPPER_DRIVE,
+    ExactDrive: EXACT_DRIVE,
 }
 FULL_DAC_BITS = 16
 
@@ -69,6 +77,7 @@ def apply_world(world: World, memory: Memory) -> None:
 _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
     (at.PLBF_BASE, at.PLB_COUNT * at.PLBF_STRIDE),
+    (at.PLTF_BASE, at.PLT_COUNT * at.PLTF_STRIDE),
     (at.PLAF_BASE, at.PLA_COUNT * at.PLAF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
@@ -77,6 +86,7 @@ _REALS = (
 _INTS = (
     (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
     (at.PLBI_BASE, at.PLB_COUNT * at.PLBI_STRIDE),
+    (at.PLTI_BASE, at.PLT_COUNT * at.PLTI_STRIDE),
     (at.PLAI_BASE, at.PLA_COUNT * at.PLAI_STRIDE),
     (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
     (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
@@ -106,6 +116,7 @@ def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) 
     for motor in range(at.PL_COUNT):
         raw = memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_RAW_COUNT]
         memory.F[at.ENF_BASE + motor * at.ENF_STRIDE + at.ENF_RAW_OLD_CNT] = raw
+        memory.F[at.PLTF_BASE + motor * at.PLTF_STRIDE + at.PLTF_PULSES_SEEN] = 0.0
         for row in (at.ENXF_FILTER_OLD_CNT, at.ENXF_FILTER_LEVEL_CNT):
             memory.F[at.ENXF_BASE + motor * at.ENXF_STRIDE + row] = raw
 
@@ -133,7 +144,6 @@ def _clear(memory: Memory) -> None:
 def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
     doubles = {
         at.PLF_DAC_STEP: 2.0 ** (FULL_DAC_BITS - world.card.dac_bits),
-        at.PLF_OFFSET_V: axis.drive.offset_v,
         at.PLF_POSITION_CNT: count_of(axis, axis.initial),
         **_drive_rows(axis),
         **load_rows(axis),
@@ -148,6 +158,8 @@ def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
         memory.I[base + row] = number
     if isinstance(axis.drive, PhaseDrive):
         apply_phases.write_phases(memory, axis, axis.drive)
+    elif isinstance(axis.drive, StepperDrive):
+        apply_stepper.write_stepper(memory, axis, axis.drive, accel_per_nm(axis))
 
 
 def _int_rows(axis: Axis) -> dict[int, int]:
@@ -156,6 +168,10 @@ def _int_rows(axis: Axis) -> dict[int, int]:
     rows[at.PLI_KIND] = _KINDS[type(drive)]
     if isinstance(drive, PhaseDrive):
         rows[at.PLI_DAC] = drive.dacs[0]
+    elif isinstance(drive, StepperDrive):
+        rows[at.PLI_DAC] = drive.output
+    if not axis.has_encoder:
+        rows[at.PLI_ENCODER_FAULT] = NO_ENCODER
     if drive.fault_input is not None:
         rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = place(drive.fault_input)
         rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)
@@ -163,15 +179,22 @@ def _int_rows(axis: Axis) -> dict[int, int]:
 
 
 def _drive_rows(axis: Axis) -> dict[int, float]:
-    """Say what a volt does: an acceleration, or a speed with a lag and a peak acceleration."""
+    """Say what a volt does: an acceleration, or a speed with a lag and a peak acceleration.
+
+    A stepper drive takes no voltage (`apply_stepper` writes its rows), an exact one any.
+    """
     drive = axis.drive
     sign = 1 if axis.encoder_direction is Direction.UP else -1
+    if isinstance(drive, StepperDrive | ExactDrive):
+        return {}
+    rows = {at.PLF_OFFSET_V: drive.offset_v}
     if isinstance(drive, IdealDrive):
         speed = sign * drive.revs_per_s_per_volt * axis.counts
-        return {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
+        return rows | {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
     motor = _motor(axis)
-    per_amp = motor.torque_nm_per_a * accel_per_nm(axis)
-    rows = {at.PLF_PEAK_ACCEL: drive.peak_amps * per_amp}
+    torque_nm_per_a = motor.torque_nm_per_a or 0.0
+    per_amp = torque_nm_per_a * accel_per_nm(axis)
+    rows[at.PLF_PEAK_ACCEL] = drive.peak_amps * per_amp
     if isinstance(drive, VelocityDrive):
         speed = sign * drive.revs_per_s_per_volt * axis.counts
         return rows | {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
@@ -179,15 +202,15 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
     if drive.supply_v is not None and motor.resistance_ohm is not None:
         # In SI units the back-EMF constant (V per rad/s) is the torque constant (Nm per A).
         rows[at.PLF_SUPPLY_ACCEL] = drive.supply_v / motor.resistance_ohm * per_amp
-        rows[at.PLF_BACK_EMF_PER_S] = motor.torque_nm_per_a**2 / (
+        rows[at.PLF_BACK_EMF_PER_S] = torque_nm_per_a**2 / (
             motor.resistance_ohm * _inertia_kgm2(axis)
         )
     return rows
 
 
 def load_rows(axis: Axis) -> dict[int, float]:
-    """Friction per inertia, by row; an ideal drive knows no load."""
-    if isinstance(axis.drive, IdealDrive):
+    """Friction per inertia, by row; some drives know no load."""
+    if isinstance(axis.drive, LOADLESS):
         return {}
     load = axis.load
     static_nm = load.coulomb_nm if load.static_nm is None else load.static_nm

@@ -14,7 +14,7 @@ from openacr.plant.network_schema import (
     Signal,
     TalkingDrive,
 )
-from openacr.plant.schema import Axis, TorqueDrive, VelocityDrive, World
+from openacr.plant.schema import Axis, ExactDrive, StepperDrive, TorqueDrive, VelocityDrive, World
 
 COUPLERS = {Coupler.PIO_337: 0, Coupler.PIO_347: 1}
 HEALTH = {Health.HEARTBEAT: 1, Health.GUARDING: 2}
@@ -149,6 +149,8 @@ def _write_drive(drive: aries.Drive, talking: TalkingDrive, axis: Axis) -> None:
 def _settings(axis: Axis) -> tuple[float, ...]:
     """DMODE, ERES, SMPER, DMTIP, DMTSCL, DMVSCL, as the machine file describes the drive."""
     drive, counts = axis.drive, float(axis.counts)
+    if isinstance(drive, StepperDrive | ExactDrive):
+        raise ValueError(f"axis {axis.label}: its drive does not talk")
     if isinstance(drive, TorqueDrive):
         return (aries.TORQUE, counts, counts, drive.peak_amps, drive.amps_per_volt, 0.0)
     peak = drive.peak_amps if isinstance(drive, VelocityDrive) else 0.0

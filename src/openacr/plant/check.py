@@ -10,12 +10,15 @@ from openacr.plant.check_networks import (
     input_ranges,
     output_ranges,
 )
+from openacr.plant.check_stepper import stepper_faults
 from openacr.plant.complaint import Complaint, Path
 from openacr.plant.inputs import WIRED_RANGES, within
 from openacr.plant.schema import (
+    LOADLESS,
     Axis,
     IdealDrive,
     PhaseDrive,
+    StepperDrive,
     Switch,
     TorqueDrive,
     World,
@@ -48,7 +51,8 @@ def _numbers_and_names(world: World) -> Iterator[Complaint]:
 
 def _encoders(world: World) -> Iterator[Complaint]:
     for index, axis in enumerate(world.axis):
-        if (axis.encoder_lines is None) == (axis.counts_per_rev is None):
+        is_free = isinstance(axis.drive, StepperDrive) and not axis.has_encoder
+        if (axis.encoder_lines is None) == (axis.counts_per_rev is None) and not is_free:
             both = "both" if axis.encoder_lines else "neither"
             yield Complaint(
                 ("axis", index),
@@ -65,11 +69,20 @@ def _motors(world: World) -> Iterator[Complaint]:
 
 def _motor_faults(axis: Axis) -> Iterator[tuple[tuple[str, ...], str, str]]:
     drive, motor, load = axis.drive, axis.motor, axis.load
-    if isinstance(drive, IdealDrive):
+    if isinstance(drive, LOADLESS):
         if motor is not None:
-            yield ("motor",), "an ideal drive has no use for a motor", 'or set mode = "torque"'
+            word = "an ideal" if isinstance(drive, IdealDrive) else "an exact"
+            yield ("motor",), f"{word} drive has no use for a motor", 'or set mode = "torque"'
     elif motor is None:
-        yield (), "the motor is missing", "add [axis.motor]; only an ideal drive needs none"
+        yield (
+            (),
+            "the motor is missing",
+            "add [axis.motor]; only an ideal or exact drive needs none",
+        )
+    elif isinstance(drive, StepperDrive):
+        yield from stepper_faults(axis, drive)
+    elif motor.torque_nm_per_a is None:
+        yield ("motor",), "the motor lacks torque_nm_per_a", "the current of the drive needs it"
     elif isinstance(drive, TorqueDrive) and drive.supply_v and motor.resistance_ohm is None:
         yield (
             ("drive", "supply_v"),

@@ -13,7 +13,7 @@ from openacr.plant.network_schema import (
     Node,
     Signal,
 )
-from openacr.plant.schema import World
+from openacr.plant.schema import ExactDrive, StepperDrive, World
 
 WITH_CANOPEN = ("ACR9000", "ACR9030", "ACR9040")
 FIRST_INPUT, FIRST_OUTPUT, FLAGS_PER_NODE = 11520, 12032, 1024
@@ -119,12 +119,15 @@ def _signal(path: Path, signal: Signal, world: World) -> Iterator[Complaint]:
 
 def drive_faults(world: World) -> Iterator[Complaint]:
     """Yield what does not fit together in `[[drive]]`."""
-    axes, taken = {axis.number for axis in world.axis}, set[int]()
+    axes, taken = {axis.number: axis.drive for axis in world.axis}, set[int]()
     for place, drive in enumerate(world.drive):
         path: Path = ("drive", place)
         if drive.axis not in axes:
             text = f"there is no axis {drive.axis} for the drive"
             yield Complaint((*path, "axis"), text, "it needs a motor: [[axis]]")
+        elif isinstance(axes[drive.axis], StepperDrive | ExactDrive):
+            text = f"the drive of axis {drive.axis} does not talk"
+            yield Complaint((*path, "axis"), text, "stepper and exact drives have no serial port")
         if drive.axis in taken:
             yield Complaint((*path, "axis"), f"two drives talk for axis {drive.axis}")
         taken.add(drive.axis)

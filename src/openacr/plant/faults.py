@@ -14,7 +14,7 @@ from openacr.map.memory import Memory
 from openacr.plant import apply, inputs
 from openacr.plant.counts import count_of
 from openacr.plant.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK
-from openacr.plant.schema import Axis, Contact, IdealDrive, World
+from openacr.plant.schema import LOADLESS, Axis, Contact, World
 from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
 
 
@@ -80,11 +80,18 @@ def _place(world: World, memory: Memory, number: int) -> _Place:
 
 
 def _lose_signals(place: _Place, _: float) -> None:
+    _needs_encoder(place)
     place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= SIGNALS_LOST
 
 
 def _disturb_signals(place: _Place, _: float) -> None:
+    _needs_encoder(place)
     place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= EDGES_LOST
+
+
+def _needs_encoder(place: _Place) -> None:
+    if not place.axis.has_encoder:
+        raise UserError(f"axis {place.axis.label}: it has no encoder that could fail")
 
 
 def _repair(bit: int) -> Callable[[_Place], None]:
@@ -140,8 +147,8 @@ def _free(place: _Place) -> None:
 
 
 def _rub(place: _Place, torque_nm: float) -> None:
-    if isinstance(place.axis.drive, IdealDrive):
-        hint = "an ideal drive moves whatever the load; give it another mode and a motor"
+    if isinstance(place.axis.drive, LOADLESS):
+        hint = "its drive moves whatever the load; give it another mode and a motor"
         raise UserError(f"axis {place.axis.label}: friction has no effect ({hint})")
     if torque_nm < 0.0:
         raise UserError(f"axis {place.axis.label}: friction of {torque_nm:g} Nm; it is 0 or more")

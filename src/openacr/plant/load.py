@@ -138,7 +138,7 @@ def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
 def _allowed(path: locate.Path, raw: dict[str, Any]) -> str:
     """Say in words what may stand at `path`."""
     if path[-1:] == ("mode",):
-        return 'one of "torque", "velocity", "ideal", "phases"'
+        return 'one of "torque", "velocity", "ideal", "phases", "stepper", "exact"'
     return _words(_type_at(path, raw))
 
 
@@ -157,7 +157,8 @@ def _words(kind: inspect.Type) -> str:
     if isinstance(kind, inspect.VarTupleType):
         if isinstance(kind.item_type, inspect.StructType):
             return "a list of tables"
-        return f"a list of values, each {_words(kind.item_type)}"
+        size = f" of {kind.min_length} to {kind.max_length}" if kind.max_length else ""
+        return f"a list{size} values, each {_words(kind.item_type)}"
     if isinstance(kind, inspect.DictType):
         return f"a table of axes, each {_words(kind.value_type)}"
     return "a table"

@@ -38,6 +38,11 @@ Phases = Annotated[int, Meta(ge=2, le=3)]
 Channel = Annotated[int, Meta(ge=0, le=7)]
 Volts = Annotated[float, Meta(ge=-1000, le=1000)]
 VoltsPerUnit = Annotated[float, Meta(ge=-1e6, le=1e6)]
+PulsesPerRev = Annotated[int, Meta(ge=4, le=100_000_000)]
+FullSteps = Annotated[int, Meta(ge=4, le=100_000)]
+Speed = Annotated[float, Meta(ge=0, le=1e6)]
+Torque = Annotated[float, Meta(ge=0, le=1e6)]
+Damping = Annotated[float, Meta(ge=0, le=2)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
 
 
@@ -81,7 +86,7 @@ class Card(_Table, frozen=True):
 
 
 class Motor(_Table, frozen=True):
-    """The motor: rotor inertia, torque per ampere, winding resistance.
+    """The motor: rotor inertia, torque per ampere (of a stepper the curve tells), resistance.
 
     A brushless motor has `pole_pairs` electrical turns in one of its own, and stands at
     `electrical_zero_deg` of one at position 0; its torque is that of phase currents of the
@@ -89,7 +94,7 @@ class Motor(_Table, frozen=True):
     """
 
     inertia_kgm2: Inertia
-    torque_nm_per_a: Factor
+    torque_nm_per_a: Factor | None = None
     resistance_ohm: Factor | None = None
     pole_pairs: PolePairs | None = None
     phases: Phases = 3
@@ -106,12 +111,15 @@ class Load(_Table, frozen=True):
 
 
 class _Drive(_Table, frozen=True):
-    offset_v: Offset = 0.0
     fault_input: FlagNumber | None = None
     fault_contact: Contact = Contact.OPEN
 
 
-class TorqueDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="torque"):
+class _AnalogDrive(_Drive, frozen=True):
+    offset_v: Offset = 0.0
+
+
+class TorqueDrive(_AnalogDrive, frozen=True, kw_only=True, tag_field="mode", tag="torque"):
     """The voltage commands a current."""
 
     amps_per_volt: Factor
@@ -125,7 +133,7 @@ class PhaseDrive(TorqueDrive, frozen=True, kw_only=True, tag_field="mode", tag="
     dacs: tuple[AxisNumber, AxisNumber]
 
 
-class VelocityDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="velocity"):
+class VelocityDrive(_AnalogDrive, frozen=True, kw_only=True, tag_field="mode", tag="velocity"):
     """The voltage commands a speed; the drive closes the velocity loop."""
 
     revs_per_s_per_volt: Factor
@@ -133,14 +141,32 @@ class VelocityDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ve
     lag_s: Lag = 0.001
 
 
-class IdealDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ideal"):
+class IdealDrive(_AnalogDrive, frozen=True, kw_only=True, tag_field="mode", tag="ideal"):
     """The voltage commands a speed that is reached with a lag, whatever the load."""
 
     revs_per_s_per_volt: Factor
     lag_s: Lag = 0.001
 
 
-Drive = TorqueDrive | VelocityDrive | IdealDrive | PhaseDrive
+class ExactDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="exact"):
+    """Any voltage takes the motor to the commanded position within a servo period."""
+
+
+class StepperDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="stepper"):
+    """Pulses turn a field that pulls the rotor along, up to a torque that falls with the speed.
+
+    `torque_nm` lists points of the pull-out torque: revolutions per second and newton metres.
+    """
+
+    output: AxisNumber
+    steps_per_rev: PulsesPerRev
+    torque_nm: Annotated[tuple[tuple[Speed, Torque], ...], Meta(min_length=1, max_length=8)]
+    full_steps_per_rev: FullSteps = 200
+    damping: Damping = 0.2
+
+
+Drive = TorqueDrive | VelocityDrive | IdealDrive | PhaseDrive | StepperDrive | ExactDrive
+LOADLESS = (IdealDrive, ExactDrive)  # drives that know no load and need no motor
 
 
 class LimitSwitch(_Table, frozen=True):
@@ -182,8 +208,15 @@ class Axis(_Table, frozen=True):
 
     @property
     def counts(self) -> int:
-        """Encoder counts per revolution, four per line."""
+        """Encoder counts per revolution, four per line; pulses of a stepper without encoder."""
+        if isinstance(self.drive, StepperDrive) and not self.has_encoder:
+            return self.drive.steps_per_rev
         return self.counts_per_rev or COUNTS_PER_LINE * (self.encoder_lines or 0)
+
+    @property
+    def has_encoder(self) -> bool:
+        """Whether something counts the turns of the motor."""
+        return self.counts_per_rev is not None or self.encoder_lines is not None
 
     @property
     def counts_per_unit(self) -> float:
@@ -249,6 +282,8 @@ class Switch:
 
 
 EVERYWHERE_U = float("inf")
+EXACT_LIMIT_REV = 100.0
+EXACT_HOME_REV = (-2.0, -1.5)
 
 
 def switches(axis: Axis) -> Iterator[Switch]:
@@ -268,6 +303,28 @@ def switches(axis: Axis) -> Iterator[Switch]:
 
 def _or(chosen: int | None, default: int) -> int:
     return default if chosen is None else chosen
+
+
+# What `openacr serve` runs where it is given no machine: exact axes with the switches on the inputs
+# the manual names, so that a move ends on its target and homing finds its switch both ways.
+def exact_world(model: Model = DEFAULT_MODEL) -> World:
+    """Build eight exact axes with limit and home switches, in revolutions of 4000 counts."""
+    return World(
+        card=Card(model=ModelName(model.name)),
+        axis=tuple(
+            Axis(
+                number=number,
+                drive=ExactDrive(),
+                units="rev",
+                encoder_lines=DEFAULT_LINES,
+                marker=0.0,
+                positive_limit=LimitSwitch(at=EXACT_LIMIT_REV),
+                negative_limit=LimitSwitch(at=-EXACT_LIMIT_REV),
+                home=HomeSwitch(between=EXACT_HOME_REV),
+            )
+            for number in range(DEFAULT_AXES)
+        ),
+    )
 
 
 # The motors of a card without a machine file. An ideal drive with this gain is critically

@@ -45,7 +45,9 @@ from openacr.plant.drive_cy import (
     torque_drive,
     velocity_drive,
 )
+from openacr.plant.exact_cy import exact_motor
 from openacr.plant.phases_cy import phase_volts
+from openacr.plant.stepper_cy import stepper_motor
 from openacr.plant.wiring_cy import (
     follow_outputs,
     marker_edges,
@@ -62,6 +64,8 @@ TORQUE_DRIVE = 1
 VELOCITY_DRIVE = 2
 IDEAL_DRIVE = 3
 PHASE_DRIVE = 4
+STEPPER_DRIVE = 5
+EXACT_DRIVE = 6
 
 # of encoder_fault
 EDGES_LOST = 1
@@ -115,18 +119,10 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
         cache_motion_factors(F, f, dt)
     F[f + PLF_PREVIOUS_CNT] = position
     kind: int = I[i + PLI_KIND]
-    if kind == PHASE_DRIVE:
-        phase_volts(F, I, S, n)
+    if kind == STEPPER_DRIVE:
+        stepper_motor(F, I, n, ready, dt)
     else:
-        drive_volts(F, I, S, f, i)
-    if kind == TORQUE_DRIVE or kind == PHASE_DRIVE:
-        torque_drive(F, f, ready, dt)
-    elif kind == IDEAL_DRIVE:
-        velocity_drive(F, f, ready * F[f + PLF_VOLTS], NO_ACCEL_LIMIT, dt)
-    elif ready != 0:
-        velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)
-    else:
-        torque_drive(F, f, 0, dt)
+        _analog_motor(F, I, S, n, ready, dt)
     _hard_stops(F, f)
     position = F[f + PLF_POSITION_CNT]
     # floor() without a call; no position is beyond the range of an integer
@@ -141,6 +137,27 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
         marker_edges(F, I, f, i)
     motor_borders(F, I, n)
     return 1
+
+
+def _analog_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
+    """Advance a motor whose drive takes voltages."""
+    f: int = PLF_BASE + n * PLF_STRIDE
+    i: int = PLI_BASE + n * PLI_STRIDE
+    kind: int = I[i + PLI_KIND]
+    if kind == PHASE_DRIVE:
+        phase_volts(F, I, S, n)
+    else:
+        drive_volts(F, I, S, f, i)
+    if kind == EXACT_DRIVE:
+        exact_motor(F, I, n, ready)
+    elif kind == TORQUE_DRIVE or kind == PHASE_DRIVE:
+        torque_drive(F, f, ready, dt)
+    elif kind == IDEAL_DRIVE:
+        velocity_drive(F, f, ready * F[f + PLF_VOLTS], NO_ACCEL_LIMIT, dt)
+    elif ready != 0:
+        velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)
+    else:
+        torque_drive(F, f, 0, dt)
 
 
 def _hard_stops(F: F64, f: int) -> None:

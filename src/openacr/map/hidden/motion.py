@@ -363,6 +363,17 @@ ENCODER_EXTRA = HiddenBlock(
     ),
 )
 
+# A stepper output: what goes to the drive, whatever its count is made.
+STEPPER_OUTPUT = HiddenBlock(
+    prefix="STO",
+    count=16,
+    doubles=(
+        "pulses",  # since power-up
+        "sent_cnt",  # the same before it is rounded
+        "pm_old_cnt",
+    ),
+)
+
 # The kernel as a whole.
 KERNEL = HiddenBlock(
     prefix="KR",

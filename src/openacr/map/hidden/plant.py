@@ -53,8 +53,9 @@ MOTOR = HiddenBlock(
         "lag_decay",
     ),
     ints=(
-        "kind",  # 0 none, 1 torque drive, 2 velocity drive, 3 ideal, 4 torque by phases
-        "dac",
+        # 0 none; drives: 1 torque, 2 velocity, 3 ideal, 4 torque by phases, 5 stepper, 6 exact
+        "kind",
+        "dac",  # of a stepper its output
         "drive_enabled",  # written by the card
         "drive_ready",
         "drive_fault",
@@ -76,6 +77,23 @@ PHASES = HiddenBlock(
     count=16,
     doubles=("radians_per_cnt", "zero_rad", "peak_v"),
     ints=("second_dac", "phases"),
+)
+
+# What a stepper motor has on top, see plant/stepper_cy.py.
+STEPPER = HiddenBlock(
+    prefix="PLT",
+    count=16,
+    doubles=(
+        "field_cnt",  # where the field would hold the rotor
+        "pulses_seen",  # of its output, until the last period
+        "counts_per_pulse",
+        "radians_per_cnt",  # of the field: a turn is four full steps
+        "stiffness_per_s",  # angular frequency at which the rotor would swing without load
+        "damping_per_s",
+        ("speed_cps", 8),  # points of the torque-speed curve
+        ("accel", 8),
+    ),
+    ints=("points",),
 )
 
 # The terminals of the analog inputs of the card and what is wired to them.
