@@ -252,6 +252,73 @@ def test_a_quarter_circle_keeps_its_radius(mode: int) -> None:
     assert _place(made) == [0, 1, 0]
 
 
+def written(knots: Sequence[float], weights: Sequence[float], form: str) -> list[str]:
+    points = ("X1 Y0", "X1 Y1", "X0 Y1")
+    return [
+        form.format(k=k, w=f"{w:.15f}", xy=xy)
+        for k, w, xy in zip(knots, weights, points, strict=True)
+    ]
+
+
+@pytest.mark.parametrize(
+    "form", ["K {k} {xy} W {w}", "K {k} W {w} {xy}", "{xy} K {k} W{w}", "k{k} {xy} w {w}"]
+)
+def test_k_and_w_are_knot_and_weight_of_a_nurb(form: str) -> None:
+    def at_start() -> Bench:
+        made = bench("X1")
+        made.until_clear(IN_MOTION)
+        return made.all("NURB RANK 3", "NURB MODE 1")
+
+    plain = sampled(at_start(), *QUARTER, "NURB END")
+    lines = written((0, 0, 0), (1, HALF, 1), form)
+    made = at_start()
+    assert np.array_equal(sampled(made, *lines, "K 1", "K 1", "K 1", "K -1"), plain)
+    assert made.type("NURB") == "OFF"
+    made.all("X3")
+    made.until_clear(IN_MOTION)
+    assert _place(made) == [3, 1, 0]
+
+
+def test_a_negative_knot_alone_ends_a_curve_whatever_its_size() -> None:
+    made = bench("NURB MODE 0", "NURB RANK 2", "K 0 X0", "K 0 X1", "K 5 X2", "K -1")
+    assert made.type("NURB") == "OFF"
+    assert made.bit(NURB_FLAGS + 15)
+    made.until_clear(IN_MOTION)
+    assert _place(made)[0] == 2
+    assert not made.bit(NURB_FLAGS + 15)
+    made.all("SPLINE MODE 0", "K .2 X3", "K .2 X4", "K -1")
+    assert made.bit(SPLINE_FLAGS + 10)
+    assert made.type("SPLINE") == "OFF"
+    assert made.until_clear(IN_MOTION) == 0.4 / PERIOD_S
+    assert _place(made)[0] == 4
+
+
+def test_k_is_the_time_to_a_point_of_a_spline() -> None:
+    one = sampled(bench("SPLINE MODE 0"), "K .2 X1", "Y1 K .3", "K -.2 X2 Y2")
+    two = sampled(bench("SPLINE MODE 0"), "X1 SK .2", "Y1 SK .3", "X2 Y2 SK -.2")
+    assert np.array_equal(one, two)
+    assert bench("SPLINE MODE 0").type("K .2 W 2 X1") == "Invalid argument"
+
+
+def test_axes_named_k_and_w_stay_axes() -> None:
+    made = Bench("K", "W").all("ACC 0 DEC 0 STP 0 VEL 1000", "K1 W2")
+    made.until_clear(IN_MOTION)
+    assert (made.psp(0), made.psp(1)) == (1, 2)
+    made.all("NURB MODE 0", "NURB RANK 2", "K1 W2 NK 0", "K3 W4 NK 0 NW 2", "NK -1")
+    made.until_clear(IN_MOTION)
+    assert (made.psp(0), made.psp(1)) == (3, 4)
+
+
+def test_knots_and_weights_need_a_curve_and_each_other() -> None:
+    made = bench()
+    assert made.type("K 0 X1") == "Not valid at this level"
+    assert made.type("W 1 X1") == "Unknown command"
+    assert made.type("X1 W 1") == "Unknown command"
+    assert made.type("K X1") == "Syntax error"
+    assert made.type("K 1 : W 1") == "Unknown command"
+    assert made.psp(0) == 0
+
+
 def test_the_profile_moves_along_the_arc() -> None:
     made = bench("X1")
     made.until_clear(IN_MOTION)

@@ -27,6 +27,7 @@ from openacr.messages import (
 
 LONGEST_LABEL = 32
 PREFIXES = frozenset(("AXIS", "MASTER"))
+KNOT, WEIGHT = "K", "W"  # of a point of a curve, where no axis has this name
 LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))  # as a command each begins a block
 
 
@@ -44,6 +45,7 @@ class Parser(ExpressionParser):
         super().__init__(found, scope.aliases)
         self.scope = scope
         self.prefix: Prefix | None = None
+        self.has_knot = False  # the present block gives the knot of a point of a curve
         self.names_object = False  # the present statement names AXISn, PROGn, ...
 
     # lines and blocks
@@ -89,6 +91,7 @@ class Parser(ExpressionParser):
         done: list[Statement | Move] = []
         parts: list[Statement] = []
         statement: Statement | None = None
+        self.has_knot = False
         while not self.at_block_end:
             if statement is not None and (statement.is_bare or self.is_word(*LEVEL_WORDS)):
                 raise self.error(SYNTAX_ERROR)
@@ -113,6 +116,10 @@ class Parser(ExpressionParser):
             return self._implied("LET")
         if token.value in self.scope.axes:
             return self._implied("MOV")
+        if token.value == KNOT or (token.value == WEIGHT and self.has_knot):
+            self.has_knot = True
+            self.advance()
+            return self._implied(str(token.value))
         raise self.error(UNKNOWN_COMMAND)
 
     def _command_word(self) -> str | None:

@@ -36,6 +36,11 @@ class Family(IntEnum):
 SPLINE_MODES = {0: MF3_SPLINE_TIME_MODE, 1: MF3_SPLINE_VELOCITY_MODE}
 NURB_MODES = {0: MF3_NURB_TIME, 1: MF3_NURB_DYNAMIC, 4: MF3_NURB_SMOOTH}
 _MODES = {Family.SPLINE: SPLINE_MODES, Family.NURB: NURB_MODES}
+_NEGATIVE_KNOT = {
+    Family.NONE: 0,
+    Family.SPLINE: MF3_SPLINE_NEG_KNOT,
+    Family.NURB: MF3_NURB_NEG_KNOT,
+}
 SHORTEST_S = 1e-6
 
 
@@ -88,22 +93,37 @@ def take(
     knot: float | None,
     weight: float | None,
 ) -> None:
-    """Take a point with its knot and weight; a negative knot ends the curve with it."""
+    """Take a point with its knot and weight; a negative knot ends the curve with it.
+
+    Alone a negative knot is the end and nothing else, whatever its size.
+    """
     wanted = family(card, master)
-    size = None if knot is None else abs(knot)
+    is_end = knot is not None and knot < 0.0
+    if values_cnt or weight is not None or not is_end:
+        size = None if knot is None else abs(knot)
+        _point(card, program, master, values_cnt, size, weight)
+    if is_end:
+        card.memory.I[MF3_WORD + master] |= _NEGATIVE_KNOT[wanted]
+        end(card, program, master, wanted)
+
+
+def _point(
+    card: Card,
+    program: int,
+    master: int,
+    values_cnt: dict[int, float],
+    knot: float | None,
+    weight: float | None,
+) -> None:
+    wanted = family(card, master)
     if wanted is Family.NURB:
-        nurbs.take(card, program, master, values_cnt, size, weight)
-        negative = MF3_NURB_NEG_KNOT
+        nurbs.take(card, program, master, values_cnt, knot, weight)
     elif wanted is Family.SPLINE and values_cnt and weight is None:
-        splines.take(card, program, master, values_cnt, _time_s(card, master, size))
-        negative = MF3_SPLINE_NEG_KNOT
+        splines.take(card, program, master, values_cnt, _time_s(card, master, knot))
         if knot is not None:
             card.memory.I[MF3_WORD + master] |= MF3_SPLINE_KNOT_PRESENT
     else:
         raise CardError(INVALID_ARGUMENT)
-    if knot is not None and knot < 0.0:
-        card.memory.I[MF3_WORD + master] |= negative
-        end(card, program, master, wanted)
 
 
 def _time_s(card: Card, master: int, knot: float | None) -> float:

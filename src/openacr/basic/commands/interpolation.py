@@ -22,14 +22,15 @@ REF = "PG Interpolation"
 class Manner:
     """How the move of a block is to be made: ended by a flag (INT), at once (TRJ).
 
-    `knot` and `weight` are those of a point of a curve, `spline` tells whose knot it is.
+    `knot` and `weight` are those of a point of a curve, `family` the curve a knot is meant for if
+    it is said.
     """
 
     interrupt: FlagState | None = None
     replace: bool = False
     knot: float | None = None
     weight: float | None = None
-    spline: bool = False
+    family: curve_modes.Family | None = None
 
 
 Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | Manner
@@ -82,8 +83,8 @@ def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
 def _point(run: Run, master: int, manner: Manner, given: tuple[Given, ...]) -> Wait | None:
     """Take a point of SPLINE or NURB; wait until all pieces it may complete find room."""
     program = run.needed_program()
-    ours = curve_modes.family(run.card, master) is curve_modes.Family.SPLINE
-    if manner.interrupt or manner.replace or (manner.knot is not None and manner.spline != ours):
+    is_other = manner.family not in (None, curve_modes.family(run.card, master))
+    if manner.interrupt or manner.replace or is_other:
         raise CardError(INVALID_ARGUMENT)
     if not pieces.has_room(run.card, master, pieces.MOST):
         return room_for_pieces(run, master)
@@ -125,7 +126,7 @@ def _manner(given: tuple[Given, ...]) -> Manner:
                 replace=item.replace or found.replace,
                 knot=found.knot if item.knot is None else item.knot,
                 weight=found.weight if item.weight is None else item.weight,
-                spline=item.spline or found.spline,
+                family=item.family or found.family,
             )
     return found
 
