@@ -188,3 +188,38 @@ def test_unknown_programs_and_strings_have_no_address(card: Card) -> None:
     card.storage.locals.string_variables(0, 3, 10)
     for program, kind in ((0, 6), (0, 7), (16, 0), (255, 255)):
         assert card.ask(VariableAddress(program, kind)) == (0,)
+
+
+def test_reading_the_heap_looks_at_no_array_and_writing_once(
+    card: Card, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    card.storage.locals.references(1, "LA", 50)
+    for number in range(50):
+        card.storage.locals.array(1, "LA", number, 4)
+    (table,) = card.ask(VariableAddress(1, VariableKind.LA))
+    header = card.peek(table + 50)[0]
+    searches: list[int] = []
+    search = card.space._array_at
+
+    def counted(address: int) -> range:
+        searches.append(address)
+        return search(address)
+
+    monkeypatch.setattr(card.space, "_array_at", counted)
+    assert card.peek(header, 5) == (4, 0, 0, 0, 0)
+    assert searches == []
+    execute(card, Poke.of(Conversion.LONG, header + 1, (7, 8, 9, 10)))
+    assert searches == [header + 1]
+    assert card.peek(header, 5) == (4, 7, 8, 9, 10)
+
+
+@pytest.mark.parametrize(("first", "count"), [(0, 1), (0, 2), (4, 2), (1, 5), (5, 1)])
+def test_a_poke_over_the_end_of_an_array_stores_nothing(card: Card, first: int, count: int) -> None:
+    card.storage.locals.references(0, "SA", 2)
+    card.storage.locals.array(0, "SA", 0, 4)
+    card.storage.locals.array(0, "SA", 1, 4)
+    (table,) = card.ask(VariableAddress(0, VariableKind.SA))
+    header = card.peek(table + 1)[0]
+    before = card.peek(header, 10)
+    execute(card, Poke.of(Conversion.LONG, header + first, tuple(range(1, count + 1))))
+    assert card.peek(header, 10) == before

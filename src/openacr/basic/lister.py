@@ -51,18 +51,23 @@ class Lister:
         depth = 0
         is_free_form = False
         for place, line in enumerate(lines):
-            words = [str(token.value) for token in line.tokens if token.kind is Kind.WORD]
-            first = words[0] if words else ""
             if place == 0:
-                is_free_form = first == "PROGRAM"
-            numbered = f"{line.number} " if numbers or not is_free_form else ""
-            frame = first in ("PROGRAM", "ENDP")
-            outer = depth - (first in _OUTDENTED) + is_free_form
-            indent = 0 if frame else max(outer, 0)
-            own = isinstance(line.tree, Spelled)
-            text = line.tree.spelled if own else self.line(line.tokens)
-            yield f"{numbered}{' ' * indent}{text}"
-            depth = max(depth + _depth_change(line.tokens), 0)
+                is_free_form = opens_free_form(line)
+            yield self.stored(line, depth, is_free_form=is_free_form, numbers=numbers)
+            depth = depth_after(line, depth)
+
+    def stored(
+        self, line: StoredLine, depth: int, *, is_free_form: bool, numbers: bool = False
+    ) -> str:
+        """One stored line at a depth of blocks, as LIST shows it."""
+        first = _first_word(line)
+        numbered = f"{line.number} " if numbers or not is_free_form else ""
+        frame = first in ("PROGRAM", "ENDP")
+        outer = depth - (first in _OUTDENTED) + is_free_form
+        indent = 0 if frame else max(outer, 0)
+        tree = None if line.is_unread else line.tree
+        text = tree.spelled if isinstance(tree, Spelled) else self.line(line.tokens)
+        return f"{numbered}{' ' * indent}{text}"
 
     def line(self, tokens: Iterable[Token]) -> str:
         """One line without its number."""
@@ -134,6 +139,22 @@ class Lister:
         if older is None or older.kind is not Kind.WORD or before.kind is not Kind.NUMBER:
             return False
         return older.value in registry.VARIABLES or older.value in self.objects
+
+
+def opens_free_form(line: StoredLine) -> bool:
+    """Whether the first line of a program says that its lines have hidden numbers."""
+    return _first_word(line) == "PROGRAM"
+
+
+def depth_after(line: StoredLine, depth: int) -> int:
+    """The depth of blocks after a line that is at `depth`."""
+    if line.nesting is None:
+        line.nesting = _depth_change(line.tokens)
+    return max(depth + line.nesting, 0)
+
+
+def _first_word(line: StoredLine) -> str:
+    return next((str(token.value) for token in line.tokens if token.kind is Kind.WORD), "")
 
 
 def literal(value: str | int | float) -> str:

@@ -94,7 +94,7 @@ class Parser(ExpressionParser):
         self.has_knot = False
         while not self.at_block_end:
             if statement is not None and (statement.is_bare or self.is_word(*LEVEL_WORDS)):
-                raise self.error(SYNTAX_ERROR)
+                raise self.error(UNKNOWN_COMMAND if self.at_unknown_word else SYNTAX_ERROR)
             statement = self.statement()
             (parts if statement.command.move else done).append(statement)
         if parts:

@@ -40,7 +40,7 @@ class StoredLine:
     needed, unless `read` (tokens and tree) is given; then `text` may be None.
     """
 
-    __slots__ = ("_cost_bytes", "_read", "_text", "number", "scope")
+    __slots__ = ("_cost_bytes", "_read", "_text", "_tokens", "nesting", "number", "scope")
 
     def __init__(
         self,
@@ -52,6 +52,8 @@ class StoredLine:
     ) -> None:
         self.number, self.scope = number, scope
         self._text, self._cost_bytes, self._read = text, cost_bytes, read
+        self._tokens: tuple[Token, ...] | None = None
+        self.nesting: int | None = None  # blocks it opens less those it closes, once LIST knows
 
     @property
     def text(self) -> str:
@@ -62,8 +64,17 @@ class StoredLine:
 
     @property
     def tokens(self) -> tuple[Token, ...]:
-        """The line without its number."""
-        return self._parts[0]
+        """The line without its number; cheaper than its meaning."""
+        if self._read is not None:
+            return self._read[0]
+        if self._tokens is None:
+            self._tokens = tuple(self._cut())
+        return self._tokens
+
+    @property
+    def is_unread(self) -> bool:
+        """Whether nothing has asked for its meaning yet: a line of AcroBASIC, never of a PLC."""
+        return self._read is None
 
     @property
     def tree(self) -> Any:
@@ -80,10 +91,13 @@ class StoredLine:
     @property
     def _parts(self) -> tuple[tuple[Token, ...], Any]:
         if self._read is None:
-            found = tokens((self._text or "").encode("latin-1"))
+            found = self._cut()
             tree = Parser(found, self.scope).line()
             self._read = tuple(found), tree
         return self._read
+
+    def _cut(self) -> list[Token]:
+        return tokens((self._text or "").encode("latin-1"))
 
     @property
     def first_word(self) -> str:

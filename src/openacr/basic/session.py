@@ -60,6 +60,7 @@ class Channel(Struct, frozen=True):
     echo_line_end: bool
     typed_ahead: str
     rest: str
+    listed: tuple[int, int]
     output: bytes
 
 
@@ -83,6 +84,7 @@ class Session:
     drive: int | None = None  # axis whose drive DTALK has joined
     echo_line_end: bool = True  # False while `INPUT;` reads a line
     typed_ahead: str = ""  # what the program followed with LRUN has left of the line being typed
+    listed: tuple[int, int] = (0, 0)  # line at which LIST goes on, and its depth of blocks
     rest: list[Token] = field(default_factory=list)  # of the present line, for its new level
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
     _output: bytearray = field(default_factory=bytearray)
@@ -181,7 +183,7 @@ class Session:
 
     def feed_line(self, text: str) -> None:
         """Deal with one line; it is answered here, or by `finished` when it takes longer."""
-        self.busy = True
+        self.busy, self.listed = True, (0, 0)
         self._words.count_line()
         self._attempt(lambda: self._take(text))
 

@@ -60,6 +60,10 @@ _ROWS = {
 }
 
 
+def _in_heap(address: int) -> bool:
+    return 0 <= address - HEAP < _HEAP_WORDS
+
+
 class AddressSpace:
     """Words and addresses of one card's memory."""
 
@@ -79,11 +83,16 @@ class AddressSpace:
 
     def read_words(self, address: int, count: int) -> list[int]:
         """That many words from an address on; MapError where there is no memory."""
+        if _in_heap(address) and _in_heap(address + count - 1):
+            start = _HEAP_FIRST + address - HEAP
+            return self._memory.I[start : start + count].tolist()
         return [self._word(address + n) for n in range(count)]
 
     def write_words(self, address: int, words: Sequence[int]) -> None:
         """Store words; MapError, and nothing stored, unless all can be written."""
-        places = [self._place(address + n) for n in range(len(words))]
+        addresses = range(address, address + len(words))
+        elements = self._array_at(address) if _in_heap(address) else range(0)
+        places = [self._place(each, elements) for each in addresses]
         for n, place in enumerate(places):
             if place is None:
                 raise MapError(f"address 0x{address + n:X} cannot be written")
@@ -92,6 +101,8 @@ class AddressSpace:
                 self._memory.I[place] = word
 
     def _word(self, address: int) -> int:
+        if _in_heap(address):
+            return self._memory.I[_HEAP_FIRST + address - HEAP]
         place = self._place(address)
         if place is not None:
             return self._memory.I[place]
@@ -100,15 +111,18 @@ class AddressSpace:
             raise MapError(f"there is no memory at address 0x{address:X}")
         return computed
 
-    def _place(self, address: int) -> int | None:
-        """Index of the word in the state buffer, for words that hold a value."""
+    def _place(self, address: int, elements: range = range(0)) -> int | None:
+        """Index of the word in the state buffer, for words that hold a value.
+
+        In the heap these are the `elements` of one array; counts and tables hold it together.
+        """
         if self._is_word_parameter(address - PARAMETERS):
             return address - PARAMETERS
         if 0 < address - GLOBALS <= _FP64_WORDS * self._globals():
             return _FP64_WORDS * at.USER_BASE + address - GLOBALS - 1
-        if 0 <= address - HEAP < _HEAP_WORDS:
+        if _in_heap(address):
             place = _HEAP_FIRST + address - HEAP
-            return place if self._is_element(place) else None
+            return place if place in elements else None
         block, offset = divmod(address - LOCALS, BLOCK_WORDS)
         found = self._block(block)
         if found is None or found[0].is_table or not 0 < offset <= found[2] * found[0].words:
@@ -122,8 +136,6 @@ class AddressSpace:
             return GLOBALS if self._globals() else 0
         if address == GLOBALS:
             return self._globals()
-        if 0 <= address - HEAP < _HEAP_WORDS:
-            return self._memory.I[_HEAP_FIRST + address - HEAP]
         block, offset = divmod(address - LOCALS, BLOCK_WORDS)
         found = self._block(block)
         if found is None or offset > found[2]:
@@ -136,15 +148,18 @@ class AddressSpace:
         header = self._memory.I[reference]
         return HEAP + header - _HEAP_FIRST if header else 0
 
-    def _is_element(self, place: int) -> bool:
-        """Whether a word of the heap is an element; counts and tables hold the heap together."""
-        return any(
-            header < place <= header + self._memory.I[header] * rows.element_words
-            for rows, base, count in filter(None, map(self._block, range(PROGRAMS * KINDS)))
-            if rows.is_table
-            for header in self._memory.I[base : base + count]
-            if header
-        )
+    def _array_at(self, address: int) -> range:
+        """Places of the elements of the array a word of the heap belongs to, none outside arrays.
+
+        Words that lie together belong to one array: a count stands between two of them.
+        """
+        place = _HEAP_FIRST + address - HEAP
+        longs = self._memory.I
+        for rows, base, count in filter(None, map(self._block, range(PROGRAMS * KINDS))):
+            for header in longs[base : base + count] if rows.is_table else ():
+                if header and header < place <= header + longs[header] * rows.element_words:
+                    return range(header + 1, header + 1 + longs[header] * rows.element_words)
+        return range(0)
 
     def _globals(self) -> int:
         return self._memory.I[at.SYSI_BASE + at.SYSI_P_COUNT]

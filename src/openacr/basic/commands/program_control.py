@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.basic import targets
 from openacr.basic.grammar import Form, Int, ObjectRef, Target
-from openacr.basic.lister import Lister
+from openacr.basic.lister import Lister, depth_after, opens_free_form
 from openacr.basic.nodes import Expr
-from openacr.basic.program_store import HIGHEST_LINE_NUMBER, OWNERS
+from openacr.basic.program_store import HIGHEST_LINE_NUMBER, OWNERS, StoredLine
 from openacr.basic.registry import (
     ANY,
     BY_TARGET,
@@ -18,7 +19,7 @@ from openacr.basic.registry import (
     PROG,
     command,
 )
-from openacr.basic.run import Run
+from openacr.basic.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.messages import PROGRAM_IS_RUNNING
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 
 GROUP = "Program Control"
 FORCE_LINE_NUMBERS = 5651
+SHOWN_LINE_WORK = 100  # to cut a line into words and write it
+KNOWN_LINE_WORK = 1  # to pass over a line whose depth is known
+WORK_PER_SLICE = 50 * SHOWN_LINE_WORK  # some 2 ms of the computer
 
 
 @command(
@@ -185,19 +189,43 @@ class LineRange(Form):
     grammar=(LineRange("lines", optional=True),),
     ref="PG Programs and Commands",
 )
-def list_(run: Run, lines: Range | None) -> None:
+def list_(run: Run, lines: Range | None) -> Wait | None:
     """Show the stored program or PLC, or some of its lines."""
     store = run.system.programs
     store.check_readable()
-    owner = targets.needed_own(run)
     first = run.integer(lines.first) if lines and lines.first else 0
     last = run.integer(lines.last) if lines and lines.last else HIGHEST_LINE_NUMBER
+    if not _list_on(run, store.texts[targets.needed_own(run)], first, last):
+        return Wait(WaitKind.NEXT_SLICE, retry=True)
+    run.channel.listed = 0, 0
+    return None
+
+
+def _list_on(run: Run, text: dict[int, StoredLine], first: int, last: int) -> bool:
+    """Go on with the list for one time slice; whether it is complete.
+
+    A long program is shown slice by slice, so that other channels are served between.
+    """
+    numbers = sorted(text)
+    begin, depth = run.channel.listed
     lister = Lister(run.system.aliases.nodes)
-    stored = store.lines(owner)
-    shown = lister.program(stored, numbers=run.card.memory.bit(FORCE_LINE_NUMBERS))
-    for line, text in zip(stored, shown, strict=True):
-        if first <= line.number <= last:
-            run.print(text)
+    is_free_form = bool(numbers) and opens_free_form(text[numbers[0]])
+    with_numbers = run.card.memory.bit(FORCE_LINE_NUMBERS)
+    work = 0
+    for number in numbers[bisect_left(numbers, begin) :]:
+        line = text[number]
+        if number > last:
+            break
+        if work >= WORK_PER_SLICE:
+            run.channel.listed = number, depth
+            return False
+        if number >= first:
+            shown = lister.stored(line, depth, is_free_form=is_free_form, numbers=with_numbers)
+            run.print(shown)
+        is_known = line.nesting is not None and number < first
+        work += KNOWN_LINE_WORK if is_known else SHOWN_LINE_WORK
+        depth = depth_after(line, depth)
+    return True
 
 
 @command(
