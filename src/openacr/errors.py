@@ -1,6 +1,7 @@
 """Everything that can go wrong, as types whose fields say what, where and what to do."""
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from openacr.messages import Message
@@ -40,6 +41,7 @@ class SourceError(OpenacrError):
         hint: str = "",
     ) -> None:
         self.text, self.path, self.line, self.column, self.hint = text, path, line, column, hint
+        self.errors: tuple[SourceError, ...] = (self,)
         super().__init__(text)
 
     def __str__(self) -> str:
@@ -48,6 +50,21 @@ class SourceError(OpenacrError):
         place = ":".join(parts)
         sentence = f"{place}: {self.text}" if place else self.text
         return f"{sentence} ({self.hint})" if self.hint else sentence
+
+
+class FaultyFileError(SourceError):
+    """Everything wrong in a file, in the order of its lines; place and text are of the first."""
+
+    def __init__(self, errors: Iterable[SourceError]) -> None:
+        found = tuple(sorted(errors, key=lambda each: (each.line, each.column)))
+        first = found[0]
+        super().__init__(
+            first.text, path=first.path, line=first.line, column=first.column, hint=first.hint
+        )
+        self.errors = found
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.errors))
 
 
 class MapError(OpenacrError):

@@ -73,8 +73,10 @@ def test_the_sample_project_is_set_up_without_warnings(tmp_path: Path) -> None:
 @pytest.mark.req("ACR-TUT-02")
 def test_leadscrew_limits_and_inputs_are_as_entered(tmp_path: Path) -> None:
     text = (EXAMPLE / "configure.toml").read_text()
-    for name, first in (("[24, 0] }", 2), ("[6, 0] }", 4)):
-        text = text.replace(name, f"{name[:-2]}, first_input = {first}, soft_is_enabled = true }}")
+    off = ", soft_is_enabled = false }"
+    for soft, first in (("[24, 0]", 2), ("[6, 0]", 4)):
+        assert soft + off in text
+        text = text.replace(soft + off, f"{soft}, first_input = {first} }}")
     card = loaded(tmp_path, text)
     card.send("ECHO 6\rPROG0\r")
     asked = ("PPU X", "EXC X", "HLBIT X", "HLBIT Y", "SLM X", "SLM Y", "SLIM Y")

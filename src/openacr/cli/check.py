@@ -112,11 +112,12 @@ def _table_faults(project: Project) -> Iterator["Fault"]:
         try:
             if path:
                 load(path)
-        except SourceError as error:
+        except SourceError as wrong:
             text = (path.read_text(errors="replace") if path else "").split("\n")
-            line = text[error.line - 1].rstrip() if 0 < error.line <= len(text) else ""
-            place = (error.line, error.column, 1)
-            yield Fault(error.path, *place, error.text, error.hint, line)
+            for error in wrong.errors:
+                line = text[error.line - 1].rstrip() if 0 < error.line <= len(text) else ""
+                place = (error.line, error.column, 1)
+                yield Fault(error.path, *place, error.text, error.hint, line)
 
 
 def _show(faults: list["Fault"], *, on_stderr: bool) -> None:

@@ -14,7 +14,7 @@ from typing import Annotated, Any, NamedTuple, TextIO
 import typer
 from typer.core import TyperGroup
 
-from openacr.errors import OpenacrError
+from openacr.errors import OpenacrError, SourceError
 
 BAD_INPUT = 2
 INTERRUPTED = 130
@@ -287,7 +287,8 @@ class Commands(LazyGroup):
         try:
             return super().invoke(ctx)
         except OpenacrError as error:
-            typer.echo(f"error: {error}", err=True)
+            for each in error.errors if isinstance(error, SourceError) else (error,):
+                typer.echo(f"error: {each}", err=True)
             raise typer.Exit(BAD_INPUT) from None
 
 

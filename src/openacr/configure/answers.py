@@ -94,8 +94,13 @@ class Limits(_Table, frozen=True):
     is_enabled: bool = True
     deceleration: NotNegative = 100
     soft: tuple[Finite, Finite] | None = None  # positive, negative
-    soft_is_enabled: bool = False
+    soft_is_enabled: bool | None = None  # where positions are given
     soft_deceleration: NotNegative | None = None  # that of the switches
+
+    @property
+    def watches_soft(self) -> bool:
+        """Whether ends of travel by position are on: by default as soon as they are given."""
+        return self.soft is not None if self.soft_is_enabled is None else self.soft_is_enabled
 
 
 class AxisAnswers(_Table, frozen=True, kw_only=True):

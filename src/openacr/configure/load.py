@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator
 
-import msgspec
-
 from openacr.configure.answers import Answers
 from openacr.errors import SourceError
 from openacr.motion.attach import RESERVED_NAMES
@@ -12,16 +10,19 @@ from openacr.plant.locate import Path as Steps
 
 
 def parse_answers(text: str, path: str = "configure.toml") -> Answers:
-    """Read the answers in a text; SourceError for the first thing that is wrong."""
+    """Read the answers in a text; SourceError with everything that is wrong."""
     raw = toml_file.parse(text, path)
-    for steps in toml_file.not_finite(raw):
-        raise toml_file.wrong(text, path, steps, "numbers have to be finite")
-    try:
-        answers = msgspec.convert(raw, Answers)
-    except msgspec.ValidationError as error:
-        raise _wrong(str(error), text, path) from None
-    for place, what in _contradictions(answers):
-        raise toml_file.wrong(text, path, place, what)
+    answers, messages = toml_file.convert_all(raw, Answers)
+    found = [
+        toml_file.wrong(text, path, steps, "numbers have to be finite")
+        for steps in toml_file.not_finite(raw)
+    ]
+    found += [_wrong(message, text, path) for message in messages]
+    if answers is not None and not found:
+        found += [toml_file.wrong(text, path, *each) for each in _contradictions(answers)]
+    toml_file.refuse(found)
+    if answers is None:
+        raise toml_file.wrong(text, path, (), "it holds no answers")
     return answers
 
 

@@ -101,7 +101,7 @@ def _limits(axis: AxisAnswers) -> Iterator[str]:
     deceleration = limits.deceleration if deceleration is None else deceleration
     yield f"AXIS{n} SLDEC {plain(deceleration)}"
     for flag in (16150, 16151):
-        yield _flag(flag + shift, limits.soft_is_enabled)
+        yield _flag(flag + shift, limits.watches_soft)
 
 
 def _soft_limits(answers: Answers) -> Iterator[str]:

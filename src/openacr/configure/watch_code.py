@@ -91,7 +91,7 @@ def _latches(axis: AxisAnswers) -> Iterator[str]:
 
 def _soft_limit(axis: AxisAnswers) -> Iterator[str]:
     """Going beyond the limits stops the axis and its master once; coming back clears the flag."""
-    if not axis.limits.soft_is_enabled or axis.limits.soft is None:
+    if not axis.limits.watches_soft or axis.limits.soft is None:
         return
     row, flag = AX_BASE + AX_STRIDE * axis.number, SOFT_LIMIT_HIT + axis.number
     position, ppu = f"P{row + AX_ACTUAL_POSITION}", f"P{row + AX_PPU}"

@@ -5,7 +5,6 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-import msgspec
 from msgspec import inspect
 
 from openacr.plant import locate, toml_file
@@ -21,19 +20,28 @@ def load_world(path: Path | str) -> World:
 
 
 def parse_world(text: str, path: str = "machine.toml") -> World:
-    """Read the world described by `text`; SourceError, and no world, if anything is wrong."""
+    """Read the world described by `text`; if anything is wrong, SourceError with all of it.
+
+    Values that are wrong by themselves come first: how they fit together is judged without any.
+    """
     raw = toml_file.parse(text, path)
-    complaint = next(_not_finite(raw), None)
-    if complaint is None:
-        try:
-            world = msgspec.convert(raw, World)
-        except msgspec.ValidationError as error:
-            complaint = _explain(str(error), raw)
-        else:
-            complaint = next(contradictions(world), None)
-            if complaint is None:
-                return world
-    raise toml_file.wrong(text, path, complaint.path, complaint.text, complaint.hint)
+    world, messages = toml_file.convert_all(raw, World)
+    complaints = list(_not_finite(raw))
+    seen = {each.path for each in complaints}
+    found = (_explain(message, raw) for message in messages)
+    complaints += [each for each in found if not any(_holds(each.path, path) for path in seen)]
+    if world is not None and not complaints:
+        complaints = list(contradictions(world))
+    toml_file.refuse(
+        toml_file.wrong(text, path, each.path, each.text, each.hint) for each in complaints
+    )
+    if world is None:
+        raise toml_file.wrong(text, path, (), "it describes no machine")
+    return world
+
+
+def _holds(path: locate.Path, inner: locate.Path) -> bool:
+    return inner[: len(path)] == path
 
 
 def _not_finite(raw: dict[str, Any]) -> Iterator[Complaint]:

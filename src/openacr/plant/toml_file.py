@@ -3,13 +3,20 @@
 import math
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from copy import deepcopy
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from openacr.errors import SourceError, read_bytes
+import msgspec
+
+from openacr.errors import FaultyFileError, SourceError, read_bytes
 from openacr.plant.locate import Path as Steps
 from openacr.plant.locate import nearest, places
+
+MOST_MESSAGES = 100
+Kind = TypeVar("Kind")
 
 # What the converter says: a sentence and a path; some sentences are said better elsewhere.
 UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
@@ -48,6 +55,84 @@ def wrong(text: str, path: str, steps: Steps, what: str, hint: str = "") -> Sour
     """What is wrong with a key or table, at the place where it stands."""
     line, column = nearest(places(text), steps)
     return SourceError(what, path=path, line=line, column=column, hint=hint)
+
+
+def refuse(found: Iterable[SourceError]) -> None:
+    """Raise everything that is wrong in a file together, or nothing."""
+    errors = list(dict.fromkeys(map(_key, found)))
+    if len(errors) == 1:
+        raise errors[0].error
+    if errors:
+        raise FaultyFileError(each.error for each in errors)
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    """An error by what it prints, so that equal ones are reported once."""
+
+    text: str
+    error: SourceError = field(compare=False)
+
+
+def _key(error: SourceError) -> _Key:
+    return _Key(str(error), error)
+
+
+def convert_all(raw: dict[str, Any], kind: type[Kind]) -> tuple[Kind | None, list[str]]:
+    """Convert the tables of a file; None and every message of the converter if any is wrong.
+
+    The converter ends at the first mistake. It is left out of a copy, and the next is looked for:
+    a wrong value with its key, a table that lacks a key as a whole. Paths in the messages are
+    those of the file.
+    """
+    rest, messages = deepcopy(raw), list[str]()
+    removed: dict[Steps, list[int]] = {}
+    while len(messages) < MOST_MESSAGES:
+        try:
+            found = msgspec.convert(rest, kind)
+        except msgspec.ValidationError as error:
+            what, steps = complaint_of(str(error))
+            place = _original(steps, removed)
+            unknown, missing = UNKNOWN.fullmatch(what), MISSING.fullmatch(what)
+            key = (missing or unknown or [None, None])[1]
+            if not (missing and (*place, key) in removed):
+                messages.append(f"{what} - at `{_path(place)}`")
+            wrong_steps = (*steps, key) if unknown and key else steps
+            if not _leave_out(rest, wrong_steps, removed):
+                break
+        else:
+            return (None if messages else found), messages
+    return None, messages
+
+
+def _original(steps: Steps, removed: dict[Steps, list[int]]) -> Steps:
+    """The steps in the file to what is at `steps` once some of its parts were left out."""
+    place: Steps = ()
+    for step in steps:
+        if isinstance(step, int):
+            for index in sorted(removed.get(place, [])):
+                step += index <= step
+        place = (*place, step)
+    return place
+
+
+def _leave_out(rest: Any, steps: Steps, removed: dict[Steps, list[int]]) -> bool:
+    """Take away what is at `steps`; False if that is the file as a whole."""
+    if not steps:
+        return False
+    place = _original(steps, removed)
+    for step in steps[:-1]:
+        rest = rest[step]
+    del rest[steps[-1]]
+    if isinstance(place[-1], int):
+        removed.setdefault(place[:-1], []).append(place[-1])
+    else:
+        removed.setdefault(place, [])
+    return True
+
+
+def _path(steps: Steps) -> str:
+    return "$" + "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)
 
 
 def not_finite(value: object, steps: Steps = ()) -> Iterator[Steps]:

@@ -3,8 +3,6 @@
 from enum import Enum
 from pathlib import Path
 
-import msgspec
-
 from openacr.errors import SourceError
 from openacr.plant import toml_file
 from openacr.plant.faults import Kind
@@ -18,16 +16,22 @@ def load_scenario(path: Path) -> Scenario:
 
 
 def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
-    """Check the text of a scenario; the first thing wrong is raised with its place."""
+    """Check the text of a scenario; everything wrong is raised together, with its places."""
     raw = toml_file.parse(text, path)
-    for where in toml_file.not_finite(raw):
-        raise toml_file.wrong(text, path, where, "numbers have to be finite")
-    try:
-        scenario = msgspec.convert(raw, Scenario)
-    except msgspec.ValidationError as error:
-        raise _wrong(str(error), text, path) from None
-    for problem in problems(scenario):
-        raise toml_file.wrong(text, path, problem.steps, problem.text, problem.hint)
+    scenario, messages = toml_file.convert_all(raw, Scenario)
+    found = [
+        toml_file.wrong(text, path, where, "numbers have to be finite")
+        for where in toml_file.not_finite(raw)
+    ]
+    found += [_wrong(message, text, path) for message in messages]
+    if scenario is not None and not found:
+        found += [
+            toml_file.wrong(text, path, each.steps, each.text, each.hint)
+            for each in problems(scenario)
+        ]
+    toml_file.refuse(found)
+    if scenario is None:
+        raise toml_file.wrong(text, path, (), "it describes no scenario")
     return scenario
 
 
