@@ -46,6 +46,21 @@ def test_groups_are_copied_every_period_until_off(bench: Bench) -> None:
     assert bench.type("?P7057") == "2"
 
 
+@pytest.mark.parametrize(
+    "step", [fast_status_cy.fast_status_step, pick(fast_status_cy.fast_status_step)]
+)
+def test_the_count_of_copies_wraps_as_every_long_does(bench: Bench, step: object) -> None:
+    memory = bench.memory
+    memory.I[at.P_FSTAT_COUNT] = 2**31 - 2
+    memory.I[at.W_FSTAT] |= at.FSF_FSTAT_ON_REQUEST
+    counts = []
+    for _ in range(3):
+        memory.F[at.FSBF_BASE + at.FSBF_PHASE_MS] = 60.0
+        step(memory.F, memory.I, memory.S, 0.0005)  # type: ignore[operator]
+        counts.append(memory.I[at.P_FSTAT_COUNT])
+    assert counts == [2**31 - 1, -(2**31), -(2**31) + 1]
+
+
 def test_the_flag_loads_entries_written_as_parameters(bench: Bench) -> None:
     bench.all("P7443=48", "P7444=2", "P7445=0")
     bench.memory.I[at.AX_BASE + 3 * at.AX_STRIDE + 2] = 9

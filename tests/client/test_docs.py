@@ -22,7 +22,7 @@ SNIPPETS = [
 
 @pytest.fixture(scope="module")
 def served() -> Iterator[Served]:
-    with serving() as served:
+    with serving("--status-port", "0") as served:
         yield served
 
 
@@ -35,7 +35,7 @@ def test_a_snippet_of_the_manual_runs(
     page, snippet = SNIPPETS[number]
     with Card.open(target) as card:
         names = {"target": target, "card": card, "host": LOOPBACK}
-        names["binary_port"] = served.binary_port
+        names |= {"binary_port": served.binary_port, "status_port": served.status_port}
         exec(compile(snippet, f"snippet of {page}", "exec"), names)
     assert "Traceback" not in capsys.readouterr().out
 

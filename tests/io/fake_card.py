@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from openacr.protocol.data import DataRequest
 from openacr.protocol.events import NEED_DATA, Attention, Control, Escape, Event, Line, Received
+from openacr.protocol.status import FastStatus
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import Terminal
 
@@ -51,6 +52,9 @@ class FakeCard:
 
     def take_output(self, stream: int) -> bytes:
         return self.streams[stream].terminal.data_to_send()
+
+    def fast_status(self) -> bytes:
+        return FastStatus((self.tick, *range(1, 80))).encode()
 
     def advance(self, ticks: int) -> None:
         for _ in range(ticks):

@@ -61,6 +61,7 @@ class Served:
     process: "subprocess.Popen[str]"
     ascii_port: int
     binary_port: int
+    status_port: int = 0
 
     def call(self) -> Caller:
         return Caller(self.ascii_port)
@@ -75,7 +76,9 @@ class Served:
         return self.process.returncode, error
 
 
-LISTENING = r"listening ascii=[\d.]+:(\d+) binary=[\d.]+:(\d+)(?: serial=\S+)?\n"
+LISTENING = (
+    r"listening ascii=[\d.]+:(\d+) binary=[\d.]+:(\d+)(?: serial=\S+)?(?: status=[\d.]+:(\d+))?\n"
+)
 
 
 @contextmanager
@@ -90,7 +93,7 @@ def serving(*arguments: str | Path) -> Iterator[Served]:
             line = process.stdout.readline()
             found = re.fullmatch(LISTENING, line)
             assert found, f"{line!r}: {process.stderr.read() if process.stderr else ''}"
-            yield Served(process, int(found[1]), int(found[2]))
+            yield Served(process, int(found[1]), int(found[2]), int(found[3] or 0))
         finally:
             if process.poll() is None:
                 process.kill()

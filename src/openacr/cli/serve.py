@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import StoreError, UserError
+from openacr.protocol.status import STATUS_PORT
 from openacr.protocol.stream import ASCII_PORT, BINARY_PORT
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
     from openacr.io.host import CardHost
     from openacr.io.serial_port import LineSettings
-    from openacr.io.server import Address, Guests
+    from openacr.io.server import Address, CardServer, Guests
 
 log = logging.getLogger(__name__)
 BAD_INPUT = 2
@@ -42,6 +43,12 @@ def serve(
         int, typer.Option(help="Terminal and packets; 0: any free.")
     ] = ASCII_PORT,
     binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = BINARY_PORT,
+    status_port: Annotated[
+        int | None,
+        typer.Option(
+            help="Fast status over UDP; 0: any free; default: 5003 beside 5002, else none."
+        ),
+    ] = None,
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[
         int | None,
@@ -69,7 +76,15 @@ def serve(
     try:
         if not no_journal:
             _keep_journal(card, journal or (data / "journal" if data else None))
-        ports = Ports(host, ascii_port, binary_port, serial, _line(card, baud))
+        ports = Ports(
+            host,
+            ascii_port,
+            binary_port,
+            serial,
+            _line(card, baud),
+            STATUS_PORT if status_port is None and ascii_port == ASCII_PORT else status_port,
+            is_status_wanted=status_port is not None,
+        )
         asyncio.run(serve_card(card, ports, speed, guests))
     finally:
         card.close()
@@ -84,6 +99,8 @@ class Ports:
     binary: int = 0
     serial: str | None = None
     line: "LineSettings | None" = None
+    status: int | None = None  # of UDP; None: no status service
+    is_status_wanted: bool = True  # without it a port in use is a warning
 
 
 def _line(card: "Controller", baud: int | None) -> "LineSettings":
@@ -162,20 +179,39 @@ async def serve_card(
     try:
         terminal = await server.listen(StreamKind.TERMINAL, ports.host, ports.ascii)
         packets = await server.listen(StreamKind.PACKETS, ports.host, ports.binary)
+        status = await _listen_status(server, ports)
         if ports.serial is not None:
             server.open_serial(ports.serial, ports.line or LineSettings())
     except BaseException:
         await server.close()
         raise
-    _announce(terminal, packets, server.allowed, ports.serial)
+    _announce(terminal, packets, server.allowed, status=status, serial=ports.serial)
     gc.collect()
     gc.freeze()  # what is loaded now stays: later collections are short
     await server.run(stop)
     log.info("%s", server.report())
 
 
+async def _listen_status(server: "CardServer", ports: Ports) -> "Address | None":
+    """Open the UDP port; a card nobody asked to have one goes on without."""
+    if ports.status is None:
+        return None
+    try:
+        return await server.listen_status(ports.host, ports.status)
+    except UserError as failure:
+        if ports.is_status_wanted:
+            raise
+        log.warning("no status over UDP: %s", failure)
+        return None
+
+
 def _announce(
-    terminal: "Address", packets: "Address", guests: "Guests", serial: str | None
+    terminal: "Address",
+    packets: "Address",
+    guests: "Guests",
+    *,
+    status: "Address | None",
+    serial: str | None,
 ) -> None:
     if not terminal.is_loopback:
         typer.secho(
@@ -186,8 +222,9 @@ def _announce(
             bold=True,
             err=True,
         )
-    port = "" if serial is None else f" serial={serial}"
-    print(f"listening ascii={terminal} binary={packets}{port}", flush=True)
+    others = (("serial", serial), ("status", status))
+    named = "".join(f" {name}={place}" for name, place in others if place is not None)
+    print(f"listening ascii={terminal} binary={packets}{named}", flush=True)
 
 
 def _stop_on_signals(stop: asyncio.Event) -> None:

@@ -24,6 +24,7 @@ from openacr.client.moves import MoveStream
 from openacr.client.objects import Axis, Master
 from openacr.client.options import Options
 from openacr.client.requests import Level
+from openacr.client.status_feed import StatusFeed
 from openacr.client.transfer import Remark, Report
 
 __all__ = [
@@ -43,5 +44,6 @@ __all__ = [
     "Remark",
     "Report",
     "RestoreError",
+    "StatusFeed",
     "VerificationError",
 ]

@@ -25,6 +25,9 @@ from openacr.map.numbers import (
     AXF_PEAK_ERROR_CNT,
     AXF_PEAK_VELOCITY_CPS,
     AXF_TRAVEL_CNT,
+    FSBI_BASE,
+    FSBI_STRIDE,
+    FSBI_WORDS,
 )
 from openacr.models import Model
 from openacr.motion.permits import scale_of
@@ -32,6 +35,7 @@ from openacr.motion.rows import axis_reals
 from openacr.plant import load, schema
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
+from openacr.protocol.status import GROUPS, WORDS, FastStatus
 from openacr.protocol.stream import StreamKind
 
 
@@ -126,6 +130,12 @@ class Controller(Surroundings):
         if session is None or not session.busy:
             return False
         return not self.executor.is_waiting(session.thread)
+
+    def fast_status(self) -> bytes:
+        """The datagram of the status service: what FSTAT0 to FSTAT9 hold, high byte first."""
+        first = range(FSBI_BASE, FSBI_BASE + GROUPS * FSBI_STRIDE, FSBI_STRIDE)
+        places = (row + FSBI_WORDS + word for row in first for word in range(WORDS))
+        return FastStatus(tuple(self.memory.I[place] for place in places)).encode()
 
     def take_output(self, stream: int) -> bytes:
         """The bytes of the next write, none when there is nothing to send."""

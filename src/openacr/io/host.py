@@ -32,3 +32,6 @@ class CardHost(Protocol):
 
     def advance(self, ticks: int) -> None:
         """Let card time pass."""
+
+    def fast_status(self) -> bytes:
+        """The datagram of the status service: 80 words of FSTAT, high byte first."""

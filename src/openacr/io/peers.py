@@ -28,6 +28,7 @@ class Peer(Protocol):
 
     kind: StreamKind
     stream: int
+    host: str  # where it is; empty for a serial line
 
     @property
     def takes_output(self) -> bool:
@@ -65,6 +66,7 @@ class TcpPeer(asyncio.BufferedProtocol):
     def __init__(self, kind: StreamKind, board: Switchboard) -> None:
         self.kind = kind
         self.stream = -1
+        self.host = ""
         self._board = board
         self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
@@ -79,7 +81,7 @@ class TcpPeer(asyncio.BufferedProtocol):
             return
         self._transport = transport
         host, port, *_ = transport.get_extra_info("peername") or (UNKNOWN_HOST, 0)
-        self._name = f"{host}:{port}"
+        self.host, self._name = host, f"{host}:{port}"
         _set_options(transport.get_extra_info("socket"))
         is_welcome = self._board.admits(host)
         self._joined = is_welcome and self._board.joined(self)

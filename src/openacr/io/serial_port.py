@@ -84,6 +84,7 @@ class SerialPeer:
         self, path: str, line: LineSettings, board: Switchboard, loop: asyncio.AbstractEventLoop
     ) -> None:
         self.stream = -1
+        self.host = ""
         self._path = path
         self._board = board
         self._loop = loop

@@ -17,6 +17,7 @@ from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
 from openacr.io.serial_port import LineSettings, SerialPeer
+from openacr.io.status_port import StatusPort, open_status_port
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 LOOPBACK = "127.0.0.1"
@@ -90,16 +91,25 @@ class CardServer:
         self._pacer = Pacer(card.period_s, speed)
         self._peers: list[Peer] = []
         self._listeners: list[asyncio.Server] = []
+        self._status: StatusPort | None = None
         self._now = time.monotonic
 
     # --- set-up and end ---------------------------------------------------------------
 
     async def listen(self, kind: StreamKind, host: str, port: int) -> Address:
         """Open one TCP port (0: any free one); UserError when that is impossible."""
-        sock = _listening_socket(host, port)
+        option = "--ascii-port" if kind is StreamKind.TERMINAL else "--binary-port"
+        sock = _bound_socket(host, port, socket.SOCK_STREAM, option)
         loop = asyncio.get_running_loop()
         listener = await loop.create_server(lambda: TcpPeer(kind, self), sock=sock)
         self._listeners.append(listener)
+        name = sock.getsockname()
+        return Address(name[0], name[1])
+
+    async def listen_status(self, host: str, port: int) -> Address:
+        """Open the UDP port of the fast status; UserError when that is impossible."""
+        sock = _bound_socket(host, port, socket.SOCK_DGRAM, "--status-port")
+        self._status = await open_status_port(self, self._now, sock)
         name = sock.getsockname()
         return Address(name[0], name[1])
 
@@ -114,6 +124,8 @@ class CardServer:
             while not stop.is_set():
                 self._catch_up()
                 self._serve_all()
+                if self._status is not None:
+                    self._status.send_due(self._card.fast_status)
                 await asyncio.sleep(self._pacer.pause_s(self._now(), STEP_S))
         finally:
             await self.close()
@@ -122,6 +134,8 @@ class CardServer:
         """Stop listening and end every connection."""
         for listener in self._listeners:
             listener.close()
+        if self._status is not None:
+            self._status.close()
         for peer in list(self._peers):
             peer.close()
         await asyncio.sleep(0)  # lets the transports report their end
@@ -156,6 +170,10 @@ class CardServer:
         """Whether a host may connect at all."""
         return self.allowed.admits(host)
 
+    def hosts(self) -> set[str]:
+        """The addresses of the hosts that are connected."""
+        return {peer.host for peer in self._peers}
+
     def joined(self, peer: Peer) -> bool:
         """Give a new peer a stream of the card."""
         if len(self._peers) >= CONNECTIONS:
@@ -183,24 +201,32 @@ class CardServer:
         self._card.close_stream(peer.stream)
 
 
-def _listening_socket(host: str, port: int) -> socket.socket:
-    """A socket bound to the first address of `host`."""
+def _bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> socket.socket:
+    """A socket bound to the first address of `host`; one of TCP listens."""
     if not 0 <= port <= 0xFFFF:
         raise UserError(f"port {port} is not in 0..65535")
     try:
-        found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+        found = socket.getaddrinfo(host, port, type=kind, flags=socket.AI_PASSIVE)
         family, *_, address = found[0]
-        return socket.create_server((str(address[0]), port), family=family, backlog=CONNECTIONS)
+        if kind is socket.SOCK_STREAM:
+            return socket.create_server((str(address[0]), port), family=family, backlog=CONNECTIONS)
+        sock = socket.socket(family, kind)
+        try:
+            sock.bind(address)
+        except OSError:
+            sock.close()
+            raise
+        return sock
     except OSError as failure:
-        raise UserError(_listen_failure(host, port, failure)) from None
+        raise UserError(_listen_failure(host, port, failure, option)) from None
 
 
-def _listen_failure(host: str, port: int, failure: OSError) -> str:
+def _listen_failure(host: str, port: int, failure: OSError, option: str) -> str:
     """What went wrong and what to do about it."""
     if failure.errno == errno.EADDRINUSE:
         return (
             f"port {port} on {host} is in use (is another card running?); choose another"
-            " one with --ascii-port or --binary-port, 0 picks a free one"
+            f" one with {option}, 0 picks a free one"
         )
     if failure.errno == errno.EACCES:
         return f"port {port} needs special rights; choose one above 1023"

@@ -6,7 +6,7 @@ copies stay as they are when FSTAT On is cleared.
 """
 
 from openacr.kernel.source_cy import parameter_value
-from openacr.kernel.words_cy import round32
+from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
     FSB_COUNT,
     FSBF_BASE,
@@ -74,7 +74,7 @@ def fast_status_copy(F: F64, I: I32, S: F32) -> None:
                 S[row + FSBI_WORDS + field] = value
             else:
                 I[row + FSBI_WORDS + field] = round32(value)
-    I[P_FSTAT_COUNT] = I[P_FSTAT_COUNT] + 1
+    I[P_FSTAT_COUNT] = wrap32(I[P_FSTAT_COUNT] + 1)
 
 
 def fast_status_step(F: F64, I: I32, S: F32, period_s: float) -> None:
