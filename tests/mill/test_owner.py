@@ -8,10 +8,11 @@ from openacr.client import Card
 from openacr.cnc.load import load
 from openacr.controller import Controller
 from openacr.errors import OpenacrError
-from openacr.mill.owner import HEARTBEAT, Owner
+from openacr.mill.owner import BEAT_S, BEATS, HEARTBEAT, LISTEN_S, SETTLE_S, Owner
 from openacr.mill.states import State
 from openacr.mill.workshop import Start, Workshop
 from openacr.sysvar import Store
+from openacr.sysvar.tabs.control import CONTROL
 
 
 def opened(controller: Controller, store: Store) -> Workshop:
@@ -72,3 +73,73 @@ def test_a_set_up_that_fails_lets_the_machine_go(tmp_path: Path) -> None:
         for _ in range(2):
             with pytest.raises(OpenacrError, match="has no file"):
                 opened(controller, store)
+
+
+def test_of_two_programs_that_begin_together_one_has_the_machine(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The second one reads the variable before the first one has taken it."""
+    controller = Controller()
+    first, second = Card.open(controller), Card.open(controller)
+    first.command("SYS")
+    first.command("DIM P(100)")
+    owners = []
+    command = second.command
+
+    def late(line: str, *, program: int | None = None) -> list[str]:
+        owners.append(Owner(first, None))
+        return command(line, program=program)
+
+    monkeypatch.setattr(second, "command", late)
+    with pytest.raises(OpenacrError, match="another program drives this machine"):
+        Owner(second, None)
+    assert owners[0].is_ours()
+    assert int(controller.p[HEARTBEAT]) // BEATS == owners[0]._number
+
+
+def test_a_variable_that_was_left_is_taken_by_one_of_two(monkeypatch: pytest.MonkeyPatch) -> None:
+    controller = Controller()
+    first, second = Card.open(controller), Card.open(controller)
+    first.command("SYS")
+    first.command("DIM P(100)")
+    first.command("P96=5")
+    owners = []
+    command = second.command
+
+    def late(line: str, *, program: int | None = None) -> list[str]:
+        owners.append(Owner(first, None))
+        return command(line, program=program)
+
+    monkeypatch.setattr(second, "command", late)
+    with pytest.raises(OpenacrError, match="another program drives this machine"):
+        Owner(second, None)
+    assert (owners[0].is_ours(), owners[0].found) == (True, 5)
+
+
+def test_a_program_whose_machine_was_taken_sends_nothing_more() -> None:
+    controller = Controller()
+    with Store() as store:
+        shop = opened(controller, store)
+        shop.start(load("G4 F100\nM2\n", store), Start())
+        shop.step()
+        controller.p[HEARTBEAT] = 7 * BEATS
+        controller.set_input(0, False)
+        with pytest.raises(OpenacrError, match="alarm 8: Another program has taken the machine"):
+            for _ in range(100):
+                shop.step()
+        state = shop.runner.state
+        with pytest.raises(OpenacrError, match="another program drives the machine"):
+            shop.machine.set_flag(40, True)
+        shop.close()
+    assert (state, shop.runner.is_busy) == (State.ALARM, False)
+    assert controller.p[HEARTBEAT] == 7 * BEATS
+    assert controller.bit[1248]  # the watchdog is that of the other program now
+
+
+def test_a_host_counts_often_enough_for_others_and_for_the_watchdog() -> None:
+    """Others listen for three beats at least, and no link timeout is shorter than that."""
+    shortest_s = CONTROL.cells[250_126][0].low
+    assert shortest_s is not None
+    assert (BEAT_S, LISTEN_S, SETTLE_S) == (0.5, 1.6, 0.1)
+    assert LISTEN_S > 3 * BEAT_S
+    assert shortest_s >= 3 * BEAT_S

@@ -48,6 +48,10 @@ NO_CARD = _alarm(1, "NO CARD FOUND", Effect.REFUSE)
 OLD_FIRMWARE = _alarm(2, "Firmware older than 1.18: {}", Effect.REFUSE)
 LINK_LOST = _alarm(3, "Link lost", Effect.ABORT)
 LACKS_FUNCTION = _alarm(4, "Card model lacks function: {}", Effect.REFUSE)
+HOST_LOST = _alarm(5, "Watchdog of the card stopped the machine: its host was lost", Effect.ABORT)
+WATCHDOG_HALTED = _alarm(6, "Watchdog of the card was halted", Effect.ABORT)
+HOST_AWAY = _alarm(7, "Host did not watch the machine for {} s", Effect.HOLD)
+NOT_OWNER = _alarm(8, "Another program has taken the machine", Effect.REFUSE)
 EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.KILL)
 EXCESS_ERROR = _alarm(11, "Excess following error axis {}", Effect.KILL)
 DRIVE_FAULT = _alarm(12, "Drive fault axis {}", Effect.KILL)
@@ -143,6 +147,11 @@ class Alarms:
     def bars_start(self) -> bool:
         """Whether an alarm is up that a start has to wait for."""
         return any(alarm.kind.effect is not Effect.NONE for alarm in self._active.values())
+
+    def error(self, what: Kind, at_s: float) -> AlarmError:
+        """Give an alarm, and the error that tells of it."""
+        self.give(what, "", at_s)
+        return AlarmError(what)
 
     def require_none(self) -> None:
         """Refuse what has to wait until no alarm bars it."""

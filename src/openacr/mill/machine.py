@@ -23,6 +23,8 @@ CLEAR_S = 2.0  # longest time the card takes to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096
+TRIPPED = 247  # user flag: the watchdog has stopped the machine
+USER_FLAGS, TRIPPED_MASK = n.UF_WORD + 3, 1 << 23  # the word of flag 247, and its bit
 FIRST_MODULE_FLAG = (n.XIOI_WORD - FIRST_FLAG_WORD) * BITS_PER_WORD
 
 
@@ -37,6 +39,8 @@ class Look:
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
     limits: tuple[int, ...]  # quinary flag words
     modules: tuple[int, ...] = ()  # inputs of the expansion modules
+    has_tripped: bool = False  # the watchdog has stopped the machine
+    is_guarded: bool = True  # the watchdog runs, where there is one
     may_have_lost: bool = False  # packets sent behind the last look: the connection is a new one
 
     @property
@@ -61,8 +65,9 @@ class Look:
 
     @property
     def is_killed(self) -> bool:
-        """Moves were killed and are barred until that is cleared."""
-        return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST)
+        """Moves of the master, or all motion of an axis, were killed and are barred by that."""
+        axes = (word & n.AF4_KILL_ALL_MOTION_REQUEST for word in self.drives)
+        return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST) or any(axes)
 
     def input(self, number: int) -> bool:
         """The state of an input of the card (0..31) or of a module (256.. and up)."""
@@ -94,6 +99,7 @@ class Machine:
         self.is_dropping = False  # moves are killed on purpose
         self._clear_by_s: float | None = None  # a kill that stays for longer is not ours
         self._modules = 0
+        self._watchdog: int | None = None
         self._connections = card.connections
         self._has_told = False  # since the last look
         self._barred = ""  # why nothing is sent to the card any more
@@ -106,7 +112,8 @@ class Machine:
         limits = [n.AF5_WORD + axis for axis in self.axes]
         head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, self.counter, n.W_INPUTS]
         modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
-        return head + drives + limits + modules
+        watchdog = [] if self._watchdog is None else [USER_FLAGS, n.PF_WORD + self._watchdog]
+        return head + drives + limits + watchdog + modules
 
     @property
     def counter(self) -> int:
@@ -118,6 +125,11 @@ class Machine:
         self._modules = count
         self.__dict__.pop("_watched", None)
 
+    def watch_program(self, program: int) -> None:
+        """Look at the watchdog in this program of the card, too."""
+        self._watchdog = program
+        self.__dict__.pop("_watched", None)
+
     def look(self) -> Look:
         """Ask the card how it stands."""
         clock, master, counter, inputs, *words = map(int, self._read_many(self._watched))
@@ -127,13 +139,18 @@ class Machine:
         if self._clock_ms is not None:
             self._passed_ms += (clock - self._clock_ms) % CLOCK_PERIOD_MS
         self._clock_ms = clock
-        self._note_clearing(is_killed=bool(master & n.MF1_KILL_ALL_MOVES_REQUEST))
         count = len(self.axes)
-        drives, limits, modules = words[:count], words[count : 2 * count], words[2 * count :]
-        return Look(
+        drives, limits, words = words[:count], words[count : 2 * count], words[2 * count :]
+        flags, program = words[:2] if self._watchdog is not None else (0, n.PF_PROGRAM_RUNNING)
+        modules = words[2:] if self._watchdog is not None else words
+        look = Look(
             clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
+            has_tripped=bool(flags & TRIPPED_MASK),
+            is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
             may_have_lost=has_lost,
         )  # fmt: skip
+        self._note_clearing(is_killed=look.is_killed)
+        return look
 
     def _note_clearing(self, *, is_killed: bool) -> None:
         by_s = self._clear_by_s

@@ -1,58 +1,99 @@
 """One program at a time drives a machine.
 
 Programs of one store are kept apart by a lock beside it, which ends with its process. For
-those of other stores and computers the card has a variable that the owner counts on as long
-as it looks: one that stands still was left by a program that is gone.
+those of other stores and computers the card has a variable that its owner counts on as long
+as it runs: one that does not change was left by a program that is gone. It is taken by one
+line that compares and writes, which the card executes whole, and read back after a while:
+of two hosts that begin together only one finds its own number.
 """
 
 from pathlib import Path
+from random import SystemRandom
 
 from openacr.client import Card
 from openacr.errors import UserError
 from openacr.store.lock import FileLock
 
-HEARTBEAT = 96  # variable of the card; 0 where nobody drives it
-BEAT_S, LISTEN_S = 0.5, 1.6
+HEARTBEAT = 96  # variable of the card; 0 where no program drives it
+BEAT_S, LISTEN_S, SETTLE_S = 0.5, 1.6, 0.1
 TAKEN = "another program drives this machine: wait for its end, or end it"
 SUFFIX = "-machine"
+BEATS, OWNERS = 1 << 10, 1 << 20  # a value is owner * BEATS + beat: 30 bits
 
 
 class Owner:
     """The ownership of a machine, until `release`; refused while another program has it."""
 
-    def __init__(self, card: Card, store: Path | None) -> None:
+    def __init__(
+        self, card: Card, store: Path | None, *, program: int = 0, listen_s: float = LISTEN_S
+    ) -> None:
         self._card = card
-        self._beats = 1
+        self._program = program
+        self._number = SystemRandom().randrange(1, OWNERS)
+        self._beat = 0
         self._due_s = 0.0
         named = None if store is None else store.with_name(store.name + SUFFIX)
         self._lock = None if named is None else FileLock(named, TAKEN)
         try:
-            self._require_silence()
+            self.found = self._require_silence(listen_s)  # left by a program that is gone
+            self._take()
         except BaseException:
             self._unlock()
             raise
 
-    def _require_silence(self) -> None:
-        before = self._card.read(HEARTBEAT)
+    def _require_silence(self, listen_s: float) -> int:
+        before = self._read()
         if before:
-            self._card.pause(LISTEN_S)
-            if self._card.read(HEARTBEAT) != before:
+            self._card.pause(listen_s)
+            if self._read() != before:
                 raise UserError(TAKEN)
+        return before
 
-    def keep(self, now_s: float) -> None:
-        """Count on when it is time to."""
-        if now_s >= self._due_s:
-            self._due_s = now_s + BEAT_S
-            self._card.write(HEARTBEAT, self._beats)
-            self._beats += 1
+    def _take(self) -> None:
+        self._exchange(self.found, self._value)
+        self._card.pause(SETTLE_S)  # longer than the card takes between compare and write
+        if not self.is_ours():
+            raise UserError(TAKEN)
 
-    def release(self, *, tells_card: bool = True) -> None:
-        """Let others have the machine; a card that is out of reach is not told."""
+    @property
+    def _value(self) -> int:
+        return self._number * BEATS + self._beat % BEATS
+
+    def _read(self) -> int:
+        return int(self._card.ask(f"P{HEARTBEAT}"))
+
+    def _exchange(self, old: int, new: int) -> None:
+        line = f"IF (P{HEARTBEAT}={old}) THEN P{HEARTBEAT}={new}"
+        self._card.command(line, program=self._program)
+
+    def is_ours(self) -> bool:
+        """Whether no other program has taken the machine meanwhile."""
+        return self._read() // BEATS == self._number
+
+    def keep(self, now_s: float) -> bool:
+        """Count on when it is time to; False when another program has taken the machine."""
+        if now_s < self._due_s:
+            return True
+        self._due_s = now_s + BEAT_S
+        before = self._read()
+        if before // BEATS != self._number:
+            return False
+        self._beat += 1
+        self._exchange(before, self._value)
+        return True
+
+    def release(self, *, left: int = 0) -> None:
+        """Let others have the machine; `left` is what is left in the variable."""
         try:
-            if tells_card:
-                self._card.write(HEARTBEAT, 0)
+            before = self._read()
+            if before // BEATS == self._number:
+                self._exchange(before, left)
         finally:
             self._unlock()
+
+    def forget(self) -> None:
+        """Let others of this store have it, without a word to the card."""
+        self._unlock()
 
     def _unlock(self) -> None:
         if self._lock is not None:

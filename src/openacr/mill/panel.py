@@ -39,6 +39,17 @@ class Panel:
         for number, on in self._out.items():
             self.output(number, on)
 
+    def safe_levels(self) -> list[tuple[int, bool]]:
+        """The outputs of spindle, coolant and beam, with their levels while all of it is off."""
+        row, burning = self.settings.spindle, self.settings.burning
+        ons = (row.cw, row.ccw, row.mist, row.flood, burning.plasma, burning.under_burn)
+        off = [(number, False) for number in ons] + [(row.off, True), (row.coolant_off, True)]
+        return [
+            (number, on != self.settings.is_output_inverted(number))
+            for number, on in off
+            if number in self.outputs
+        ]
+
     def is_out(self, number: int) -> bool:
         """Whether an output was switched on here."""
         return self._out.get(number, False)

@@ -215,6 +215,16 @@ class Runner:
         self._hands.stop()
         self._ending.abort(State.IDLE)
 
+    def guard(self, rearm: Callable[[], None]) -> None:
+        """A watchdog runs on the card; `rearm` starts it again when an alarm is acknowledged."""
+        self._supervision.rearm = rearm
+
+    def disown(self) -> None:
+        """Another program drives the machine: nothing is sent any more. AlarmError."""
+        self.machine.let_go("another program drives the machine")
+        self._supervision.leave()
+        raise self.alarms.error(alarms.NOT_OWNER, self.machine.now_s)
+
     def cut_power(self) -> None:
         """The last resort where nothing brings rest: kill, all drives off, alarm 15."""
         self._supervision.give(alarms.NO_REST, "")
@@ -295,7 +305,7 @@ class Runner:
     def _do(self, look: Look) -> None:
         self._times.look(self.machine.now_s)
         self.course.tracker.update(look.counter)
-        self._supervision.keep(look)
+        self._supervision.keep(look, self._times.step_s)
         self._switches.keep(look, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(look)
         for play in (self._hands.play, self.retrace.play):

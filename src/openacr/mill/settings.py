@@ -72,6 +72,7 @@ class Settings:
         self.returns_to_start = bool(self._int(CONTROL, 6))
         self.lead_in_u = self._real(CONTROL, 5)
         self.on_the_fly = bool(self._int(COMPATIBILITY, 4))
+        self.watchdog_program = self._int(CONTROL, 125)
         self.link_timeout_s = self._real(CONTROL, 126)
         self.is_metric = bool(self._int(CONTROL, 1))
 

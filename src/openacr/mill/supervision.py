@@ -56,6 +56,7 @@ class Supervision:
         self._say = say
         self._watch = Watch(panel)
         self._reach = Reach(panel.machine.card, panel.settings.link_timeout_s)
+        self.rearm: Callable[[], None] = lambda: None  # the watchdog, where there is one
         self._owes_rest = False  # the link was lost before the machine could be brought to rest
 
     @property
@@ -69,7 +70,7 @@ class Supervision:
         """Whether the card has not answered for so long that nothing more is sent to it."""
         return self._reach.is_given_up
 
-    def keep(self, look: Look) -> None:
+    def keep(self, look: Look, step_s: float) -> None:
         """Alarms for what is wrong, each once until it is acknowledged."""
         self._reach.answer()
         if self._owes_rest:
@@ -77,6 +78,8 @@ class Supervision:
             self._bring_to_rest()
         elif look.may_have_lost:
             self._renew()
+        if step_s > self._panel.settings.link_timeout_s and self.is_busy:
+            self.give(alarms.HOST_AWAY, f"{step_s:.1f}")
         for kind, detail in self._watch.causes(look, spins=self._spindle.is_on):
             self.give(kind, detail)
 
@@ -148,11 +151,17 @@ class Supervision:
             self._status.end(State.ALARM)
             self._say("alarm 3: Link lost; trying to reach the card")
         if self.is_out_of_reach:
-            self._owes_rest = False
             self._panel.machine.let_go("it does not answer")
+            self.leave()
+
+    def leave(self) -> None:
+        """End what runs here without a word to the card."""
+        self._owes_rest = False
+        self._status.end(State.ALARM)
+        self._course.end()
+        for close in (self._script.close, self._hands.close, self._retrace.close):
             with suppress(*LINK_ERRORS):
-                self._script.close()
-            self._hands.close()
+                close()
 
     def _renew(self) -> None:
         """Packets sent before a new connection may be lost: say again what the card has to know.
@@ -191,6 +200,7 @@ class Supervision:
             raise UserError("the machine has not come to rest yet")
         if is_over:
             machine.clear_limits()
+            self.rearm()
         look = machine.look()
         is_gone = self._watch.is_gone(look, spins=self._spindle.is_on)
         left = self._alarms.acknowledge(

@@ -27,6 +27,10 @@ class Watch:
         wiring, spindle = self._panel.settings.wiring, self._panel.settings.spindle
         if self._panel.is_in(look, wiring.emergency_stop):
             yield alarms.EMERGENCY_STOP, ""
+        if look.has_tripped:
+            yield alarms.HOST_LOST, ""
+        if not look.is_guarded:
+            yield alarms.WATCHDOG_HALTED, ""
         yield from self._of_axes(look)
         if self._has_error_band and not look.is_within_error:
             for name in self._in_error():

@@ -34,13 +34,15 @@ from openacr.mill.checks import check_axes, check_firmware, check_rest
 from openacr.mill.dripping import Drip
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
+from openacr.mill.leftovers import has_tripped, tidy
 from openacr.mill.machine import LINK_ERRORS, Machine
 from openacr.mill.messages import Message, Messages, definitions
-from openacr.mill.owner import Owner
+from openacr.mill.owner import BEAT_S, LISTEN_S, Owner
 from openacr.mill.runner import Runner
 from openacr.mill.settings import HOMED, NONE, Settings
 from openacr.mill.setup import prepare, user_variables
 from openacr.mill.states import Options, State
+from openacr.mill.watchdog import NO_WATCHDOG, Watchdog
 from openacr.sysvar import AT_START, Store
 
 if TYPE_CHECKING:
@@ -110,6 +112,19 @@ class Workshop:
             each for each in definitions(cells) if not (is_virtual and panel.has_input(each.bit))
         ]
         self.messages = Messages(panel, defined, self._note_message)
+        self._watchdog: Watchdog | None = None
+        if owner is not None:
+            self._guard(say)
+
+    def _guard(self, say: Callable[[str], None]) -> None:
+        """The watchdog on the card, unless the store does without."""
+        if self.runner.settings.watchdog_program == NONE:
+            say(NO_WATCHDOG)
+            return
+        self._watchdog = Watchdog(self.card, self.runner.panel)
+        self._watchdog.install()
+        self.machine.watch_program(self._watchdog.program)
+        self.runner.guard(self._watchdog.rearm)
 
     @classmethod
     def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "Workshop":
@@ -140,26 +155,40 @@ class Workshop:
         card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
         try:
             check_firmware(card)
-            check_rest(card, settings)
             user_variables(card)
-            owner = Owner(card, store.path)
+            listen_s = max(LISTEN_S, timeout_s + BEAT_S)
+            owner = Owner(card, store.path, program=settings.master, listen_s=listen_s)
         except BaseException:
             card.close()
             raise
         try:
+            tidy(card, settings, say, was_left=bool(owner.found))
+            check_rest(card, settings)
             homed.agree(card, store)  # before the set-up: tables act on homed axes alone
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store), owner=owner)
         except BaseException:
-            owner.release()
+            with suppress(*LINK_ERRORS):
+                owner.release(left=owner.found)  # what another watchdog still listens to
             card.close()
             raise
 
     def close(self) -> None:
         """Let go of the card."""
-        with suppress(*LINK_ERRORS):
-            if self._owner is not None:
-                self._owner.release(tells_card=not self.runner.is_out_of_reach)
+        if self._drip is not None:
+            self._drip.close()  # last of all that the machine was driven with
+        if self._owner is not None:
+            self._release(self._owner)
         self.card.close()
+
+    def _release(self, owner: Owner) -> None:
+        """Take the watchdog off the card, unless it has stopped the machine, and let go of it."""
+        if self.runner.is_out_of_reach:
+            owner.forget()
+            return
+        with suppress(*LINK_ERRORS):
+            if self._watchdog is not None and owner.is_ours() and not has_tripped(self.card):
+                self._watchdog.remove()
+            owner.release()
 
     @property
     def cells_unit(self) -> str:
@@ -266,11 +295,19 @@ class Workshop:
         self.machine.pause(POLL_S)
         if self._drip is not None:
             self._drip.poll()
+        self._keep_ownership()
         self.runner.step()
         with suppress(*LINK_ERRORS):  # the next look tells
             self.messages.keep(self.machine.now_s)
-            if self._owner is not None:
-                self._owner.keep(self.machine.now_s)
+
+    def _keep_ownership(self) -> None:
+        """Count on; before anything is sent, for this process may have been stopped for long."""
+        is_ours = True
+        if self._owner is not None and not self.runner.is_out_of_reach:
+            with suppress(*LINK_ERRORS):  # the next look tells
+                is_ours = self._owner.keep(self.card.now_s())
+        if not is_ours:
+            self.runner.disown()
 
     def _note_message(self, message: Message, is_on: bool) -> None:
         if is_on and message.is_alarm:

@@ -106,6 +106,9 @@ CONTROL.real(121, "DXF drill Z", "u", -0.5, doc="Depth of imported holes.")
 CONTROL.real(122, "DXF drill R", "u", 0.1, doc="Level above imported holes.")
 CONTROL.real(123, "DXF drill F", "u/m", 10, low=0, is_low_open=True, doc="Feed of holes.")
 CONTROL.integer(124, "I/O Expansion Modules", low=0, high=4, doc="Modules on the card.")
+CONTROL.integer(
+    125, "Watchdog Program", 7, low=-1, high=7, doc="On the card, for a lost host; -1: none."
+)
 CONTROL.real(126, "Link Timeout", "s", 2, low=1.5, high=60, doc="Longest time without the host.")
 CONTROL.boolean(130, "Gouge Stop", 1, doc="True: a gouge refuses the program.")
 CONTROL.boolean(

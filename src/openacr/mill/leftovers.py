@@ -1,0 +1,66 @@
+"""What a program that is gone has left on the machine: held moves, outputs that are on."""
+
+from collections.abc import Callable
+
+from openacr.client import Card
+from openacr.errors import UserError
+from openacr.mill.actions import DAC_STRIDE, DAC_VALUE
+from openacr.mill.machine import TRIPPED, Machine
+from openacr.mill.panel import Panel
+from openacr.mill.settings import NONE, Settings
+from openacr.mill.watchdog import left_text
+
+LIMIT_S = 5.0  # to drop moves that are held
+
+
+def has_tripped(card: Card) -> bool:
+    """Whether the watchdog has stopped the machine, and nobody has acknowledged it."""
+    return card.read_bit(TRIPPED)
+
+
+def machine_of(card: Card, settings: Settings) -> Machine:
+    """The axes of the machine on this card."""
+    return Machine(card, [axis.index for axis in settings.axes], settings.master)
+
+
+def tidy(card: Card, settings: Settings, say: Callable[[str], None], *, was_left: bool) -> None:
+    """At the start: say what a program that is gone has left, and switch it off.
+
+    A machine that still moves is left alone, with its outputs.
+    """
+    is_tripped = has_tripped(card)
+    if not is_tripped and not was_left:
+        return
+    machine = machine_of(card, settings)
+    text = left_text(card, settings.watchdog_program) if is_tripped else ""
+    if text:
+        say(f"the watchdog has stopped the machine: {text}")
+    look = machine.look()
+    if look.is_moving and look.is_held:
+        say("moves of a program that is gone are dropped")
+        machine.stop()
+        if not card.wait(lambda: not machine.look().is_moving, timeout_s=LIMIT_S):
+            raise UserError("moves of a program that is gone cannot be dropped: openacr mill stop")
+        machine.clear_kill()
+    elif look.is_moving or machine.is_jogging():
+        return  # refused by the check that follows
+    for text in switch_off(card, settings):
+        say(f"left on by a program that is gone, switched off: {text}")
+
+
+def switch_off(card: Card, settings: Settings) -> list[str]:
+    """Spindle, coolant and beam off; what was on."""
+    panel = Panel(machine_of(card, settings), settings)
+    levels = panel.safe_levels()
+    before = card.read_bits([number for number, _ in levels])
+    found = []
+    for (number, off), was in zip(levels, before, strict=True):
+        panel.machine.set_flag(number, off)
+        if was != off:
+            found.append(f"output {number}")
+    if settings.spindle.dac != NONE:
+        dac = DAC_VALUE + DAC_STRIDE * settings.spindle.dac
+        if card.read(dac):
+            found.append(f"DAC{settings.spindle.dac}")
+        card.write(dac, 0)
+    return found

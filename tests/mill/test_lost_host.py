@@ -1,0 +1,108 @@
+"""The watchdog on the card, when the process that drives a real machine is killed or stopped."""
+
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.mill.live import Plant, Proxy, serial_line, until
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
+
+SPINDLE, FLOOD, DAC3 = 40, 41, 6448
+CELLS = {800_005: SPINDLE, 800_010: FLOOD, 800_002: 3, 800_001: 0.01}
+LONG = "M3 S500\nM8\nF60\nG1 X100\nM2\n"
+TRIPPED, WATCHDOG_RUNS = 247, 1248
+
+
+@pytest.fixture
+def plant(tmp_path: Path) -> Iterator[Plant]:
+    made = Plant(tmp_path)
+    made.wire(CELLS)
+    yield made
+    made.close()
+
+
+def require_stopped(plant: Plant) -> None:
+    """What the watchdog does within its time; the hold ends a moment later."""
+    until(lambda: plant.card.read_bit(TRIPPED))
+    until(lambda: plant.outputs(SPINDLE, FLOOD) == [False, False])
+    until(lambda: plant.is_at_rest)
+    assert plant.card.read(DAC3) == 0.0
+    assert 0 < plant.places()[0] < 950_000
+
+
+def test_a_host_that_is_killed_is_noticed_by_the_card_and_told_to_the_next(plant: Plant) -> None:
+    run = plant.mill("run", plant.part(LONG), "--quiet")
+    until(lambda: plant.is_moving)
+    assert plant.card.read_bit(WATCHDOG_RUNS)
+    run.signal(signal.SIGKILL)
+    run.ended()
+    require_stopped(plant)
+    place = plant.places()
+    plant.card.write_bit(SPINDLE, True)  # until somebody has acknowledged it stays off
+    until(lambda: not plant.card.read_bit(SPINDLE))
+
+    again = plant.mill("run", plant.part(LONG), "--quiet")
+    assert again.ended() == 2
+    assert "the watchdog has stopped the machine: host silent for 2 s: feed hold" in again.text
+    assert "alarm 5: Watchdog of the card stopped the machine: its host was lost" in again.text
+    assert plant.places() == place
+
+    cleared = plant.mill("acknowledge")
+    assert cleared.ended() == 0
+    assert (plant.card.read_bit(TRIPPED), plant.card.read_bit(WATCHDOG_RUNS)) == (False, False)
+    assert plant.card.command("LIST", program=7) == []
+
+    third = plant.mill("run", plant.part("G90 F600\nG1 X0\nM2\n"), "--quiet")
+    assert (third.ended(), third.text) == (0, "")
+    assert plant.places() == [0, 0, 0]
+
+
+def test_a_host_that_was_stopped_for_long_does_not_go_on(plant: Plant) -> None:
+    run = plant.mill("run", plant.part(LONG), "--quiet")
+    until(lambda: plant.is_moving)
+    run.signal(signal.SIGSTOP)
+    require_stopped(plant)
+    place = plant.places()
+    run.signal(signal.SIGCONT)
+    assert run.ended() == 1
+    assert "alarm 5: " in run.text
+    assert (plant.places(), plant.outputs(SPINDLE, FLOOD)) == (place, [False, False])
+
+
+def test_a_line_that_is_cut_for_good_is_noticed_by_the_card(plant: Plant) -> None:
+    with Proxy(plant.address) as line:
+        run = plant.mill("run", plant.part(LONG), "--quiet", host=line.address)
+        until(lambda: plant.is_moving)
+        line.cut()
+        require_stopped(plant)
+        assert run.ended() == 2
+
+
+def test_a_host_on_a_serial_line_that_is_killed_is_noticed_by_the_card(tmp_path: Path) -> None:
+    with serial_line() as (near, far):
+        plant = Plant(tmp_path, "--serial", far)
+        try:
+            plant.wire(CELLS)
+            run = plant.mill("run", plant.part(LONG), "--quiet", host=near)
+            until(lambda: plant.is_moving)
+            run.signal(signal.SIGKILL)
+            run.ended()
+            require_stopped(plant)
+        finally:
+            plant.close()
+
+
+@pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM, signal.SIGINT])
+def test_a_host_that_is_told_to_end_switches_off_and_takes_its_watchdog_away(
+    plant: Plant, number: signal.Signals
+) -> None:
+    run = plant.mill("run", plant.part(LONG), "--quiet")
+    until(lambda: plant.is_moving)
+    run.signal(number)
+    assert run.ended() == 130
+    assert "interrupted: the machine is at rest at X" in run.text
+    assert (plant.outputs(SPINDLE, FLOOD), plant.is_at_rest) == ([False, False], True)
+    assert (plant.card.read_bit(WATCHDOG_RUNS), plant.card.ask("P96")) == (False, 0)
