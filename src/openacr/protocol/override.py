@@ -5,8 +5,13 @@ bytes of the 16 master mask are there only behind a zero. It also starts its ROV
 with the FOV header. The later guide corrects both (errata) and lets byte 1 be set in eight
 bytes, so a card accepts one of the two forms: the later one, unless `machine.toml` says
 `short_override_packets = true`.
+
+Six bytes that are taken for the beginning of eight have the first two bytes of the next packet
+as the upper half of their value, which is then negative or next to nothing in all but a few
+cases: no override, so it is refused and those two bytes are read again (`belongs_to_next`).
 """
 
+import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar, Self
@@ -16,6 +21,7 @@ from openacr.protocol.packet import F32, U8, U16, Packet, PacketError, register
 MASTERS = 16
 SHORT_BYTES = 6
 MASK_16_AT, MASK_16_BYTES = 2, 2
+LEAST_OVERRIDE, LARGEST_OVERRIDE = 1e-4, 1e4  # besides 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,3 +72,24 @@ def is_short(start: bytes) -> bool:
 def lengthened(packet: bytes) -> bytes:
     """The eight bytes of a packet of six."""
     return packet[:MASK_16_AT] + bytes(MASK_16_BYTES) + packet[MASK_16_AT:]
+
+
+def is_override(value: float) -> bool:
+    """Whether a value can be meant as an override: 0, or a ratio a machine can follow."""
+    return value == 0.0 or LEAST_OVERRIDE <= value <= LARGEST_OVERRIDE
+
+
+def belongs_to_next(packet: bytes) -> bytes | None:
+    """The bytes of an override that are not its own; None where its value is an override.
+
+    Two bytes where the first six are a packet of the first edition, else nothing: it is broken.
+    """
+    if is_override(_value(packet, SHORT_BYTES - MASK_16_AT)):
+        return None
+    is_first_edition = is_short(packet) and is_override(_value(packet, MASK_16_AT))
+    return packet[SHORT_BYTES:] if is_first_edition else b""
+
+
+def _value(packet: bytes, at: int) -> float:
+    value: float = struct.unpack_from("<f", packet, at)[0]
+    return value

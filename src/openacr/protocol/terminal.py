@@ -20,6 +20,7 @@ What the bytes mean (for TERMINAL and SERIAL streams):
     other controls        ignored, except TAB
 """
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -45,9 +46,12 @@ from openacr.protocol.events import (
 from openacr.protocol.framing import PacketReader, ReaderState
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output, OutputState
+from openacr.protocol.override import FeedrateOverride, RapidOverride, belongs_to_next
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
 from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
+
+log = logging.getLogger(__name__)
 
 BACKLOG_LIMIT_BYTES = 1 << 16
 RESUME_BYTES = BACKLOG_LIMIT_BYTES // 2  # so that a sender is not held and let go all the time
@@ -109,6 +113,7 @@ class Terminal:
         self._is_full = False
         self._typing = TypedLine()
         self._after_cr = False
+        self._has_refused_override = False
         self._reader = PacketReader(kind is StreamKind.DPCB, short_overrides)
         self._keys = self._key_table()
 
@@ -226,10 +231,31 @@ class Terminal:
             return None  # nobody could answer it
         return None if packet is None else self._received(packet, segment)
 
-    def _received(self, packet: Packet, segment: _Segment) -> Received:
+    def _received(self, packet: Packet, segment: _Segment) -> Received | None:
+        if isinstance(packet, FeedrateOverride | RapidOverride):
+            rest = belongs_to_next(packet.encode())
+            if rest is not None:
+                self._refuse_override(packet, rest, segment)
+                return None
         if packet.HEADER in (b"\x1c", b"\x1d") and segment.rest == b"\0":
             self._skip(segment, 1)  # padding of one host, see `bits`
         return Received(packet)
+
+    def _refuse_override(
+        self, packet: FeedrateOverride | RapidOverride, rest: bytes, segment: _Segment
+    ) -> None:
+        """Read again what a packet of the first edition has taken from the next one."""
+        if rest and not self._reader.short_overrides:
+            again = encode_packet(rest, self.mode)
+            segment.data, segment.at = again + segment.rest, 0
+            self._backlog += len(again)
+        if not self._has_refused_override:
+            self._has_refused_override = True
+            log.warning(
+                "an override of %g was refused: a host that sends FOV and ROV in six bytes needs"
+                " short_override_packets = true in machine.toml",
+                packet.value,
+            )
 
     def _together(self, segment: _Segment) -> bytes:
         """The byte just scanned and those behind it that surely belong to the packet."""
