@@ -176,7 +176,9 @@ def test_switches_and_objects_are_complete_without_arguments() -> None:
     assert words("JOG OFF X Y ACC 5") == [["JOG OFF", "ACC"]]
 
 
-@pytest.mark.parametrize("text", ["SET 32", "SET BIT32", "SET BIT 32", "SET(32)", "SET32"])
+@pytest.mark.parametrize(
+    "text", ["SET 32", "SET BIT32", "SET BIT 32", "SET(32)", "SET32", "SET +32", "SET +BIT32"]
+)
 def test_all_forms_of_a_flag_mean_the_same(text: str) -> None:
     assert arguments(text) == arguments("SET 32")
 
@@ -187,6 +189,11 @@ def test_flags_may_be_negated_and_limited_in_time() -> None:
     assert arguments("INH -516")[0].clear  # type: ignore[attr-defined]
     assert arguments("INH -0")[0].clear  # type: ignore[attr-defined]
     assert arguments("INH -BIT0") == arguments("INH -0")
+    assert arguments("INH +0") == arguments("INH 0")
+    assert arguments("INH +AxisEnable(0.5)") == arguments("INH AxisEnable(0.5)")
+    assert arguments("CLR +24 +25") == arguments("CLR 24 25")
+    assert refusal("SET -24") == "Syntax error"
+    assert refusal("INH + -24") == "Syntax error"
 
 
 def test_ihpos_takes_a_signed_parameter_and_a_pair() -> None:
@@ -194,6 +201,7 @@ def test_ihpos_takes_a_signed_parameter_and_a_pair() -> None:
         (Number(6160), True),
         (Number(40000), Number(5.5)),
     )
+    assert arguments("IHPOS +P6160 (40000,5.5)") == arguments("IHPOS P6160 (40000,5.5)")
 
 
 @pytest.mark.req("ACR-FLOW-03")

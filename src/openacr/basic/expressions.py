@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from openacr.basic import registry
 from openacr.basic.nodes import (
@@ -154,17 +154,25 @@ class ExpressionParser:
 
     def _operand(self) -> Expr:
         """A value with its signs and powers."""
+        return self._signed(self._power)
+
+    def _power(self) -> Expr:
+        """Powers have one rank, so they go left to right: 2**3**2 is 64."""
+        start = self.position
+        base = self._primary()
+        while self.accept("**"):
+            base = self._joined(Op.POWER, base, self._signed(self._primary), start)
+        return base
+
+    def _signed(self, inner: Callable[[], Expr]) -> Expr:
         start = self.position
         for sign in (Op.MINUS, Op.PLUS):
             if self.accept(sign.value):
                 if self.accept("NOT"):
                     inverse = self._checked(Op.NOT, self._binary(NOT_LEVEL), start)
                     return self._checked(sign, inverse, start)
-                return self._checked(sign, self._operand(), start)
-        base = self._primary()
-        if self.accept("**"):
-            return self._joined(Op.POWER, base, self._operand(), start)
-        return base
+                return self._checked(sign, self._signed(inner), start)
+        return inner()
 
     def _checked(self, op: Op, operand: Expr, start: int) -> Expr:
         if is_text(operand):

@@ -116,7 +116,7 @@ def _functions() -> str:
     return "\n\n".join(parts)
 
 
-_PRECEDENCE = "The tightest first; equal ones go from left to right, powers from right to left."
+_PRECEDENCE = "The tightest first; equal ones, powers too, go from left to right."
 
 
 def _numbered(binding: Mapping[int, list[str]]) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,14 @@ from openacr.basic.entry import Entry, split_at_level
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
 from openacr.basic.program_store import StoredLine
-from openacr.basic.ranges import DeviceNumber, EchoBits, ModeBits, OwnerNumber, ProgramNumber
+from openacr.basic.ranges import (
+    DeviceNumber,
+    EchoBits,
+    LineNumber,
+    ModeBits,
+    OwnerNumber,
+    ProgramNumber,
+)
 from openacr.basic.registry import Level
 from openacr.basic.run import LINE_END
 from openacr.basic.scope import Scope
@@ -60,7 +67,7 @@ class Channel(Struct, frozen=True):
     echo_line_end: bool
     typed_ahead: str
     rest: str
-    listed: tuple[int, int]
+    listed: tuple[LineNumber, LineNumber]
     output: bytes
 
 

@@ -38,13 +38,13 @@ class Bit(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a flag begins here."""
-        if p.is_operator("-"):
-            return self.signed
-        return p.at_value and not p.is_operator("+")
+        return p.at_value and (self.signed or not p.is_operator("-"))
 
     def parse(self, p: Parser) -> BitItem:
         """Read the flag; its number may be given by any variable."""
         clear = self.signed and p.accept("-")
+        if not clear:
+            p.accept("+")
         node = p.value()
         target = resolved(node)
         return BitItem(target.index if isinstance(target, FlagNode) else node, clear)
@@ -91,7 +91,8 @@ class ParameterName(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parameter begins here."""
-        token = p.ahead(1) if self.signed and p.is_operator("-") else p.token
+        has_sign = p.is_operator("+") or (self.signed and p.is_operator("-"))
+        token = p.ahead(1) if has_sign else p.token
         return token.kind is Kind.WORD and (
             isinstance(p.aliases.get(token.text), ParameterNode) or token.value == "P"
         )
@@ -99,6 +100,8 @@ class ParameterName(Form):
     def parse(self, p: Parser) -> tuple[Expr, bool]:
         """Read the parameter."""
         negative = p.accept("-")
+        if not negative:
+            p.accept("+")
         node = resolved(p.variable())
         if not isinstance(node, ParameterNode):
             raise p.error(SYNTAX_ERROR)
