@@ -221,3 +221,39 @@ def _written(folder: Path, text: str) -> Path:
     path = folder / "typed.8k"
     path.write_text(text)
     return path
+
+
+def test_parameters_flags_and_axes_that_no_card_has_are_errors(tmp_path: Path) -> None:
+    lines = (
+        "P99999 = 3", "SET 1 99999", "INH -17664", "CLR BIT40000", "AXIS20 PPU 5",
+        "P0 = P39999 + BIT(17664)", "IF (BIT1) THEN SET 32 : SET 20000", "PPU AXIS0 5 AXIS8 5",
+    )  # fmt: skip
+    found = [fault.split(" (")[0] for fault in faults(tmp_path, *lines)]
+    assert found == [
+        "2:2: Invalid parameter", "3:7: Invalid bit", "4:6: Invalid bit",
+        "5:8: Invalid bit", "6:5: Invalid argument", "7:7: Invalid parameter",
+        "7:19: Invalid bit", "8:29: Invalid bit", "9:17: Invalid argument",
+    ]  # fmt: skip
+
+
+def test_the_last_of_its_kind_exists(tmp_path: Path) -> None:
+    lines = (
+        "SET 17663 BIT17663",
+        "INH -17663",
+        "AXIS7 PPU 5",
+        "P12288 = P4096",
+        "X20000 : DWL 99999",
+    )
+    assert faults(tmp_path, *lines) == []
+
+
+def test_numbers_in_lines_executed_at_once_are_checked(tmp_path: Path) -> None:
+    setup = SETUP + "#DEFINE Nowhere P99999\nAXIS8 PPU 5\nSET 17664\n"
+    (tmp_path / "setup.8k").write_text(setup)
+    shown = check(tmp_path / "setup.8k").stdout
+    for place in (
+        "12:18: Invalid parameter",
+        "13:5: Invalid argument",
+        "14:5: Invalid bit",
+    ):
+        assert f"setup.8k:{place}" in shown

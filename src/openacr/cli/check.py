@@ -73,8 +73,11 @@ def read(file: Path, project: Project) -> "Reader":
     is_whole = file.is_dir() or place is Place.SETUP
     home = project if is_whole else find_project(file.parent)
     card = _card(home)
+    model = MODELS[card.model]
     reader = Reader(
-        has_digits_in_names=MODELS[card.model].has_digits_in_names, cutoffs=Cutoffs(card.period_s)
+        has_digits_in_names=model.has_digits_in_names,
+        axis_count=model.axes,
+        cutoffs=Cutoffs(card.period_s),
     )
     if is_whole:
         reader.sizes.is_complete = file.is_dir()

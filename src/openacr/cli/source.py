@@ -5,7 +5,7 @@ entered with PROGRAM, the axis names of each program and the aliases. Nothing is
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
@@ -21,6 +21,7 @@ from openacr.basic.plc_names import PlcNames
 from openacr.basic.program_store import line_number, opens_capture
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope, join_names
+from openacr.cli import numbers
 from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault
 from openacr.cli.hints import hint_for
@@ -36,6 +37,7 @@ from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 
+MOST_AXES = 16
 EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
@@ -62,6 +64,7 @@ class Reader:
     level: Level = Level.SYS
     number: int = 0
     is_capturing: bool = False
+    axis_count: int = MOST_AXES  # of the card
     has_digits_in_names: bool = False  # of aliases, as the model has it
     _path: str = ""
     _originals: list[str] = field(default_factory=list)
@@ -183,8 +186,7 @@ class Reader:
         if not tree.is_empty:
             self.parts.append(Part(tokens=tuple(found)))
         self.sizes.note(self.number, tree.blocks)
-        self.cutoffs.note(line, found, tree.blocks)
-        self._warn(line, tree.blocks)
+        self._judge(line, found, tree.blocks)
         for block in tree.blocks:
             for statement in block:
                 if not isinstance(statement, Move):
@@ -215,10 +217,9 @@ class Reader:
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
             for line in text.in_order():
-                if line.outline.is_judged:
-                    tree = Parser(list(line.tokens), line.scope).line()
-                    self.cutoffs.note(line.place, line.tokens, tree.blocks)
-                    self._warn(line.place, tree.blocks)
+                is_doubtful = numbers.is_doubtful(line.place.text, self.axis_count)
+                if line.outline.is_judged or is_doubtful:
+                    self._judge(line.place, line.tokens, self._tree_of(line))
         elif not text.lost:
             self._check_rungs(text)
 
@@ -230,6 +231,17 @@ class Reader:
             self._fault(text.lines[error.line].place, error)
         except CardError as error:
             self._fault(text.lines[max(text.lines)].place, error)
+
+    def _judge(self, line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...]) -> None:
+        """What is wrong with a line that can be read."""
+        self.cutoffs.note(line, tuple(found), blocks)
+        for finding in numbers.missing(line, found, blocks, self.axis_count):
+            self._report(finding)
+        self._warn(line, blocks)
+
+    @staticmethod
+    def _tree_of(line: TextLine) -> tuple[Block, ...]:
+        return Parser(list(line.tokens), line.scope).line().blocks
 
     def _warn(self, line: FileLine, blocks: tuple[Block, ...]) -> None:
         """Warn of what a real card would refuse."""
