@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.online import FAILED, Baud, Target
+from openacr.lang.characters import Screen
 
 if TYPE_CHECKING:
     from openacr.client.links import Wire
@@ -59,14 +60,14 @@ def _piped(link: "Wire", wait_s: float) -> None:
     """Send the lines of standard input one by one and print what comes back."""
     from openacr.client.script import Script
 
+    def show(data: bytes) -> None:
+        """Show what the card sent, with the line ends of this system's text."""
+        sys.stdout.buffer.write(screen.feed(data).replace("\r", "").encode())
+        sys.stdout.buffer.flush()
+
+    screen = Screen()
     lines = (line.rstrip(b"\r\n") for line in sys.stdin.buffer)
-    Script(link, _print, wait_s).run(lines)
-
-
-def _print(data: bytes) -> None:
-    """Show what the card sent, with the line ends of this system's text."""
-    sys.stdout.buffer.write(data.replace(b"\r", b""))
-    sys.stdout.buffer.flush()
+    Script(link, show, wait_s).run(lines)
 
 
 def _interactive(link: "Wire") -> None:
@@ -84,11 +85,11 @@ def _interactive(link: "Wire") -> None:
 
 
 def _exchange(link: "Wire", keyboard: "Keyboard") -> None:
-    stdin, stdout = sys.stdin.fileno(), sys.stdout.fileno()
+    stdin, stdout, screen = sys.stdin.fileno(), sys.stdout.fileno(), Screen()
     while not keyboard.leave:
         ready, _, _ = select.select([stdin, link], [], [])
         if link in ready:
-            os.write(stdout, link.read(0))
+            os.write(stdout, screen.feed(link.read(0)).encode())
         if stdin in ready:
             keys = _read_keys(stdin)
             if not keys:
