@@ -67,7 +67,7 @@ def test_a_small_source_gets_c_types_and_literals(
         tmp_path, monkeypatch, "def f(F: F64, n: int) -> float:\n    return F[n + LIMIT]\n"
     )
     assert "n: cython.longlong" in text
-    assert "F[n + 4]" in text
+    assert "F[n + 4LL]" in text
 
 
 def test_the_views_of_the_state_are_passed_as_one_pointer(
@@ -81,7 +81,26 @@ def test_the_views_of_the_state_are_passed_as_one_pointer(
         "def g(F: F64, I: I32, S: F32, x: F64) -> float:\n    return S[0] * f(F, I, 1, x)\n",
     )
     assert "def f(M: cython.p_char, n: cython.longlong, x: cython.p_double)" in text
-    assert "return S[0] * f(M, 1, x)" in text
+    assert "return S[0LL] * f(M, 1LL, x)" in text
+
+
+def test_every_integer_is_widened_before_anything_is_computed_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = joined(
+        tmp_path,
+        monkeypatch,
+        "from openacr.views import I32, U8\n"
+        "def f(I: I32, code: I32, text: U8, n: int) -> int:\n"
+        "    I[n] += text[n]\n    I[I[n]] = code[n] * 2\n    return 1 << n\n",
+    )
+    body = text[text.index("def f(") :].splitlines()[2:]
+    wide = "cython.cast(cython.longlong, {})"
+    assert body == [
+        f"    I[n] = {wide.format('I[n]')} + {wide.format('text[n]')}",
+        f"    I[{wide.format('I[n]')}] = {wide.format('code[n]')} * 2LL",
+        "    return 1LL << n",
+    ]
 
 
 def test_views_of_two_buffers_are_refused() -> None:

@@ -4,7 +4,8 @@ The modules are plain typed Python and also run as such. The joined form differs
 what C needs:
 
 - annotations become C types (float: double, int: 64-bit, F64/I32/F32/U8: pointers; with
-  `checked`, bounds-checked memoryviews);
+  `checked`, bounds-checked memoryviews); literals and what is read from views of integers
+  have 64 bits before anything is computed of them, as a sum of 32-bit operands would wrap;
 - the views F, I and S of the state are passed as one pointer into their buffer;
 - module constants (`NAME = number`, and those of the generated numbers module) become
   literals, so that the inner loop never looks a name up;

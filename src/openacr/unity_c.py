@@ -1,9 +1,11 @@
 """What C needs of a core function: types, literals, one pointer to the state, an entrance."""
 
 import ast
+import copy
 
 SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
 VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
+INTEGER_VIEWS = ("I32", "U8")  # elements narrower than the integers of the sources
 STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
 Number = int | float
 
@@ -18,10 +20,45 @@ def is_docstring(node: ast.stmt) -> bool:
 
 
 class Inline(ast.NodeTransformer):
-    """Constants become literals, int() and float() become C casts."""
+    """Constants become literals, int() and float() casts; every integer has 64 bits.
+
+    C computes with the widest of its operands, so an element of a 32-bit view plus a
+    literal would wrap at 2**31 where Python goes on. What is read from a view of integers
+    is widened before anything is done with it.
+    """
 
     def __init__(self, constants: dict[str, Number]) -> None:
         self.constants = constants
+        self._narrow: set[str] = set()
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
+        self._narrow = {
+            argument.arg
+            for argument in node.args.args
+            if isinstance(argument.annotation, ast.Name) and argument.annotation.id in INTEGER_VIEWS
+        }
+        self.generic_visit(node)
+        return node
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        self.generic_visit(node)
+        is_narrow = isinstance(node.value, ast.Name) and node.value.id in self._narrow
+        if is_narrow and isinstance(node.ctx, ast.Load):
+            return _cast("int", [node])
+        return node
+
+    def visit_AugAssign(self, node: ast.AugAssign) -> ast.stmt:
+        if not isinstance(node.target, ast.Subscript):
+            self.generic_visit(node)
+            return node
+        read = copy.deepcopy(node.target)
+        read.ctx = ast.Load()
+        value = ast.BinOp(read, node.op, node.value)
+        return self.visit_Assign(ast.copy_location(ast.Assign([node.target], value), node))
+
+    def visit_Assign(self, node: ast.Assign) -> ast.Assign:
+        self.generic_visit(node)
+        return node
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
         if isinstance(node.ctx, ast.Load) and node.id in self.constants:
@@ -34,15 +71,19 @@ class Inline(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.expr:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in ("int", "float"):
-            kind = ast.parse(SCALARS[node.func.id], mode="eval").body
-            cast = ast.parse("cython.cast", mode="eval").body
-            return ast.Call(cast, [kind, *node.args], [])
+            return _cast(node.func.id, node.args)
         return node
 
 
+def _cast(kind: str, values: list[ast.expr]) -> ast.Call:
+    """A C cast to the scalar that Python calls int or float."""
+    cast = ast.parse("cython.cast", mode="eval").body
+    return ast.Call(cast, [ast.parse(SCALARS[kind], mode="eval").body, *values], [])
+
+
 def _literal(number: Number) -> ast.expr:
-    """A literal of C type; wide integers get the suffix that keeps them out of Python."""
-    if isinstance(number, int) and not -(2**31) < number < 2**31:
+    """A literal of C type; integers have the suffix that gives them 64 bits."""
+    if isinstance(number, int):
         name = ast.Name(f"_wide_{abs(number)}", ast.Load())
         return name if number >= 0 else ast.UnaryOp(ast.USub(), name)
     return ast.Constant(number)

@@ -38,6 +38,7 @@ from openacr.plant import schema
 from openacr.views import F64
 
 TRACE_CHUNK_ROWS = 65536
+LONGEST_RUN_TK = 2**31 - 1  # of one run of the engine, which counts down in 32 bits
 
 _engine_run = pick(loop_cy.engine_run)
 _SAMPLE_COUNT = ENGI_BASE + ENGI_SAMPLE_COUNT
@@ -92,17 +93,17 @@ class Running(Machine):
     def _live(self, ticks: int) -> int:
         """Run the engine, with a stop wherever the journal wants a digest; why it ended."""
         while True:
-            step = ticks
+            step = min(ticks, LONGEST_RUN_TK)
             if self.recorder is not None:
                 self.recorder.flush()
-                step = min(ticks, self.recorder.next_tk - self.lived_tk)
+                step = min(step, self.recorder.next_tk - self.lived_tk)
             before = self.lived_tk
             self._set_engine(ENGI_TICKS_LEFT, step)
             reason = self._run()
             ticks -= self.lived_tk - before
             if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
                 self.recorder.mark()
-            if reason != loop_cy.DONE or ticks <= 0 or self.recorder is None:
+            if reason != loop_cy.DONE or ticks <= 0:
                 self.nonvolatile.battery.follow_in_time()
                 return reason
 

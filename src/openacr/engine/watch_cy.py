@@ -62,7 +62,8 @@ def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
 def watch_fired(F: F64, I: I32, S: F32) -> bool:
     """Whether something watched has changed since the last look."""
     fired: bool = False
-    for n in range(min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)):
+    count: int = min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)
+    for n in range(count):
         state: int = watch_state(F, I, S, n)
         w: int = WATI_BASE + n * WATI_STRIDE
         if state != I[w + WATI_STATE]:

@@ -61,7 +61,8 @@ def networks_due(F: F64, I: I32, number: int) -> bool:
 
 def inputs_changed(F: F64, I: I32) -> bool:
     """Whether a live node has an input to tell that it has not told."""
-    for slave in range(min(I[NETMI_BASE + NETMI_SLAVES], NETS_COUNT)):
+    count: int = min(I[NETMI_BASE + NETMI_SLAVES], NETS_COUNT)
+    for slave in range(count):
         s: int = NETSI_BASE + slave * NETSI_STRIDE
         waits: float = F[NETSF_BASE + slave * NETSF_STRIDE + NETSF_CHANGE_TK]
         if I[s + NETSI_LIVE] and waits == 0.0:
