@@ -165,8 +165,61 @@ def test_a_move_can_interrupt_the_host_when_it_starts() -> None:
     sender.move({0: 1000}, vel=10.0).move({0: 2000}, code1=Code1.INTERRUPT)
     sender.ticks(10)
     assert not sender.card.bit[538]
-    sender.rest()
+    seen = []
+    while sender.card.bit[IN_MOTION]:
+        seen.append((sender.card.bit[538], sender.at[0]))
+        sender.ticks(1)
+    assert {flag for flag, place in seen if 0.0 < place < 1000.0} == {False}
+    assert {flag for flag, place in seen if 1000.0 < place < 2000.0} == {True}
+
+
+@pytest.mark.parametrize("by_hand", [False, True])
+@pytest.mark.parametrize("ends", ["arrives", "is killed"])
+def test_an_interrupt_of_one_packet_is_not_that_of_later_moves(by_hand: bool, ends: str) -> None:
+    sender = Sender("SET 538" if by_hand else "CLR 538")
+    sender.move({0: 1000}, vel=10.0, code1=Code1.INTERRUPT)
+    sender.ticks(20)
     assert sender.card.bit[538]
+    if ends == "is killed":
+        sender.card.bit[522] = True
+        sender.ticks(2)
+        sender.card.bit[522] = False
+    sender.rest().move({0: 3000})
+    sender.ticks(20)
+    assert sender.card.bit[IN_MOTION]
+    assert sender.card.bit[538] == by_hand
+
+
+def test_the_fvel_lockout_of_a_packet_shows_while_its_move_runs() -> None:
+    sender = Sender("DEC 100", "FVEL 2")
+    for move, locked in (({0: 1000}, False), ({0: 2000}, True), ({0: 3000}, False)):
+        code0 = Code0.STP_RAMP | (Code0.FVEL_LOCKOUT if locked else 0)
+        sender.move(move, vel=5.0, code0=code0)
+    ends: list[float] = []
+    while sender.card.bit[IN_MOTION]:
+        place, last = sender.at[0], sender.card.p[VELOCITY]
+        shown = sender.card.bit[525]
+        sender.ticks(1)
+        assert not 0.0 < place < 3000.0 or place % 1000 == 0 or shown == (1000.0 < place < 2000.0)
+        if place // 1000 < sender.at[0] // 1000:
+            ends.append(last)
+    assert ends == [
+        pytest.approx(2.0, abs=0.06),
+        pytest.approx(0.0, abs=0.06),
+        pytest.approx(2.0, abs=0.06),
+    ]
+
+
+def test_the_fvel_lockout_of_a_packet_can_be_lifted_by_hand() -> None:
+    sender = Sender("DEC 100", "FVEL 2")
+    sender.move({0: 1000}, vel=5.0, code0=Code0.STP_RAMP | Code0.FVEL_LOCKOUT)
+    sender.ticks(100)
+    assert sender.card.bit[525]
+    sender.card.bit[525] = False
+    while sender.card.bit[IN_MOTION]:
+        last = sender.card.p[VELOCITY]
+        sender.ticks(1)
+    assert last == pytest.approx(2.0, abs=0.06)
 
 
 def track(sender: Sender) -> list[tuple[float, ...]]:

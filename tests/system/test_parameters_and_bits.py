@@ -59,7 +59,7 @@ def test_feedhold_ramps_down_with_dec_and_cycle_start_up_with_acc(card: Console)
     card.card.advance(seconds=1.0)
     card.card.bit[FEEDHOLD] = True
     ramp_s, way = ramp(card, until=0.0)
-    assert bits(card, FEEDHOLD, FEEDHOLDING, IN_FEEDHOLD) == [False, False, True]
+    assert bits(card, FEEDHOLD, FEEDHOLDING, IN_FEEDHOLD) == [False, True, True]
     assert (ramp_s, way) == pytest.approx((5 / 10, 5**2 / (2 * 10)), abs=0.01)
     at_rest = card.card.p[12288]
     card.card.advance(seconds=0.5)

@@ -263,6 +263,15 @@ def axis_renew(F: F64, I: I32, n: int) -> None:
     axis_settled(F, I, n)
 
 
+def axis_target(F: F64, I: I32, n: int) -> float:
+    """Where the last move that axis n has been given ends [pulses]; at rest where it is."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    m: int = I[i + AXI_MASTER]
+    if m < 0:
+        return F[AXF_BASE + n * AXF_STRIDE + AXF_TARGET_CNT]
+    return F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + I[i + AXI_SLAVE]]
+
+
 def axis_show(F: F64, I: I32, n: int) -> None:
     """Show the positions of axis n in its LONG parameters."""
     a: int = AXF_BASE + n * AXF_STRIDE
@@ -271,7 +280,7 @@ def axis_show(F: F64, I: I32, n: int) -> None:
     shown: int = round32(F[a + AXF_POSITION_CNT])
     I[p + AX_CURRENT_POSITION] = shown
     I[i + AXI_SHOWN_CURRENT] = shown
-    shown = round32(F[a + AXF_TARGET_CNT])
+    shown = round32(axis_target(F, I, n))
     I[p + AX_TARGET_POSITION] = shown
     I[i + AXI_SHOWN_TARGET] = shown
     shown = round32(F[a + AXF_GEAR_CNT])

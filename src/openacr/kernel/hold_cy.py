@@ -6,7 +6,13 @@ from openacr.kernel.corner_cy import corner_drop
 from openacr.kernel.curveflags_cy import curve_drop
 from openacr.kernel.hsint_cy import HSINT_NONE, HSINT_PASSING
 from openacr.kernel.lookahead_cy import look_beyond
-from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record
+from openacr.kernel.path_cy import (
+    FAR_U,
+    MARK_INTERRUPT_LENT,
+    SLAVE_COUNT,
+    master_word,
+    move_record,
+)
 from openacr.kernel.plan_cy import master_plan
 from openacr.kernel.profile_cy import (
     DECELERATING,
@@ -25,6 +31,7 @@ from openacr.map.numbers import (
     AXF_STRIDE,
     AXF_TARGET_CNT,
     MA_BASE,
+    MA_DISTANCE_INTO_PATH,
     MA_MBUF_FILLED,
     MA_STRIDE,
     MA_VECTOR_ACCELERATION,
@@ -36,23 +43,31 @@ from openacr.map.numbers import (
     MF1_FEEDHOLDING,
     MF1_IN_FEEDHOLD,
     MF1_IN_MOTION,
+    MF1_INTERRUPT_ON_MOVE,
     MF1_JERKING,
     MF1_KILL_ALL_MOVES_REQUEST,
     MF1_MOVE_BUFFERED,
     MF1_STOP_ALL_MOVES_REQUEST,
     MF1_STOPPING,
     MF1_TRG_PENDING,
+    MF4_VEL_LIMIT,
+    MF4_WORD,
     MQF_BASE,
     MQF_DEC_UPS2,
     MQF_JRK_UPS3,
     MQF_STP_UPS2,
     MQF_STRIDE,
+    MQI_BASE,
+    MQI_MARKS,
+    MQI_STRIDE,
     MSF_BASE,
     MSF_ENTRY_UPS,
     MSF_ENTRY_UPS2,
+    MSF_ORIGIN_U,
     MSF_STRETCH_U,
     MSF_STRIDE,
     MSF_TARGET_CNT,
+    MSF_TRAVEL_U,
     MSI_BASE,
     MSI_CUT,
     MSI_DROP_AT_REST,
@@ -78,7 +93,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F32, F64, I32
 
-__all__ = ["master_drop", "master_hold", "master_release"]
+__all__ = ["master_drop", "master_hold", "master_release", "move_over"]
 
 NOT_HELD = 0
 FEEDHOLDING = 1
@@ -88,6 +103,10 @@ IN_FEEDHOLD = 2
 def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     """Drop the present move and all that wait; the axes stay where they are commanded."""
     i: int = MSI_BASE + m * MSI_STRIDE
+    if I[i + MSI_MOVING]:
+        move_over(F, I, m, FAR_U)
+    S[MA_BASE + m * MA_STRIDE + MA_DISTANCE_INTO_PATH] = F[MSF_BASE + m * MSF_STRIDE + MSF_TRAVEL_U]
+    I[MF4_WORD + m] &= ~MF4_VEL_LIMIT
     I[i + MSI_QUEUED] = 0
     I[i + MSI_MOVING] = 0
     I[i + MSI_HOLD] = NOT_HELD
@@ -118,6 +137,18 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
         | MF1_IN_FEEDHOLD
         | MF1_TRG_PENDING
     )
+
+
+def move_over(F: F64, I: I32, m: int, length_u: float) -> None:
+    """The present move is over: count what the path went of it, at most its length.
+
+    Interrupt On Move clears if the move itself has set it.
+    """
+    if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_MARKS] & MARK_INTERRUPT_LENT:
+        I[master_word(m)] &= ~MF1_INTERRUPT_ON_MOVE
+    f: int = MSF_BASE + m * MSF_STRIDE
+    gone_u: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE] - F[f + MSF_ORIGIN_U]
+    F[f + MSF_TRAVEL_U] += max(min(gone_u, length_u), 0.0)
 
 
 def master_settle(F: F64, I: I32, S: F32, m: int) -> None:
@@ -216,7 +247,7 @@ def master_at_rest(F: F64, I: I32, S: F32, m: int) -> None:
     i: int = MSI_BASE + m * MSI_STRIDE
     word: int = master_word(m)
     I[i + MSI_HOLD] = IN_FEEDHOLD
-    I[word] = (I[word] & ~MF1_FEEDHOLDING) | MF1_IN_FEEDHOLD
+    I[word] |= MF1_IN_FEEDHOLD
     if I[word] & MF1_STOP_ALL_MOVES_REQUEST:
         I[word] = (I[word] & ~MF1_STOP_ALL_MOVES_REQUEST) | MF1_KILL_ALL_MOVES_REQUEST
         master_drop(F, I, S, m)

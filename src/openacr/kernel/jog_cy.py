@@ -207,6 +207,20 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
         jog_brake(F, I, S, n)
 
 
+def jog_stop_request(F: F64, I: I32, S: F32, n: int) -> None:
+    """Jog Stopping, set from outside while nothing stops: the jog ends as by JOG OFF."""
+    if not I[axis_word(n)] & AF1_JOG_STOPPING:
+        return
+    if I[PRI_BASE + (JOG_PROFILE + n) * PRI_STRIDE + PRI_KIND] == STOPPING:
+        return
+    mode: int = I[AXI_BASE + n * AXI_STRIDE + AXI_JOG_MODE]
+    if mode == JOG_HOMING:
+        home_abort(I, n)
+    if mode == JOG_HOMING or mode == JOG_CONTINUOUS or mode == JOG_TO_TARGET:
+        I[axis_word(n)] &= ~JOG_WANTED
+        jog_brake(F, I, S, n)
+
+
 def jog_follow(F: F64, I: I32, S: F32, n: int) -> None:
     """Replan for a new target or a changed JOG VEL."""
     i: int = AXI_BASE + n * AXI_STRIDE
@@ -297,6 +311,7 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
 def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     """Advance the jog profiler of axis n by `dt` seconds."""
     i: int = AXI_BASE + n * AXI_STRIDE
+    jog_stop_request(F, I, S, n)
     mode: int = I[i + AXI_JOG_MODE]
     if mode != JOG_KILLED and mode != JOG_HOMING:
         jog_requests(F, I, S, n)

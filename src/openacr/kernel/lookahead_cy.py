@@ -27,7 +27,7 @@ from openacr.kernel.bezier_cy import is_bezier, is_timed
 from openacr.kernel.path_cy import (
     MARK_CURVE_BEGIN,
     MARK_TURN,
-    master_word,
+    move_final_ups,
     move_limit,
     move_override,
 )
@@ -35,7 +35,6 @@ from openacr.map.numbers import (
     MA_BASE,
     MA_LOOK_AHEAD_MIN_VEL,
     MA_STRIDE,
-    MF1_FVEL_ZERO_ACTIVE,
     MF4_LOOK_AHEAD_MODE,
     MF4_LOOK_AHEAD_NEGLECT,
     MF4_WORD,
@@ -44,7 +43,6 @@ from openacr.map.numbers import (
     MQF_CORNER_U,
     MQF_CORNER_UPS,
     MQF_DEC_UPS2,
-    MQF_FVEL_UPS,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
     MQF_STP_UPS2,
@@ -210,9 +208,7 @@ def look_final(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     q: int = MQF_BASE + record * MQF_STRIDE
     if F[q + MQF_STP_UPS2] <= 0.0:
         return look_speed(F, I, S, m, record)
-    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
-        return 0.0
-    return F[q + MQF_FVEL_UPS]
+    return move_final_ups(F, I, m, record)
 
 
 def look_rate(F: F64, record: int) -> float:

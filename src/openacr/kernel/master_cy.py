@@ -22,6 +22,7 @@ from openacr.kernel.hold_cy import (
     master_drop,
     master_hold,
     master_settle,
+    move_over,
 )
 from openacr.kernel.hsint_cy import HSINT_NONE, hsint_begin, hsint_end, hsint_step
 from openacr.kernel.interrupt_cy import cut_end, interrupt_step, move_barred, response_period
@@ -30,7 +31,9 @@ from openacr.kernel.path_cy import (
     MARK_COUNT_DOWN,
     MARK_COUNT_UP,
     MARK_CURVE_BEGIN,
+    MARK_FINAL_ZERO,
     MARK_INTERRUPT,
+    MARK_INTERRUPT_LENT,
     MARK_OVERRIDE_LOCKED,
     MARK_TURN,
     master_limit,
@@ -61,7 +64,6 @@ from openacr.map.numbers import (
     MA_BASE,
     MA_DISTANCE_INTO_MOVE,
     MA_DISTANCE_INTO_PATH,
-    MA_DISTANCE_SQUARED,
     MA_DISTANCE_TO_GO,
     MA_FRACTION_INTO_MOVE,
     MA_LOOK_AHEAD_VECTOR_ANGLE,
@@ -75,6 +77,7 @@ from openacr.map.numbers import (
     MA_VECTOR_JERK,
     MA_VECTOR_LENGTH,
     MA_VECTOR_VELOCITY,
+    MA_VEL_LIMIT,
     MA_VELOCITY_SQUARED,
     MF1_ACCELERATING,
     MF1_DECELERATING,
@@ -97,6 +100,8 @@ from openacr.map.numbers import (
     MF2_ENABLE_CLEAR_REQUEST,
     MF2_RAPID_ACTIVE,
     MF2_RAPID_PENDING,
+    MF4_VEL_LIMIT,
+    MF4_WORD,
     MQF_ACC_UPS2,
     MQF_BASE,
     MQF_DEC_UPS2,
@@ -121,8 +126,10 @@ from openacr.map.numbers import (
     MSF_PACE,
     MSF_STRETCH_U,
     MSF_STRIDE,
+    MSF_TRAVEL_U,
     MSI_BASE,
     MSI_CUT,
+    MSI_FINAL_ZERO,
     MSI_HEAD,
     MSI_HOLD,
     MSI_HSINT_PHASE,
@@ -157,6 +164,7 @@ from openacr.views import F32, F64, I32
 __all__ = ["master_step"]
 
 BARS = MF1_START_MOVE_INHIBIT | MF1_TRG_PENDING
+ROUNDING = 1e-9
 PIECES_PER_TICK = 51  # of a full ring of moves shorter than a tick, and a seek that turns back
 
 
@@ -196,7 +204,6 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
         I[word2] &= ~MF2_RAPID_ACTIVE
     if velocity <= 0.0:  # from rest: the initial velocity is a step, never above the target
         velocity = min(F[MQF_BASE + record * MQF_STRIDE + MQF_IVEL_UPS], master_limit(F, I, S, m))
-        S[MA_BASE + m * MA_STRIDE + MA_DISTANCE_INTO_PATH] = 0.0
     I[word] |= MF1_IN_MOTION
     profile_reset(F, I, m, velocity, accel)
     if F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] > 0.0:
@@ -225,13 +232,14 @@ def move_flags(I: I32, S: F32, m: int, record: int) -> None:
     word: int = master_word(m)
     word2: int = master_word2(m)
     flags: int = I[word] & ~(MF1_FVEL_ZERO_ACTIVE | MF1_FOV_ROV_LOCK_ACTIVE)
-    if flags & MF1_FVEL_ZERO_PENDING:
-        flags |= MF1_FVEL_ZERO_ACTIVE
     marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
+    if flags & MF1_FVEL_ZERO_PENDING or marks & MARK_FINAL_ZERO:
+        flags |= MF1_FVEL_ZERO_ACTIVE
     if flags & MF1_FOV_ROV_LOCK_PENDING or marks & MARK_OVERRIDE_LOCKED:
         flags |= MF1_FOV_ROV_LOCK_ACTIVE
-    if marks & MARK_INTERRUPT:
+    if marks & MARK_INTERRUPT and not flags & MF1_INTERRUPT_ON_MOVE:
         flags |= MF1_INTERRUPT_ON_MOVE
+        I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] = marks | MARK_INTERRUPT_LENT
     I[word] = flags
     if I[word2] & MF2_RAPID_PENDING:
         I[MQI_BASE + record * MQI_STRIDE + MQI_RAPID] = 1
@@ -280,7 +288,7 @@ def move_end(F: F64, I: I32, S: F32, m: int) -> None:
     """The present move has arrived: count its length into the totals and remove it."""
     p: int = MA_BASE + m * MA_STRIDE
     length: float = F[MQF_BASE + move_record(I, m) * MQF_STRIDE + MQF_LENGTH_U]
-    S[p + MA_DISTANCE_INTO_PATH] = S[p + MA_DISTANCE_INTO_PATH] + length
+    move_over(F, I, m, length)
     S[p + MA_TOTAL_DISTANCE] = S[p + MA_TOTAL_DISTANCE] + length
     move_pop(I, m)
     if I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
@@ -323,13 +331,13 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
         pace = F[MSF_BASE + m * MSF_STRIDE + MSF_PACE]
     velocity: float = F[f + PRF_VELOCITY] * pace
     S[p + MA_DISTANCE_INTO_MOVE] = distance
+    S[p + MA_DISTANCE_INTO_PATH] = F[MSF_BASE + m * MSF_STRIDE + MSF_TRAVEL_U] + distance
     S[p + MA_VECTOR_VELOCITY] = velocity
     S[p + MA_VECTOR_ACCELERATION] = F[f + PRF_ACCEL] * pace * pace
     S[p + MA_VECTOR_JERK] = F[f + PRF_JERK] * pace * pace * pace
     S[p + MA_VECTOR_LENGTH] = length
     S[p + MA_TARGET_VELOCITY] = F[f + PRF_TARGET_VELOCITY]
     S[p + MA_DISTANCE_TO_GO] = length - distance
-    S[p + MA_DISTANCE_SQUARED] = length * length
     S[p + MA_VELOCITY_SQUARED] = velocity * velocity
     S[p + MA_FRACTION_INTO_MOVE] = distance / length if length > 0.0 else 1.0
     kind: int = I[PRI_BASE + m * PRI_STRIDE + PRI_KIND]
@@ -337,10 +345,9 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     flags: int = I[word] & ~(
         MF1_ACCELERATING | MF1_DECELERATING | MF1_STOPPING | MF1_JERKING | MF1_MOVE_BUFFERED
     )
-    target: float = 0.0
+    target: float = F[q + MQF_ACC_UPS2]
     if kind == ACCELERATING:
         flags |= MF1_ACCELERATING
-        target = F[q + MQF_ACC_UPS2]
     elif kind == DECELERATING:
         flags |= MF1_DECELERATING
         target = F[q + MQF_DEC_UPS2]
@@ -355,6 +362,11 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
         flags |= MF1_MOVE_BUFFERED
     I[p + MA_MBUF_FILLED] = max(waiting, 0)
     I[word] = flags
+    limit: float = S[p + MA_VEL_LIMIT]
+    if limit > 0.0 and velocity >= limit * (1.0 - ROUNDING):
+        I[MF4_WORD + m] |= MF4_VEL_LIMIT
+    else:
+        I[MF4_WORD + m] &= ~MF4_VEL_LIMIT
 
 
 def master_busy(I: I32, m: int) -> bool:
@@ -447,6 +459,9 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
             cut_end(F, I, m)
             while I[i + MSI_STRETCH] > 1:  # what the path was planned through goes with it
                 move_end(F, I, S, m)
+                F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U] = F[
+                    PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE
+                ]  # nothing of it has been gone
                 I[i + MSI_STRETCH] -= 1
         move_end(F, I, S, m)
         if not I[i + MSI_QUEUED]:
@@ -478,12 +493,13 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         hsint_step(F, I, S, m)
     if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_INTERRUPT]:
         interrupt_step(F, I, S, m)
+    word: int = master_word(m)
     dirty: bool = I[MSI_BASE + m * MSI_STRIDE + MSI_LOOK_DIRTY] != 0
     if dirty and not I[MSI_BASE + m * MSI_STRIDE + MSI_CUT]:
         look_refresh(F, I, S, m)
-    if (
-        not ends_early(I, m)
-        and master_limit(F, I, S, m) != F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY]
+    if not ends_early(I, m) and (
+        master_limit(F, I, S, m) != F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY]
+        or I[MSI_BASE + m * MSI_STRIDE + MSI_FINAL_ZERO] != I[word] & MF1_FVEL_ZERO_ACTIVE
     ):
         master_plan(F, I, S, m)
 
@@ -509,6 +525,7 @@ def master_idle(F: F64, I: I32, S: F32, m: int) -> None:
         corner_drop(F, I, m)
     p: int = MA_BASE + m * MA_STRIDE
     S[p + MA_DISTANCE_INTO_MOVE] = S[p + MA_VECTOR_LENGTH]
+    S[p + MA_DISTANCE_INTO_PATH] = F[MSF_BASE + m * MSF_STRIDE + MSF_TRAVEL_U]
     S[p + MA_DISTANCE_TO_GO] = 0.0
     S[p + MA_FRACTION_INTO_MOVE] = 1.0
     master_settle(F, I, S, m)

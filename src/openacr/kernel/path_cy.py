@@ -39,6 +39,7 @@ from openacr.map.numbers import (
     MA_USER_VELOCITY,
     MA_VEL_LIMIT,
     MF1_FOV_ROV_LOCK_ACTIVE,
+    MF1_FVEL_ZERO_ACTIVE,
     MF1_WORD,
     MF1_WORD_HIGH,
     MF2_SLAVEMAXVEL,
@@ -48,6 +49,7 @@ from openacr.map.numbers import (
     MQF_DEC_UPS2,
     MQF_DELTA_CNT,
     MQF_ENTER,
+    MQF_FVEL_UPS,
     MQF_LEAVE,
     MQF_LENGTH_U,
     MQF_MAXVEL_UPS,
@@ -99,6 +101,8 @@ MARK_CURVE_BEGIN = 32
 MARK_NURB = 64
 MARK_TURN = 128  # a turn of the tangential axis between two moves
 MARK_ROUNDS = 256  # a binary move brings its path tolerance along
+MARK_FINAL_ZERO = 512  # its final velocity is 0 (FVEL lockout)
+MARK_INTERRUPT_LENT = 1024  # it has set Interrupt On Move, for itself alone
 BESIDE = 1e-3
 FAR_U = 1e30
 
@@ -162,6 +166,16 @@ def move_stop_rate(F: F64, record: int) -> float:
     """Rate at which a move is ended early: STP, DEC where that is 0."""
     q: int = MQF_BASE + record * MQF_STRIDE
     return F[q + MQF_STP_UPS2] if F[q + MQF_STP_UPS2] > 0.0 else F[q + MQF_DEC_UPS2]
+
+
+def move_final_ups(F: F64, I: I32, m: int, record: int) -> float:
+    """Final velocity of a move [units/s]: FVEL, or 0 while FVEL Zero is active or comes with it."""
+    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
+        return 0.0
+    marks: int = I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS]
+    if record != move_record(I, m) and marks & MARK_FINAL_ZERO:
+        return 0.0
+    return F[MQF_BASE + record * MQF_STRIDE + MQF_FVEL_UPS]
 
 
 def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:

@@ -6,7 +6,7 @@ from openacr.kernel.lookahead_cy import (
     look_scan,
     look_through,
 )
-from openacr.kernel.path_cy import master_limit, master_word, move_record
+from openacr.kernel.path_cy import master_limit, master_word, move_final_ups, move_record
 from openacr.kernel.profile_cy import profile_plan
 from openacr.kernel.round_cy import round_decelerate, round_plan, round_through
 from openacr.map.numbers import (
@@ -16,7 +16,6 @@ from openacr.map.numbers import (
     MQF_ACC_UPS2,
     MQF_BASE,
     MQF_DEC_UPS2,
-    MQF_FVEL_UPS,
     MQF_JRK_UPS3,
     MQF_LENGTH_U,
     MQF_STP_UPS2,
@@ -28,6 +27,7 @@ from openacr.map.numbers import (
     MSF_STRETCH_U,
     MSF_STRIDE,
     MSI_BASE,
+    MSI_FINAL_ZERO,
     MSI_LOOK_DIRTY,
     MSI_PIECE,
     MSI_QUEUED,
@@ -45,6 +45,7 @@ __all__ = ["master_plan"]
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the present move of master m from where it is."""
     record: int = move_record(I, m)
+    I[MSI_BASE + m * MSI_STRIDE + MSI_FINAL_ZERO] = I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE
     if round_through(F, I, m, record):
         round_plan(F, I, S, m)
         return
@@ -55,9 +56,6 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
         return
     q: int = MQF_BASE + record * MQF_STRIDE
     f: int = MSF_BASE + m * MSF_STRIDE
-    final: float = F[q + MQF_FVEL_UPS]
-    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
-        final = 0.0
     F[f + MSF_STRETCH_U] = F[f + MSF_ORIGIN_U] + F[q + MQF_LENGTH_U]
     F[f + MSF_LOOK_CAP_UPS] = 0.0
     I[MSI_BASE + m * MSI_STRIDE + MSI_STRETCH] = 1
@@ -67,7 +65,7 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
         m,
         F[f + MSF_STRETCH_U],
         master_limit(F, I, S, m),
-        final,
+        move_final_ups(F, I, m, record),
         F[q + MQF_ACC_UPS2],
         F[q + MQF_DEC_UPS2],
         F[q + MQF_STP_UPS2],

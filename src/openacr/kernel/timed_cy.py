@@ -6,13 +6,12 @@ on plans, whose time falls as their cruising speed rises.
 """
 
 from openacr.cmath import sqrt
-from openacr.kernel.path_cy import master_word, master_word2, move_limit, move_record
+from openacr.kernel.path_cy import master_word2, move_final_ups, move_limit, move_record
 from openacr.kernel.profile_cy import profile_plan
 from openacr.map.numbers import (
     MA_BASE,
     MA_STRIDE,
     MA_TMOV_VELOCITY,
-    MF1_FVEL_ZERO_ACTIVE,
     MF2_MASTER_SHORT_TIME,
     MQF_ACC_UPS2,
     MQF_BASE,
@@ -41,16 +40,13 @@ SLACK = 1e-9
 def plan_seconds(F: F64, I: I32, m: int, cruise: float) -> float:
     """Time the present move takes with a cruising speed, from where it is."""
     q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
-    final: float = F[q + MQF_FVEL_UPS]
-    if I[master_word(m)] & MF1_FVEL_ZERO_ACTIVE:
-        final = 0.0
     profile_plan(
         F,
         I,
         m,
         F[q + MQF_LENGTH_U],
         cruise,
-        final,
+        move_final_ups(F, I, m, move_record(I, m)),
         F[q + MQF_ACC_UPS2],
         F[q + MQF_DEC_UPS2],
         F[q + MQF_STP_UPS2],

@@ -13,6 +13,7 @@ from openacr.kernel.path_cy import (
     MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
     MARK_COUNT_UP,
+    MARK_FINAL_ZERO,
     MARK_INTERRUPT,
     MARK_OVERRIDE_LOCKED,
     MARK_ROUNDS,
@@ -23,7 +24,6 @@ from openacr.map.numbers import (
     MF2_ENABLE_RAPID_MOVE_MODES,
     MQF_BASE,
     MQF_DEC_UPS2,
-    MQF_FVEL_UPS,
     MQF_STP_UPS2,
     MQF_STRIDE,
     MQI_BASE,
@@ -89,6 +89,7 @@ class HostMove:
         return (
             counts
             | (MARK_OVERRIDE_LOCKED if self.override_locked else 0)
+            | (MARK_FINAL_ZERO if self.final_velocity_zero else 0)
             | (MARK_INTERRUPT if self.interrupt else 0)
             | (MARK_BLOCK_SKIP if self.block_skip else 0)
             | (MARK_ROUNDS if self.tolerance_u else 0)
@@ -149,8 +150,6 @@ def issue(card: Card, move: HostMove) -> None:
     reals, ints = MQF_BASE + record * MQF_STRIDE, MQI_BASE + record * MQI_STRIDE
     ramp = card.memory.F[reals + MQF_DEC_UPS2]
     card.memory.F[reals + MQF_STP_UPS2] = ramp if move.stop_ramp else 0.0
-    if move.final_velocity_zero:
-        card.memory.F[reals + MQF_FVEL_UPS] = 0.0
     card.memory.I[ints + MQI_RAPID] = int(move.rapid)
     card.memory.I[ints + MQI_MARKS] = move.marks
     if move.tolerance_u is not None:

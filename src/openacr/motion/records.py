@@ -8,6 +8,7 @@ from openacr.errors import CardError
 from openacr.kernel import path_cy, round_law_cy
 from openacr.map.numbers import (
     AXF_TARGET_CNT,
+    MA_DISTANCE_SQUARED,
     MA_MOVE_TIME,
     MA_USER_VELOCITY,
     MF1_IN_MOTION,
@@ -134,7 +135,9 @@ def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequen
         memory.F[master_reals(master) + MSF_TARGET_CNT + way.slave] = way.target_cnt
         if not queued:
             memory.F[axis_reals(way.axis) + AXF_TARGET_CNT] = way.target_cnt
-            card.show(way.axis)
+        card.show(way.axis)
+    length_u = memory.F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
+    memory.S[master_parameter(master) + MA_DISTANCE_SQUARED] = length_u * length_u
     memory.I[rows + MSI_QUEUED] = queued + 1
     flags = MF1_IN_MOTION | (MF1_MOVE_BUFFERED if queued else 0)
     memory.I[master_word(master)] |= flags

@@ -1,7 +1,7 @@
 """TRJ: let a new move take the place of all that a master has."""
 
 from openacr.compiled import pick
-from openacr.kernel import interrupt_cy, path_cy
+from openacr.kernel import axis_cy, hold_cy, interrupt_cy, path_cy
 from openacr.map.numbers import (
     MQF_BASE,
     MQF_LENGTH_U,
@@ -23,12 +23,17 @@ from openacr.map.numbers import (
     PRF_VELOCITY,
 )
 from openacr.motion.card import Card
-from openacr.motion.permits import scale_of
+from openacr.motion.permits import axes_of, scale_of
 from openacr.motion.records import Way
 from openacr.motion.rows import master_ints, master_reals
 
+_axis_target_changed = pick(axis_cy.axis_target_changed)
 _master_cut = pick(interrupt_cy.master_cut)
+_move_over = pick(hold_cy.move_over)
 _path_slope = pick(path_cy.path_slope)
+
+
+FARTHEST_U = 1e30  # no bound on what is counted of a move
 
 
 def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
@@ -47,10 +52,14 @@ def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
     if memory.I[rows + MSI_MOVING]:
         profile = PRF_BASE + master * PRF_STRIDE
         reals = master_reals(master)
+        _move_over(memory.F, memory.I, master, FARTHEST_U)
         memory.F[reals + MSF_ENTRY_UPS] = memory.F[profile + PRF_VELOCITY]
         memory.F[reals + MSF_ENTRY_UPS2] = memory.F[profile + PRF_ACCEL]
     for row in (MSI_QUEUED, MSI_MOVING, MSI_SEEK_PHASE, MSI_HSINT_PHASE):
         memory.I[rows + row] = 0
+    for axis in axes_of(card, master):  # those of the dropped moves end where they are
+        _axis_target_changed(memory.F, memory.I, axis)
+        card.show(axis)
 
 
 def _turns_back(card: Card, master: int, ways: list[Way]) -> bool:

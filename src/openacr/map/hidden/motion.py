@@ -136,6 +136,7 @@ MASTER = HiddenBlock(
         ("vecdef", SLAVES),
         ("target_cnt", SLAVES),  # end of the last queued move, per slave
         "origin_u",  # path distance at which the present move begins
+        "travel_u",  # what the path has gone in the moves that are over (P8207)
         "stretch_u",  # path distance at which the present plan ends
         "entry_ups",  # speed and acceleration a replacing move (TRJ) is entered with
         "entry_ups2",
@@ -189,6 +190,7 @@ MASTER = HiddenBlock(
         "corner_smooth_out",
         "sync_go",  # SYNC: the move at the head may begin
         "sync_start",  # SYNC MDI: a cycle start has come
+        "final_zero",  # FVEL Zero Active as the present plan knows it
         "step_go",  # STEP in block mode: one move may begin in spite of Start Move Inhibit
         ("rotate_slave", 2),  # the plane of ROTATE
     ),
