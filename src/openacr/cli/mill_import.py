@@ -33,7 +33,8 @@ def import_drawing(
     file: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[FILE.dxf]", help="Drawing, as DXF text; without it those here are listed."
+            metavar="[FILE.dxf]",
+            help="A drawing; without it those here are listed.",
         ),
     ] = None,
     out: Annotated[

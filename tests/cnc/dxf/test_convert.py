@@ -295,7 +295,7 @@ def test_arcs_that_are_too_small_or_too_flat_to_write_never_become_circles(tmp_p
     [
         (b"", "cannot be read|damaged"),
         (b"G1 X1\nM2\n", "cannot be read|damaged"),
-        (b"AutoCAD Binary DXF\r\n\x1a\x00\x00\x00", "binary DXF is not read"),
+        (b"AutoCAD Binary DXF\r\n\x1a\x00\x00\x00", "cannot be read|damaged"),
         (bytes(range(256)) * 20, "cannot be read|damaged"),
         (b"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nabc\n", "damaged|cannot be read|empty"),
         (b"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n  0\nEOF\n", "the drawing is empty"),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from openacr.cnc.dxf.chains import directed, joined
+from openacr.cnc.dxf.chains import Joiner, directed
 from openacr.cnc.dxf.doubles import without_doubles
 from openacr.cnc.dxf.reading import Drawing2D, read
 from openacr.cnc.dxf.routing import Tool, routed
@@ -83,8 +83,10 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
     if len(pieces) < len(drawing.pieces):
         count = len(drawing.pieces) - len(pieces)
         drawing.notes.append(f"drawn twice, left out: {count}")
-    chains = joined(pieces, unit(options.epsilon))
-    chains = directed(chains, is_counter_clockwise=options.is_counter_clockwise)
+    joiner = Joiner(pieces, unit(options.epsilon))
+    if joiner.merged_cnt:
+        drawing.notes.append(f"shorter than epsilon inside a joint, left out: {joiner.merged_cnt}")
+    chains = directed(joiner.chains(), is_counter_clockwise=options.is_counter_clockwise)
     route = routed(chains, _tool(options, unit))
     drawing.notes += route.notes
     if not route.ways:

@@ -18,6 +18,7 @@ from openacr.cnc.dxf.segments import Point, Segment, reverse_all
 Piece = tuple[Segment, ...]
 ORIGIN: Point = (0.0, 0.0)
 NOBODY = -1
+REACH = 0.49  # of the length of a piece
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ class Chain:
 
 def joined(pieces: Sequence[Piece], epsilon: float) -> list[Chain]:
     """The chains the pieces make."""
-    return _Joiner(pieces, epsilon).chains()
+    return Joiner(pieces, epsilon).chains()
 
 
 def directed(chains: Iterable[Chain], *, is_counter_clockwise: bool) -> list[Chain]:
@@ -150,7 +151,7 @@ class Nearest:
             self._new.clear()
 
 
-class _Joiner:
+class Joiner:
     """The nodes of a drawing, and which pieces are still free.
 
     End e of piece p is number 2p + e: 0 its start, 1 its end.
@@ -159,13 +160,19 @@ class _Joiner:
     def __init__(self, pieces: Sequence[Piece], epsilon: float) -> None:
         self._pieces = pieces
         self._points = [end for piece in pieces for end in (piece[0].start, piece[-1].end)]
-        self._node = clustered(self._points, epsilon)
+        self._node = nodes_of(pieces, epsilon)
         self._at: dict[int, list[int]] = defaultdict(list)
         for end, node in enumerate(self._node):
             self._at[node].append(end)
         self._free = [self._is_long(piece, epsilon) for piece in range(len(pieces))]
 
+    @property
+    def merged_cnt(self) -> int:
+        """Pieces shorter than epsilon that begin and end in one joint; before `chains`."""
+        return self._free.count(False)
+
     def chains(self) -> list[Chain]:
+        """The chains, from the piece nearest to the origin on."""
         nearest = sorted(range(len(self._pieces)), key=self._from_origin)
         return [self._chain(piece) for piece in nearest if self._free[piece]]
 
@@ -241,10 +248,24 @@ def _away(piece: Piece, end: int) -> Point:
     return (x, y) if end else (-x, -y)
 
 
-def clustered(points: Sequence[Point], epsilon: float) -> list[int]:
+def nodes_of(pieces: Sequence[Piece], epsilon: float) -> list[int]:
+    """The node of both ends of every piece.
+
+    An end reaches as far as epsilon, but less than half of its own piece: the ends of a short
+    piece, and those of a run of short ones, stay apart.
+    """
+    points = [end for piece in pieces for end in (piece[0].start, piece[-1].end)]
+    reach = [min(epsilon, REACH * _length(piece)) for piece in pieces for _ in (0, 1)]
+    return clustered(points, epsilon, reach)
+
+
+def clustered(
+    points: Sequence[Point], epsilon: float, reach: Sequence[float] | None = None
+) -> list[int]:
     """The node of every point: points closer than epsilon, directly or by way of others.
 
-    A grid of cells as wide as epsilon keeps the search to the neighbourhood.
+    With `reach`, by point and no larger than epsilon, two are joined within the smaller of
+    theirs. A grid of cells as wide as epsilon keeps the search to the neighbourhood.
     """
     parent = list(range(len(points)))
 
@@ -259,7 +280,8 @@ def clustered(points: Sequence[Point], epsilon: float) -> list[int]:
         column, row = math.floor(x / epsilon), math.floor(y / epsilon)
         for right, up in product((-1, 0, 1), repeat=2):
             for other in cells.get((column + right, row + up), ()):
-                if math.dist(points[other], (x, y)) <= epsilon:
+                near = epsilon if reach is None else min(reach[other], reach[number])
+                if math.dist(points[other], (x, y)) <= near:
                     parent[root(other)] = root(number)
         cells[column, row].append(number)
     return [root(number) for number in range(len(points))]

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from openacr.cnc.dxf.chains import Piece, clustered
+from openacr.cnc.dxf.chains import REACH, Piece, nodes_of
 from openacr.cnc.dxf.segments import Point
 
 
@@ -11,19 +11,19 @@ def without_doubles(pieces: Sequence[Piece], epsilon: float) -> list[Piece]:
     """The pieces without those that lie on another one, in the same or the other direction.
 
     Alike are pieces with the same two nodes whose lengths and middles differ by no more than
-    epsilon.
+    epsilon, or half of their length where that is less.
     """
-    ends = [end for piece in pieces for end in (piece[0].start, piece[-1].end)]
-    node = clustered(ends, epsilon)
+    node = nodes_of(pieces, epsilon)
     kept: list[Piece] = []
     by_nodes: dict[tuple[int, int], list[tuple[float, Point]]] = {}
     for number, piece in enumerate(pieces):
         first, last = sorted((node[2 * number], node[2 * number + 1]))
         length = math.fsum(segment.length for segment in piece)
         middle = _middle(piece, length)
+        near = min(epsilon, REACH * length)
         others = by_nodes.setdefault((first, last), [])
         if any(
-            abs(length - other) <= epsilon and math.dist(middle, place) <= epsilon
+            abs(length - other) <= near and math.dist(middle, place) <= near
             for other, place in others
         ):
             continue

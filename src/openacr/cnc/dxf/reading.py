@@ -15,7 +15,6 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-BINARY_MARK = b"AutoCAD Binary DXF"
 INCH, MM = 1, 4
 # $INSUNITS: unit of the drawing, and what one of it is in inches or millimetres
 UNITS: dict[int, tuple[bool, float]] = {
@@ -25,6 +24,7 @@ UNITS: dict[int, tuple[bool, float]] = {
     6: (True, 1000.0),
 }
 DEEPEST = 16  # blocks within blocks
+MOST = 2_000_000  # entities of a drawing with its blocks expanded
 SPLINE_FRAME = 16  # flag of a polyline vertex that is not on the curve
 
 
@@ -43,32 +43,44 @@ class Drawing2D:
 
 def read(path: Path, *, layer: str, is_metric: bool, chord: Callable[[bool], float]) -> Drawing2D:
     """The drawing in a file; `chord` tells how high chords of curves may be in its unit."""
-    document = _opened(path)
+    document, is_recovered = _opened(path)
     try:
-        return _Reader(document, layer, is_metric, chord).drawing()
+        drawing = _Reader(document, layer, is_metric, chord).drawing()
+        if is_recovered:
+            drawing.notes.insert(0, "the file is damaged: what could be recovered is here")
+        return drawing
     except UserError:
         raise
     except Exception as error:  # what a broken file makes the DXF reader stumble over
         raise _broken(path, error) from None
 
 
-def _opened(path: Path) -> "Drawing":
+def _opened(path: Path) -> tuple["Drawing", bool]:
+    """A text or binary file, and whether it had to be recovered."""
     try:
         from ezdxf.filemanagement import readfile
     except ModuleNotFoundError:
         raise UserError("DXF files need ezdxf: pip install 'openacr[dxf]'") from None
     try:
-        with path.open("rb") as file:
-            if file.read(len(BINARY_MARK)) == BINARY_MARK:
-                raise UserError(f"{path}: binary DXF is not read; save it as DXF text")
-        return readfile(path)
+        return readfile(path), False
     except OSError as error:
         # The reader, too, tells by an OSError that a file is no DXF at all.
         raise UserError(f"{path}: cannot be read: {error.strerror or error}") from None
-    except UserError:
-        raise
     except Exception as error:
-        raise _broken(path, error) from None
+        return _recovered(path, error), True
+
+
+def _recovered(path: Path, fault: Exception) -> "Drawing":
+    """What can be saved of a damaged file; the error it has where that is nothing."""
+    from ezdxf import recover
+
+    try:
+        document, _ = recover.readfile(path)
+    except Exception:
+        raise _broken(path, fault) from None
+    if not len(document.modelspace()):
+        raise _broken(path, fault)
+    return document
 
 
 def _broken(path: Path, error: Exception) -> UserError:
@@ -92,6 +104,7 @@ class _Reader:
             name = "mm" if metric else "inch"
             said = "states no unit" if unit == 0 else f"has unit {unit}, which is not known here"
             self._drawing.notes.append(f"the drawing {said}: taken as {name}")
+        self._cnt = 0
         self._chord = chord(metric) / self._scale
         self._frozen = {each.dxf.name.casefold() for each in document.layers if each.is_frozen()}
 
@@ -122,12 +135,19 @@ class _Reader:
     ) -> Iterator[tuple[Any, str]]:
         """All entities with their layers; those of blocks instead of the block."""
         for entity in entities:
+            self._cnt += 1
+            if self._cnt > MOST:
+                raise UserError(f"the drawing has more than {MOST:,} entities in its blocks")
             layer = str(entity.dxf.get("layer", "0"))
             if inherited is not None and layer == "0":
                 layer = inherited  # layer 0 inside a block is the layer of the insertion
             if entity.dxftype() != "INSERT":
                 yield entity, layer
-            elif layer.casefold() not in self._frozen and depth < DEEPEST:
+            elif layer.casefold() in self._frozen:
+                continue
+            elif depth >= DEEPEST:
+                self._drawing.unused[f"block nested deeper than {DEEPEST}"] += 1
+            else:
                 for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
                     yield from self._flat(single.virtual_entities(), layer, depth + 1)
 
