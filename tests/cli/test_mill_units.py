@@ -50,3 +50,16 @@ def test_a_run_names_the_unit_of_its_places(store: Path) -> None:
         cells.write(850_030, 21)
     assert mill("run", "a.nc").stdout.rstrip().endswith(" mm")
     assert json.loads(mill("run", "a.nc", "--json").stdout)["unit"] == "inch"
+
+
+def test_a_time_without_the_path_jerk_of_the_machine_says_so(store: Path) -> None:
+    note = "note: the time is that without Path jerk (P650015); the run takes longer\n"
+    for command in ("check", "time"):
+        assert mill(command, "a.nc").stderr == ""
+        assert json.loads(mill(command, "a.nc", "--json").stdout)["time_without"] == []
+    with Store(store / "sysvar.db") as cells:
+        cells.write(650_015, 100.0)
+    for command in ("check", "time"):
+        assert mill(command, "a.nc").stderr == note
+        data = json.loads(mill(command, "a.nc", "--json").stdout)
+        assert data["time_without"] == ["Path jerk (P650015)"]

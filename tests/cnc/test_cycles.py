@@ -372,3 +372,10 @@ def test_a_way_between_holes_that_is_deeper_than_r_is_doubted(
 def test_other_controls_go_up_to_r_and_need_no_doubt() -> None:
     done = run("F10\nG0 Z.5\nG98 G81 X1 Z-1 R1", dialect="rs274ngc")
     assert "W219" not in done.codes
+
+
+@pytest.mark.parametrize(("level", "z"), [("G98", 2.0), ("G99", 1.0)])
+def test_boring_by_hand_returns_to_the_level_that_is_asked_for(level: str, z: float) -> None:
+    done = run(f"F10 G0 Z2\n{level} G88 X3 Y4 Z-1 R1{CYCLES}")
+    assert done.ends[-1] == (3.0, 4.0, z)
+    assert [end[2] for end in done.ends] == [2.0, 2.0, 1.0, -1.0, z]

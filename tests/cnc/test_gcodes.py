@@ -493,3 +493,22 @@ def test_a_zero_length_block_gives_no_move() -> None:
 
 def test_rapids_have_no_feed() -> None:
     assert all(not hasattr(entry, "pace") for entry in run("G0 X1").of(Rapid))
+
+
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        # about the present position where the block names no centre, axis by axis
+        ("G0 X2 Y1\nG68 R90\nX3", ["R X2 Y1", "R X2 Y2"]),
+        ("G0 X2 Y1\nG68 X0 R90\nX1", ["R X2 Y1", "R X2 Y2"]),  # from 0, -1 as seen after G68
+        ("G0 X2 Y1\nG68 Y0 R90\nX3 Y0", ["R X2 Y1"]),
+        ("G0 X2 Y1\nG68 X1 Y3 R180\nX2 Y3", ["R X2 Y1", "R Y3"]),
+    ],
+)
+def test_a_rotation_turns_about_its_centre(text: str, moves: list[str]) -> None:
+    assert run(text).moves == moves
+
+
+def test_the_centre_of_a_rotation_is_in_the_work_system() -> None:
+    cells = {910: 10.0, 911: 20.0}
+    assert run("G54 G0 X2 Y1\nG68 X1 Y1 R90\nX2 Y1", cells).moves == ["R X12 Y21", "R X11 Y22"]

@@ -147,8 +147,8 @@ def test_comments_and_marks_are_left_out(text: str) -> None:
         ("GOTO", "E108", 5),
         ("N1 GOTO 1 X5", "E108", 11),
         ("X1 GOTO 1", "E108", 4),
-        ("N0 X1", "E222", 2),
-        ("N1000000", "E222", 2),
+        ("N X1", "E105", 3),
+        ("N-1 X1", "E105", 2),
         ("X" + "1" * 256, "E101", 257),
         ("P20488=1", "E211", 1),
         ("X P1003425", "E211", 1),
@@ -369,3 +369,20 @@ def test_an_answer_goes_to_the_local_of_a_macro_where_it_is_asked_for_by_hash() 
     assert done.machine.parameters == {1: 7.0}
     done = run('G65 P5 X9\nM2\nN5 INPUT "n", P1\nP200=#1\nRET', machine=Bench(answers={1: 7.0}))
     assert done.p(200) == 9.0
+
+
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+@pytest.mark.parametrize(
+    "number", ["0", "00", "1000000", "12345678901", "1.5", "10.", "999999.0", "2.0"]
+)
+@pytest.mark.parametrize("rest", ["G1 X1 F10", " G1 X1 F10 (remark)"])
+def test_line_numbers_of_other_systems_are_accepted(number: str, rest: str, dialect: str) -> None:
+    done = run(f"N{number}{rest}", dialect=dialect)
+    assert done.moves == ["L X1"]
+    assert done.interpreter.program.findings == []
+
+
+@pytest.mark.parametrize(("label", "code"), [(1, []), (999_999, []), (1_000_000, ["E220"])])
+def test_only_labels_are_targets(label: int, code: list[str]) -> None:
+    assert errors(f"F10\nGOTO {label}\nX5\nN{label} G1 X1") == code
+    assert errors("F10\nGOTO 2\nN2.5 G1 X1\nN0 X2") == ["E220"]

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 FAILED = 1
 S_PER_MIN = 60
+PATH_JERK_CELL, PATH_JERK = 650_015, "Path jerk (P650015)"
 CONTEXT_COLUMNS = 72
 
 PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
@@ -104,13 +105,17 @@ def check_program(
 ) -> None:
     """Find every error of a part program, and say what it does."""
     with opened_store(store) as cells:
+        left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
         survey, prediction = _checked(program, cells, name)
     if as_json:
-        typer.echo(json_format.dumps({"dialect": name} | _as_data(survey, prediction), indent=1))
+        data = {"dialect": name} | _as_data(survey, prediction) | left_out
+        typer.echo(json_format.dumps(data, indent=1))
     else:
         show_findings(survey.findings)
         _show_survey(survey, prediction)
+        if not survey.errors:
+            _note_left_out(left_out)
     if survey.errors:
         raise typer.Exit(FAILED)
 
@@ -130,6 +135,7 @@ def time_program(
     """Predict how long a part program runs, from the plan of its moves."""
     require_trace(trace, every_s)
     with opened_store(store) as cells:
+        left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
         with _sampled(cells, trace, every_s) as reader:
             survey, prediction = _surveyed(
@@ -140,9 +146,10 @@ def time_program(
         raise typer.Exit(FAILED)
     record = _times(prediction)
     if as_json:
-        typer.echo(json_format.dumps({"dialect": name} | record, indent=1))
+        typer.echo(json_format.dumps({"dialect": name} | record | left_out, indent=1))
         return
     typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
+    _note_left_out(left_out)
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
 
@@ -205,6 +212,16 @@ def _times(prediction: "Prediction") -> dict[str, float]:
         "rapid_s": round(prediction.rapid_s, 4),
         "dwell_s": round(prediction.dwell_s, 4),
     }
+
+
+def _left_out(cells: "Store") -> dict[str, list[str]]:
+    """Settings of the machine that the prediction of the time leaves out."""
+    return {"time_without": [PATH_JERK] if cells.read(PATH_JERK_CELL) > 0.0 else []}
+
+
+def _note_left_out(record: dict[str, list[str]]) -> None:
+    for name in record["time_without"]:
+        typer.echo(f"note: the time is that without {name}; the run takes longer", err=True)
 
 
 def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:

@@ -22,13 +22,14 @@ from openacr.cnc.statement_reader import StatementReader
 
 LONGEST = 256
 LAST_LABEL = 999_999
+_FRACTION = re.compile(r"\.\d*")
 _DIGITS = re.compile(r"\d+")
 _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
 _O_NAME = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)")
 _KEYWORD = re.compile(r"\s*([A-Z]+)")
 CALL = "CALL"
 _PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
-_PLAIN_LINE = re.compile(rf"[ \t]*(?:N[ \t]*(\d+)[ \t]*)?((?:{_PLAIN_WORD})*)", re.I | re.A)
+_PLAIN_LINE = re.compile(rf"[ \t]*(?:N[ \t]*(\d+)(\.\d*)?[ \t]*)?((?:{_PLAIN_WORD})*)", re.I | re.A)
 _PLAIN_WORDS = re.compile(_PLAIN_WORD, re.I | re.A)
 _LETTERS = "ABCDEFGHIJKLMPQRSTUVWXYZ"  # all but N, O
 
@@ -47,18 +48,17 @@ def _plain(raw: str) -> Block | None:
         return None
     block = Block()
     if found[1]:
-        block.label = _checked_label(int(found[1]), found.start(1) + 1)
-    for word in _PLAIN_WORDS.finditer(raw, found.start(2)):
+        block.label = _target(int(found[1]), has_fraction=found[2] is not None)
+    for word in _PLAIN_WORDS.finditer(raw, found.start(3)):
         letter, sign, digits = word.groups()
         number = -float(digits) if sign == "-" else float(digits)
         block.words.append(Word(letter.upper(), Number(number), word.start() + 1))
     return block
 
 
-def _checked_label(label: int, column: int) -> int:
-    if not 1 <= label <= LAST_LABEL:
-        raise CodeError("E222", column, f"N{label}", f"labels are 1 to {LAST_LABEL}")
-    return label
+def _target(number: int, *, has_fraction: bool) -> int | None:
+    """The label of an N word; N0, N1.5 and numbers above the labels only count lines."""
+    return number if 1 <= number <= LAST_LABEL and not has_fraction else None
 
 
 class _Parser(StatementReader):
@@ -90,8 +90,11 @@ class _Parser(StatementReader):
 
     def _label(self, block: Block) -> None:
         self.pos += 1
-        at = self.column
-        block.label = _checked_label(self.integer(), at)
+        number = self.integer()
+        fraction = _FRACTION.match(self.text, self.pos)
+        if fraction:
+            self.pos = fraction.end()
+        block.label = _target(number, has_fraction=fraction is not None)
 
     def _o_word(self, block: Block) -> bool:
         rest = self.text[self.pos :]

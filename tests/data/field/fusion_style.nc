@@ -1,0 +1,23 @@
+%
+(1001)
+(Fusion 360 style: plate 40 x 20, rounded corner)
+(T1 D=6. CR=0. - ZMIN=-2. - flat end mill)
+N10 G90 G94 G17 G91.1
+N15 G21
+N20 G53 G0 Z0.
+N25 T1 M6
+N30 S5000 M3
+N35 G54
+N40 G0 X-5. Y0.
+N45 G43 Z15. H1
+N50 G0 Z5.
+N55 G1 Z-2. F300.
+N60 X35. F800.
+N65 G3 X40. Y5. I0. J5.
+N70 G1 Y20.
+N75 X-5.
+N80 G0 Z15.
+N85 M5
+N90 G53 G0 Z0.
+N95 M30
+%
