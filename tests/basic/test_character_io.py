@@ -210,6 +210,14 @@ def test_backspace_takes_a_typed_character_back(card: Machine) -> None:
     assert card.sent() == "? 13|P01>"
 
 
+def test_backspace_does_not_take_back_a_line_that_is_complete(card: Machine) -> None:
+    card.load(1, "DWL 0.01", "INPUT P1", "INPUT P2", "PRINT P1,P2")
+    card.type("PROG 1", "LRUN")
+    card.key("5\r\x08\x087\x08\x08\x086\r")
+    card.advance(200)
+    assert card.sent() == "? ? 5\t6|P01>"
+
+
 @pytest.mark.req("ACR-CMD-INPUT")
 def test_input_with_a_semicolon_keeps_the_cursor_in_its_line(card: Machine) -> None:
     card.load(1, 'INPUT; "Value = ";P1', "DWL 1")

@@ -84,3 +84,11 @@ def test_the_report_names_state_period_and_entries(bench: Bench) -> None:
                                   "FSTAT PERIOD 0"])  # fmt: skip
 def test_what_is_not_there_is_refused(bench: Bench, line: str) -> None:
     assert bench.type(line) == "Invalid argument"
+
+
+def test_the_type_of_a_copy_is_that_of_its_group_unless_given(bench: Bench) -> None:
+    bench.all("FSTAT0 (48,2)", "FSTAT1 (48,16)", "FSTAT2 (48,2,1)")
+    listed = "FSTAT0 (48,2,0)|FSTAT1 (48,16,1)|FSTAT2 (48,2,1)"
+    assert bench.type("FSTAT") == f"FSTAT OFF PERIOD 50|{listed}"
+    assert bench.type("FSTAT0 (48)") == "Syntax error"
+    assert bench.type("FSTAT0 (1,1)") == "Invalid argument"

@@ -84,7 +84,7 @@ def card_with_everything() -> Machine:
     card.type("Count=5.5", "P38912=9", "P39200=1.5", 'PASSWORD ON "s"', "PROG 1", "ATTACH MASTER0")
     card.type('ATTACH SLAVE0 AXIS0 "X"', "DIM LV(3)", "DIM DA(2)", "DIM DA1(4)", "DIM SA(1)")
     card.type("DIM $V(2,10)", "DIM $A(2)", "DIM $A1(2,4)", '$V1="h\xe9llo"', '$A1(0)="abc"')
-    card.type("LV2=7", "DA1(3)=1.25", "DIM MBUF(3)")
+    card.type("LV2=7", "DA1(3)=1.25", "DIM MBUF(3)", "DIM DV(3)", "DV2=2.5")
     card.load(1, *TEXT)
     card.type("PROG 2", "10 PRINT 1:PRINT    2", "20   REM", "30 _label PRINT 2")
     return card
@@ -100,7 +100,7 @@ def test_user_memory_comes_back_as_it_was() -> None:
     for program in ("SYS", "PROG 1", "PROG 2"):
         for line in (program, "DIM", "DEF", "MEM", "?Count;P38912;P39200"):
             assert second.type(line) == first.type(line)
-    assert second.type("PROG 1", "?LV2;DA1(3);$V1;$A1(0)") == "P01>71.25h\xc3\xa9lloabc|P01>"
+    assert second.type("PROG 1", "?LV2;DV2;DA1(3);$V1;$A1(0)") == "P01>72.51.25h\xc3\xa9lloabc|P01>"
 
 
 def _lines(card: Machine) -> list[object]:

@@ -133,9 +133,16 @@ def test_a_freed_array_switches_it_off() -> None:
     assert not made.bit(120)
 
 
+def test_a_limit_switch_that_is_on_before_its_array_writes_nothing_until_then() -> None:
+    made = Bench("X").all("DIM LA(1)", "DIM LA0(2)", "LA0(0)=5", "LA0(1)=6")
+    made.all("PLS0 SRC ENC10", "PLS0 DST P4100", "P4100=9", "PLS0 ON").ticks(3)
+    assert (made.bit(120), made.p(4100)) == (True, 9)
+    made.all("PLS0 BASE LA0").ticks(2)
+    assert (made.bit(120), made.p(4100)) == (True, 5)
+
+
 def test_a_limit_switch_needs_an_array_and_a_long_parameter() -> None:
     made = Bench("X")
-    assert made.type("PLS0 ON") == "Undefined variable"
     assert made.type("PLS0 BASE LA0") == "Undefined variable"
     assert made.type("PLS0 DST P12304") == "Invalid parameter"
     assert made.type("PLS0") == "PLS0 OFF SRC NONE BASE NONE DST P4097"

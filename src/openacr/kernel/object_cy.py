@@ -136,9 +136,14 @@ def tap_value(F: F64, I: I32, S: F32, t: int) -> float:
 
 
 def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
-    """Limit switch k: DST = (DST and not MASK) or (array(index) and MASK)."""
+    """Limit switch k: DST = (DST and not MASK) or (array(index) and MASK).
+
+    Without BASE it writes nothing; one whose array was freed is switched off.
+    """
     i: int = PSI_BASE + k * PSI_STRIDE
     f: int = PSF_BASE + k * PSF_STRIDE
+    if I[i + PSI_ARRAY] == 0:
+        return
     header: int = array_header(I, I[i + PSI_PROGRAM], STI_LA_BASE, I[i + PSI_ARRAY] - 1, 1)
     if header == 0 or kind_of(I, I[i + PSI_DESTINATION]) != KIND_LONG:
         I[W_MISC_OUTPUTS] &= ~(MO_PLS0_ON << k)

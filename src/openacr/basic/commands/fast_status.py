@@ -13,6 +13,7 @@ from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import check_number
 from openacr.errors import CardError
 from openacr.map import numbers as at
+from openacr.map.kinds_cy import kind_of
 from openacr.map.lookup import packet_groups
 from openacr.messages import INVALID_ARGUMENT
 
@@ -58,17 +59,29 @@ def fstat_clear(run: Run) -> None:
 
 
 @command("FSTAT #", group=GROUP, levels=ANY, ref=REF,
-         grammar=(Group("code", "index", "type", optional=True),))  # fmt: skip
+         grammar=(Group("code", "index", "type", fewest=2, optional=True),))  # fmt: skip
 def fstat_entry(run: Run, number: int, chosen: tuple[float, ...] | None) -> None:
-    """Choose the packet group an entry copies, as LONG (0) or FP32 (1), or show its copy."""
+    """Choose the packet group an entry copies, or show its copy.
+
+    The type of the copy, LONG (0) or FP32 (1), is that of the group unless it is given.
+    """
     check_number(number, at.FST_COUNT)
     if chosen is None:
         run.print(",".join(_copies(run, number)))
         return
-    code, index, kind = map(whole, chosen)
-    if (code, index) not in packet_groups() or kind not in TYPES:
+    code, index, *types = map(whole, chosen)
+    numbers = packet_groups().get((code, index))
+    if numbers is None:
+        raise CardError(INVALID_ARGUMENT)
+    kind = types[0] if types else _type_of(run, numbers)
+    if kind not in TYPES:
         raise CardError(INVALID_ARGUMENT)
     _write(run, number, code, index, kind)
+
+
+def _type_of(run: Run, numbers: tuple[int | None, ...]) -> int:
+    first = next(number for number in numbers if number is not None)
+    return FP32 if kind_of(run.card.memory.I, first) == at.KIND_FP32 else LONG
 
 
 def _write(run: Run, number: int, code: int, index: int, kind: int) -> None:

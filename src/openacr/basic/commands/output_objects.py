@@ -24,7 +24,7 @@ from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SW
 from openacr.map import block
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
-from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
+from openacr.messages import INVALID_BIT, INVALID_PARAMETER
 from openacr.motion import cam, objects, sources
 from openacr.motion.card import Card
 from openacr.motion.settings import Setting, anything, not_negative, not_zero
@@ -175,10 +175,8 @@ def pls_res(run: Run, number: int, index: float | None) -> None:
 
 @command("PLS # ON", group=GROUP, levels=ANY, ref=REF)
 def pls_on(run: Run, number: int) -> None:
-    """Switch a limit switch on."""
+    """Switch a limit switch on; it writes nothing before BASE has given it an array."""
     check_number(number, at.PS_COUNT)
-    if not run.card.memory.I[at.PSI_BASE + number * at.PSI_STRIDE + at.PSI_ARRAY]:
-        raise CardError(UNDEFINED_VARIABLE)
     sources.objects_go_live(run.card)
     run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, True)
 
