@@ -31,11 +31,11 @@ def listed(folder: Path, text: str) -> tuple[int, list[str]]:
 
 
 @pytest.mark.req("MILL-COMP-10")
-def test_inserted_moves_are_lines_behind_the_block_that_follows_the_corner(tmp_path: Path) -> None:
+def test_inserted_moves_are_lines_between_the_blocks_of_their_corner(tmp_path: Path) -> None:
     code, lines = listed(tmp_path, PART)
     assert code == 0
     program = PART.splitlines()
-    assert lines == [*program[:5], "<ins> G3 X1.25 Y0 I1 J0", *program[5:]]
+    assert lines == [*program[:4], "<ins> G3 X1.25 Y0 I1 J0", *program[4:]]
 
 
 def test_what_a_loop_inserts_is_listed_once(tmp_path: Path) -> None:

@@ -34,9 +34,9 @@ def list_program(file: PartProgram, store: AtStore = None, dialect: Dialect = No
     text = program.main.text
     offset, number = text.begin, 1
     while (taken := text.line(offset)) is not None:
-        typer.echo(printable(decoded(taken[0])))
-        for line in inserted.get(number, []):
+        for line in inserted.get(number, []):  # made before the block that follows the corner
             typer.echo(line)
+        typer.echo(printable(decoded(taken[0])))
         offset, number = taken[1], number + 1
     if errors:
         show_findings(errors)
