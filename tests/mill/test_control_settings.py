@@ -150,7 +150,7 @@ def test_repeat_forever_runs_the_part_in_a_loop(is_forever: int) -> None:
 def test_a_dry_run_ends_at_its_start_where_the_store_says_so(returns: int, x: int) -> None:
     shop = Shop(P250_006=returns)
     shop.run_text("F600 G1 X.5\nM2\n")
-    shop.run_text("F600 G1 X2\nM2\n", Options(is_dry=True))
+    shop.run_text("G0 Z.1\nF600 G1 X2\nM2\n", Options(is_dry=True))
     assert shop.pulses()[0] == x
 
 

@@ -54,17 +54,19 @@ def test_saved_values_survive_a_restart_and_are_sent_to_the_card(tmp_path: Path)
 @pytest.mark.parametrize("radius", [0.1, 0.4])
 def test_the_lead_in_radius_is_that_of_the_way_back_to_a_path(radius: float) -> None:
     shop = Shop(P250_005=radius)
-    shop.load("G90 F600\nG1 X10\nM2\n")
+    shop.load("G90 F600\nG41 D0 G1 X1\nX10\nG40 Y5\nM2\n")
     shop.pass_time(0.5)
     shop.runner.stop()
     shop.pass_time(0.5)
     left = shop.place()[0]
+    assert left > 1.0
     shop.runner.jog(lambda jog: jog.move(1, 1.0, fast=True))
+    shop.runner.jog(lambda jog: jog.move(2, 0.5, fast=True))
     shop.pass_time(3.0)
     shop.runner.resume()
     shop.path.clear()
     shop.until(State.IDLE)
-    onto = [(x, y) for x, y, _ in shop.path if x < left - 1e-3]
+    onto = [(x, y) for x, y, z in shop.path if x < left - 1e-3 and z < 1e-4]
     assert min(x for x, _ in onto) == pytest.approx(left - radius, abs=2e-3)
 
 

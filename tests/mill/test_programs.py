@@ -112,17 +112,19 @@ def test_abort_ends_the_program_and_the_next_run_starts_at_its_beginning() -> No
 @pytest.mark.req("MILL-RUN-RESUME-OFFPATH")
 def test_a_tool_moved_aside_in_a_pause_comes_back_with_the_lead_in_radius() -> None:
     shop = Shop(P250_005=0.5)
-    shop.load("G90 F600\nG1 X10\nM2\n")
+    shop.load("G90 F600\nG41 D0 G1 X1\nX10\nG40 Y5\nM2\n")
     shop.pass_time(0.4)
     shop.runner.stop()
     shop.pass_time(0.5)
     left = shop.place()[0]
+    assert left > 1.0
     shop.runner.jog(lambda jog: jog.move(1, 2.0, fast=True))
+    shop.runner.jog(lambda jog: jog.move(2, 0.5, fast=True))
     shop.pass_time(3.0)
     shop.runner.resume()
     shop.path.clear()
     shop.until(State.IDLE)
-    on_arc = [p for p in shop.path if p[0] < left - 1e-3 and 1e-3 < p[1] < 0.499]
+    on_arc = [p for p in shop.path if p[0] < left - 1e-3 and 1e-3 < p[1] < 0.499 and p[2] < 1e-4]
     assert len(on_arc) > 5
     assert all(math.hypot(x - left, y - 0.5) == pytest.approx(0.5, abs=5e-4) for x, y, _ in on_arc)
     assert shop.pulses()[0] == 100000
