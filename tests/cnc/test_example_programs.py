@@ -29,6 +29,8 @@ Spot = tuple[float, float]
 
 def store_for(name: str) -> Store:
     store = Store()
+    for output, cell in enumerate((800_005, 800_009, 800_010), 40):  # spindle, mist, flood
+        store.write(cell, output)
     if name == "knife_letter.nc":
         imported(store, (PARTS / "knife.toml").read_text(), "knife.toml")
     return store

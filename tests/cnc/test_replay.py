@@ -170,12 +170,12 @@ def test_a_tool_that_stays_makes_no_difference() -> None:
 
 
 def test_variables_of_the_card_are_written_when_the_start_is_confirmed() -> None:
-    done = made("P5=P5+1 G0 Z1\nP300=4\nT P300\nG1 F10 X(P5)\nX9\nM2", {5: 2.0})
+    done = made("P5=P5+1 G0 Z1\nP30=4\nT P30\nG1 F10 X(P5)\nX9\nM2", {5: 2.0})
     card = done.machine.parameters
     replay = start_at(done.interpreter, 5)
     assert (replay.run.position[0], card) == (3.0, {5: 2.0})
     next(replay.entries())
-    assert card == {5: 3.0, 300: 4.0}
+    assert card == {5: 3.0, 30: 4.0}
 
 
 def test_a_probe_counts_as_not_tripped() -> None:

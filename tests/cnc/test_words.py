@@ -65,6 +65,14 @@ def test_s_is_the_speed_of_the_spindle() -> None:
 
 
 @pytest.mark.req("MILL-WORD-N")
+def test_t_p_knows_what_a_card_has() -> None:
+    assert [f.code for f in run("P150=7\nT P150").interpreter.warnings] == ["W406"]
+    assert [f.code for f in run("T P99\nT P3").interpreter.warnings] == []
+    refused = run("T P95").error
+    assert refused is not None
+    assert (refused.code, refused.line) == ("E212", 1)
+
+
 def test_labels_do_not_move() -> None:
     assert run("N10 F10\nN20 X1\nN30").moves == ["L X1"]
 

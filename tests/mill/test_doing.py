@@ -214,3 +214,12 @@ def test_a_probe_that_is_tripped_at_the_start_does_not_move() -> None:
     shop.until(State.ALARM)
     assert codes(shop) == [35]
     assert shop.pulses() == (0, 0, 0)
+
+
+def test_a_variable_the_card_does_not_have_ends_the_program_with_its_name() -> None:
+    shop = Shop()
+    shop.load("P150=7\nG1 F600 X1\nT P150\nX2\nM2\n")
+    shop.until(State.ALARM)
+    (alarm,) = shop.runner.alarms.active
+    assert alarm.text == "Program error: line 3: T P150: the card has no P150; DIM P makes it"
+    assert shop.pulses()[0] == 10000

@@ -12,6 +12,7 @@ from openacr.cnc.findings import CodeError, Finding, found
 from openacr.cnc.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.hosts import Cells
 from openacr.cnc.plan import Plan
+from openacr.cnc.unwired import unwired
 
 MANUAL_CHANGE, CHANGED_INPUT = 900_002, 900_000
 
@@ -109,6 +110,10 @@ class Checks:
     def _check_code(self, name: str) -> None:
         if name in ("M3", "M4") and not self.seen.has_speed:
             self._report.warn_once("W217", 1)
+        missing = unwired(self._cells, name)
+        if missing and name not in self._report.warned:
+            self._report.warned.add(name)
+            self._report.warn("W405", 1, missing)
         if name == "M6" and self._is_change_impossible():
             raise CodeError("E223", 1)
 

@@ -81,6 +81,8 @@ TEXTS = {
     "W402": "feed never reached",
     "W403": "limits not testable",
     "W404": "probe not captured by the card",
+    "W405": "nothing is wired to the code",
+    "W406": "beyond the P0 to P99 that the set-up gives a card",
     "A33": "axis not homed",
     "A36": "probe did not trip",
     "A61": "answer missing",

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from openacr.cnc.turn import Turn
 
 letter = ACROMILL.letter
-LAST_VARIABLE = 4095
+LAST_VARIABLE, LAST_SET_UP = 4095, 99  # of the card; those the set-up makes
 
 
 @letter("F", step=Step.FEED)
@@ -70,7 +70,13 @@ def transfer(run: Interpreter, b: Turn) -> Iterator[Entry]:
         raise b.fault("E105", "T")
     n = number(Formula(word.parameter, run.parameters).now())
     if not 0 <= n <= LAST_VARIABLE:
-        raise CodeError("E211", word.column, f"P{n}")
+        hint = f"variables of the card are P0 to P{LAST_VARIABLE}"
+        raise CodeError("E211", word.column, f"T P{n}", hint)
+    error = run.cells.home(n).write_error()
+    if error:
+        raise CodeError(error, word.column, f"T P{n}")
+    if n > LAST_SET_UP:
+        run.warn(b, "W406", "T", f"T P{n}")
     run.tell(Transfer(b.source, n, run.parameters.read_p(n)))
 
 

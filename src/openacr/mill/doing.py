@@ -6,7 +6,9 @@ from functools import singledispatchmethod
 from math import inf
 from typing import TYPE_CHECKING
 
+from openacr.client.errors import RefusedError
 from openacr.cnc import canonical as c
+from openacr.errors import MapError
 from openacr.map.numbers import AX_ACTUAL_POSITION
 from openacr.mill import alarms
 from openacr.mill.actions import Coolant, Spindle, Steps, ToolChanger, Until, pause
@@ -110,7 +112,12 @@ class Doing:
 
     @steps.register
     def _(self, entry: c.Transfer) -> Steps:
-        self._panel.machine.write(entry.parameter, entry.value)
+        try:
+            self._panel.machine.write(entry.parameter, entry.value)
+        except (MapError, RefusedError):
+            name, line = f"P{entry.parameter}", entry.source.line
+            detail = f"line {line}: T {name}: the card has no {name}; DIM P makes it"
+            raise AlarmError(alarms.PROGRAM_ERROR, detail) from None
         yield from ()
 
     @steps.register
