@@ -89,11 +89,29 @@ def test_a_jog_is_refused_while_a_program_runs_and_allowed_while_it_is_held() ->
         shop.runner.jog(lambda jog: jog.hold(0, 1))
     shop.until(State.HOLD)
     shop.runner.jog(lambda jog: jog.increment(1, 1, 2))
+    shop.runner.jog(lambda jog: jog.increment(2, 1, 2))
     shop.pass_time(1.0)
-    assert shop.pulses()[:2] == (10000, 1000)
+    assert shop.pulses() == (10000, 1000, 1000)
     shop.runner.start()
     shop.until(State.IDLE)
-    assert shop.pulses()[:2] == (20000, 0)
+    assert shop.pulses() == (20000, 0, 0)
+
+
+@pytest.mark.req("MILL-SYS-JOG-DIR")
+@pytest.mark.parametrize(("is_negative", "sign"), [(0, 1), (1, -1)])
+def test_jog_direction_turns_keys_and_increments_alike(is_negative: int, sign: int) -> None:
+    shop = shop_for_jogs(P350_005=is_negative)
+    shop.runner.jog(lambda jog: jog.increment(0, 1, 2))
+    shop.pass_time(1.0)
+    assert shop.pulses()[0] == sign * 1000
+    shop.runner.jog(lambda jog: jog.increment(0, -1, 3))
+    shop.pass_time(1.0)
+    assert shop.pulses()[0] == sign * 900
+    shop.runner.jog(lambda jog: jog.hold(0, 1))
+    shop.pass_time(0.3)
+    shop.runner.jog(lambda jog: jog.release(0))
+    shop.pass_time(1.0)
+    assert sign * shop.pulses()[0] > 900
 
 
 def test_an_axis_that_must_be_homed_is_not_jogged_before() -> None:

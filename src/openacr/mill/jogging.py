@@ -71,11 +71,12 @@ class Jogging:
         self._type(f"JOG OFF {self._panel.settings.axis(axis).name}")
 
     def increment(self, axis: int, direction: int, preset: int, *, fast: bool = False) -> float:
-        """Exactly one of the five increments; how far that is."""
+        """Exactly one of the five increments, as Jog Direction turns it; how far that is."""
         if not 1 <= preset <= INCREMENTS:
             raise UserError(f"increment {preset}: 1..{INCREMENTS} are there")
         size = self._panel.settings.real(JOG, FIRST_INCREMENT + preset - 1, axis)
-        self.move(axis, size if direction > 0 else -size, fast=fast)
+        forward = (direction > 0) is not self._is_turned(axis)
+        self.move(axis, size if forward else -size, fast=fast)
         return size
 
     def move(self, axis: int, way_u: float, *, fast: bool = False) -> None:
