@@ -340,7 +340,7 @@ def test_the_acr2000_has_16_inputs_and_16_outputs() -> None:
         store.write_text(100_002, "ACR2000")
     store.write(400_101, 47)
     store.write_text(100_002, "ACR2000")
-    for cell, good, bad in ((400_102, 47, 48), (800_005, 32, 63), (400_002, 15, 16)):
+    for cell, good, bad in ((400_102, 46, 48), (800_005, 32, 63), (400_002, 15, 16)):
         with pytest.raises(SettingError, match="of the card are"):
             store.write(cell, bad)
         store.write(cell, good)

@@ -14,12 +14,12 @@ from openacr.mill.script import Script
 class Hands:
     """Everything that moves the axes of one machine by hand."""
 
-    def __init__(self, panel: Panel, require_free: Callable[[str], None]) -> None:
+    def __init__(self, panel: Panel, make_free: Callable[[str], None]) -> None:
         self.jogging = Jogging(panel)
         self.controls = Controls(panel, self.jogging, self.jog)
         self._wheel = HandWheel(panel, self.jogging)
         self._script = Script()
-        self._require_free = require_free  # nothing else may move the machine
+        self._make_free = make_free  # nothing else may move the machine
 
     @property
     def is_active(self) -> bool:
@@ -28,7 +28,7 @@ class Hands:
 
     def jog(self, move: Callable[[Jogging], object]) -> None:
         """Let somebody move axes."""
-        self._require_free("jog")
+        self._make_free("jog")
         if self._wheel.axes:
             raise UserError("cannot jog: the hand wheel moves the machine")
         move(self.jogging)
@@ -40,7 +40,7 @@ class Hands:
         if not axes:
             self._wheel.leave()
             return
-        self._require_free("use the hand wheel")
+        self._make_free("use the hand wheel")
         if self.jogging.is_active and not self._wheel.axes:
             raise UserError("cannot use the hand wheel: an axis is being jogged")
         self._wheel.select(axes)

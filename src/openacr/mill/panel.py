@@ -50,6 +50,11 @@ class Panel:
             if number in self.outputs
         ]
 
+    def is_on(self, number: int) -> bool:
+        """Whether an output acts, as the card has it."""
+        bit = self.machine.card.read_bit(number)
+        return bit != self.settings.is_output_inverted(number)
+
     def is_out(self, number: int) -> bool:
         """Whether an output was switched on here."""
         return self._out.get(number, False)

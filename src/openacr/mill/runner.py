@@ -19,6 +19,7 @@ from openacr.mill.console import Console
 from openacr.mill.controls import Controls
 from openacr.mill.course import Course, Entries
 from openacr.mill.doing import Doing
+from openacr.mill.enabling import enable_drives
 from openacr.mill.ending import Ending
 from openacr.mill.halting import Halting
 from openacr.mill.hands import Hands
@@ -64,7 +65,7 @@ class Runner:
         self.retrace = retrace = Retrace(panel, course, depth)
         self._status = status = Status(has_operator=has_operator)
         self._script = script = Script()
-        self._hands = hands = Hands(panel, self._require_free)
+        self._hands = hands = Hands(panel, self._make_free)
         self._pausing = pausing = Pausing(panel, course, retrace, script, status)
         self._ending = ending = Ending(panel, course, doing, pausing, script, status)
         self._console = console = Console(panel, doing.spindle, store)
@@ -151,7 +152,7 @@ class Runner:
 
     def run(self, entries: Entries, options: Options | None = None) -> None:
         """Start a program from its beginning."""
-        self._require_idle("start a program")
+        self._make_ready("start a program")
         self._status.options = options or Options()
         self._passes.load(entries)
         self._status.state = State.RUN
@@ -159,7 +160,7 @@ class Runner:
 
     def home(self, axes: Sequence[int]) -> None:
         """HOME: find the reference points of axes, priority after priority."""
-        self._require_idle("home")
+        self._make_ready("home")
         self._script.begin(home(self.panel, axes, self._compensation, self._say))
         self._status.state = State.WAIT
         self._status.is_homing = True
@@ -254,6 +255,16 @@ class Runner:
         return self._supervision.acknowledge()
 
     # --- what bars a command ----------------------------------------------------------
+
+    def _make_ready(self, what: str) -> None:
+        """Enable the drives for a program or a homing, if it may begin."""
+        self._require_idle(what)
+        enable_drives(self.panel)
+
+    def _make_free(self, what: str) -> None:
+        """Enable the drives for axes moved by hand, if they may be."""
+        self._require_free(what)
+        enable_drives(self.panel)
 
     def _require_idle(self, what: str) -> None:
         """No alarm is up and nothing is under way."""

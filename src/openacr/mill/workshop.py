@@ -32,6 +32,7 @@ from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
 from openacr.mill.checks import check_axes, check_firmware, check_rest
 from openacr.mill.dripping import Drip
+from openacr.mill.enabling import rest_outputs
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.leftovers import has_tripped, tidy
@@ -44,6 +45,7 @@ from openacr.mill.setup import prepare, user_variables
 from openacr.mill.states import Options, State
 from openacr.mill.watchdog import NO_WATCHDOG, Watchdog
 from openacr.sysvar import AT_START, Store
+from openacr.sysvar.rules import require_wiring
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
@@ -108,6 +110,7 @@ class Workshop:
         self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
         panel = self.runner.panel
+        rest_outputs(panel)
         defined = [
             each for each in definitions(cells) if not (is_virtual and panel.has_input(each.bit))
         ]
@@ -154,6 +157,7 @@ class Workshop:
         timeout_s = settings.link_timeout_s
         card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
         try:
+            require_wiring(store)
             check_firmware(card)
             user_variables(card)
             listen_s = max(LISTEN_S, timeout_s + BEAT_S)

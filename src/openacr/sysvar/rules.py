@@ -6,7 +6,7 @@ from typing import Protocol
 
 from openacr.models import MODELS
 from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
-from openacr.sysvar.schema import AXES, AXIS_CELLS, FIRST_SYSTEM, Wire
+from openacr.sysvar.schema import AXES, AXIS_CELLS, FIRST_SYSTEM, Parameter, Wire
 from openacr.sysvar.values import SettingError
 
 MODEL, RUN_STATE = 100_002, 244
@@ -18,6 +18,13 @@ DISPLAY, DISPLAY_FORMATS = 850_000, 2
 SMALL_CARD, SMALL_CARD_LINES = "ACR2000", 16
 CARD_LINES = 32
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
+SPINDLE_DAC, CONFIGURED, AXIS_DAC = 800_002, 12, 14
+DAC = (CONFIGURED, AXIS_DAC)
+FEED_HOLD, CYCLE_START, EMERGENCY_STOP = 400_002, 400_003, 400_004
+STEERING = {FEED_HOLD, CYCLE_START, EMERGENCY_STOP}  # inputs that serve nothing else
+REFERENCE_OUTPUTS = {400_011, 400_019}  # of G27 and G28: one lamp may serve both
+# Switches that are read at four inputs, by the cell of the first: joystick, FOV, ROV, SOV.
+SWITCH_LINES = dict.fromkeys((400_006, 450_016, 500_016, 550_016), 4)
 MODULES, FIRST_MODULE_LINE, MODULE_LINES = 250_124, 256, 64
 
 
@@ -138,6 +145,63 @@ def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
             raise SettingError(known(n), value, "one digit, a point, one digit", "3.4 is ###.####")
 
 
+def _sharing(cells: Reader, changed: Collection[int]) -> None:
+    """An output, a DAC or an input that steers the machine serves one purpose."""
+    lines = [each for each in parameters() if each.row.wire]
+    dacs = [SPINDLE_DAC, *(FIRST_AXIS + AXIS_CELLS * axis + k for axis in range(AXES) for k in DAC)]
+    if not {each.number for each in lines}.isdisjoint(changed):
+        _refuse_shared(cells, changed, _users(cells, lines))
+    if not set(dacs).isdisjoint(changed):
+        _refuse_shared(cells, changed, _dac_users(cells))
+
+
+def require_wiring(cells: Reader) -> None:
+    """Refuse a machine two of whose functions are on one output, DAC or steering input."""
+    everything = [each.number for each in parameters() if each.row.wire]
+    _refuse_shared(cells, everything, _users(cells, [known(n) for n in everything]))
+    _refuse_shared(cells, everything, _dac_users(cells))
+
+
+Users = dict[tuple[str, int], list[int]]  # by what is used: the cells that use it
+
+
+def _users(cells: Reader, lines: Iterable[Parameter]) -> Users:
+    users: Users = {}
+    for each in lines:
+        value = int(cells.read(each.number))
+        if each.row.wire is None or value in (-1, each.row.default):
+            continue
+        for line in range(value, value + SWITCH_LINES.get(each.number, 1)):
+            users.setdefault((each.row.wire.value, line), []).append(each.number)
+    return {
+        key: numbers
+        for key, numbers in users.items()
+        if (key[0] == Wire.OUTPUT.value and set(numbers) != REFERENCE_OUTPUTS)
+        or STEERING & set(numbers)
+    }
+
+
+def _dac_users(cells: Reader) -> Users:
+    users: Users = {}
+    spindle = int(cells.read(SPINDLE_DAC))
+    if spindle >= 0:
+        users["DAC", spindle] = [SPINDLE_DAC]
+    for axis in range(AXES):
+        base = FIRST_AXIS + AXIS_CELLS * axis
+        if cells.read(base + CONFIGURED):
+            users.setdefault(("DAC", int(cells.read(base + AXIS_DAC))), []).append(base + AXIS_DAC)
+    return users
+
+
+def _refuse_shared(cells: Reader, changed: Collection[int], users: Users) -> None:
+    for (what, line), numbers in users.items():
+        if len(numbers) > 1:
+            mine = next((n for n in numbers if n in changed), numbers[-1])
+            other = known(next(n for n in numbers if n != mine))
+            text = f"{what} {line} is that of P{other.number} {other.name} already"
+            raise SettingError(known(mine), cells.read(mine), text)
+
+
 _RULES: tuple[Callable[[Reader, Collection[int]], None], ...] = (
     _soft_limits,
     _axis_names,
@@ -146,4 +210,5 @@ _RULES: tuple[Callable[[Reader, Collection[int]], None], ...] = (
     _card_model,
     _display_formats,
     _wires,
+    _sharing,
 )
