@@ -217,6 +217,13 @@ def test_a_path_tolerance_is_warned_of_because_real_cards_have_none(tmp_path: Pa
     assert "2:1: warning" in check(_written(tmp_path, "PROG0\nLOOK TOL 1\n")).stdout
 
 
+def test_eplc_is_warned_of_because_no_card_has_the_board(tmp_path: Path) -> None:
+    text = "no modelled card has an ETHERNET Powerlink board: BIT16648 stays clear"
+    lines = ("INH 16648", "IF (NOT BIT16649) THEN EPLC ON", "EPLC OFF")
+    assert faults(tmp_path, *lines) == [f"3:24: warning: {text}", f"4:1: warning: {text}"]
+    assert "2:1: warning" in check(_written(tmp_path, "PROG0\nEPLC ON\n")).stdout
+
+
 def _written(folder: Path, text: str) -> Path:
     path = folder / "typed.8k"
     path.write_text(text)

@@ -25,7 +25,7 @@ _CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
 _BRANCHES = frozenset(("ELSEIF", "ELSE"))
 _FLOW = _OPENING | _CLOSING | _BRANCHES | {"BREAK"}
 _JUMPS = frozenset(("GOTO", "GOSUB"))
-_JUDGED = frozenset(("LOPASS", "PERIOD", "TOL"))
+_JUDGED = frozenset(("LOPASS", "PERIOD", "TOL", "EPLC"))
 STORED_KINDS = frozenset(("P", "LV", "SV", "DV", "LA", "SA", "DA", "$V", "$A"))
 
 
@@ -53,7 +53,7 @@ class Outline:
     has_label: bool = False
     jumps: bool = False
     dimensions: bool = False  # holds a DIM
-    is_judged: bool = False  # holds a LOPASS, a PERIOD or LOOK TOL
+    is_judged: bool = False  # holds a LOPASS, a PERIOD, LOOK TOL or EPLC
     stored_kinds: frozenset[str] = frozenset()  # of the variables used
     fault: CompileError | None = None
 

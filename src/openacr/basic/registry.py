@@ -68,6 +68,7 @@ class Command:
     emit: Callable[..., None] | None = None  # writes byte code instead of calling the handler
     saved: bool = False  # kept by ESAVE
     synonyms: tuple[tuple[str, ...], ...] = ()
+    lacks: str = ""  # what no modelled card has, so that the command cannot do its work
 
     @property
     def name(self) -> str:
@@ -167,6 +168,7 @@ def command(
     emit: Callable[..., None] | None = None,
     saved: bool = False,
     typed: bool = True,
+    lacks: str = "",
 ) -> Callable[[_Handler], _Handler]:
     """Enter the decorated function as the command `words` (and under the names in `also`).
 
@@ -176,7 +178,7 @@ def command(
     def enter(handler: _Handler) -> _Handler:
         row = Command(
             tuple(words.split()), group, levels, use, grammar, handler, ref, units, default,
-            move, emit, saved, tuple(tuple(name.split()) for name in also),
+            move, emit, saved, tuple(tuple(name.split()) for name in also), lacks,
         )  # fmt: skip
         if row.name in _commands:
             raise ValueError(f"{row.name} is registered twice")

@@ -244,11 +244,13 @@ class Reader:
         return Parser(list(line.tokens), line.scope).line().blocks
 
     def _warn(self, line: FileLine, blocks: tuple[Block, ...]) -> None:
-        """Warn of what a real card would refuse."""
+        """Warn of what a real card would refuse, and of what no modelled card can do."""
         for statement in statements(blocks):
-            if statement.command.is_extension:
-                span = Span(1, statement.column, len(statement.command.name))
-                self._report(Finding(line, None, span, EXTENSION_WARNING))
+            command = statement.command
+            warning = EXTENSION_WARNING if command.is_extension else command.lacks
+            if warning:
+                span = Span(1, statement.column, len(command.name))
+                self._report(Finding(line, None, span, warning))
 
     def _report(self, finding: Finding) -> None:
         if finding.error is not None:

@@ -140,6 +140,7 @@ def diag(run: Run) -> None:
     levels=ANY,
     grammar=(Word("ON", "OFF", optional=True),),
     ref="PG Drive Control",
+    lacks="no modelled card has an ETHERNET Powerlink board: BIT16648 stays clear",
 )
 def eplc(run: Run, switch: str | None) -> None:
     """Start or stop the Ethernet Powerlink network; the virtual card has none to start."""
