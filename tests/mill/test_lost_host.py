@@ -2,6 +2,7 @@
 
 import signal
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -106,3 +107,47 @@ def test_a_host_that_is_told_to_end_switches_off_and_takes_its_watchdog_away(
     assert "interrupted: the machine is at rest at X" in run.text
     assert (plant.outputs(SPINDLE, FLOOD), plant.is_at_rest) == ([False, False], True)
     assert (plant.card.read_bit(WATCHDOG_RUNS), plant.card.ask("P96")) == (False, 0)
+
+
+def test_a_machine_is_stopped_whoever_drives_it(plant: Plant) -> None:
+    """Also a host that is stopped itself, and that finds everything barred when it goes on."""
+    run = plant.mill("run", plant.part(LONG), "--quiet")
+    until(lambda: plant.is_moving)
+    stopped = plant.mill("stop")
+    assert stopped.ended() == 0
+    assert "switched off: output 40\nswitched off: output 41\nswitched off: DAC3\n" in stopped.text
+    assert "the machine is at rest at X" in stopped.text
+    assert (plant.outputs(SPINDLE, FLOOD), plant.is_at_rest) == ([False, False], True)
+    assert run.ended() == 1
+    assert "alarm 14: Card killed moves" in run.text
+    assert plant.mill("acknowledge").ended() == 0
+
+
+def test_a_jog_whose_host_is_killed_comes_to_rest(plant: Plant) -> None:
+    plant.wire({200_007: 0})
+    jog = plant.mill("jog", "X17")
+    until(lambda: plant.places()[0] > 100)
+    jog.signal(signal.SIGKILL)
+    jog.ended()
+    until(lambda: plant.is_at_rest)
+    assert plant.places()[0] < 120_000
+
+
+def test_a_drip_that_is_interrupted_comes_to_rest_and_closes_its_line_last(
+    plant: Plant,
+) -> None:
+    with serial_line() as (near, far):
+        drip = plant.mill("drip", "--port", near)
+        until(lambda: plant.card.read_bit(WATCHDOG_RUNS))
+        with open(far, "wb", buffering=0) as sender:
+            for _ in range(100):
+                if plant.is_moving:
+                    break
+                sender.write(b"M8\nF60\n" + b"G1 X50\nX0\n" * 30)
+                time.sleep(0.1)
+            until(lambda: plant.is_moving)
+            drip.signal(signal.SIGINT)
+            assert drip.ended() == 130
+    assert "Traceback" not in drip.text
+    assert "interrupted: the machine is at rest at X" in drip.text
+    assert (plant.outputs(FLOOD), plant.is_at_rest) == ([False], True)

@@ -146,6 +146,11 @@ COMMANDS: dict[str, Entry | Family] = {
                 "MDI: run single blocks on the virtual machine, or on a card.",
             ),
             "home": Entry("mill_hand", "home_axes", "Find the reference points of axes on a card."),
+            "stop": Entry(
+                "mill_stop",
+                "stop_machine",
+                "Stop a machine and switch everything off, whoever drives it.",
+            ),
             "acknowledge": Entry(
                 "mill_hand",
                 "acknowledge_alarms",

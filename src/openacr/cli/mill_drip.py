@@ -43,11 +43,9 @@ def drip_program(
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         name = dialect_of(None, cells, dialect)
         drip = Drip(Line.of(cells, port), shop.cells, name, is_dry=is_dry)
-        try:
-            shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
-            _run(shop)
-        finally:
-            drip.close()
+        shop.keep_drip(drip)
+        shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
+        _run(shop)
         typer.echo(f"{shop.runner.course.moves} moves")
         end_with_alarms(shop)
 

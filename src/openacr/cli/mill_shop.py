@@ -121,5 +121,7 @@ def end_with_alarms(shop: "Workshop", *, is_shown: bool = True) -> None:
     for alarm in active if is_shown else ():
         where = f" (line {block[0]}: {block[1]})" if block else ""
         typer.secho(f"alarm {alarm.kind.code}: {alarm.text}{where}", fg=typer.colors.RED, err=True)
-    if shop.runner.alarms.bars_start:
+    if shop.runner.was_aborted:
+        typer.echo("aborted by the operator", err=True)
+    if shop.runner.alarms.bars_start or shop.runner.was_aborted:
         raise typer.Exit(FAILED)

@@ -35,13 +35,16 @@ class Console:
         self._spindle = spindle
         self._published = Published(store, panel.machine)
         self._factors = (1.0, 1.0)
+        self._state: int | None = None  # published last
 
     def keep(self, look: Look, times: Times, facts: Callable[[], Facts]) -> None:
         """Do what is due at this look."""
         if times.is_due("overrides", OVERRIDES_S):
             self._send_overrides(look)
-        if times.is_due("cells", PUBLISH_S):
-            self._publish(facts())
+        now = facts()
+        if times.is_due("cells", PUBLISH_S) or now.state != self._state:
+            self._state = now.state
+            self._publish(now)
 
     def count_part(self, passes: int) -> None:
         """One more end of the program."""

@@ -8,21 +8,23 @@ from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
+from openacr.map.numbers import AX_CURRENT_POSITION, AX_JOG_OFFSET
 from openacr.mill import alarms
 from openacr.mill.actions import Steps, Until
 from openacr.mill.doing import Doing
 from openacr.mill.encoding import Encoder, Job, Motion
-from openacr.mill.feeding import Feed, Halt, Starved
+from openacr.mill.feeding import Fault, Feed, Halt, Starved
 from openacr.mill.host import RunHost
 from openacr.mill.limits import first_excess
 from openacr.mill.machine import CLEAR_S, Look
 from openacr.mill.panel import Panel
 from openacr.mill.probing import Probing
 from openacr.mill.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
-from openacr.mill.tracking import Tracker
+from openacr.mill.tracking import Tracker, time_s
 
 SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
 KILL_S = 0.5  # longest wait for a card at rest to take notice
+BUFFERED_S = 2.0  # of motion that waits on the card, beyond the link timeout
 PULSES_OFF = 2.0  # further away the machine has been moved
 Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
 
@@ -42,6 +44,7 @@ class Course:
         self._probing = Probing(panel, self._send, self.host.position, doing.say)
         self._encoder = Encoder(panel.settings)
         self._feed: Feed | None = None
+        self._excused: Job | None = None  # a last move whose end the machine has left on purpose
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
         self._rapid_level: float | None = None  # the highest its rapids brought the tool to
 
@@ -90,20 +93,55 @@ class Course:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
-        self._send(feed.take(room, is_urgent=feed.is_starved and self._is_short()))
+        self._send(self._bounded(feed.take(room, is_urgent=feed.is_starved and self._is_short())))
         is_at_rest = self.tracker.is_at_end(look)
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
                 pass  # none of them waits
         halt = feed.halt if feed.is_empty and is_at_rest else None
+        if halt is not None and (moved := self._moved_by_others()):
+            return Fault(alarms.NOT_IN_PLACE, moved)
         if isinstance(halt, c.Tool):
             self.tracker.trail.bar(self.tracker.current)
         return halt
 
+    def _bounded(self, jobs: Iterable[Job]) -> Iterator[Job]:
+        """As many as may wait on the card: what a lost host has sent must not go on for long.
+
+        It is longer than the link timeout, so that the watchdog holds a path before it ends.
+        """
+        most_s = self.settings.link_timeout_s + BUFFERED_S
+        waiting_s = self.tracker.waiting_s
+        if waiting_s < most_s:
+            for job in jobs:
+                yield job
+                waiting_s += time_s(job)
+                if waiting_s >= most_s:
+                    break
+
+    def excuse(self) -> None:
+        """The machine leaves the end of its last move on purpose: by hand, or in probing."""
+        self._excused = next(reversed(self.tracker.jobs()), None)
+
+    def _moved_by_others(self) -> str:
+        """At rest behind moves: the axis that is not where they led to; empty if all are."""
+        jobs = self.tracker.jobs()
+        if not jobs or jobs[-1] is self._excused:
+            return ""
+        here = self._machine.axis_values(AX_CURRENT_POSITION)
+        jogs = self._machine.axis_values(AX_JOG_OFFSET)
+        for axis, at, jog, end in zip(
+            self.settings.axes, here, jogs, jobs[-1].finish_cnt, strict=True
+        ):
+            if abs(at + jog - end) > PULSES_OFF:
+                at_u, end_u = (at + jog) / axis.pulses_per_unit, end / axis.pulses_per_unit
+                return f"axis {axis.name} is at {at_u:.6g}, the program led it to {end_u:.6g}"
+        return ""
+
     def _is_short(self) -> bool:
         """Whether the card soon has no moves any more."""
         behind = self.tracker.jobs()[1:]
-        return sum(job.length_u / job.feed_ups for job in behind) < SHORT_S
+        return sum(map(time_s, behind)) < SHORT_S
 
     @property
     def is_starved(self) -> bool:
@@ -135,6 +173,7 @@ class Course:
         if feed is not None:
             yield from self._probing.steps(feed.probe(entry), self._encoder.job)
             feed.position = self.host.position()
+            self.excuse()
 
     # --- back and again ---------------------------------------------------------------
 

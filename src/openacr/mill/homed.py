@@ -5,26 +5,39 @@ is off when its power comes on, tells whether that is still true. Variables woul
 cards with a battery keep them, and count from 0 all the same.
 """
 
+from collections.abc import Callable
+
 from openacr.client import Card
 from openacr.mill.panel import Panel
-from openacr.mill.settings import AXES, HOMED, Store
+from openacr.mill.settings import AXES, HOMED, Settings, Store
 
 FIRST_HOMED_FLAG = 248  # of axis 0; the last user flags behind the relays of M100 to M299
 
 
-def agree(card: Card, store: Store) -> None:
-    """At the start: what the card has forgotten counts no more."""
+def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: None) -> None:
+    """At the start: what the card has forgotten counts no more, and the operator is told."""
     flags = card.read_bits(range(FIRST_HOMED_FLAG, FIRST_HOMED_FLAG + AXES))
     known = sum(1 << axis for axis, is_homed in enumerate(flags) if is_homed)
     mask = int(store.read(HOMED))
     if mask & ~known:
         store.write(HOMED, mask & known)
+        names = [axis.name for axis in Settings(store).axes if mask & ~known & 1 << axis.index]
+        say(
+            f"axis {' '.join(names)} is not homed any more: the card was switched off or reset,"
+            " and positions count from where it was switched on"
+        )
 
 
 def note(panel: Panel, axis: int, homed: bool) -> None:
     """The reference point of an axis is known, or not any more."""
     panel.settings.mark_homed(axis, homed)
     panel.machine.set_flag(FIRST_HOMED_FLAG + axis, homed)
+
+
+def forget(panel: Panel) -> None:
+    """The card was reset: no axis knows its reference point."""
+    for axis in panel.settings.axes:
+        note(panel, axis.index, False)
 
 
 def lose(panel: Panel, name: str) -> None:

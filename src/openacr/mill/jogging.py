@@ -33,11 +33,12 @@ LEASH_S, RENEW_S = 0.5, 0.1
 
 @dataclass(slots=True)
 class _Held:
-    """A control that is held."""
+    """An axis on its way: as long as a control is held, or to the end of an increment."""
 
     direction: int
     reach_u: float  # way ahead of the axis
     renewed_s: float
+    end_u: float | None = None  # of an increment: machine position
 
 
 class Jogging:
@@ -61,9 +62,15 @@ class Jogging:
         direction = direction if not self._is_turned(axis) else -direction
         if self._is_at_limit(row, direction):
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        self._lead(row, direction, speed_ups, None)
+
+    def _lead(
+        self, row: AxisSettings, direction: int, speed_ups: float, end_u: float | None
+    ) -> None:
         brake_u = 0.5 * speed_ups**2 / row.jog_dec_ups2 if row.jog_dec_ups2 else 0.0
-        self._held[axis] = _Held(direction, LEASH_S * speed_ups + brake_u, self._machine.now_s)
-        self._aim(row, self._held[axis])
+        reach_u = LEASH_S * speed_ups + brake_u
+        self._held[row.index] = _Held(direction, reach_u, self._machine.now_s, end_u)
+        self._aim(row, self._held[row.index])
 
     def release(self, axis: int) -> None:
         """The control is let go: the axis ramps to rest."""
@@ -81,13 +88,12 @@ class Jogging:
 
     def move(self, axis: int, way_u: float, *, fast: bool = False) -> None:
         """By a distance, refused where it leads beyond a soft limit."""
-        row, _ = self.ready(axis, fast=fast)
+        row, speed_ups = self.ready(axis, fast=fast)
         limit = self.limit(row, 1 if way_u > 0 else -1)
         end = self.position(row) + way_u
         if limit is not None and (end - limit) * way_u > 0.0:
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
-        self._moving.add(axis)  # before it is told: it has to be stopped in any case
-        self._start(row, f"JOG INC {row.name}{number_text(way_u)}")
+        self._lead(row, 1 if way_u > 0 else -1, speed_ups, end)
 
     def settle(self) -> Steps:
         """Wait for rest, then make positions of the offsets."""
@@ -125,11 +131,16 @@ class Jogging:
     # --- pieces -----------------------------------------------------------------------
 
     def _aim(self, row: AxisSettings, held: _Held) -> None:
-        """Move the target of a held jog on, at most to the soft limit."""
-        limit, way = self.limit(row, held.direction), held.reach_u
-        if limit is not None:
-            way = min(way, max((limit - self.position(row)) * held.direction, 0.0))
-        self.aim(row, self.position(row) + held.direction * way)
+        """Move the target of a jog on, at most to its end or the soft limit."""
+        here = self.position(row)
+        end = self.limit(row, held.direction) if held.end_u is None else held.end_u
+        target = here + held.direction * held.reach_u
+        if end is not None and (target - end) * held.direction >= 0.0:
+            beyond = held.end_u is None and (here - end) * held.direction > 0.0
+            target = here if beyond else end
+            if held.end_u is not None:
+                del self._held[row.index]  # the card knows the end now
+        self.aim(row, target)
         held.renewed_s = self._machine.now_s
 
     def aim(self, row: AxisSettings, target_u: float) -> None:
@@ -152,7 +163,7 @@ class Jogging:
             row = self._panel.settings.axis(axis)
             if self._machine.now_s < held.renewed_s + RENEW_S:
                 continue
-            if self._is_at_limit(row, held.direction):
+            if held.end_u is None and self._is_at_limit(row, held.direction):
                 del self._held[axis]
             else:
                 self._aim(row, held)

@@ -39,6 +39,7 @@ class Look:
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
     limits: tuple[int, ...]  # quinary flag words
     modules: tuple[int, ...] = ()  # inputs of the expansion modules
+    was_reset: bool = False  # the clock of the card has begun anew
     has_tripped: bool = False  # the watchdog has stopped the machine
     is_guarded: bool = True  # the watchdog runs, where there is one
     may_have_lost: bool = False  # packets sent behind the last look: the connection is a new one
@@ -136,8 +137,9 @@ class Machine:
         is_new = self.card.connections != self._connections
         has_lost = is_new and self._has_told
         self._connections, self._has_told = self.card.connections, False
-        if self._clock_ms is not None:
-            self._passed_ms += (clock - self._clock_ms) % CLOCK_PERIOD_MS
+        step_ms = 0 if self._clock_ms is None else (clock - self._clock_ms) % CLOCK_PERIOD_MS
+        was_reset = step_ms > CLOCK_PERIOD_MS // 2  # backwards
+        self._passed_ms += 0 if was_reset else step_ms
         self._clock_ms = clock
         count = len(self.axes)
         drives, limits, words = words[:count], words[count : 2 * count], words[2 * count :]
@@ -145,6 +147,7 @@ class Machine:
         modules = words[2:] if self._watchdog is not None else words
         look = Look(
             clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
+            was_reset=was_reset,
             has_tripped=bool(flags & TRIPPED_MASK),
             is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
             may_have_lost=has_lost,
@@ -228,6 +231,12 @@ class Machine:
         """Feed hold, then drop all moves."""
         self.is_dropping = True
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
+
+    def bar(self) -> None:
+        """Kill all moves at rest; requests that still wait on the card are taken back."""
+        self._request(n.MF1_KILL_ALL_MOVES_REQUEST)
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
 
     def clear_kill(self) -> None:
         """Let the master move again.

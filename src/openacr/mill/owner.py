@@ -76,9 +76,11 @@ class Owner:
             return True
         self._due_s = now_s + BEAT_S
         before = self._read()
-        if before // BEATS != self._number:
+        if before and before // BEATS != self._number:
             return False
-        self._beat += 1
+        self._beat += (
+            1  # 0 is not of another program: the card was reset, which the next look tells
+        )
         self._exchange(before, self._value)
         return True
 

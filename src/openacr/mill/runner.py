@@ -80,6 +80,7 @@ class Runner:
             panel, course.host, hands=hands, retrace=retrace, status=status, say=say
         )
         self._times = Times()
+        self.was_aborted = False
 
     # --- what is known of the run -----------------------------------------------------
 
@@ -154,6 +155,7 @@ class Runner:
         """Start a program from its beginning."""
         self._make_ready("start a program")
         self._status.options = options or Options()
+        self.was_aborted = False
         self._passes.load(entries)
         self._status.state = State.RUN
         self._times.restart()
@@ -213,6 +215,7 @@ class Runner:
         """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
         if not self.is_busy:
             raise UserError("no program runs")
+        self.was_aborted = True
         self._hands.stop()
         self._ending.abort(State.IDLE)
 
@@ -285,6 +288,7 @@ class Runner:
         if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
             raise UserError(f"cannot {what}: the feed hold input is active")
         self.alarms.require_none()
+        self.course.excuse()
 
     def _require_ended(self, what: str) -> None:
         """What was aborted has come to rest, and nothing of it is still to be done."""

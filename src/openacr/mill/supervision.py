@@ -109,6 +109,8 @@ class Supervision:
         self._alarms.give(kind, detail, self._panel.machine.now_s)
         if not is_new or kind.effect is Effect.NONE:
             return
+        if kind is alarms.CARD_RESET:
+            homed.forget(self._panel)
         if kind is alarms.EXCESS_ERROR:
             homed.lose(self._panel, detail)
         if kind is alarms.NO_REST:

@@ -49,12 +49,19 @@ class Tracker:
         self.sent = 0  # packets
         self.started = 0
         self._jobs: deque[Job] = deque()  # sent and not known to be done
+        self._sent_s = 0.0  # how long these take at their feeds
         self.trail = Trail()  # done
 
     @property
     def waiting(self) -> int:
         """Packets that wait in the buffer of the card."""
         return self.sent - self.started
+
+    @property
+    def waiting_s(self) -> float:
+        """How long the moves behind the executed one take at their feeds."""
+        current = self.current
+        return max(self._sent_s - (time_s(current) if current else 0.0), 0.0)
 
     @property
     def current(self) -> Job | None:
@@ -75,12 +82,14 @@ class Tracker:
         self.sent += has_packet
         job.count = self.sent
         self._jobs.append(job)
+        self._sent_s += time_s(job)
 
     def update(self, counter: int) -> None:
         """The card says how many packets have started; earlier moves are done."""
         self.started = counter
         jobs = self._jobs
         while len(jobs) > 1 and jobs[1].count <= counter:
+            self._sent_s -= time_s(jobs[0])
             self.trail.add(jobs.popleft())
 
     def is_at_end(self, look: Look) -> bool:
@@ -98,10 +107,19 @@ class Tracker:
     def take_back(self) -> list[Job]:
         """The executed move and all behind it, for a way that is planned anew."""
         left = [job for job in self._jobs if job.count >= self.started]
-        self._jobs.clear()
+        self._clear()
         return left
 
     def reset(self) -> None:
         """Count from zero again."""
         self.sent = self.started = 0
+        self._clear()
+
+    def _clear(self) -> None:
         self._jobs.clear()
+        self._sent_s = 0.0
+
+
+def time_s(job: Job) -> float:
+    """How long a move takes at its feed."""
+    return job.length_u / job.feed_ups if job.feed_ups > 0.0 else 0.0

@@ -27,6 +27,8 @@ class Watch:
         wiring, spindle = self._panel.settings.wiring, self._panel.settings.spindle
         if self._panel.is_in(look, wiring.emergency_stop):
             yield alarms.EMERGENCY_STOP, ""
+        if look.was_reset:
+            yield alarms.CARD_RESET, ""
         if look.has_tripped:
             yield alarms.HOST_LOST, ""
         if not look.is_guarded:

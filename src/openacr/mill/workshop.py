@@ -168,7 +168,7 @@ class Workshop:
         try:
             tidy(card, settings, say, was_left=bool(owner.found))
             check_rest(card, settings)
-            homed.agree(card, store)  # before the set-up: tables act on homed axes alone
+            homed.agree(card, store, say)  # before the set-up: tables act on homed axes alone
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store), owner=owner)
         except BaseException:
             with suppress(*LINK_ERRORS):
@@ -230,6 +230,10 @@ class Workshop:
         first: Callable[[], Iterator[c.Entry]] = replay.entries if replay else reading.entries
         passes = chain([first], repeat(reading.entries))
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
+
+    def keep_drip(self, drip: Drip) -> None:
+        """Close this line when the machine is let go of, not before it is at rest."""
+        self._drip = drip
 
     def start_drip(self, drip: Drip, start: Start) -> None:
         """Begin a program that is still arriving."""

@@ -1,0 +1,45 @@
+"""`openacr mill stop`: the machine to rest and everything off, whoever drives it."""
+
+import typer
+
+from openacr.cli.mill import AtStore, opened_store
+from openacr.cli.mill_shop import AtHost
+from openacr.errors import UserError
+
+FAILED = 1
+
+
+def stop_machine(host: AtHost, store: AtStore = None) -> None:
+    """Stop a machine, whatever it does and whoever drives it.
+
+    Feed hold, jogs off, then spindle, coolant and beam off; a machine that does not come to
+    rest loses its drives (exit code 1). Nothing moves before `openacr mill acknowledge`.
+    """
+    from openacr.cli.signals import deaf
+    from openacr.client import Card, Options
+    from openacr.map.numbers import AX_CURRENT_POSITION
+    from openacr.mill.leftovers import machine_of
+    from openacr.mill.machine import LINK_ERRORS
+    from openacr.mill.readout import Readout
+    from openacr.mill.settings import Settings
+    from openacr.mill.stopping import stop_all
+
+    with opened_store(store) as cells:
+        settings = Settings(cells)
+        timeout_s = settings.link_timeout_s
+        try:
+            with deaf(), Card.open(host, Options(timeout_s=timeout_s, reconnect_s=0.0)) as card:
+                found, rests = stop_all(card, settings)
+                counts = machine_of(card, settings).axis_values(AX_CURRENT_POSITION)
+        except LINK_ERRORS as lost:
+            raise UserError(f"the card cannot be reached: {lost}") from None
+        place = [0.0] * 8
+        for axis, count in zip(settings.axes, counts, strict=True):
+            place[axis.index] = count / axis.pulses_per_unit
+        where = Readout(cells).line([axis.index for axis in settings.axes], tuple(place))
+    for text in found:
+        typer.echo(f"switched off: {text}")
+    if not rests:
+        typer.echo("the machine did not come to rest: all drives are switched off", err=True)
+        raise typer.Exit(FAILED)
+    typer.echo(f"the machine is at rest at {where}; `openacr mill acknowledge` lets it move again")

@@ -1,0 +1,168 @@
+"""What a lost host leaves behind is bounded, and what others do to a machine is noticed."""
+
+import pytest
+from tests.mill.shop import PULSES, Shop
+
+from openacr.controller import Controller
+from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK
+from openacr.mill.jogging import LEASH_S
+from openacr.mill.settings import HOMED
+from openacr.mill.states import State
+from openacr.mill.workshop import Workshop
+from openacr.sysvar import Store
+
+
+def codes(shop: Shop) -> list[int]:
+    return [alarm.kind.code for alarm in shop.runner.alarms.active]
+
+
+def details(shop: Shop) -> list[str]:
+    return [alarm.text for alarm in shop.runner.alarms.active]
+
+
+def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
+    """Moves of 1 s each: 2 s of link timeout and 2 s more wait behind the executed one."""
+    shop = Shop()
+    shop.load("F60\n" + "G1 X1\nX0\n" * 30 + "M2\n")
+    most = 0
+    for _ in range(40):
+        shop.pass_time(0.2)
+        most = max(most, shop.runner.course.tracker.waiting)
+        assert shop.runner.course.tracker.waiting_s <= 5.0
+    assert most == 4
+
+
+def test_a_long_move_has_none_but_one_behind_it() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X20\nX0\nX20\nX0\nM2\n")
+    shop.pass_time(1.0)
+    assert (shop.runner.course.tracker.waiting, shop.runner.course.moves) == (1, 2)
+
+
+def test_moves_typed_by_another_host_are_noticed_at_the_end() -> None:
+    shop = Shop()
+    shop.load("F600\nG1 X.5\nX.9\nG4 F1\nM2\n")
+    shop.pass_time(0.3)
+    shop.card.command("X9", program=0)
+    shop.until(State.ALARM)
+    assert details(shop)[0] == (
+        "Machine was moved by another program: axis X is at 9, the program led it to 0.9"
+    )
+    assert codes(shop)[0] == 16
+
+
+def test_a_jog_of_another_host_is_noticed_at_the_next_halt() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X.5\nM8\nG1 X1\nM2\n")
+    shop.pass_time(0.2)
+    shop.card.command("AXIS1 JOG VEL 10", program=0)
+    shop.card.command("AXIS1 JOG INC 0.01", program=0)
+    shop.until(State.ALARM)
+    assert codes(shop) == [16]
+    assert "axis Y is at 0.01, the program led it to 0" in details(shop)[0]
+
+
+def test_a_machine_in_its_place_is_not_noticed() -> None:
+    shop = Shop()
+    shop.run_text("F600\nG1 X.5 Y.25\nM8\nG2 X1.5 I1 Y.25 J.25\nG4 F.1\nG0 X0\nM2\n")
+    assert codes(shop) == []
+
+
+def test_a_poll_gap_longer_than_the_link_timeout_pauses_the_program() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X20\nM2\n")
+    shop.pass_time(0.5)
+    shop.controller.advance(seconds=1.9)
+    shop.pass_time(0.005)
+    assert shop.runner.state is State.RUN
+    shop.controller.advance(seconds=2.1)
+    shop.pass_time(0.005)
+    assert (shop.runner.state, codes(shop)) == (State.PAUSED, [7])
+    assert details(shop) == ["Host did not watch the machine for 2.1 s"]
+    shop.pass_time(1.0)
+    place = shop.place()
+    shop.pass_time(1.0)
+    assert shop.place() == place
+    assert shop.runner.acknowledge() == []
+    shop.runner.resume()
+    shop.until(State.IDLE)
+    assert shop.pulses() == (200_000, 0, 0)
+
+
+def test_an_increment_ends_soon_when_nobody_polls() -> None:
+    shop = Shop()
+    shop.runner.jog(lambda jog: jog.move(0, 17.0))
+    shop.pass_time(0.3)
+    row = shop.runner.settings.axis(0)
+    before = shop.controller.axis(0).actual_cnt / PULSES
+    shop.controller.advance(seconds=30.0)
+    way = shop.controller.axis(0).actual_cnt / PULSES - before
+    brake_u = 0.5 * row.jog_ups**2 / row.jog_dec_ups2
+    assert 0.0 < way <= LEASH_S * row.jog_ups + brake_u + 0.1
+
+
+@pytest.mark.parametrize("way", [3.0, -3.0, 0.001])
+def test_an_increment_ends_exactly(way: float) -> None:
+    shop = Shop()
+    shop.runner.jog(lambda jog: jog.move(1, way))
+    for _ in range(4000):
+        if not shop.runner.is_busy:
+            break
+        shop.pass_time(0.02)
+    assert shop.pulses() == (0, round(way * PULSES), 0)
+
+
+def test_a_card_that_was_reset_ends_the_program_and_its_axes_are_not_homed() -> None:
+    shop = Shop()
+    shop.store.write(HOMED, 7)
+    shop.load("F60\nG1 X20\nM2\n")
+    shop.pass_time(0.5)
+    shop.controller.p[P_GLOBAL_SYSTEM_CLOCK] = 3
+    shop.until(State.ALARM)
+    assert codes(shop) == [17]
+    assert shop.store.read(HOMED) == 0
+    assert shop.runner.run_s < 2.0  # the clock of the run does not jump
+
+
+def test_axes_that_lost_their_reference_points_are_named() -> None:
+    store, said = Store(), list[str]()
+    store.write(HOMED, 5)
+    shop = Workshop.real(Controller(), store, said.append)
+    shop.close()
+    assert said == [
+        "axis X Z is not homed any more: the card was switched off or reset, and positions"
+        " count from where it was switched on"
+    ]
+    assert store.read(HOMED) == 0
+
+
+def test_the_state_is_published_at_the_end_of_a_run() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X1\nM2\n")
+    shop.pass_time(0.7)
+    assert (shop.store.read(244), shop.controller.p[95]) == (1.0, 1.0)
+    while shop.runner.is_busy:
+        shop.pass_time(0.005)
+    assert (shop.store.read(244), shop.controller.p[95]) == (0.0, 0.0)
+
+
+def test_an_aborted_run_is_known_as_such() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X20\nM2\n")
+    shop.pass_time(0.2)
+    shop.runner.abort()
+    shop.until(State.IDLE)
+    assert shop.runner.was_aborted
+    shop.run_text("F600\nG1 X0\nM2\n")
+    assert not shop.runner.was_aborted
+
+
+def test_m4_waits_for_the_speed_as_m3_does() -> None:
+    shop = Shop(**{"P800_000": 1 + 2 + 4, "P800_004": 9, "P800_006": 42})
+    shop.load("M4 S500\nG1 F600 X1\nM2\n")
+    shop.pass_time(1.0)
+    assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "spindle at speed")
+    assert (shop.pulses(), shop.outputs([42])) == ((0, 0, 0), [True])
+    shop.controller.set_input(9, True)
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 10_000
