@@ -188,7 +188,6 @@ def test_a_batch_with_a_faulty_program_does_not_start(tmp_path: Path) -> None:
     assert "one" not in text.split()
 
 
-@pytest.mark.req("MILL-BATCH-ABORT")
 def test_what_ends_a_program_ends_its_batch(tmp_path: Path) -> None:
     file = batch_of(tmp_path, "ONE.NC\nTWO.NC\n")
     (tmp_path / "ONE.NC").write_text("P5=0\nF600\nG1 X(1/P5)\nM2\n")

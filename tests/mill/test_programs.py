@@ -73,7 +73,7 @@ def test_block_mode_runs_one_block_for_each_start() -> None:
     assert shop.pulses()[0] == 40000
 
 
-@pytest.mark.req("MILL-RUN-STOP", "MILL-RUN-RESUME")
+@pytest.mark.req("MILL-RUN-RESUME")
 def test_stop_ramps_to_rest_and_resume_goes_to_the_same_end() -> None:
     shop = Shop()
     shop.load("G90 F600\nG1 X8 Y6\nM2\n")

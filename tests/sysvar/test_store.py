@@ -40,7 +40,7 @@ def test_a_value_survives_the_end_of_the_program(cells: tuple[int, ...], tmp_pat
         assert [store.read(n) for n in cells] == [1.0 for _ in cells]
 
 
-@pytest.mark.req("MILL-MSG-PERSIST", "MILL-DIAG-IO-NAMES", "MILL-OFS-REFPT", "MILL-WCS-PMAP")
+@pytest.mark.req("MILL-MSG-PERSIST", "MILL-DIAG-IO-NAMES")
 @pytest.mark.parametrize(
     ("n", "value"),
     [
@@ -79,7 +79,6 @@ def test_every_message_has_a_length_and_colours_of_its_own() -> None:
         assert found == [(message + 3) % 16, (message + 4) % 16, 10 + message]
 
 
-@pytest.mark.req("MILL-WCS-8")
 def test_eight_work_systems_have_a_value_for_each_axis() -> None:
     store = Store()
     cells = [900 + 10 * system + axis for system in range(1, 9) for axis in range(8)]
@@ -89,7 +88,6 @@ def test_eight_work_systems_have_a_value_for_each_axis() -> None:
     assert [store.read(n) for n in cells] == [n / 8 for n in cells]
 
 
-@pytest.mark.req("MILL-SYS-AXISPAGE")
 @pytest.mark.parametrize("base", [150_000, 200_003, 300_003, 350_000])
 def test_axes_have_values_of_their_own(base: int) -> None:
     store = Store()

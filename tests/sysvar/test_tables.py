@@ -204,7 +204,7 @@ def test_every_parameter_explains_itself() -> None:
             assert len(found.row.words) >= 2
 
 
-@pytest.mark.req("MILL-OFS-PMAP-R", "MILL-OFS-PMAP-H", "MILL-OFS-H-999")
+@pytest.mark.req("MILL-OFS-H-999")
 @pytest.mark.parametrize(
     ("base", "count", "name"),
     [
