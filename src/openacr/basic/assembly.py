@@ -38,6 +38,7 @@ class Assembler:
 
     def op(self, *words: Word) -> None:
         """Append an operation with its operands."""
+        self.chunk.begins.append(len(self.chunk.code))
         for word in words:
             if isinstance(word, Place):
                 word.users.append(len(self.chunk.code))

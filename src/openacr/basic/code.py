@@ -39,6 +39,7 @@ class Chunk:
     lines_at: int = 0
     lines_count: int = 0
     starts: dict[int, int] = field(default_factory=dict)  # line number: place
+    begins: list[int] = field(default_factory=list)  # where operations begin
     computed: dict[int, tuple[Expr, int]] = field(default_factory=dict)  # by id: node and place
 
 
@@ -61,10 +62,14 @@ class CodeSpace:
     def put(self, thread: int, chunk: Chunk) -> None:
         """Make `chunk` the code of a thread."""
         self.chunks[thread] = chunk
-        rows = THI_BASE + thread * THI_STRIDE
+        self.show_lines(thread)
+        self.refresh(thread)
+
+    def show_lines(self, thread: int) -> None:
+        """Tell the VM where the table of line numbers is."""
+        chunk, rows = self.chunks[thread], THI_BASE + thread * THI_STRIDE
         self._memory.I[rows + THI_LINES_AT] = chunk.lines_at
         self._memory.I[rows + THI_LINES_COUNT] = chunk.lines_count
-        self.refresh(thread)
 
     def refresh(self, thread: int, code_from: int = 0, nums_from: int = 0) -> None:
         """Copy what has been added to the chunk of a thread."""

@@ -59,6 +59,8 @@ class Computing(Threads):
             self._compute(thread, start)
         finally:
             del chunk.code[code:], chunk.nums[nums:]
+            while chunk.begins and chunk.begins[-1] >= code:
+                chunk.begins.pop()
 
     def _append(self, thread: int, build: Callable[[Emitter], None]) -> int:
         """Compile something more into the chunk of a thread; where it begins."""

@@ -19,6 +19,7 @@ from openacr.basic.code import Chunk
 from openacr.basic.compiler import compile_line, compile_program
 from openacr.basic.computing import WHOLE_LINE, Computing
 from openacr.basic.evaluate import Blocked
+from openacr.basic.flow_cy import FLOW_GOSUB
 from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Move, Statement
 from openacr.basic.program_memory import PROGRAMS
@@ -277,7 +278,31 @@ class Executor(Computing):
             else:
                 self.space.chunks[thread] = compile_line(lines[0].tree)
                 self._runs[thread] = self._session_run(self._session(thread))
+            self._check_thread(thread)
         self.space.rebuild()
+
+    def _check_thread(self, thread: int) -> None:
+        """LookupError unless a thread stands between two operations of what it executes."""
+        state = self._row(thread, at.THI_STATE)
+        is_marked = thread < KINEMATICS and self._is_marked(thread)
+        if thread not in self.sources:
+            if state != scheduler.THREAD_IDLE or is_marked:
+                raise LookupError(f"thread {thread} executes nothing")
+            return
+        chunk = self.space.chunks[thread]
+        code = set(chunk.begins) - set(range(chunk.lines_at, len(chunk.code)))
+        stops = [
+            self._row(thread, at.THI_FLOW_BACK + level)
+            for level in range(self._row(thread, at.THI_DEPTH))
+            if self._row(thread, at.THI_FLOW_KIND + level) == FLOW_GOSUB
+        ]
+        if thread < KINEMATICS or state != scheduler.THREAD_IDLE:
+            stops.append(self._row(thread, at.THI_PC))
+            if self._row(thread, at.THI_SP):
+                raise LookupError(f"thread {thread} is in the middle of an expression")
+        if not code.issuperset(stops):
+            raise LookupError(f"thread {thread} is in the middle of an operation")
+        self.space.show_lines(thread)
 
     def _session(self, thread: int) -> Session:
         found = [s for s in self.system.sessions.values() if s.thread == thread]

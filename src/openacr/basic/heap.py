@@ -17,7 +17,7 @@ from openacr.basic.memory_cost import (
     SINGLE_VARIABLE,
     Cost,
 )
-from openacr.errors import CardError
+from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.messages import OUT_OF_MEMORY, SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
@@ -115,6 +115,47 @@ class Heap:
         for kind in (*SCALARS, *ARRAYS):
             self.set_row(program, kind.count_row, 0)
             self.set_row(program, kind.base_row, 0)
+
+    def check(self) -> None:
+        """StoreError unless everything in use lies in the heap, and nothing on anything else.
+
+        For rows from a file: programs reach what these rows say without asking.
+        """
+        end = _FIRST
+        for block in sorted(self._checked_blocks()):
+            if block.start < end or block.words < 0 or block.start + block.words > _END:
+                raise StoreError("the snapshot is damaged: variables or arrays overlap")
+            end = block.start + block.words
+
+    def _checked_blocks(self) -> Iterator[_Block]:
+        """All blocks; a table is read once it is known to lie in the heap."""
+        for program in range(at.ST_COUNT):
+            for scalar in SCALARS:
+                count, base = (
+                    self.row(program, scalar.count_row),
+                    self.row(program, scalar.base_row),
+                )
+                if count:
+                    yield _Block(base * scalar.words, count * scalar.words)
+            for kind in ARRAYS:
+                table, count = self.row(program, kind.base_row), self.row(program, kind.count_row)
+                if count:
+                    self._needs_heap(table, count)
+                    yield _Block(table, count)
+                    yield from self._checked_arrays(table, count, kind)
+
+    def _checked_arrays(self, table: int, count: int, kind: ArrayType) -> Iterator[_Block]:
+        for header in self.memory.I[table : table + count]:
+            if header:
+                self._needs_heap(header, 1)
+                if (header + 1) % kind.words:
+                    raise StoreError("the snapshot is damaged: an array lies at an odd place")
+                yield _Block(header, 1 + self.memory.I[header] * kind.words)
+
+    @staticmethod
+    def _needs_heap(start: int, words: int) -> None:
+        if not (_FIRST <= start and 0 < words and start + words <= _END):
+            raise StoreError("the snapshot is damaged: a table of arrays lies outside the heap")
 
     def _reference(self, program: int, kind: ArrayType, index: int) -> int:
         count = self.row(program, kind.count_row)

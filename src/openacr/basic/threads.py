@@ -93,6 +93,11 @@ class Threads:
         mask = self.memory.I[at.SCHI_BASE + row]
         self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
 
+    def _is_marked(self, thread: int) -> bool:
+        """Whether the scheduler attends to a program or channel."""
+        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
+        return bool(self.memory.I[at.SCHI_BASE + row] >> thread % PROGRAMS & 1)
+
     def _forget(self, thread: int) -> None:
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
         self.set_row(thread, at.THI_DEPTH, 0)

@@ -120,6 +120,10 @@ class Controller(Surroundings):
             self._reboot()
         self.nonvolatile.battery.follow()
 
+    def has_stream(self, stream: int) -> bool:
+        """Whether a connection of this number is open."""
+        return stream in self.streams
+
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
         return self.streams.accepts_input(stream)

@@ -31,14 +31,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypeAlias
 
 import msgspec
+from msgspec import Meta
 
 from openacr.controller import snapshot as snapshots
 from openacr.controller import snapshot_file
 from openacr.errors import StoreError, reason
+from openacr.models import MODELS
 from openacr.plant import schema
+from openacr.plant.check import contradictions
+from openacr.protocol.events import ControlKey
+from openacr.protocol.stream import StreamKind
 
 MAGIC = b"openacr journal 1\n"
 
@@ -96,10 +101,10 @@ class Header(msgspec.Struct, frozen=True):
     layout: str
     model: str
     world: schema.World
-    tick: int
+    tick: Annotated[int, Meta(ge=0, lt=1 << 62)]
     period_s: float
     digest: str
-    digest_every_tk: int
+    digest_every_tk: Annotated[int, Meta(ge=1, le=1_000_000)]
     snapshot: str
     project: str = ""
     fingerprint: str = ""
@@ -121,7 +126,11 @@ class Journal:
                 f"the journal was written by openacr {self.header.program} with another layout"
                 " of the memory; replay it with that version"
             )
-        return snapshot_file.decode(b64decode(self.header.snapshot))
+        try:
+            data = b64decode(self.header.snapshot, validate=True)
+        except ValueError:
+            raise StoreError("the journal is damaged: its snapshot cannot be read") from None
+        return snapshot_file.decode(data)
 
 
 # records
@@ -150,13 +159,32 @@ def _record(entry: JournalEntry) -> list[Any]:
     return [*head, entry.value]
 
 
+_Tick: TypeAlias = Annotated[int, Meta(ge=0, lt=1 << 62)]
+_Number: TypeAlias = Annotated[int, Meta(ge=0, lt=1 << 31)]
+_Text: TypeAlias = Annotated[str, Meta(pattern=r"\A[\x00-\xff]*\Z")]  # a character for each byte
+_VALUE = tuple[_Tick, Entered, _Number, float]
+_NUMBER = tuple[_Tick, Entered, _Number]
+_DIGEST = tuple[_Tick, Entered, str]
+_FORMS: dict[Entered, Any] = {
+    Entered.OPEN: tuple[_Tick, Entered, _Number, StreamKind, str],
+    Entered.BYTES: tuple[_Tick, Entered, _Number, _Text],
+    Entered.CLOSE: _NUMBER,
+    Entered.RELEASE: _NUMBER,
+    Entered.KEY: tuple[_Tick, Entered, ControlKey],
+    Entered.FAULT: tuple[_Tick, Entered, _Number, str, float],
+    Entered.MEND: tuple[_Tick, Entered, _Number, str],
+    Entered.DIGEST: _DIGEST,
+    Entered.END: _DIGEST,
+}
+
+
 def _entry(record: list[Any]) -> JournalEntry:
-    tick, what, *rest = record
-    what = Entered(what)
+    form = _FORMS.get(Entered(record[1]), _VALUE)
+    tick, what, *rest = msgspec.convert(record, form)
     if what in (Entered.DIGEST, Entered.END):
         return JournalEntry(tick, what, text=rest[0])
     if what is Entered.OPEN:
-        return JournalEntry(tick, what, rest[0], rest[1], name=rest[2])
+        return JournalEntry(tick, what, rest[0], rest[1].value, name=rest[2])
     if what is Entered.BYTES:
         return JournalEntry(tick, what, rest[0], rest[1])
     if what is Entered.FAULT:
@@ -164,7 +192,7 @@ def _entry(record: list[Any]) -> JournalEntry:
     if what is Entered.MEND:
         return JournalEntry(tick, what, rest[0], name=rest[1])
     value = rest[1] if len(rest) > 1 else 0.0
-    return JournalEntry(tick, what, rest[0], value=value)
+    return JournalEntry(tick, what, int(rest[0]), value=value)
 
 
 def read_journal(path: Path) -> Journal:
@@ -176,20 +204,44 @@ def read_journal(path: Path) -> Journal:
     if not content.startswith(MAGIC):
         raise StoreError(f"{path} is not a journal (or of another version)")
     head, *lines = content[len(MAGIC) :].split(b"\n")
+    del content
     if not lines:
         raise StoreError(f"{path} ends within its first record: nothing can be replayed")
     try:
         header = msgspec.json.decode(head, type=Header)
-    except msgspec.MsgspecError as error:
+    except (msgspec.MsgspecError, RecursionError) as error:
         raise StoreError(f"{path}: its first record cannot be read: {error}") from None
-    entries = tuple(_entries(path, lines[:-1]))  # behind the last line end: nothing, or a part
+    _check(path, header)
+    entries = tuple(
+        _entries(path, header, lines[:-1])
+    )  # behind the last line end: nothing, or a part
     is_whole = bool(entries) and entries[-1].what is Entered.END and not lines[-1]
     return Journal(header, entries, is_whole)
 
 
-def _entries(path: Path, lines: list[bytes]) -> Iterator[JournalEntry]:
+def _entries(path: Path, header: Header, lines: list[bytes]) -> Iterator[JournalEntry]:
+    """The entries in their order; no two are farther apart than two digests."""
+    latest = header.tick
     for number, line in enumerate(lines, 3):
         try:
-            yield _entry(json.loads(line))
-        except (ValueError, TypeError, LookupError):
+            entry = _entry(json.loads(line))
+        except (ValueError, TypeError, LookupError, RecursionError):
             raise StoreError(f"{path}: line {number} is damaged") from None
+        if not latest <= entry.tick <= latest + header.digest_every_tk:
+            raise StoreError(
+                f"{path}: line {number} is damaged: tick {entry.tick} comes after {latest}, and"
+                f" there is an entry every {header.digest_every_tk} ticks"
+            )
+        latest = entry.tick
+        yield entry
+
+
+def _check(path: Path, header: Header) -> None:
+    """Refuse a header no card has written."""
+    if header.model not in MODELS:
+        raise StoreError(f"{path} is the journal of an unknown model, {header.model}")
+    wrong = next(contradictions(header.world), None)
+    if wrong is not None:
+        raise StoreError(f"{path}: its machine is damaged: {wrong.text}")
+    if header.period_s != header.world.card.period_s:
+        raise StoreError(f"{path}: its first record is damaged: two lengths of a tick")

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from openacr.controller.controller import Controller
 from openacr.controller.journal import Entered, Journal, JournalEntry
-from openacr.errors import StoreError
+from openacr.errors import CardError, StoreError, UserError
 from openacr.protocol.events import ControlKey
-from openacr.protocol.stream import StreamKind
+from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,14 @@ class Replay:
             self._advance_to(entry.tick)
             if entry.is_digest:
                 self._compare(entry)
-            else:
+                continue
+            try:
                 self._apply(entry)
+            except (UserError, CardError, NoFreeStreamError, LookupError) as error:
+                raise StoreError(
+                    f"the journal is damaged: what entered at tick {entry.tick}"
+                    f" ({entry.what}) cannot enter this card: {error}"
+                ) from None
         if end_tk is not None:
             self._advance_to(end_tk)
 
@@ -91,6 +97,10 @@ class Replay:
         else:
             card.press(ControlKey(entry.number))
 
+    def _needs(self, stream: int) -> None:
+        if not self.card.has_stream(stream):
+            raise UserError(f"there is no connection {stream}")
+
     def _apply_to_stream(self, entry: JournalEntry) -> None:
         """Connections may get other numbers than they had."""
         if entry.what is Entered.OPEN:
@@ -99,6 +109,7 @@ class Replay:
             return
         stream = self._streams.get(entry.number, entry.number)
         if entry.what is Entered.BYTES:
+            self._needs(stream)
             self.card.receive(stream, entry.data)
         else:
             self.card.close_stream(stream)

@@ -18,9 +18,14 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta, Struct
 
+from openacr.basic.heap import Heap
 from openacr.controller.snapshot import Beside, Snapshot, layout
 from openacr.errors import StoreError
+from openacr.map.memory import Memory
 from openacr.map.numbers import MEMORY_BYTES
+from openacr.map.valid import check_rows
+from openacr.motion.buffer import check_rings
+from openacr.plant.places import check_places
 
 MAGIC = b"openacr snapshot 1\n"
 COMPRESSION = 1  # the memory is mostly zeros: more effort gains nothing
@@ -75,11 +80,22 @@ def decode(data: bytes) -> Snapshot:
     if _digest(content) != header.digest:
         raise StoreError("the snapshot is damaged: its fingerprint is another one")
     rows = content[header.beside_bytes :]
+    check(rows)
     try:
         beside = msgspec.msgpack.decode(content[: header.beside_bytes], type=Beside)
     except (msgspec.MsgspecError, RecursionError) as error:
         raise StoreError(f"the snapshot cannot be read: {error}") from None
     return Snapshot(header.model, header.world, header.layout, rows, beside)
+
+
+def check(rows: bytes) -> None:
+    """StoreError unless every row may be used as the card uses it."""
+    memory = Memory()
+    memory.restore(rows)
+    check_rows(memory)
+    check_rings(memory)
+    check_places(memory)
+    Heap(memory).check()
 
 
 def _inflated(data: bytes, size: int) -> bytes:

@@ -79,6 +79,10 @@ class Streams:
         self._open: dict[int, Stream] = {}
         self._next = 1
 
+    def __contains__(self, number: int) -> bool:
+        """Whether a connection is open."""
+        return number in self._open
+
     def open(self, kind: StreamKind, name: str | None = None) -> int:
         """A stream for a new connection; NoFreeStreamError when all are taken."""
         session = None

@@ -1,20 +1,26 @@
 """MBUF and LOOK: how many moves a master holds, and how it looks ahead over them."""
 
-from openacr.errors import CardError
+from openacr.errors import CardError, StoreError
 from openacr.map.hidden.motion import MOVES, MOVES_PER_MASTER
+from openacr.map.memory import Memory
 from openacr.map.numbers import (
     MF4_LOOK_AHEAD_MODE,
     MF4_MBUF_MODE,
     MF4_MBUF_USER_RAM,
     MF4_WORD,
+    MQ_COUNT,
+    MS_COUNT,
     MSF_LOOK_FROM_DEG,
     MSF_LOOK_TO_DEG,
+    MSI_BASE,
     MSI_DEPTH,
     MSI_FIRST,
     MSI_HEAD,
     MSI_LOOK_DIRTY,
     MSI_QUEUED,
     MSI_SIZE,
+    MSI_STRETCH,
+    MSI_STRIDE,
 )
 from openacr.messages import INVALID_ARGUMENT, OUT_OF_MEMORY
 from openacr.motion.card import MASTERS, Card
@@ -115,3 +121,17 @@ def look_angles(card: Card, master: int) -> tuple[float, float]:
     """Both angles."""
     reals = master_reals(master)
     return card.memory.F[reals + MSF_LOOK_FROM_DEG], card.memory.F[reals + MSF_LOOK_TO_DEG]
+
+
+def check_rings(memory: Memory) -> None:
+    """StoreError unless the rings of all masters lie in the records of moves, apart."""
+    taken: set[int] = set()
+    for master in range(MS_COUNT):
+        rows = MSI_BASE + master * MSI_STRIDE
+        first, size, head, queued, stretch = (
+            memory.I[rows + row] for row in (MSI_FIRST, MSI_SIZE, MSI_HEAD, MSI_QUEUED, MSI_STRETCH)
+        )
+        ring = set(range(first, first + size))
+        if first + size > MQ_COUNT or head >= size or max(queued, stretch) > size or ring & taken:
+            raise StoreError(f"the snapshot is damaged: the moves of master {master} lie wrong")
+        taken |= ring

@@ -10,20 +10,36 @@ gives every field its place and a name in `openacr.map.numbers`:
     I[THI_BASE + n * THI_STRIDE + THI_PC]            TH_COUNT == 32
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from math import inf
 
 Field = str | tuple[str, int]
+Range = tuple[float, float]  # lowest and highest value of a row
+
+
+FINITE: Range = (-1e300, 1e300)
+ANY_NUMBER: Range = (-inf, inf)  # and what is none
+SWITCH: Range = (0, 1)
+# Bounds for places of rows in the views I and F: below the end of the memory, above all rows.
+ROWS_I, ROWS_F = 700_000, 350_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HiddenBlock:
-    """`count` records of named numbers; a field `(name, size)` is an array."""
+    """`count` records of named numbers; a field `(name, size)` is an array.
+
+    `ranges` belong to every row that the card uses as an index, a size or a divisor without asking:
+    a snapshot from a file is refused where a row is outside. `usual` is the range of all other
+    doubles; other ints may have any value.
+    """
 
     prefix: str
     count: int
     doubles: tuple[Field, ...] = ()
     ints: tuple[Field, ...] = ()
+    ranges: Mapping[str, Range] = field(default_factory=dict)
+    usual: Range = ANY_NUMBER
 
     @property
     def doubles_stride(self) -> int:
@@ -39,7 +55,7 @@ class HiddenBlock:
 def places(fields: tuple[Field, ...]) -> Iterator[tuple[str, int, int]]:
     """Name, offset in the record and size of each field."""
     offset = 0
-    for field in fields:
-        name, size = field if isinstance(field, tuple) else (field, 1)
+    for each in fields:
+        name, size = each if isinstance(each, tuple) else (each, 1)
         yield name, offset, size
         offset += size

@@ -26,6 +26,11 @@ TABLE = HiddenBlock(
         ("program", SEGMENTS),  # owner of the array
         ("array", SEGMENTS),  # its number + 1, 0 not given
     ),
+    ranges={
+        "segments": (0, SEGMENTS),
+        "program": (0, 15),
+        "array": (0, 1 << 20),
+    },
 )
 
 CAM = HiddenBlock(
@@ -41,4 +46,9 @@ CAM = HiddenBlock(
         ("window_cnt", SMOOTHING),
     ),
     ints=("pon", "poff", "window_index", "window_count", "window_size"),
+    ranges={
+        "window_index": (0, SMOOTHING - 1),
+        "window_count": (0, SMOOTHING),
+        "window_size": (0, SMOOTHING),
+    },
 )

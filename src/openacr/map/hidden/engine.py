@@ -20,6 +20,9 @@ ENGINE = HiddenBlock(
         "sample_count",  # values recorded in the trace beside the axes
         "stop",  # return at the end of this tick
     ),
+    ranges={
+        "in_tick": (0, 0),  # between ticks
+    },
 )
 
 # What the caller waits for: the engine returns behind a tick in which one of these changed.

@@ -25,6 +25,11 @@ FILTER = HiddenBlock(
     count=16,
     doubles=(("window_cnt", FILTER_WINDOW), "sum_cnt", "carry_cnt"),
     ints=("on", "size", "index", "out"),
+    ranges={
+        "size": (0, FILTER_WINDOW),
+        "index": (0, FILTER_WINDOW - 1),
+        "out": (-1, 40959),
+    },
 )
 
 HAND_WHEEL = HiddenBlock(

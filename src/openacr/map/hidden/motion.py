@@ -5,7 +5,7 @@ speeds and accelerations of a profile are in the unit of whoever owns it: progra
 units for masters, pulses for the jog profiler of an axis.
 """
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import FINITE, HiddenBlock
 
 SEGMENTS = 16
 SLAVES = 16
@@ -47,6 +47,10 @@ PROFILE = HiddenBlock(
         "seg_index",
         "kind",
     ),
+    ranges={
+        "seg_count": (0, SEGMENTS),
+        "seg_index": (0, SEGMENTS),
+    },
 )
 
 # Moves waiting for or executed by a master: a ring of records per master. The first 256
@@ -101,6 +105,22 @@ MOVE = HiddenBlock(
         "ahead",  # planned through the corner at its end though LOOK is off
         "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
+    ranges={
+        "slaves": (0, 0xFFFF),
+        "relative": (0, 0xFFFF),
+        "curved": (0, 0xFFFF),
+        "half_wave": (0, 0xFFFF),
+        "seek_axis": (0, SLAVES),
+        "curve": (0, 5),
+        "degree": (0, POLES - 1),
+        "plane": (0, SLAVES - 1),
+        "interrupt": (-17664, 17664),
+        "trigger": (-17664, 17664),
+        "trigger_axis": (0, SLAVES),
+        "hsint_axis": (0, SLAVES),
+        "hsint_abort": (-17664, 17664),
+        "tang": (0, SLAVES),
+    },
 )
 
 # The curves of those moves: per slave a wave on a straight base (kernel/curve_cy.py). SPLINE
@@ -194,6 +214,21 @@ MASTER = HiddenBlock(
         "step_go",  # STEP in block mode: one move may begin in spite of Start Move Inhibit
         ("rotate_slave", 2),  # the plane of ROTATE
     ),
+    ranges={
+        "program": (-1, 15),
+        "slave_axis": (-1, 15),
+        "first": (0, MOVES - 1),
+        "size": (1, MOVES),
+        "head": (0, MOVES - 1),
+        "queued": (0, MOVES),
+        "stretch": (0, MOVES),
+        "trigger": (-17664, 17664),
+        "trigger_axis": (0, SLAVES),
+        "tang_axis": (0, SLAVES),
+        "invk_program": (0, 16),
+        "corner_next": (0, MOVES),
+        "rotate_slave": (0, SLAVES - 1),
+    },
 )
 
 # What SPLINE and NURB have been given and cannot follow yet (motion/splines.py).
@@ -215,6 +250,13 @@ CURVE_POINTS = HiddenBlock(
         "open",  # pieces have been handed over and more are to come
         "live",  # flags of a curve are to be kept true
     ),
+    ranges={
+        "slaves": (0, 0xFFFF),
+        "points": (0, POINTS),
+        "knots": (0, KNOTS),
+        "behind": (0, POINTS),
+        "rank": (0, POLES),
+    },
 )
 
 AXIS = HiddenBlock(
@@ -326,6 +368,19 @@ AXIS = HiddenBlock(
         "shown_cam",
         "shown_ballscrew",
     ),
+    ranges={
+        "master": (-1, 15),
+        "slave": (0, SLAVES - 1),
+        "capture_copy": (0, 40959),
+        "drive_motor": (-1, 15),
+        "window_index": (0, 63),
+        "window_count": (0, 64),
+        "derivative_index": (0, 31),
+        "derivative_smooth": (0, 32),
+        "signal_index": (0, 15),
+        "home_state": (0, 255),
+        "jog_mode": (0, 255),
+    },
 )
 
 ENCODER = HiddenBlock(
@@ -343,6 +398,11 @@ ENCODER = HiddenBlock(
         "seen",  # position of that encoder in the last tick
         "destination",  # parameter that gets the position; 0 none
     ),
+    usual=FINITE,
+    ranges={
+        "locked_to": (0, 24),
+        "destination": (0, 40959),
+    },
 )
 
 # What few encoders need, apart from the rows that every tick reads.
@@ -401,4 +461,14 @@ KERNEL = HiddenBlock(
         "missing_steppers",
         "missing_adcs",
     ),
+    ranges={
+        "millisecond_phase": (-10, 10),
+        "axes": (1, 16),
+        "masters": (1, 16),
+        "adc_channels": (0, 16),
+        "slow_ticks": (1, 1 << 24),
+        "fast_group": (0, 255),
+        "moves_waiting": (0, 0xFFFF),
+        "kinematics": (0, 0xFFFF),
+    },
 )

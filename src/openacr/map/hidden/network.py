@@ -4,7 +4,7 @@
 belong to the card. Ticks are float64 numbers; 0 stands for never.
 """
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import ROWS_F, HiddenBlock
 
 NODES = 4
 WORDS_PER_NODE = 16
@@ -40,6 +40,14 @@ NODE = HiddenBlock(
         ("outputs", WORDS_PER_NODE),  # at the digital outputs
         ("converted", ANALOG_CHANNELS),  # counts at the analog outputs
     ),
+    ranges={
+        "id": (0, 127),
+        "digital_inputs": (0, 32 * WORDS_PER_NODE),
+        "digital_outputs": (0, 32 * WORDS_PER_NODE),
+        "analog_inputs": (0, ANALOG_CHANNELS),
+        "analog_outputs": (0, ANALOG_CHANNELS),
+        "analog_bits": (0, 32),
+    },
 )
 
 FAULT = HiddenBlock(
@@ -47,6 +55,9 @@ FAULT = HiddenBlock(
     count=16,
     doubles=("from_s", "until_s", "rate"),
     ints=("kind", "node"),
+    ranges={
+        "node": (-1, NODES),
+    },
 )
 
 # What comes to an analog input from somewhere in the world: source * scale + offset.
@@ -60,6 +71,12 @@ SIGNAL = HiddenBlock(
         "node",  # of the output
         "channel",
     ),
+    ranges={
+        "input": (0, ROWS_F),
+        "axis": (-1, 15),
+        "node": (0, NODES - 1),
+        "channel": (0, ANALOG_CHANNELS - 1),
+    },
 )
 
 BUS = HiddenBlock(
@@ -89,6 +106,10 @@ MASTER = HiddenBlock(
         "cycle_ms",
         "frames",  # of one cycle
     ),
+    ranges={
+        "slave": (0, NODES),
+        "slaves": (0, NODES),
+    },
 )
 
 SLAVE = HiddenBlock(
@@ -102,6 +123,10 @@ SLAVE = HiddenBlock(
         ("sent", WORDS_PER_NODE),  # inputs the node has sent last
         ("latched", ANALOG_CHANNELS),  # counts of its inputs at the last sync
     ),
+    ranges={
+        "node": (0, NODES - 1),
+        "words": (0, WORDS_PER_NODE),
+    },
 )
 
 # The world: the drive of motor n, as its serial port shows it.
@@ -130,6 +155,10 @@ DRIVE = HiddenBlock(
         "log_count",
         ("log_error", LOG_ENTRIES),
     ),
+    ranges={
+        "port": (-1, PORTS),
+        "log_count": (0, LOG_ENTRIES),
+    },
 )
 
 # The card: the Drive Talk line of each port, and what it knows of the drive of each axis.
@@ -155,6 +184,12 @@ LINE = HiddenBlock(
         "typed_count",
         ("typed", LINE_LENGTH),
     ),
+    ranges={
+        "axis": (-1, 16),
+        "length": (0, ANSWER_LENGTH),
+        "typed_count": (0, LINE_LENGTH),
+        "program": (-1, 16),
+    },
 )
 
 AXIS = HiddenBlock(prefix="NETD", count=16, doubles=("limit_tk",), ints=("known",))

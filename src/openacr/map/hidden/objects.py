@@ -21,6 +21,9 @@ FOLLOWER = HiddenBlock(
         "live",  # sources are followed
         "leader",  # axis it is locked to + 1
     ),
+    ranges={
+        "leader": (0, 16),
+    },
 )
 
 RATCHET = HiddenBlock(
@@ -41,6 +44,11 @@ LIMIT_SWITCH = HiddenBlock(
     count=OBJECTS,
     doubles=("base_cnt", "ratio", "flz_cnt", "rotary"),
     ints=("program", "array", "destination", "mask"),
+    ranges={
+        "program": (0, 15),
+        "array": (0, 1 << 20),
+        "destination": (0, 40959),
+    },
 )
 
 OUTPUT_OBJECT = HiddenBlock(
@@ -48,6 +56,10 @@ OUTPUT_OBJECT = HiddenBlock(
     count=OBJECTS,
     doubles=("from_cnt", "to_cnt", "start_cnt", "pitch_cnt", "width_cnt"),
     ints=("on", "bit", "windows"),
+    ranges={
+        "bit": (0, 17663),
+        "windows": (0, 1 << 30),
+    },
 )
 
 FAST_STATUS = HiddenBlock(
@@ -60,6 +72,11 @@ FAST_STATUS = HiddenBlock(
         "type",
         ("words", 8),  # LONG, or FP32 through the other view
     ),
+    ranges={
+        "phase_ms": (0, 1e6),
+        "code": (0, 255),
+        "index": (0, 255),
+    },
 )
 
 SAMPLER = HiddenBlock(
@@ -75,6 +92,14 @@ SAMPLER = HiddenBlock(
         ("program", CHANNELS),
         ("array", CHANNELS),
     ),
+    ranges={
+        "timer_ms": (-1e6, 1e6),
+        "trigger": (0, 17664),
+        "source": (0, 40960),
+        "kind": (0, 3),
+        "program": (0, 15),
+        "array": (0, 1 << 20),
+    },
 )
 
 OBJECT_STATE = HiddenBlock(

@@ -6,7 +6,7 @@ up. All other quantities of a motor are in counts and seconds too, so that the s
 conversion: accelerations stand for torques, divided by the inertia.
 """
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import ANY_NUMBER, FINITE, ROWS_I, SWITCH, HiddenBlock
 
 INPUTS = 32
 
@@ -69,6 +69,16 @@ MOTOR = HiddenBlock(
         "fault_report",  # of a drive without fault input: 0 none ever, 1 taken back, 2 fault
         "cable_cut",  # 1 while the motor gets no current
     ),
+    usual=FINITE,
+    ranges={
+        "kind": (0, 255),
+        "dac": (0, 15),
+        "fault_word": (0, 40959),
+        "quiet_low_cnt": ANY_NUMBER,
+        "quiet_high_cnt": ANY_NUMBER,
+        "low_stop_cnt": ANY_NUMBER,
+        "high_stop_cnt": ANY_NUMBER,
+    },
 )
 
 # What a motor that the card commutates has on top, see plant/phases_cy.py.
@@ -77,6 +87,10 @@ PHASES = HiddenBlock(
     count=16,
     doubles=("radians_per_cnt", "zero_rad", "peak_v"),
     ints=("second_dac", "phases"),
+    usual=FINITE,
+    ranges={
+        "second_dac": (0, 15),
+    },
 )
 
 # What a stepper motor has on top, see plant/stepper_cy.py.
@@ -101,7 +115,12 @@ ANALOG = HiddenBlock(
     prefix="PLA",
     count=8,
     doubles=("volts", "base_v", "volts_per_cnt", "dac_step"),
-    ints=("axis", "dac"),  # both + 1, 0 none
+    ints=("axis", "dac"),  # both + 1, 0 none,
+    usual=FINITE,
+    ranges={
+        "axis": (0, 16),
+        "dac": (0, 16),
+    },
 )
 
 # What drives an input: a box in space, one entry per side of the box, or an output.
@@ -120,6 +139,15 @@ WIRE = HiddenBlock(
         "output_word",
         "output_mask",
     ),
+    ranges={
+        "axis": (0, 15),
+        "more": SWITCH,
+        "slot": (0, 15),
+        "bit": (0, INPUTS - 1),
+        "output_word": (0, ROWS_I),
+        "low_cnt": ANY_NUMBER,
+        "high_cnt": ANY_NUMBER,
+    },
 )
 
 # The words in which inputs are wired.
@@ -134,6 +162,9 @@ INPUT_WORD = HiddenBlock(
         "stuck",  # forced from outside, whatever drives them
         "stuck_level",
     ),
+    ranges={
+        "word": (0, ROWS_I),  # see also plant/places.py
+    },
 )
 
 GENERAL = HiddenBlock(
@@ -148,4 +179,9 @@ GENERAL = HiddenBlock(
         "words",
         "analogs",  # something is wired to analog inputs
     ),
+    ranges={
+        "follows": (0, 64),
+        "wires": (0, 64),
+        "words": (0, 16),
+    },
 )

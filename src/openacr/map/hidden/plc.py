@@ -13,4 +13,8 @@ PLC = HiddenBlock(
         "clock_old",  # counter clock of the tick before
         ("code", INSTRUCTIONS),  # operation and operand in one word, see plc/scan_cy.py
     ),
+    ranges={
+        "length": (0, INSTRUCTIONS),
+        "timer_ms": (0, 1000),
+    },
 )

@@ -12,6 +12,10 @@ SOURCE = HiddenBlock(
         "delta",  # change of this tick
     ),
     ints=("kind", "index"),
+    ranges={
+        "kind": (0, 9),
+        "index": (0, 40959),
+    },
 )
 
 # What a gear or cam waits for: three per axis (gear on, gear off, cam on).
@@ -31,4 +35,10 @@ TRIGGER = HiddenBlock(
         "register",  # encoder + 1 whose signals are watched, 0 that of the source
         "ticks_left",  # until the timeout, 0 never
     ),
+    ranges={
+        "kind": (0, 5),
+        "parameter": (0, 40959),
+        "copy": (0, 40959),
+        "register": (0, 24),
+    },
 )

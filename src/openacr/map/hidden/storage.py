@@ -28,6 +28,11 @@ PROGRAM_STORAGE = HiddenBlock(
         "da_base", "da_count",
         "mbuf_count",
     ),
+    ranges={
+        "mbuf_count": (0, 512),
+        "size_bytes": (0, 1 << 30),
+        "code_bytes": (0, 1 << 30),
+    },
 )  # fmt: skip
 
 SYSTEM_STORAGE = HiddenBlock(

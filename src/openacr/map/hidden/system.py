@@ -17,4 +17,10 @@ SYSTEM = HiddenBlock(
         "random_seed_low",  # state of RND: low 32 bits
         "random_seed_high",
     ),
+    ranges={
+        "period_s": (1e-5, 0.1),
+        "time_s": (0, 1e12),
+        "p_count": (0, 4096),
+        "slow_phase": (0, 1 << 24),
+    },
 )

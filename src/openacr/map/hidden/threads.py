@@ -5,7 +5,7 @@ Threads 0-15 are the programs, 16-31 the command channels, 32-47 the kinematics 
 it was.
 """
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import ROWS_I, HiddenBlock
 
 STACK = 192  # numbers on the expression stack of one thread
 DEPTH = 64  # FOR, WHILE, GOSUB and IF levels open at a time
@@ -45,6 +45,16 @@ THREAD = HiddenBlock(
         ("flow_stop", DEPTH),
         ("flow_back", DEPTH),  # GOSUB: where to return
     ),
+    ranges={
+        "state": (0, 3),
+        "budget": (0, 1 << 16),
+        "depth": (0, DEPTH),
+        "error": (0, 255),
+        "locals": (-1, 15),
+        "wait_operand": (0, ROWS_I),
+        "wait_deadline_tk": (0, 1e18),
+        "error_detail": (-1e15, 1e15),
+    },
 )
 
 # Where code and constants of each thread begin in the buffers of this process.
@@ -63,4 +73,14 @@ SCHEDULER = HiddenBlock(
         "thread",  # thread that owns the present slice, -1 none
         "low",  # last of the programs 8-15 that had the shared slice
     ),
+    ranges={
+        "programs": (0, 0xFFFF),
+        "channels": (0, 0xFFFF),
+        "phase": (0, 0),  # between ticks
+        "cursor": (0, 32),
+        "slot": (0, 9),
+        "ticks_left": (-1, 1 << 20),
+        "thread": (-1, 15),
+        "low": (0, 15),
+    },
 )
