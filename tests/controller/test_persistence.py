@@ -9,6 +9,7 @@ import pytest
 from tests.controller.hosts import Host, connected, store
 
 from openacr.controller import Controller
+from openacr.controller.recorder import Recorder
 from openacr.errors import StoreError
 from openacr.project import find_project
 
@@ -387,10 +388,10 @@ def test_prom_prints_records_whose_sums_are_right() -> None:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("parameters", "the stored parameters in"),
-        ("flash", "the stored flash in"),
-        ("battery", "battery-backed memory is lost: the card starts with defaults"),
-        ("battery text 0", "battery-backed memory is lost: the card starts with defaults"),
+        ("parameters", "what was lost: parameters"),
+        ("flash", "what was lost: flash"),
+        ("battery", "sizes, aliases and variables of battery-backed memory are lost"),
+        ("battery text 0", "what was lost: battery text 0"),
     ],
 )
 def test_a_damaged_image_gives_defaults_and_is_named(
@@ -406,11 +407,61 @@ def test_a_damaged_image_gives_defaults_and_is_named(
     file.close()
     host = power_up()
     assert said in notices(host)
+    assert host.heard().startswith("Warning: ")
     assert (host.ask("AXIS0 PPU") == "1") == (name == "parameters")
-    is_lost = name.startswith("battery")
+    is_lost = name == "battery text 0"
     assert host.type("PROG0", "LIST") == ("P00>P00>" if is_lost else "P00>10 PRINT 1|P00>")
-    host.type("SYS", "DIM P(20)" if is_lost else "SYS", "ESAVE", "FLASH SAVE")
+    assert ("DIM P(10)" in host.type("SYS", "DIM")) == (name != "battery")
+    host.type("ESAVE", "FLASH SAVE")
     assert notices(power_up()) == ""
+    assert (tmp_path / "card.db.damaged1").exists()
+
+
+def test_one_flipped_bit_costs_one_program_and_every_host_is_told(
+    power_up: PowerUp, tmp_path: Path
+) -> None:
+    host = power_up()
+    host.type("DIM P(10)", "P1 = 2.5", "PROG0", "10 PRINT 1", "PROG1", "10 PRINT 2")
+    host.card.close()
+    with sqlite3.connect(tmp_path / "card.db") as file:
+        file.execute(
+            "UPDATE image SET data = CAST(replace(data, CAST('PRINT 1' AS BLOB), CAST('QRINT 1' AS"
+            " BLOB)) AS BLOB) WHERE name = 'battery text 0'"
+        )
+    file.close()
+    damaged = (tmp_path / "card.db").read_bytes()
+    host = power_up()
+    said = f"Warning: {tmp_path / 'card.db'} is damaged; it was kept as card.db.damaged1;"
+    assert host.heard() == f"{said} what was lost: battery text 0|"
+    assert Host(host.card).heard() == f"{said} what was lost: battery text 0|"
+    assert host.type("?P1", "PROG0", "LIST", "PROG1", "LIST") == (
+        "2.5|SYS>P00>P00>P01>10 PRINT 2|P01>"
+    )
+    assert (tmp_path / "card.db.damaged1").read_bytes() == damaged
+    host.close()
+    again = Host(host.card)
+    assert again.heard() == ""  # once for each channel
+    assert power_up().heard() == ""
+
+
+def test_what_this_version_cannot_read_is_kept(power_up: PowerUp, tmp_path: Path) -> None:
+    host = power_up()
+    host.type("PROG0", "10 PRINT 1")
+    host.card.nonvolatile.shelf.write({"battery text 3": b"\x01"})
+    host = power_up()
+    assert "it was kept as 'unreadable battery text 3'" in notices(host)
+    assert host.card.nonvolatile.shelf.read("unreadable battery text 3") == b"\x01"
+    host.heard()
+    assert host.type("PROG0", "LIST") == "P00>10 PRINT 1|P00>"
+
+
+def test_what_a_card_keeps_is_for_its_owner_alone(power_up: PowerUp, tmp_path: Path) -> None:
+    host = power_up()
+    host.type('PASSWORD ON "secret"')
+    host.card.recorder = Recorder(host.card, tmp_path / "a.journal")
+    host.card.close()
+    names = {path.name: path.stat().st_mode & 0o777 for path in tmp_path.iterdir()}
+    assert names == {"card.db": 0o600, "a.journal": 0o600}
 
 
 def test_a_file_that_is_no_database_does_not_keep_the_card_from_starting(
@@ -419,6 +470,7 @@ def test_a_file_that_is_no_database_does_not_keep_the_card_from_starting(
     (tmp_path / "card.db").write_bytes(b"nonsense" * 1000)
     host = power_up()
     assert "card.db.damaged1" in notices(host)
+    assert host.heard().startswith("Warning: ")
     assert host.type("DIM P(10)", "ESAVE") == "SYS>SYS>"
     assert power_up().type("DIM") == "DIM P(10)|SYS>"
 

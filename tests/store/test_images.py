@@ -1,5 +1,6 @@
 """Images on disk: atomic, checked, owned by one process."""
 
+import random
 import sqlite3
 from pathlib import Path
 
@@ -78,16 +79,40 @@ def test_a_file_that_is_no_database_is_put_aside(tmp_path: Path, content: bytes)
     assert again.read("a") == Image(1, b"one")
 
 
-def test_a_torn_file_is_put_aside(tmp_path: Path) -> None:
+def test_of_a_torn_file_what_is_whole_goes_on(tmp_path: Path) -> None:
     images = Database(tmp_path)
-    images.write({"a": Image(1, bytes(100_000))})
+    images.write({"a": Image(1, b"small"), "b": Image(1, bytes(range(250)) * 400)})
     images.close()
     whole = images.path.read_bytes()
     images.path.write_bytes(whole[: len(whole) // 2])
     images, said = Database.open(tmp_path)
-    if said is None:  # what is left can still be opened: then the image tells
-        with pytest.raises(StoreError, match="damaged"):
-            images.read("a")
+    assert "it was kept as card.db.damaged1" in str(said)
+    images.write({"b": Image(1, b"new")})
+    images.close()
+    again, said = Database.open(tmp_path)
+    assert said is None
+    assert again.read("b") == Image(1, b"new")
+
+
+def test_a_damaged_overflow_page_costs_its_image_and_later_saves_succeed(tmp_path: Path) -> None:
+    images = Database(tmp_path)
+    big = Image(1, random.Random(1).randbytes(100_000))
+    images.write({"a": Image(1, b"one"), "big": big, "z": Image(1, b"two")})
+    images.close()
+    content = bytearray(images.path.read_bytes())
+    page = content.index(big.data[5000:5100]) // 4096 * 4096
+    content[page : page + 4] = b"\xff\xff\xff\xff"  # the next page of the chain
+    images.path.write_bytes(content)
+    images, said = Database.open(tmp_path)
+    assert str(said).endswith("is damaged; it was kept as card.db.damaged1; what was lost: big")
+    assert (tmp_path / "card.db.damaged1").read_bytes() == content
+    assert images.names() == ["a", "z"]
+    assert images.read("z") == Image(1, b"two")
+    images.write({"big": big, "a": None})
+    images.close()
+    again, said = Database.open(tmp_path)
+    assert (said, again.names()) == (None, ["big", "z"])
+    assert again.read("big") == big
 
 
 def test_the_file_of_another_program_is_left_alone(tmp_path: Path) -> None:

@@ -93,6 +93,7 @@ class Session:
     typed_ahead: str = ""  # what the program followed with LRUN has left of the line being typed
     listed: tuple[int, int] = (0, 0)  # line at which LIST goes on, and its depth of blocks
     rest: list[Token] = field(default_factory=list)  # of the present line, for its new level
+    announcements: list[str] = field(default_factory=list)  # for the next host, once
     last_error: CardError | None = None  # of the latest line, whatever ECHO says
     _output: bytearray = field(default_factory=bytearray)
     _words: ChannelWords = field(init=False, repr=False)
@@ -167,6 +168,9 @@ class Session:
         """A host takes the channel: as after power-up, unless a program holds it open."""
         self.is_connected = True
         self.reset()
+        for text in self.announcements:
+            self.write(text + LINE_END)
+        self.announcements.clear()
 
     def reset(self) -> None:
         """The state after power-up: SYS level, echo on, control prefixing on serial lines."""

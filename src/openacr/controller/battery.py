@@ -43,17 +43,21 @@ class Battery:
         self._memos: list[user_memory.Memo] = [{} for _ in system.owners()]
 
     def stored(self) -> tuple[UserMemory, tuple[str, ...]] | None:
-        """User memory and CONFIG as they were without power; None where nothing is usable."""
+        """User memory and CONFIG as they were without power; None where nothing is stored.
+
+        Each text stands for itself. Where sizes and values are lost, the texts come back into the
+        memory of a new card.
+        """
         names = self._shelf.names(BATTERY) if self.is_on else []
         if not names:
             return None
         backed = self._shelf.decoded(BATTERY, Backed)
+        if backed is None:
+            self._shelf.lost("sizes, aliases and variables of battery-backed memory are lost")
+            config = list(self._system.setup.config)
+            backed = Backed(user_memory.take_data(self._system, values=False), config)
         texts = [self._shelf.decoded(name, Text) for name in names if name != BATTERY]
         found = [text for text in texts if text is not None]
-        if backed is None or len(found) != len(names) - 1:
-            self._shelf.notice("battery-backed memory is lost: the card starts with defaults")
-            self._shelf.write(dict.fromkeys(names))
-            return None
         return UserMemory(found, backed.data), tuple(backed.config)
 
     def disable(self) -> None:

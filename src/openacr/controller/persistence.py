@@ -23,7 +23,7 @@ from openacr.basic.setup import Setup
 from openacr.basic.system import System
 from openacr.basic.user_memory import UserMemory
 from openacr.controller.battery import BATTERY, Battery
-from openacr.controller.shelf import Shelf
+from openacr.controller.shelf import UNREADABLE, Shelf
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.models import FIRMWARE
@@ -80,6 +80,9 @@ class Persistence:
         self._load(config)
         self.battery.follow()
         self.shelf.is_up = True
+        for text in self.shelf.losses:
+            for session in self._system.sessions.values():
+                session.announcements.append(f"Warning: {text}")
 
     def restart(self) -> None:
         """Bring back what is stored, at REBOOT; battery-backed memory is there already."""
@@ -191,7 +194,8 @@ class Persistence:
             self.battery.disable()
 
     def _others(self) -> list[str]:
-        return [name for name in self.shelf.names() if not name.startswith(BATTERY)]
+        others = (BATTERY, UNREADABLE)
+        return [name for name in self.shelf.names() if not name.startswith(others)]
 
     def close(self) -> None:
         """Write what is left and let go of the data folder."""

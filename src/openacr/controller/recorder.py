@@ -24,6 +24,7 @@ from openacr.controller import snapshot_file
 from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
 from openacr.errors import StoreError, reason
 from openacr.map.memory import digest_of
+from openacr.store import private
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller
@@ -48,7 +49,7 @@ class Records:
         self._waiting: deque[bytes | Future[bytes]] = deque()
         self._waiting_bytes = 0
         try:
-            self._file = path.open("wb", buffering=0)
+            self._file = private.open_to_write(path)
         except OSError as failure:
             raise StoreError(f"{path} cannot be written: {reason(failure)}") from None
         self.put(MAGIC)

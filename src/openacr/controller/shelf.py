@@ -16,6 +16,7 @@ from openacr.store.images import needs_version
 
 log = logging.getLogger(__name__)
 
+UNREADABLE = "unreadable "  # begins the names of images that say nothing to this version
 FORMAT = 1  # of all images; one of another format counts as damaged
 _Kind = TypeVar("_Kind")
 
@@ -26,6 +27,7 @@ class Shelf:
     def __init__(self, images: Images) -> None:
         self.images = images
         self.notices: list[str] = []
+        self.losses: list[str] = []  # what hosts have to know
         self.is_up = False  # until then whoever switches the card on says what is found
 
     @classmethod
@@ -36,7 +38,7 @@ class Shelf:
         images, damage = Database.open(folder)
         shelf = cls(images)
         if damage is not None:
-            shelf.notice(damage)
+            shelf.lost(damage)
         return shelf
 
     def notice(self, text: str) -> None:
@@ -45,6 +47,11 @@ class Shelf:
             self.notices.append(text)
             if self.is_up:
                 log.warning("%s", text)
+
+    def lost(self, text: str) -> None:
+        """Say that something stored is gone, also to hosts that connect from now on."""
+        self.notice(text)
+        self.losses.append(text)
 
     def names(self, prefix: str = "") -> list[str]:
         """The images whose names begin so."""
@@ -56,7 +63,7 @@ class Shelf:
             image = self.images.read(name)
             return None if image is None else needs_version(name, image, FORMAT)
         except StoreError as damage:
-            self.notice(f"{damage}; defaults are used instead")
+            self.lost(f"{damage}; defaults are used instead")
             return None
 
     def decoded(self, name: str, kind: type[_Kind]) -> _Kind | None:
@@ -67,7 +74,9 @@ class Shelf:
         try:
             return msgspec.msgpack.decode(data, type=kind)
         except msgspec.MsgspecError as error:
-            self.notice(f"the stored {name} cannot be read: {error}")
+            aside = f"{UNREADABLE}{name}"
+            self.write({aside: data})
+            self.lost(f"the stored {name} cannot be read ({error}); it was kept as {aside!r}")
             return None
 
     def write(self, changes: Mapping[str, bytes | None], *, flush: bool = True) -> None:

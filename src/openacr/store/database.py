@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from openacr.errors import StoreError, reason
+from openacr.store import private
 from openacr.store.images import Image
 
 FILE_NAME = "card.db"
@@ -26,6 +27,8 @@ _TABLE = """
         name TEXT PRIMARY KEY, version INTEGER NOT NULL, digest BLOB NOT NULL, data BLOB NOT NULL
     ) WITHOUT ROWID
 """
+_SEEK = "SELECT version, digest, data FROM image WHERE name = ?"
+_SCAN = "SELECT version, digest, data FROM image WHERE +name = ?"  # past rows that are damaged
 _Result = TypeVar("_Result")
 
 
@@ -39,6 +42,7 @@ class Database:
         self._flushes = True
         try:
             folder.mkdir(parents=True, exist_ok=True)
+            private.create(self.path)
             self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=0.0)
         except (OSError, sqlite3.Error) as failure:
             raise StoreError(
@@ -52,16 +56,25 @@ class Database:
 
     @classmethod
     def open(cls, folder: Path) -> tuple[Database, str | None]:
-        """The images of a folder; a file that is no database any more is put aside.
+        """The images of a folder; of a damaged file the whole ones, in a new file.
 
-        The second value says so, in a sentence, and where the old file is.
+        The second value says so, in a sentence, and where the old file is. A damaged file is not
+        written any more: a page that cannot be read would make every later save fail.
         """
         try:
-            return cls(folder), None
+            images = cls(folder)
         except _UnreadableError as damage:
-            path = folder / FILE_NAME
-            aside = _put_aside(path)
+            aside = _put_aside(folder / FILE_NAME)
             return cls(folder), f"{damage}; it was kept as {aside.name}, nothing is stored now"
+        whole, lost = images._examined()
+        if not lost:
+            return images, None
+        images.close()
+        aside = _put_aside(images.path)
+        images = cls(folder)
+        images.write(whole)
+        what = f"what was lost: {', '.join(lost)}"
+        return images, f"{images.path} is damaged; it was kept as {aside.name}; {what}"
 
     def _prepare(self) -> None:
         run = self._connection.execute
@@ -78,6 +91,31 @@ class Database:
             run(_TABLE)
         run("COMMIT")
 
+    def _examined(self) -> tuple[dict[str, Image], list[str]]:
+        """All whole images, and the names of the others; also what else is wrong with the file."""
+        run, names, lost = self._connection.execute, list[str](), list[str]()
+        whole: dict[str, Image] = {}
+        try:
+            for row in run("SELECT name FROM image"):
+                names.append(str(row[0]))
+        except sqlite3.Error:
+            lost.append("images whose names cannot be read")
+        for name in names:
+            try:
+                image = self._found(_SCAN, name)
+            except StoreError:
+                lost.append(name)
+            else:
+                if image is not None:
+                    whole[name] = image
+        try:
+            is_sound = run("PRAGMA quick_check").fetchone() == ("ok",)
+        except sqlite3.Error:
+            is_sound = False
+        if not is_sound and not lost:
+            lost.append("nothing, but pages of the file")
+        return whole, lost
+
     def names(self) -> list[str]:
         """What there is, damaged ones included."""
         rows = self._do(lambda: self._connection.execute("SELECT name FROM image").fetchall())
@@ -85,7 +123,9 @@ class Database:
 
     def read(self, name: str) -> Image | None:
         """One image, None if there is none; StoreError if it is damaged."""
-        query = "SELECT version, digest, data FROM image WHERE name = ?"
+        return self._found(_SEEK, name)
+
+    def _found(self, query: str, name: str) -> Image | None:
         row = self._do(lambda: self._connection.execute(query, (name,)).fetchone())
         if row is None:
             return None
@@ -159,5 +199,6 @@ def _put_aside(path: Path) -> Path:
         number += 1
     path.rename(aside)
     for suffix in ("-wal", "-shm"):
-        path.with_name(path.name + suffix).unlink(missing_ok=True)
+        with suppress(FileNotFoundError):
+            path.with_name(path.name + suffix).rename(aside.with_name(aside.name + suffix))
     return aside
