@@ -5,6 +5,7 @@
 #   make lint    the checks alone
 #   make bench   how many simulated seconds per second this machine reaches
 #   make soak    the long-running tests
+#   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages anew
 #   make clean   remove everything that can be made again (also .venv)
@@ -15,7 +16,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak mutate docs clean
+.PHONY: help setup demo test lint bench soak lowest mutate docs clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -35,7 +36,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,10s/^# *//p' Makefile
+	@sed -n '3,11s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -86,6 +87,16 @@ bench: $(BUILT)
 soak: $(BUILT)
 	$(PY) -m pytest -n 0 -m soak --timeout 0
 
+# Every lower bound of pyproject.toml, in an environment of its own (uv finds the versions).
+LOWEST := .venv-lowest
+lowest:
+	@test -x $(LOWEST)/bin/python || $(PYTHON) -m venv $(LOWEST)
+	@$(LOWEST)/bin/python -m pip install -qq uv
+	OPENACR_PURE=1 $(LOWEST)/bin/uv pip install --python $(LOWEST)/bin/python -q \
+		--resolution lowest-direct --editable ".[dev,dxf,plot]"
+	$(LOWEST)/bin/python setup.py --quiet build_ext --inplace
+	$(LOWEST)/bin/python -m pytest -n $(WORKERS) -m "not soak" $(TESTS)
+
 # Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/limits_cy.py protocol".
 mutate: $(BUILT)
 	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
@@ -96,6 +107,6 @@ docs: $(BUILT)
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 
 clean:
-	rm -rf $(VENV) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \
+	rm -rf $(VENV) $(LOWEST) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \
 		.import_linter_cache src/openacr.egg-info src/openacr/_compiled.*
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
