@@ -51,7 +51,7 @@ def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> No
     ):
         assert process.stderr is not None
         assert b"Ctrl-C leaves" in process.stderr.readline()
-        time.sleep(0.1)  # the terminal becomes raw right after that line
+        assert read_until(ours, b"SYS>") == b"\r\nok\r\nSYS>"  # without a key pressed
         os.write(ours, b"LEN 12\r")
         assert read_until(ours, b"SYS>") == b"LEN 12\r\n6\r\nSYS>"
         os.write(ours, b"\x18\x1a\x1b[A\r")
@@ -113,7 +113,7 @@ def test_a_serial_line_does_as_well(tmp_path: Path) -> None:
     ) as process:
         assert process.stderr is not None
         assert b"Ctrl-C leaves" in process.stderr.readline()
-        time.sleep(0.1)  # the terminal becomes raw right after that line
+        assert read_until(card_end, b"\r") == b"\x1b\r"  # asks for the prompt
         os.write(ours, b"VER\r")
         assert read_until(card_end, b"\r") == b"VER\r"
         os.write(card_end, b"VER\r\n1.18\r\nSYS>")

@@ -1,6 +1,7 @@
 """The client over sockets and serial lines: our server, and hosts that behave badly."""
 
 import asyncio
+import errno
 import os
 import socket
 import sys
@@ -8,6 +9,7 @@ import threading
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
 from itertools import pairwise
+from typing import cast
 
 import pytest
 from tests.client.cards import AXIS
@@ -360,3 +362,24 @@ def test_every_link_has_its_form_for_asyncio() -> None:
     assert isinstance(for_asyncio(TcpLink("a")), AsyncTcpLink)
     assert isinstance(for_asyncio(SerialLink("/dev/x")), ThreadLink)
     assert isinstance(for_asyncio(ProcessLink(Controller())), AsyncProcessLink)
+
+
+def test_an_error_of_a_socket_is_told_in_words() -> None:
+    class Broken:
+        def settimeout(self, seconds: float | None) -> None:
+            pass
+
+        def recv(self, size: int) -> bytes:
+            raise ConnectionResetError(errno.ECONNRESET, os.strerror(errno.ECONNRESET))
+
+        sendall = recv
+
+    link = TcpLink("10.0.0.7")
+    link._socket = cast(socket.socket, Broken())
+    expected = f"10.0.0.7:5002: {os.strerror(errno.ECONNRESET)}"
+    with pytest.raises(ConnectionLostError) as lost:
+        link.read(1.0)
+    assert str(lost.value) == expected
+    with pytest.raises(ConnectionLostError) as lost:
+        link.write(b"x")
+    assert str(lost.value) == expected

@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 from openacr.client.causes import cannot_connect
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import CONNECT_S, READ_BYTES, Link, ProcessLink, TcpLink
+from openacr.errors import reason
 from openacr.protocol.stream import StreamKind
 
 T = TypeVar("T")
@@ -65,7 +66,7 @@ class AsyncTcpLink:
         except TimeoutError:
             return b""
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
         if not data:
             raise ConnectionLostError(f"{self.name} has closed the connection")
         return data
@@ -80,7 +81,7 @@ class AsyncTcpLink:
         except TimeoutError:
             raise ConnectionLostError(f"{self.name} takes no more") from None
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
     def _connected(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
         if self._streams is None:

@@ -103,7 +103,7 @@ class TcpLink:
         except (TimeoutError, BlockingIOError):
             return b""
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
         if not data:
             raise ConnectionLostError(f"{self.name} has closed the connection")
         return data
@@ -115,7 +115,7 @@ class TcpLink:
         try:
             link.sendall(data)
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
     def fileno(self) -> int:
         """For `select`."""
@@ -172,14 +172,14 @@ class SerialLink:
             first: bytes = port.read(1)
             return first + port.read(port.in_waiting) if first else b""
         except OSError as failure:  # also what pyserial raises
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
     def write(self, data: bytes) -> None:
         """Send everything."""
         try:
             self._connected().write(data)
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
     def fileno(self) -> int:
         """For `select`, where the system has that."""

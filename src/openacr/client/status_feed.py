@@ -8,7 +8,7 @@ from typing import Self
 
 from openacr.client.causes import cannot_connect
 from openacr.client.errors import ConnectionLostError, NoReplyError
-from openacr.errors import UserError
+from openacr.errors import UserError, reason
 from openacr.protocol.status import (
     LIFE_S,
     LONGEST_MS,
@@ -63,7 +63,7 @@ class StatusFeed:
         try:
             self._socket.send(request.encode())
         except OSError as failure:
-            raise ConnectionLostError(f"{self.name}: {failure}") from None
+            raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
         self._asked_s = time.monotonic()
 
     def __enter__(self) -> Self:
@@ -94,7 +94,7 @@ class StatusFeed:
             except TimeoutError:
                 continue
             except OSError as failure:
-                raise ConnectionLostError(f"{self.name}: {failure}") from None
+                raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
             if status is not None:
                 return status
         raise NoReplyError(self.name, "the subscription of the status", self._timeout_s)
