@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from openacr.cli.events import Event
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
 from openacr.cli.report import AxisReport
@@ -40,6 +41,12 @@ class FakeMachine:
 
     def watch(self, conditions: Sequence[Condition]) -> bool:
         return not conditions
+
+    def has_new_events(self) -> bool:
+        return False
+
+    def events(self) -> tuple[Event, ...]:
+        return ()
 
     def advance(self, ticks: int) -> None:
         for _ in range(ticks):

@@ -126,7 +126,8 @@ def test_the_summary_has_the_promised_keys(run: Run, machine: FakeMachine, tmp_p
     path = tmp_path / "summary.json"
     assert run("--for", "0.1", "--summary", path).exit_code == 0
     summary = json.loads(path.read_text())
-    assert list(summary) == ["time_s", "ticks", "digest", "speed", "axes", "programs", "flags"]
+    promised = ["time_s", "ticks", "digest", "speed", "axes", "programs", "flags", "events"]
+    assert list(summary) == promised
     assert summary["time_s"] == 0.1
     assert summary["ticks"] == 200
     assert summary["digest"] == machine.memory.digest()

@@ -9,12 +9,13 @@ import numpy as np
 
 from openacr.basic.lister import Lister
 from openacr.cli import card_view
+from openacr.cli.events import Event, EventLog
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.report import AxisReport
 from openacr.cli.watched import Watched
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
-from openacr.engine.watches import WATCHES
+from openacr.engine.watches import WATCHES, Watch
 from openacr.errors import SourceError, UserError
 from openacr.lang.characters import as_typed, readable
 from openacr.map.memory import Memory
@@ -44,6 +45,8 @@ class ControlledMachine:
         self._awaits_text = False
         self._was_heard = False
         self._watched: tuple[Watched, ...] = ()
+        self._event_watches: list[Watch] = []
+        self._events = EventLog(controller.memory, controller.model.axes, self._titles())
 
     @property
     def memory(self) -> Memory:
@@ -69,13 +72,22 @@ class ControlledMachine:
         """Fingerprint of the whole state."""
         return self._controller.digest()
 
+    def has_new_events(self) -> bool:
+        """Whether axes or programs have come into use since `watch`: call it once more."""
+        return self._events.watches() != self._event_watches
+
     def watch(self, conditions: Sequence[Condition]) -> bool:
         """Make `advance` end when one of these may have changed; False if that is too much."""
         wanted = [watch for each in conditions for watch in watches(each, self.memory)]
         self._awaits_text = any(condition.printed for condition in conditions)
-        is_possible = len(wanted) <= WATCHES
-        self._controller.watch(wanted if is_possible else (), self._look)
+        of_events = self._event_watches = self._events.watches()
+        is_possible = len(wanted) + len(of_events) <= WATCHES
+        self._controller.watch(of_events + wanted if is_possible else of_events, self._look)
         return is_possible
+
+    def events(self) -> list[Event]:
+        """What happened to the machine since the last call."""
+        return self._events.poll(self.time_s - self._begin_s)
 
     def _look(self) -> bool:
         """Read what terminals have answered in this tick; True if a text is waited for."""
@@ -231,6 +243,9 @@ class ControlledMachine:
         for name, axis in self._attached():
             names.setdefault(axis, name)
         return {axis.number: axis.name for axis in self._controller.world.axis} | names
+
+    def _titles(self) -> dict[int, str]:
+        return {number: f"{name} (axis {number})" for number, name in self._names().items()}
 
     def _attached(self) -> Iterator[tuple[str, int]]:
         for program in card_view.PROGRAMS:

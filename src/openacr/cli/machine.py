@@ -10,6 +10,7 @@ from openacr.map.memory import Memory
 from openacr.scenario import Condition, State
 
 if TYPE_CHECKING:
+    from openacr.cli.events import Event
     from openacr.cli.plots import Curves
     from openacr.cli.report import AxisReport
     from openacr.cli.watched import Watched
@@ -39,6 +40,12 @@ class Machine(Protocol):
 
     def watch(self, conditions: Sequence[Condition]) -> bool:
         """Make `advance` end when one of these may have changed; False if that is too much."""
+
+    def has_new_events(self) -> bool:
+        """Whether axes or programs have come into use since `watch`: call it once more."""
+
+    def events(self) -> Sequence["Event"]:
+        """What happened to the machine since the last call."""
 
     def advance(self, ticks: int) -> None:
         """Let the card live for so many ticks, less if something watched changes."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from openacr.cli import card_view
+from openacr.cli.events import Event
 from openacr.scenario import State, Verdict
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ class Report:
     verdicts: tuple[Verdict, ...] = ()
     unjudged: tuple[str, ...] = ()  # expectations whose moment an interrupted run did not reach
     checkpoints_s: dict[str, float] = field(default_factory=dict)
+    events: tuple[Event, ...] = ()
 
     @property
     def has_failed(self) -> bool:
@@ -116,6 +118,7 @@ def summary(report: Report) -> dict[str, Any]:
             for program in report.programs
         },
         "flags": list(report.flags),
+        "events": [_event(event) for event in report.events],
     }
     if report.verdicts or report.unjudged or report.checkpoints_s:
         result["scenario"] = {
@@ -124,6 +127,15 @@ def summary(report: Report) -> dict[str, Any]:
             "not_reached": list(report.unjudged),
         }
     return result
+
+
+def _event(event: Event) -> dict[str, Any]:
+    return {
+        "time_s": event.time_s,
+        "text": event.text,
+        "flag": event.flag,
+        "program": event.program,
+    }
 
 
 def _verdict(verdict: Verdict) -> dict[str, Any]:

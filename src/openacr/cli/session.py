@@ -7,6 +7,7 @@ from enum import Enum
 from pathlib import Path
 
 from openacr.cli import card_view, output
+from openacr.cli.events import Event
 from openacr.cli.machine import Machine, MachineWorld
 from openacr.cli.progress import Bar, bar_for
 from openacr.cli.report import (
@@ -29,6 +30,7 @@ IDLE_S = 0.1  # a card is idle when nothing ran or moved for two slow scans
 TRACE_SAMPLES = 400_000  # per axis at most: every tick for 200 s at the default period
 PLOT_SAMPLES = 40_000  # far more than a picture has pixels; peaks between them are kept
 TABLE_COLUMNS = 72
+MOST_EVENTS = 200  # of a run; what repeats in every period says no more
 OK, FAILED, INTERRUPTED = 0, 1, 130
 
 
@@ -94,6 +96,8 @@ class Session:
         self._busy_tk = machine.tick
         self._was_other = False
         self._watched: tuple[Condition, ...] | None = None
+        self._events: list[Event] = []
+        self._has_lost_events = False
         self._sees_every_tick = False
 
     def run(self) -> int:
@@ -166,7 +170,9 @@ class Session:
             if stop := self._reached():
                 return stop
             self._watch()
-            if self._advance(self._next_tick() - machine.tick):
+            is_over = self._advance(self._next_tick() - machine.tick)
+            self._tell_events()
+            if is_over:
                 self._play.step(self._world)
                 return Stop.BIT
             lived_s = (machine.tick - self._begin_tk) * machine.period_s
@@ -178,10 +184,20 @@ class Session:
                 running = card_view.running_programs(machine.memory)
                 bar.show(lived_s, lived_s / wall_s, running)
 
+    def _tell_events(self) -> None:
+        """Show what has happened to the machine, as it happens."""
+        for event in self._machine.events():
+            if len(self._events) < MOST_EVENTS:
+                self._events.append(event)
+                self._note(str(event))
+            elif not self._has_lost_events:
+                self._has_lost_events = True
+                self._note(f"more than {MOST_EVENTS} events: the rest is not shown")
+
     def _watch(self) -> None:
         """Have the card watch what the scenario waits for, or look at every tick instead."""
         conditions = self._play.conditions
-        if conditions != self._watched:
+        if conditions != self._watched or self._machine.has_new_events():
             self._watched = conditions
             self._sees_every_tick = not self._machine.watch(conditions)
 
@@ -225,6 +241,7 @@ class Session:
     def _conclude(self, wall_s: float) -> bool:
         """Write the files and print the table; True if something has failed."""
         report = report_on(self._machine, self._begin_tk, wall_s)
+        report = replace(report, events=tuple(self._events))
         if self._has_scenario:
             period_s = self._machine.period_s
             times = {name: tick * period_s for name, tick in self._play.checkpoints.items()}

@@ -28,7 +28,7 @@ ENGINE = HiddenBlock(
 # What the caller waits for: the engine returns behind a tick in which one of these changed.
 WATCH = HiddenBlock(
     prefix="WAT",
-    count=64,
+    count=128,
     doubles=("bound",),
     ints=(
         "kind",  # where the value is, see engine/watch_cy.py
