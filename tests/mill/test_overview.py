@@ -76,7 +76,7 @@ def test_functions_are_bound_to_inputs_by_their_number_alone(
 
 @pytest.mark.req("MILL-OV-EIA")
 def test_files_parts_and_mdi_speak_the_same_language() -> None:
-    blocks = ["G91 F60", "G1 X(0.5*2) Y.5", "G2 X1 Y0 I.5 J0", "G90"]
+    blocks = ["G91 F60", "G1 X(0.5*2) Y.5", "G2 X1 Y0 I1.5 J.5", "G90"]
     by_file = ends(Store(), "\n".join(blocks))
     shop = Workshop.virtual(Store(), say=lambda _text: None)
     *_, by_mdi = shop.run_blocks(blocks, "acromill", lambda _shop: None)
