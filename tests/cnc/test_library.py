@@ -5,7 +5,9 @@ from pathlib import Path
 import pytest
 
 from openacr.cnc.library import FOLDER, names, part_named, prepared
+from openacr.cnc.load import load
 from openacr.cnc.part import Part, PartError, read_part
+from openacr.cnc.survey import survey
 from openacr.errors import UserError
 from openacr.sysvar import Store
 
@@ -239,3 +241,20 @@ def test_at_least_20_parts_are_supplied_each_with_described_sizes() -> None:
         assert part.path.parent == FOLDER
         prepared(part, {}, Store(), is_metric=False)
         prepared(part, {}, Store(), is_metric=True)
+
+
+@pytest.mark.parametrize("radius_in", [0.0, 0.1, 0.1875])
+@pytest.mark.parametrize("is_metric", [False, True])
+@pytest.mark.parametrize("name", names())
+def test_nothing_is_found_about_a_supplied_part_of_default_size(
+    name: str, is_metric: bool, radius_in: float
+) -> None:
+    store = Store()
+    store.write(250_001, float(is_metric))
+    store.write(100_020, radius_in * (25.4 if is_metric else 1.0))
+    try:
+        program = prepared(part_named(name), {}, store, is_metric=is_metric, feed=200.0).program
+    except PartError as refused:
+        assert "P224" in str(refused), "only for a tool that does not suit the part"
+    else:
+        assert survey(load(program, store), store).findings == []

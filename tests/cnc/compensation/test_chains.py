@@ -1,7 +1,7 @@
 """Beginning and end of compensation, what waits between elements, and changes on the way."""
 
 from dataclasses import FrozenInstanceError, replace
-from math import pi
+from math import cos, pi, radians, sin
 
 import pytest
 from tests.cnc.compensation.tools import EXACT, FEED, Path, Trace, compensate, plane_point
@@ -85,6 +85,23 @@ def test_an_arc_is_neither_way_in_nor_way_out(is_first: bool) -> None:
 def test_a_short_way_in_is_told() -> None:
     trace = compensate(Path(0, 0.2).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
     assert trace.findings == [("W311", "lead-in is shorter than the radius 0.25", 1)]
+
+
+@pytest.mark.parametrize(
+    ("turn_deg", "codes"),
+    [(0, []), (44.9, []), (-44.9, []), (45.1, ["W311"]), (-45.1, ["W311"]), (180, ["W311"])],
+)
+def test_a_short_way_in_that_runs_on_into_an_arc_is_none(turn_deg: float, codes: list[str]) -> None:
+    """The arc begins at the origin to the right, with its centre above."""
+    x, y = 0.2 * cos(radians(turn_deg)), 0.2 * sin(radians(turn_deg))
+    path = Path(-x, -y).to(0, 0).arc(1, 1, 0, 1, 1).to(1, 2).to(2, 2)
+    found = compensate(path.elements, 0.25).codes
+    assert [code for code in found if code == "W311"] == codes
+
+
+def test_a_short_way_in_along_a_line_is_told() -> None:
+    assert compensate(Path(-0.2, 0).to(0, 0).to(2, 0).to(2, 2).elements, 0.25).codes == ["W311"]
+    assert compensate(Path(-0.25, 0).to(0, 0).to(2, 0).to(2, 2).elements, 0.25).codes == []
 
 
 def test_a_way_in_from_the_material_is_told() -> None:

@@ -10,7 +10,7 @@ import shapely
 from tests.cnc.compensation.oracle import contour, line_of, points
 from tests.cnc.compensation.tools import Path, Trace, compensate
 
-from openacr.cnc.compensation import ChainCheck
+from openacr.cnc.compensation import ChainCheck, Side
 from openacr.cnc.compensation.boxes import Tree
 from openacr.cnc.compensation.nearness import Curves, distances
 from openacr.cnc.elements import Element
@@ -90,3 +90,33 @@ def test_the_nearest_point_is_told_with_both_lines() -> None:
     path.to(2.7, 3).to(2.7, 0.7).to(0, 0.7).to(-1, 2)
     trace = compensate(path.elements, 0.2, is_checked=True)
     assert ("W323", "tool comes to 0.1 from line 3, its radius is 0.2", 9) in trace.findings
+
+
+def square(before: float, behind: float) -> Path:
+    """Around the outside of a square of 2, from `before` its first corner to `behind` it."""
+    path = Path(-before - 1, -1).to(-before, 0).to(2, 0).to(2, 2).to(0, 2).to(0, -behind)
+    return path.to(-1, -behind - 1)
+
+
+@pytest.mark.parametrize(
+    ("before", "behind", "codes"),
+    [
+        (0.5, 0.5, set()),
+        (0.5, 0.0, set()),  # the last line ends on the first
+        (0.0, 0.5, set()),
+        (0.5, -9e-7, set()),  # within the epsilon
+        (-9e-7, 0.5, set()),
+        (0.5, -0.1, {"W323"}),  # the contour is open: its first line may be an edge
+    ],
+)
+def test_lines_that_overrun_the_corner_at_which_they_meet_are_no_edges_beyond_it(
+    before: float, behind: float, codes: set[str]
+) -> None:
+    trace = compensate(square(before, behind).elements, 0.25, Side.RIGHT, is_checked=True)
+    assert set(trace.codes) == codes
+
+
+def test_lines_that_run_beside_each_other_are_edges_to_their_ends() -> None:
+    path = Path(-1, -1).to(0, 0).to(3, 0).to(3, 0.3).to(0, 0.3).to(-1, 1)
+    trace = compensate(path.elements, 0.25, is_checked=True)
+    assert "W323" in trace.codes

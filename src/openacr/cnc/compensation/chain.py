@@ -94,7 +94,7 @@ class Chain(Generic[Held]):
         """The way in: a line from where the tool is to beside the start of the next element."""
         self._laid_out(element)
         lead = Piece[Held](element, self._table.keep(), is_lead_in=True)
-        begin_lead_in(self._table.F, lead, self._report)
+        begin_lead_in(self._table.F, lead)
         self._chain = [lead]
 
     def _laid_out(self, element: Element) -> int:

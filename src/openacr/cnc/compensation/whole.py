@@ -1,23 +1,26 @@
 """Whole chains: every move of the tool compared with every element of its contour."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
+from openacr.cnc.canonical import Point
 from openacr.cnc.compensation.boxes import Tree
 from openacr.cnc.compensation.nearness import Curves
 from openacr.cnc.compensation.rules import Report
 from openacr.cnc.elements import Element
 
 LEADS = 2
+LEAST_SINE = 1e-9  # of the angle of two lines that cross
 
 
 class ChainCheck:
     """Collects a chain, and at its end reports moves nearer than the radius: W323.
 
     Neighbours are looked after while a chain is made; this finds narrow places between
-    elements that are far from each other in the program. Where a contour closes on itself,
-    what leads to it and away from it is no edge of the part.
+    elements that are far from each other in the program. Where a contour closes on itself, or
+    its first and last line cross, what leads to it and away from it is no edge of the part.
     """
 
     def __init__(self, epsilon: float, report: Report) -> None:
@@ -59,13 +62,50 @@ class ChainCheck:
 
 
 def _without_leads(contour: list[Element], epsilon: float) -> list[Element]:
-    """The contour without its first and last element where it closes between them."""
+    """The contour without what leads to it and away from it, where it closes on itself.
+
+    Its first and last element lead in and out where it closes between them. Two lines that
+    overrun the corner at which they meet end there.
+    """
     if len(contour) <= LEADS:
         return contour
-    entry, exit_ = contour[0].end, contour[-1].start
-    first, second = contour[0].plane.first, contour[0].plane.second
-    gap = math.hypot(entry[first] - exit_[first], entry[second] - exit_[second])
-    return contour[1:-1] if gap <= epsilon else contour
+    first, last = contour[0], contour[-1]
+    if _distance(first, first.end, last.start) <= epsilon:
+        return contour[1:-1]
+    corner = _crossing(first, last, epsilon)
+    if corner is None:
+        return contour
+    ends = replace(first, start=corner), replace(last, end=corner)
+    kept = [each for each in ends if _distance(each, each.start, each.end) > epsilon]
+    return [*contour[1:-1], *kept]
+
+
+def _distance(element: Element, one: Point, other: Point) -> float:
+    """The distance of two points in the plane of an element."""
+    x, y = element.plane.first, element.plane.second
+    return math.hypot(one[x] - other[x], one[y] - other[y])
+
+
+def _crossing(first: Element, last: Element, epsilon: float) -> Point | None:
+    """Where two lines cross or touch; None for arcs, parallels, and lines apart."""
+    if first.centre is not None or last.centre is not None:
+        return None
+    x, y = first.plane.first, first.plane.second
+    ax, ay = first.end[x] - first.start[x], first.end[y] - first.start[y]
+    bx, by = last.end[x] - last.start[x], last.end[y] - last.start[y]
+    turn = ax * by - ay * bx
+    lengths = math.hypot(ax, ay), math.hypot(bx, by)
+    if abs(turn) <= LEAST_SINE * lengths[0] * lengths[1]:
+        return None
+    dx, dy = last.start[x] - first.start[x], last.start[y] - first.start[y]
+    parts = (dx * by - dy * bx) / turn, (dx * ay - dy * ax) / turn
+    for part, length in zip(parts, lengths, strict=True):
+        if not -epsilon <= part * length <= length + epsilon:
+            return None
+    corner = list(first.start)
+    corner[x] += parts[0] * ax
+    corner[y] += parts[0] * ay
+    return tuple(corner)
 
 
 def _curves(elements: list[Element]) -> Curves:
