@@ -189,7 +189,9 @@ SESSION = (
 
 
 def test_any_chunking_gives_the_same_bytes() -> None:
-    whole = connected().send(SESSION)
+    pieces = SESSION.splitlines(keepends=True)  # each is little work
+    assert b"".join(pieces) == SESSION
+    whole = connected().send_apart(SESSION, list(map(len, pieces)))
     assert whole.count(">") > 15
     assert "?BIT516|-1|P00>" in whole
     assert connected().send_apart(SESSION, [1] * len(SESSION)) == whole

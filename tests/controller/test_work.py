@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from tests.controller.hosts import Host
+from tests.controller.hosts import Host, connected
 
 from openacr.basic.commands.program_control import SHOWN_LINE_WORK, WORK_PER_SLICE
 
@@ -75,3 +75,64 @@ def test_a_list_that_is_broken_off_leaves_nothing_to_the_next_one(long: Host) ->
     again = Host(long.card)
     again.type("PROG0")
     assert again.type("LIST 20") == f"{SHOWN[1]}|P00>"
+
+
+def test_what_arrives_together_is_dealt_with_turn_by_turn(host: Host) -> None:
+    one_tick = 250  # units of work: 150 and 30 for each character
+    asked = 40
+    answer = "?1|1|SYS>"
+    cost = 150 + 30 * 2
+    first = -(-5000 // cost)
+    assert host.send("?1\r" * asked) == answer * first
+    heard, waited = "", 0
+    while len(heard) < len(answer) * (asked - first):
+        heard, waited = heard + host.after(1), waited + 1
+    assert heard == answer * (asked - first), "each echo before its answer, as in one piece"
+    debt = cost * first - 5000
+    assert waited == -(-(cost * (asked - first - 1) + debt + 1) // one_tick)
+    assert host.send("?1\r" * first) == answer * first, "what arrives anew has a turn of its own"
+
+
+def test_keys_go_before_lines_that_wait_for_their_turn(host: Host) -> None:
+    key = "\x18"
+    begin = host.card.memory.bit(8467)
+    assert not begin
+    host.send("?1\r" * 40 + "?2" + key + "\r")
+    assert host.card.memory.bit(8467), "Kill All Motion Request of axis 0"
+    assert host.after(100).endswith("?1|1|SYS>?2|2|SYS>"), "typed characters stay"
+
+
+def test_bytes_of_a_packet_that_waits_are_no_keys(host: Host) -> None:
+    host.card.receive(host.stream, b"?1\r" * 40 + b"\x1c\x18\x00\x18")
+    assert not host.card.memory.bit(8467)
+
+
+def test_lines_that_wait_for_their_turn_go_on_in_a_snapshot(host: Host) -> None:
+    host.send("?1\r" * 60)
+    kept = host.card.snapshot()
+    heard = host.after(20)
+    host.card.take_over(kept)
+    assert host.after(20) == heard
+    assert "?1|1|SYS>" in heard
+
+
+def test_lines_that_wait_do_so_equally_long_however_time_is_cut() -> None:
+    text = "P1=P1+1\r" * 60 + "SET 128\r"
+    cuts = []
+    for cut in (1, 7, 1000):
+        again = connected("DIM P(5)")
+        again.send(text)
+        while not again.card.memory.bit(128):
+            again.card.advance(cut) if cut < 1000 else again.card.until(128)
+        again.heard()
+        cuts.append((again.card.tick, again.ask("?P1")))
+    assert {value for _, value in cuts} == {"60"}
+    assert cuts[2][0] - cuts[0][0] == 1, "a turn is behind the tick; `until` sees it at the next"
+    assert 0 <= cuts[1][0] - cuts[0][0] < 7
+
+
+def test_another_host_is_served_while_lines_wait(host: Host) -> None:
+    other = Host(host.card)
+    host.send("?1\r" * 300)
+    assert other.ask("?BIT1") == "0"
+    assert len(host.after(1)) <= 2 * len("?1|1|SYS>")

@@ -6,7 +6,7 @@ compares by content and can be pickled.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -131,6 +131,12 @@ class Binary:
     op: Op
     left: Expr
     right: Expr
+    joins_text: bool = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Ask each operand once: asked anew at every level, a long sum would take minutes."""
+        joins = self.op is Op.PLUS and (is_text(self.left) or is_text(self.right))
+        object.__setattr__(self, "joins_text", joins)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +173,8 @@ def is_text(node: Expr) -> bool:
             return is_text(target)
         case Apply(function):
             return function.gives_text
-        case Binary(Op.PLUS, left, right):
-            return is_text(left) or is_text(right)
+        case Binary():
+            return node.joins_text
     return False
 
 

@@ -112,7 +112,10 @@ class Controller(Surroundings):
         self.streams.close(stream)
 
     def receive(self, stream: int, data: bytes) -> None:
-        """Bytes that arrived together, at the present tick; UserError for a stream not open."""
+        """Bytes that arrived together, at the present tick; UserError for a stream not open.
+
+        Lines beyond some 2 ms of work wait for the ticks that follow; keys and packets do not.
+        """
         self.streams.opened(stream)
         self._note(Entered.BYTES, stream, text=data.decode("latin-1"))
         self.streams.receive(stream, data, self.tick)
@@ -153,7 +156,11 @@ class Controller(Surroundings):
         return self._console
 
     def send(self, text: str) -> str:
-        """Type text on the console; what the card has answered so far."""
+        """Type text on the console; what the card has answered so far.
+
+        What takes longer needs card time: a LIST of more than 50 lines, more than some ten
+        lines at once, a wait. `advance`, then `send("")` gives the rest of the answer.
+        """
         self.receive(self.console, as_typed(text))
         return b"".join(iter(lambda: self.take_output(self.console), b"")).decode("latin-1")
 

@@ -42,6 +42,7 @@ LONGEST_RUN_TK = 2**31 - 1  # of one run of the engine, which counts down in 32 
 
 _engine_run = pick(loop_cy.engine_run)
 _SAMPLE_COUNT = ENGI_BASE + ENGI_SAMPLE_COUNT
+_TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
 _NO_TRACE = memoryview(bytearray(8)).cast("d")
 
 
@@ -99,6 +100,8 @@ class Running(Machine):
                 step = min(step, self.recorder.next_tk - self.lived_tk)
             before = self.lived_tk
             self._set_engine(ENGI_TICKS_LEFT, step)
+            if self.streams.is_overdue:
+                self._set_engine(ENGI_STOP, 1)
             reason = self._run()
             ticks -= self.lived_tk - before
             if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
@@ -123,6 +126,8 @@ class Running(Machine):
             reason = _engine_run(
                 memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view
             )
+            if reason in _TICK_ENDS and self.streams.is_overdue:
+                self._take_turns()
             if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
                 return reason
             if reason == loop_cy.STOPPED:
@@ -149,7 +154,15 @@ class Running(Machine):
         else:
             self.executor.attend(reason - loop_cy.THREAD)
             self.streams.settle()
-        if self._look is not None:
+        if self._look is not None or self.streams.is_overdue:
+            self._set_engine(ENGI_STOP, 1)
+
+    def _take_turns(self) -> None:
+        """Go on with what hosts have sent faster than it is dealt with; stop next tick again."""
+        self.streams.take_turns()
+        if self._wants_reboot:
+            self._reboot()
+        if self.streams.is_overdue:
             self._set_engine(ENGI_STOP, 1)
 
     def record(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from openacr.basic import session as sessions
 from openacr.basic.ranges import Index, ProgramNumber
@@ -37,6 +38,13 @@ _NAMES = {
 }
 _ATTENTION = {each: Attention(each.value) for each in sessions.Attention}
 CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
+LINE_WORK = 150  # to take one line, in the units of a LIST: 2.5 of them are a microsecond
+CHARACTER_WORK = 30  # more for each of its characters
+WORK_PER_TURN = 5000  # some 2 ms of the computer for what arrives together
+WORK_PER_TICK = 250  # some 0.1 ms in every tick for lines that are left over
+
+
+Credit = Annotated[int, Meta(ge=-(1 << 31), le=WORK_PER_TURN)]
 
 
 class StreamState(Struct, frozen=True):
@@ -45,6 +53,7 @@ class StreamState(Struct, frozen=True):
     terminal: TerminalState
     channel: str | None
     moves_of: ProgramNumber | None
+    credit: Credit
 
 
 class StreamsState(Struct, frozen=True):
@@ -61,6 +70,12 @@ class Stream:
     terminal: Terminal
     session: Session | None
     moves_of: int | None = None  # the master its latest move packet was for
+    credit: int = WORK_PER_TURN  # work its lines may still cause; without any, they wait
+
+    @property
+    def is_overdue(self) -> bool:
+        """Whether something waits for nothing but its turn."""
+        return self.terminal.has_next
 
 
 class Streams:
@@ -118,6 +133,7 @@ class Streams:
     def receive(self, number: int, data: bytes, tick: int) -> None:
         """Bytes that arrived together at `tick`; UserError for a stream that is not open."""
         stream = self.opened(number)
+        stream.credit = WORK_PER_TURN
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
@@ -135,6 +151,20 @@ class Streams:
             ):
                 self._settle(stream)
                 self._pump(stream)
+
+    @property
+    def is_overdue(self) -> bool:
+        """Whether lines wait for their turn, which `take_turns` gives them."""
+        return any(stream.is_overdue for stream in self._open.values())
+
+    def take_turns(self) -> None:
+        """At the end of a tick: deal with lines that were too much work for one turn."""
+        for stream in list(self._open.values()):
+            if stream.is_overdue:
+                stream.credit = min(stream.credit + WORK_PER_TICK, WORK_PER_TURN)
+                self._settle(stream)
+                self._pump(stream)
+        self.settle()  # what went to another channel
 
     def accepts_input(self, number: int) -> bool:
         """False while the sender should be held back."""
@@ -177,6 +207,7 @@ class Streams:
                 stream.terminal.state(),
                 stream.session.name if stream.session else None,
                 stream.moves_of,
+                stream.credit,
             )
             for number, stream in self._open.items()
         }
@@ -192,7 +223,7 @@ class Streams:
             terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
             terminal.restore(kept.terminal)
             session = None if kept.channel is None else self._restored(kept.channel, kind)
-            self._open[number] = Stream(terminal, session, kept.moves_of)
+            self._open[number] = Stream(terminal, session, kept.moves_of, kept.credit)
         self._next = max(state.next, *(number + 1 for number in state.open), 1)
 
     def _restored(self, name: str, kind: StreamKind) -> Session:
@@ -203,10 +234,13 @@ class Streams:
         return session
 
     def _pump(self, stream: Stream) -> None:
-        while (event := stream.terminal.next_event()) is not NEED_DATA:
+        while stream.credit > 0 and (event := stream.terminal.next_event()) is not NEED_DATA:
+            stream.credit -= _work(event)
             self._deal(stream, event)
             if not isinstance(event, Received):  # packets say nothing to the session
                 self._settle(stream)
+        for key in stream.terminal.pause():
+            self._press(key)
         if stream.session is not None:
             terminal = stream.terminal
             stream.session.show_waiting(terminal.waiting_characters, terminal.waiting_lines)
@@ -251,3 +285,10 @@ class Streams:
         output = session.take_output()
         if output:
             terminal.send_bytes(output)
+
+
+def _work(event: Event) -> int:
+    """What an event may cost; packets and keys cost little."""
+    if isinstance(event, Line):
+        return LINE_WORK + CHARACTER_WORK * len(event.text)
+    return LINE_WORK if isinstance(event, LineTooLong) else 0

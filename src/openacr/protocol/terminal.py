@@ -23,7 +23,6 @@ What the bytes mean (for TERMINAL and SERIAL streams):
 import logging
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Annotated, TypeAlias
 
 from msgspec import Meta, Struct
@@ -48,6 +47,7 @@ from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output, OutputState
 from openacr.protocol.override import FeedrateOverride, RapidOverride, belongs_to_next
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
+from openacr.protocol.segment import Segment
 from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
 
@@ -60,19 +60,6 @@ CRLF = b"\r\n"
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
 LineBytes: TypeAlias = Annotated[bytes, Meta(max_length=LINE_LIMIT)]
-
-
-@dataclass(slots=True)
-class _Segment:
-    """Bytes that arrived together, and how far they are scanned."""
-
-    data: bytes
-    tick: int
-    at: int = 0
-
-    @property
-    def rest(self) -> bytes:
-        return self.data[self.at :]
 
 
 class TerminalState(Struct, frozen=True):
@@ -107,7 +94,7 @@ class Terminal:
         self.echo_line_end = True  # `INPUT;` turns this off for the line it reads
         self.timeout_tk = timeout_tk
         self.output = Output()
-        self._segments: deque[_Segment] = deque()
+        self._segments: deque[Segment] = deque()
         self._lines: deque[Line | LineTooLong] = deque()
         self._backlog = 0
         self._is_full = False
@@ -135,7 +122,7 @@ class Terminal:
     def receive_data(self, data: bytes, tick: int) -> None:
         """Take bytes that arrived together at `tick`."""
         if data:
-            self._segments.append(_Segment(data, tick))
+            self._segments.append(Segment(data, tick))
             self._backlog += len(data)
 
     def next_event(self) -> Event | NeedData:
@@ -148,8 +135,35 @@ class Terminal:
                 self._enqueue(event)
             elif event is not None:
                 return event
-        self._is_full = self._backlog >= (RESUME_BYTES if self._is_full else BACKLOG_LIMIT_BYTES)
+        self._note_backlog()
         return NEED_DATA
+
+    def _note_backlog(self) -> None:
+        self._is_full = self._backlog >= (RESUME_BYTES if self._is_full else BACKLOG_LIMIT_BYTES)
+
+    @property
+    def has_next(self) -> bool:
+        """Whether `next_event` would go on with what was received."""
+        takes_lines = not self.busy and self.attention is Attention.COMMANDS
+        return bool(self._segments) or (takes_lines and bool(self._lines))
+
+    def pause(self) -> list[ControlKey]:
+        """Pull no more events for now; the control keys in what was not scanned yet.
+
+        They act at once, whatever was typed before them. Behind the start of a packet a byte
+        may be anything: there nothing is taken out.
+        """
+        self._note_backlog()
+        keys: list[ControlKey] = []
+        is_packet = self._reader.reading or self.kind is StreamKind.PACKETS
+        for segment in self._segments:
+            if is_packet:
+                break
+            found, is_packet = segment.take_keys()
+            self._backlog -= len(found)
+            keys += found
+        self._segments = deque(each for each in self._segments if not each.is_scanned)
+        return keys
 
     def _enqueue(self, line: Line | LineTooLong) -> None:
         self._lines.append(line)
@@ -182,11 +196,11 @@ class Terminal:
         segment.at += 1
         self._backlog -= 1
         event = self._byte(byte, segment)
-        if segment.at >= len(segment.data):
+        if segment.is_scanned:
             self._segments.popleft()
         return event
 
-    def _byte(self, byte: int, segment: _Segment) -> Event | None:
+    def _byte(self, byte: int, segment: Segment) -> Event | None:
         self._reader.expire(segment.tick, self.timeout_tk)
         if self._reader.reading:
             return self._packet_byte(byte, segment)
@@ -202,7 +216,7 @@ class Terminal:
 
     # --- packets ----------------------------------------------------------------------
 
-    def _packet_start(self, byte: int, segment: _Segment) -> Event | None:
+    def _packet_start(self, byte: int, segment: Segment) -> Event | None:
         if not self.mode.prefixes:
             if byte == Move.HEADER[0] and segment.at == 1:
                 documented = unpadded(segment.data)
@@ -215,14 +229,14 @@ class Terminal:
         self._reader.start(byte, self.mode, segment.tick)
         return None
 
-    def _packet_at_once(self, whole: bytes, segment: _Segment) -> Event | None:
+    def _packet_at_once(self, whole: bytes, segment: Segment) -> Event | None:
         self._skip(segment, len(whole) - 1)
         try:
             return self._received(decode(whole), segment)
         except PacketError:
             return None  # nobody could answer it
 
-    def _packet_byte(self, byte: int, segment: _Segment) -> Event | None:
+    def _packet_byte(self, byte: int, segment: Segment) -> Event | None:
         if self.kind is StreamKind.SERIAL and byte in (XON, XOFF) and self.mode.prefixes:
             return self._keys[byte]()
         try:
@@ -231,7 +245,7 @@ class Terminal:
             return None  # nobody could answer it
         return None if packet is None else self._received(packet, segment)
 
-    def _received(self, packet: Packet, segment: _Segment) -> Received | None:
+    def _received(self, packet: Packet, segment: Segment) -> Received | None:
         if isinstance(packet, FeedrateOverride | RapidOverride):
             rest = belongs_to_next(packet.encode())
             if rest is not None:
@@ -242,7 +256,7 @@ class Terminal:
         return Received(packet)
 
     def _refuse_override(
-        self, packet: FeedrateOverride | RapidOverride, rest: bytes, segment: _Segment
+        self, packet: FeedrateOverride | RapidOverride, rest: bytes, segment: Segment
     ) -> None:
         """Read again what a packet of the first edition has taken from the next one."""
         if rest and not self._reader.short_overrides:
@@ -257,14 +271,14 @@ class Terminal:
                 packet.value,
             )
 
-    def _together(self, segment: _Segment) -> bytes:
+    def _together(self, segment: Segment) -> bytes:
         """The byte just scanned and those behind it that surely belong to the packet."""
         first = segment.at - 1
         data = segment.data[first : first + self._reader.whole_bytes]
         self._skip(segment, len(data) - 1)
         return data
 
-    def _skip(self, segment: _Segment, count: int) -> None:
+    def _skip(self, segment: Segment, count: int) -> None:
         segment.at += count
         self._backlog -= count
 
@@ -386,9 +400,9 @@ class Terminal:
         self._reader.restore(state.reader)
 
 
-def _segment(rest: bytes, tick: int, is_whole: bool) -> _Segment:
+def _segment(rest: bytes, tick: int, is_whole: bool) -> Segment:
     """Bytes that are not scanned yet; of a segment that is begun the first byte is past."""
-    return _Segment(rest, tick) if is_whole else _Segment(b"\0" + rest, tick, 1)
+    return Segment(rest, tick) if is_whole else Segment(b"\0" + rest, tick, 1)
 
 
 def _is_control(byte: int) -> bool:
