@@ -13,11 +13,11 @@ MOVING = "Not valid while in motion"
 def test_the_report_names_axes_as_they_were_named() -> None:
     made = Bench("X", "Y").all("DRIVE ON X").seconds(0.02)
     assert made.type("DRIVE X") == "DRIVE ON X"
-    assert made.type("DRIVE") == "DRIVE ON X|DRIVE OFF Y"
-    assert made.type("DRIVE Y AXIS0") == "DRIVE OFF Y|DRIVE ON AXIS0"
+    assert made.type("DRIVE") == "DRIVE ON X|DRIVE OFF Y DRIVEN"
+    assert made.type("DRIVE Y AXIS0") == "DRIVE OFF Y DRIVEN|DRIVE ON AXIS0"
     assert made.type("AXIS0 DRIVE") == "DRIVE ON AXIS0"
-    assert made.at(Level.SYS).type("DRIVE AXIS1") == "DRIVE OFF AXIS1"
-    assert made.type("AXIS1 DRIVE") == "DRIVE OFF AXIS1"
+    assert made.at(Level.SYS).type("DRIVE AXIS1") == "DRIVE OFF AXIS1 DRIVEN"
+    assert made.type("AXIS1 DRIVE") == "DRIVE OFF AXIS1 DRIVEN"
     assert made.type("DRIVE") == "Syntax error"
     assert made.type("DRIVE ON X") == "Unknown command"
     assert made.type("DRIVE X") == "Unknown command"
@@ -25,9 +25,9 @@ def test_the_report_names_axes_as_they_were_named() -> None:
 
 def test_a_fault_is_appended_to_the_report() -> None:
     made = Bench("X").all("SET 8477")
-    assert made.type("DRIVE X") == "DRIVE OFF X FAULT"
+    assert made.type("DRIVE X") == "DRIVE OFF X FAULT DRIVEN"
     made.all("CLR 8477", "SET 8479")
-    assert made.type("DRIVE X") == "DRIVE OFF X FAULT"
+    assert made.type("DRIVE X") == "DRIVE OFF X FAULT DRIVEN"
 
 
 @pytest.mark.parametrize("line", ["DRIVE ON", "DRIVE OFF", "DRIVE RES"])
@@ -76,7 +76,7 @@ def test_drive_res_pulses_its_request_for_50_ms_and_clears_the_fault() -> None:
 def test_an_open_enable_input_keeps_the_drive_off_silently(flag: int) -> None:
     made = Bench("X").all(f"SET {flag}", "DRIVE ON X").seconds(0.02)
     assert not made.bit(ENABLED)
-    assert made.type("DRIVE X") == "DRIVE OFF X"
+    assert made.type("DRIVE X") == ("DRIVE OFF X" if flag == 5646 else "DRIVE OFF X DRIVEN")
 
 
 def test_an_encoder_fault_keeps_the_drive_off_until_it_is_reset() -> None:
@@ -86,3 +86,14 @@ def test_an_encoder_fault_keeps_the_drive_off_until_it_is_reset() -> None:
     assert not made.bit(ENABLED)
     made.all("ENC0 RES", "DRIVE ON X").seconds(0.02)
     assert made.bit(ENABLED)
+
+
+def test_the_report_marks_axes_that_are_driven_without_having_been_enabled() -> None:
+    made = Bench("X", "Y").all("DRIVE OFF Y").ticks(1)
+    assert made.type("DRIVE") == "DRIVE OFF X DRIVEN|DRIVE OFF Y"
+    made.all("SET 8477")
+    assert made.type("DRIVE X") == "DRIVE OFF X FAULT DRIVEN"
+    made.all("SET 8468")
+    assert made.type("DRIVE X") == "DRIVE OFF X FAULT"
+    made.all("DRIVE ON Y").ticks(1)
+    assert made.type("DRIVE Y") == "DRIVE ON Y"

@@ -9,12 +9,14 @@ from tests.client.cards import EXAMPLES, wrapped
 from tests.io.served import LOOPBACK, Served, serving
 from typer.testing import CliRunner
 
+from openacr.cli.loop import read_loop
 from openacr.cli.main import app
-from openacr.cli.status import AxisStatus, read_status
+from openacr.cli.status import AxisStatus, Status, _lines, read_status
 from openacr.client import Card, ConnectionLostError
 from openacr.client.lights import Light, axis_light, bus_light, power_light
 from openacr.client.links import DEFAULT_BAUD, ProcessLink, SerialLink, TcpLink
 from openacr.controller import Controller
+from openacr.map import numbers as at
 
 
 @pytest.fixture
@@ -110,7 +112,7 @@ def test_the_command_shows_it(served: Served) -> None:
         "power light     green",
         "CANopen light   off",
         "motion enable   closed",
-        "axis 0: light off",
+        "axis 0: light off, no output: the drive is not enabled",
         "  positive limit  input 0 1  active 0  enabled 1  latched 0",
     ]
     found = json.loads(CliRunner().invoke(app, ["status", target, "--json"]).stdout)
@@ -172,3 +174,23 @@ def test_a_port_that_is_not_there_lacks_its_driver() -> None:
 def test_wrapped_cards_are_read_too() -> None:
     host, _ = wrapped()
     assert len(read_status(host).axes) == 8
+
+
+def test_why_an_axis_has_no_output_is_shown(card: Controller) -> None:
+    card.send('PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS0 "X"\rATTACH SLAVE1 AXIS1 "Y"\r')
+    card.send("DRIVE OFF Y\r")
+    assert of_axis(card, 0).no_output == ""
+    found = of_axis(card, 1)
+    assert found.no_output == "the drive was disabled"
+    shown = list(_lines(Status("green", "off", "closed", (found,))))
+    assert shown[3] == "axis 1: light off, no output: the drive was disabled"
+    card.send("SET 8468\r")
+    assert of_axis(card, 0).no_output == "the drive is not enabled"
+    card.send("DRIVE ON X Y\r")
+    assert [of_axis(card, axis).no_output for axis in (0, 1)] == ["", ""]
+    card.p[at.AF1_WORD + 1] = int(card.p[at.AF1_WORD + 1]) | at.AF1_CLAMP_OUTPUT_SIGNAL
+    assert of_axis(card, 1).no_output == "the output is clamped"
+    card.p[at.AF1_WORD] = int(card.p[at.AF1_WORD]) | at.AF1_OPEN_SERVO_LOOP
+    with Card(ProcessLink(card)) as host:
+        loops = [read_loop(host, axis) for axis in (0, 1)]
+    assert [one.no_output for one in loops] == ["the servo loop is open", "the output is clamped"]

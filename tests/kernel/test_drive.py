@@ -1,5 +1,7 @@
 """Drive enable, faults, the motion enable input, and the excess error response."""
 
+from collections.abc import Callable
+
 import pytest
 from tests.kernel.rig import Rig
 
@@ -177,3 +179,93 @@ def test_the_drive_of_an_axis_is_that_of_the_motor_it_drives(
     rig.I[motor + at.PLI_DRIVE_FAULT] = 1
     rig.ticks(1)
     assert rig.I[at.AF4_WORD] & at.AF4_DRIVE_FAULT_INPUT
+
+
+TORQUE = """
+[[axis]]
+number = 0
+counts_per_rev = 4000
+drive = { mode = "ideal", revs_per_s_per_volt = 1e-6, lag_s = 0.001 }
+"""
+OUTPUT, ERROR = at.AX_BASE + at.AX_OUTPUT_SIGNAL, at.AX_BASE + at.AX_FOLLOWING_ERROR
+LINE = at.PLI_BASE + at.PLI_DRIVE_ENABLED
+
+
+def pushed() -> Rig:
+    """An axis under power, 200 pulses from its setpoint; its drive I/O is not used."""
+    rig = Rig(ppu=[1.0], world=TORQUE).axis(0, proportional_gain=0.01).ticks(2)
+    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] = 200.0
+    rig.ticks(5)
+    assert rig.S[OUTPUT] == pytest.approx(2.0)
+    assert rig.I[LINE] == 1
+    return rig
+
+
+def killed(rig: Rig) -> None:
+    rig.bit(ON_KILL, True)
+    rig.bit(KAMR, True)
+
+
+def cleared(rig: Rig) -> None:
+    drive.on(rig.card, 0)
+    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] += 200.0
+    rig.ticks(5)
+    assert rig.S[OUTPUT] == pytest.approx(2.0)
+    rig.bit(ENABLED, False)
+
+
+CUTS: dict[str, Callable[[Rig], None]] = {
+    "DRIVE OFF": lambda rig: drive.off(rig.card, 0),
+    "Ctrl-Z": lambda rig: drive.disable_all(rig.card),
+    "kill": killed,
+    "cleared flag": cleared,
+    "motion enable": lambda rig: rig.memory.set_bit(5646, True),
+    "encoder": lambda rig: rig.memory.set_bit(2560, True),
+}
+
+
+@pytest.mark.parametrize("cut", CUTS.values(), ids=CUTS)
+def test_a_disabled_axis_puts_out_nothing_until_it_is_enabled(cut: Callable[[Rig], None]) -> None:
+    rig = pushed()
+    cut(rig)
+    rig.ticks(5)
+    assert (rig.S[OUTPUT], rig.I[LINE], rig.bit(ENABLED)) == (0.0, 0, False)
+    for flag in (KAMR, 5646, 2560):
+        rig.bit(flag, False)
+    rig.bit(5647, True)  # resets the latch of the motion enable input
+    rig.ticks(50)
+    assert (rig.S[OUTPUT], rig.I[LINE], rig.bit(ENABLED)) == (0.0, 0, False)
+    drive.on(rig.card, 0)
+    rig.ticks(5)
+    assert (rig.I[LINE], rig.bit(ENABLED), rig.I[ERROR]) == (1, True, 0)
+    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] += 100.0
+    rig.ticks(5)
+    assert rig.S[OUTPUT] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("response", [EXC_RESPONSE, 8470])
+def test_excess_error_cuts_the_output_where_it_disables(response: int) -> None:
+    rig = pushed()
+    rig.bit(response, True)
+    rig.axis(0, plus_excess_error=100.0, minus_excess_error=-100.0).seconds(0.3)
+    assert (rig.S[OUTPUT], rig.I[LINE], rig.bit(EXCESS)) == (0.0, 0, True)
+    assert rig.bit(KAMR) is (response == EXC_RESPONSE)
+
+
+def test_drive_io_adds_that_an_axis_is_silent_before_its_first_enabling() -> None:
+    rig = pushed()
+    rig.bit(IO, True)
+    rig.ticks(2)
+    assert (rig.S[OUTPUT], rig.I[LINE]) == (0.0, 0)
+    rig.bit(IO, False)
+    rig.ticks(2)
+    assert rig.S[OUTPUT] == pytest.approx(2.0)
+    assert rig.I[LINE] == 1
+
+
+def test_the_second_axis_stays_driven_when_the_first_is_disabled() -> None:
+    rig = Rig(axes=2, ppu=[1.0, 1.0], world=TORQUE + TORQUE.replace("number = 0", "number = 1"))
+    rig.ticks(2)
+    drive.off(rig.card, 0)
+    rig.ticks(2)
+    assert (rig.I[LINE], rig.I[LINE + at.PLI_STRIDE]) == (0, 1)

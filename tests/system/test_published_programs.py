@@ -190,47 +190,75 @@ def test_clear_and_dim_give_one_string_variable_of_ten_characters() -> None:
     assert fruit.card.bit[1024]
 
 
-TEACH = (
-    "CLEAR",
-    "DIM LV(2)",
-    "DIM DA(1)",
-    "DIM $V(1,10)",
-    "GOSUB Teach",
-    "END",
-    "_Teach",
-    "RES X",
-    "DRIVE OFF X",
-    "_InputPoints",
-    'INPUT; "Enter number of points to teach = ";$V0',
-    "LV1 = VAL($V0)",
-    'PRINT ""',
-    "PRINT LV1",
-    "IF (LV1<=0)",
-    'PRINT "ENTERED VALUE IS NOT VALID "; $V0',
-    "GOTO InputPoints",
-    "ENDIF",
-    "DIM DA0(LV1)",
-    "FOR LV0 = 0 TO (LV1-1) STEP 1",
-    "INH 24",
-    "DA0(LV0)=P12290/P12375",
-    "INH -24",
-    "NEXT",
-    'PRINT "Teach Completed, Total Points Taught = ";LV1',
-    "INH 24",
-    "INH -24",
-    "DRIVE ON X",
-    "DWL 0.5",
-    "X0",
-    "INH -516",
-    "INH 24",
-    "FOR LV0=0 TO (LV1-1) STEP 1",
-    "X(DA0(LV0))",
-    "INH -516",
-    "PRINT DA0(LV0)",
-    "NEXT",
-    "RETURN",
-)
-PROMPT = "Enter number of points to teach = "
+TEACH = """
+CLEAR : REM Clear out any variables dimensioned
+DIM LV(2) : REM Dimension 2 Long Variables
+DIM DA(1) : REM Dimension 1 Double Array
+DIM $V(1,10) : REM Dimension 1 String Variable of length 10
+
+'Go to SUBROUTINE Teach
+GOSUB Teach
+
+END
+
+_Teach
+RES X : REM Reset position to zero
+DRIVE OFF X : REM DISABLE DRIVE, teach points by manually move motor.
+
+'Start of InputPoints Routine
+_InputPoints
+
+'Print to the terminal "points to teach" and stores value into String Variable 0
+INPUT; "Enter number of points to teach (value must greater than 0) = "; $V0
+'Stores the Value of String Variable 0 into Long Variable 1
+LV1 = VAL($V0)
+
+PRINT ""
+PRINT LV1
+
+'If Statement to check if value entered is correct
+IF (LV1<=0)
+    PRINT "ENTERED VALUE IS NOT VALID "; $V0
+    PRINT "Value must be a number greater than 0"
+    GOTO InputPoints
+    ENDIF
+
+
+DIM DA0(LV1)   : REM dimension array equal to number of points to teach
+
+'use input 24 to tell controller to collect a teach point
+'FOR/TO/STEP/NEXT loop to teach points into array
+FOR LV0 = 0 TO (LV1-1) STEP 1
+    PRINT "TURN MOTOR, THEN HIT INPUT 24 TO TEACH POINT"
+    INH 24 : REM Inhibits the program until Input 24 is pressed
+    DA0(LV0)=P12290/P12375 : REM Stores Double Array entry with Encoder Positive divide by PPU of Axis0
+    INH -24 : REM Waits for Input 24 to turn off
+    NEXT
+
+
+PRINT "Teach Completed, Total Points Taught = ";LV1
+PRINT "Press Input 24 to enable drives and move to zero/start position "
+INH 24
+INH -24
+
+DRIVE ON X : REM Enable Axis0 "X"
+DWL 0.5
+X0 : REM Moves to Zero Position
+INH -516  : REM Waits for Motion to be completed
+PRINT "Input 24 to run taught points"
+INH 24
+
+'FOR/TO/STEP/NEXT loop to make absolute moves to position taught
+FOR LV0=0 TO (LV1-1) STEP 1
+    X(DA0(LV0))
+    INH -516
+    PRINT DA0(LV0) : REM Print to terminal the Position it move to.
+    NEXT
+
+RETURN
+"""  # noqa: E501
+PROMPT = "Enter number of points to teach (value must greater than 0) = "
+TURN = f"TURN MOTOR, THEN HIT INPUT 24 TO TEACH POINT{CRLF}"
 
 
 @pytest.mark.req(
@@ -243,9 +271,8 @@ PROMPT = "Enter number of points to teach = "
 def test_points_taught_by_hand_are_run_in_order() -> None:
     console = two_axes()
     card = console.card
-    card.bit[8468] = True  # drive I/O in use: DRIVE OFF really frees the axis
     console.type("PPU X4000 : ACC 100 DEC 100 STP 100 VEL 20")
-    console.program(0, *TEACH)
+    console.program(0, *(line for line in TEACH.splitlines() if line))
     assert console.listen(0, 0.1) == PROMPT
     assert card.p[12290] == 0
 
@@ -254,8 +281,10 @@ def test_points_taught_by_hand_are_run_in_order() -> None:
         card.advance(seconds=0.1)
         return card.take_output(card.console).decode()
 
-    assert answer("none\r") == f"{CRLF}0{CRLF}ENTERED VALUE IS NOT VALID none{CRLF}{PROMPT}"
-    assert answer("3\r") == f"{CRLF}3{CRLF}"
+    assert answer("none\r") == f"{CRLF}0{CRLF}ENTERED VALUE IS NOT VALID none{CRLF}" + (
+        f"Value must be a number greater than 0{CRLF}{PROMPT}"
+    )
+    assert answer("3\r") == f"{CRLF}3{CRLF}{TURN}"
     for move in (1.5, 2.25, -3.0):  # by hand, the drive is off
         card.drag(0, move)
         card.advance(seconds=0.5)
@@ -264,7 +293,10 @@ def test_points_taught_by_hand_are_run_in_order() -> None:
         card.bit[24] = False
         card.advance(seconds=0.05)
     said = card.take_output(card.console).decode()
-    assert said == f"Teach Completed, Total Points Taught = 3{CRLF}"
+    assert said == 2 * TURN + (
+        f"Teach Completed, Total Points Taught = 3{CRLF}"
+        f"Press Input 24 to enable drives and move to zero/start position {CRLF}"
+    )
     assert abs(card.p[12290] - 0.75 * 4000) <= 2
     for _ in range(2):
         card.bit[24] = True
@@ -272,7 +304,9 @@ def test_points_taught_by_hand_are_run_in_order() -> None:
         card.bit[24] = False
         card.advance(seconds=2)
     card.advance(seconds=5)
-    points = [float(text) for text in card.take_output(card.console).decode().split()]
+    prompt, *rest = card.take_output(card.console).decode().split(CRLF)
+    assert prompt == "Input 24 to run taught points"
+    points = [float(text) for text in rest if text]
     assert points == pytest.approx([1.5, 3.75, 0.75], abs=2 / 4000)
     assert card.p[12288] == pytest.approx(points[-1] * 4000, abs=0.5)
     assert not card.bit[1024]

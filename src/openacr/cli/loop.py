@@ -8,6 +8,7 @@ import typer
 
 from openacr.cli.monitor import AXES, axes_on
 from openacr.cli.online import Baud, Silence, Target, connected
+from openacr.cli.silence import why_silent
 from openacr.map import numbers as at
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ class Loop:
     path_cnt: dict[str, int]
     gains: dict[str, float]
     output_v: dict[str, float]
+    no_output: str  # why, empty while nothing cuts the output
 
 
 def loop(
@@ -80,7 +82,7 @@ def loop(
 
 
 def read_loop(card: "Card", axis: int) -> Loop:
-    """Ask the card for one axis, all values of one moment."""
+    """Ask the card for one axis, all values of the path of one moment."""
     first = at.AX_BASE + at.AX_STRIDE * axis
     values = dict(zip(ROWS, card.read_many([first + row for row in ROWS.values()]), strict=True))
     return Loop(
@@ -88,6 +90,7 @@ def read_loop(card: "Card", axis: int) -> Loop:
         {name: int(values[name]) for name in PATH},
         {name: float(values[name]) for name in GAINS},
         {name: float(values[name]) for name in OUTPUT},
+        why_silent(card, axis),
     )
 
 
@@ -105,4 +108,6 @@ def _table(found: list[Loop]) -> "Table":
         table.add_row(name, *(f"{one.gains[name]:.6g}" for one in found))
     for name in OUTPUT:
         table.add_row(f"{name} [V]", *(f"{one.output_v[name]:.4f}" for one in found))
+    if any(one.no_output for one in found):
+        table.add_row("no output", *(one.no_output for one in found))
     return table

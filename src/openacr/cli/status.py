@@ -9,6 +9,7 @@ import typer
 
 from openacr.cli.monitor import axes_on
 from openacr.cli.online import Baud, Silence, Target, connected
+from openacr.cli.silence import why_silent
 from openacr.map import numbers as at
 from openacr.map.block import FLAG_WORD_BASE
 
@@ -45,6 +46,7 @@ class AxisStatus:
     encoder_fault: bool
     encoder_lost: bool
     limits: tuple[Limit, ...]
+    no_output: str  # why, empty while nothing cuts the output
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +110,7 @@ def _axis(card: "Card", axis: int) -> AxisStatus:
         is_faulty,
         is_lost,
         tuple(_limit(limits, first, side, name, inputs[side]) for name, side in SIDES),
+        why_silent(card, axis),
     )
 
 
@@ -135,6 +138,7 @@ def _lines(found: Status) -> Iterator[str]:
         marks = (
             ("enabled", axis.is_enabled), ("killed", axis.is_killed),
             ("encoder fault", axis.encoder_fault), ("encoder lost", axis.encoder_lost),
+            (f"no output: {axis.no_output}", axis.no_output),
         )  # fmt: skip
         said = [name for name, is_so in marks if is_so]
         yield f"axis {axis.axis}: light {axis.light}" + "".join(f", {mark}" for mark in said)

@@ -4,6 +4,10 @@ Drive Enabled (quaternary flag 17) is a status: a command or a write of the flag
 enabling, the flag follows 10 ms later. It stays clear, silently, while something bars the
 drive. With the drive I/O off the flag follows at once and a fault input has no meaning.
 
+An axis that was disabled (DRIVE OFF, Ctrl-Z, a kill or fault that disables, a cleared flag) puts
+out nothing until it is enabled. One never enabled nor disabled since power-up is driven unless its
+drive I/O is in use: programs for amplifiers without an enable line have no DRIVE ON.
+
 A signal fault or loss of the encoder that closes the loop disables the axis: its drive drops and
 all its motion is killed (KAMR). ENC RES clears the fault flags.
 """
@@ -30,6 +34,7 @@ from openacr.map.numbers import (
     AXI_SIGNAL_INDEX,
     AXI_SIGNAL_SOURCE,
     AXI_STRIDE,
+    AXI_SWITCHED_OFF,
     AXI_VELOCITY_INDEX,
     AXI_VELOCITY_SOURCE,
     EF_ENCODER_SIGNAL_FAULT,
@@ -47,7 +52,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import I32
 
-__all__ = ["drive_step", "motion_enable_step"]
+__all__ = ["drive_disable", "drive_driven", "drive_step", "motion_enable_step"]
 
 MODELLED = 16
 MEI_LATCHED = 8192  # BIT5645
@@ -57,6 +62,24 @@ RESET_S = 0.05
 TO_DAC = 0
 TO_STEPPER = 1
 STEPPER_MOTOR = 5  # kind of a motor of the world
+
+
+def drive_driven(I: I32, n: int) -> bool:
+    """Whether axis n is under power, as far as its drive is concerned."""
+    flags: int = I[AF4_WORD + n]
+    if flags & AF4_DRIVE_ENABLED:
+        return True
+    return not flags & AF4_DRIVE_I_O_ENABLE and not I[AXI_BASE + n * AXI_STRIDE + AXI_SWITCHED_OFF]
+
+
+def drive_disable(I: I32, n: int) -> None:
+    """Disable the drive of axis n, enabled or not."""
+    i: int = AXI_BASE + n * AXI_STRIDE
+    I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
+    I[i + AXI_ENABLE_TICKS] = 0
+    if not I[i + AXI_SWITCHED_OFF]:
+        I[i + AXI_SWITCHED_OFF] = 1
+        I[i + AXI_DRIVE_WIRED] = -1  # its enable line may be on without the flag
 
 
 def drive_barred(I: I32, n: int) -> bool:
@@ -130,8 +153,7 @@ def drive_wiring(I: I32, n: int) -> None:
     ):  # without a fault line the flag is the user's
         flags &= ~AF4_DRIVE_FAULT_INPUT
     I[AF4_WORD + n] = flags
-    enabled: bool = flags & AF4_DRIVE_ENABLED != 0 or not flags & AF4_DRIVE_I_O_ENABLE
-    I[row + PLI_DRIVE_ENABLED] = 1 if enabled else 0
+    I[row + PLI_DRIVE_ENABLED] = 1 if drive_driven(I, n) else 0
 
 
 def drive_resting(I: I32, n: int) -> bool:
@@ -171,12 +193,12 @@ def drive_step(I: I32, n: int, period_s: float) -> None:
             I[word] &= ~(AF4_DRIVE_RESET_REQUEST | AF4_DRIVE_FAULT)
     if drive_faulted(I, n) and not I[word] & AF4_DRIVE_FAULT:
         I[word] |= AF4_DRIVE_FAULT | AF4_KILL_ALL_MOTION_REQUEST
-        I[word] &= ~AF4_DRIVE_ENABLED
+        drive_disable(I, n)
     if feedback_broken(I, n) != I[i + AXI_FEEDBACK_BROKEN]:
         I[i + AXI_FEEDBACK_BROKEN] = feedback_broken(I, n)
         if I[i + AXI_FEEDBACK_BROKEN]:
             I[word] |= AF4_KILL_ALL_MOTION_REQUEST
-            I[word] &= ~AF4_DRIVE_ENABLED
+            drive_disable(I, n)
     I[i + AXI_DRIVE_OLD] = I[word] & AF4_DRIVE_ENABLED
     I[i + AXI_DRIVE_SEEN] = I[word]  # a change of the fault line has to be looked at again
     I[i + AXI_DRIVE_WIRED] = I[i + AXI_POSITION_INDEX]
@@ -196,7 +218,7 @@ def drive_request(I: I32, n: int) -> None:
         if I[i + AXI_ENABLE_TICKS] == 0:
             I[i + AXI_ENABLE_TICKS] = 1
     else:
-        I[i + AXI_ENABLE_TICKS] = 0
+        drive_disable(I, n)
 
 
 def motion_enable_step(I: I32, axes: int) -> None:
@@ -208,7 +230,7 @@ def motion_enable_step(I: I32, axes: int) -> None:
         flags |= MEI_LATCHED
         for n in range(axes):
             I[AF4_WORD + n] |= AF4_KILL_ALL_MOTION_REQUEST
-            I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
+            drive_disable(I, n)
     elif flags & MEI_RESET:
         flags &= ~MEI_LATCHED
     I[W_MISC_CONTROL_1] = flags & ~MEI_RESET

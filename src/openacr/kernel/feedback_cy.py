@@ -22,6 +22,7 @@ enabled the actual position is the secondary setpoint of the previous tick.
 
 from openacr.cmath import fabs, floor, rint
 from openacr.kernel.axis_cy import axis_word
+from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.numbers import (
     ADC_ADC_INPUT,
@@ -29,9 +30,6 @@ from openacr.map.numbers import (
     ADC_STRIDE,
     AF1_CLAMP_OUTPUT_SIGNAL,
     AF1_OPEN_SERVO_LOOP,
-    AF4_DRIVE_ENABLED,
-    AF4_DRIVE_I_O_ENABLE,
-    AF4_WORD,
     AX_ACTUAL_POSITION,
     AX_BASE,
     AX_KVP,
@@ -294,10 +292,9 @@ def encoder_links_step(I: I32, rate_hz: float) -> None:
 def ideal_follows(I: I32, S: F32, n: int) -> bool:
     """Whether an axis without a modelled motor follows its setpoint."""
     p: int = AX_BASE + n * AX_STRIDE
-    drive: int = I[AF4_WORD + n]
     if I[axis_word(n)] & (AF1_OPEN_SERVO_LOOP | AF1_CLAMP_OUTPUT_SIGNAL):
         return False
-    if drive & AF4_DRIVE_I_O_ENABLE and not drive & AF4_DRIVE_ENABLED:
+    if not drive_driven(I, n):
         return False
     if S[p + AX_PLUS_TORQUE_LIMIT] == 0.0 and S[p + AX_MINUS_TORQUE_LIMIT] == 0.0:
         return False

@@ -8,6 +8,7 @@ direction while it is active (`limit_bars`). That it was met is recorded in a fl
 """
 
 from openacr.kernel.axis_cy import axis_scale, axis_word, hard_limit_active, soft_limit_crossed
+from openacr.kernel.drive_cy import drive_disable
 from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, JOG_KILLED, jog_take_over
@@ -18,7 +19,6 @@ from openacr.map.numbers import (
     AF1_GEAR_ACTIVATE,
     AF1_GEAR_ACTIVE,
     AF4_DISABLE_DRIVE_ON_KILL,
-    AF4_DRIVE_ENABLED,
     AF4_KILL_ALL_MOTION_REQUEST,
     AF4_WORD,
     AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE,
@@ -127,7 +127,7 @@ def axis_kill_one(F: F64, I: I32, S: F32, n: int) -> None:
         if lock_leader(I, n) >= 0:
             axis_kill(F, I, S, lock_leader(I, n))
     if I[AF4_WORD + n] & AF4_DISABLE_DRIVE_ON_KILL:
-        I[AF4_WORD + n] &= ~AF4_DRIVE_ENABLED
+        drive_disable(I, n)
 
 
 def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:

@@ -16,6 +16,7 @@ The output goes to a converter, to a commutator or, as the setpoint, to a steppe
 from openacr.cmath import fabs, rint
 from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.commutator_cy import commutator_step, dac_put
+from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, encoder_row
 from openacr.kernel.maintain_cy import maintain_step
 from openacr.kernel.words_cy import round32, wrap32
@@ -25,9 +26,6 @@ from openacr.map.numbers import (
     AF1_OPEN_SERVO_LOOP,
     AF3_IN_DEAD_BAND,
     AF3_WORD,
-    AF4_DRIVE_ENABLED,
-    AF4_DRIVE_I_O_ENABLE,
-    AF4_WORD,
     AX_ACTUAL_POSITION,
     AX_BASE,
     AX_DERIVATIVE_GAIN,
@@ -295,8 +293,7 @@ def servo_closed(I: I32, n: int) -> bool:
         return False
     if I[axis_word(n)] & (AF1_OPEN_SERVO_LOOP | AF1_CLAMP_OUTPUT_SIGNAL):
         return False
-    drive: int = I[AF4_WORD + n]
-    return drive & AF4_DRIVE_ENABLED != 0 or not drive & AF4_DRIVE_I_O_ENABLE
+    return drive_driven(I, n)
 
 
 def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
@@ -358,12 +355,21 @@ def pulses_put(F: F64, I: I32, n: int, k: int, count: int) -> None:
     F[f + STOF_PULSES] = rint(F[f + STOF_SENT_CNT])
 
 
+def stepper_idle(F: F64, S: F32, n: int, k: int) -> None:
+    """Send nothing to stepper output k while the drive of axis n is disabled."""
+    if 0 <= k < 16:
+        F[STOF_BASE + k * STOF_STRIDE + STOF_PM_OLD_CNT] = F[AXF_BASE + n * AXF_STRIDE + AXF_PM_CNT]
+        S[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_SIGNAL] = 0.0
+
+
 def stepper_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     """A stepper axis puts out its setpoint as steps; its own count is its feedback."""
     i: int = AXI_BASE + n * AXI_STRIDE
     p: int = AX_BASE + n * AX_STRIDE
     k: int = I[i + AXI_SIGNAL_INDEX]
-    if 0 <= k < 16 and not I[KRI_BASE + KRI_MISSING_STEPPERS] >> k & 1:
+    if not drive_driven(I, n):
+        stepper_idle(F, S, n, k)
+    elif 0 <= k < 16 and not I[KRI_BASE + KRI_MISSING_STEPPERS] >> k & 1:
         row: int = STPR_BASE + k * STPR_STRIDE
         if I[i + AXI_PM_ON]:
             maintain_step(F, I, S, n, period_s)

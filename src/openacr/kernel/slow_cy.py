@@ -1,6 +1,7 @@
 """The slow flag scan, every 50 ms: limit bands and the request flags of masters and axes."""
 
 from openacr.kernel.axis_cy import axis_renew, axis_scale, axis_word
+from openacr.kernel.drive_cy import drive_disable, drive_driven
 from openacr.kernel.hold_cy import (
     IN_FEEDHOLD,
     NOT_HELD,
@@ -22,8 +23,6 @@ from openacr.map.numbers import (
     AF1_REN_REQUEST_FLAG,
     AF1_WITHIN_A_LIMIT,
     AF4_DISABLE_DRIVE_ON_EXC_ONLY,
-    AF4_DRIVE_ENABLED,
-    AF4_DRIVE_I_O_ENABLE,
     AF4_EXC_RESPONSE_ENABLE,
     AF4_EXCESS_ERROR_FAULT,
     AF4_KILL_ALL_MOTION_REQUEST,
@@ -145,15 +144,14 @@ def excess_response(I: I32, n: int) -> None:
     """
     word: int = AF4_WORD + n
     flags: int = I[word]
-    driven: bool = flags & AF4_DRIVE_ENABLED != 0 or not flags & AF4_DRIVE_I_O_ENABLE
-    if not driven or not I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
+    if not drive_driven(I, n) or not I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
         return
     if flags & AF4_EXC_RESPONSE_ENABLE:
-        I[word] = (
-            flags | AF4_EXCESS_ERROR_FAULT | AF4_KILL_ALL_MOTION_REQUEST
-        ) & ~AF4_DRIVE_ENABLED
+        I[word] = flags | AF4_EXCESS_ERROR_FAULT | AF4_KILL_ALL_MOTION_REQUEST
+        drive_disable(I, n)
     elif flags & AF4_DISABLE_DRIVE_ON_EXC_ONLY:
-        I[word] = (flags | AF4_EXCESS_ERROR_FAULT) & ~AF4_DRIVE_ENABLED
+        I[word] = flags | AF4_EXCESS_ERROR_FAULT
+        drive_disable(I, n)
 
 
 def axis_marker(I: I32, n: int) -> None:

@@ -1,5 +1,7 @@
 """DRIVE ON, OFF and RES, and the control keys that kill and release motion."""
 
+from openacr.compiled import pick
+from openacr.kernel import drive_cy
 from openacr.map.numbers import (
     AF4_DRIVE_ENABLED,
     AF4_DRIVE_FAULT,
@@ -23,6 +25,9 @@ from openacr.motion.card import Card
 from openacr.motion.permits import axes_of, master_of, needs_rest
 from openacr.motion.rows import axis_ints, master_word
 
+_drive_disable = pick(drive_cy.drive_disable)
+_drive_driven = pick(drive_cy.drive_driven)
+
 ENABLE_S = 0.01  # from the command to the status flag
 LIMIT_LATCHES = (
     AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
@@ -35,6 +40,11 @@ LIMIT_LATCHES = (
 def is_enabled(card: Card, axis: int) -> bool:
     """Whether the drive of an axis reports enabled."""
     return bool(card.memory.I[AF4_WORD + axis] & AF4_DRIVE_ENABLED)
+
+
+def is_driven(card: Card, axis: int) -> bool:
+    """Whether the drive of an axis lets it put out anything."""
+    return bool(_drive_driven(card.memory.I, axis))
 
 
 def has_fault(card: Card, axis: int) -> bool:
@@ -74,8 +84,7 @@ def off(card: Card, axis: int) -> None:
 def disable(card: Card, axis: int) -> None:
     """Switch the drive of an axis off, moving or not."""
     rows = axis_ints(axis)
-    card.memory.I[rows + AXI_ENABLE_TICKS] = 0
-    card.memory.I[AF4_WORD + axis] &= ~AF4_DRIVE_ENABLED
+    _drive_disable(card.memory.I, axis)
     card.memory.I[rows + AXI_DRIVE_OLD] = 0  # or the kernel would undo a DRIVE ON of this tick
 
 

@@ -23,7 +23,7 @@ def drive_on(run: Run, axes: tuple[Axis, ...]) -> None:
 
 @command("DRIVE OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
 def drive_off(run: Run, axes: tuple[Axis, ...]) -> None:
-    """Disable drives; no kill is set."""
+    """Disable drives: the axes put out nothing, their motors are free. No kill is set."""
     _need_rest(run, axes)
     for axis in axes:
         drive.off(run.card, axis.number)
@@ -43,10 +43,11 @@ def drive_res(run: Run, axes: tuple[Axis, ...]) -> None:
 
 @command("DRIVE", group=GROUP, levels=BY_OBJECT | SYS, grammar=(Axes(optional=True),), ref=REF)
 def drive_report(run: Run, axes: tuple[Axis, ...] | None) -> None:
-    """Report which drives are enabled, and which have a fault latched."""
+    """Report which drives are enabled, have a fault, or are DRIVEN without being enabled."""
     if axes is None and run.level is SYS:
         raise CardError(SYNTAX_ERROR)
     for axis in run.axes() if axes is None else axes:
         state = "ON" if drive.is_enabled(run.card, axis.number) else "OFF"
         fault = " FAULT" if drive.has_fault(run.card, axis.number) else ""
-        run.print(f"DRIVE {state} {axis.name}{fault}")
+        is_live = state == "OFF" and drive.is_driven(run.card, axis.number)
+        run.print(f"DRIVE {state} {axis.name}{fault}{' DRIVEN' if is_live else ''}")

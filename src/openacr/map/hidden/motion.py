@@ -351,6 +351,7 @@ AXIS = HiddenBlock(
         "drive_old",
         "drive_seen",  # quaternary flags after the last step of the drive
         "drive_wired",  # position feedback then, -1: step in any case
+        "switched_off",  # the drive was disabled at least once since power-up
         "feedback_broken",  # an encoder of the axis had a signal fault at the last look
         "drive_motor",  # motor of the world that the drive belongs to, -1 none
         "reset_ticks",

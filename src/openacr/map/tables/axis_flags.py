@@ -140,7 +140,10 @@ AXIS_4.row(
     19, "Kill All Motion Request", RW, "Stops and bars all motion; Ctrl-Y or DRIVE ON clear it."
 )
 AXIS_4.inferred(
-    20, "Drive I/O Enable", RW, "Set: the enable output and fault input of the drive are used."
+    20,
+    "Drive I/O Enable",
+    RW,
+    "Enable output and fault input of the drive are used: no output before DRIVE ON.",
 )
 AXIS_4.inferred(21, "EXC Response Enable", RW, "Set: excess error kills and disables the drive.")
 AXIS_4.inferred(
