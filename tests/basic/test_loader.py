@@ -114,3 +114,15 @@ def test_only_a_prompt_in_front_is_taken_away() -> None:
     assert file_lines('P00> PRINT "P01>" : REM SYS> here') == [
         FileLine(1, 'PRINT "P01>" : REM SYS> here')
     ]
+
+
+def test_a_parenthesis_that_is_never_closed_leaves_the_following_lines_alone() -> None:
+    lines = ["PROGRAM", "P0 = (1 + 2", "P1 = XX", "P2 = (3)", "P3 = ZZ(", "P4 = 1", "ENDP"]
+    assert texts("\n".join(lines)) == lines
+    lines[4] = "P3 = 4)"
+    assert texts("\n".join(lines)) == [lines[0], " ".join(lines[1:5]), *lines[5:]]
+
+
+def test_a_line_without_end_is_read_as_far_as_a_card_takes_it() -> None:
+    long = "PROGRAM " + " " * 100_000 + "IF (" + '"' * 3
+    assert texts(f"{long}\nP0 = 1") == [long, "P0 = 1", "ENDP"]

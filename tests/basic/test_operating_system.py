@@ -182,7 +182,6 @@ def test_diag_reports_supplies_boards_and_network(bench: Bench) -> None:
     assert bench.type("DIAG").split("|")[1] == "EXT FAIL"
 
 
-@pytest.mark.req("ACR-CMD-EPLC")
 def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
     assert bench.type("EPLC") == "OFF|SYS>"
     assert bench.type("EPLC ON") == "SYS>"

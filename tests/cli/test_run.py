@@ -16,6 +16,7 @@ from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
 from openacr.cli.report import AxisReport
+from openacr.cli.run import MOST_S, limit_s
 from openacr.errors import SourceError
 from openacr.map import numbers as at
 from openacr.messages import DIVIDE_BY_ZERO
@@ -360,3 +361,18 @@ def test_a_picture_alone_is_recorded_sparsely_with_its_peaks(
     assert (machine.recorded_every_tk, machine.keeps_peaks) == (2, True)
     run("--for", "0.6", "--plot", tmp_path / "run.svg", "--trace", tmp_path / "run.csv")
     assert (machine.recorded_every_tk, machine.keeps_peaks) == (1, False)
+
+
+@pytest.mark.parametrize("seconds", ["0", "1e300", "10000001", "nan", "inf"])
+def test_a_run_lasts_more_than_nothing_and_at_most_ten_million_seconds(
+    run: Run, seconds: str
+) -> None:
+    refused = run("--for", seconds)
+    assert refused.exit_code == 2
+    number = f"{float(seconds):g}"
+    text = f"--for {number}: give a number of seconds above 0, at most 10000000"
+    assert text in " ".join(refused.stderr.split())
+
+
+def test_a_run_may_be_as_long_as_the_limit() -> None:
+    assert limit_s(MOST_S, None) == 10_000_000.0

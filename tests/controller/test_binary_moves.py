@@ -123,6 +123,23 @@ def test_a_locked_move_is_not_overridden_and_the_next_one_is() -> None:
     assert sender.peak(200) == 2.0
 
 
+@pytest.mark.req("BIN-121")
+def test_a_locked_move_of_the_rapid_modes_has_neither_override() -> None:
+    sender = Sender("ROV 0.25")
+    sender.host.send(FeedrateOverride.of([0], 0.5).encode())
+    sender.host.send(SetBit(RAPID_MODES).encode())
+    feed, rapid = Code0(0), Code0.MOVE_MODE_BIT_0 | Code0.MOVE_MODE_BIT_1
+    target = 500
+    for mode, locked, peak_ups in (
+        *((feed, Code0(0), 2.0), (feed, Code0.OVERRIDE_LOCKOUT, 4.0)),
+        *((rapid, Code0(0), 1.0), (rapid, Code0.OVERRIDE_LOCKOUT, 4.0)),
+    ):
+        sender.move({0: target}, vel=4.0, code0=mode | locked)
+        assert sender.peak(200) == peak_ups
+        sender.rest()
+        target = 500 - target
+
+
 @pytest.mark.req("BIN-116", "BIN-142")
 def test_rapid_modes_are_read_only_with_their_flag_set() -> None:
     sender = Sender("ROV 0.25")

@@ -79,7 +79,7 @@ def test_header_code_0_by_default(code0: int, profile: Profile) -> None:
     assert Move.of({0: 1}, code0=code0).profile(rapid_move_modes=False) == profile
 
 
-@pytest.mark.req("BIN-120", "BIN-121", "BIN-139", "BIN-140", "BIN-141", "BIN-142")
+@pytest.mark.req("BIN-120", "BIN-139", "BIN-140", "BIN-141", "BIN-142")
 @pytest.mark.parametrize(
     ("code0", "profile"),
     [

@@ -46,7 +46,6 @@ def test_a_master_is_addressed_from_another_program(card: Console) -> None:
     assert card.type("MASTER0 VEL500", "PROG0", "VEL") == "500"
 
 
-@pytest.mark.req("ACR-CMD-CIP")
 def test_cip_reports_that_no_connection_is_there(card: Console) -> None:
     assert card.type("CIP") == "CIP connections 0|CIP state IDLE"
 

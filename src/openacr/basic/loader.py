@@ -122,14 +122,27 @@ def _numbered(text: str) -> list[FileLine]:
 def _joined(lines: list[FileLine]) -> list[FileLine]:
     """Lines that a page width has broken, put together again."""
     joined: list[FileLine] = []
-    for line in lines:
-        held = joined[-1] if joined else None
-        if held and _role(held.shape).is_open and _continues(held.text, line.text):
-            text = f"{held.text} {line.text.lstrip()}"
-            joined[-1] = FileLine(held.number, text, shape(text))
-        else:
-            joined.append(line)
+    behind = 0
+    while behind < len(lines):
+        line, behind = _whole(lines, behind)
+        joined.append(line)
     return joined
+
+
+def _whole(lines: list[FileLine], first: int) -> tuple[FileLine, int]:
+    """A line with its rest, and the place of the line behind it.
+
+    What stays open however many lines are added was not broken: it is a mistake of its line.
+    """
+    begun = lines[first]
+    text, behind, is_open = begun.text, first + 1, _role(begun.shape).is_open
+    while is_open and behind < len(lines) and _continues(text, lines[behind].text):
+        text = f"{text} {lines[behind].text.lstrip()}"
+        behind += 1
+        is_open = _scan(text).is_open
+    if is_open or behind == first + 1:
+        return begun, first + 1
+    return FileLine(begun.number, text, shape(text)), behind
 
 
 def _continues(text: str, following: str) -> bool:
@@ -155,10 +168,13 @@ def _role(line: str) -> _Role:
 
 
 def _scan(text: str) -> _Scan:
-    """Split code from remark and comment; the content of strings becomes blanks."""
+    """Split code from remark and comment; the content of strings becomes blanks.
+
+    No card takes a line beyond LINE_LIMIT; what it goes on with plays no part.
+    """
     code: list[str] = []
     in_string = False
-    for place, character in enumerate(text):
+    for place, character in enumerate(text[: LINE_LIMIT + 1]):
         if character in _QUOTES:
             in_string = not in_string
             code.append('"')

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from openacr.scenario import Scenario
 
 BAD_INPUT = 2
+MOST_S = 1e7  # some 116 days of a machine
 LONGEST_S = 600.0  # a run that is to end by itself ends here if it does not
 
 
@@ -163,8 +164,10 @@ def parse_until(text: str | None) -> "Until | None":
 def limit_s(for_s: float | None, scenario: "Scenario | None") -> float:
     """Say how long a run lasts at most."""
     if for_s is not None:
-        if not 0.0 < for_s < float("inf"):
-            raise UserError(f"--for {for_s:g}: give a number of seconds above 0")
+        if not 0.0 < for_s <= MOST_S:
+            raise UserError(
+                f"--for {for_s:g}: give a number of seconds above 0, at most {MOST_S:.0f}"
+            )
         return for_s
     return (scenario.duration_s if scenario else None) or LONGEST_S
 

@@ -33,7 +33,7 @@ FAULTS = at.CMF_CMT_MOTOR_OVERSPEED | at.CMF_CMT_ENCODER_FAULT | at.CMF_CMT_FOLL
 
 
 class Channel(Form):
-    """The number of a channel; its word may stand in front again, as in `CMT0 ENC0 ENC1`."""
+    """The number of a `channel`; its word may stand in front again, as in ENC0."""
 
     def __init__(self, word: str) -> None:
         super().__init__(word, optional=True)

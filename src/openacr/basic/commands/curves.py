@@ -120,5 +120,9 @@ def tarc_off(run: Run) -> None:
     move=True,
 )
 def sine(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
-    """Move axes on a part of a sine wave, alone or beside straight moves of other axes."""
+    """Move axes on a part of a sine wave, alone or beside straight moves of other axes.
+
+    Alone the path is the sweep, so VEL is in degrees/s and ACC in degrees/s^2; beside straight
+    moves only these count, in units.
+    """
     return tuple(Sine(target.axis.number, *target.values) for target in targets)
