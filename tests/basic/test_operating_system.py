@@ -178,7 +178,7 @@ def test_diag_reports_supplies_boards_and_network(bench: Bench) -> None:
     assert lines[0] == "ISO PASS"
     assert lines[7] == "BOARD0 ABSENT"
     assert len(lines) == 13
-    bench.card.memory.write(7044, 0b10)
+    bench.card.memory.I[7044] = 0b10
     assert bench.type("DIAG").split("|")[1] == "EXT FAIL"
 
 

@@ -39,7 +39,7 @@ def test_the_power_light(card: Controller) -> None:
             return read_status(host).power
 
     assert shown() == "green"
-    card.p[7044] = 1 << 5  # VEE fails
+    card.memory.I[7044] = 1 << 5  # VEE fails
     assert shown() == "red"
     card.bit[5656] = True  # boot flash invalid
     assert shown() == "red and green in turn"

@@ -45,6 +45,7 @@ from openacr.basic.nodes import (
     is_text,
     resolved,
 )
+from openacr.map.kinds_cy import is_read_only
 from openacr.map.memory import kind_table
 from openacr.map.numbers import (
     FLAG_LAST,
@@ -145,7 +146,7 @@ class ExpressionEmitter(Assembler):
 
     def _parameter(self, index: Expr, value: Callable[[], None] | None) -> None:
         number = _literal(index)
-        if number is None:
+        if number is None or is_read_only(number):
             self._indexed(vm.DO_LOAD_PARAMETER, vm.DO_STORE_PARAMETER, index, value)
             return
         kind = _KINDS[number] if number < PUBLIC_COUNT else KIND_NONE

@@ -13,7 +13,7 @@ from openacr.basic.opcodes_cy import (
     ERROR_UNDEFINED_VARIABLE,
 )
 from openacr.map.flags_cy import flag_bit, put_flag
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import kind_of, store_long
 from openacr.map.numbers import (
     FLAG_LAST,
     KIND_FP32,
@@ -169,7 +169,7 @@ def write_parameter(F: F64, I: I32, S: F32, number: int, value: float) -> int:
     """Parameter `number` := value, converted as its kind demands; an error number or 0."""
     kind: int = kind_of(I, number)
     if kind == KIND_LONG:
-        I[number] = long_word(value)
+        store_long(I, number, long_word(value))
     elif kind == KIND_FP32:
         return store_single(S, number, value)
     elif kind == KIND_FP64:
@@ -185,7 +185,7 @@ def mask_parameter(I: I32, number: int, nandmask: float, ormask: float) -> int:
     """P := (P AND NOT nandmask) OR ormask on a LONG parameter; an error number or 0."""
     if kind_of(I, number) != KIND_LONG:
         return ERROR_INVALID_PARAMETER
-    I[number] = (I[number] & ~long_word(nandmask)) | long_word(ormask)
+    store_long(I, number, (I[number] & ~long_word(nandmask)) | long_word(ormask))
     return 0
 
 

@@ -15,6 +15,7 @@ from openacr.cmath import floor, rint
 from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
 from openacr.kernel.words_cy import wrap32
+from openacr.map.kinds_cy import store_long
 from openacr.map.numbers import (
     AF1_CAPTURE_COMPLETE,
     AF2_DONT_USE_CAPTURE_REGISTER,
@@ -125,7 +126,7 @@ def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
     F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = position_cnt
     copy: int = I[i + AXI_CAPTURE_COPY]
     if FLAG_FIRST <= copy <= FLAG_LAST:
-        I[copy] = position_cnt
+        store_long(I, copy, position_cnt)
     I[i + AXI_CAPTURE_MODE] = -1
     I[axis_word(n)] |= AF1_CAPTURE_COMPLETE
 

@@ -24,6 +24,7 @@ from openacr.cmath import fabs, floor, rint
 from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.words_cy import round32, wrap32
+from openacr.map.kinds_cy import store_long
 from openacr.map.numbers import (
     ADC_ADC_INPUT,
     ADC_BASE,
@@ -286,7 +287,7 @@ def encoder_links_step(I: I32, rate_hz: float) -> None:
         encoder_wrap(I, e)
         destination: int = I[i + ENI_DESTINATION]
         if FIRST_LONG <= destination <= LAST_PARAMETER:
-            I[destination] = I[row + ENC_ENCODER_POSITION]
+            store_long(I, destination, I[row + ENC_ENCODER_POSITION])
 
 
 def ideal_follows(I: I32, S: F32, n: int) -> bool:

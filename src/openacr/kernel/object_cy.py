@@ -21,7 +21,7 @@ from openacr.kernel.source_cy import (
     source_follow,
     source_reading,
 )
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import kind_of, store_long
 from openacr.map.numbers import (
     FLAG_LAST,
     FLAG_WORD_BASE,
@@ -155,7 +155,7 @@ def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
     if 0.0 <= index < I[header]:
         mask: int = I[i + PSI_MASK]
         row: int = I[i + PSI_DESTINATION]
-        I[row] = (I[row] & ~mask) | (I[header + 1 + int(index)] & mask)
+        store_long(I, row, (I[row] & ~mask) | (I[header + 1 + int(index)] & mask))
 
 
 def output_inside(F: F64, I: I32, k: int, source: float) -> bool:

@@ -30,7 +30,7 @@ from openacr.kernel.source_cy import (
     axis_word2,
 )
 from openacr.kernel.words_cy import wrap32
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import kind_of, store_long
 from openacr.map.numbers import (
     AF1_CAM_ACTIVATE,
     AF1_GEAR_ACTIVATE,
@@ -170,7 +170,7 @@ def filter_put(F: F64, I: I32, S: F32, n: int, moved: float) -> None:
         total: float = F[f + FLF_CARRY_CNT] + moved
         whole: float = trunc(total)
         F[f + FLF_CARRY_CNT] = total - whole
-        I[number] = wrap32(I[number] + int(whole))
+        store_long(I, number, wrap32(I[number] + int(whole)))
     elif kind == KIND_FP32:
         S[number] = S[number] + moved
     elif kind == KIND_FP64:

@@ -37,7 +37,7 @@ from openacr.kernel.feedback_cy import (
     encoder_turn,
 )
 from openacr.kernel.words_cy import round32, wrap32
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import kind_of, store_long
 from openacr.map.numbers import (
     AF2_WORD,
     AF2_WORD_HIGH,
@@ -374,7 +374,8 @@ def trigger_captured(F: F64, I: I32, t: int, tap: int) -> None:
     I[i + TGI_KIND] = TRAVELLING
     copy: int = I[i + TGI_COPY]
     if kind_of(I, copy) == KIND_LONG:
-        I[copy] = round32(source_shown(I, tap, F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT]))
+        shown: float = source_shown(I, tap, F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT])
+        store_long(I, copy, round32(shown))
 
 
 def trigger_step(F: F64, I: I32, S: F32, t: int, tap: int, offset_cnt: float) -> int:

@@ -3,10 +3,16 @@
 The map itself holds the table: two bits per number, sixteen numbers to a word.
 """
 
-from openacr.map.numbers import KIND_BASE, KIND_NONE, PUBLIC_COUNT
+from openacr.map.numbers import (
+    KIND_BASE,
+    KIND_NONE,
+    P_CARD_SERIAL_NUMBER,
+    P_IO_CONFIGURATION,
+    PUBLIC_COUNT,
+)
 from openacr.views import I32
 
-__all__ = ["kind_of"]
+__all__ = ["is_read_only", "kind_of", "store_long"]
 
 
 def kind_of(I: I32, number: int) -> int:
@@ -14,3 +20,17 @@ def kind_of(I: I32, number: int) -> int:
     if number < 0 or number >= PUBLIC_COUNT:
         return KIND_NONE
     return (I[KIND_BASE + (number >> 4)] >> ((number & 15) * 2)) & 3
+
+
+def is_read_only(number: int) -> bool:
+    """Whether stores leave parameter `number` as it is: the board information, P7040 to P7046.
+
+    The other parameters without write access need no guard: the card writes them anew.
+    """
+    return P_CARD_SERIAL_NUMBER <= number <= P_IO_CONFIGURATION
+
+
+def store_long(I: I32, number: int, value: int) -> None:
+    """LONG parameter `number` := value, unless it is read-only."""
+    if not is_read_only(number):
+        I[number] = value

@@ -9,9 +9,9 @@ from functools import cache
 from hashlib import blake2b
 from math import isnan, trunc
 
-from openacr.errors import CardError, StoreError
+from openacr.errors import CardError, MapError, StoreError
 from openacr.map.image import KINDS, POWER_UP
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import is_read_only, kind_of
 from openacr.map.numbers import (
     FLAG_LAST,
     FLAG_WORD_BASE,
@@ -54,8 +54,13 @@ class Memory:
         return self.S[number] if kind == KIND_FP32 else self.F[USER_BASE + number]
 
     def write(self, number: int, value: float) -> None:
-        """Store `value` as the parameter's kind demands; CardError if there is none."""
+        """Store `value` as the parameter's kind demands.
+
+        CardError if there is no such parameter, MapError if it is read-only.
+        """
         kind = self._checked_kind(number)
+        if is_read_only(number):
+            raise MapError(f"P{number} is read-only")
         if kind == KIND_LONG:
             self.I[number] = long_of(value)
         elif kind == KIND_FP32:

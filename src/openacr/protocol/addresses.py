@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from openacr.errors import MapError
 from openacr.map import numbers as at
-from openacr.map.kinds_cy import kind_of
+from openacr.map.kinds_cy import is_read_only, kind_of
 from openacr.map.memory import Memory
 from openacr.protocol.memory import VariableKind
 
@@ -94,7 +94,7 @@ class AddressSpace:
         elements = self._array_at(address) if _in_heap(address) else range(0)
         places = [self._place(each, elements) for each in addresses]
         for n, place in enumerate(places):
-            if place is None:
+            if place is None or is_read_only(place):
                 raise MapError(f"address 0x{address + n:X} cannot be written")
         for place, word in zip(places, words, strict=True):
             if place is not None:
