@@ -2,7 +2,9 @@
 
 A file holds what the screen shows: lines behind a prompt are typed, the others are answers.
 Lines with a semicolon in front are stage directions: `; type LINE` types a line whose answer
-does not matter, `; wait SECONDS` lets time pass, everything else is a remark.
+does not matter, `; wait SECONDS` lets time pass, `; press CTRL_Y` presses a key, `; flag 0 1` sets
+or clears a flag (an input), `; packet HEX` sends bytes, whose reply is the line `= HEX` below;
+everything else is a remark.
 """
 
 import re
@@ -12,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from openacr import Controller
+from openacr.protocol.events import ControlKey
 
 FOLDER = Path(__file__).parent / "dialogues"
 PATIENCE_TK = 40_000
@@ -29,6 +32,28 @@ def say(card: Controller, line: str) -> str:
     return shown.replace("\r\n", "\n")
 
 
+def exchange(card: Controller, packet: str) -> str:
+    """Send the bytes of a packet; the line that shows the reply."""
+    card.receive(card.console, bytes.fromhex(packet))
+    card.advance(1)
+    return f"= {card.take_output(card.console).hex(' ').upper()}".rstrip() + "\n"
+
+
+def direct(card: Controller, verb: str, what: str) -> str:
+    """Follow a stage direction; what is shown of it."""
+    match verb:
+        case "wait":
+            card.advance(seconds=float(what))
+        case "press":
+            card.press(ControlKey[what])
+        case "flag":
+            number, state = map(int, what.split())
+            card.bit[number] = bool(state)
+        case "packet":
+            return exchange(card, what)
+    return ""
+
+
 def screens(text: str) -> Iterator[tuple[str, str]]:
     """The dialogue as it stands in the file and as it is held with a card, part by part."""
     card = Controller()
@@ -43,12 +68,10 @@ def screens(text: str) -> Iterator[tuple[str, str]]:
                 prompt = answer[answer.rfind("\n") + 1 :]
             continue
         yield expected, shown
-        expected = shown = ""
-        words = line[1:].split(maxsplit=1)
-        if words[:1] == ["wait"]:
-            card.advance(seconds=float(words[1]))
-        elif words[:1] == ["type"]:
-            answer = say(card, words[1])
+        verb, _, what = line[1:].strip().partition(" ")
+        expected, shown = "", direct(card, verb, what)
+        if verb == "type":
+            answer = say(card, what)
             prompt = answer[answer.rfind("\n") + 1 :]
     yield expected, shown
 
@@ -56,11 +79,16 @@ def screens(text: str) -> Iterator[tuple[str, str]]:
 @pytest.mark.parametrize(
     "name",
     [
+        "buffered_moves",
         "cams",
+        "curves",
         "expressions",
+        "feed_hold",
         "filters",
         "gear_source",
+        "homing",
         "kill_flags",
+        "limit_recovery",
         pytest.param("list", marks=pytest.mark.req("ACR-FLOW-11", "ACR-FLOW-12")),
         "parsing",
         "plc",
@@ -68,6 +96,7 @@ def screens(text: str) -> Iterator[tuple[str, str]]:
         "ratchet",
         "run_all",
         "setpoints",
+        "status",
         "vectors",
     ],
 )
@@ -77,4 +106,4 @@ def test_the_card_answers_as_written(name: str) -> None:
 
 
 def test_every_dialogue_is_held() -> None:
-    assert len(list(FOLDER.glob("*.txt"))) == 13
+    assert len(list(FOLDER.glob("*.txt"))) == 19
