@@ -42,7 +42,7 @@ def test_a_card_that_answers_takes_commands_at_once() -> None:
 @pytest.mark.req("MILL-START-FWVER")
 def test_a_card_older_than_1_18_is_refused() -> None:
     controller = Controller()
-    controller.memory.write(P_FIRMWARE_VERSION, 11706)
+    controller.memory.I[P_FIRMWARE_VERSION] = 11706
     with pytest.raises(UserError, match=r"alarm 2: Firmware older than 1\.18: 1\.17"):
         shop_on(controller)
 
