@@ -50,6 +50,9 @@ class Switchboard(Protocol):
     def admits(self, host: str) -> bool:
         """Whether a host may connect at all."""
 
+    def refused(self, name: str, why: str) -> None:
+        """A connection was turned away."""
+
     def joined(self, peer: Peer) -> bool:
         """Give the peer a stream; False when there is none left."""
 
@@ -88,10 +91,10 @@ class TcpPeer(asyncio.BufferedProtocol):
         if self._joined:
             log.info("%s connected (%s)", self._name, self.kind.value)
         elif not is_welcome:
-            log.warning("%s refused: not in the allowed networks", self._name)
+            self._board.refused(self._name, "not in the allowed networks")
             transport.abort()
         else:
-            log.warning("%s refused: all streams are taken", self._name)
+            self._board.refused(self._name, "all streams are taken")
             transport.abort()
 
     def get_buffer(self, sizehint: int) -> bytearray:
@@ -104,7 +107,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         if not self._joined or self._transport is None or self._transport.is_closing():
             return
         if self._opening.is_web(data):
-            log.warning("%s refused: it speaks HTTP or TLS, as a web page does", self._name)
+            self._board.refused(self._name, "it speaks HTTP or TLS, as a web page does")
             self._transport.abort()
         else:
             self._board.received(self, data)

@@ -16,6 +16,7 @@ from openacr.errors import UserError, reason
 from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
+from openacr.io.refusals import Refusals
 from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.io.status_port import StatusPort, open_status_port
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
@@ -93,6 +94,7 @@ class CardServer:
         self._listeners: list[asyncio.Server] = []
         self._status: StatusPort | None = None
         self._now = time.monotonic
+        self.refused = Refusals(self._now).note
 
     # --- set-up and end ---------------------------------------------------------------
 
