@@ -40,12 +40,12 @@ def test_a_host_gets_every_word_of_the_fast_status_as_captured_from_real_cards()
             assert not card.command("FSTAT PERIOD 1")
             card.command("FSTAT0 (48,2,0)")  # P12290 and so on
             card.command("FSTAT9 (48,1,0)")  # P12289 and so on
-            card.command("FSTAT3 (48,116,1)")  # P12404 and so on: PGAIN, as FP32
+            card.command("FSTAT3 (48,16,1)")  # P12304 and so on: PGAIN, as FP32
             for axis in range(8):
                 card.command(f"AXIS{axis} RES {100 * axis + 7}")
                 card.command(f"AXIS{axis} PGAIN {0.5 * axis - 1.25}")
             card.command("FSTAT ON")
-            gains = [card.read(12288 + 256 * axis + 116) for axis in range(8)]
+            gains = [card.read(12304 + 256 * axis) for axis in range(8)]
             expected = b"".join((
                 struct.pack(">8i", *(card.read(12290 + 256 * axis) for axis in range(8))),
                 bytes(64),
