@@ -6,7 +6,7 @@ import msgspec
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.basic import registry, saved, saving, user_memory
+from openacr.basic import registry, saved, saved_flags, saving, user_memory
 from openacr.basic.commands.nonvolatile import hex_records
 from openacr.basic.user_memory import UserMemory
 from openacr.controller import Controller
@@ -32,7 +32,8 @@ def test_every_command_whose_value_is_kept_is_in_the_list_of_esave() -> None:
     kept = [each.words for each in saved.all_saved()]
     assert len(set(kept)) == len(kept)
     assert rows - set(kept) == set(saving.SAME_VALUE)
-    assert set(kept) - rows == {"CANopen"}
+    beside = {each.words for each in saved_flags.saved_beside_commands()}
+    assert set(kept) - rows == {"CANopen"} | beside
     assert set(saving.SAME_VALUE.values()) <= set(kept)
 
 
@@ -165,3 +166,45 @@ def test_all_but_esave_belong_to_the_system_level(line: str, answer: str) -> Non
     card = Controller()
     card.send("PROG1\r")
     assert card.send(line + "\r").removeprefix(line + "\r\n").replace("\r\n", "|") == answer
+
+
+KEPT_FLAGS = (
+    *(8453, 8464, 8468, 8469, 8470, 8471, 8468 + 7 * 32),
+    *(16144, 16145, 16146, 16152, 16153, 16154, 16144 + 7 * 32, 5651),
+)
+KEPT_PARAMETERS = (12370, 12376, 12401, 12402, 12401 + 7 * 256, 8211, 8211 + 7 * 256)
+STATES = (8448, 8465, 8467, 8477, 8479, 16131, 16132, 16134, 5650)
+
+
+def test_esave_keeps_the_flags_and_parameters_beside_its_commands_and_no_states() -> None:
+    card = Controller("ACR8020")
+    for flag in (*KEPT_FLAGS, *STATES):
+        card.bit[flag] = True
+    for number, value in zip(KEPT_PARAMETERS, range(2, 9), strict=True):
+        card.p[number] = value
+    card.send("ESAVE\rREBOOT\r")
+    assert [flag for flag in KEPT_FLAGS if not card.bit[flag]] == []
+    assert [card.p[number] for number in KEPT_PARAMETERS] == [2, 3, 4, 5, 6, 7, 8]
+    assert [flag for flag in STATES if card.bit[flag]] == []
+    assert not card.bit[16148]
+
+
+def test_cleared_flags_come_back_cleared_and_the_others_of_their_word_stay() -> None:
+    card = Controller("ACR8020")
+    card.send("ESAVE\r")
+    for flag in (16144, 16132, 5651, 5633):
+        card.bit[flag] = True
+    card.send("ELOAD\r")
+    assert [card.bit[flag] for flag in (16144, 16132, 5651, 5633)] == [False, True, False, True]
+
+
+def test_a_machine_with_closed_contacts_moves_after_reboot() -> None:
+    card = Controller("ACR8020")
+    for number in (0, 1):
+        card.set_input(number, True)
+    card.send('PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS0 "X"\rHLBIT X0\rSET 16144\rSET 16145\r')
+    card.send("HLIM X3\rESAVE\rREBOOT\r")
+    card.advance(seconds=0.1)
+    card.send("PROG0\rVEL 10 ACC 0 DEC 0 STP 0\rX5\r")
+    card.advance(seconds=1)
+    assert (card.p[12288], card.bit[8467]) == (5, False)

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from openacr.basic.saved_flags import saved_beside_commands
 from openacr.basic.saving import Saved, each, kept
 from openacr.errors import CardError
 from openacr.kernel import source_cy
@@ -39,6 +40,7 @@ def all_saved() -> Iterator[Saved]:
     yield _PERIOD
     yield from kept.values()
     yield from _TABLE
+    yield from saved_beside_commands()
 
 
 def take(system: System) -> dict[str, Any]:
