@@ -442,6 +442,21 @@ def test_knots_of_spline_packets_are_times() -> None:
     assert sender.at == (1500, 0, 0)
 
 
+@pytest.mark.parametrize(("curve", "ticks"), [(SPLINE, 5000), (TIMED_SPLINE, 3500)])
+def test_the_scaling_of_a_spline_packet_is_no_knot_without_its_bit(
+    curve: dict[str, int], ticks: int
+) -> None:
+    sender = Sender()
+    relative = {"code3": Code3.CURVE | Code3.INCREMENTAL_TARGET}
+    for scaling in ((0.5, 0.0), (0.75, 0.0)):
+        sender.move({0: 500}, **curve | relative, scaling=scaling)
+    sender.move({0: 500}, **TIMED_SPLINE | relative, scaling=(-0.5, 0.0))
+    start = sender.card.tick
+    sender.rest()
+    assert sender.card.tick - start == ticks
+    assert sender.at == (1500, 0, 0)
+
+
 def test_curves_of_many_packets_wait_for_room() -> None:
     sender = Sender("SPLINE MODE 1")
     for step in range(1, 41):

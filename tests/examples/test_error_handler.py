@@ -83,6 +83,12 @@ def excess_error(bench: Bench) -> None:
     bench.card.until(8511)
 
 
+def excess_error_of_x(bench: Bench) -> None:
+    bench.type_in("TLM X0.1")
+    bench.type_in("X/-5")
+    bench.card.until(8479)
+
+
 def drive_fault(bench: Bench) -> None:
     bench.card.set_input(16, True)
     bench.card.until(8477)
@@ -122,6 +128,15 @@ def set_by_user(bench: Bench) -> None:
             marks=pytest.mark.req("ACR-ERR-07", "ACR-KAMR-16"),
         ),
         pytest.param(
+            excess_error_of_x,
+            (5, 7),
+            [
+                "Axis 0 Error 5 -> Axis 0 disabled due to excess position error",
+                f"Axis 1 Error 7 -> {OTHER}",
+            ],
+            marks=pytest.mark.req("ACR-ERR-07"),
+        ),
+        pytest.param(
             drive_fault,
             (7, 7),
             [
@@ -150,6 +165,7 @@ def test_a_trouble_has_its_code_and_its_text(
     assert lines[1:] == [*texts, "", ""]
     assert (bench.card.p[X_CODE], bench.card.p[Y_CODE]) == codes
     assert not bench.card.bit[ERROR_OCCURRED]
+    assert (bench.card.bit[8479], bench.card.bit[8511]) == (False, False)
 
 
 @pytest.mark.req("ACR-ERR-11")

@@ -15,6 +15,9 @@ from tests.network.rig import (
     start,
 )
 
+from openacr.map import numbers as at
+from openacr.network.canopen.rows import Phase
+
 TWO = PANEL + node(2, digital_inputs=8, digital_outputs=8)
 
 
@@ -114,6 +117,12 @@ def test_too_many_errors_switch_the_controller_off_until_the_next_start() -> Non
     assert (made.p[STATE], made.bit[OPERATIONAL]) == (10, False)
     made.advance(seconds=2.0)
     assert made.p[STATE] == 10, "only a start helps"
+    made.set_input(DI[0], True)
+    made.advance(seconds=0.5)
+    assert not made.bit[DI[0]], "nothing is exchanged without one"
+    due = (at.NETMF_PHASE_TK, at.NETMF_SYNC_TK, at.NETMF_ARRIVAL_TK, at.NETMF_HEALTH_TK)
+    assert [made.memory.F[at.NETMF_BASE + row] for row in due] == [0.0] * 4
+    assert made.memory.I[at.NETMI_BASE + at.NETMI_PHASE] == Phase.IDLE
     assert start(made) == 2
     made.advance(seconds=1.0)
     assert made.p[STATE] == 2
