@@ -6,6 +6,7 @@ import pytest
 from tests.controller.hosts import Host, connected
 
 from openacr.basic.commands.program_control import SHOWN_LINE_WORK, WORK_PER_SLICE
+from openacr.controller import Controller
 
 LINES = 230
 SLICE_TICKS = 2
@@ -136,3 +137,9 @@ def test_another_host_is_served_while_lines_wait(host: Host) -> None:
     host.send("?1\r" * 300)
     assert other.ask("?BIT1") == "0"
     assert len(host.after(1)) <= 2 * len("?1|1|SYS>")
+
+
+def test_lines_of_a_caller_in_this_process_are_all_dealt_with() -> None:
+    card = Controller()
+    assert card.send("?1\r" * 300) == "?1\r\n1\r\nSYS>" * 300
+    assert card.send("?2\r\n\r?3") == "?2\r\n2\r\nSYS>\r\nSYS>?3"

@@ -64,7 +64,7 @@ ENDP
 
 def enter(made: Controller, *lines: str) -> str:
     """Type lines as a terminal sends them; what they print."""
-    made.receive(made.console, "".join(f"{line}\r" for line in lines).encode())
+    made.type_lines(made.console, "".join(f"{line}\r" for line in lines).encode())
     return made.take_output(made.console).decode()
 
 

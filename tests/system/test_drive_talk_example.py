@@ -21,7 +21,7 @@ SET_UP = (
 
 def typed(bench: Bench, *lines: str) -> str:
     """What typed lines print; the quotes of the guide are typographic."""
-    bench.card.receive(bench.card.console, "".join(f"{line}\r" for line in lines).encode())
+    bench.card.type_lines(bench.card.console, "".join(f"{line}\r" for line in lines).encode())
     said = bench.card.take_output(bench.card.console).decode()
     return said.removesuffix("\r\n").replace("\r\n", "|")
 

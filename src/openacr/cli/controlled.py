@@ -121,7 +121,7 @@ class ControlledMachine:
         name = stream or ""
         if name not in self._streams:
             self._streams[name] = self._open(stream)
-        self._controller.receive(self._streams[name], as_typed(text))
+        self._controller.type_lines(self._streams[name], as_typed(text))
         self._read_terminals()
 
     @contextmanager

@@ -127,6 +127,11 @@ class Controller(Surroundings):
         """Whether a connection of this number is open."""
         return stream in self.streams
 
+    def type_lines(self, stream: int, data: bytes) -> None:
+        """Bytes of a caller in this process, line by line: each line has a turn of its own."""
+        for line in data.splitlines(keepends=True) or [data]:
+            self.receive(stream, line)
+
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
         return self.streams.accepts_input(stream)
@@ -158,10 +163,10 @@ class Controller(Surroundings):
     def send(self, text: str) -> str:
         """Type text on the console; what the card has answered so far.
 
-        What takes longer needs card time: a LIST of more than 50 lines, more than some ten
-        lines at once, a wait. `advance`, then `send("")` gives the rest of the answer.
+        What takes longer needs card time: a LIST of more than 50 lines, a wait. `advance`,
+        then `send("")` gives the rest of the answer.
         """
-        self.receive(self.console, as_typed(text))
+        self.type_lines(self.console, as_typed(text))
         return b"".join(iter(lambda: self.take_output(self.console), b"")).decode("latin-1")
 
     def press(self, key: ControlKey) -> None:
