@@ -67,6 +67,7 @@ def single(word: int) -> float:
 @pytest.mark.req("BIN-098", "BIN-099", "BIN-102")
 def test_a_parameter_is_read_and_masked_at_its_address(card: Card) -> None:
     (address,) = card.ask(ParameterAddress(4097))
+    assert address == 0x410000 + 4097
     card.memory.write(4097, -1)
     assert card.peek(address) == (0xFFFFFFFF,)
     card.ask(MaskMemory(address, 0xFFFFFFFF, 1))

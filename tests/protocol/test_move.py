@@ -175,3 +175,7 @@ def test_fields_that_the_codes_do_not_announce_are_refused() -> None:
         Move(bytes(8), vel=1.0).encode()
     with pytest.raises(PacketError, match="both are 0"):
         Move.of({16: 1})
+    for master in (-1, 16):
+        with pytest.raises(PacketError, match=f"of master {master}: both are 0"):
+            Move.of({0: 1}, master=master)
+    assert Move.of({15: 1}, master=15).encode()

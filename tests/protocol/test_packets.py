@@ -7,6 +7,8 @@ import pytest
 from openacr.protocol import packets
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest, locate
+from openacr.protocol.escape import BinaryMode
+from openacr.protocol.framing import PacketReader
 from openacr.protocol.memory import (
     Conversion,
     MaskMemory,
@@ -25,6 +27,7 @@ from openacr.protocol.parameter import (
     SetIeee,
     SetLong,
 )
+from openacr.protocol.stream import ASCII_PORT, BINARY_PORT
 
 EXAMPLES: list[tuple[str, Packet]] = [
     ("00 30 02 2C", DataRequest(0x30, 2, 0x2C)),
@@ -214,3 +217,15 @@ def test_masters_beyond_15_are_refused() -> None:
 def test_bytes_that_are_no_packet_are_refused(data: bytes) -> None:
     with pytest.raises(PacketError):
         packets.decode(data)
+
+
+def test_a_beginning_of_no_packet_is_forgotten() -> None:
+    reader = PacketReader(dpcb=False, short_overrides=False)
+    reader.start(0x01, BinaryMode.PLAIN, 0)
+    with pytest.raises(PacketError, match="no packet starts with 01 00"):
+        reader.feed(b"\0", 0)
+    assert not reader.reading
+
+
+def test_the_ports_are_those_hosts_connect_to() -> None:
+    assert (ASCII_PORT, BINARY_PORT) == (5002, 5006)
