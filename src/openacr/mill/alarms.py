@@ -62,6 +62,7 @@ NOT_IN_PLACE = _alarm(16, "Machine was moved by another program: {}", Effect.ABO
 CARD_RESET = _alarm(17, "Card was reset: its axes have lost their positions", Effect.ABORT)
 SOFT_LIMIT = _alarm(20, "Soft limit axis {}", Effect.HOLD)
 TARGET_BEYOND = _alarm(21, "Target beyond soft limit: {}", Effect.ABORT)
+LIMIT_CROSSED = _alarm(22, "Card stopped axis {} beyond its soft limit", Effect.ABORT)
 NOT_IN_POSITION = _alarm(24, "In-position time-out", Effect.ABORT)
 NOT_CONFIRMED = _alarm(31, "Reference point not confirmed", Effect.ABORT)
 POINT_MISSED = _alarm(32, "Reference point missed: {}", Effect.ABORT)

@@ -8,6 +8,7 @@ cards with a battery keep them, and count from 0 all the same.
 from collections.abc import Callable
 
 from openacr.client import Card
+from openacr.mill import barrier
 from openacr.mill.panel import Panel
 from openacr.mill.settings import AXES, HOMED, Settings, Store
 
@@ -30,6 +31,8 @@ def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: N
 
 def note(panel: Panel, axis: int, homed: bool) -> None:
     """The reference point of an axis is known, or not any more."""
+    if not homed:
+        barrier.open_way(panel, axis)
     panel.settings.mark_homed(axis, homed)
     panel.machine.set_flag(FIRST_HOMED_FLAG + axis, homed)
 

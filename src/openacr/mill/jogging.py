@@ -193,9 +193,7 @@ class Jogging:
 
     def _is_key_turned(self) -> bool:
         """Whether the maintenance key is turned: no soft limits, but never fast."""
-        number = self._panel.settings.wiring.soft_limits
-        is_wired = self._panel.has_input(number)
-        return is_wired and not self._panel.is_in(self._machine.look(), number)
+        return self._panel.is_key_turned(self._machine.look())
 
     def _is_turned(self, axis: int) -> bool:
         """Whether Jog Direction turns the controls of an axis around."""

@@ -25,6 +25,12 @@ BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096
 TRIPPED = 247  # user flag: the watchdog has stopped the machine
 USER_FLAGS, TRIPPED_MASK = n.UF_WORD + 3, 1 << 23  # the word of flag 247, and its bit
+LIMIT_LATCHES = (
+    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+)
 FIRST_MODULE_FLAG = (n.XIOI_WORD - FIRST_FLAG_WORD) * BITS_PER_WORD
 
 
@@ -272,9 +278,9 @@ class Machine:
         self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
 
     def clear_limits(self) -> None:
-        """Forget hardware limits that were met; an axis that goes on into one meets it again."""
-        self._set_of_axes(n.AF5_WORD, n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED, False)
-        self._set_of_axes(n.AF5_WORD, n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED, False)
+        """Forget limits that were met; an axis that goes on into one meets it again."""
+        for latch in LIMIT_LATCHES:
+            self._set_of_axes(n.AF5_WORD, latch, False)
 
     def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
         """One flag of every axis in use, all in one go."""

@@ -71,6 +71,11 @@ class Panel:
         """Whether an input is active; one that is not there is not."""
         return self.has_input(number) and look.input(number) != (number in self._inverted_in)
 
+    def is_key_turned(self, look: Look) -> bool:
+        """Whether the maintenance key is turned: its input is off then."""
+        number = self.settings.wiring.soft_limits
+        return self.has_input(number) and not self.is_in(look, number)
+
 
 def _numbers(own: range, modules: int, first: int) -> Iterator[int]:
     """The inputs or outputs of the card and of its expansion modules."""

@@ -11,7 +11,7 @@ from functools import partial
 
 from openacr.cnc import canonical as c
 from openacr.errors import StoreError, UserError
-from openacr.mill import alarms
+from openacr.mill import alarms, barrier
 from openacr.mill.alarms import Alarm, Alarms
 from openacr.mill.ballscrew import Compensation
 from openacr.mill.burning import Burner
@@ -285,8 +285,10 @@ class Runner:
         if self.state is State.PAUSED and not self._pausing.has_rested:
             raise UserError(f"cannot {what}: the machine has not come to rest yet")
         self._require_ended(what)
-        if self.panel.is_in(self.machine.look(), self.settings.wiring.feed_hold):
+        look = self.machine.look()
+        if self.panel.is_in(look, self.settings.wiring.feed_hold):
             raise UserError(f"cannot {what}: the feed hold input is active")
+        barrier.keep(self.panel, look)
         self.alarms.require_none()
         self.course.excuse()
 
@@ -320,6 +322,7 @@ class Runner:
     def _do(self, look: Look) -> None:
         self._times.look(self.machine.now_s)
         self.course.tracker.update(look.counter)
+        barrier.keep(self.panel, look)
         self._supervision.keep(look, self._times.step_s)
         self._switches.keep(look, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(look)

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
+from openacr.mill import barrier
 from openacr.mill.ballscrew import Table, install
 from openacr.mill.rows import AxisSettings
 from openacr.mill.settings import AXES, Settings
@@ -79,6 +80,7 @@ def lines(settings: Settings) -> Iterator[str]:
         yield f'ATTACH SLAVE{axis.index} AXIS{axis.index} "{axis.name}"'
     for axis in settings.axes:
         yield from _axis(axis)
+        yield from barrier.lines(axis, settings.speeds.feed_acc_ups2)
     yield from _spindle(settings)
     yield "VECDEF " + " ".join(f"{one.name}{int(one.name in LINEAR)}" for one in settings.axes)
     yield "FOV 1"

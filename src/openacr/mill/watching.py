@@ -11,6 +11,7 @@ from openacr.mill.panel import Panel
 HARDWARE_LIMIT = (
     n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
 )
+SOFT_LIMIT = n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
 Cause = tuple[Kind, str]
 
 
@@ -37,7 +38,8 @@ class Watch:
         if self._has_error_band and not look.is_within_error:
             for name in self._in_error():
                 yield alarms.EXCESS_ERROR, name
-        if look.is_killed and not self._panel.machine.is_dropping:
+        is_crossed = any(word & SOFT_LIMIT for word in look.limits)  # kills moves, too
+        if look.is_killed and not is_crossed and not self._panel.machine.is_dropping:
             yield alarms.MOVES_KILLED, ""
         if spins and self._panel.is_in(look, spindle.exception):
             yield alarms.SPINDLE_EXCEPTION, ""
@@ -52,6 +54,8 @@ class Watch:
                 yield alarms.DRIVE_FAULT, name
             if limit & HARDWARE_LIMIT:
                 yield alarms.HARDWARE_LIMIT, name
+            if limit & SOFT_LIMIT:
+                yield alarms.LIMIT_CROSSED, name
 
     def _in_error(self) -> Iterator[str]:
         """The axes outside their band, asked for only when the master says there are some."""

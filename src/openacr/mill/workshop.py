@@ -27,7 +27,7 @@ from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
 from openacr.errors import UserError
-from openacr.mill import alarms, homed
+from openacr.mill import alarms, barrier, homed
 from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
 from openacr.mill.checks import check_axes, check_firmware, check_rest
@@ -98,6 +98,7 @@ class Workshop:
             for number, value in AT_START.items():
                 cells.write(number, value)
         settings = Settings(cells)
+        self._limits_found = [] if is_virtual else barrier.found(card, settings)
         tables = tables_of(cells, settings, folder)
         depth = prepare(card, settings, tables)
         axes = [axis.index for axis in settings.axes]
@@ -192,6 +193,8 @@ class Workshop:
         with suppress(*LINK_ERRORS):
             if self._watchdog is not None and owner.is_ours() and not has_tripped(self.card):
                 self._watchdog.remove()
+            if owner.is_ours():
+                barrier.restore(self.card, self.runner.settings, self._limits_found)
             owner.release()
 
     @property
