@@ -241,6 +241,8 @@ def test_m_codes_of_the_machine_lie_beside_its_store(
     code, text = mill("run", file)
     assert code == 0
     assert "X   3.0000" in text
+    code, places = mdi(None, "F600", "M50 X2")
+    assert (code, places[-1].split()[:2]) == (0, ["X", "4.0000"])
 
 
 def test_another_tool_in_the_spindle_bars_a_start_at_a_line_unless_told_otherwise(

@@ -7,7 +7,11 @@ from tests.cnc.programs import CYCLES, made, shown
 
 from openacr.cnc.canonical import Line, Pace, Sync
 from openacr.cnc.findings import BlockError
+from openacr.cnc.hosts import VirtualMachine
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.load import Folders, load_blank
 from openacr.cnc.mdi import Mdi
+from openacr.sysvar import Store
 
 
 def mdi(text: str = "M2", cells: dict[int, float] | None = None) -> Mdi:
@@ -120,3 +124,54 @@ def test_a_cycle_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
     with pytest.raises(BlockError, match="E210"):
         does(typed, "G81 X1 Z-1 R0")
     assert does(typed, "F10 G2 X3 Y0 Z0 I2 J0") == ["A X3 about 2,0 -180"]
+
+
+def with_files(tmp_path: Path, dialect: str = "acromill") -> Mdi:
+    """MDI with the M codes of these files."""
+    texts = {
+        "M50.TXT": "G1 X(#1*2)\nRET\n", "m501.txt": "M50 X4\nY1\nRET\n",
+        "M3.TXT": "Z9\nRET\n", "M60.TXT.OLD": "Z9\nRET\n", "XM61.TXT": "Z9\nRET\n",
+    }  # fmt: skip
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    store = Store()
+    program = load_blank(store, dialect, Folders(customs=tmp_path), name="MDI")
+    return Mdi(Interpreter(program, store, VirtualMachine(), dialect))
+
+
+def test_the_m_codes_of_files_are_known(tmp_path: Path) -> None:
+    typed = with_files(tmp_path)
+    assert does(typed, "F50 M50 X1.5")[-1:] == ["L X3"]
+    assert does(typed, "M501")[-2:] == ["L X8", "L X8 Y1"]
+    assert does(typed, "M3 S100") == ["M3 S100"]  # the dialect's own
+
+
+@pytest.mark.parametrize("line", ["M60", "M61"])
+def test_an_m_code_without_a_file_of_its_very_name_is_unknown(tmp_path: Path, line: str) -> None:
+    with pytest.raises(BlockError) as caught:
+        does(with_files(tmp_path), line)
+    assert caught.value.finding.code == "E205"
+
+
+def test_a_folder_of_m_codes_that_is_not_there_is_none(tmp_path: Path) -> None:
+    program = load_blank(Store(), folders=Folders(customs=tmp_path / "none"))
+    assert program.customs == {}
+
+
+@pytest.mark.parametrize("cells", [{}, {700_006: 1.0}])
+def test_the_supplied_cycles_are_added_to_a_program_once(cells: dict[int, float]) -> None:
+    typed = mdi("M2", cells)
+    parts = typed._run.program.parts
+    assert [part.is_cycles for part in parts] == [False, True]
+    Mdi(typed._run)
+    assert [part.is_cycles for part in parts] == [False, True]
+    assert does(typed, "G81 X1 Z-1 R-.5")[-1:] == ["R X1"]
+
+
+def test_what_a_typed_line_does_and_what_is_wrong_with_it_is_line_1_of_mdi() -> None:
+    typed = mdi()
+    (move,) = [entry for entry in typed.execute("G1 F50 X1") if isinstance(entry, Line)]
+    assert (move.source.file, move.source.line, move.source.text) == ("MDI", 1, "G1 F50 X1")
+    with pytest.raises(BlockError) as caught:
+        does(typed, "X(1/0)")  # found when it runs
+    assert (caught.value.finding.file, caught.value.finding.line) == ("MDI", 1)

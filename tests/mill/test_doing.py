@@ -223,3 +223,28 @@ def test_a_variable_the_card_does_not_have_ends_the_program_with_its_name() -> N
     (alarm,) = shop.runner.alarms.active
     assert alarm.text == "Program error: line 3: T P150: the card has no P150; DIM P makes it"
     assert shop.pulses()[0] == 10000
+
+
+def test_a_tool_changed_signal_that_stays_on_holds_the_program_for_two_seconds() -> None:
+    shop = Shop(P900_000=14, P900_001=42)
+    shop.store.write(235, 1)
+    shop.start(c.Tool(src(1), 7), line(2, at(1)), end())
+    shop.pass_time(0.2)
+    shop.controller.set_input(14, True)
+    shop.pass_time(1.9)
+    assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "tool-changed signal off")
+    assert (shop.controller.p[91], shop.pulses()) == (1, (0, 0, 0))
+    shop.pass_time(0.3)
+    assert shop.controller.p[91] == 7
+    assert shop.until(State.IDLE) is State.IDLE
+    assert (shop.pulses()[0], codes(shop)) == (10_000, [])
+
+
+def test_a_tool_changed_signal_that_is_on_before_the_change_confirms_nothing() -> None:
+    shop = Shop(P900_000=14, P900_001=42, P900_003=1.0)
+    shop.store.write(235, 1)
+    shop.controller.set_input(14, True)
+    shop.start(c.Tool(src(1), 7), line(2, at(1)), end())
+    assert shop.until(State.ALARM) is State.ALARM
+    assert (codes(shop), shop.store.read(235)) == ([51], 1)
+    assert shop.outputs((42,)) == [False]

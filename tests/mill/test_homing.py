@@ -152,3 +152,20 @@ def test_what_a_broken_off_homing_has_moved_becomes_position(world: Controller) 
     at = shop.controller.p[12288]
     assert at > 100
     assert shop.controller.axis(0).actual_cnt == pytest.approx(at, abs=8)
+
+
+@pytest.mark.parametrize("was_homed", [True, False])
+def test_a_homing_that_is_broken_off_leaves_the_axis_not_homed(
+    world: Controller, was_homed: bool
+) -> None:
+    shop = homing_shop(world, P271=3 if was_homed else 0)
+    shop.runner.home([0])
+    shop.pass_time(0.3)
+    assert shop.store.read(271) == (2 if was_homed else 0)  # Y keeps what it knows
+    shop.runner.stop()
+    shop.until(State.ALARM)
+    assert shop.store.read(271) == (2 if was_homed else 0)
+    assert not shop.controller.bit[248]
+    shop.runner.acknowledge()
+    home(shop, 0)
+    assert shop.runner.settings.is_homed(0)

@@ -38,11 +38,13 @@ def drip_program(
     from openacr.mill.communications import Line
     from openacr.mill.dialects import dialect_of
     from openacr.mill.dripping import Drip
+    from openacr.mill.folders import folders_of
     from openacr.mill.workshop import Start
 
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         name = dialect_of(None, cells, dialect)
-        drip = Drip(Line.of(cells, port), shop.cells, name, is_dry=is_dry)
+        folders = folders_of(cells, cells.path.parent if cells.path else None)
+        drip = Drip(Line.of(cells, port), shop.cells, name, is_dry=is_dry, folders=folders)
         shop.keep_drip(drip)
         shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
         _run(shop)

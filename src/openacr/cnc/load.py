@@ -23,7 +23,7 @@ from openacr.cnc.parser import parse
 from openacr.cnc.plan import Plan, Planner
 from openacr.cnc.program import CYCLES_FILE, Part, Program
 from openacr.cnc.scanning import Skimmer
-from openacr.cnc.supplied import cycle_part, found_in, supplied_cycles
+from openacr.cnc.supplied import custom_numbers, cycle_part, found_in, supplied_cycles
 from openacr.cnc.targets import Targets, double_labels, labels_of_cycles
 from openacr.cnc.text import Text, decoded
 
@@ -63,6 +63,13 @@ def load(
     else:
         text, folder = Text.of(source, name), None
     return Loader(cells, DIALECTS[dialect], folders or Folders()).load(text, folder)
+
+
+def load_blank(
+    cells: Cells, dialect: str = "acromill", folders: Folders | None = None, name: str = "PROGRAM"
+) -> Program:
+    """A program without lines, for blocks that come one by one: all M codes of files are known."""
+    return Loader(cells, DIALECTS[dialect], folders or Folders()).load_blank(Text.of(b"", name))
 
 
 def planner_of(cells: Cells, dialect: Dialect, program: Program | None = None) -> Planner:
@@ -109,6 +116,13 @@ class Loader:
         self._findings.extend(islice(double_labels(program.parts), MOST))
         self._findings.sort(key=lambda f: (f.file != text.name, f.line, f.column))
         program.findings = self._findings[:MOST]
+        return program
+
+    def load_blank(self, text: Text) -> Program:
+        """The program of an empty text, with the M codes of all files in their folder."""
+        program = self.load(text, None)
+        for number in custom_numbers(self._custom_folder()) if self._dialect.has_custom else ():
+            self._read_custom(number)
         return program
 
     # --- lines ------------------------------------------------------------------------
@@ -192,11 +206,13 @@ class Loader:
         return plan
 
     def _custom(self, word: Word) -> None:
-        if not isinstance(word.value, Number) or word.value.number in self._dialect.table.mcodes:
-            return
-        number = int(word.value.number)
-        folder = self._custom_folder()
-        if number in self._program.customs or folder is None:
+        if isinstance(word.value, Number):
+            self._read_custom(word.value.number)
+
+    def _read_custom(self, code: float) -> None:
+        """The file of an M code, unless the dialect has the code or the file was read before."""
+        number, folder = int(code), self._custom_folder()
+        if code in self._dialect.table.mcodes or number in self._program.customs or folder is None:
             return
         path = found_in(folder, f"M{number}.TXT")
         if path is not None:

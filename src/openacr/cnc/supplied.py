@@ -1,5 +1,6 @@
 """Texts that come with the package, and files found whatever the case of their names."""
 
+import re
 from importlib.resources import files
 from pathlib import Path
 
@@ -8,6 +9,8 @@ from openacr.cnc.labels import Place
 from openacr.cnc.parser import parse
 from openacr.cnc.program import CYCLES_FILE, Part
 from openacr.cnc.text import Kept, Text, decoded
+
+CUSTOM_NAME = re.compile(r"M(\d+)\.TXT", re.IGNORECASE)
 
 
 def cycle_part() -> Part:
@@ -44,3 +47,11 @@ def found_in(folder: Path, name: str) -> Path | None:
         return None
     wanted = path.name.upper()
     return next((p for p in path.parent.iterdir() if p.name.upper() == wanted), None)
+
+
+def custom_numbers(folder: Path | None) -> list[int]:
+    """The numbers of the M codes that have a file `Mnnn.TXT` in a folder, ascending."""
+    if folder is None or not folder.is_dir():
+        return []
+    names = (CUSTOM_NAME.fullmatch(path.name) for path in folder.iterdir())
+    return sorted({int(name[1]) for name in names if name})

@@ -18,7 +18,7 @@ from openacr.cnc.flow import Level
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter
 from openacr.cnc.interpreter import Options as Reading
-from openacr.cnc.load import load
+from openacr.cnc.load import Folders, load_blank
 from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.mill.communications import XON_XOFF, Line
@@ -36,13 +36,19 @@ class Drip:
     """One program on its way in over a serial port."""
 
     def __init__(
-        self, line: Line, store: Cells, dialect: str = "acromill", *, is_dry: bool = False
+        self,
+        line: Line,
+        store: Cells,
+        dialect: str = "acromill",
+        *,
+        is_dry: bool = False,
+        folders: Folders | None = None,
     ) -> None:
         self._port = line.open()
         self._sends_xoff = line.handshake == XON_XOFF
         self.is_held_back = False
         self._store, self._dialect, self._is_dry = store, dialect, is_dry
-        self.program: Program = load(b"", store, dialect, name=NAME)
+        self.program: Program = load_blank(store, dialect, folders, name=NAME)
         self.text = ArrivingText(NAME, self.program.main.labels)
         self.program.main.text = self.text
         self.text.of_part(self.program.main)

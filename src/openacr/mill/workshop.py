@@ -21,7 +21,7 @@ from openacr.cnc.cells import DEFAULT_UNIT
 from openacr.cnc.hosts import Cells
 from openacr.cnc.interpreter import Interpreter
 from openacr.cnc.interpreter import Options as Reading
-from openacr.cnc.load import load
+from openacr.cnc.load import load_blank
 from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
@@ -33,6 +33,7 @@ from openacr.mill.ballscrew import tables_of
 from openacr.mill.checks import check_axes, check_firmware, check_rest
 from openacr.mill.dripping import Drip
 from openacr.mill.enabling import rest_outputs
+from openacr.mill.folders import folders_of
 from openacr.mill.host import RunHost
 from openacr.mill.jogging import Jogging
 from openacr.mill.leftovers import has_tripped, tidy
@@ -88,6 +89,7 @@ class Workshop:
         owner: Owner | None = None,
     ) -> None:
         self._owner = owner
+        self._folder = folder
         self.cells = cells
         self.card = card
         self.is_virtual = is_virtual
@@ -267,7 +269,8 @@ class Workshop:
         While the next block is None, for it is still being typed, the machine is looked at.
         """
         host = self.runner.course.host
-        program = load(b"", self.cells, dialect, name="MDI")
+        folders = folders_of(self.cells, self._folder)
+        program = load_blank(self.cells, dialect, folders, name="MDI")
         typed = Mdi(Interpreter(program, self.cells, host, dialect))
         self.typed = typed.text
         for block in blocks:
