@@ -9,6 +9,7 @@ from openacr.mill.jogging import LEASH_S
 from openacr.mill.settings import HOMED
 from openacr.mill.states import State
 from openacr.mill.workshop import Workshop
+from openacr.protocol.move import Move
 from openacr.sysvar import Store
 
 
@@ -30,6 +31,70 @@ def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
         most = max(most, shop.runner.course.tracker.waiting)
         assert shop.runner.course.tracker.waiting_s <= 5.0
     assert most == 4
+
+
+def test_a_trace_is_bounded_like_the_program() -> None:
+    """Moves of 1 s each back along the path: the same 4 s wait at most, and all are made."""
+    shop = Shop(P650_006=60.0)
+    shop.load("F600\n" + "G1 X1\nX0\n" * 10 + "X5\nM2\n")
+    while shop.place()[0] < 2.0:
+        shop.pass_time(0.005)
+    shop.runner.stop()
+    shop.pass_time(0.6)
+    shop.runner.trace(-1)
+    most = 0
+    while shop.runner.retrace.is_active:
+        shop.pass_time(0.05)
+        most = max(most, shop.runner.retrace.tracker.waiting)
+    assert (most, shop.pulses()) == (4, (0, 0, 0))
+
+
+@pytest.mark.parametrize("direction", [0, -1])
+def test_moves_the_card_does_not_begin_end_the_program(
+    monkeypatch: pytest.MonkeyPatch, direction: int
+) -> None:
+    """Those of the program, and those of a trace in a pause."""
+    shop = Shop()
+    shop.load("F60\nG1 X1\nG4 F.1\nG1 X9\nM2\n")
+    shop.pass_time(1.5 if direction else 0.5)
+    if direction:
+        shop.runner.stop()
+        shop.pass_time(0.6)
+        monkeypatch.setattr(shop.runner.machine, "send", lambda _moves: None)
+        shop.runner.trace(direction)
+        while not shop.runner.retrace.tracker.sent:
+            shop.pass_time(0.005)
+    else:
+        monkeypatch.setattr(shop.runner.machine, "send", lambda _moves: None)
+        while shop.runner.course.tracker.sent < 2:
+            shop.pass_time(0.005)
+    shop.pass_time(2.98)
+    assert codes(shop) == []
+    shop.pass_time(0.04)
+    assert codes(shop) == [18]
+
+
+def test_a_card_that_begins_late_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """2 s before the first move, and 2 s before the second: neither is too long."""
+    shop, kept = Shop(), list[list[Move]]()
+    shop.load("F600\nG1 X1\nG4 F.1\nX2\nM2\n")
+    send = shop.runner.machine.send
+    monkeypatch.setattr(shop.runner.machine, "send", lambda moves: kept.append(list(moves)))
+    for count in (1, 2):
+        while len(kept) < count:
+            shop.pass_time(0.005)
+        shop.pass_time(2.0)
+        send(kept[-1])
+    shop.until(State.IDLE)
+    assert (shop.pulses(), codes(shop)) == ((20_000, 0, 0), [])
+
+
+def test_a_machine_without_a_program_has_no_moves_to_make() -> None:
+    shop = Shop()
+    shop.run_text("F600\nG1 X1\nM2\n")
+    shop.runner.machine.reset_counter()  # by another host
+    shop.pass_time(4.0)
+    assert codes(shop) == []
 
 
 def test_a_long_move_has_none_but_one_behind_it() -> None:

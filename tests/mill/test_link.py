@@ -7,10 +7,13 @@ from tests.mill.shop import Shop, at, end, line, src
 
 from openacr.client.errors import ConnectionLostError, NoReplyError
 from openacr.cnc import canonical as c
+from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
+from openacr.mill.overrides import Override
 from openacr.mill.states import State
 from openacr.protocol.move import Move
 
 SPINDLE_CW = "P800_005"
+FOV, ROV = MA_BASE + MA_FEEDRATE_OVERRIDE, MA_BASE + MA_RAPID_FEEDRATE_OVERRIDE
 CUT = (c.Spindle(src(1), c.Spin.CLOCKWISE, 500), line(2, at(50)), end())
 
 
@@ -101,6 +104,27 @@ def test_packets_that_may_be_lost_are_sent_again(monkeypatch: pytest.MonkeyPatch
     assert (shop.pulses(), codes(shop)) == ((0, 0, 0), [])
     corners = {(1.0, 1.0), (0.0, 1.0)}
     assert {(round(x, 1), round(y, 1)) for x, y, _ in places} >= corners
+
+
+def test_overrides_that_may_be_lost_are_sent_again() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X9\nM2\n")
+    shop.runner.overrides.choose(Override.FEED, 5)
+    shop.runner.overrides.choose(Override.RAPID, 4)
+    shop.pass_time(0.5)
+    wanted = [shop.runner.overrides.factor(which) for which in (Override.FEED, Override.RAPID)]
+    assert [shop.card.read(FOV), shop.card.read(ROV)] == wanted
+    assert 1.0 not in wanted
+    shop.card.command("FOV 1", program=0)  # as if the packets had not arrived
+    shop.card.command("ROV 1", program=0)
+    shop.pass_time(0.5)
+    assert [shop.card.read(FOV), shop.card.read(ROV)] == [1.0, 1.0]
+    shop.runner.machine._has_told = True
+    shop.card._talk.connections += 1
+    shop.pass_time(0.01)
+    assert [shop.card.read(FOV), shop.card.read(ROV)] == wanted
+    shop.until(State.IDLE)
+    assert (shop.pulses(), codes(shop)) == ((90_000, 0, 0), [])
 
 
 def test_an_action_that_may_be_lost_ends_the_program(monkeypatch: pytest.MonkeyPatch) -> None:

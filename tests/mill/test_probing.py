@@ -1,14 +1,18 @@
 """G31 on a card: which input captures which axis, and what is watched by polling."""
 
+from collections.abc import Iterable
+
 import pytest
 from tests.mill.shop import Shop, at, end, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.capture import Capture, capture_of
 from openacr.mill.desk import Desk
+from openacr.mill.overrides import Override
 from openacr.mill.predicting import Predictor
 from openacr.mill.settings import Settings
 from openacr.mill.states import State
+from openacr.protocol.move import Move
 
 PROBE, EDGE, SOFTWARE, EACH = "P600_000", "P600_001", "P600_002", "P600_006"
 FEED = 60.0  # 1 inch per second
@@ -179,3 +183,86 @@ def test_the_check_warns_of_what_the_card_does_not_capture() -> None:
         "TEST.TXT:5:1: W404 probe not captured by the card: input 24 captures X, and Z one of"
         " 26, 18, 10, 2 (the probe is polled, and less exact)"
     ]
+
+
+def codes(shop: Shop) -> list[int]:
+    return [alarm.kind.code for alarm in shop.runner.alarms.active]
+
+
+def passed_until(shop: Shop, code: int, *, limit_s: float = 30.0) -> float:
+    """Seconds of card time until an alarm is up."""
+    for step in range(round(limit_s / 0.005)):
+        if code in codes(shop):
+            return step * 0.005
+        shop.pass_time(0.005)
+    raise AssertionError(f"{shop.runner.state.name} {shop.runner.reason} {codes(shop)}")
+
+
+def test_a_probing_move_that_does_not_stop_loses_its_drives(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shop = Shop(**{PROBE: 24})
+    monkeypatch.setattr(shop.runner.machine, "stop", lambda: None)
+    touched(shop, at(50), (24,))
+    limit_s = shop.runner.settings.rest_s
+    assert passed_until(shop, 15) == pytest.approx(limit_s, abs=0.02)
+    assert 5.0 < limit_s < 10.0
+    shop.pass_time(1.0)
+    place = shop.place()
+    shop.pass_time(0.5)
+    assert (shop.place(), shop.runner.state) == (place, State.ALARM)
+
+
+def test_a_kill_that_stays_after_the_contact_ends_the_program(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shop = Shop(**{PROBE: 24})
+    monkeypatch.setattr(shop.runner.machine, "clear_kill", lambda: None)
+    touched(shop, at(50), (24,))
+    while shop.runner.reason != "kill is cleared":
+        shop.pass_time(0.005)
+    assert passed_until(shop, 14) == pytest.approx(2.0, abs=0.01)
+    assert shop.runner.course.host.tripped() is None  # and it does not go back to a point
+
+
+@pytest.mark.parametrize("which", [1, 2])
+def test_a_probing_move_that_the_card_does_not_begin_ends_the_program(
+    monkeypatch: pytest.MonkeyPatch, which: int
+) -> None:
+    """The move itself, and the one back to where the probe tripped."""
+    shop, sent = Shop(**{PROBE: 24}), 0
+    send = shop.runner.machine.send
+
+    def lose(moves: Iterable[Move]) -> None:
+        nonlocal sent
+        sent += 1
+        if sent != which:
+            send(moves)
+
+    monkeypatch.setattr(shop.runner.machine, "send", lose)
+    if which == 1:
+        shop.start(c.Probe(src(1), at(5), c.Pace(FEED)), end())
+    else:
+        touched(shop, at(5), (24,))
+    while sent < which:
+        shop.pass_time(0.005)
+    assert passed_until(shop, 18) == pytest.approx(3.0, abs=0.02)
+    assert shop.until(State.ALARM) is State.ALARM
+    assert [alarm.text for alarm in shop.runner.alarms.active] == [
+        "Card does not make the moves it was sent"
+    ]
+
+
+def test_a_probing_move_takes_as_long_as_its_override_makes_it() -> None:
+    """Standing still at an override of 0 is no fault."""
+    shop = Shop(**{PROBE: 24, "P450_000": 0.0})
+    shop.start(c.Probe(src(1), at(1), c.Pace(FEED)), end())
+    shop.pass_time(0.2)
+    shop.runner.overrides.choose(Override.FEED, 0)
+    shop.pass_time(0.5)
+    place = shop.place()
+    shop.pass_time(10.0)
+    assert (shop.place(), codes(shop)) == (place, [])
+    shop.runner.overrides.choose(Override.FEED, 10)
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10_000, 0, 0)

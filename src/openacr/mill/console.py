@@ -46,6 +46,10 @@ class Console:
             self._state = now.state
             self._publish(now)
 
+    def renew(self) -> None:
+        """Send the overrides once more: the packets with them may be lost."""
+        self._panel.machine.override(*self._factors)
+
     def count_part(self, passes: int) -> None:
         """One more end of the program."""
         self._published.cell(PARTS, passes)

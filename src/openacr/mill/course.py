@@ -24,7 +24,6 @@ from openacr.mill.tracking import Tracker, time_s
 
 SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
 KILL_S = 0.5  # longest wait for a card at rest to take notice
-BUFFERED_S = 2.0  # of motion that waits on the card, beyond the link timeout
 PULSES_OFF = 2.0  # further away the machine has been moved
 Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
 
@@ -93,7 +92,8 @@ class Course:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
-        self._send(self._bounded(feed.take(room, is_urgent=feed.is_starved and self._is_short())))
+        jobs = feed.take(room, is_urgent=feed.is_starved and self._is_short())
+        self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
         is_at_rest = self.tracker.is_at_end(look)
         for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
             for _ in self._doing.steps(note):
@@ -104,20 +104,6 @@ class Course:
         if isinstance(halt, c.Tool):
             self.tracker.trail.bar(self.tracker.current)
         return halt
-
-    def _bounded(self, jobs: Iterable[Job]) -> Iterator[Job]:
-        """As many as may wait on the card: what a lost host has sent must not go on for long.
-
-        It is longer than the link timeout, so that the watchdog holds a path before it ends.
-        """
-        most_s = self.settings.link_timeout_s + BUFFERED_S
-        waiting_s = self.tracker.waiting_s
-        if waiting_s < most_s:
-            for job in jobs:
-                yield job
-                waiting_s += time_s(job)
-                if waiting_s >= most_s:
-                    break
 
     def excuse(self) -> None:
         """The machine leaves the end of its last move on purpose: by hand, or in probing."""

@@ -2,6 +2,9 @@
 
 The input is watched in every mode: a contact that the hardware does not capture stops the
 move at once, and is alarm 36 then.
+
+Every wait for the card has a limit. The two moves have none, for their feed may be overridden:
+they end with their motion, and one that the card does not begin is alarm 18.
 """
 
 from collections.abc import Callable
@@ -13,7 +16,7 @@ from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.capture import SOFTWARE_TRIGGER, Capture, capture_of
 from openacr.mill.encoding import Job
-from openacr.mill.machine import Look, flag_of
+from openacr.mill.machine import CLEAR_S, Look, flag_of
 from openacr.mill.panel import Panel
 from openacr.mill.settings import S_PER_MIN
 
@@ -57,10 +60,13 @@ class Probing:
         yield Until("probing", is_done)
         if not has_tripped:
             return
+        rest_s = self._panel.settings.rest_s
         self._machine.stop()
-        yield Until("probe stops", lambda look: not look.is_moving)
+        yield Until("probe stops", lambda look: not look.is_moving, rest_s, alarms.NO_REST)
         self._machine.clear_kill()
-        yield Until("kill is cleared", lambda look: not look.is_killed)
+        yield Until(
+            "kill is cleared", lambda look: not look.is_killed, CLEAR_S, alarms.MOVES_KILLED
+        )
         if not self._is_captured(capture):
             raise AlarmError(alarms.PROBE_MISSED)
         self.point = self._captured(job, capture)

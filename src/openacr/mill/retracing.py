@@ -50,6 +50,11 @@ class Retrace:
         return self._script.is_active
 
     @property
+    def tracker(self) -> Tracker:
+        """The moves of the present trace, or the last one."""
+        return self._tracker
+
+    @property
     def left(self) -> Place | None:
         """Where on the path the tool stands, once a trace has begun in this pause."""
         return self._left
@@ -139,7 +144,8 @@ class Retrace:
             room = self._depth - tracker.waiting
             while queue and planner.ready() < room:
                 planner.add(queue.popleft())
-            self._send(planner.take(room, is_complete=not queue))
+            jobs = planner.take(room, is_complete=not queue)
+            self._send(tracker.bounded(jobs, self._settings.buffered_s))
             return not queue and not planner and tracker.is_at_end(look)
 
         return Until(reason, is_over)

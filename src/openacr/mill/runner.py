@@ -73,7 +73,8 @@ class Runner:
         self._halting = Halting(panel, course, doing, passes, status)
         self._supervision = Supervision(
             panel, self.alarms, course, doing, hands=hands, retrace=retrace, pausing=pausing,
-            ending=ending, script=script, status=status, compensation=self._compensation, say=say,
+            ending=ending, console=console, script=script, status=status,
+            compensation=self._compensation, say=say,
         )  # fmt: skip
         self._burner = Burner(panel, course)
         self._switches = Switches(

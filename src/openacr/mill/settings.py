@@ -23,6 +23,7 @@ NONE = -1
 S_PER_MIN = 60.0
 CLICKS = 16
 REST_S, LONGEST_REST_S = 5.0, 60.0  # to come to rest: besides the ramp, and with it
+BUFFERED_S = 2.0  # of motion that waits on the card, beyond the link timeout
 HOMED = 271  # cell with the mask of homed axes
 
 GENERAL, SERVO, AXIS, CONTROL, HOME, JOG, IO, FOV, ROV, SOV, PROBE, SPEEDS, COMPATIBILITY = range(
@@ -207,6 +208,14 @@ class Settings:
         ramps = [each for each in (speeds.rapid_acc_ups2, speeds.feed_acc_ups2) if each > 0.0]
         ramp_s = speeds.max_ups / min(ramps) if ramps else 0.0
         return min(REST_S + 2.0 * ramp_s, LONGEST_REST_S)
+
+    @property
+    def buffered_s(self) -> float:
+        """Motion that may wait on the card: what a lost host has sent must not go on for long.
+
+        It is longer than the link timeout, so that the watchdog holds a path before it ends.
+        """
+        return self.link_timeout_s + BUFFERED_S
 
     def table(self, tab: int) -> tuple[float, ...]:
         """The percentages of the clicks of an override switch (FOV, ROV or SOV)."""

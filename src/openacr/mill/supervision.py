@@ -9,6 +9,7 @@ from openacr.errors import UserError
 from openacr.mill import alarms, homed
 from openacr.mill.alarms import Alarm, AlarmError, Alarms, Effect, Kind
 from openacr.mill.ballscrew import Compensation
+from openacr.mill.console import Console
 from openacr.mill.course import Course
 from openacr.mill.doing import Doing
 from openacr.mill.ending import Ending
@@ -20,6 +21,7 @@ from openacr.mill.reach import Reach
 from openacr.mill.retracing import Retrace
 from openacr.mill.script import Script
 from openacr.mill.states import State, Status
+from openacr.mill.tracking import Stall
 from openacr.mill.watching import Watch
 
 
@@ -37,6 +39,7 @@ class Supervision:
         retrace: Retrace,
         pausing: Pausing,
         ending: Ending,
+        console: Console,
         script: Script,
         status: Status,
         compensation: Compensation,
@@ -50,11 +53,13 @@ class Supervision:
         self._retrace = retrace
         self._pausing = pausing
         self._ending = ending
+        self._console = console
         self._script = script
         self._status = status
         self._compensation = compensation
         self._say = say
         self._watch = Watch(panel)
+        self._stall = Stall()
         self._reach = Reach(panel.machine.card, panel.settings.link_timeout_s)
         self.rearm: Callable[[], None] = lambda: None  # the watchdog, where there is one
         self._owes_rest = False  # the link was lost before the machine could be brought to rest
@@ -80,8 +85,16 @@ class Supervision:
             self._renew()
         if step_s > self._panel.settings.link_timeout_s and self.is_busy:
             self.give(alarms.HOST_AWAY, f"{step_s:.1f}")
+        if self._does_not_begin(look):
+            self.give(alarms.NOT_MOVED, "")
         for kind, detail in self._watch.causes(look, spins=self._spindle.is_on):
             self.give(kind, detail)
+
+    def _does_not_begin(self, look: Look) -> bool:
+        """Whether moves of the program, or of a trace in a pause, were sent and are not made."""
+        tracker = self._retrace.tracker if self._retrace.is_active else self._course.tracker
+        is_stalled = self._stall.has_come(tracker, look, self._panel.machine.now_s)
+        return is_stalled and not self._status.is_over
 
     def play(self, look: Look, step_s: float) -> None:
         """Go on with what is being done as far as the card lets it."""
@@ -172,6 +185,7 @@ class Supervision:
         action that has begun cannot be repeated, so it ends the program.
         """
         self._panel.renew()
+        self._console.renew()
         if self._status.state is State.PAUSED:
             self._panel.machine.hold()
         elif self._script.is_active and not self._status.is_over:

@@ -6,12 +6,14 @@ pulse) counts with the one before it.
 """
 
 from collections import deque
+from collections.abc import Iterable, Iterator
 
 from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.mill.encoding import Job
 from openacr.mill.machine import Look
 
 MOST_TRAILED = 10_000
+STALL_S = 3.0  # longer than a kill and its clearing take, which moves wait for, too
 
 
 class Trail:
@@ -84,6 +86,16 @@ class Tracker:
         self._jobs.append(job)
         self._sent_s += time_s(job)
 
+    def bounded(self, jobs: Iterable[Job], most_s: float) -> Iterator[Job]:
+        """As many of these as may wait on the card: until the waiting ones take `most_s`."""
+        waiting_s = self.waiting_s
+        if waiting_s < most_s:
+            for job in jobs:
+                yield job
+                waiting_s += time_s(job)
+                if waiting_s >= most_s:
+                    break
+
     def update(self, counter: int) -> None:
         """The card says how many packets have started; earlier moves are done."""
         self.started = counter
@@ -118,6 +130,22 @@ class Tracker:
     def _clear(self) -> None:
         self._jobs.clear()
         self._sent_s = 0.0
+
+
+class Stall:
+    """Notices moves that the card was sent and does not begin, although it is at rest."""
+
+    def __init__(self) -> None:
+        self._since_s: float | None = None
+
+    def has_come(self, tracker: Tracker, look: Look, now_s: float) -> bool:
+        """Whether the card has been at rest before the end of what was sent for too long."""
+        if look.is_moving or look.counter >= tracker.sent:
+            self._since_s = None
+            return False
+        if self._since_s is None:
+            self._since_s = now_s
+        return now_s - self._since_s >= STALL_S
 
 
 def time_s(job: Job) -> float:
