@@ -6,9 +6,10 @@ import pytest
 
 from openacr.client import Card
 from openacr.cnc.load import load
+from openacr.cnc.occupied import HEARTBEAT
 from openacr.controller import Controller
 from openacr.errors import OpenacrError
-from openacr.mill.owner import BEAT_S, BEATS, HEARTBEAT, LISTEN_S, SETTLE_S, Owner
+from openacr.mill.owner import BEAT_S, BEATS, LISTEN_S, SETTLE_S, Owner
 from openacr.mill.states import State
 from openacr.mill.workshop import Start, Workshop
 from openacr.sysvar import Store

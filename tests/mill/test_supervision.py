@@ -271,3 +271,78 @@ def test_alarms_are_logged_with_their_time_unless_the_store_forbids_it(
         assert logs == []
     else:
         assert re.fullmatch(r"\d{4}-\d\d-\d\dT\S+  alarm 10  Emergency stop\n", logs[0])
+
+
+def real(controller: Controller, said: list[str], store: Store) -> Workshop:
+    store.write(ESTOP_CELL, 5)
+    return Workshop.real(controller, store, said.append)
+
+
+@pytest.mark.parametrize("is_released", [True, False])
+def test_the_next_program_calls_an_emergency_stop_by_its_name(is_released: bool) -> None:
+    """Also when the button was released meanwhile, and by another store; then it is forgotten."""
+    controller = Controller()
+    first = real(controller, [], Store())
+    first.step()
+    controller.set_input(5, True)
+    first.step()
+    first.step()
+    first.close()
+    assert controller.p[97] == 10
+    controller.set_input(5, not is_released)
+    second = real(controller, [], Store())
+    second.step()
+    assert [(alarm.kind.code, alarm.text) for alarm in second.runner.alarms.active] == [
+        (10, "Emergency stop")
+    ]
+    assert bool(second.runner.acknowledge()) is not is_released
+    controller.set_input(5, False)
+    assert second.runner.acknowledge() == []
+    assert controller.p[97] == 0
+    second.step()
+    second.card.kill_all()  # this one is somebody's Ctrl-X
+    controller.advance(seconds=3.0)
+    second.step()
+    second.step()
+    assert 14 in [alarm.kind.code for alarm in second.runner.alarms.active]
+    assert 10 not in [alarm.kind.code for alarm in second.runner.alarms.active]
+    second.close()
+
+
+def test_an_emergency_stop_that_was_cleared_elsewhere_names_no_later_kill() -> None:
+    controller = Controller()
+    real(controller, [], Store()).close()
+    controller.p[97] = 10
+    shop = real(controller, [], Store())
+    shop.step()
+    assert controller.p[97] == 0
+    shop.card.kill_all()
+    shop.step()
+    shop.step()
+    assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [6, 14]  # Ctrl-X halts
+    shop.close()
+
+
+def test_a_kill_without_a_known_cause_is_of_somebody_else() -> None:
+    controller = Controller()
+    shop = real(controller, [], Store())
+    shop.card.kill_all()
+    shop.step()
+    shop.step()
+    assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [6, 14]  # Ctrl-X halts
+    assert controller.p[97] == 0  # only what this program kills is noted
+    shop.close()
+
+
+def test_a_machine_that_did_not_rest_is_known_to_the_next_program() -> None:
+    controller = Controller()
+    shop = real(controller, [], Store())
+    shop.step()
+    shop.runner.cut_power()
+    shop.close()
+    assert controller.p[97] == 15
+    again = real(controller, [], Store())
+    again.step()
+    assert [alarm.kind.code for alarm in again.runner.alarms.active] == [15]
+    assert again.runner.acknowledge() == []
+    again.close()

@@ -6,8 +6,10 @@ from threading import Thread
 import pytest
 
 from openacr.errors import MapError
+from openacr.locks import FileLock
 from openacr.mill.settings import Settings
 from openacr.sysvar import SettingError, Store
+from openacr.sysvar.driven import machine_lock
 
 PERSISTENT = [
     pytest.param((100, 150, 199), marks=pytest.mark.req("MILL-P-100-199")),
@@ -248,6 +250,26 @@ def test_settings_of_motion_do_not_change_while_a_program_runs(n: int) -> None:
     store.write(244, 0)
     store.write(n, 1)
     assert store.read(n) == 1
+
+
+def test_a_program_that_was_killed_bars_no_settings(tmp_path: Path) -> None:
+    """It has left P244 at run; what counts is whether its lock is still held."""
+    with Store(tmp_path / "s.db") as store:
+        store.write(244, 1)
+        lock = FileLock(machine_lock(tmp_path / "s.db"), "taken")
+        with pytest.raises(SettingError, match="a program runs"):
+            store.write(650_002, 20)
+        lock.release()
+        store.write(650_002, 20)
+        assert (store.read(650_002), store.read(244)) == (20, 1)
+
+
+def test_a_machine_that_is_driven_and_idle_takes_settings(tmp_path: Path) -> None:
+    with Store(tmp_path / "s.db") as store:
+        lock = FileLock(machine_lock(tmp_path / "s.db"), "taken")
+        store.write(650_002, 20)
+        lock.release()
+        assert store.read(650_002) == 20
 
 
 # --- units ------------------------------------------------------------------------------

@@ -5,12 +5,17 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from pathlib import Path
 
+from openacr.cnc import occupied
 from openacr.cnc.codes import DIALECTS, Axes, Code, Dialect, Group, Limit, Step
 from openacr.cnc.dialects import acromill, rs274ngc  # noqa: F401  fill the dialects
 from openacr.cnc.findings import TEXTS
 
 MADE_BY = "Written by `make docs` from the tables of `openacr.cnc`; do not edit."
 LETTERS = "Words that act by themselves. Other letters are data of the codes of their block."
+OCCUPIED = (
+    "Programs of the card, part programs and other hosts leave these alone; part programs may read"
+    " them."
+)
 GROUPS = {
     Group.MOTION: "motion",
     Group.PLANE: "plane",
@@ -44,6 +49,7 @@ def page() -> str:
     parts = ["# Codes of part programs", MADE_BY]
     for dialect in DIALECTS.values():
         parts += _dialect(dialect)
+    parts += ["## What the front end occupies on a card", OCCUPIED, _occupied()]
     parts += ["## Errors and warnings", _findings()]
     return "\n\n".join(parts) + "\n"
 
@@ -97,6 +103,11 @@ def _words(code: Code) -> str:
 def _limit(limit: Limit) -> str:
     need = " needed" if limit.is_needed else ""
     return f"{limit.letter} {limit.low:g} to {limit.high:g}{need} ({limit.error})"
+
+
+def _occupied() -> str:
+    rows = ((row.shown, row.name, row.meaning) for row in occupied.TABLE)
+    return _rows(("number", "name", "meaning"), rows)
 
 
 def _findings() -> str:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TypeAlias
 
+from openacr.cnc.occupied import TOOL_LOADED, TOOL_REQUESTED
 from openacr.mill import alarms
 from openacr.mill.alarms import Kind
 from openacr.mill.machine import Look
@@ -20,7 +21,6 @@ CW, CCW, OFF = 3, 4, 5
 FULL_VOLTS = 10.0
 DAC_VALUE, DAC_STRIDE = 6400, 16
 DROP_S = 2.0  # longest wait for the tool-changed input to go off again
-TOOL_REQUESTED, TOOL_IN_SPINDLE = 90, 91  # card variables
 
 # Bits of the spindle code.
 BIPOLAR, WAITS_FOR_SPEED, SPEED_LEVEL, WAITS_FOR_ZERO, ZERO_LEVEL = 1, 2, 4, 8, 16
@@ -171,7 +171,7 @@ class ToolChanger:
         wiring, panel = self._panel.settings.wiring, self._panel
         yield from self._spindle.stop(always_waits=True)
         panel.machine.write(TOOL_REQUESTED, tool)
-        panel.machine.write(TOOL_IN_SPINDLE, old)
+        panel.machine.write(TOOL_LOADED, old)
         panel.output(wiring.tool_change, True)
         try:
             yield from self._wait(tool)
@@ -180,7 +180,7 @@ class ToolChanger:
         if panel.has_input(wiring.tool_changed):
             is_off = lambda look: not panel.is_in(look, wiring.tool_changed)  # noqa: E731
             yield Until("tool-changed signal off", is_off, DROP_S)
-        panel.machine.write(TOOL_IN_SPINDLE, tool)
+        panel.machine.write(TOOL_LOADED, tool)
 
     def confirm(self) -> None:
         """The confirmation key: the tool that is waited for is there."""

@@ -2,15 +2,12 @@
 
 from collections.abc import Callable
 
+from openacr.cnc.occupied import CARD_LINE, CARD_SPEED, CARD_SPINDLE, CARD_STATE
 from openacr.mill.actions import Spindle
 from openacr.mill.machine import Look
 from openacr.mill.overrides import Override, Overrides
 from openacr.mill.panel import Panel
 from openacr.mill.published import (
-    CARD_LINE,
-    CARD_SPEED,
-    CARD_SPINDLE,
-    CARD_STATE,
     EXECUTING_LINE,
     FEED_PERCENT,
     LAST_ALARM,

@@ -1,8 +1,7 @@
 """The outputs of a machine before it moves: drives enabled, inverted outputs put to rest."""
 
+from openacr.cnc.occupied import OUTPUTS_AT_REST
 from openacr.mill.panel import Panel
-
-OUTPUTS_AT_REST = 246  # user flag, off when the card comes on
 
 
 def enable_drives(panel: Panel) -> None:

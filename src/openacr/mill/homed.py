@@ -8,16 +8,15 @@ cards with a battery keep them, and count from 0 all the same.
 from collections.abc import Callable
 
 from openacr.client import Card
+from openacr.cnc.occupied import FIRST_HOMED, HOMED_AXES
 from openacr.mill import barrier
 from openacr.mill.panel import Panel
-from openacr.mill.settings import AXES, HOMED, Settings, Store
-
-FIRST_HOMED_FLAG = 248  # of axis 0; the last user flags behind the relays of M100 to M299
+from openacr.mill.settings import HOMED, Settings, Store
 
 
 def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: None) -> None:
     """At the start: what the card has forgotten counts no more, and the operator is told."""
-    flags = card.read_bits(range(FIRST_HOMED_FLAG, FIRST_HOMED_FLAG + AXES))
+    flags = card.read_bits(range(FIRST_HOMED, FIRST_HOMED + HOMED_AXES))
     known = sum(1 << axis for axis, is_homed in enumerate(flags) if is_homed)
     mask = int(store.read(HOMED))
     if mask & ~known:
@@ -34,7 +33,7 @@ def note(panel: Panel, axis: int, homed: bool) -> None:
     if not homed:
         barrier.open_way(panel, axis)
     panel.settings.mark_homed(axis, homed)
-    panel.machine.set_flag(FIRST_HOMED_FLAG + axis, homed)
+    panel.machine.set_flag(FIRST_HOMED + axis, homed)
 
 
 def forget(panel: Panel) -> None:

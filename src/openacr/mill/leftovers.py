@@ -3,9 +3,10 @@
 from collections.abc import Callable
 
 from openacr.client import Card
+from openacr.cnc.occupied import TRIPPED
 from openacr.errors import UserError
 from openacr.mill.actions import DAC_STRIDE, DAC_VALUE
-from openacr.mill.machine import TRIPPED, Machine
+from openacr.mill.machine import Machine
 from openacr.mill.panel import Panel
 from openacr.mill.settings import NONE, Settings
 from openacr.mill.watchdog import left_text

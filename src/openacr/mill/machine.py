@@ -11,6 +11,7 @@ from functools import cached_property
 from openacr.client import Card, ConnectionLostError
 from openacr.client.errors import GarbledError, NoReplyError
 from openacr.client.values import Number
+from openacr.cnc.occupied import TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.protocol.bits import ClearBit, SetBit
@@ -23,8 +24,8 @@ CLEAR_S = 2.0  # longest time the card takes to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 FIRST_FLAG_WORD = 4096
-TRIPPED = 247  # user flag: the watchdog has stopped the machine
-USER_FLAGS, TRIPPED_MASK = n.UF_WORD + 3, 1 << 23  # the word of flag 247, and its bit
+USER_FLAGS = FIRST_FLAG_WORD + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
+TRIPPED_MASK = 1 << TRIPPED % BITS_PER_WORD
 LIMIT_LATCHES = (
     n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
     n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,

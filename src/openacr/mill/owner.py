@@ -11,13 +11,13 @@ from pathlib import Path
 from random import SystemRandom
 
 from openacr.client import Card
+from openacr.cnc.occupied import HEARTBEAT
 from openacr.errors import UserError
-from openacr.store.lock import FileLock
+from openacr.locks import FileLock
+from openacr.sysvar.driven import machine_lock
 
-HEARTBEAT = 96  # variable of the card; 0 where no program drives it
 BEAT_S, LISTEN_S, SETTLE_S = 0.5, 1.6, 0.1
 TAKEN = "another program drives this machine: wait for its end, or end it"
-SUFFIX = "-machine"
 BEATS, OWNERS = 1 << 10, 1 << 20  # a value is owner * BEATS + beat: 30 bits
 
 
@@ -32,8 +32,7 @@ class Owner:
         self._number = SystemRandom().randrange(1, OWNERS)
         self._beat = 0
         self._due_s = 0.0
-        named = None if store is None else store.with_name(store.name + SUFFIX)
-        self._lock = None if named is None else FileLock(named, TAKEN)
+        self._lock = None if store is None else FileLock(machine_lock(store), TAKEN)
         try:
             self.found = self._require_silence(listen_s)  # left by a program that is gone
             self._take()

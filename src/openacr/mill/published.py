@@ -6,7 +6,6 @@ from openacr.mill.machine import Machine
 from openacr.mill.settings import Store
 
 EXECUTING_LINE, RUN_STATE, PARTS, LAST_ALARM, FEED_PERCENT, RUN_TIME = range(243, 249)
-CARD_SPEED, CARD_SPINDLE, CARD_LINE, CARD_STATE = 92, 93, 94, 95
 
 
 class Facts(NamedTuple):

@@ -126,13 +126,11 @@ class Supervision:
             homed.forget(self._panel)
         if kind is alarms.EXCESS_ERROR:
             homed.lose(self._panel, detail)
-        if kind is alarms.NO_REST:
-            self._ending.cut_power()
-            self._hands.let_go()
-            return
         if kind.effect is Effect.KILL:
-            self._ending.kill()
+            end = self._ending.cut_power if kind is alarms.NO_REST else self._ending.kill
+            end()
             self._hands.let_go()
+            self._watch.killed.note(kind)
             return
         self._take_effect(kind.effect)
         self._hands.stop()
@@ -224,6 +222,7 @@ class Supervision:
         )
         if is_over and not self._alarms.bars_start:
             machine.release()
+            self._watch.killed.forget()
             self._compensation.renew()
             self._status.state = State.IDLE
         return left

@@ -10,11 +10,10 @@ from collections.abc import Iterator
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
+from openacr.cnc.occupied import HEARTBEAT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.actions import DAC_STRIDE, DAC_VALUE
-from openacr.mill.machine import TRIPPED
-from openacr.mill.owner import HEARTBEAT
 from openacr.mill.panel import Panel
 from openacr.mill.settings import CONTROL, NONE, cell
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from openacr.map import numbers as n
 from openacr.mill import alarms
 from openacr.mill.alarms import Alarm, Kind
+from openacr.mill.killed import Killed
 from openacr.mill.machine import Look
 from openacr.mill.panel import Panel
 
@@ -21,10 +22,23 @@ class Watch:
     def __init__(self, panel: Panel) -> None:
         self._panel = panel
         self._names = [axis.name for axis in panel.settings.axes]
+        self.killed = Killed(panel.machine)
         self._has_error_band = any(axis.excess_error_u > 0.0 for axis in panel.settings.axes)
 
     def causes(self, look: Look, *, spins: bool) -> Iterator[Cause]:
         """Everything that is wrong now; `spins` says that the spindle is on."""
+        killed_by = self.killed.kind(look)
+        yield from self._present(look, spins=spins)
+        if self._is_killed(look):
+            yield killed_by, ""
+
+    def _is_killed(self, look: Look) -> bool:
+        """Whether moves were killed by another; a soft limit that was crossed kills them, too."""
+        is_crossed = any(word & SOFT_LIMIT for word in look.limits)
+        return look.is_killed and not is_crossed and not self._panel.machine.is_dropping
+
+    def _present(self, look: Look, *, spins: bool) -> Iterator[Cause]:
+        """What is wrong now, besides a kill."""
         wiring, spindle = self._panel.settings.wiring, self._panel.settings.spindle
         if self._panel.is_in(look, wiring.emergency_stop):
             yield alarms.EMERGENCY_STOP, ""
@@ -38,9 +52,6 @@ class Watch:
         if self._has_error_band and not look.is_within_error:
             for name in self._in_error():
                 yield alarms.EXCESS_ERROR, name
-        is_crossed = any(word & SOFT_LIMIT for word in look.limits)  # kills moves, too
-        if look.is_killed and not is_crossed and not self._panel.machine.is_dropping:
-            yield alarms.MOVES_KILLED, ""
         if spins and self._panel.is_in(look, spindle.exception):
             yield alarms.SPINDLE_EXCEPTION, ""
         if self._panel.is_in(look, wiring.lubrication):
@@ -65,8 +76,10 @@ class Watch:
                 yield axis.name
 
     def is_gone(self, look: Look, *, spins: bool) -> Callable[[Alarm], bool]:
-        """Whether the cause of an alarm is no longer there."""
-        present = {(kind.code, detail) for kind, detail in self.causes(look, spins=spins)}
+        """Whether the cause of an alarm is no longer there; a kill is one as long as it lasts."""
+        present = {(kind.code, detail) for kind, detail in self._present(look, spins=spins)}
+        if self._is_killed(look):
+            present.add((alarms.MOVES_KILLED.code, ""))
         return lambda alarm: (alarm.kind.code, alarm.detail) not in present
 
 

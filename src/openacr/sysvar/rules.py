@@ -38,11 +38,14 @@ class Reader(Protocol):
         """A text."""
 
 
-def check(cells: Reader, changed: Collection[int], was_running: bool) -> None:
-    """Refuse a group of changes that cannot stand; SettingError names one cell of it."""
+def check(cells: Reader, changed: Collection[int], is_running: Callable[[], bool]) -> None:
+    """Refuse a group of changes that cannot stand; SettingError names one cell of it.
+
+    `is_running` is asked when a setting of motion is among them.
+    """
     system = sorted(n for n in changed if n >= FIRST_SYSTEM)
     for n in system:
-        if was_running and known(n).row.is_motion:
+        if known(n).row.is_motion and is_running():
             raise SettingError(known(n), "changed", "a program runs", "stop it first")
     if system:
         for rule in _RULES:

@@ -23,6 +23,7 @@ from openacr.errors import MapError, StoreError
 from openacr.sysvar import lookup, rules, values
 from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
 from openacr.sysvar.database import Database
+from openacr.sysvar.driven import is_driven
 from openacr.sysvar.held import UNITS, Held
 from openacr.sysvar.homes import Home, home_of
 from openacr.sysvar.schema import AXIS_CELLS, FIRST_SYSTEM, At, Parameter
@@ -278,7 +279,7 @@ class Store:
         if not self._before:
             self._database.rollback()
             return
-        rules.check(self, self._before, self._was_running)
+        rules.check(self, self._before, self._is_running)
         token = self._token + 1  # all before it was read when the transaction began
         self._database.put((n, self._held.raw(n), token) for n in self._before)
         self._counter.begin()
@@ -288,6 +289,10 @@ class Store:
             self._counter.end()
         self._token = token
         self._seen = NEVER
+
+    def _is_running(self) -> bool:
+        """Whether a program runs: one that was killed has left its state, but not its lock."""
+        return self._was_running and is_driven(self.path)
 
     def _give_up(self) -> None:
         self._database.rollback()

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Say, WaitBit
 from openacr.cnc.codes import Step
+from openacr.cnc.occupied import FIRST_RELAY, RELAYS
 from openacr.cnc.tables import ACROMILL
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter import Interpreter
     from openacr.cnc.turn import Turn
 
-FIRST_ON, FIRST_OFF, RELAYS = 100, 200, 100
-FIRST_BIT = 128  # flag of relay 0
+FIRST_ON, FIRST_OFF = 100, 200
 
 
 @ACROMILL.mcode(*range(FIRST_ON, FIRST_OFF + RELAYS), step=Step.SWITCHES)
@@ -25,4 +25,4 @@ def wait_for_relay(run: Interpreter, b: Turn) -> None:
         run.tell(Say(b.source, f"{name}: wait left out"))
         return
     state = "on" if is_on else "off"
-    run.tell(WaitBit(b.source, FIRST_BIT + relay, is_on, f"{name}: relay {relay} {state}"))
+    run.tell(WaitBit(b.source, FIRST_RELAY + relay, is_on, f"{name}: relay {relay} {state}"))

@@ -1,0 +1,92 @@
+"""What the CNC front end occupies on a card: variables, user flags, a program.
+
+Every module names these numbers from here, so a number is given away once: a second use is a
+ValueError at import. The page of all codes prints the table.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Kind(Enum):
+    """What a number is of; the value is its name on the card."""
+
+    VARIABLE = "P"
+    FLAG = "BIT"
+    PROGRAM = "PROG"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One or several numbers in a row and what they are for."""
+
+    kind: Kind
+    numbers: range
+    name: str
+    meaning: str
+
+    @property
+    def shown(self) -> str:
+        """The numbers as the card writes them: `P96`, `BIT248 to BIT255`."""
+        first, last = (f"{self.kind.value}{n}" for n in (self.numbers[0], self.numbers[-1]))
+        return first if first == last else f"{first} to {last}"
+
+
+class Occupied:
+    """The rows that were given away."""
+
+    def __init__(self) -> None:
+        self._rows: list[Row] = []
+
+    def __iter__(self) -> Iterator[Row]:
+        """The rows, variables first, then flags and programs, each by their numbers."""
+        kinds = list(Kind)
+        return iter(sorted(self._rows, key=lambda row: (kinds.index(row.kind), row.numbers[0])))
+
+    def take(self, kind: Kind, first: int, name: str, meaning: str, count: int = 1) -> int:
+        """Occupy `count` numbers; the first of them. ValueError if one of them is taken."""
+        new = Row(kind, range(first, first + count), name, meaning)
+        for row in self._rows:
+            if row.kind is kind and not set(row.numbers).isdisjoint(new.numbers):
+                raise ValueError(f"{new.shown} {name}: {row.shown} is that of {row.name} already")
+        self._rows.append(new)
+        return first
+
+
+TABLE = Occupied()
+_P, _BIT, _PROG = Kind.VARIABLE, Kind.FLAG, Kind.PROGRAM
+
+TOOL_REQUESTED = TABLE.take(_P, 90, "tool requested", "the tool an M6 asks for")
+TOOL_LOADED = TABLE.take(_P, 91, "tool in the spindle", "the tool that was loaded last")
+CARD_SPEED = TABLE.take(_P, 92, "spindle speed", "the S word in effect, rev/min")
+CARD_SPINDLE = TABLE.take(_P, 93, "spindle state", "3 clockwise, 4 counterclockwise, 5 off")
+CARD_LINE = TABLE.take(_P, 94, "executing line", "the line of the program that is executed")
+CARD_STATE = TABLE.take(
+    _P, 95, "run state", "0 idle, 1 run, 2 paused, 3 wait, 4 hold, 5 alarm; as P244 of the store"
+)
+HEARTBEAT = TABLE.take(
+    _P, 96, "heartbeat", "changes twice a second while a host drives the machine; 0: none does"
+)
+KILL_CAUSE = TABLE.take(
+    _P, 97, "cause of a kill", "the alarm that killed all motion, until the kill is taken back"
+)
+RELAYS = 100
+FIRST_RELAY = TABLE.take(
+    _BIT, 128, "relays", "what M100 to M199 wait for to be on, M200 to M299 to be off", RELAYS
+)
+OUTPUTS_AT_REST = TABLE.take(
+    _BIT, 246, "outputs at rest", "inverted outputs were put to rest since the card came on"
+)
+TRIPPED = TABLE.take(_BIT, 247, "watchdog tripped", "the watchdog has stopped the machine")
+HOMED_AXES = 8
+FIRST_HOMED = TABLE.take(
+    _BIT, 248, "homed axes", "axis 0 to 7 knows its reference point", HOMED_AXES
+)
+WATCHDOG_PROGRAM = TABLE.take(
+    _PROG,
+    7,
+    "watchdog",
+    "the program that stops the machine when its host is lost, with its LV0 to LV2 and $V0;"
+    " another program where P250125 names one, none where it is -1",
+)

@@ -1,0 +1,39 @@
+"""Why all motion was killed, kept on the card for the next program until the kill is taken back.
+
+The inputs may have changed since: an emergency stop that was released is still what killed.
+Causes of a single axis need no memory, the card keeps their flags.
+"""
+
+from openacr.cnc.occupied import KILL_CAUSE
+from openacr.mill import alarms
+from openacr.mill.alarms import Kind
+from openacr.mill.machine import Look, Machine
+
+KEPT = {kind.code: kind for kind in (alarms.EMERGENCY_STOP, alarms.NO_REST)}
+
+
+class Killed:
+    """What a kill is called that this program has not made."""
+
+    def __init__(self, machine: Machine) -> None:
+        self._machine = machine
+        self._found: Kind | None = None  # None before the first look
+
+    def kind(self, look: Look) -> Kind:
+        """The cause of a kill that was there at the first look; any later one is another's."""
+        if self._found is None:
+            code = int(self._machine.read(KILL_CAUSE))
+            self._found = KEPT.get(code, alarms.MOVES_KILLED)
+            if not look.is_killed and code:
+                self.forget()
+        return self._found
+
+    def note(self, kind: Kind) -> None:
+        """Keep why all motion was killed here."""
+        if kind in KEPT.values():
+            self._machine.write(KILL_CAUSE, kind.code)
+
+    def forget(self) -> None:
+        """The kill is taken back, or was by others."""
+        self._machine.write(KILL_CAUSE, alarms.NO_ALARM)
+        self._found = alarms.MOVES_KILLED
