@@ -120,7 +120,7 @@ def test_as_many_blocks_are_kept_ahead_during_motion(ahead: int) -> None:
 
 
 def count_reads(shop: Shop, count: int) -> list[int]:
-    """Start many moves of 0.1; how many of them have been read."""
+    """Start many moves of 10 ms each, less than may wait on the card; how many have been read."""
     read = [0]
 
     def entries(_host: object) -> object:
@@ -128,7 +128,7 @@ def count_reads(shop: Shop, count: int) -> list[int]:
 
         for n in range(1, count + 1):
             read[0] += 1
-            yield line(n, at(0.1 * n), 60.0)
+            yield line(n, at(0.01 * n), 60.0)
         yield end()
 
     shop.runner.run(entries)  # type: ignore[arg-type]
