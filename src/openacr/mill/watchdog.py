@@ -45,14 +45,13 @@ class Watchdog:
             )
 
     def install(self) -> None:
-        """Store it and let it run; UserError where the card has no room for it."""
+        """Store it and let it run; UserError where its program is in use or has no memory."""
         self._require_free_program()
         self._type("HALT", "NEW", "CLEAR")
         try:
             self._store()
         except RefusedError:  # a card with dimensioned programs, and none for this one
             self._dimension()
-            self._store()
         self._type("RUN")
         self._card.pause(PERIOD_S)
         if not self.is_running:
@@ -84,10 +83,14 @@ class Watchdog:
             )
 
     def _dimension(self) -> None:
+        """Give the program memory, and store it once more; what had room before is erased."""
+        self._type("NEW")
         try:
             self._card.command("SYS")
             self._card.command(f"DIM PROG{self.program}({MEMORY_BYTES})")
+            self._store()
         except RefusedError as refused:
+            self._type("NEW")
             raise UserError(
                 f"no memory for the watchdog on the card: {refused}; free {MEMORY_BYTES} bytes"
                 f" for program {self.program}, or do without it (P{PROGRAM_CELL} = -1)"
