@@ -292,7 +292,8 @@ def test_check_tests_soft_limits_with_the_offsets_of_the_store(tmp_path: Path) -
         store.write(910, 0.5)  # G54 of X
     code, text = mill("check", file)
     assert code == 1
-    assert "PART.NC:3:1: E401 target beyond soft limit: axis X 0.25 beyond 2\n" in text
+    beyond = "axis X would go to 2.25, 0.25 beyond its limit 2"
+    assert f"PART.NC:3:1: E401 target beyond soft limit: {beyond}\n" in text
     assert "    X1.75 Y1\n    ^\n" in text
     result = CliRunner().invoke(app, ["mill", "check", file, "--json"])
     assert result.exit_code == 1

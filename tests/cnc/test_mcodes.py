@@ -148,6 +148,14 @@ def test_the_axis_turns_at_corners_and_along_arcs() -> None:
     assert all(turn.is_inserted for turn in turns)
 
 
+def test_the_angle_on_arcs_is_that_of_the_path_in_every_work_coordinate_system() -> None:
+    """Three quarters of a turn from the right of the centre, its place shifted on both axes."""
+    g54 = run("G10 L2 P1 X5 Y-3\nG54\nF10 G0 X1 Y0\nM595\nG3 X0 Y-1 I0 J0", TANGENT, axes=4)
+    assert g54.moves == ["R X6 Y-3", "R X6 Y-3 A90", "A X5 Y-4 A360 about 5,-3 270"]
+    back = run("G10 L2 P1 X5 Y-3\nG54\nF10 G0 X1 Y0\nM595\nG2 X0 Y1 I0 J0", TANGENT, axes=4)
+    assert back.moves == ["R X6 Y-3", "R X6 Y-3 A-90", "A X5 Y-2 A-360 about 5,-3 -270"]
+
+
 @pytest.mark.req("MILL-M597", "MILL-M598")
 @pytest.mark.parametrize(("code", "angle"), [(597, -90), (598, 90)])
 def test_the_axis_is_held_beside_the_path(code: int, angle: int) -> None:

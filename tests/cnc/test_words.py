@@ -223,7 +223,9 @@ def test_the_input_test_can_be_switched_off() -> None:
     done = run(program, {700_001: 0, 1: 1})
     assert done.moves == ["L X2"]
     assert "W211" not in done.codes
-    assert "W211" in run(program).codes
+    found = run(program).interpreter.program.findings
+    (told,) = (each for each in found if each.code == "W211")
+    assert told.text == "input test form: tests input 1, not the parameter: that is IF (#1)=..."
     assert run("F10\nIF INP(1)=1 THEN GOTO 9\nX1\nN9", machine=Bench(bits={1})).moves == []
 
 

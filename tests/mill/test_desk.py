@@ -34,9 +34,12 @@ def bulge(number: int) -> c.Arc:
 @pytest.mark.parametrize(
     ("moves", "excess"),
     [
-        ([line(1, at(1)), line(2, at(3))], "axis X 1 beyond 2"),
-        ([line(1, at(1)), rapid(2, at(-2.25))], "axis X 0.25 beyond -2"),
-        ([line(1, at(1.5, -1)), bulge(2)], "axis X 0.5 beyond 2"),
+        ([line(1, at(1)), line(2, at(3))], "axis X would go to 3, 1 beyond its limit 2"),
+        (
+            [line(1, at(1)), rapid(2, at(-2.25))],
+            "axis X would go to -2.25, 0.25 beyond its limit -2",
+        ),
+        ([line(1, at(1.5, -1)), bulge(2)], "axis X would go to 2.5, 0.5 beyond its limit 2"),
     ],
 )
 def test_a_move_beyond_a_limit_is_found_in_the_words_of_the_alarm_of_a_run(
@@ -60,8 +63,9 @@ def test_disabled_limits_are_not_tested() -> None:
 def test_each_limit_is_told_once_with_its_farthest_move() -> None:
     way = [line(1, at(3)), line(2, at(0)), line(3, at(5.5)), line(4, at(0)), line(5, at(-3))]
     assert said(Shop(**LIMITS), *way) == [
-        "TEST.TXT:1:1: E401 target beyond soft limit: axis X 1 beyond 2 (2 moves, line 3 by 3.5)",
-        "TEST.TXT:5:1: E401 target beyond soft limit: axis X 1 beyond -2",
+        "TEST.TXT:1:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2"
+        " (2 moves, line 3 by 3.5)",
+        "TEST.TXT:5:1: E401 target beyond soft limit: axis X would go to -3, 1 beyond its limit -2",
     ]
 
 
@@ -69,7 +73,7 @@ def test_axes_that_are_not_homed_are_tested_all_the_same_and_named_once() -> Non
     wide = {f"P20{axis}_00{k}": value for axis in (1, 2) for k, value in enumerate((9, -9, 0))}
     way = [line(1, at(0, 1)), line(2, at(1, 1)), line(3, at(3, 1)), line(4, at(2))]
     assert said(Shop(**{**LIMITS, **wide, "P271": 0}), *way) == [
-        "TEST.TXT:3:1: E401 target beyond soft limit: axis X 1 beyond 2",
+        "TEST.TXT:3:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2",
         "TEST.TXT:1:1: W403 limits not testable: Y X not homed (tested as if homed)",
     ]
 

@@ -120,7 +120,7 @@ def test_a_target_beyond_a_soft_limit_stops_in_front_of_its_block() -> None:
     shop.start(line(1, at(1)), line(2, at(3)), end())
     assert shop.until(State.ALARM) is State.ALARM
     assert codes(shop) == [21]
-    assert "line 2, axis X 1 beyond 2" in shop.runner.alarms.active[0].text
+    assert "line 2, axis X would go to 3, 1 beyond its limit 2" in shop.runner.alarms.active[0].text
     assert shop.pulses() == (10000, 0, 0)
 
 
@@ -129,7 +129,7 @@ def test_the_bulge_of_an_arc_counts_for_the_limits() -> None:
     bulge = c.Arc(src(2), at(1.5, 1), c.Plane.XY, (1.5, 0.0), 3.14159265, 1.0, 1.0, c.Pace(60.0))
     shop.start(line(1, at(1.5, -1)), bulge, end())
     shop.until(State.ALARM)
-    assert "axis X 0.5 beyond 2" in shop.runner.alarms.active[0].text
+    assert "axis X would go to 2.5, 0.5 beyond its limit 2" in shop.runner.alarms.active[0].text
 
 
 def test_an_axis_that_must_be_homed_does_not_move_before() -> None:

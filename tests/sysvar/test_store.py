@@ -242,7 +242,7 @@ def test_settings_of_motion_do_not_change_while_a_program_runs(n: int) -> None:
     store.write(200_002, 1)
     before = store.read(n)
     store.write(244, 1)
-    with pytest.raises(SettingError, match="a program runs"):
+    with pytest.raises(SettingError, match=r"cannot be changed: a program runs \(stop it first\)"):
         store.write(n, 1)
     assert store.read(n) == before
     store.write(2001, 1.5)  # offsets do

@@ -32,6 +32,10 @@ class Host(Protocol):
     def period_s(self) -> float:
         """Seconds of card time per tick."""
 
+    @property
+    def lived_tk(self) -> int:
+        """Ticks that have passed since the card was made."""
+
     def open_stream(self, kind: StreamKind) -> int:
         """A stream for a new connection."""
 
@@ -254,8 +258,9 @@ class ProcessLink:
         return max(1, round(seconds / self._card.period_s))
 
     def _advance(self, ticks: int) -> None:
+        before_tk = self._card.lived_tk
         self._card.advance(ticks)
-        self._passed_tk += ticks
+        self._passed_tk += self._card.lived_tk - before_tk  # a watch ends it early
 
     def pause(self, seconds: float) -> None:
         """Let card time pass."""

@@ -235,7 +235,7 @@ class Loader:
         statement = block.statement
         if isinstance(statement, If):
             if statement.test is not None and self._hash_tests:
-                self._report.warn("W211", statement.column, f"input {statement.test.number}")
+                self._report.warn("W211", statement.column, _input_test(statement.test.number))
             statement = statement.then
         if isinstance(statement, Goto | Gosub):
             if isinstance(statement.label, Number):
@@ -296,3 +296,8 @@ class Loader:
         part = Part(supplied_cycles(), main.labels, is_cycles=True)
         self._program.has_cycles = True
         self._read(part, depth=1)
+
+
+def _input_test(number: int) -> str:
+    """What is said about IF #n=0 or 1, which macros of other systems write for a parameter."""
+    return f"tests input {number}, not the parameter: that is IF (#{number})=..."

@@ -114,8 +114,8 @@ class Course:
         jobs = self.tracker.jobs()
         if not jobs or jobs[-1] is self._excused:
             return ""
-        here = self._machine.axis_values(AX_CURRENT_POSITION)
-        jogs = self._machine.axis_values(AX_JOG_OFFSET)
+        both = self._machine.axis_values(AX_CURRENT_POSITION, AX_JOG_OFFSET)
+        here, jogs = both[: len(both) // 2], both[len(both) // 2 :]
         for axis, at, jog, end in zip(
             self.settings.axes, here, jogs, jobs[-1].finish_cnt, strict=True
         ):

@@ -14,14 +14,22 @@ QUARTER = 0.5 * math.pi
 
 @dataclass(frozen=True, slots=True)
 class Excess:
-    """A point beyond a limit: the axis, how far, and which limit."""
+    """A point beyond a limit: the axis, the point, and the limit it is beyond."""
 
     axis: AxisSettings
-    beyond_u: float
+    at_u: float
     limit_u: float
 
+    @property
+    def beyond_u(self) -> float:
+        """How far it is beyond the limit."""
+        return abs(self.at_u - self.limit_u)
+
     def __str__(self) -> str:
-        return f"axis {self.axis.name} {self.beyond_u:.6g} beyond {self.limit_u:g}"
+        return (
+            f"axis {self.axis.name} would go to {self.at_u:.6g},"
+            f" {self.beyond_u:.6g} beyond its limit {self.limit_u:g}"
+        )
 
 
 def first_excess(job: Job, settings: Settings) -> Excess | None:
@@ -48,8 +56,8 @@ def excesses(job: Job, axes: Sequence[AxisSettings]) -> Iterator[Excess]:
 
 def _excess(axis: AxisSettings, at_u: float, high_u: float, low_u: float) -> Excess | None:
     if at_u > high_u:
-        return Excess(axis, at_u - high_u, high_u)
-    return Excess(axis, low_u - at_u, low_u) if at_u < low_u else None
+        return Excess(axis, at_u, high_u)
+    return Excess(axis, at_u, low_u) if at_u < low_u else None
 
 
 def unhomed(job: Job, settings: Settings) -> AxisSettings | None:

@@ -185,9 +185,10 @@ class Machine:
         self._require_hold()
         return self.card.read_many(parameters)
 
-    def axis_values(self, offset: int) -> list[int]:
-        """One row of all axes in use, e.g. `AX_ACTUAL_POSITION`."""
-        rows = [n.AX_BASE + axis * n.AX_STRIDE + offset for axis in self.axes]
+    def axis_values(self, *offsets: int) -> list[int]:
+        """Rows of all axes in use, one after the other, e.g. `AX_ACTUAL_POSITION`."""
+        axes = [n.AX_BASE + axis * n.AX_STRIDE for axis in self.axes]
+        rows = [axis + offset for offset in offsets for axis in axes]
         return [int(value) for value in self._read_many(rows)]
 
     def axis_flags(self, word: int) -> list[int]:

@@ -145,6 +145,11 @@ class Runner:
         """Card time since the start of the program."""
         return self._times.run_s
 
+    @property
+    def wait_left_s(self) -> float:
+        """How long what is waited for takes at most, 0 or more; infinite without a limit."""
+        return self._script.left_s
+
     def _facts(self) -> Facts:
         """What other programs may read of the run."""
         line = float(self.source.line) if self.source else 0.0

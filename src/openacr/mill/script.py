@@ -1,5 +1,7 @@
 """Plays an action: runs its steps as far as the card lets them, and counts time-outs."""
 
+from math import inf
+
 from openacr.mill.actions import Steps, Until
 from openacr.mill.alarms import AlarmError
 from openacr.mill.machine import Look
@@ -22,6 +24,11 @@ class Script:
     def reason(self) -> str:
         """What is waited for."""
         return self._until.reason if self._until else ""
+
+    @property
+    def left_s(self) -> float:
+        """How long the wait may take still; infinite where nothing is waited for."""
+        return max(self._until.limit_s - self._waited_s, 0.0) if self._until else inf
 
     def begin(self, steps: Steps) -> None:
         """Do this next; what was being done is broken off."""

@@ -26,7 +26,9 @@ from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
+from openacr.engine.watches import Place, Watch
 from openacr.errors import UserError
+from openacr.map import numbers as n
 from openacr.mill import alarms, barrier, homed
 from openacr.mill.alarms import Alarms
 from openacr.mill.ballscrew import tables_of
@@ -52,6 +54,8 @@ if TYPE_CHECKING:
     from openacr.controller import Controller
 
 POLL_S = 0.02
+SHORTEST_S = 0.001  # the clock of the card counts milliseconds
+MOTION = n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED | n.MF1_NOT_IN_POSITION
 NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
@@ -106,6 +110,7 @@ class Workshop:
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
+        self._motion = Watch(Place.WORD, n.MF1_WORD + self.machine.master, MOTION)
         self.runner = Runner(
             self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
             compensated=tables,
@@ -306,13 +311,29 @@ class Workshop:
 
     def step(self) -> None:
         """Let a little time pass and do what is due."""
-        self.machine.pause(POLL_S)
+        self._pass_time()
         if self._drip is not None:
             self._drip.poll()
         self._keep_ownership()
         self.runner.step()
         with suppress(*LINK_ERRORS):  # the next look tells
             self.messages.keep(self.machine.now_s)
+
+    def _pass_time(self) -> None:
+        """Until the next look: a poll, or to the end of a wait if that comes first.
+
+        The virtual machine need not wait for the poll where motion begins or ends.
+        """
+        step_s = min(POLL_S, max(self.runner.wait_left_s, SHORTEST_S))
+        card = self.virtual_card
+        if card is None:
+            self.machine.pause(step_s)
+            return
+        card.watch([self._motion])
+        try:
+            self.machine.pause(step_s)
+        finally:
+            card.watch()
 
     def _keep_ownership(self) -> None:
         """Count on; before anything is sent, for this process may have been stopped for long."""

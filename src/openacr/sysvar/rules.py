@@ -46,7 +46,7 @@ def check(cells: Reader, changed: Collection[int], is_running: Callable[[], bool
     system = sorted(n for n in changed if n >= FIRST_SYSTEM)
     for n in system:
         if known(n).row.is_motion and is_running():
-            raise SettingError(known(n), "changed", "a program runs", "stop it first")
+            raise SettingError(known(n), None, "a program runs", "stop it first")
     if system:
         for rule in _RULES:
             rule(cells, system)

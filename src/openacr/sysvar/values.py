@@ -22,11 +22,17 @@ _TRUTHS = {"true": 1, "yes": 1, "on": 1, "false": 0, "no": 0, "off": 0}
 
 
 class SettingError(UserError):
-    """A value a cell cannot take: which one, what was given, what it accepts."""
+    """A value a cell cannot take: which one, what was given, what it accepts.
+
+    The value is None where no value can be given at present.
+    """
 
     def __init__(self, parameter: Parameter, value: object, expected: str, hint: str = "") -> None:
         self.parameter, self.value, self.expected, self.hint = parameter, value, expected, hint
-        shown = f"{value:g}" if isinstance(value, float) else f"{value!r:.60}"
+        if value is None:
+            shown = "changed"
+        else:
+            shown = f"{value:g}" if isinstance(value, float) else f"{value!r:.60}"
         tail = f" ({hint})" if hint else ""
         super().__init__(f"{parameter} cannot be {shown}: {expected}{tail}")
 
