@@ -163,7 +163,13 @@ def test_the_check_of_a_file_agrees_with_run(seed: int, length: int) -> None:
     except CompileError as error:
         assert error.text in found
     else:
-        assert found <= {"Undefined variable"}
+        # what a running program meets: the check foresees it, the compiler does not
+        assert found <= {
+            "Undefined variable",
+            "Invalid parameter",
+            "Invalid bit",
+            "Invalid argument",
+        }
 
 
 @pytest.mark.parametrize("path", BROKEN, ids=lambda path: path.stem)

@@ -149,7 +149,7 @@ COMMANDS: dict[str, Entry | Family] = {
             "stop": Entry(
                 "mill_stop",
                 "stop_machine",
-                "Stop a machine and switch everything off, whoever drives it.",
+                "Stop a machine and switch everything off, whichever program drives it.",
             ),
             "acknowledge": Entry(
                 "mill_hand",

@@ -10,7 +10,7 @@ FAILED = 1
 
 
 def stop_machine(host: AtHost, store: AtStore = None) -> None:
-    """Stop a machine, whatever it does and whoever drives it.
+    """Stop a machine and switch everything off, whichever program drives it.
 
     Feed hold, jogs off, then spindle, coolant and beam off; a machine that does not come to
     rest loses its drives (exit code 1). Nothing moves before `openacr mill acknowledge`.
