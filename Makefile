@@ -30,6 +30,7 @@ MADE := $(VENV)/.made
 INSTALLED := $(VENV)/.installed
 BUILT := $(VENV)/.built
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
+	src/openacr/messages.py \
 	$(wildcard src/openacr/map/numbers.py) $(shell find src -name '*_cy.py')
 # Tests of the core run a second time as plain Python where the core is compiled.
 PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from openacr import compiled, unity
+from openacr import compiled, messages, unity
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
 from openacr.unity import source_hash, unity_source, write_unity
@@ -103,6 +103,30 @@ def test_every_integer_is_widened_before_anything_is_computed_of_it(
     ]
 
 
+MESSAGE = (
+    "from openacr import messages\n"
+    "def f(n: int) -> int:\n    return -messages.MATH_ERROR.number if n else n.real\n"
+)
+
+
+def test_the_number_of_a_message_is_taken_from_its_row(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert "return -10LL if n else n.real" in joined(tmp_path, monkeypatch, MESSAGE)
+    with_ten = source_hash()
+    monkeypatch.setattr(messages, "MATH_ERROR", messages.Message(66, "Math error"))
+    assert "return -66LL if n else n.real" in joined(tmp_path, monkeypatch, MESSAGE)
+    assert source_hash() != with_ten
+
+
+def test_a_message_without_a_row_cannot_be_compiled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = MESSAGE.replace("MATH_ERROR", "MATHS_ERROR")
+    with pytest.raises(UnityError, match=r"messages\.MATHS_ERROR is not"):
+        joined(tmp_path, monkeypatch, text)
+
+
 def test_views_of_two_buffers_are_refused() -> None:
     if not compiled.is_compiled:
         pytest.skip("nothing is compiled")
@@ -127,6 +151,8 @@ def test_views_of_two_buffers_are_refused() -> None:
         ),
         ("class A:\n    pass\n", "only functions and constants are compiled"),
         ("from os import path\n", "import of os cannot be compiled"),
+        ("from openacr import errors\n", "import of openacr cannot be compiled"),
+        ("from openacr import messages, errors\n", "import of openacr cannot be compiled"),
         ("def f() -> None:\n    pass\n\n\ndef f() -> None:\n    pass\n", "f is defined twice"),
     ],
 )

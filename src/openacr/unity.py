@@ -7,8 +7,8 @@ what C needs:
   `checked`, bounds-checked memoryviews); literals and what is read from views of integers
   have 64 bits before anything is computed of them, as a sum of 32-bit operands would wrap;
 - the views F, I and S of the state are passed as one pointer into their buffer;
-- module constants (`NAME = number`, and those of the generated numbers module) become
-  literals, so that the inner loop never looks a name up;
+- module constants (`NAME = number`, those of the generated numbers module, and the numbers of
+  the card's messages) become literals, so that the inner loop never looks a name up;
 - every function becomes a C function that cannot raise; those listed in a module's
   `__all__` also get a Python entrance `py_<name>`, which takes the views themselves.
 
@@ -22,6 +22,7 @@ import hashlib
 import re
 from pathlib import Path
 
+from openacr import messages
 from openacr.unity_c import (
     Inline,
     Number,
@@ -121,6 +122,7 @@ def source_hash() -> str:
     joining = [Path(__file__), PACKAGE / "unity_c.py"]
     for path in [*source_files(), PACKAGE / "map" / "numbers.py", *joining]:
         digest.update(path.read_bytes())
+    digest.update(repr(_message_numbers()).encode())
     return digest.hexdigest()
 
 
@@ -157,6 +159,16 @@ def unity_source(*, checked: bool = False) -> str:
         blocks.append(ast.unparse(compiled_function(function, checked=checked)))
     blocks.extend(entrances)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
+
+
+def _message_numbers() -> dict[str, Number]:
+    """`messages.NAME.number`, as the sources write it, of every message of the card."""
+    rows = vars(messages).items()
+    return {
+        f"messages.{name}.number": row.number
+        for name, row in rows
+        if isinstance(row, messages.Message)
+    }
 
 
 @functools.cache
@@ -202,7 +214,7 @@ def _collect(
     exported: list[str],
 ) -> None:
     constants = dict(_module_constants(path))
-    inliner = Inline(constants)
+    inliner = Inline(constants | _message_numbers())
     for node in ast.parse(path.read_text(), str(path)).body:
         if isinstance(node, ast.ImportFrom):
             _check_import(node, path, math_names)
@@ -223,6 +235,8 @@ def _check_import(node: ast.ImportFrom, path: Path, math_names: set[str]) -> Non
     module = node.module or ""
     if module == "openacr.cmath":
         math_names.update(alias.name for alias in node.names)
+    elif module == "openacr" and [alias.name for alias in node.names] == ["messages"]:
+        return
     elif module not in (*CONSTANT_MODULES, "openacr.views") and not module.endswith("_cy"):
         raise UnityError(f"{path.name}:{node.lineno}: import of {module} cannot be compiled")
 

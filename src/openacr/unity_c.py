@@ -65,6 +65,15 @@ class Inline(ast.NodeTransformer):
             return _literal(self.constants[node.id])
         return node
 
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        number = self.constants.get(ast.unparse(node))
+        if number is not None:
+            return _literal(number)
+        if isinstance(node.value, ast.Name) and node.value.id == "messages":
+            raise UnityError(f"messages.{node.attr} is not `messages.<row>.number`")
+        self.generic_visit(node)
+        return node
+
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         return _literal(node.value) if type(node.value) is int else node
 

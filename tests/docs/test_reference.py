@@ -36,7 +36,7 @@ def test_every_command_has_its_place_syntax_and_sentence() -> None:
 
 def test_every_function_and_message_is_on_a_page() -> None:
     assert all(f"`{name}" in PAGES["functions.md"] for name in registry.functions)
-    texts = [message.text.format("...") for message in MESSAGES if message.text]
+    texts = [message.text.format("...") for message in MESSAGES.values() if message.text]
     assert all(f"`{text}`" in PAGES["messages.md"] for text in texts)
 
 

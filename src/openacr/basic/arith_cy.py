@@ -5,15 +5,13 @@ no finite number is an error, so that a program stops instead of moving an axis 
 Operands and results stand on the expression stack of a thread.
 """
 
+from openacr import messages
 from openacr.cmath import floor, fmod, pow
 from openacr.kernel.words_cy import wrap32
 from openacr.views import F64
 
 __all__ = ["apply_operator", "long_word", "operand_word"]
 
-# Results of the functions here: the numbers of openacr.messages.
-ERROR_DIVIDE_BY_ZERO = 9
-ERROR_MATH = 10
 
 OP_ADD = 1
 OP_SUBTRACT = 2
@@ -74,23 +72,23 @@ def apply_operator(F: F64, op: int, at: int) -> int:
         r = a * b
     elif op == OP_DIVIDE:
         if b == 0.0:
-            return ERROR_DIVIDE_BY_ZERO
+            return messages.DIVIDE_BY_ZERO.number
         r = a / b
     elif op == OP_MOD:
         if b == 0.0:
-            return ERROR_DIVIDE_BY_ZERO
+            return messages.DIVIDE_BY_ZERO.number
         r = fmod(a, b) + 0.0  # no negative zero
     elif op == OP_POWER:
         if a == 0.0 and b < 0.0:
-            return ERROR_DIVIDE_BY_ZERO
+            return messages.DIVIDE_BY_ZERO.number
         if a < 0.0 and floor(b) != b:
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = pow(a, b)
     else:
         F[at] = -1.0 if related(op, a, b) else 0.0
         return 0
     if not finite(r):
-        return ERROR_MATH
+        return messages.MATH_ERROR.number
     F[at] = r
     return 0
 
@@ -116,7 +114,7 @@ def apply_word_operator(F: F64, op: int, at: int) -> int:
     b: int = operand_word(F[at + 1])
     r: int = 0
     if a == NO_WORD or b == NO_WORD:
-        return ERROR_MATH
+        return messages.MATH_ERROR.number
     if op == OP_AND:
         r = a & b
     elif op == OP_NAND:
@@ -130,7 +128,7 @@ def apply_word_operator(F: F64, op: int, at: int) -> int:
     elif op == OP_XNOR:
         r = ~(a ^ b)
     elif b < 0 or b > 31:
-        return ERROR_MATH
+        return messages.MATH_ERROR.number
     elif op == OP_SHIFT_LEFT:
         r = wrap32((a & LOW32) << b)
     else:

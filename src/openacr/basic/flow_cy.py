@@ -1,8 +1,6 @@
 """The flow stack of a thread: open levels of IF, FOR, WHILE and GOSUB, and where jumps lead."""
 
-from openacr.basic.opcodes_cy import (
-    ERROR_STACK,
-)
+from openacr import messages
 from openacr.basic.values_cy import (
     whole_index,
 )
@@ -29,7 +27,7 @@ def open_level(I: I32, rows: int, kind: int, start: int, stop: int) -> int:
     """Push a level whose text is the code from start up to stop; an error number or 0."""
     depth: int = I[rows + THI_DEPTH]
     if depth >= THI_FLOW_KIND_SIZE:
-        return ERROR_STACK
+        return messages.STACK_OVERFLOW.number
     I[rows + THI_FLOW_KIND + depth] = kind
     I[rows + THI_FLOW_START + depth] = start
     I[rows + THI_FLOW_STOP + depth] = stop

@@ -3,7 +3,8 @@
 A result that is no finite number is an error, as with operators. Angles are in degrees.
 """
 
-from openacr.basic.arith_cy import ERROR_MATH, LOW32, NO_WORD, finite, operand_word
+from openacr import messages
+from openacr.basic.arith_cy import LOW32, NO_WORD, finite, operand_word
 from openacr.cmath import (
     acos,
     acosh,
@@ -74,7 +75,7 @@ def apply_function(F: F64, I: I32, function: int, at: int) -> int:
     elif function == FN_NOT:
         word = operand_word(x)
         if word == NO_WORD:
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = float(~word)
     elif function == FN_ABS:
         r = fabs(x)
@@ -84,28 +85,28 @@ def apply_function(F: F64, I: I32, function: int, at: int) -> int:
         r = random_below(I, x)
     elif function >= FN_SINH:
         if (function == FN_ACOSH and x < 1.0) or (function == FN_ATANH and not -1.0 < x < 1.0):
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = hyperbolic(function, x)
     elif function >= FN_SIN:
         if (function == FN_ASIN or function == FN_ACOS) and not -1.0 <= x <= 1.0:
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = trigonometric(function, x)
     elif function == FN_EXP:
         if x > 709.782712893384:
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = exp(x)
     elif function == FN_SQRT:
         if x < 0.0:
-            return ERROR_MATH
+            return messages.MATH_ERROR.number
         r = sqrt(x)
     elif x <= 0.0:
-        return ERROR_MATH
+        return messages.MATH_ERROR.number
     elif function == FN_LN:
         r = log(x)
     else:
         r = log10(x)
     if not finite(r):
-        return ERROR_MATH
+        return messages.MATH_ERROR.number
     F[at] = r
     return 0
 

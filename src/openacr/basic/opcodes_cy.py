@@ -1,4 +1,4 @@
-"""The vocabulary of the virtual machine: operations, reasons to stop, error numbers."""
+"""The vocabulary of the virtual machine: operations, reasons to stop."""
 
 # Why vm_run came back.
 VM_END = 1
@@ -9,21 +9,6 @@ VM_ERROR = 5
 VM_FLAGS = 6  # pause, block or trace mode stops before this line
 VM_CALL = 7  # an operand that Python computes
 VM_VALUE = 8  # an expression is computed, see row result
-
-# Numbers of openacr.messages.
-ERROR_UNDEFINED_VARIABLE = 4
-ERROR_INVALID_PARAMETER = 5
-ERROR_INVALID_BIT = 6
-ERROR_SUBSCRIPT = 7
-ERROR_MATH_RESULT = 10
-ERROR_INVALID_ARGUMENT = 11
-ERROR_LEVEL = 15
-ERROR_LINE_NOT_FOUND = 20
-ERROR_NEXT = 26
-ERROR_WEND = 28
-ERROR_RETURN = 29
-ERROR_BREAK = 30
-ERROR_STACK = 31
 
 # Operations; operands in parentheses, what is taken from the stack in brackets.
 DO_STATEMENT = 0  # (line, 1 if it is the first one of the line)

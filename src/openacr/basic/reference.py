@@ -149,7 +149,7 @@ def _map_table(rows: Iterable[Parameter | Flag], prefix: str) -> str:
 
 
 def _messages() -> str:
-    shown = (message for message in MESSAGES if message.text)
+    shown = (message for message in MESSAGES.values() if message.text)
     rows = ((str(message.number), f"`{message.text.format('...')}`") for message in shown)
     return "\n\n".join(["# Messages", MADE_BY, _table(("number", "text"), rows)])
 

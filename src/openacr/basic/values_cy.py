@@ -1,16 +1,9 @@
 """Variables, parameters and flags of AcroBASIC: where they lie and how they are converted."""
 
+from openacr import messages
 from openacr.basic.arith_cy import (
     finite,
     long_word,
-)
-from openacr.basic.opcodes_cy import (
-    ERROR_INVALID_BIT,
-    ERROR_INVALID_PARAMETER,
-    ERROR_LEVEL,
-    ERROR_MATH_RESULT,
-    ERROR_SUBSCRIPT,
-    ERROR_UNDEFINED_VARIABLE,
 )
 from openacr.map.flags_cy import flag_bit, put_flag
 from openacr.map.kinds_cy import kind_of, store_long
@@ -59,7 +52,7 @@ def whole_index(value: float) -> int:
 def store_single(S: F32, at: int, value: float) -> int:
     """Store into an FP32 row, rounded to nearest."""
     if not (-FLOAT32_LIMIT < value < FLOAT32_LIMIT):
-        return ERROR_MATH_RESULT
+        return messages.MATH_ERROR.number
     S[at] = value
     return 0
 
@@ -93,7 +86,7 @@ def local_place(I: I32, program: int, kind: int, index: float) -> int:
     base: int = 0
     count: int = 0
     if program < 0:
-        return -ERROR_LEVEL
+        return -messages.NOT_VALID_AT_THIS_LEVEL.number
     if kind == KIND_OF_LV:
         base = I[rows + STI_LV_BASE]
         count = I[rows + STI_LV_COUNT]
@@ -104,9 +97,9 @@ def local_place(I: I32, program: int, kind: int, index: float) -> int:
         base = I[rows + STI_DV_BASE]
         count = I[rows + STI_DV_COUNT]
     if number < 0:
-        return -ERROR_SUBSCRIPT
+        return -messages.SUBSCRIPT_OUT_OF_RANGE.number
     if number >= count:
-        return -ERROR_UNDEFINED_VARIABLE
+        return -messages.UNDEFINED_VARIABLE.number
     return base + number
 
 
@@ -123,7 +116,7 @@ def element_place(I: I32, program: int, kind: int, array: float, index: float) -
     count: int = 0
     header: int = 0
     if program < 0:
-        return -ERROR_LEVEL
+        return -messages.NOT_VALID_AT_THIS_LEVEL.number
     if kind == KIND_OF_LV:
         table = I[rows + STI_LA_BASE]
         count = I[rows + STI_LA_COUNT]
@@ -134,14 +127,14 @@ def element_place(I: I32, program: int, kind: int, array: float, index: float) -
         table = I[rows + STI_DA_BASE]
         count = I[rows + STI_DA_COUNT]
     if count == 0:
-        return -ERROR_UNDEFINED_VARIABLE
+        return -messages.UNDEFINED_VARIABLE.number
     if which < 0 or which >= count:
-        return -ERROR_SUBSCRIPT
+        return -messages.SUBSCRIPT_OUT_OF_RANGE.number
     header = I[table + which]
     if header == 0:
-        return -ERROR_UNDEFINED_VARIABLE
+        return -messages.UNDEFINED_VARIABLE.number
     if number < 0 or number >= I[header]:
-        return -ERROR_SUBSCRIPT
+        return -messages.SUBSCRIPT_OUT_OF_RANGE.number
     if kind == KIND_OF_DV:
         return ((header + 1) >> 1) + number
     return header + 1 + number
@@ -155,13 +148,13 @@ def read_parameter(F: F64, I: I32, S: F32, number: int, to: int) -> int:
     elif kind == KIND_FP32:
         F[to] = S[number]
         if not finite(F[to]):
-            return ERROR_MATH_RESULT
+            return messages.MATH_ERROR.number
     elif kind == KIND_FP64:
         if number >= I[SYSI_BASE + SYSI_P_COUNT]:
-            return ERROR_UNDEFINED_VARIABLE
+            return messages.UNDEFINED_VARIABLE.number
         F[to] = F[USER_BASE + number]
     else:
-        return ERROR_INVALID_PARAMETER
+        return messages.INVALID_PARAMETER.number
     return 0
 
 
@@ -174,17 +167,17 @@ def write_parameter(F: F64, I: I32, S: F32, number: int, value: float) -> int:
         return store_single(S, number, value)
     elif kind == KIND_FP64:
         if number >= I[SYSI_BASE + SYSI_P_COUNT]:
-            return ERROR_UNDEFINED_VARIABLE
+            return messages.UNDEFINED_VARIABLE.number
         F[USER_BASE + number] = value
     else:
-        return ERROR_INVALID_PARAMETER
+        return messages.INVALID_PARAMETER.number
     return 0
 
 
 def mask_parameter(I: I32, number: int, nandmask: float, ormask: float) -> int:
     """P := (P AND NOT nandmask) OR ormask on a LONG parameter; an error number or 0."""
     if kind_of(I, number) != KIND_LONG:
-        return ERROR_INVALID_PARAMETER
+        return messages.INVALID_PARAMETER.number
     store_long(I, number, (I[number] & ~long_word(nandmask)) | long_word(ormask))
     return 0
 
@@ -197,6 +190,6 @@ def read_bit(I: I32, number: int) -> int:
 def write_bit(I: I32, number: int, on: bool) -> int:
     """Set or clear flag `number`; an error number or 0."""
     if number < 0 or number > FLAG_LAST:
-        return ERROR_INVALID_BIT
+        return messages.INVALID_BIT.number
     put_flag(I, number, on)
     return 0

@@ -6,6 +6,7 @@ thread's own part begins at its rows code_base and num_base, and jump targets co
 there. All state lies in the rows of the thread, so any stop can be continued later.
 """
 
+from openacr import messages
 from openacr.basic.arith_cy import (
     apply_operator,
     finite,
@@ -72,17 +73,6 @@ from openacr.basic.opcodes_cy import (
     DO_TEST_FOR,
     DO_TRAP,
     DO_WEND,
-    ERROR_BREAK,
-    ERROR_INVALID_ARGUMENT,
-    ERROR_INVALID_BIT,
-    ERROR_LEVEL,
-    ERROR_LINE_NOT_FOUND,
-    ERROR_MATH_RESULT,
-    ERROR_NEXT,
-    ERROR_RETURN,
-    ERROR_STACK,
-    ERROR_UNDEFINED_VARIABLE,
-    ERROR_WEND,
     VM_CALL,
     VM_END,
     VM_ERROR,
@@ -190,7 +180,7 @@ def vm_run(
     if t >= PROG_COUNT:
         line_at = rows + THI_LINE
     if top > bottom + THF_STACK_SIZE - 100:
-        error = ERROR_STACK
+        error = messages.STACK_OVERFLOW.number
     while error == 0 and event == 0:
         op = code[pc]
         if op == DO_STATEMENT:
@@ -225,7 +215,7 @@ def vm_run(
             top -= 1
             F[top - 1] = F[top - 1] + F[top]
             if not finite(F[top - 1]):
-                error = ERROR_MATH_RESULT
+                error = messages.MATH_ERROR.number
             pc += 1
         elif op == DO_LESS:
             top -= 1
@@ -241,7 +231,7 @@ def vm_run(
             pc += 2
         elif op == DO_LOAD_SINGLE:
             F[top] = S[code[pc + 1]]
-            error = 0 if finite(F[top]) else ERROR_MATH_RESULT
+            error = 0 if finite(F[top]) else messages.MATH_ERROR.number
             top += 1
             pc += 2
         elif op == DO_STORE_SINGLE:
@@ -250,7 +240,7 @@ def vm_run(
             pc += 2
         elif op == DO_LOAD_USER:
             if code[pc + 1] >= I[SYSI_BASE + SYSI_P_COUNT]:
-                error = ERROR_UNDEFINED_VARIABLE
+                error = messages.UNDEFINED_VARIABLE.number
             F[top] = F[USER_BASE + code[pc + 1]]
             top += 1
             pc += 2
@@ -259,13 +249,13 @@ def vm_run(
             if code[pc + 1] < I[SYSI_BASE + SYSI_P_COUNT]:
                 F[USER_BASE + code[pc + 1]] = F[top]
             else:
-                error = ERROR_UNDEFINED_VARIABLE
+                error = messages.UNDEFINED_VARIABLE.number
             pc += 2
         elif op == DO_LOAD_LV:
             if locals_of < 0:
-                error = ERROR_LEVEL
+                error = messages.NOT_VALID_AT_THIS_LEVEL.number
             elif code[pc + 1] >= I[storage + STI_LV_COUNT]:
-                error = ERROR_UNDEFINED_VARIABLE
+                error = messages.UNDEFINED_VARIABLE.number
             else:
                 F[top] = float(I[I[storage + STI_LV_BASE] + code[pc + 1]])
             top += 1
@@ -273,9 +263,9 @@ def vm_run(
         elif op == DO_STORE_LV:
             top -= 1
             if locals_of < 0:
-                error = ERROR_LEVEL
+                error = messages.NOT_VALID_AT_THIS_LEVEL.number
             elif code[pc + 1] >= I[storage + STI_LV_COUNT]:
-                error = ERROR_UNDEFINED_VARIABLE
+                error = messages.UNDEFINED_VARIABLE.number
             else:
                 I[I[storage + STI_LV_BASE] + code[pc + 1]] = long_word(F[top])
             pc += 2
@@ -314,7 +304,7 @@ def vm_run(
         elif op == DO_LOAD_FLAG:
             word = read_bit(I, whole_index(F[top - 1]))
             if word < 0:
-                error = ERROR_INVALID_BIT
+                error = messages.INVALID_BIT.number
             F[top - 1] = float(0 - word)
             pc += 1
         elif op == DO_STORE_FLAG:
@@ -346,7 +336,7 @@ def vm_run(
         elif op == DO_ENTER_FOR:
             top -= 2
             if F[top + 1] == 0.0:
-                error = ERROR_INVALID_ARGUMENT
+                error = messages.INVALID_ARGUMENT.number
             else:
                 error = open_level(I, rows, FLOW_FOR, code[pc + 1], code[pc + 2])
             if error == 0:
@@ -370,20 +360,20 @@ def vm_run(
             if is_open(I, rows, FLOW_FOR, code[pc + 1]):
                 at = I[rows + THI_DEPTH] - 1
                 F[top - 1] = F[top - 1] + F[reals + THF_FLOW_STEP + at]
-                error = 0 if finite(F[top - 1]) else ERROR_MATH_RESULT
+                error = 0 if finite(F[top - 1]) else messages.MATH_ERROR.number
             else:
-                error = ERROR_NEXT
+                error = messages.NEXT_WITHOUT_FOR.number
             pc += 2
         elif op == DO_WEND:
             if is_open(I, rows, FLOW_WHILE, code[pc + 1]):
                 pc = base + code[pc + 2]
             else:
-                error = ERROR_WEND
+                error = messages.WEND_WITHOUT_WHILE.number
         elif op == DO_BREAK:
             if break_level(I, rows, code[pc + 1]):
                 pc = base + code[pc + 2]
             else:
-                error = ERROR_BREAK
+                error = messages.BREAK_WITHOUT_LOOP.number
         elif op == DO_GOTO:
             unwind(I, rows, code[pc + 1])
             pc = base + code[pc + 1]
@@ -396,7 +386,7 @@ def vm_run(
             top -= 1
             word = line_place(I, code, rows, base, F[top])
             if word < 0:
-                error = ERROR_LINE_NOT_FOUND
+                error = messages.LINE_NOT_FOUND.number
                 F[reals + THF_ERROR_DETAIL] = F[top]
             elif op == DO_GOTO_LINE:
                 unwind(I, rows, word)
@@ -409,7 +399,7 @@ def vm_run(
         elif op == DO_RETURN:
             word = return_level(I, rows)
             if word < 0:
-                error = ERROR_RETURN
+                error = messages.RETURN_WITHOUT_GOSUB.number
             else:
                 pc = base + word
         elif op == DO_END:
@@ -451,7 +441,7 @@ def vm_run(
             error = mask_parameter(I, whole_index(F[top]), F[top + 1], F[top + 2])
             pc += 1
         else:
-            error = ERROR_MATH_RESULT
+            error = messages.MATH_ERROR.number
     I[rows + THI_SP] = top - bottom
     I[rows + THI_PC] = pc - base
     I[rows + THI_BUDGET] = budget

@@ -1,8 +1,6 @@
 """What threads wait for: times, flags, parameters and rows, kept as numbers."""
 
-from openacr.basic.opcodes_cy import (
-    ERROR_INVALID_BIT,
-)
+from openacr import messages
 from openacr.basic.values_cy import (
     read_bit,
     read_parameter,
@@ -111,7 +109,7 @@ def inhibit(F: F64, I: I32, t: int, for_clear: int, at: int, tick: int) -> int:
         wanted = 1 - wanted
     state: int = read_bit(I, number)
     if state < 0:
-        return -ERROR_INVALID_BIT
+        return -messages.INVALID_BIT.number
     if state == wanted:
         return 0
     start_wait(F, I, t, WAIT_BIT_SET if wanted else WAIT_BIT_CLEAR, number, 0.0, F[at + 1], tick)

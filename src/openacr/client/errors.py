@@ -15,7 +15,7 @@ from openacr.messages import (
 
 _TEXTS = [
     (re.compile(re.escape(message.text).replace(r"\{\}", ".*")), message)
-    for message in MESSAGES
+    for message in MESSAGES.values()
     if message is not OK
 ]
 _HINTS = {
