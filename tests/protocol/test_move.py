@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from openacr.protocol import packets
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.move_codes import Code0, Code1, Code3, Curve, Profile
-from openacr.protocol.packet import PacketError
+from openacr.protocol.packets import PacketError
 
 
 def words(*values: int | float) -> bytes:

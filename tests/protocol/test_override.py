@@ -15,7 +15,7 @@ from openacr.protocol.override import (
     is_short,
     lengthened,
 )
-from openacr.protocol.packet import PacketError
+from openacr.protocol.packets import PacketError
 from openacr.protocol.parameter import GetLong
 from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import Terminal

@@ -1,14 +1,20 @@
 """Every packet of the manual byte for byte, with its errata."""
 
 import struct
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, ClassVar
 
 import pytest
 
+from openacr.protocol import packet as packet_module
 from openacr.protocol import packets
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest, locate
 from openacr.protocol.escape import BinaryMode
+from openacr.protocol.execute import execute
 from openacr.protocol.framing import PacketReader
+from openacr.protocol.host import Host
 from openacr.protocol.memory import (
     Conversion,
     MaskMemory,
@@ -18,7 +24,8 @@ from openacr.protocol.memory import (
     VariableKind,
 )
 from openacr.protocol.override import FeedrateOverride, RapidOverride
-from openacr.protocol.packet import PACKETS, Packet, PacketError
+from openacr.protocol.packet import PACKETS, Packet
+from openacr.protocol.packets import PacketError
 from openacr.protocol.parameter import (
     GetIeee,
     GetLong,
@@ -188,8 +195,67 @@ def test_an_unknown_group_is_refused() -> None:
 @pytest.mark.req("BIN-007", "BIN-048")
 def test_headers_are_those_of_the_manual() -> None:
     assert {header[0] for header in PACKETS} == packets.HEADER_IDS
+    assert {0x00, 0x04, 0x07, 0x1C, 0x1D, 0x1F} == packets.HEADER_IDS
     two = {header[1] for header in PACKETS if len(header) == 2}
     assert two == {*range(0x88, 0x8C), *range(0x90, 0x96)}
+
+
+def test_a_packet_is_one_class_with_what_it_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(packet_module, "PACKETS", dict(PACKETS))
+
+    @packet_module.register
+    @dataclass(frozen=True, slots=True)
+    class Toggle(Packet):
+        HEADER: ClassVar[bytes] = b"\x00\x96"
+        bit: packet_module.U16
+
+        def act(self, host: Host) -> bytes:
+            host.write_bit(self.bit, True)
+            return self.reply([self.bit])
+
+    sent = bytes.fromhex("009608 02")
+    assert packets.total_length(sent[:2]) == 4
+    assert packets.decode(sent) == Toggle(520)
+    assert packets.explain(sent).endswith("bit = 520")
+    set_bits: list[tuple[int, bool]] = []
+    host: Any = SimpleNamespace(write_bit=lambda number, on: set_bits.append((number, on)))
+    assert execute(host, Toggle(520)) == sent + bytes.fromhex("08020000")
+    assert set_bits == [(520, True)]
+
+
+def test_a_packet_that_does_nothing_cannot_be_made() -> None:
+    @dataclass(frozen=True, slots=True)
+    class Nothing(Packet):
+        HEADER: ClassVar[bytes] = b"\x00\x97"
+
+    with pytest.raises(TypeError, match="act"):
+        Nothing()  # type: ignore[abstract]
+
+
+def test_packets_say_which_parameters_and_flags_they_name() -> None:
+    of = {type(packet): packet for _, packet in EXAMPLES}
+    named = {kind: list(packet.parameters()) for kind, packet in of.items()}
+    assert {kind: numbers for kind, numbers in named.items() if numbers} == {
+        DataRequest: [12802, 13058, 13570],
+        GetLong: [12288],
+        SetLong: [4097],
+        GetIeee: [8192],
+        SetIeee: [8192],
+        ParameterAddress: [12288],
+        MaskParameter: [4097],
+    }
+    flags = {kind: list(packet.flags()) for kind, packet in of.items()}
+    assert {kind: numbers for kind, numbers in flags.items() if numbers} == {
+        SetBit: [520],
+        ClearBit: [32],
+    }
+
+
+def test_only_set_and_clear_are_padded_on_a_dpcb() -> None:
+    padded = {header for header in PACKETS if packets.dpcb_padding(header)}
+    assert padded == {b"\x1c", b"\x1d"}
+    assert packets.dpcb_padding(b"\x1c") == 1
+    assert packets.dpcb_padding(b"\x05") == 0
 
 
 @pytest.mark.req("BIN-084")

@@ -9,23 +9,12 @@ import typer
 
 from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, flag, parameter
-from openacr.protocol.bits import ClearBit, SetBit
-from openacr.protocol.data import DataRequest
 from openacr.protocol.escape import BinaryMode
 from openacr.protocol.framing import PacketReader
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, Part
-from openacr.protocol.parameter import (
-    GetIeee,
-    GetLong,
-    MaskParameter,
-    ParameterAddress,
-    SetIeee,
-    SetLong,
-)
 
 HEADERS = ", ".join(f"{each:02X}" for each in sorted(HEADER_IDS))
-ONE_PARAMETER = (GetLong, SetLong, GetIeee, SetIeee, ParameterAddress, MaskParameter)
 
 
 def explain_packet(
@@ -125,18 +114,16 @@ def _plain(data: bytes, count: int, mode: BinaryMode) -> tuple[bytes, int]:
 
 def _targets(packet: Packet) -> list[str]:
     """What the numbers in a packet are called on the card."""
-    if isinstance(packet, SetBit | ClearBit):
-        return [_named(f"BIT{packet.bit}", _flag_name(packet.bit))]
-    return [_named(f"P{number}", _parameter_name(number)) for number in _parameters(packet)]
+    flags = [_named(f"BIT{number}", _flag_name(number)) for number in packet.flags()]
+    names = ((number, _parameter_name(number)) for number in _parameters(packet))
+    return flags + [_named(f"P{number}", name) for number, name in names]
 
 
 def _parameters(packet: Packet) -> list[int]:
-    if isinstance(packet, DataRequest):
-        try:
-            return list(packet.parameters())
-        except PacketError as wrong:
-            raise UserError(str(wrong)) from None
-    return [packet.parameter] if isinstance(packet, ONE_PARAMETER) else []
+    try:
+        return list(packet.parameters())
+    except PacketError as wrong:
+        raise UserError(str(wrong)) from None
 
 
 def _named(number: str, name: str) -> str:

@@ -23,7 +23,7 @@ from openacr.motion.permits import scale_of
 from openacr.motion.rows import master_ints
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code1, Curve
-from openacr.protocol.packet import PacketError
+from openacr.protocol.packets import PacketError
 
 log = logging.getLogger(__name__)
 MOST = 1024

@@ -22,7 +22,7 @@ from openacr.controller.streams import StreamsState
 from openacr.errors import StoreError
 from openacr.map import numbers
 from openacr.plant import schema
-from openacr.protocol.packet import PacketError
+from openacr.protocol.packets import PacketError
 
 if TYPE_CHECKING:
     from openacr.controller.controller import Controller

@@ -2,28 +2,49 @@
 
 On the DPCB of the ACR8020 a zero byte belongs to every such packet. Some hosts send it
 over the network as well: there it counts as padding when it directly follows in the same
-segment and nothing else does; `framing` decides that.
+segment and nothing else does; `terminal` decides that.
 """
 
 from dataclasses import dataclass
 from typing import ClassVar
 
+from openacr.protocol.host import Host
 from openacr.protocol.packet import U16, Packet, register
 
 
+@dataclass(frozen=True, slots=True)
+class _OneFlag(Packet):
+    """Holds the number of a flag."""
+
+    DPCB_PADDING: ClassVar[int] = 1
+    bit: U16
+
+    def flags(self) -> tuple[int]:
+        """The one."""
+        return (self.bit,)
+
+
 @register
 @dataclass(frozen=True, slots=True)
-class SetBit(Packet):
+class SetBit(_OneFlag):
     """Set a flag, not queued; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x1c"
-    bit: U16
+
+    def act(self, host: Host) -> bytes:
+        """Set it."""
+        host.write_bit(self.bit, True)
+        return b""
 
 
 @register
 @dataclass(frozen=True, slots=True)
-class ClearBit(Packet):
+class ClearBit(_OneFlag):
     """Clear a flag, not queued; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x1d"
-    bit: U16
+
+    def act(self, host: Host) -> bytes:
+        """Clear it."""
+        host.write_bit(self.bit, False)
+        return b""

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from openacr.protocol.packet import U8, Packet, PacketError, register
+from openacr.protocol.host import Host, PacketError, value_of
+from openacr.protocol.packet import U8, Packet, register
 
 FIELDS = 8
 UPPER_HALF = 0x80  # index bit: objects 8 to 15 of the groups with a stride of 16
@@ -71,6 +72,10 @@ class DataRequest(Packet):
     def reply_words(self) -> int:
         """One word per set bit of the mask."""
         return self.mask.bit_count()
+
+    def act(self, host: Host) -> bytes:
+        """Read them; 0 where there is no parameter."""
+        return self.reply([value_of(host, number) for number in self.parameters()])
 
     def parameters(self) -> Iterator[int]:
         """The parameter numbers asked for, lowest mask bit first."""

@@ -15,9 +15,8 @@ from msgspec import Meta, Struct
 
 from openacr.protocol.escape import BinaryMode, Decoder
 from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
-from openacr.protocol.packets import Packet, PacketError, decode, total_length
+from openacr.protocol.packets import Packet, PacketError, decode, dpcb_padding, total_length
 
-DPCB_PADDED = frozenset((0x1C, 0x1D))
 LONGEST_HEAD = 9  # bytes that tell the length of any packet: all codes of a move
 LONGEST_PACKET = 1024  # more than any packet has
 
@@ -105,7 +104,7 @@ class PacketReader:
         except PacketError:
             self._data.clear()
             raise
-        self._wanted = length + (self.dpcb and so_far[0] in DPCB_PADDED)
+        self._wanted = length + (dpcb_padding(so_far) if self.dpcb else 0)
         if len(so_far) < self._wanted:
             return None
         self._data.clear()

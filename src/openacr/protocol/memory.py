@@ -5,23 +5,26 @@ the other codes advance one. The data always travel as four bytes per value.
 """
 
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import ClassVar, Self
 
+from openacr.errors import MapError
+from openacr.protocol.host import Host, PacketError, finite, masked
 from openacr.protocol.packet import (
     RESERVED_U32,
     U8,
     U32,
     WORD_BYTES,
     Packet,
-    PacketError,
     Part,
     pack_word,
     register,
 )
 
 HEAD_BYTES = 8
+WORD_MASK = 0xFFFFFFFF
 
 
 class Conversion(IntEnum):
@@ -35,6 +38,11 @@ class Conversion(IntEnum):
     def words(self) -> int:
         """Memory words one value occupies."""
         return 2 if self is Conversion.FP64 else 1
+
+    @property
+    def stored(self) -> str:
+        """How memory holds one value: its `struct` format."""
+        return {Conversion.LONG: "i", Conversion.FP64: "d", Conversion.FP32: "f"}[self]
 
 
 class VariableKind(IntEnum):
@@ -57,6 +65,14 @@ def _conversion(code: int) -> Conversion:
         raise PacketError(f"conversion code {code} is none of 0, 1, 2") from None
 
 
+def _words(host: Host, address: int, count: int) -> Sequence[int]:
+    """Memory words, 0 where there is no memory."""
+    try:
+        return host.read_words(address, count)
+    except MapError:
+        return [0] * count
+
+
 @register
 @dataclass(frozen=True, slots=True)
 class Peek(Packet):
@@ -75,6 +91,13 @@ class Peek(Packet):
     def reply_words(self) -> int:
         """One word per value."""
         return self.count
+
+    def act(self, host: Host) -> bytes:
+        """Read the words; 0 where there is no memory."""
+        conversion = self.conversion
+        words = _words(host, self.address, self.count * conversion.words)
+        raw = b"".join(struct.pack("<I", word & WORD_MASK) for word in words)
+        return self.reply(struct.unpack(f"<{self.count}{conversion.stored}", raw))
 
 
 @register
@@ -122,6 +145,15 @@ class Poke(Packet):
         """What the words in memory become; PacketError for an unknown code."""
         return _conversion(self.code)
 
+    def act(self, host: Host) -> bytes:
+        """Store the values, unless one is not a number."""
+        conversion = self.conversion
+        is_whole = conversion is Conversion.LONG
+        values = self.values if is_whole else tuple(map(finite, self.values))
+        raw = struct.pack(f"<{self.count}{conversion.stored}", *values)
+        host.write_words(self.address, struct.unpack(f"<{len(raw) // WORD_BYTES}i", raw))
+        return b""
+
     def explain(self) -> list[Part]:
         """Head and one line per value."""
         data = self.encode()
@@ -151,6 +183,10 @@ class VariableAddress(Packet):
         """The address."""
         return 1
 
+    def act(self, host: Host) -> bytes:
+        """Look it up."""
+        return self.reply([host.variable_address(self.program, self.kind)])
+
 
 @register
 @dataclass(frozen=True, slots=True)
@@ -162,3 +198,9 @@ class MaskMemory(Packet):
     address: RESERVED_U32
     nand_mask: U32
     or_mask: U32
+
+    def act(self, host: Host) -> bytes:
+        """Mask the word."""
+        word = host.read_words(self.address, 1)[0]
+        host.write_words(self.address, [masked(word, self.nand_mask, self.or_mask)])
+        return b""

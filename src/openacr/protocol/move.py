@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from openacr.protocol.bits import ClearBit, SetBit
+from openacr.protocol.host import Host, PacketError, finite
 from openacr.protocol.move_codes import (
     ACC,
     ARC,
@@ -41,7 +42,7 @@ from openacr.protocol.move_codes import (
     header_of,
     profile_of,
 )
-from openacr.protocol.packet import WORD_BYTES, Packet, PacketError, Part, pack_word, register
+from openacr.protocol.packet import WORD_BYTES, Packet, Part, pack_word, register
 
 FLAG_BYTES = 3  # of a SET or CLR packet
 NO_TARGET = 1e-9  # no target is a float so small
@@ -139,6 +140,13 @@ class Move(Packet):
         if len(data) != header.fields.size:
             raise PacketError("Move: the fields are not those that the header codes announce")
         return head[: header.length] + data
+
+    def act(self, host: Host) -> bytes:
+        """Queue it, unless a value is not a number."""
+        for value in self.values():
+            finite(value)
+        host.issue_move(self)
+        return b""
 
     def values(self) -> Iterator[int | float]:
         """The data fields in wire order and wire type."""

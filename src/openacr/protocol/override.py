@@ -16,7 +16,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
-from openacr.protocol.packet import F32, U8, U16, Packet, PacketError, register
+from openacr.protocol.host import Host, PacketError, finite
+from openacr.protocol.packet import F32, U8, U16, Packet, register
 
 MASTERS = 16
 SHORT_BYTES = 6
@@ -25,7 +26,7 @@ LEAST_OVERRIDE, LARGEST_OVERRIDE = 1e-4, 1e4  # besides 0
 
 
 @dataclass(frozen=True, slots=True)
-class _Override(Packet):
+class Override(Packet):
     """Mask of masters 0-7, mask of masters 0-15, value."""
 
     masters_0_7: U8
@@ -50,18 +51,28 @@ class _Override(Packet):
 
 @register
 @dataclass(frozen=True, slots=True)
-class FeedrateOverride(_Override):
+class FeedrateOverride(Override):
     """FOV: set the feedrate override of the selected masters at once."""
 
     HEADER: ClassVar[bytes] = b"\x07"
 
+    def act(self, host: Host) -> bytes:
+        """Set it, unless the value is not a number."""
+        host.override(self.masters(), finite(self.value), rapid=False)
+        return b""
+
 
 @register
 @dataclass(frozen=True, slots=True)
-class RapidOverride(_Override):
+class RapidOverride(Override):
     """ROV: set the rapid feedrate override of the selected masters at once."""
 
     HEADER: ClassVar[bytes] = b"\x1f"
+
+    def act(self, host: Host) -> bytes:
+        """Set it, unless the value is not a number."""
+        host.override(self.masters(), finite(self.value), rapid=True)
+        return b""
 
 
 def is_short(start: bytes) -> bool:

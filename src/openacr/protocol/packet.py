@@ -1,23 +1,20 @@
 """What all binary packets share: fields, header table, replies and hex explanation.
 
-A packet is a frozen dataclass whose annotations are its wire layout. Decoding, encoding,
-the length of an incomplete packet and the explanation of a hex dump are derived from them.
+A packet is a frozen dataclass whose annotations are its wire layout; `act` is what the card does
+with it. Decoding, encoding, the length of an incomplete packet and the explanation of a hex dump
+are derived from the annotations, so a new packet is one class in one file.
 Every reply of the card is the request repeated, followed by four-byte words (UG2 ch. 6).
 """
 
 import struct
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from typing import Annotated, ClassVar, Self, TypeVar, get_type_hints
 
-from openacr.errors import OpenacrError
+from openacr.protocol.host import Host, PacketError
 
-HEADER_IDS = frozenset((0x00, 0x04, 0x07, 0x1C, 0x1D, 0x1F))
 WORD_BYTES = 4
-
-
-class PacketError(OpenacrError):
-    """A packet that cannot be built, or bytes that are not the packet they should be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +49,12 @@ class Part:
         return f"{self.data.hex(' ').upper():<24}{self.name} = {self.value}"
 
 
-class Packet:
+class Packet(ABC):
     """Base of all packets a host can send."""
 
     __slots__ = ()
     HEADER: ClassVar[bytes]
+    DPCB_PADDING: ClassVar[int] = 0  # zero bytes that follow it on a DPCB
 
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
@@ -78,8 +76,23 @@ class Packet:
         except (struct.error, OverflowError) as wrong:
             raise PacketError(f"{self}: {wrong}") from None
 
+    @abstractmethod
+    def act(self, host: Host) -> bytes:
+        """What the card does; the reply, empty when there is none.
+
+        MapError, CardError or PacketError when it cannot be done: then nothing has changed.
+        """
+
+    def parameters(self) -> Iterable[int]:
+        """The parameters named by number."""
+        return ()
+
+    def flags(self) -> Iterable[int]:
+        """The flags named by number."""
+        return ()
+
     def reply_words(self) -> int:
-        """Four-byte words behind the repeated request; 0 when the card sends nothing."""
+        """Four-byte words after the repeated request; 0 when the card sends nothing."""
         return 0
 
     def reply(self, values: Sequence[int | float]) -> bytes:

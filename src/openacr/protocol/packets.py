@@ -4,7 +4,8 @@ Importing this module loads the header table.
 """
 
 from openacr.protocol import bits, data, memory, move, override, parameter  # noqa: F401
-from openacr.protocol.packet import HEADER_IDS, PACKETS, Packet, PacketError, Part, packet_class
+from openacr.protocol.host import PacketError
+from openacr.protocol.packet import PACKETS, Packet, Part, packet_class
 
 __all__ = [
     "HEADER_IDS",
@@ -13,9 +14,12 @@ __all__ = [
     "PacketError",
     "Part",
     "decode",
+    "dpcb_padding",
     "explain",
     "total_length",
 ]
+
+HEADER_IDS = frozenset(header[0] for header in PACKETS)  # bytes that begin a packet
 
 
 def total_length(prefix: bytes) -> int:
@@ -24,6 +28,12 @@ def total_length(prefix: bytes) -> int:
     if found is None:
         raise PacketError(f"no packet starts with {prefix[:2].hex(' ')}")
     return found.total_length(prefix)
+
+
+def dpcb_padding(prefix: bytes) -> int:
+    """How many zero bytes follow the packet that starts so on a DPCB."""
+    found = packet_class(prefix)
+    return 0 if found is None else found.DPCB_PADDING
 
 
 def decode(packet: bytes) -> Packet:

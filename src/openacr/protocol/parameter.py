@@ -3,75 +3,111 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from openacr.protocol.host import Host, PacketError, finite, long_value_of, masked, value_of
 from openacr.protocol.packet import F32, I32, U16, U32, Packet, register
+
+
+@dataclass(frozen=True, slots=True)
+class _OneParameter(Packet):
+    """Begins with the number of a parameter."""
+
+    parameter: U16
+
+    def parameters(self) -> tuple[int]:
+        """The one."""
+        return (self.parameter,)
 
 
 @register
 @dataclass(frozen=True, slots=True)
-class GetLong(Packet):
+class GetLong(_OneParameter):
     """Read one parameter as a 32-bit integer."""
 
     HEADER: ClassVar[bytes] = b"\x00\x88"
-    parameter: U16
 
     def reply_words(self) -> int:
         """The value as LONG."""
         return 1
 
+    def act(self, host: Host) -> bytes:
+        """Read it; 0 where there is none."""
+        return self.reply([long_value_of(host, self.parameter)])
+
 
 @register
 @dataclass(frozen=True, slots=True)
-class SetLong(Packet):
+class SetLong(_OneParameter):
     """Write one parameter as a 32-bit integer; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x00\x89"
-    parameter: U16
     value: I32
+
+    def act(self, host: Host) -> bytes:
+        """Store it."""
+        host.write_parameter(self.parameter, self.value)
+        return b""
 
 
 @register
 @dataclass(frozen=True, slots=True)
-class GetIeee(Packet):
+class GetIeee(_OneParameter):
     """Read one parameter as an IEEE single."""
 
     HEADER: ClassVar[bytes] = b"\x00\x8a"
-    parameter: U16
 
     def reply_words(self) -> int:
         """The value as IEEE single."""
         return 1
 
+    def act(self, host: Host) -> bytes:
+        """Read it; 0 where there is none."""
+        return self.reply([float(value_of(host, self.parameter))])
+
 
 @register
 @dataclass(frozen=True, slots=True)
-class SetIeee(Packet):
+class SetIeee(_OneParameter):
     """Write one parameter as an IEEE single; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x00\x8b"
-    parameter: U16
     value: F32
+
+    def act(self, host: Host) -> bytes:
+        """Store it, unless it is not a number."""
+        host.write_parameter(self.parameter, finite(self.value))
+        return b""
 
 
 @register
 @dataclass(frozen=True, slots=True)
-class ParameterAddress(Packet):
+class ParameterAddress(_OneParameter):
     """Ask for the memory address of a parameter; 0 means there is no such parameter."""
 
     HEADER: ClassVar[bytes] = b"\x00\x93"
-    parameter: U16
 
     def reply_words(self) -> int:
         """The address."""
         return 1
 
+    def act(self, host: Host) -> bytes:
+        """Look it up."""
+        return self.reply([host.parameter_address(self.parameter)])
+
 
 @register
 @dataclass(frozen=True, slots=True)
-class MaskParameter(Packet):
+class MaskParameter(_OneParameter):
     """Clear the bits of `nand_mask`, then set those of `or_mask`, in a LONG parameter."""
 
     # The printed example starts with 00 94 (erratum); the layout and the later guide have 95.
     HEADER: ClassVar[bytes] = b"\x00\x95"
-    parameter: U16
     nand_mask: U32
     or_mask: U32
+
+    def act(self, host: Host) -> bytes:
+        """Mask it, unless it is no LONG parameter."""
+        value = host.read_parameter(self.parameter)
+        if not isinstance(value, int):
+            raise PacketError(f"P{self.parameter} is not a LONG parameter")
+        host.write_parameter(self.parameter, masked(value, self.nand_mask, self.or_mask))
+        return b""

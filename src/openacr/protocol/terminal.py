@@ -45,7 +45,7 @@ from openacr.protocol.events import (
 from openacr.protocol.framing import PacketReader, ReaderState
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output, OutputState
-from openacr.protocol.override import FeedrateOverride, RapidOverride, belongs_to_next
+from openacr.protocol.override import Override, belongs_to_next
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
 from openacr.protocol.segment import Segment
 from openacr.protocol.stream import EchoMode, StreamKind
@@ -246,7 +246,7 @@ class Terminal:
         return None if packet is None else self._received(packet, segment)
 
     def _received(self, packet: Packet, segment: Segment) -> Received | None:
-        if isinstance(packet, FeedrateOverride | RapidOverride):
+        if isinstance(packet, Override):
             rest = belongs_to_next(packet.encode())
             if rest is not None:
                 self._refuse_override(packet, rest, segment)
@@ -255,9 +255,7 @@ class Terminal:
             self._skip(segment, 1)  # padding of one host, see `bits`
         return Received(packet)
 
-    def _refuse_override(
-        self, packet: FeedrateOverride | RapidOverride, rest: bytes, segment: Segment
-    ) -> None:
+    def _refuse_override(self, packet: Override, rest: bytes, segment: Segment) -> None:
         """Read again what a packet of the first edition has taken from the next one."""
         if rest and not self._reader.short_overrides:
             again = encode_packet(rest, self.mode)

@@ -1,0 +1,76 @@
+"""The card as packets see it, and what several packets ask of it."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from openacr.errors import CardError, MapError, OpenacrError
+from openacr.kernel.words_cy import wrap32
+from openacr.map.memory import long_of
+
+if TYPE_CHECKING:
+    from openacr.protocol.move import Move
+
+
+class PacketError(OpenacrError):
+    """A packet that cannot be built, or bytes that are not the packet they should be."""
+
+
+class Host(Protocol):
+    """The card as packets see it.
+
+    Unknown numbers raise CardError or MapError, unknown addresses MapError.
+    """
+
+    def read_parameter(self, number: int) -> int | float:
+        """An int for LONG parameters, a float for all others."""
+
+    def write_parameter(self, number: int, value: int | float) -> None:
+        """Store a value; the parameter's type decides how."""
+
+    def write_bit(self, number: int, on: bool) -> None:
+        """Set or clear a flag."""
+
+    def override(self, masters: Sequence[int], value: float, *, rapid: bool) -> None:
+        """Set FOV, or ROV if `rapid`, of these masters."""
+
+    def issue_move(self, move: "Move") -> None:
+        """Queue a move; CardError when the card refuses it."""
+
+    def read_words(self, address: int, count: int) -> Sequence[int]:
+        """That many 32-bit words of memory."""
+
+    def write_words(self, address: int, words: Sequence[int]) -> None:
+        """Store 32-bit words."""
+
+    def parameter_address(self, number: int) -> int:
+        """Where a parameter lies; 0 when there is none of that number."""
+
+    def variable_address(self, program: int, kind: int) -> int:
+        """Where the local variables of one kind lie; 0 when there are none."""
+
+
+def value_of(host: Host, number: int) -> int | float:
+    """A parameter, or 0 where the map has none: undefined fields of a reply read 0."""
+    try:
+        return host.read_parameter(number)
+    except (MapError, CardError):
+        return 0
+
+
+def long_value_of(host: Host, number: int) -> int:
+    """A parameter as 32-bit integer, as a store into a LONG parameter would make it."""
+    value = value_of(host, number)
+    return value if isinstance(value, int) else long_of(value)
+
+
+def finite(value: float) -> float:
+    """The value; PacketError for infinities and NaN, which no parameter may become."""
+    if not math.isfinite(value):
+        raise PacketError(f"{value} is not a number for a card")
+    return value
+
+
+def masked(word: int, nand_mask: int, or_mask: int) -> int:
+    """Clear the bits of `nand_mask`, then set those of `or_mask`; as signed 32-bit."""
+    return wrap32((word & ~nand_mask) | or_mask)
