@@ -1,7 +1,9 @@
 """Ctrl-X, Ctrl-Y, Ctrl-Z and ESC (terminal protocol, section 7)."""
 
 import pytest
-from tests.controller.hosts import Host, store
+from tests.controller.hosts import Host, connected, store
+
+from openacr.protocol.stream import StreamKind
 
 KAMR = (8467, 8499, 8531)
 CTRL_X, CTRL_Y, CTRL_Z, ESC = "\x18", "\x19", "\x1a", "\x1b"
@@ -65,6 +67,45 @@ def test_ctrl_x_ends_a_line_that_waits_for_room(axes: Host) -> None:
     axes.send(CTRL_X)
     assert axes.after(100).endswith("P00>")
     assert axes.ask("?BIT8467") == "-1"
+
+
+@pytest.mark.parametrize("first", [1808, 1872, 1904, 5808], ids=["FIFO", "COM1", "COM2", "DPCB"])
+@pytest.mark.parametrize("model", ["ACR9000", "ACR8020"])
+def test_requests_to_a_channel_clear_themselves_in_the_slow_scan(first: int, model: str) -> None:
+    host = connected(model=model)
+    host.type(f"SET {first}", f"SET {first + 1}", f"SET {first + 5}")
+    assert host.asks(f"?BIT{first}", f"?BIT{first + 1}") == ["-1", "-1"]
+    host.card.advance(100)
+    flags = host.asks(f"?BIT{first}", f"?BIT{first + 1}", f"?BIT{first + 5}")
+    assert flags == ["0", "0", "-1"], "high bit stripping is a setting and stays"
+
+
+def test_an_escape_request_acts_as_esc_typed_on_that_channel(axes: Host) -> None:
+    line = Host(axes.card, StreamKind.SERIAL)
+    other = Host(axes.card, StreamKind.SERIAL)
+    for host in (line, other):
+        host.type("PROG0")
+    store(axes, "_L", 'PRINT "tick"', "DWL 0.1", "GOTO L")
+    axes.type("RUN", "LISTEN")
+    assert (line.type("LISTEN"), other.type("LISTEN")) == ("", "")
+    line.card.bit[1873] = True
+    assert line.after(100).endswith("|P00>")
+    assert other.heard() == axes.heard()
+    assert "tick|" in axes.after(500)
+    assert (other.heard()[:5], line.heard()) == ("tick|", "")
+    assert not line.card.bit[1873]
+    line.send("SET 3")
+    line.card.bit[1873] = True
+    line.card.advance(100)
+    assert line.ask("?1") == "1", "as ESC, it drops what was typed"
+
+
+def test_an_open_request_opens_nothing(axes: Host) -> None:
+    line = Host(axes.card, StreamKind.SERIAL)
+    line.card.bit[1872] = True
+    line.card.advance(100)
+    assert not line.card.bit[1866]
+    assert line.ask("?1") == "1"
 
 
 @pytest.mark.parametrize("listen", ["LRUN", "LISTEN"])

@@ -30,7 +30,7 @@ class Card:
     def __init__(self) -> None:
         self.memory = Memory()
         self.storage = Storage(self.memory)
-        self.space = AddressSpace(self.memory)
+        self.space = AddressSpace(self.memory, lambda: self.storage.locals.strings)
         self.read_parameter = self.memory.read
         self.write_parameter = self.memory.write
         self.write_bit = self.memory.set_bit
@@ -177,7 +177,20 @@ def test_counts_and_references_cannot_be_poked(card: Card) -> None:
     assert card.memory.digest() == before
 
 
-@pytest.mark.parametrize("address", [0, 0x411000 - 1, 0x500001, 0x840000, 0x1000000, 0xFFFFFFFF])
+@pytest.mark.parametrize(
+    "address",
+    [
+        0,
+        0x411000 - 1,
+        0x500001,
+        0x840000,
+        0x1000000,
+        0x10000000,
+        0x10800000,
+        0x20000000,
+        0xFFFFFFFF,
+    ],
+)
 def test_addresses_without_memory_are_refused(card: Card, address: int) -> None:
     with pytest.raises(MapError):
         card.space.read_words(address, 1)
@@ -185,10 +198,71 @@ def test_addresses_without_memory_are_refused(card: Card, address: int) -> None:
         card.space.write_words(address, [1])
 
 
-def test_unknown_programs_and_strings_have_no_address(card: Card) -> None:
-    card.storage.locals.string_variables(0, 3, 10)
-    for program, kind in ((0, 6), (0, 7), (16, 0), (255, 255)):
+def test_unknown_programs_and_kinds_have_no_address(card: Card) -> None:
+    card.storage.locals.string_variables(7, 3, 10)
+    for program, kind in ((7, 7), (7, 8), (16, 0), (16, 6), (16, 7), (255, 255)):
         assert card.ask(VariableAddress(program, kind)) == (0,)
+
+
+@pytest.mark.req("BIN-092", "BIN-093", "BIN-094")
+def test_string_variables_follow_their_count_and_addresses(card: Card) -> None:
+    request = VariableAddress(7, VariableKind.STRING_VARIABLES)
+    assert card.ask(request) == (0,)
+    card.storage.locals.string_variables(6, 7, 9)
+    card.storage.locals.string_variables(7, 3, 10)
+    strings = card.storage.locals.strings[7].variables
+    assert strings is not None
+    strings.write(0, "ACR")
+    strings.write(2, "0123456\xff89")
+    (address,) = card.ask(request)
+    assert address == 0x17000000
+    assert card.peek(address) == (3,)
+    first, second, third = card.peek(address + 1, 3)
+    assert card.peek(first, 4) == (3, 0x00524341, 0, 0)
+    assert card.peek(second, 4) == (0, 0, 0, 0)
+    assert card.peek(third, 4) == (10, 0x33323130, 0xFF363534, 0x00003938)
+    assert card.peek(address, 16) == (
+        3, first, second, third,
+        3, 0x00524341, 0, 0,
+        0, 0, 0, 0,
+        10, 0x33323130, 0xFF363534, 0x00003938,
+    )  # fmt: skip
+    with pytest.raises(MapError):
+        card.space.read_words(address + 16, 1)
+
+
+@pytest.mark.req("BIN-092", "BIN-093", "BIN-094")
+def test_string_arrays_are_reached_through_their_addresses(card: Card) -> None:
+    request = VariableAddress(0, VariableKind.STRING_ARRAYS)
+    assert card.ask(request) == (0,)
+    card.storage.locals.references(0, "$A", 4)
+    card.storage.locals.string_array(0, 1, 2, 4)
+    card.storage.locals.string_array(0, 3, 1, 5)
+    card.storage.locals.strings[0].array(1).write(1, "left")
+    card.storage.locals.strings[0].array(3).write(0, "right")
+    (address,) = card.ask(request)
+    assert address == 0x10800000
+    assert card.ask(VariableAddress(0, VariableKind.STRING_VARIABLES)) == (0,)
+    count, *arrays = card.peek(address, 5)
+    assert count == 4
+    assert [bool(each) for each in arrays] == [False, True, False, True]
+    assert card.peek(arrays[1]) == (2,)
+    assert card.peek(card.peek(arrays[1] + 2)[0], 2) == (4, 0x7466656C)
+    assert card.peek(arrays[3]) == (1,)
+    assert card.peek(card.peek(arrays[3] + 1)[0], 3) == (5, 0x68676972, 0x74)
+    whole = [card.peek(address + n)[0] for n in range(17)]
+    assert list(card.peek(address, 17)) == whole, "a block is read at once as word by word"
+    with pytest.raises(MapError):
+        card.space.read_words(address + 16, 2)
+
+
+def test_strings_are_not_poked(card: Card) -> None:
+    card.storage.locals.string_variables(0, 1, 10)
+    (address,) = card.ask(VariableAddress(0, VariableKind.STRING_VARIABLES))
+    before = card.peek(address, 4)
+    for target in range(address, address + 4):
+        card.ask(Poke.of(Conversion.LONG, target, (1,)))
+    assert card.peek(address, 4) == before
 
 
 def test_reading_the_heap_looks_at_no_array_and_writing_once(

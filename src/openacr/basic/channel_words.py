@@ -8,6 +8,12 @@ from openacr.map.numbers import (
     P_COM2_CHARACTER_BUFFER_COUNT,
     P_DPCB_CHARACTER_BUFFER_COUNT,
     P_FIFO_CHARACTER_BUFFER_COUNT,
+    STRM_ESCAPE_REQUEST,
+    STRM_OPEN_REQUEST,
+    W_COM1,
+    W_COM2,
+    W_DPCB,
+    W_FIFO,
 )
 
 ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
@@ -20,7 +26,20 @@ COUNTS = {  # characters and lines waiting, free space, lines executed
     "COM2": P_COM2_CHARACTER_BUFFER_COUNT,
     "DPCB": P_DPCB_CHARACTER_BUFFER_COUNT,
 }
-FLAG_WORDS = {"FIFO": 4152, "COM1": 4154, "COM2": 4155, "DPCB": 4277}
+FLAG_WORDS = {"FIFO": W_FIFO, "COM1": W_COM1, "COM2": W_COM2, "DPCB": W_DPCB}
+
+
+def take_escapes(memory: Memory) -> list[str]:
+    """Channels whose Escape Request is set; it and the Open Request clear themselves.
+
+    The manuals give the Open Request no effect: programs open channels with OPEN.
+    """
+    found = []
+    for name, word in FLAG_WORDS.items():
+        if memory.I[word] & STRM_ESCAPE_REQUEST:
+            found.append(name)
+        memory.I[word] &= ~(STRM_OPEN_REQUEST | STRM_ESCAPE_REQUEST)
+    return found
 
 
 class ChannelWords:

@@ -64,7 +64,11 @@ class Machine:
         self.system.runner = self.executor
         self.system.reboot = self._ask_reboot
         self.system.read_plc = self._read_plc
-        host = PacketHost(self.card, short_overrides=self.world.card.short_override_packets)
+        host = PacketHost(
+            self.card,
+            lambda: self.system.storage.locals.strings,
+            short_overrides=self.world.card.short_override_packets,
+        )
         self.streams = Streams(self.system.sessions, host, self._press)
         self.p = Parameters(self.memory, partial(self._note, Entered.PARAMETER))
         self.bit = Bits(self.memory, partial(self._note, Entered.FLAG))

@@ -1,6 +1,6 @@
 """The card as binary packets see it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from openacr.controller.move_queue import MoveQueue
 from openacr.map.numbers import (
@@ -15,6 +15,7 @@ from openacr.motion.card import Card
 from openacr.motion.rows import master_parameter
 from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.move import Move
+from openacr.protocol.string_words import ProgramStrings
 
 TIMEOUT_MS = 50  # of channels without a parameter for it
 _TIMEOUTS = {
@@ -28,10 +29,16 @@ _TIMEOUTS = {
 class PacketHost:
     """Parameters, flags, overrides and memory of a card for `protocol.execute`."""
 
-    def __init__(self, card: Card, *, short_overrides: bool = False) -> None:
+    def __init__(
+        self,
+        card: Card,
+        strings: Callable[[], Sequence[ProgramStrings]],
+        *,
+        short_overrides: bool = False,
+    ) -> None:
         self._card = card
         self.short_overrides = short_overrides
-        self._space = AddressSpace(card.memory)
+        self._space = AddressSpace(card.memory, strings)
         self.moves = MoveQueue(card)
         self.read_parameter = card.memory.read
         self.write_parameter = card.memory.write

@@ -9,6 +9,7 @@ from typing import cast
 
 import numpy as np
 
+from openacr.basic.channel_words import take_escapes
 from openacr.compiled import pick
 from openacr.controller.machine import Machine
 from openacr.controller.trace import Reals, Trace, build_trace
@@ -146,6 +147,8 @@ class Running(Machine):
         """Do what the engine leaves to Python."""
         if reason == loop_cy.REQUESTS:
             self.control.scan()
+            for name in take_escapes(self.memory):
+                self.streams.escape(name)
         elif reason == loop_cy.ROOM:
             self.streams.moves.drain()
         elif reason == loop_cy.NETWORKS:

@@ -152,6 +152,15 @@ class Streams:
                 self._settle(stream)
                 self._pump(stream)
 
+    def escape(self, name: str) -> None:
+        """Act on the Escape Request of a channel as on ESC typed there."""
+        for stream in self._open.values():
+            if stream.session is not None and stream.session.name == name:
+                event = stream.terminal.escape()
+                if event is not None:
+                    self._deal(stream, event)
+        self.settle()
+
     @property
     def is_overdue(self) -> bool:
         """Whether lines wait for their turn, which `take_turns` gives them."""

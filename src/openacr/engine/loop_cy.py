@@ -45,12 +45,18 @@ from openacr.map.numbers import (
     PLF_HALT_REQUEST,
     PLF_RUN_REQUEST,
     PLF_WORD,
+    STRM_ESCAPE_REQUEST,
+    STRM_OPEN_REQUEST,
     SYSF_BASE,
     SYSF_PERIOD_S,
     SYSI_BASE,
     SYSI_SLOW_PHASE,
     SYSI_TICK_HIGH,
     SYSI_TICK_LOW,
+    W_COM1,
+    W_COM2,
+    W_DPCB,
+    W_FIFO,
 )
 from openacr.network.wake_cy import networks_due
 from openacr.plant.step_cy import plant_step
@@ -63,7 +69,7 @@ __all__ = ["engine_run"]
 DONE = 0
 UNTIL_MET = 1
 TRACE_FULL = 2
-REQUESTS = 3  # control flags of a program or PLC want something
+REQUESTS = 3  # control flags of a program, PLC or channel want something
 STOPPED = 4  # the tick is over at whose end somebody wanted to look
 WATCH = 5  # something watched has changed in the tick that is over
 ROOM = 6  # binary moves wait, and the buffer of their master has room
@@ -86,6 +92,7 @@ CONTROLS = (
     | PF_STEP_CONTROL
     | PF_STEP_EDGE_DETECT
 )
+CHANNEL_REQUESTS = STRM_OPEN_REQUEST | STRM_ESCAPE_REQUEST
 
 
 def until_met(I: I32) -> bool:
@@ -99,9 +106,11 @@ def until_met(I: I32) -> bool:
 
 
 def requests_pending(I: I32) -> bool:
-    """Whether, in this slow scan, the control flags of some program or PLC want something."""
+    """Whether, in this slow scan, the flags of a program, PLC or channel want something."""
     if I[SYSI_BASE + SYSI_SLOW_PHASE]:
         return False
+    if (I[W_FIFO] | I[W_COM1] | I[W_COM2] | I[W_DPCB]) & CHANNEL_REQUESTS:
+        return True
     for n in range(PLC_COUNT):
         if I[PLF_WORD + n] & (PLF_RUN_REQUEST | PLF_HALT_REQUEST):
             return True

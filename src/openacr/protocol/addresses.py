@@ -8,17 +8,17 @@ Real addresses differ from card to card, so hosts ask for them. This card answer
     0x00800000...     heap: numeric arrays, each a count followed by its elements
     0x01000000...     a block per program and kind: a count followed by the variables, or
                       by the addresses of the arrays
-
-Strings have no words here: their address is 0, as if none were dimensioned.
+    0x10000000...     strings, as `string_words` lays them out; they can be peeked only
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from openacr.errors import MapError
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import is_read_only, kind_of
 from openacr.map.memory import Memory
+from openacr.protocol import string_words
 from openacr.protocol.memory import VariableKind
 
 SYSTEM_POINTERS = frozenset((0x400008, 0x400009, 0x403E08, 0xC08008))
@@ -58,6 +58,10 @@ _ROWS = {
     VariableKind.LV: _Rows(at.STI_LV_BASE, at.STI_LV_COUNT, 1),
     VariableKind.LA: _Rows(at.STI_LA_BASE, at.STI_LA_COUNT, 1, 1),
 }
+_STRING_KINDS = {
+    VariableKind.STRING_VARIABLES: string_words.variables_address,
+    VariableKind.STRING_ARRAYS: string_words.arrays_address,
+}
 
 
 def _in_heap(address: int) -> bool:
@@ -67,8 +71,11 @@ def _in_heap(address: int) -> bool:
 class AddressSpace:
     """Words and addresses of one card's memory."""
 
-    def __init__(self, memory: Memory) -> None:
+    def __init__(
+        self, memory: Memory, strings: Callable[[], Sequence[string_words.ProgramStrings]]
+    ) -> None:
         self._memory = memory
+        self._strings = strings  # of all programs, wherever they are now
 
     def parameter_address(self, number: int) -> int:
         """Where a parameter lies; 0 when there is none of that number."""
@@ -78,6 +85,8 @@ class AddressSpace:
 
     def variable_address(self, program: int, kind: int) -> int:
         """Where the variables of one kind of a program lie; 0 when it has none."""
+        if kind in _STRING_KINDS and 0 <= program < PROGRAMS:
+            return _STRING_KINDS[VariableKind(kind)](program, self._strings()[program])
         block = program * KINDS + kind
         return LOCALS + block * BLOCK_WORDS if self._block(block) else 0
 
@@ -86,6 +95,8 @@ class AddressSpace:
         if _in_heap(address) and _in_heap(address + count - 1):
             start = _HEAP_FIRST + address - HEAP
             return self._memory.I[start : start + count].tolist()
+        if address >= string_words.STRINGS:
+            return string_words.read(self._strings(), address, count)
         return [self._word(address + n) for n in range(count)]
 
     def write_words(self, address: int, words: Sequence[int]) -> None:

@@ -111,7 +111,7 @@ class Terminal:
             LF: self._line_feed,
             BS: self._erase,
             DEL: self._erase,
-            ESC: self._escape,
+            ESC: self.escape,
         }
         if self.kind is StreamKind.SERIAL:
             keys |= {XON: self._resume, XOFF: self._hold}
@@ -284,7 +284,7 @@ class Terminal:
 
     def _character(self, byte: int) -> Event | None:
         if self.attention is Attention.PASS_THROUGH:
-            return Escape() if byte == ESC else Typed(byte)
+            return self.escape() if byte == ESC else Typed(byte)
         key = self._keys.get(byte)
         if byte != LF:
             self._after_cr = False
@@ -321,7 +321,10 @@ class Terminal:
             self._echo(ERASE)
         return self._typed(BS)
 
-    def _escape(self) -> Event | None:
+    def escape(self) -> Event | None:
+        """ESC, typed or requested: ends listening or talking, else drops what was typed."""
+        if self.attention is Attention.PASS_THROUGH:
+            return Escape()
         self._typing.clear()
         return Escape() if self.attention is Attention.LISTENING else None
 
