@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
 
@@ -16,12 +17,13 @@ from openacr.errors import SourceError, UserError, read_bytes, unreadable
 
 PROGRAM_COUNT = 16
 PLC_COUNT = 8
+PART_PROGRAM_SHARE = 4  # at least one line of so many is a block of G or M codes
 
 _NUMBERED = re.compile(r"(prog|plc)(\d+)\.8k", re.IGNORECASE)
+_BLOCK = re.compile(r"(?:N\d+\s*)?[GM]\d+(?:\.\d)?(?![A-Za-z0-9]*\s*=)", re.IGNORECASE)
 # Text files hold these control characters: tab, line feed, form feed, carriage return, the
 # end-of-file mark of old editors, and escape (which terminals send and captures contain).
 _TEXT_CONTROLS = frozenset(b"\t\n\x0c\r\x1a\x1b")
-_BINARY = re.compile(b"[" + re.escape(bytes(set(range(32)) - _TEXT_CONTROLS)) + b"\x7f]")
 # Single bytes are read as the typographic characters of the Windows code page; the five
 # holes of that code page become the control characters of the same number.
 _SINGLE_BYTES = {
@@ -103,13 +105,30 @@ def find_project(path: Path | str) -> Project:
         raise UserError(f"{place}: no such file or folder")
     if place.suffix.lower() == ".toml":
         raise UserError(f"{place}: give the project folder {place.parent}, not a file inside it")
-    return Project(place, read_source(place))
+    source = read_source(place)
+    _refuse_part_program(source)
+    return Project(place, source)
+
+
+def _refuse_part_program(source: SourceFile) -> None:
+    """Refuse a file most of whose lines are blocks of G and M codes, and name who reads it."""
+    if source.path.suffix.lower() == ".8k":
+        return
+    lines = [line.strip() for line in source.text.splitlines()]
+    blocks = [line for line in lines if _BLOCK.match(line)]
+    if len(blocks) * PART_PROGRAM_SHARE >= sum(map(bool, lines)):
+        raise SourceError(
+            f"a part program, not a controller file: {blocks[0][:40]}",
+            path=str(source.path),
+            line=lines.index(blocks[0]) + 1,
+            hint=f"`openacr mill check {source.path}` reads it",
+        )
 
 
 def read_source(path: Path, place: Place = Place.SETUP, number: int = 0) -> SourceFile:
     """Read one controller file; a file that is empty or not text is refused."""
     data = read_bytes(path)
-    _check_text(path, data)
+    require_text(path, data)
     if not data.strip(b" \t\r\n\x1a"):
         raise SourceError("the file is empty", path=str(path))
     return SourceFile(path, data, place, number)
@@ -121,11 +140,21 @@ def place_of(path: Path) -> tuple[Place, int]:
     return (Place(match[1].lower()), int(match[2])) if match else (Place.SETUP, 0)
 
 
-def _check_text(path: Path, data: bytes) -> None:
+@lru_cache
+def _binary(controls: bytes) -> re.Pattern[bytes]:
+    """What no text file holds; `controls`: further characters that may be there."""
+    refused = set(range(32)) - _TEXT_CONTROLS | {0x7F}
+    return re.compile(b"[" + re.escape(bytes(refused - set(controls))) + b"]")
+
+
+def require_text(
+    path: Path, data: bytes, *, controls: bytes = b"", what: str = "controller files"
+) -> None:
+    """Refuse what is no text; `controls`: characters that files of this kind may also hold."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         hint = "save it as UTF-8 or plain text"
         raise SourceError("the file is UTF-16", path=str(path), line=1, column=1, hint=hint)
-    found = _BINARY.search(data)
+    found = _binary(controls).search(data)
     if found is None:
         return
     at = found.start()
@@ -135,7 +164,7 @@ def _check_text(path: Path, data: bytes) -> None:
         path=str(path),
         line=data.count(b"\n", 0, at) + 1,
         column=at - line_start + 1,
-        hint="controller files are plain text",
+        hint=f"{what} are plain text",
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from openacr.cli.events import Event
+from openacr.cli.machine import Failure
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
 from openacr.cli.report import AxisReport
@@ -69,8 +70,8 @@ class FakeMachine:
     def start_all(self) -> None:
         self.typed.append((self.tick, "RUN ALL", None))
 
-    def failure(self, program: int) -> tuple[str, str]:
-        return "Divide by zero", "P1 = 1/0"
+    def failure(self, program: int) -> Failure:
+        return Failure("Divide by zero", "P1 = 1/0")
 
     def set_input(self, bit: int, on: bool) -> None:
         self.memory.set_bit(bit, on)

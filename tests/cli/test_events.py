@@ -8,9 +8,15 @@ from typer.testing import CliRunner
 
 from openacr.cli.controlled import ControlledMachine
 from openacr.cli.events import EventLog
+from openacr.cli.machine import Failure
 from openacr.cli.main import app
 from openacr.controller import Controller
 from openacr.map.memory import Memory
+
+
+def no_failure(program: int) -> Failure:
+    raise AssertionError(program)
+
 
 AXES = (
     'PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS1 "Y"\rPPU Y1000\rPGAIN Y0.002\rDRIVE ON Y\r'
@@ -33,7 +39,7 @@ AXES = (
 )
 def test_a_flag_that_is_set_is_an_event_once(bit: int, text: str) -> None:
     memory = Memory()
-    log = EventLog(memory, 8, {0: "X"})
+    log = EventLog(memory, 8, {0: "X"}, no_failure)
     assert log.poll(0.5) == []
     memory.set_bit(bit, True)
     (event,) = log.poll(1.25)
@@ -48,7 +54,7 @@ def test_a_flag_that_is_set_is_an_event_once(bit: int, text: str) -> None:
 def test_a_flag_that_was_set_before_the_run_is_no_event() -> None:
     memory = Memory()
     memory.set_bit(16132, True)
-    log = EventLog(memory, 8, {})
+    log = EventLog(memory, 8, {}, no_failure)
     memory.set_bit(16133, True)
     assert [event.flag for event in log.poll(0.0)] == [16133]
 
@@ -96,11 +102,10 @@ def test_the_events_of_a_run_are_shown_and_in_the_summary(tmp_path: Path) -> Non
     file.write_text(PROGRAM)
     result = CliRunner().invoke(app, ["run", str(file), "--for", "1", "--summary", str(summary)])
     assert result.exit_code == 1
-    assert "PROG0: stopped by an error in line 20" in result.stderr
+    text = f"PROG0: stopped in line 20 ({file}:6): Divide by zero"
+    assert text in result.stderr
     (event,) = json.loads(summary.read_text())["events"]
-    assert (event["text"], event["program"], event["flag"]) == (
-        "PROG0: stopped by an error in line 20", 0, None,
-    )  # fmt: skip
+    assert (event["text"], event["program"], event["flag"]) == (text, 0, None)
     assert event["time_s"] == pytest.approx(0.25, abs=0.005)
     quiet = CliRunner().invoke(app, ["run", str(file), "--for", "1", "--quiet"])
-    assert "stopped by an error" not in quiet.stderr
+    assert "stopped in line" not in quiet.stderr

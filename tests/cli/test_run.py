@@ -140,7 +140,9 @@ def test_the_summary_has_the_promised_keys(run: Run, machine: FakeMachine, tmp_p
             "peak_following_error": 0.0125,
         }
     }
-    assert summary["programs"] == {"15": {"state": "idle", "line": 0, "error": None}}
+    assert summary["programs"] == {
+        "15": {"state": "idle", "line": 0, "error": None, "file": None, "file_line": None}
+    }
     assert {31, 33} <= set(summary["flags"])
     assert 32 not in summary["flags"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -116,6 +116,7 @@ class ProgramStore:
     texts: list[dict[int, StoredLine]] = field(default_factory=lambda: [{} for _ in range(OWNERS)])
     password: str | None = None
     changed: set[int] = field(default_factory=set)  # owners, for who stores their text
+    on_put: Callable[[int, StoredLine], None] | None = None  # owner and line, while files load
     _last: list[int] = field(default_factory=lambda: [0] * OWNERS)  # no line has a higher number
 
     def lines(self, owner: int) -> list[StoredLine]:
@@ -136,6 +137,8 @@ class ProgramStore:
         self.texts[owner][line.number] = line
         self._last[owner] = max(self._last[owner], line.number)
         self._mark_modified(owner)
+        if self.on_put is not None:
+            self.on_put(owner, line)
 
     def delete(self, owner: int, number: int) -> None:
         """Remove the line of this number, if there is one."""

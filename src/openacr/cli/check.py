@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import SourceError
-from openacr.lang.characters import readable
+from openacr.lang.characters import readable, shown
 from openacr.models import MODELS
 from openacr.project import Place, Project, find_project, place_of, read_source
 
@@ -125,9 +125,9 @@ def _table_faults(project: Project) -> Iterator["Fault"]:
 
 def _show(faults: list["Fault"], *, on_stderr: bool) -> None:
     for fault in faults:
-        typer.echo(str(fault), err=on_stderr)
+        typer.echo(shown(str(fault)), err=on_stderr)
         for line in fault.marker.split("\n") if fault.text else ():
-            typer.echo(f"    {line}", err=on_stderr)
+            typer.echo(f"    {shown(line)}", err=on_stderr)
     warnings = sum(fault.is_warning for fault in faults)
     counts = ((len(faults) - warnings, "error"), (warnings, "warning"))
     found = [f"{count} {kind}{'s' if count != 1 else ''}" for count, kind in counts if count]

@@ -10,6 +10,7 @@ import numpy as np
 from openacr.basic.lister import Lister
 from openacr.cli import card_view
 from openacr.cli.events import Event, EventLog
+from openacr.cli.machine import Failure
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.report import AxisReport
 from openacr.cli.watched import Watched
@@ -46,7 +47,9 @@ class ControlledMachine:
         self._was_heard = False
         self._watched: tuple[Watched, ...] = ()
         self._event_watches: list[Watch] = []
-        self._events = EventLog(controller.memory, controller.model.axes, self._titles())
+        self._events = EventLog(
+            controller.memory, controller.model.axes, self._titles(), self.failure
+        )
 
     @property
     def memory(self) -> Memory:
@@ -154,12 +157,14 @@ class ControlledMachine:
         """Start every stored program, as RUN ALL does."""
         self.type_text("SYS\rRUN ALL\r", None)
 
-    def failure(self, program: int) -> tuple[str, str]:
-        """Say what ended a program with an error, and the text of the line that did."""
-        system = self._controller.system
-        stored = system.programs.texts[program].get(card_view.program_line(self.memory, program))
+    def failure(self, program: int) -> Failure:
+        """Say what ended a program with an error, and in which line."""
+        system, line = self._controller.system, card_view.program_line(self.memory, program)
+        stored = system.programs.texts[program].get(line)
         text = Lister(system.aliases.nodes).line(stored.tokens) if stored else ""
-        return self._controller.executor.failures.get(program, "error"), readable(text)
+        file, file_line = self._controller.origin(program, line) or (None, None)
+        error = self._controller.executor.failures.get(program, "error")
+        return Failure(error, readable(text), file, file_line)
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""

@@ -4,10 +4,11 @@ The flags that report it are watched by the compiled loop, so each event has the
 servo period.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from openacr.cli import card_view
+from openacr.cli.machine import Failure
 from openacr.engine.watches import Place, Watch
 from openacr.map import flag
 from openacr.map import numbers as at
@@ -45,9 +46,16 @@ class Event:
 class EventLog:
     """Compares the flags of a card with what they were at the last call."""
 
-    def __init__(self, memory: Memory, axes: int, names: dict[int, str]) -> None:
-        """`names`: of axes, as their user calls them."""
+    def __init__(
+        self,
+        memory: Memory,
+        axes: int,
+        names: dict[int, str],
+        failure: Callable[[int], Failure],
+    ) -> None:
+        """`names`: of axes, as their user calls them; `failure`: what has ended a program."""
         self._memory = memory
+        self._failure = failure
         self._names = names
         self._flags = [(word + n, mask, n) for n in range(axes) for word, mask in AXIS_EVENTS]
         self._masters = [(at.MF1_WORD + m, MASTER_EVENTS, m) for m in range(MASTERS)]
@@ -87,10 +95,12 @@ class EventLog:
         for program, row in enumerate(self._errors):
             before, self._before[row] = self._before[row], self._memory.I[row]
             if self._before[row] and not before:
-                line = card_view.program_line(self._memory, program)
-                yield Event(
-                    time_s, f"PROG{program}: stopped by an error in line {line}", None, program
-                )
+                yield Event(time_s, self._stopped(program), None, program)
+
+    def _stopped(self, program: int) -> str:
+        failure, line = self._failure(program), card_view.program_line(self._memory, program)
+        place = f" ({failure.place})" if failure.place else ""
+        return f"PROG{program}: stopped in line {line}{place}: {failure.error}"
 
     def _risen(self, row: int, mask: int) -> Iterator[int]:
         """Flags of a word that are set and were not."""

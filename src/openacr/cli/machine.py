@@ -1,6 +1,7 @@
 """What a run needs of a card, and that card as a scenario sees it."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Protocol
 
@@ -14,6 +15,21 @@ if TYPE_CHECKING:
     from openacr.cli.plots import Curves
     from openacr.cli.report import AxisReport
     from openacr.cli.watched import Watched
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """The error that ended a program: its text, and the line as it is listed."""
+
+    error: str
+    text: str = ""
+    file: str | None = None  # of the project that the line was read from, as the user named it
+    file_line: int | None = None
+
+    @property
+    def place(self) -> str:
+        """`file:line`, where the line is from a file."""
+        return f"{self.file}:{self.file_line}" if self.file else ""
 
 
 class Machine(Protocol):
@@ -62,8 +78,8 @@ class Machine(Protocol):
     def start_all(self) -> None:
         """Start every stored program, as RUN ALL does."""
 
-    def failure(self, program: int) -> tuple[str, str]:
-        """Say what ended a program with an error, and the text of the line that did."""
+    def failure(self, program: int) -> "Failure":
+        """Say what ended a program with an error, and in which line."""
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input; one that the machine drives is forced until it is released."""

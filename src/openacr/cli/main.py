@@ -12,9 +12,11 @@ from importlib.metadata import version
 from typing import Annotated, Any, NamedTuple, TextIO
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
-from openacr.errors import OpenacrError, SourceError
+from openacr.cli.refusals import failed_json, parts_of
+from openacr.errors import OpenacrError
+from openacr.lang.characters import shown
 
 BAD_INPUT = 2
 INTERRUPTED = 130
@@ -234,6 +236,19 @@ COMMANDS: dict[str, Entry | Family] = {
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
+class SubCommand(TyperCommand):
+    """A sub-command: with --json also what was wrong with its input is an object on stdout."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run it."""
+        try:
+            return super().invoke(ctx)
+        except OpenacrError as error:
+            if any("--json" in each.opts and ctx.params.get(each.name) for each in self.params):
+                typer.echo(failed_json(parts_of(error)))
+            raise
+
+
 class LazyGroup(TyperGroup):
     """Sub-commands by name, imported when they are used."""
 
@@ -257,7 +272,7 @@ class LazyGroup(TyperGroup):
             return _group(cmd_name, entry)
         single = typer.Typer(add_completion=False, rich_markup_mode=None, context_settings=HELP)
         module = import_module(f"openacr.cli.{entry.module}")
-        single.command(cmd_name)(getattr(module, entry.function))
+        single.command(cmd_name, cls=SubCommand)(getattr(module, entry.function))
         return typer.main.get_command(single)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
@@ -292,8 +307,8 @@ class Commands(LazyGroup):
         try:
             return super().invoke(ctx)
         except OpenacrError as error:
-            for each in error.errors if isinstance(error, SourceError) else (error,):
-                typer.echo(f"error: {each}", err=True)
+            for each in parts_of(error):
+                typer.echo(f"error: {shown(str(each))}", err=True)
             raise typer.Exit(BAD_INPUT) from None
 
 

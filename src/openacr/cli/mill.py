@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from openacr.cli.mill_trace import Every, ToTrace, require_trace, trace_file
-from openacr.errors import UserError
+from openacr.errors import UserError, unreadable
+from openacr.project import require_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,6 +24,8 @@ FAILED = 1
 S_PER_MIN = 60
 PATH_JERK_CELL, PATH_JERK = 650_015, "Path jerk (P650015)"
 CONTEXT_COLUMNS = 72
+BEGINNING_BYTES = 65536  # what is looked at to tell text from other files
+TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
 
 PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
 AtStore = Annotated[
@@ -75,10 +78,11 @@ def require_file(file: Path) -> None:
     if not file.exists():
         raise UserError(f"{file}: no such file")
     try:
-        with file.open("rb"):
-            pass
+        with file.open("rb") as opened:
+            beginning = opened.read(BEGINNING_BYTES)
     except OSError as error:
-        raise UserError(f"{file}: cannot be read: {(error.strerror or '').lower()}") from None
+        raise unreadable(file, error) from None
+    require_text(file, beginning, controls=TAPE_CONTROLS, what="part programs")
 
 
 def printable(text: str) -> str:
@@ -143,6 +147,9 @@ def time_program(
             )
     if survey.errors:
         show_findings(survey.errors)
+        if as_json:
+            errors = {"errors": survey.data()["errors"]}
+            typer.echo(json_format.dumps({"dialect": name} | errors, indent=1))
         raise typer.Exit(FAILED)
     record = _times(prediction)
     if as_json:

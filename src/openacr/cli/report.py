@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from openacr.cli import card_view
 from openacr.cli.events import Event
+from openacr.cli.machine import Failure
+from openacr.lang.characters import shown
 from openacr.scenario import State, Verdict
 
 if TYPE_CHECKING:
@@ -34,8 +36,7 @@ class ProgramReport:
     number: int
     state: State
     line: int
-    error: str | None
-    text: str = ""  # of the line, where there was an error
+    failure: Failure | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +58,7 @@ class Report:
     @property
     def has_failed(self) -> bool:
         """Whether a program ended in an error or an expectation was not met."""
-        return any(p.error for p in self.programs) or any(not v.ok for v in self.verdicts)
+        return any(p.failure for p in self.programs) or any(not v.ok for v in self.verdicts)
 
 
 def report_on(machine: "Machine", begin_tk: int, wall_s: float) -> Report:
@@ -87,10 +88,9 @@ def report_on(machine: "Machine", begin_tk: int, wall_s: float) -> Report:
 
 def _program(machine: "Machine", number: int) -> ProgramReport:
     memory = machine.memory
-    has_failed = card_view.has_failed(memory, number)
-    error, text = machine.failure(number) if has_failed else (None, "")
+    failure = machine.failure(number) if card_view.has_failed(memory, number) else None
     state, line = card_view.program_state(memory, number), card_view.program_line(memory, number)
-    return ProgramReport(number, state, line, error, text)
+    return ProgramReport(number, state, line, failure)
 
 
 def summary(report: Report) -> dict[str, Any]:
@@ -113,7 +113,9 @@ def summary(report: Report) -> dict[str, Any]:
             str(program.number): {
                 "state": program.state.value,
                 "line": program.line,
-                "error": program.error,
+                "error": program.failure.error if program.failure else None,
+                "file": program.failure.file if program.failure else None,
+                "file_line": program.failure.file_line if program.failure else None,
             }
             for program in report.programs
         },
@@ -167,9 +169,10 @@ def show_report(report: Report, console: "Console") -> None:
 def show_failures(report: Report, console: "Console") -> None:
     """Print what ended programs with an error, and the line that did."""
     for program in report.programs:
-        if program.error:
-            text = f"error: PROG{program.number} line {program.line}: {program.error}"
-            text += f"\n    {program.text}" if program.text else ""
+        if (failure := program.failure) is not None:
+            place = f"{failure.place}: " if failure.place else ""
+            text = f"error: {place}PROG{program.number} line {program.line}: {failure.error}"
+            text += f"\n    {failure.text}" if failure.text else ""
             console.print(text, style="red", highlight=False, markup=False, soft_wrap=True)
 
 
@@ -179,9 +182,8 @@ def show_verdicts(report: Report, console: "Console") -> None:
         return
     failed = [verdict for verdict in report.verdicts if not verdict.ok]
     for verdict in failed:
-        console.print(
-            f"failed: {verdict}", style="red", highlight=False, markup=False, soft_wrap=True
-        )
+        text = f"failed: {shown(str(verdict))}"
+        console.print(text, style="red", highlight=False, markup=False, soft_wrap=True)
     met = len(report.verdicts) - len(failed)
     text = f"{met} of {len(report.verdicts) + len(report.unjudged)} expectations met"
     if report.unjudged:
@@ -220,6 +222,6 @@ def _program_table(programs: Iterable[ProgramReport]) -> "Table":
     table.columns[1].justify = table.columns[3].justify = "left"
     table.columns[3].no_wrap = False
     for program in programs:
-        error = f"[red]{program.error}[/red]" if program.error else ""
+        error = f"[red]{program.failure.error}[/red]" if program.failure else ""
         table.add_row(f"PROG{program.number}", program.state.value, str(program.line), error)
     return table

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.refusals import failed_json
 from openacr.cli.watched import watched
 from openacr.errors import MapError, UserError
+from openacr.lang.characters import shown
 from openacr.project import decode, find_project
 
 if TYPE_CHECKING:
@@ -122,6 +124,8 @@ def run(
     show_refused(refused, "warning" if keep_going else "error")
     if refused and not keep_going:
         typer.echo(f"`openacr check {project}` shows more about each", err=True)
+        if as_json:
+            typer.echo(failed_json(refused))
         raise typer.Exit(BAD_INPUT)
     session = Session(options, machine, story)
     with machine.journalled(journal, found) if journal else nullcontext():
@@ -132,11 +136,11 @@ def run(
 def show_refused(refused: "Sequence[SourceError]", word: str) -> None:
     """Print the lines the card has refused, each with its text."""
     for error in refused:
-        typer.echo(f"{word}: {error}", err=True)
+        typer.echo(f"{word}: {shown(str(error))}", err=True)
         path = Path(error.path)
         lines = decode(path.read_bytes()).splitlines() if path.is_file() else []
         if 0 < error.line <= len(lines):
-            typer.echo(f"    {lines[error.line - 1].strip()}", err=True)
+            typer.echo(f"    {shown(lines[error.line - 1].strip())}", err=True)
 
 
 def parse_until(text: str | None) -> "Until | None":

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from openacr.controller import snapshot as snapshots
 from openacr.controller.journal import Entered
-from openacr.controller.loading import PATIENCE_S, Loader, LoadError
+from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
 from openacr.controller.streams import CONSOLE
 from openacr.controller.surroundings import Surroundings
 from openacr.controller.views import AxisView
@@ -62,6 +62,7 @@ class Controller(Surroundings):
     ) -> None:
         super().__init__(model, world=world, data=data)
         self._console: int | None = None
+        self._origins = Origins()
 
     @classmethod
     def from_project(cls, path: str | Path) -> Controller:
@@ -90,7 +91,9 @@ class Controller(Surroundings):
             return controller, []
         session = controller.system.sessions[CONSOLE]
         session.connect()
-        errors = Loader(session, controller._wait_for_console_line).load(project)
+        errors = Loader(session, controller._wait_for_console_line, controller._origins).load(
+            project
+        )
         session.disconnect()
         try:
             controller.system.start_boot_programs()
@@ -188,6 +191,13 @@ class Controller(Surroundings):
         """One axis, for reading."""
         self._needs_axis(number)
         return AxisView(self.card, number)
+
+    def origin(self, program: int, line: int) -> tuple[str, int] | None:
+        """File and line of a project that a line of a program (0-15) or PLC (16-23) is from.
+
+        None for lines that were typed or changed since, and for lines there are not.
+        """
+        return self._origins.find(self.system.programs, program, line)
 
     def statistics(self, axis: int) -> AxisStatistics:
         """What an axis has done since power-up."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from openacr.basic.loader import file_lines, long_lived_objects
+from openacr.basic.program_store import ProgramStore, StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.session import Session
 from openacr.errors import CardError, SourceError
@@ -27,17 +28,44 @@ class LoadError(SourceError):
 
 
 @dataclass(slots=True)
+class Origins:
+    """Where in the files of a project the stored lines of programs and PLCs come from."""
+
+    path: str = ""  # of the file that is being read, and its line
+    line: int = 0
+    _places: dict[tuple[int, int], tuple[str, str, int]] = field(default_factory=dict)
+
+    def note(self, owner: int, stored: StoredLine) -> None:
+        """Remember that this line was stored by the present line of the present file."""
+        self._places[owner, stored.number] = stored.text, self.path, self.line
+
+    def find(self, programs: ProgramStore, owner: int, number: int) -> tuple[str, int] | None:
+        """File and line of a stored line; None where it was changed or came from elsewhere."""
+        stored = programs.texts[owner].get(number)
+        place = self._places.get((owner, number))
+        if stored is None or place is None or place[0] != stored.text:
+            return None
+        return place[1:]
+
+
+@dataclass(slots=True)
 class Loader:
     """Feeds files to a session; `wait` lets time pass until its line is done."""
 
     session: Session
     wait: Callable[[], bool]
+    origins: Origins = field(default_factory=Origins)
 
     def load(self, project: Project) -> list[SourceError]:
         """Load every file; the errors are those the card reports, with their place."""
         errors: list[SourceError] = []
-        for source in project.sources:
-            errors.extend(self._load_file(source))
+        programs = self.session.system.programs
+        programs.on_put = self.origins.note
+        try:
+            for source in project.sources:
+                errors.extend(self._load_file(source))
+        finally:
+            programs.on_put = None
         return errors
 
     def _load_file(self, source: SourceFile) -> list[SourceError]:
@@ -47,8 +75,10 @@ class Loader:
             level = Level.PROG if source.place is Place.PROGRAM else Level.PLC
             self.session.go(level, source.number)
         errors = []
+        self.origins.path = str(source.path)
         with long_lived_objects():
             for line in file_lines(source.text):
+                self.origins.line = line.number
                 problem = self._feed(line.text)
                 if problem:
                     errors.append(SourceError(problem, path=str(source.path), line=line.number))

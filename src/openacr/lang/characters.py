@@ -32,6 +32,16 @@ def readable(text: str) -> str:
     return text.translate(_SHOWN)
 
 
+_IN_LINES = {code: f"^{chr(code ^ 0x40)}" for code in (*range(0x20), 0x7F)}
+_IN_LINES |= {code: f"<{code:02X}>" for code in range(0x80, 0xA0)}
+del _IN_LINES[ord("\t")], _IN_LINES[ord("\n")]
+
+
+def shown(text: str) -> str:
+    """Lines of a file or message as a terminal may show them: only tabs and line ends act."""
+    return text.translate(_IN_LINES)
+
+
 def _as_single_byte(error: UnicodeError) -> tuple[str, int]:
     """A byte that is no UTF-8, as the character it is in the Windows code page."""
     if not isinstance(error, UnicodeDecodeError):

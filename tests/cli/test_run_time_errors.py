@@ -1,0 +1,93 @@
+"""Errors of programs that run: the file and line of the project they come from."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from openacr.cli.main import app
+from openacr.controller import Controller
+from openacr.project import find_project
+
+SETUP = "DIM PROG0(2000)\nDIM PROG2(2000)\n"
+# The error is in line 8 of its file: a remark, an empty line and a broken line come before it.
+PROGRAM = 'REM first\n\nPBOOT\nDIM LV(3)\nLV0 = (1 +\n    2)\nLV1 = 1/(LV0 - 3)\nPRINT "never"\n'
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "setup.8k").write_text(SETUP)
+    (folder / "prog2.8k").write_text(f"PROGRAM\n{PROGRAM}ENDP\n")
+    return Path("mine")
+
+
+def run(*arguments: object) -> tuple[int, str, str]:
+    result = CliRunner().invoke(app, ["run", *map(str, arguments)])
+    return result.exit_code, result.stdout, result.stderr
+
+
+def test_a_run_time_error_names_file_and_line_as_the_path_was_given(project: Path) -> None:
+    code, _, shown = run(project, "--for", "1")
+    assert code == 1
+    place = f"mine{os.sep}prog2.8k:8"
+    assert f"error: {place}: PROG2 line 60: Divide by zero\n    LV1 = 1/(LV0-3)\n" in shown
+    assert f"PROG2: stopped in line 60 ({place}): Divide by zero" in shown
+
+
+def test_the_absolute_path_is_named_when_it_was_given(project: Path) -> None:
+    code, _, shown = run(project.resolve(), "--for", "1")
+    assert code == 1
+    assert f"error: {project.resolve()}{os.sep}prog2.8k:8: PROG2 line 60: " in shown
+
+
+def test_the_summary_has_file_and_line_of_the_error(project: Path) -> None:
+    _, shown, _ = run(project, "--for", "1", "--json")
+    assert json.loads(shown)["programs"]["2"] == {
+        "state": "error",
+        "line": 60,
+        "error": "Divide by zero",
+        "file": f"mine{os.sep}prog2.8k",
+        "file_line": 8,
+    }
+
+
+def test_lines_with_numbers_are_found_whatever_their_order(tmp_path: Path) -> None:
+    file = tmp_path / "a.8k"
+    file.write_text("DIM PROG0(1000)\nPROG0\n30 P1 = 1/0\n20 P0 = 1\nSYS\nPROG0\n")
+    card, refused = Controller.load(find_project(file))
+    assert refused == []
+    assert card.origin(0, 30) == (str(file), 3)
+    assert card.origin(0, 20) == (str(file), 4)
+    assert card.origin(0, 25) is None
+    assert card.origin(1, 30) is None
+
+
+def test_a_line_that_was_typed_since_has_no_place_in_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "a.8k"
+    file.write_text("DIM PROG0(1000)\nPROG0\n10 P1 = 1\n20 P0 = 1\n")
+    card, _ = Controller.load(find_project(file))
+    card.send("PROG0\r10 P1 = 2\r20 P0 = 1\r30 P2 = 1\r")
+    assert card.origin(0, 10) is None
+    assert card.origin(0, 20) == (str(file), 4)
+    assert card.origin(0, 30) is None
+
+
+def test_a_line_deleted_from_the_card_has_no_place(tmp_path: Path) -> None:
+    file = tmp_path / "a.8k"
+    file.write_text("DIM PROG0(1000)\nPROG0\n10 P1 = 1\n")
+    card, _ = Controller.load(find_project(file))
+    card.send("PROG0\r10\r")
+    assert card.origin(0, 10) is None
+
+
+def test_lines_of_plcs_have_places_too(tmp_path: Path) -> None:
+    file = tmp_path / "a.8k"
+    file.write_text("DIM PLC1(500)\nPLC1\n10 LD 0\n20 OUT 32\n")
+    card, refused = Controller.load(find_project(file))
+    assert refused == []
+    assert card.origin(17, 20) == (str(file), 4)
