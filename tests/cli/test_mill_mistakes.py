@@ -34,10 +34,11 @@ def test_files_that_are_none(command: str) -> None:
 
 
 @pytest.mark.parametrize("command", READERS)
-def test_bytes_that_are_no_program_are_errors_with_lines(command: str) -> None:
+def test_bytes_that_are_no_program_are_refused_with_their_place(command: str) -> None:
     code, text = mill(command, "BIN.NC")
-    assert code == 1
-    assert "BIN.NC:1:" in text
+    assert code == 2
+    said = "BIN.NC:1:2: not a text file: byte 0x01 at offset 1 (part programs are plain text)"
+    assert text == f"error: {said}\n"
 
 
 @pytest.mark.parametrize("command", ["check", "list", "run"])

@@ -108,6 +108,7 @@ def test_one_refused_value_stores_none_of_them(path: Path) -> None:
         (["set", "P5=1"], "P5 is not in the store: it is a variable of the card"),
         (["set", "P100004=abc"], "a password is set by `openacr sysvar password`"),
         (["get", "P650002", "--unit", "cm"], "unit 'cm' is neither inch nor mm"),
+        (["list", "SPEDS"], "error: there is no tab SPEDS (did you mean SPEEDS?)\n"),
         (["list", "nowhere"], "there is no tab nowhere (one of GENERAL, SERVO"),
         (["import", "missing.toml"], "missing.toml: cannot be read"),
     ],

@@ -6,7 +6,7 @@ import pytest
 from tests.io.served import LOOPBACK, serving
 from typer.testing import CliRunner
 
-from openacr.cli.loop import read_loop
+from openacr.cli.loop import GAINS, OUTPUT, PATH, Loop, lines_of, read_loop
 from openacr.cli.main import app
 from openacr.client import Card
 from openacr.client.links import ProcessLink
@@ -49,6 +49,35 @@ def test_offsets_setpoints_gains_and_output_of_an_axis(card: Controller) -> None
     assert one.gains["DGAIN"] == pytest.approx(0.00001)
     assert one.output_v["summation point"] == pytest.approx(1.3)
     assert one.output_v["output signal"] == pytest.approx(1.3)
+
+
+def axis_loop(number: int, pgain: float = 0.00244141, no_output: str = "") -> Loop:
+    path = dict.fromkeys(PATH, -7)
+    return Loop(number, path, dict.fromkeys(GAINS, pgain), dict.fromkeys(OUTPUT, 1.0), no_output)
+
+
+def test_as_many_axes_as_there_is_room_for_are_side_by_side() -> None:
+    # 19 columns of names, and 12 of each axis (0.00244141 and a gap): five axes need 79.
+    loops = [axis_loop(number) for number in range(7)]
+    titles = [line.split() for line in lines_of(loops, 79) if "axis" in line]
+    assert titles == [
+        ["axis", "0", "axis", "1", "axis", "2", "axis", "3", "axis", "4"],
+        ["axis", "5", "axis", "6"],
+    ]
+    assert max(map(len, lines_of(loops, 79))) == 79
+    assert "axis 4" not in lines_of(loops, 78)[0]
+    assert lines_of(loops, 79)[1] == "current position   " + "          -7" * 5
+
+
+def test_an_axis_wider_than_the_terminal_is_shown_all_the_same() -> None:
+    lines = lines_of([axis_loop(0), axis_loop(1)], 10)
+    assert [line.split() for line in lines if "axis" in line] == [["axis", "0"], ["axis", "1"]]
+
+
+def test_a_reason_for_no_output_has_a_line_of_its_own() -> None:
+    lines = lines_of([axis_loop(0), axis_loop(3, no_output="the servo loop is open")], 80)
+    assert lines[-1] == "axis 3 has no output: the servo loop is open"
+    assert [line for line in lines if "no output" in line] == lines[-1:]
 
 
 def test_the_command_prints_a_table_or_json() -> None:

@@ -144,3 +144,23 @@ def test_an_unclear_name_lists_what_it_can_mean() -> None:
 def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:
     with pytest.raises(MapError, match=words):
         find(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("cut sped", "no parameter of the store is called 'cut sped': did you mean 'Cut Speed'?"),
+        ("cutspeed", "no parameter of the store is called 'cutspeed': did you mean 'Cut Speed'?"),
+        ("SPEDS", "no parameter of the store is called 'SPEDS': did you mean 'SPEEDS'?"),
+        ("jog fedrate", "no parameter of the store is called 'jog fedrate': "
+         "did you mean 'Jog Feedrate'?"),
+        ("flux capacitor", "no parameter of the store is called 'flux capacitor'"),
+        ("P650900", "P650900 is not in the store (the nearest: P650017 and P700000)"),
+        ("P24000", "P24000 is not in the store (the nearest: P4095 and P100000)"),
+        ("P999999999", "P999999999 is not in the store (the nearest: P1003424)"),
+    ],
+)  # fmt: skip
+def test_a_misspelt_name_or_number_names_what_is_near(text: str, message: str) -> None:
+    with pytest.raises(MapError) as caught:
+        find(text)
+    assert str(caught.value) == message

@@ -12,8 +12,6 @@ from openacr.cli.silence import why_silent
 from openacr.map import numbers as at
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
     from openacr.client import Card
 
 # Names shown, in the order in which the signals flow, and their rows in the block of an axis.
@@ -46,6 +44,9 @@ OUTPUT = {
     "output signal": at.AX_OUTPUT_SIGNAL,
 }
 ROWS = PATH | GAINS | OUTPUT
+NAMES = (*PATH, *GAINS, *(f"{name} [V]" for name in OUTPUT))
+LABELS = max(map(len, NAMES))
+GAP = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +79,9 @@ def loop(
         return
     from rich.console import Console
 
-    Console().print(_table(found))
+    console = Console()
+    for line in lines_of(found, console.width):
+        typer.echo(line)
 
 
 def read_loop(card: "Card", axis: int) -> Loop:
@@ -94,20 +97,31 @@ def read_loop(card: "Card", axis: int) -> Loop:
     )
 
 
-def _table(found: list[Loop]) -> "Table":
-    """Axes side by side, signals in the order in which they flow."""
-    from rich.table import Table
+def lines_of(found: list[Loop], width: int) -> list[str]:
+    """Axes side by side, as many as the terminal has room for; signals in their order."""
+    columns = [_column(one) for one in found]
+    widths = [max(map(len, column)) + GAP for column in columns]
+    lines: list[str] = []
+    first = 0
+    while first < len(columns):
+        behind = first + 1
+        while behind < len(columns) and LABELS + sum(widths[first : behind + 1]) <= width:
+            behind += 1
+        for row, name in enumerate(("", *NAMES)):
+            cells = zip(columns[first:behind], widths[first:behind], strict=True)
+            shown = "".join(f"{column[row]:>{room}}" for column, room in cells)
+            lines.append(f"{name:<{LABELS}}{shown}")
+        lines.append("")
+        first = behind
+    lines += [f"axis {one.axis} has no output: {one.no_output}" for one in found if one.no_output]
+    return lines
 
-    table = Table(box=None)
-    table.add_column("")
-    for one in found:
-        table.add_column(f"axis {one.axis}", justify="right")
-    for name in PATH:
-        table.add_row(name, *(str(one.path_cnt[name]) for one in found))
-    for name in GAINS:
-        table.add_row(name, *(f"{one.gains[name]:.6g}" for one in found))
-    for name in OUTPUT:
-        table.add_row(f"{name} [V]", *(f"{one.output_v[name]:.4f}" for one in found))
-    if any(one.no_output for one in found):
-        table.add_row("no output", *(one.no_output for one in found))
-    return table
+
+def _column(one: Loop) -> list[str]:
+    """What is shown of an axis, from its title down."""
+    return [
+        f"axis {one.axis}",
+        *(str(value) for value in one.path_cnt.values()),
+        *(f"{value:.6g}" for value in one.gains.values()),
+        *(f"{value:.4f}" for value in one.output_v.values()),
+    ]

@@ -71,7 +71,7 @@ def list_values(
 ) -> None:
     """List what was changed, or all parameters of a tab."""
     from openacr.sysvar.location import open_to_read
-    from openacr.sysvar.lookup import in_tab, parameters, tab_named
+    from openacr.sysvar.lookup import in_tab, parameters, tab_like, tab_named
     from openacr.sysvar.tabs import TABS
 
     with open_to_read(store) as cells:
@@ -80,7 +80,8 @@ def list_values(
             return
         named = tab_named(tab)
         if named is None:
-            raise UserError(f"there is no tab {tab} (one of {', '.join(t.name for t in TABS)})")
+            there = tab_like(tab) or f"one of {', '.join(t.name for t in TABS)}"
+            raise UserError(f"there is no tab {tab} ({there})")
         _show(cells, in_tab(named), unit, as_json)
 
 

@@ -1,7 +1,9 @@
 """Find parameters of the store by number or by words of their name."""
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
+from difflib import get_close_matches
 from functools import lru_cache
 
 from openacr.errors import MapError
@@ -13,7 +15,10 @@ _WORD = re.compile(r"[a-z0-9]+|[+%-]")
 AXIS_LETTERS = "XYZABCUV"
 _AXIS_WORDS = frozenset(("axis", *AXIS_LETTERS.lower()))
 LISTED = 5
+LONGEST_NAME = 60
+NEAR = 0.7  # of the letters of a name are right
 _LAST_TAB = len(TABS) - 1
+Named = tuple[Parameter, list[str]]
 
 
 def _tab_of(number: int) -> Tab:
@@ -41,7 +46,15 @@ def _where(number: int) -> str:
         return ": it is a variable of the card"
     if 4096 <= number <= 20_487:
         return ": it is a parameter of the card"
-    return ""
+    numbers = _numbers()
+    place = bisect_left(numbers, number)
+    near = [f"P{each}" for each in numbers[max(0, place - 1) : place + 1]]
+    return f" (the nearest: {' and '.join(near)})"
+
+
+@lru_cache(maxsize=1)
+def _numbers() -> list[int]:
+    return [each.number for each in parameters()]
 
 
 def parameters() -> Iterator[Parameter]:
@@ -70,8 +83,30 @@ def find(text: str) -> list[Parameter]:
     tab = tab_named(text)
     found = in_tab(tab) if tab else _named(_words(text))
     if not found:
-        raise MapError(f"no parameter of the store is called {text.strip()!r}")
+        raise MapError(f"no parameter of the store is called {text.strip()!r}{_meant(text)}")
     return found
+
+
+def _meant(text: str) -> str:
+    """The name or tab that comes nearest, as a question; nothing where none is near."""
+    names = {"".join(words): members[0][0].name for words, members in _names() if members} | {
+        tab.name.lower(): tab.name for tab in TABS
+    }
+    telling = [word for word in _words(text[:LONGEST_NAME]) if word not in _AXIS_WORDS]
+    near = get_close_matches("".join(telling), names, n=1, cutoff=NEAR)
+    return f": did you mean {names[near[0]]!r}?" if near else ""
+
+
+def _names() -> Iterator[tuple[list[str], list[Named]]]:
+    """Of every row the words of its name, without those of axes, and its parameters."""
+    for _, members in _catalogue():
+        yield [word for word in members[0][1] if word not in _AXIS_WORDS], members
+
+
+def tab_like(text: str) -> str:
+    """The tab that comes nearest, as a question; nothing where none is near."""
+    near = get_close_matches(text.strip().upper(), [tab.name for tab in TABS], n=1)
+    return f"did you mean {near[0]}?" if near else ""
 
 
 def one(text: str) -> Parameter:
@@ -86,9 +121,6 @@ def one(text: str) -> Parameter:
 
 def _words(text: str) -> list[str]:
     return _WORD.findall(text.lower())
-
-
-Named = tuple[Parameter, list[str]]
 
 
 @lru_cache(maxsize=1)
