@@ -1,6 +1,12 @@
 """Controller models differ in what they have."""
 
-from openacr.models import ACR8020, ACR9000, DEFAULT_MODEL, MODELS
+from dataclasses import replace
+
+from tests.controller.hosts import Host
+
+from openacr.controller import Controller
+from openacr.map.numbers import P_SYSFLASH1_VERSION
+from openacr.models import ACR8020, ACR9000, ACR9040, DEFAULT_MODEL, MODELS
 from openacr.units import explain, words_of
 
 
@@ -30,6 +36,36 @@ def test_models_differ_in_axes_connectors_and_masters() -> None:
 def test_version_and_serial_number() -> None:
     assert ACR8020.version == "ACR8020 Version 1.18.06 Update 15"
     assert ACR8020.serial_number == 80200000
+
+
+def test_a_name_is_written_once_and_says_the_card_type() -> None:
+    assert {name: model.name for name, model in MODELS.items()} == {name: name for name in MODELS}
+    assert MODELS["ACR1505"].serial_number == 15050000
+    assert (ACR8020.firmware_number, ACR8020.update) == (11806, 15)
+
+
+def test_what_only_some_models_have() -> None:
+    rows = MODELS.values()
+    assert {row.name for row in rows if row.has_canopen} == {"ACR9000", "ACR9030", "ACR9040"}
+    assert {row.name: row.lines for row in rows if row.lines != 32} == {"ACR2000": 16}
+    assert {row.name for row in rows if row.has_battery} == {"ACR1505", "ACR8020"}
+    assert {row.name for row in rows if row.has_digits_in_names} == {"ACR7000"}
+    fixed = {row.name for row in rows if row.has_fixed_adc_mode}
+    assert fixed == {"ACR7000", "ACR9000", "ACR9030", "ACR9040"}
+
+
+def test_a_card_shows_the_board_information_of_its_model() -> None:
+    model = replace(ACR9040, firmware="2.03.01", update=4)
+    controller = Controller(model)
+    shown = [controller.memory.I[number] for number in (7040, 7042, 7043)]
+    assert shown == [90400000, 20301, 4]
+    host = Host(controller)
+    assert "ACR9040 Version 2.03.01 Update 4" in host.type("VER")
+    host.type("FIRMWARE CHECKSUM")
+    assert controller.memory.I[P_SYSFLASH1_VERSION] == 20301
+    host.type("REBOOT")
+    controller.advance(100)
+    assert [controller.memory.I[number] for number in (7040, 7042, 7043)] == shown
 
 
 def test_units_are_explained() -> None:

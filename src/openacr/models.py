@@ -1,19 +1,18 @@
-"""Controller models: how many of everything a card has.
+"""Controller models: how many of everything a card has, and what only some of them have.
 
-Masters, slaves and programs are those the manuals state; counts they do not state are
-those of the largest card of the family (20 encoders, 16 analog outputs and inputs).
+A model is one row below; nothing else in the sources knows models by name. Masters, slaves and
+programs are those the manuals state; counts they do not state are those of the largest card of
+the family (20 encoders, 16 analog outputs and inputs).
 """
 
 from dataclasses import dataclass
 
 SYSTEM_MEMORY_BYTES = 1 << 20
-FIRMWARE = "1.18.06"
-UPDATE = 15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Model:
-    """One controller model; `has_drive_control`: drive, limit and homing flags.
+    """One controller model.
 
     `axes` counts those of the firmware, which ATTACH knows; a small board has `connectors` for
     some of them, the others keep their default attachment (Programmer's Guide, Output Module
@@ -21,7 +20,6 @@ class Model:
     """
 
     name: str
-    card_type: int
     axes: int = 16
     connectors: int | None = None  # None: for every axis
     masters: int = 16
@@ -31,12 +29,15 @@ class Model:
     encoders: int = 20
     dacs: int = 16
     adcs: int = 16
+    lines: int = 32  # digital inputs on the board, and as many outputs
     streams: tuple[str, ...]
-    has_drive_control: bool = True
     has_fixed_adc_mode: bool = False  # 16-bit analog inputs only
     has_digits_in_names: bool = False  # of aliases
     has_battery: bool = False  # keeps programs and variables without power
+    has_canopen: bool = False
     system_memory_bytes: int = SYSTEM_MEMORY_BYTES
+    firmware: str = "1.18.06"
+    update: int = 15
 
     @property
     def connected_axes(self) -> int:
@@ -46,12 +47,17 @@ class Model:
     @property
     def version(self) -> str:
         """What VER prints."""
-        return f"{self.name} Version {FIRMWARE} Update {UPDATE}"
+        return f"{self.name} Version {self.firmware} Update {self.update}"
 
     @property
     def serial_number(self) -> int:
-        """P7040: the card type followed by four zeros."""
-        return self.card_type * 10000
+        """P7040: the card type, which is the digits of the name, followed by four zeros."""
+        return int(self.name.removeprefix("ACR")) * 10000
+
+    @property
+    def firmware_number(self) -> int:
+        """P7042: the digits of the firmware version, 11806 for 1.18.06."""
+        return int(self.firmware.replace(".", ""))
 
 
 # STREAM1 is USB or the process the card runs in, the others are network connections. Cards
@@ -61,34 +67,25 @@ _CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
 _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
 # Boards of the front end's guide; what is not written here they have like the others.
-ACR1200 = Model(
-    name="ACR1200", card_type=1200, axes=8, connectors=2, masters=8, streams=_BOX_STREAMS
-)
-ACR1500 = Model(
-    name="ACR1500", card_type=1500, axes=8, connectors=4, masters=8, streams=_CARD_STREAMS
-)
-ACR2000 = Model(
-    name="ACR2000", card_type=2000, axes=8, connectors=4, masters=8, streams=_CARD_STREAMS
-)
-ACR8000 = Model(name="ACR8000", card_type=8000, axes=8, masters=8, streams=_CARD_STREAMS)
-ACR8010 = Model(name="ACR8010", card_type=8010, axes=8, masters=8, streams=_CARD_STREAMS)
-ACR1505 = Model(name="ACR1505", card_type=1505, axes=8, streams=_CARD_STREAMS, has_battery=True)
-ACR8020 = Model(name="ACR8020", card_type=8020, streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)
+ACR1200 = Model(name="ACR1200", axes=8, connectors=2, masters=8, streams=_BOX_STREAMS)
+ACR1500 = Model(name="ACR1500", axes=8, connectors=4, masters=8, streams=_CARD_STREAMS)
+ACR2000 = Model(name="ACR2000", axes=8, lines=16, connectors=4, masters=8, streams=_CARD_STREAMS)
+ACR8000 = Model(name="ACR8000", axes=8, masters=8, streams=_CARD_STREAMS)
+ACR8010 = Model(name="ACR8010", axes=8, masters=8, streams=_CARD_STREAMS)
+ACR1505 = Model(name="ACR1505", axes=8, streams=_CARD_STREAMS, has_battery=True)
+ACR8020 = Model(name="ACR8020", streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)
 ACR9000 = Model(
-    name="ACR9000", card_type=9000, axes=8, masters=8, slaves=8, streams=_BOX_STREAMS,
-    has_fixed_adc_mode=True,
+    name="ACR9000", axes=8, masters=8, slaves=8, streams=_BOX_STREAMS,
+    has_fixed_adc_mode=True, has_canopen=True,
 )  # fmt: skip
-ACR9030 = Model(name="ACR9030", card_type=9030, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
-ACR9040 = Model(name="ACR9040", card_type=9040, streams=_BOX_STREAMS, has_fixed_adc_mode=True)
+ACR9030 = Model(name="ACR9030", streams=_BOX_STREAMS, has_fixed_adc_mode=True, has_canopen=True)
+ACR9040 = Model(name="ACR9040", streams=_BOX_STREAMS, has_fixed_adc_mode=True, has_canopen=True)
 
 ACR7000 = Model(
-    name="ACR7000", card_type=7000, axes=8, streams=_BOX_STREAMS, has_fixed_adc_mode=True,
+    name="ACR7000", axes=8, streams=_BOX_STREAMS, has_fixed_adc_mode=True,
     has_digits_in_names=True,
 )  # fmt: skip
 
-_ALL = (
-    ACR1200, ACR1500, ACR1505, ACR2000, ACR7000, ACR8000, ACR8010, ACR8020, ACR9000, ACR9030,
-    ACR9040,
-)  # fmt: skip
-MODELS = {model.name: model for model in _ALL}
+_ROWS = [row for row in globals().values() if isinstance(row, Model)]
+MODELS = {row.name: row for row in sorted(_ROWS, key=lambda row: row.name)}
 DEFAULT_MODEL = ACR9000

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from openacr.models import MODELS, Model
+from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.schema import ModelName
 
 CARD_LIMITS_SINCE = (1, 18, 15)  # firmware that watches the limits itself
@@ -43,7 +43,7 @@ class CanOpen(_Table, frozen=True):
 class CardAnswers(_Table, frozen=True):
     """The card: `minimal` leaves out what a card without analog inputs and nodes can do without."""
 
-    model: ModelName = ModelName("ACR9000")
+    model: ModelName = ModelName(DEFAULT_MODEL.name)
     option: str = ""
     firmware: Firmware = "1.18.15"
     minimal: bool = False

@@ -29,7 +29,7 @@ from openacr.map.numbers import (
     FSBI_STRIDE,
     FSBI_WORDS,
 )
-from openacr.models import Model
+from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.permits import scale_of
 from openacr.motion.rows import axis_reals
 from openacr.plant import load, schema
@@ -55,7 +55,7 @@ class Controller(Surroundings):
 
     def __init__(
         self,
-        model: str | Model = "ACR9000",
+        model: str | Model = DEFAULT_MODEL,
         *,
         world: schema.World | None = None,
         data: Path | None = None,
@@ -82,7 +82,7 @@ class Controller(Surroundings):
         the world alone, as a machine whose card is switched on again.
         """
         world = load.load_world(project.machine) if project.machine else None
-        controller = cls(str(world.card.model) if world else "ACR9000", world=world, data=data)
+        controller = cls(world.card.model if world else DEFAULT_MODEL, world=world, data=data)
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
             controller.nonvolatile.shelf.notice(
                 f"the card has programs in {data} and keeps them; of {project.root} only the"

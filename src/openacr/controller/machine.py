@@ -29,9 +29,11 @@ from openacr.lang.lexer import Token
 from openacr.map.numbers import (
     ENGI_BASE,
     P_CARD_SERIAL_NUMBER,
+    P_FIRMWARE_VERSION,
+    P_UPDATE_NUMBER,
     PLC_COUNT,
 )
-from openacr.models import MODELS, Model
+from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.motion import drive
 from openacr.motion.card import Card
 from openacr.network.networks import Networks
@@ -46,7 +48,7 @@ class Machine:
 
     def __init__(
         self,
-        model: str | Model = "ACR9000",
+        model: str | Model = DEFAULT_MODEL,
         *,
         world: schema.World | None = None,
         data: Path | None = None,
@@ -129,6 +131,8 @@ class Machine:
         apply.apply_world(self.world, self.memory)
         self.card.set_period(self.world.card.period_s)
         self.memory.I[P_CARD_SERIAL_NUMBER] = self.model.serial_number
+        self.memory.I[P_FIRMWARE_VERSION] = self.model.firmware_number
+        self.memory.I[P_UPDATE_NUMBER] = self.model.update
         self.networks.power_up()
 
     def _ask_reboot(self) -> None:

@@ -26,7 +26,6 @@ from openacr.controller.battery import BATTERY, Battery
 from openacr.controller.shelf import UNREADABLE, Shelf
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
-from openacr.models import FIRMWARE
 from openacr.motion import modules
 
 CARD, FLASH, PARAMETERS, STREAM_MODES, BACKUP = "card", "flash", "parameters", "streams", "firmware"
@@ -155,12 +154,12 @@ class Persistence:
 
     def firmware_backup(self) -> None:
         """FIRMWARE BACKUP: system flash 2 becomes a copy of system flash 1."""
-        self.shelf.write({BACKUP: FIRMWARE.encode()})
+        self.shelf.write({BACKUP: self._firmware})
         self._system.card.memory.set_bit(BACKED_UP, True)
 
     def firmware_checksum(self) -> None:
         """FIRMWARE CHECKSUM: versions, checksums and flags of all four flash memories."""
-        memory, own = self._system.card.memory, FIRMWARE.encode()
+        memory, own = self._system.card.memory, self._firmware
         backup, user = self.shelf.read(BACKUP) or b"", self.shelf.read(FLASH) or b""
         for number, content in (
             (at.P_BOOTFLASH_VERSION, own),
@@ -175,6 +174,11 @@ class Persistence:
         memory.set_bit(SYSTEM2_EMPTY, not backup)
         memory.set_bit(USER_EMPTY, not user)
         memory.set_bit(BACKED_UP, backup == own)
+
+    @property
+    def _firmware(self) -> bytes:
+        """What the flash memories of the card hold of its firmware: the version."""
+        return self._system.card.model.firmware.encode()
 
     # snapshots and the end
 

@@ -33,7 +33,7 @@ from openacr.map.numbers import (
     ENGI_UNTIL_WORD,
     ENGI_WATCH_COUNT,
 )
-from openacr.models import Model
+from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.permits import scale_of
 from openacr.plant import schema
 from openacr.views import F64
@@ -52,7 +52,7 @@ class Running(Machine):
 
     def __init__(
         self,
-        model: str | Model = "ACR9000",
+        model: str | Model = DEFAULT_MODEL,
         *,
         world: schema.World | None = None,
         data: Path | None = None,

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
+from openacr.models import MODELS
 from openacr.plant.complaint import Complaint, Path
 from openacr.plant.network_schema import (
     FAULTS,
@@ -15,7 +16,6 @@ from openacr.plant.network_schema import (
 )
 from openacr.plant.schema import ExactDrive, StepperDrive, World
 
-WITH_CANOPEN = ("ACR9000", "ACR9030", "ACR9040")
 FIRST_INPUT, FIRST_OUTPUT, FLAGS_PER_NODE = 11520, 12032, 1024
 FIRST_ANALOG_OUTPUT, FIRST_ANALOG_INPUT = 33280, 33288
 _OF_A_NODE = {FaultKind.SILENT, FaultKind.LOST}
@@ -42,9 +42,10 @@ def canopen_faults(world: World) -> Iterator[Complaint]:
     """Yield what does not fit together in `[canopen]`."""
     if world.canopen is None:
         return
-    if world.card.model not in WITH_CANOPEN:
+    if not MODELS[world.card.model].has_canopen:
         text = f"the {world.card.model} has no CANopen controller"
-        yield Complaint(("canopen",), text, "these have: " + ", ".join(WITH_CANOPEN))
+        with_canopen = [model.name for model in MODELS.values() if model.has_canopen]
+        yield Complaint(("canopen",), text, "these have: " + ", ".join(with_canopen))
     yield from _sizes(world.canopen)
     yield from _nodes(world.canopen)
     for place, fault in enumerate(world.canopen.fault):

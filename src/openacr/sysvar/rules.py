@@ -15,8 +15,6 @@ ANGLE1, ANGLE2 = 250_010, 250_011
 FIRST_AXIS, PLUS, MINUS, IS_OFF, NAME = 200_000, 0, 1, 2, 8
 TABLES, CLICKS = (450_000, 500_000, 550_000), 16
 DISPLAY, DISPLAY_FORMATS = 850_000, 2
-SMALL_CARD, SMALL_CARD_LINES = "ACR2000", 16
-CARD_LINES = 32
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
 SPINDLE_DAC, CONFIGURED, AXIS_DAC = 800_002, 12, 14
 DAC = (CONFIGURED, AXIS_DAC)
@@ -25,7 +23,7 @@ STEERING = {FEED_HOLD, CYCLE_START, EMERGENCY_STOP}  # inputs that serve nothing
 REFERENCE_OUTPUTS = {400_011, 400_019}  # of G27 and G28: one lamp may serve both
 # Switches that are read at four inputs, by the cell of the first: joystick, FOV, ROV, SOV.
 SWITCH_LINES = dict.fromkeys((400_006, 450_016, 500_016, 550_016), 4)
-MODULES, FIRST_MODULE_LINE, MODULE_LINES = 250_124, 256, 64
+MODULES, FIRST_MODULE_LINE, MODULE_LINES, MODULE_INPUTS = 250_124, 256, 64, 32
 
 
 class Reader(Protocol):
@@ -113,8 +111,7 @@ def _card_model(cells: Reader, changed: Iterable[int]) -> None:
 
 def _wires(cells: Reader, changed: Iterable[int]) -> None:
     """Numbers of inputs and outputs are those the card has; another card, other numbers."""
-    is_small = cells.read_text(MODEL) == SMALL_CARD
-    count = SMALL_CARD_LINES if is_small else CARD_LINES
+    count = MODELS[cells.read_text(MODEL)].lines
     modules = int(cells.read(MODULES))
     if MODEL in changed or MODULES in changed:
         changed = [each.number for each in parameters() if each.row.wire]
@@ -135,7 +132,7 @@ def _wires(cells: Reader, changed: Iterable[int]) -> None:
 def _is_on_module(value: float, wire: Wire, modules: int) -> bool:
     """Whether a line is on one of the expansion modules: 32 inputs, then 32 outputs of each."""
     module, line = divmod(int(value) - FIRST_MODULE_LINE, MODULE_LINES)
-    return 0 <= module < modules and (line >= CARD_LINES) == (wire is Wire.OUTPUT)
+    return 0 <= module < modules and (line >= MODULE_INPUTS) == (wire is Wire.OUTPUT)
 
 
 def _display_formats(cells: Reader, changed: Iterable[int]) -> None:

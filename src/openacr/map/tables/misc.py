@@ -1,6 +1,7 @@
 """Sampling, clock, board and firmware information, logging."""
 
 from openacr.map.block import LONG, NS, RW, Block, R, Span, consecutive
+from openacr.models import ACR8020
 
 SAMPLE = Block(
     "Miscellaneous Parameters: Position",
@@ -74,13 +75,27 @@ BOARD.row(
     R,
     "",
     "Card type * 10000 + serial number, which is 0.",
-    default=80200000,
+    default=ACR8020.serial_number,
 )
 BOARD.row(1, "Card Number", LONG, R, "", "Number set with the address switch.")
 BOARD.row(
-    2, "Firmware Version", LONG, R, "", "Digits of the version: 1.18.06 is 11806.", default=11806
+    2,
+    "Firmware Version",
+    LONG,
+    R,
+    "",
+    "Digits of the version: 1.18.06 is 11806.",
+    default=ACR8020.firmware_number,
 )
-BOARD.row(3, "Update Number", LONG, R, "", "Update of this firmware version, 0: none.", default=15)
+BOARD.row(
+    3,
+    "Update Number",
+    LONG,
+    R,
+    "",
+    "Update of this firmware version, 0: none.",
+    default=ACR8020.update,
+)
 BOARD.row(
     4,
     "Diagnostics",

@@ -1,5 +1,6 @@
 """GENERAL, CONTROL, COMPATIBILITY, COMMUNICATIONS and DISPLAY: how the front end behaves."""
 
+from openacr.models import ACR8020
 from openacr.sysvar.schema import OUTPUT, Tab
 
 _CODES = {"doc": "Code chosen for the start of programs."}
@@ -9,7 +10,7 @@ GENERAL = Tab("GENERAL", 100_000)
 GENERAL.integer(0, "Store layout version", 1, is_fixed=True, doc="Of this table.")
 GENERAL.motion()
 GENERAL.integer(1, "Axis count", 3, low=2, high=8, doc="Axes of the machine.")
-GENERAL.text(2, "Card model", "ACR8020", doc="Model of the card.")
+GENERAL.text(2, "Card model", ACR8020.name, doc="Model of the card.")
 GENERAL.integer(3, "Card number", low=0, high=7, doc="Of several cards in one computer.")
 GENERAL.still()
 GENERAL.text(4, "Password hash", doc="Empty: no password is asked.")
