@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+from tests.basic.parsing import parse_line
+
 import openacr.basic.commands
 import openacr.basic.strings  # noqa: F401 - both enter their words
 from openacr.basic.nodes import (
@@ -20,7 +22,6 @@ from openacr.basic.nodes import (
     StringLocal,
     Unary,
 )
-from openacr.basic.parser import parse_line
 from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.run import Evaluator, Run, Wait

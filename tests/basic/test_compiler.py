@@ -1,12 +1,12 @@
 """Structure errors: found when a program is started, told with the line, nothing runs."""
 
 import pytest
+from tests.basic.parsing import parse_line
 from tests.basic.rig import Rig
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
 from openacr.basic.compiler import compile_program
 from openacr.basic.levels import CompileError
-from openacr.basic.parser import parse_line
 from openacr.basic.scope import Scope
 
 STORED = Scope(stored=True)

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.basic.parsing import parse_line
 
 import openacr.basic.commands
 import openacr.basic.strings  # noqa: F401 - both enter their words
 from openacr.basic.lister import Lister, literal
 from openacr.basic.loader import file_lines
-from openacr.basic.parser import parse_line
 from openacr.basic.program_store import StoredLine
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope

@@ -2,9 +2,9 @@
 
 import pytest
 from tests.basic.bench import Bench
+from tests.basic.parsing import parse_line
 
 from openacr.basic import registry
-from openacr.basic.parser import parse_line
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope
 from openacr.errors import CardError

@@ -3,6 +3,7 @@
 import pickle
 
 import pytest
+from tests.basic.parsing import parse_line
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
 from openacr.basic.expressions import StatementError
@@ -21,7 +22,6 @@ from openacr.basic.nodes import (
     Parameter,
     Statement,
 )
-from openacr.basic.parser import parse_line
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope
 

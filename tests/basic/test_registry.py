@@ -39,8 +39,9 @@ def test_rows_pickle_by_name() -> None:
 
 
 def test_a_new_command_is_one_decorated_function(monkeypatch: pytest.MonkeyPatch) -> None:
+    from tests.basic.parsing import parse_line
+
     from openacr.basic.nodes import Number, Statement
-    from openacr.basic.parser import parse_line
     from openacr.basic.scope import Scope
 
     monkeypatch.setattr(registry, "_commands", dict(registry._commands))

@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tests.basic.parsing import parse_line
 from tests.controller.hosts import X_AND_Y, Host
 from tests.fuzz.programs import BROKEN, Programs
 
 from openacr.basic.compiler import compile_program
 from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Number, Parameter
-from openacr.basic.parser import parse_line
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope
 from openacr.cli.source import Reader

@@ -62,7 +62,7 @@ class FakeCard:
             for stream in self.streams.values():
                 if stream.terminal.busy and self.tick >= stream.answer_tick:
                     stream.terminal.busy = False
-                    stream.terminal.send_text("ok\r\nSYS>")
+                    stream.terminal.send_bytes(b"ok\r\nSYS>")
                     self._pump(stream)
 
     def wake(self) -> None:
@@ -84,7 +84,7 @@ class FakeCard:
                 self.controls.append(code.name)
             case Escape():
                 terminal.attention = Attention.COMMANDS
-                terminal.send_text("\r\nSYS>")
+                terminal.send_bytes(b"\r\nSYS>")
             case Received(DataRequest() as request):
                 terminal.send_packet(request.reply([self.tick] * request.reply_words()))
 
@@ -95,15 +95,15 @@ class FakeCard:
                 stream.answer_tick = self.tick + int(rest)
                 stream.terminal.busy = True
             case "SPAM":
-                stream.terminal.send_text("x" * 98 + "\r\n")
+                stream.terminal.send_bytes(b"x" * 98 + b"\r\n")
                 for _ in range(int(rest) - 1):
-                    stream.terminal.send_text("x" * 98 + "\r\n")
-                stream.terminal.send_text("SYS>")
+                    stream.terminal.send_bytes(b"x" * 98 + b"\r\n")
+                stream.terminal.send_bytes(b"SYS>")
             case "LISTEN":
                 stream.terminal.attention = Attention.LISTENING
             case "LEN":
-                stream.terminal.send_text(f"{len(text)}\r\nSYS>")
+                stream.terminal.send_bytes(f"{len(text)}\r\nSYS>".encode())
             case "TICK":
-                stream.terminal.send_text(f"{self.tick}\r\nSYS>")
+                stream.terminal.send_bytes(f"{self.tick}\r\nSYS>".encode())
             case _:
-                stream.terminal.send_text("ok\r\nSYS>")
+                stream.terminal.send_bytes(b"ok\r\nSYS>")

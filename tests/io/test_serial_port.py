@@ -80,15 +80,15 @@ def test_xoff_of_a_host_stops_a_long_answer_within_two_slices() -> None:
         running = asyncio.create_task(server.run(stop))
         os.write(ours, b"SPAM 3000\r")  # 300 kB: more than the pseudo terminal takes
         output = next(iter(card.streams.values())).terminal.output
-        while not output.waiting_bytes:
+        while not output._size:
             await asyncio.sleep(0.001)
-        assert output.waiting_bytes > 200_000  # waits in the card, where XOFF can stop it
+        assert output._size > 200_000  # waits in the card, where XOFF can stop it
         os.write(ours, b"\x13")
         while not output.stopped:
             await asyncio.sleep(0.001)
-        held = output.waiting_bytes
+        held = output._size
         seen = await asyncio.to_thread(read_until, ours, b"SYS>", 0.3)
-        assert output.waiting_bytes == held
+        assert output._size == held
         assert len(seen) + held == len(b"SPAM 3000\r\n") + 300_000 + len(b"SYS>")
         os.write(ours, b"\x11")
         rest = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)

@@ -7,10 +7,11 @@ from contextlib import asynccontextmanager, suppress
 
 import pytest
 from tests.io.fake_card import FakeCard
+from tests.io.served import LOOPBACK
 
 from openacr.errors import UserError
 from openacr.io.peers import SEND_LIMIT_BYTES, TcpPeer
-from openacr.io.server import LOOPBACK, Address, CardServer, Guests
+from openacr.io.server import Address, CardServer, Guests
 from openacr.protocol.stream import StreamKind
 
 GET = bytes.fromhex("00 30 02 01")
@@ -208,7 +209,7 @@ def test_a_peer_that_does_not_read_disturbs_nobody_and_memory_stays_bounded() ->
             slow.writer.write(b"SPAM 5000\r")
             answer = await other.ask(b"LEN\r")
             assert answer == b"LEN\r\n3\r\nSYS>"
-        waiting = [stream.terminal.output.waiting_bytes for stream in bench.card.streams.values()]
+        waiting = [stream.terminal.output._size for stream in bench.card.streams.values()]
         assert 1 << 20 <= max(waiting) < (1 << 20) + 100
         assert min(waiting) == 0
 

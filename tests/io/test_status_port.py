@@ -10,12 +10,12 @@ from contextlib import contextmanager
 
 import pytest
 from tests.io.fake_card import FakeCard
-from tests.io.served import serving
+from tests.io.served import LOOPBACK, serving
 
 from openacr.client import Card, ConnectionLostError, NoReplyError
 from openacr.client.status_feed import StatusFeed
 from openacr.errors import UserError
-from openacr.io.server import LOOPBACK, CardServer, Guests
+from openacr.io.server import CardServer, Guests
 
 ON = bytes.fromhex("00000001 0000000A")
 WAIT_S = 5.0

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from tests.io.fake_card import FakeCard
+from tests.io.served import LOOPBACK
 
-from openacr.io.server import LOOPBACK, Address, CardServer
+from openacr.io.server import Address, CardServer
 from openacr.protocol.stream import StreamKind
 
 WAIT_S = 10.0

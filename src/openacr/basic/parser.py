@@ -16,7 +16,7 @@ from openacr.basic.nodes import AxisRef, Block, Expr, Line, Move, Prefix, Statem
 from openacr.basic.registry import Command, Level, Use
 from openacr.basic.scope import Scope, join_names
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Kind, Token
 from openacr.lang.source import Span
 from openacr.messages import (
     NOT_VALID_AT_THIS_LEVEL,
@@ -29,11 +29,6 @@ LONGEST_LABEL = 32
 PREFIXES = frozenset(("AXIS", "MASTER"))
 KNOT, WEIGHT = "K", "W"  # of a point of a curve, where no axis has this name
 LEVEL_WORDS = frozenset(("SYS", "PROG", "PLC"))  # as a command each begins a block
-
-
-def parse_line(text: str | bytes, scope: Scope, line: int = 1) -> Line:
-    """The tree of a line; CardError with what is wrong and where (`span`)."""
-    return Parser(tokens(text, line), scope).line()
 
 
 class Parser(ExpressionParser):

@@ -60,11 +60,12 @@ def _finite(text: str) -> float:
 
 def _card(host: str) -> "Card":
     from openacr.client import Card, ConnectionLostError
+    from openacr.mill.alarms import NO_CARD, AlarmError
     from openacr.mill.setup import user_variables
 
     try:
         card = Card.open(host)
     except ConnectionLostError as lost:
-        raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
+        raise AlarmError(NO_CARD, lost) from None
     user_variables(card)
     return card

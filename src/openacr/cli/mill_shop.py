@@ -32,7 +32,7 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
     """The machine of a command; it comes to rest however the command ends."""
     from openacr.cli.signals import deaf, terminations_as_interrupts
     from openacr.client import ConnectionLostError
-    from openacr.mill.alarms import AlarmError
+    from openacr.mill.alarms import LINK_LOST, NO_CARD, AlarmError
     from openacr.mill.machine import LINK_ERRORS
     from openacr.mill.workshop import Workshop
 
@@ -47,7 +47,7 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
                 else Workshop.virtual(cells, say)
             )
         except ConnectionLostError as lost:
-            raise UserError(f"alarm 1: NO CARD FOUND ({lost})") from None
+            raise AlarmError(NO_CARD, lost) from None
         except KeyboardInterrupt:
             typer.echo("interrupted: nothing was started", err=True)
             raise typer.Exit(INTERRUPTED) from None
@@ -65,7 +65,7 @@ def workshop(host: str | None, cells: "Store", *, to_stderr: bool = False) -> "I
             hint = "; `openacr mill acknowledge` clears what is over" if is_up else ""
             raise UserError(f"{error}{hint}") from None
         except LINK_ERRORS as lost:
-            raise UserError(f"alarm 3: Link lost ({lost}); {LEFT_ALONE}") from None
+            raise UserError(f"{AlarmError(LINK_LOST)} ({lost}); {LEFT_ALONE}") from None
         finally:
             with deaf():  # also for whoever presses Ctrl-C once more
                 try:

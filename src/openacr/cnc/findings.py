@@ -107,11 +107,6 @@ class Finding:
         """Whether the program may not be started."""
         return not self.code.startswith("W")
 
-    @property
-    def caret(self) -> str:
-        """The line as written with a mark below the column."""
-        return f"{self.block}\n{' ' * (self.column - 1)}^"
-
     def __str__(self) -> str:
         place = f"{self.file}:{self.line}:{self.column}: {self.code} {self.text}"
         return f"{place} ({self.hint})" if self.hint else place

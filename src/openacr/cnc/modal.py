@@ -124,7 +124,6 @@ class Reset:
     field: str
     power_up: Rule
     chosen: Rule | None = None  # of the start set; without: as at power-up
-    at_end: bool = True
     at_abort: bool = True
 
 

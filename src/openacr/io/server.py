@@ -21,7 +21,6 @@ from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.io.status_port import StatusPort, open_status_port
 from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
-LOOPBACK = "127.0.0.1"
 STEP_S = 0.001
 CONNECTIONS = 16
 

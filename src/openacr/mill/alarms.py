@@ -44,7 +44,7 @@ def _alarm(code: int, text: str, effect: Effect) -> Kind:
     return _KINDS[code]
 
 
-NO_CARD = _alarm(1, "NO CARD FOUND", Effect.REFUSE)
+NO_CARD = _alarm(1, "NO CARD FOUND ({})", Effect.REFUSE)
 OLD_FIRMWARE = _alarm(2, "Firmware older than 1.18: {}", Effect.REFUSE)
 LINK_LOST = _alarm(3, "Link lost", Effect.ABORT)
 LACKS_FUNCTION = _alarm(4, "Card model lacks function: {}", Effect.REFUSE)
@@ -86,11 +86,6 @@ STORE_FAILED = _alarm(63, "Store not writable: {}", Effect.HOLD)
 def kind(code: int) -> Kind:
     """The row of an alarm code."""
     return _KINDS[code]
-
-
-def kinds() -> list[Kind]:
-    """All rows in the order of their codes."""
-    return [_KINDS[code] for code in sorted(_KINDS)]
 
 
 class AlarmError(UserError):

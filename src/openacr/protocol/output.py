@@ -56,11 +56,6 @@ class Output:
         self._size += len(data)
         return True
 
-    @property
-    def waiting_bytes(self) -> int:
-        """How much has not been taken."""
-        return self._size
-
     def take(self) -> bytes:
         """The bytes of the next write; none while there is nothing or XOFF holds."""
         if self.stopped or not self._writes:

@@ -346,12 +346,8 @@ class Terminal:
         if self.echo & ECHO_CHARACTERS:
             self.output.text(data)
 
-    def send_text(self, text: str) -> None:
-        """Queue text, one byte per character; what is queued together leaves together."""
-        self.output.text(text.encode("latin-1", errors="replace"))
-
     def send_bytes(self, data: bytes) -> None:
-        """Queue bytes as they are (a program's PRINT to an open stream, pass-through)."""
+        """Queue text, or bytes as they are; what is queued together leaves together."""
         self.output.text(data)
 
     def send_packet(self, packet: bytes) -> None:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic import functions_cy, strings
+from openacr.basic import (
+    functions_cy,
+    strings,  # noqa: F401 (importing the module registers its functions)
+)
 from openacr.basic.grammar import Form, Lvalue
 from openacr.basic.nodes import Expr, Statement, is_text
 from openacr.basic.registry import ANY, command, function
@@ -15,8 +18,6 @@ from openacr.messages import TYPE_MISMATCH
 if TYPE_CHECKING:
     from openacr.basic.compiler import Emitter
     from openacr.basic.parser import Parser
-
-STRING_FUNCTIONS = strings.__name__  # importing the module registers them
 
 for _name, _code, _summary in (
     ("ABS", functions_cy.FN_ABS, "Absolute value."),
