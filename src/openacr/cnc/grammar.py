@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 
 from openacr.cnc import functions as f
+from openacr.cnc import refusals
 from openacr.cnc.functions import Function
+from openacr.cnc.refusals import Refusals
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +29,7 @@ class Grammar:
     has_names: bool  # #<name> and EXISTS
     has_o_words: bool
     not_level: int  # operands of NOT reach to operators of this level; 0: no NOT
+    refusals: Refusals  # what other controls have
     pairs: frozenset[str] = frozenset()  # functions written F[y]/[x]
 
 
@@ -60,6 +63,7 @@ ACROMILL = Grammar(
     has_names=False,
     has_o_words=False,
     not_level=4,
+    refusals=refusals.ACROMILL,
 )
 
 RS274NGC = Grammar(
@@ -88,5 +92,6 @@ RS274NGC = Grammar(
     has_names=True,
     has_o_words=True,
     not_level=0,
+    refusals=refusals.RS274NGC,
     pairs=frozenset({"ATAN"}),
 )

@@ -174,7 +174,9 @@ class Parameters:
         """A named parameter: one that begins with `_` is global."""
         names = self.global_names if name.startswith("_") else self.names
         if name not in names:
-            raise CodeError("E211", 0, f"#<{name}>")
+            shown = f"#<{name}>"
+            hint = self._run.dialect.grammar.refusals.of_form(shown, 1)
+            raise CodeError("E211", 0, shown, hint)
         return names[name]
 
     def has_named(self, name: str) -> bool:

@@ -35,10 +35,17 @@ _LETTERS = "ABCDEFGHIJKLMPQRSTUVWXYZ"  # all but N, O
 
 
 def parse(raw: str, grammar: Grammar) -> Block:
-    """The block of one line; CodeError with the column of the first wrong character."""
+    """The block of one line; CodeError with the column of the first wrong character.
+
+    The hint says what is known of a form that the dialect refuses.
+    """
     if len(raw) > LONGEST:
         raise CodeError("E101", LONGEST + 1)
-    return _plain(raw) or _Parser(raw, grammar).block()
+    try:
+        return _plain(raw) or _Parser(raw, grammar).block()
+    except CodeError as fault:
+        fault.hint = grammar.refusals.of_form(raw, fault.column) or fault.hint
+        raise
 
 
 def _plain(raw: str) -> Block | None:

@@ -8,6 +8,7 @@ from openacr.cnc.blocks import Block, Word
 from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Axes, Code, Dialect, Group, Limit
 from openacr.cnc.findings import CodeError
 from openacr.cnc.formulas import Number
+from openacr.cnc.refusals import COMPUTED, Refusals, other_dialect
 from openacr.cnc.turn import NEAR
 
 MOST_SHAPES = 4096
@@ -63,6 +64,7 @@ class Planner:
 
     def __init__(self, dialect: Dialect, axes: dict[str, int], custom: Code | None = None) -> None:
         self._dialect = dialect
+        self._refusals = dialect.grammar.refusals
         self._order = {step: place for place, step in enumerate(dialect.order)}
         self.axes = axes
         self._custom = custom
@@ -124,7 +126,7 @@ class Planner:
 
     def _code(self, word: Word) -> Code:
         if not isinstance(word.value, Number):
-            raise CodeError("E204", word.column, hint=f"{word.letter} needs a number as written")
+            raise CodeError("E204", word.column, hint=COMPUTED)
         number = word.value.number
         table = self._dialect.table
         rows = table.gcodes if word.letter == "G" else table.mcodes
@@ -139,15 +141,16 @@ class Planner:
                 "M", tenths / 10, self._custom.step, self._custom.act,
                 axes=Axes.DATA, takes_all=True,
             )  # fmt: skip
-        known = self._known_to(word, tenths)
-        raise CodeError(_UNKNOWN[word.letter], word.column, f"{word.letter}{number:g}", known)
+        name = f"{word.letter}{tenths / 10:g}"
+        known = self._refusals.of_code(name) or self._known_to(word, tenths)
+        raise CodeError(_UNKNOWN[word.letter], word.column, name, known)
 
     def _known_to(self, word: Word, tenths: int) -> str:
         """Which other dialects have a code."""
         for other in DIALECTS.values():
             rows = other.table.gcodes if word.letter == "G" else other.table.mcodes
             if other is not self._dialect and tenths / 10 in rows:
-                return f"a code of the dialect {other.name}: --dialect {other.name}"
+                return other_dialect(other.name)
         return ""
 
     # --- the plan ---------------------------------------------------------------------
@@ -158,7 +161,7 @@ class Planner:
         _check_groups(codes)
         taker = _taker(codes)
         own = [code for code, _ in codes]
-        _check_barred(own, words)
+        self._check_barred(own, words)
         if any(code.takes_all for code in own):
             acts, left = list(own), list[str]()
         else:
@@ -167,7 +170,7 @@ class Planner:
             acts.append(self._motion)
         if self._macro and ((acts and acts[-1] is self._motion) or _probes(own)):
             acts.append(self._macro)
-        _check_limits(codes, acts, words)
+        _check_limits(codes, acts, words, self._refusals)
         acts.sort(key=self._place)
         axes = tuple((self.axes.get(a, -1), a) for a in AXIS_LETTERS if a in words)
         return Plan(block, tuple(acts), words, _numbers(words), axes, tuple(own), tuple(left))
@@ -190,7 +193,7 @@ class Planner:
             elif act is not None and letter not in taken:
                 acts.append(act)
             elif letter not in used:
-                _check_left(letter, word, taker)
+                self._check_left(word, own, taker)
                 left.append(letter)
         return acts, left
 
@@ -204,11 +207,20 @@ class Planner:
         if letter not in self.axes:
             raise CodeError("E207", word.column, letter)
 
+    def _check_left(self, word: Word, own: list[Code], taker: Code | None) -> None:
+        """A word that no code of the block uses: only the motion that is active can."""
+        if word.letter not in _MOTION_WORDS or taker is not None:
+            raise self._meaningless(word, own)
 
-def _check_left(letter: str, word: Word, taker: Code | None) -> None:
-    """A word that no code of the block uses: only the motion that is active can."""
-    if letter not in _MOTION_WORDS or taker is not None:
-        raise CodeError("E206", word.column, letter)
+    def _check_barred(self, own: list[Code], words: dict[str, Word]) -> None:
+        if any(code.axes is Axes.BARRED for code in own):
+            for letter in AXIS_LETTERS:
+                if letter in words:
+                    raise self._meaningless(words[letter], own)
+
+    def _meaningless(self, word: Word, own: list[Code]) -> CodeError:
+        hint = self._refusals.of_word(word.letter, [code.name for code in own])
+        return CodeError("E206", word.column, word.letter, hint)
 
 
 def _moves(own: list[Code], words: dict[str, Word]) -> bool:
@@ -245,24 +257,19 @@ def _taker(codes: list[tuple[Code, Word]]) -> Code | None:
     return found
 
 
-def _check_barred(own: list[Code], words: dict[str, Word]) -> None:
-    if any(code.axes is Axes.BARRED for code in own):
-        for letter in AXIS_LETTERS:
-            if letter in words:
-                raise CodeError("E206", words[letter].column, letter)
-
-
-def _check_limits(codes: list[tuple[Code, Word]], acts: list[Code], words: dict[str, Word]) -> None:
+def _check_limits(
+    codes: list[tuple[Code, Word]], acts: list[Code], words: dict[str, Word], refusals: Refusals
+) -> None:
     places = dict(codes)
     for code in acts:
         for limit in code.limits:
             word = words.get(limit.letter)
             if word is None:
                 if limit.is_needed:
-                    at = places.get(code)
-                    raise CodeError(
-                        limit.error, at.column if at else 1, f"{limit.letter} is missing"
-                    )
+                    column = places[code].column if code in places else 1
+                    reasons = (refusals.of_word(letter, [code.name]) for letter in words)
+                    hint = next(filter(None, reasons), "")
+                    raise CodeError(limit.error, column, f"{limit.letter} is missing", hint)
             else:
                 _check_written(limit, words)
 

@@ -9,9 +9,14 @@ from openacr.cnc import occupied
 from openacr.cnc.codes import DIALECTS, Axes, Code, Dialect, Group, Limit, Step
 from openacr.cnc.dialects import acromill, rs274ngc  # noqa: F401  fill the dialects
 from openacr.cnc.findings import TEXTS
+from openacr.cnc.refusals import other_dialect
 
 MADE_BY = "Written by `make docs` from the tables of `openacr.cnc`; do not edit."
 LETTERS = "Words that act by themselves. Other letters are data of the codes of their block."
+REFUSED = (
+    "What programs of other controls write and this dialect has not, with the hint of the error."
+    " Values beyond their limits, and the errors at the end of this page, come on top."
+)
 OCCUPIED = (
     "Programs of the card, part programs and other hosts leave these alone; part programs may read"
     " them."
@@ -68,6 +73,26 @@ def _dialect(dialect: Dialect) -> Iterator[str]:
         yield f"### Words of {dialect.name}"
         yield LETTERS
         yield _rows(("word", "meaning"), ((code.letter, code.summary) for code in named))
+    yield f"### Refused by {dialect.name}"
+    yield REFUSED
+    yield _rows(("what", "error", "reason"), _refused(dialect))
+
+
+def _refused(dialect: Dialect) -> Iterator[tuple[str, ...]]:
+    """What the dialect refuses with a reason, then the codes other dialects have alone."""
+    refusals = dialect.grammar.refusals
+    for row in refusals.rows:
+        yield row.shown, row.error, row.reason
+    for other in DIALECTS.values():
+        pairs = ((dialect.table.gcodes, other.table.gcodes),
+                 (dialect.table.mcodes, other.table.mcodes))  # fmt: skip
+        left = [
+            [code for number, code in sorted(theirs.items())
+             if number not in own and not refusals.of_code(code.name)]
+            for own, theirs in pairs
+        ]  # fmt: skip
+        if any(left):
+            yield " ".join(map(_names, filter(None, left))), "E203, E205", other_dialect(other.name)
 
 
 def _codes(codes: Iterable[Code], *, has_groups: bool) -> str:
@@ -86,7 +111,18 @@ def _codes(codes: Iterable[Code], *, has_groups: bool) -> str:
 
 
 def _names(codes: list[Code]) -> str:
-    """`G17`, `G17 G18 G19`, or `G101 ... G199` for many."""
+    """`G17 G18 G19`, or `G101 … G199` for many in a row."""
+    runs: list[list[Code]] = []
+    for code in codes:
+        if runs and code.number == runs[-1][-1].number + 1:
+            runs[-1].append(code)
+        else:
+            runs.append([code])
+    return " ".join(map(_run, runs))
+
+
+def _run(codes: list[Code]) -> str:
+    """Codes of consecutive numbers."""
     if len(codes) > 4:
         return f"{codes[0].name} … {codes[-1].name}"
     return " ".join(code.name for code in codes)

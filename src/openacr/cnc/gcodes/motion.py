@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc import arcs
 from openacr.cnc.cells import EPSILON
 from openacr.cnc.codes import Group, Step
+from openacr.cnc.findings import CodeError
 from openacr.cnc.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.modal import INVERSE_TIME
 from openacr.cnc.radii import Words, check_radii
@@ -48,29 +49,36 @@ def select(run: Interpreter, b: Turn) -> None:
 def motion(run: Interpreter, b: Turn) -> Iterator[Entry] | None:
     """Move as the active motion or cycle does."""
     if run.modal.cycle != NO_CYCLE:
-        check_words(b, CYCLE_WORDS)
+        check_words(run, b, CYCLE_WORDS)
         return drill(run, b)
     run.motions[run.modal.motion](run, b)
     return None
 
 
-def check_words(b: Turn, allowed: str) -> None:
+def check_words(run: Interpreter, b: Turn, allowed: str) -> None:
     """Refuse words the active motion has no use for."""
     for word in b.plan.modal_words:
         if word not in allowed:
-            raise b.fault("E206", word, word)
+            raise meaningless(run, b, word)
+
+
+def meaningless(run: Interpreter, b: Turn, word: str) -> CodeError:
+    """The error at a word that neither the codes of the block nor the active motion use."""
+    names = [f"G{run.modal.motion:g}", *[code.name for code in b.plan.codes]]
+    hint = run.dialect.grammar.refusals.of_word(word, names)
+    return b.fault("E206", word, word, hint)
 
 
 def rapid(run: Interpreter, b: Turn) -> None:
     """G0."""
-    check_words(b, "")
+    check_words(run, b, "")
     run.path.rapid(b, run.path.end(b))
 
 
 def line(run: Interpreter, b: Turn) -> None:
     """G1."""
     if b.plan.modal_words:
-        check_words(b, "")
+        check_words(run, b, "")
     end = run.path.end(b)
     run.path.line(b, end, _pace(run, b, end, None))
 
@@ -86,7 +94,7 @@ def _pace(run: Interpreter, b: Turn, end: Point, bow: Bow | None) -> Pace:
 
 
 def _arc(run: Interpreter, b: Turn, direction: int) -> None:
-    check_words(b, _LENGTHS)
+    check_words(run, b, _LENGTHS)
     path, modal = run.path, run.modal
     plane, end = modal.plane_axes, path.end(b)
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
@@ -109,7 +117,7 @@ def counter_clockwise(run: Interpreter, b: Turn) -> None:
 
 def no_motion(run: Interpreter, b: Turn) -> None:
     """Axis words without an active motion."""
-    raise b.fault("E206", b.plan.axes[0][1] if b.plan.axes else b.plan.modal_words[0])
+    raise meaningless(run, b, b.plan.axes[0][1] if b.plan.axes else b.plan.modal_words[0])
 
 
 Motions = dict[float, Callable[["Interpreter", "Turn"], None]]

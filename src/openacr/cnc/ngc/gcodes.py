@@ -215,6 +215,11 @@ def feed_mode(run: Interpreter, b: Turn) -> None:
     run.path.change_pace()
 
 
+@gcode(97, step=Step.SPEED)
+def turns_per_minute(run: Interpreter, b: Turn) -> None:
+    """S is turns per minute, as it always is."""
+
+
 @gcode(92.1, 92.2, 92.3, step=Step.ZERO)
 def zero_offset(run: Interpreter, b: Turn) -> None:
     """The offset of G92 cleared (.1), set aside (.2), taken again (.3)."""
@@ -241,8 +246,11 @@ def offsets(run: Interpreter, b: Turn) -> Iterator[Entry]:
     if last is None or "P" not in b.words:
         raise b.fault("E241", "L", hint="L 1, 2, 10, 11 or 20 with P")
     n = b.whole("P", code="E241")
-    if not (0 if last == 9 else 1) <= n <= last or (last == 9 and "R" in b.words):
+    if not (0 if last == 9 else 1) <= n <= last:
         raise b.fault("E241", "P")
+    if last == 9 and "R" in b.words:
+        hint = run.dialect.grammar.refusals.of_word("R", ["G10"])
+        raise b.fault("E241", "R", "R", hint)
     yield from run.sync(b.source)
     with run.cells.transaction():
         if last == 9:
