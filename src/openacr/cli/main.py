@@ -79,6 +79,11 @@ COMMANDS: dict[str, Entry | Family] = {
     ),
     "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
     "check": Entry("check", "check_file", "Find every error in a controller file."),
+    "schema": Entry(
+        "schema",
+        "show_schema",
+        "Print the JSON schema of machine.toml, scenario.toml or configure.toml.",
+    ),
     "packet": Entry(
         "packet", "explain_packet", "Take binary packets apart: every field with its meaning."
     ),

@@ -43,6 +43,14 @@ STRUCT_OF_KEY: dict[str, type[Struct]] = {
 _SUBJECTS = ("parameter", "flag", "axis", "program", "printed", "between")
 _DEEDS = ("set", "clear", "release", "press", "send", "key", "drag", "analog", "fault", "mend",
           "checkpoint")  # fmt: skip
+_CONDITIONS = ("bit", "parameter", "axis", "printed", "program")
+_MOMENTS = ("time_s", "when", "after")
+# Of each of these sets an entry has at least one key; of those below it has exactly one.
+AT_LEAST_ONE: dict[type[Struct], tuple[tuple[str, ...], ...]] = {Action: (_MOMENTS, _DEEDS)}
+EXACTLY_ONE: dict[type[Struct], tuple[str, ...]] = {
+    Condition: _CONDITIONS,
+    Expectation: _SUBJECTS,
+}
 _COMPANIONS = {
     "parameter": {"is", "above", "below", "tolerance"},
     "flag": {"is"},
@@ -105,7 +113,7 @@ def _moment(
     required: bool,
 ) -> Iterator[Problem]:
     keys = given(item)
-    relative = keys & {"when", "after"}
+    relative = keys & set(_MOMENTS) - {"time_s"}
     if "time_s" in keys and relative | (keys & {"delay_s"}):
         other = sorted(relative | (keys & {"delay_s"}))[0]
         yield Problem((*where, "time_s"), f"`time_s` and `{other}` exclude each other")
@@ -137,11 +145,9 @@ def _unknown(where: tuple[Step, ...], name: str, known: AbstractSet[str]) -> Pro
 
 def _condition(where: tuple[Step, ...], condition: Condition) -> Iterator[Problem]:
     keys = given(condition)
-    subjects = keys & {"bit", "parameter", "axis", "printed", "program"}
+    subjects = keys & set(_CONDITIONS)
     if len(subjects) != 1:
-        yield Problem(
-            where, "a condition has exactly one of bit, parameter, axis, printed, program"
-        )
+        yield Problem(where, "a condition has exactly one of " + ", ".join(_CONDITIONS))
         return
     subject = subjects.pop()
     companions = {
