@@ -13,6 +13,8 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of t
 
 SPINDLE, FLOOD = 40, 41
 CELLS = {800_005: SPINDLE, 800_010: FLOOD, 800_002: 3, 800_001: 0.01}
+LINK_TIMEOUT, SHORTEST_S = 250_126, 1.5
+PATIENT_S = 20.0  # for hosts that have to live on a busy computer
 LONG = "M3 S500\nM8\nF60\nG1 X100\nM2\n"
 
 
@@ -35,6 +37,7 @@ def test_a_kill_of_another_terminal_ends_a_run_over_a_link(plant: Plant) -> None
 
 
 def test_a_line_that_freezes_for_long_ends_the_program_at_rest(plant: Plant) -> None:
+    plant.wire({LINK_TIMEOUT: SHORTEST_S})
     with Proxy(plant.address) as line:
         run = plant.mill("run", plant.part(LONG), "--quiet", host=line.address)
         until(lambda: plant.is_moving)
@@ -46,23 +49,20 @@ def test_a_line_that_freezes_for_long_ends_the_program_at_rest(plant: Plant) -> 
     assert (plant.outputs(SPINDLE, FLOOD), plant.is_at_rest) == ([False, False], True)
 
 
-def test_a_line_that_is_reset_goes_on_with_the_part_or_ends_it_at_rest(plant: Plant) -> None:
-    """It goes on between two actions; in one of them it is not known what the card has done."""
+def test_a_line_that_is_reset_again_and_again_goes_on_with_the_part(plant: Plant) -> None:
+    plant.wire({LINK_TIMEOUT: PATIENT_S})
     with Proxy(plant.address) as line:
-        part = plant.part("M3 S500\nF120\n" + "G1 X.2\nY.2\nX0\nY0\n" * 4 + "X.5\nM2\n")
+        part = plant.part("M3 S500\nF60\n" + "G1 X.2\nY.2\nX0\nY0\n" * 6 + "X.5\nM2\n")
         run = plant.mill("run", part, "--quiet", host=line.address)
-        until(lambda: plant.is_moving)
-        line.reset()
-        code = run.ended()
-    assert (plant.outputs(SPINDLE), plant.is_at_rest) == ([False], True)
-    if code == 0:
-        assert (run.text, plant.places()) == ("", [5000, 0, 0])
-    else:
-        assert code == 1
-        assert "alarm 3: Link lost" in run.text
+        for _ in range(4):
+            until(lambda: plant.is_moving)
+            line.reset()
+        assert (run.ended(), run.text) == (0, "")
+    assert (plant.outputs(SPINDLE), plant.places()) == ([False], [5000, 0, 0])
 
 
 def test_a_line_that_stays_cut_is_reported_and_given_up(plant: Plant) -> None:
+    plant.wire({LINK_TIMEOUT: SHORTEST_S})
     with Proxy(plant.address) as line:
         run = plant.mill("run", plant.part(LONG), "--quiet", host=line.address)
         until(lambda: plant.is_moving)

@@ -2,6 +2,9 @@
 
 from typing import cast
 
+import pytest
+
+from openacr.client import ConnectionLostError
 from openacr.mill.machine import Machine
 from openacr.mill.published import Published
 from openacr.mill.settings import Store
@@ -36,3 +39,19 @@ def test_a_cell_and_a_variable_of_one_number_are_two_places() -> None:
     published.variable(95, 1.0)
     published.variable(95, 3.0)
     assert (cells.lines, card.lines) == ([(95, 1.0)], [(95, 1.0), (95, 3.0)])
+
+
+def test_a_variable_that_could_not_be_written_is_written_once_more() -> None:
+    class Failing(Log):
+        def write(self, number: int, value: float) -> None:
+            super().write(number, value)
+            if len(self.lines) == 1:
+                raise ConnectionLostError("gone")
+
+    cells, card = Log(), Failing()
+    published = Published(cast(Store, cells), cast(Machine, card))
+    with pytest.raises(ConnectionLostError):
+        published.variable(95, 1.0)
+    published.variable(95, 1.0)
+    published.variable(95, 1.0)
+    assert card.lines == [(95, 1.0), (95, 1.0)]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import TypeAlias
 
+from openacr.client import ConnectionLostError
 from openacr.cnc.occupied import TOOL_LOADED, TOOL_REQUESTED
 from openacr.mill import alarms
 from openacr.mill.alarms import Kind
@@ -79,9 +80,14 @@ class Spindle:
 
     def set_override(self, factor: float) -> None:
         """A new spindle override."""
-        if factor != self.override:
-            self.override = factor
+        before, self.override = self.override, factor
+        if factor == before:
+            return
+        try:
             self.set_speed(self.rpm)
+        except ConnectionLostError:
+            self.override = before  # so that it is written once more
+            raise
 
     def start(self, direction: int, rpm: float) -> Steps:
         """M3 or M4."""

@@ -37,6 +37,7 @@ class Course:
         self.tracker = Tracker()
         self.moves = 0  # moves sent
         self.is_retaking = False  # the card is on its way to rest, to give its moves back
+        self.may_lack_moves = False  # some that were sent in a pause's beginning may be lost
         self._machine = panel.machine
         self._doing = doing
         self._depth = depth
@@ -93,11 +94,13 @@ class Course:
         room = self._depth - self.tracker.waiting
         feed.read(room)
         jobs = feed.take(room, is_urgent=feed.is_starved and self._is_short())
-        self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
-        is_at_rest = self.tracker.is_at_end(look)
-        for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
-            for _ in self._doing.steps(note):
-                pass  # none of them waits
+        is_at_rest = False
+        with self._machine.repeating():
+            self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
+            is_at_rest = self.tracker.is_at_end(look)
+            for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
+                for _ in self._doing.steps(note):
+                    pass  # none of them waits
         halt = feed.halt if feed.is_empty and is_at_rest else None
         if halt is not None and (moved := self._moved_by_others()):
             return Fault(alarms.NOT_IN_PLACE, moved)
@@ -205,15 +208,18 @@ class Course:
         )
 
     def retake(self) -> Steps:
-        """Stop, take every move back that is not done, and read them again."""
-        feed = self._feed
-        if feed is None:
+        """Stop, take every move back that is not done, and read them again.
+
+        It may be broken off anywhere, and begun once more.
+        """
+        if self._feed is None:
             return
         self.is_retaking = True
         try:
-            self._machine.hold()
-            yield self.stops()
-            yield from self.put_back(self.host.position())
+            with self._machine.repeating():
+                self._machine.hold()
+                yield self.stops()
+                yield from self.put_back(self.host.position())
         finally:
             self.is_retaking = False
 
@@ -294,6 +300,7 @@ class Course:
         self._machine.clear_kill()
         self._machine.reset_counter()
         self.tracker.reset()
+        self.may_lack_moves = False
         # What was seen before the counter was reset must not pass for the end of new moves.
         yield Until(
             "kill is cleared", lambda look: not look.is_killed and look.counter == 0, CLEAR_S

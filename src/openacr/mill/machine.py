@@ -4,7 +4,8 @@ Everything goes through the host interface - packets, flags, lines of text - so 
 same run drives the virtual card and a real one.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -49,7 +50,7 @@ class Look:
     was_reset: bool = False  # the clock of the card has begun anew
     has_tripped: bool = False  # the watchdog has stopped the machine
     is_guarded: bool = True  # the watchdog runs, where there is one
-    may_have_lost: bool = False  # packets sent behind the last look: the connection is a new one
+    may_have_lost: bool = False  # something that was sent: the connection is a new one
 
     @property
     def is_moving(self) -> bool:
@@ -90,6 +91,10 @@ def flag_of(word: int, mask: int) -> int:
     return (word - FIRST_FLAG_WORD) * BITS_PER_WORD + mask.bit_length() - 1
 
 
+class StepLostError(ConnectionLostError):
+    """The connection broke in something that the next look repeats."""
+
+
 class Machine:
     """The axes of one master of a card."""
 
@@ -110,6 +115,7 @@ class Machine:
         self._watchdog: int | None = None
         self._connections = card.connections
         self._has_told = False  # since the last look
+        self._has_lost = False  # packets, or what was being sent when a connection broke
         self._barred = ""  # why nothing is sent to the card any more
 
     # --- seeing -----------------------------------------------------------------------
@@ -142,7 +148,7 @@ class Machine:
         """Ask the card how it stands."""
         clock, master, counter, inputs, *words = map(int, self._read_many(self._watched))
         is_new = self.card.connections != self._connections
-        has_lost = is_new and self._has_told
+        self._has_lost = self._has_lost or (is_new and self._has_told)
         self._connections, self._has_told = self.card.connections, False
         step_ms = 0 if self._clock_ms is None else (clock - self._clock_ms) % CLOCK_PERIOD_MS
         was_reset = step_ms > CLOCK_PERIOD_MS // 2  # backwards
@@ -157,7 +163,7 @@ class Machine:
             was_reset=was_reset,
             has_tripped=bool(flags & TRIPPED_MASK),
             is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
-            may_have_lost=has_lost,
+            may_have_lost=self._has_lost,
         )  # fmt: skip
         self._note_clearing(is_killed=look.is_killed)
         return look
@@ -210,8 +216,29 @@ class Machine:
         if self._barred:
             raise ConnectionLostError(f"{self.card.name}: {self._barred}")
 
+    @contextmanager
+    def repeating(self) -> Iterator[None]:
+        """What is sent in here is sent again where the connection breaks: StepLostError.
+
+        The looks behind it tell `may_have_lost`, as for packets, which have no answer.
+        """
+        try:
+            yield
+        except ConnectionLostError as lost:
+            self._has_lost = True
+            raise StepLostError(str(lost)) from lost
+
+    def forget_losses(self) -> None:
+        """What may have been lost is being sent again, or is not wanted any more."""
+        self._has_lost = False
+
     def send(self, moves: Iterable[Move]) -> None:
-        """Moves for the buffer of the master."""
+        """Moves for the buffer of the master, on the connection of the last look alone.
+
+        On a newer one they could follow moves that were lost.
+        """
+        if self._has_lost or self.card.connections != self._connections:
+            raise ConnectionLostError(f"{self.card.name}: connected again since the last look")
         self._tell(*moves)
 
     def write(self, parameter: int, value: float) -> None:
@@ -249,10 +276,11 @@ class Machine:
     def clear_kill(self) -> None:
         """Let the master move again.
 
-        A stop that was requested while moves were killed already waits on the card, and
-        would kill again: it is taken back first.
+        A stop or a feed hold that was requested while moves were killed already waits on the
+        card, and would act on the next moves: both are taken back first.
         """
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
         self.is_dropping, self._clear_by_s = True, self.now_s + CLEAR_S
         self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
 

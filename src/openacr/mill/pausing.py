@@ -70,10 +70,15 @@ class Pausing:
             self._script.begin(self._course.rejoin(target, left))
         elif is_taken_back or self._course.is_retaking:
             return  # the card holds no move that goes on, or none that shall
-        elif self._status.options.is_single and not self._script.is_active:
+        elif self._reads_again and not self._script.is_active:
             self._script.begin(self._course.retake())
         else:
             self._machine.go_on()
+
+    @property
+    def _reads_again(self) -> bool:
+        """Whether the moves of the card are not simply gone on with."""
+        return self._status.options.is_single or self._course.may_lack_moves
 
     def close(self) -> None:
         """The program is over: there is nothing to come back to."""

@@ -1,10 +1,12 @@
 """What other programs read of a run: cells of the store and variables of the card."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from openacr.mill.machine import Machine
 from openacr.mill.settings import Store
 
+Write = Callable[[int, float], None]
 EXECUTING_LINE, RUN_STATE, PARTS, LAST_ALARM, FEED_PERCENT, RUN_TIME = range(243, 249)
 
 
@@ -27,15 +29,13 @@ class Published:
 
     def cell(self, n: int, value: float) -> None:
         """A cell of the store."""
-        if self._is_new(False, n, value):
-            self._store.write(n, value)
+        self._keep((False, n), value, self._store.write)
 
     def variable(self, n: int, value: float) -> None:
         """A variable of the card."""
-        if self._is_new(True, n, value):
-            self._machine.write(n, value)
+        self._keep((True, n), value, self._machine.write)
 
-    def _is_new(self, on_card: bool, n: int, value: float) -> bool:
-        is_new = self._written.get((on_card, n)) != value
-        self._written[(on_card, n)] = value
-        return is_new
+    def _keep(self, place: tuple[bool, int], value: float, write: Write) -> None:
+        if self._written.get(place) != value:
+            write(place[1], value)
+            self._written[place] = value  # one that failed is written again

@@ -25,7 +25,7 @@ from openacr.mill.halting import Halting
 from openacr.mill.hands import Hands
 from openacr.mill.homing import home
 from openacr.mill.jogging import Jogging
-from openacr.mill.machine import LINK_ERRORS, Look, Machine
+from openacr.mill.machine import LINK_ERRORS, Look, Machine, StepLostError
 from openacr.mill.overrides import Overrides
 from openacr.mill.panel import Panel
 from openacr.mill.passes import Passes
@@ -320,6 +320,8 @@ class Runner:
             return
         try:
             self._do(look)
+        except StepLostError as lost:
+            self._supervision.miss_look(lost)
         except LINK_ERRORS:
             self._supervision.lose_link()
         except StoreError as error:
@@ -328,7 +330,8 @@ class Runner:
     def _do(self, look: Look) -> None:
         self._times.look(self.machine.now_s)
         self.course.tracker.update(look.counter)
-        barrier.keep(self.panel, look)
+        with self.machine.repeating():
+            barrier.keep(self.panel, look)
         self._supervision.keep(look, self._times.step_s)
         self._switches.keep(look, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(look)
@@ -339,8 +342,9 @@ class Runner:
         if self._is_reading:
             self._advance(look)
         is_cutting = not self.options.is_dry and not self.retrace.is_active
-        self._burner.keep(look, is_cutting=is_cutting and self.course.has_program)
-        self._console.keep(look, self._times, self._facts)
+        with self.machine.repeating():
+            self._burner.keep(look, is_cutting=is_cutting and self.course.has_program)
+            self._console.keep(look, self._times, self._facts)
 
     @property
     def _is_reading(self) -> bool:

@@ -78,11 +78,13 @@ class Supervision:
     def keep(self, look: Look, step_s: float) -> None:
         """Alarms for what is wrong, each once until it is acknowledged."""
         self._reach.answer()
+        self._panel.machine.forget_losses()
         if self._owes_rest:
             self._owes_rest = False
             self._bring_to_rest()
         elif look.may_have_lost:
-            self._renew()
+            with self._panel.machine.repeating():
+                self._renew()
         if step_s > self._panel.settings.link_timeout_s and self.is_busy:
             self.give(alarms.HOST_AWAY, f"{step_s:.1f}")
         if self._does_not_begin(look):
@@ -177,18 +179,20 @@ class Supervision:
                 close()
 
     def _renew(self) -> None:
-        """Packets sent before a new connection may be lost: say again what the card has to know.
+        """Packets sent before a new connection may be lost: send again what the card has to know.
 
         Moves are taken back and sent once more from where the machine comes to rest; an
-        action that has begun cannot be repeated, so it ends the program.
+        action or a trace that has begun cannot be repeated, so it ends the program.
         """
         self._panel.renew()
         self._console.renew()
-        if self._status.state is State.PAUSED:
-            self._panel.machine.hold()
-        elif self._script.is_active and not self._status.is_over:
+        is_acting = self._script.is_active and not self._course.is_retaking
+        if self._retrace.is_active or (is_acting and self._status.is_under_way):
             self.lose_link()
-        elif self._status.state is State.RUN:
+        elif self._status.state is State.PAUSED:
+            self._panel.machine.hold()
+            self._course.may_lack_moves = True
+        elif self._status.is_under_way:
             self._script.begin(self._course.retake())
 
     def _bring_to_rest(self) -> None:
