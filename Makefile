@@ -31,7 +31,7 @@ INSTALLED := $(VENV)/.installed
 BUILT := $(VENV)/.built
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
 	src/openacr/messages.py \
-	$(wildcard src/openacr/map/numbers.py) $(shell find src -name '*_cy.py')
+	$(wildcard src/openacr/map/numbers.py src/openacr/map/rows/*.py src/openacr/map/words/*.py) $(shell find src -name '*_cy.py')
 # Tests of the core run a second time as plain Python where the core is compiled.
 PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2

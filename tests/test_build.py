@@ -2,6 +2,7 @@
 
 import ast
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 from openacr import compiled, messages, unity
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
+from openacr.map.rows import axes, kernel
 from openacr.unity import source_hash, unity_source, write_unity
 from openacr.unity_c import UnityError
 
@@ -54,7 +56,11 @@ def test_an_unchanged_source_keeps_its_time_and_a_changed_one_is_written(
 
 
 def joined(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> str:
-    source = tmp_path / "small_cy.py"
+    folder = tmp_path / str(
+        len(list(tmp_path.iterdir()))
+    )  # what a file imports is kept by its name
+    folder.mkdir()
+    source = folder / "small_cy.py"
     source.write_text(HEAD + text)
     monkeypatch.setattr(unity, "source_files", lambda: [source])
     return unity_source()
@@ -125,6 +131,67 @@ def test_a_message_without_a_row_cannot_be_compiled(
     text = MESSAGE.replace("MATH_ERROR", "MATHS_ERROR")
     with pytest.raises(UnityError, match=r"messages\.MATHS_ERROR is not"):
         joined(tmp_path, monkeypatch, text)
+
+
+ROWS = "from openacr.map.words import mf1\nfrom openacr.map.rows import axes, kernel\n"
+
+
+def place_in_c(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, head: str = ROWS
+) -> str:
+    """What is compiled of a place in the state."""
+    code = f"def f(F: F64, n: int) -> float:\n    return F[{place}]\n"
+    text = joined(tmp_path, monkeypatch, head + code)
+    return text[text.index("return F[") + len("return F[") : text.rindex("]")]
+
+
+def test_a_place_in_a_row_is_the_first_place_and_a_distance(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second = axes.jog_cnt[:2]
+    distance = f"{second - first}LL"
+    assert place_in_c(tmp_path, monkeypatch, "axes.jog_cnt[n]") == f"{first}LL + n * {distance}"
+    other = place_in_c(tmp_path, monkeypatch, "axes.jog_cnt[16 + n] + 3")
+    assert other == f"{first}LL + (16LL + n) * {distance} + 3LL"
+
+
+def test_places_that_follow_each_other_are_not_multiplied(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    head = "from openacr.map.words import mf3\n"
+    assert place_in_c(tmp_path, monkeypatch, "mf3.word[n]", head) == "4256LL + n"
+
+
+def test_a_row_in_two_runs_asks_which(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = "4112LL + n if n < 8LL else 4320LL + n"
+    assert place_in_c(tmp_path, monkeypatch, "mf1.word[n]") == expected
+    head = "from openacr.map.rows import encoders\n"
+    expected = "6144LL + n * 16LL if n < 16LL else 24320LL + n * 16LL"
+    assert place_in_c(tmp_path, monkeypatch, "encoders.encoder_position[n]", head) == expected
+
+
+def test_the_place_and_the_numbers_of_a_family_are_literals(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert place_in_c(tmp_path, monkeypatch, "kernel.synced") == f"{kernel.synced}LL"
+    assert place_in_c(tmp_path, monkeypatch, "axes.COUNT + mf1.IN_MOTION") == "16LL + 16LL"
+    head = "from openacr.map.rows import axes as a\nBOTH = a.COUNT | 64\n"
+    assert place_in_c(tmp_path, monkeypatch, "BOTH", head) == "80LL"
+
+
+@pytest.mark.parametrize(
+    ("place", "message"),
+    [
+        ("mf1.word[n + 1]", "an index into a row of two runs has to be a name"),
+        ("candi.word[n]", "the places of the row lie in more than two runs"),
+    ],
+)
+def test_places_that_cannot_be_computed_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, message: str
+) -> None:
+    head = "from openacr.map.words import candi, mf1\n"
+    with pytest.raises(UnityError, match=re.escape(message)):
+        place_in_c(tmp_path, monkeypatch, place, head)
 
 
 def test_views_of_two_buffers_are_refused() -> None:

@@ -7,8 +7,10 @@ what C needs:
   `checked`, bounds-checked memoryviews); literals and what is read from views of integers
   have 64 bits before anything is computed of them, as a sum of 32-bit operands would wrap;
 - the views F, I and S of the state are passed as one pointer into their buffer;
-- module constants (`NAME = number`, those of the generated numbers module, and the numbers of
-  the card's messages) become literals, so that the inner loop never looks a name up;
+- module constants (`NAME = number`, those of the generated modules of the map, and the numbers
+  of the card's messages) become literals, so that the inner loop never looks a name up, and a
+  place in a row of the map (`masters.hold[m]`) becomes a sum: the first place of the row and m
+  times the distance to the next;
 - every function becomes a C function that cannot raise; those listed in a module's
   `__all__` also get a Python entrance `py_<name>`, which takes the views themselves.
 
@@ -21,11 +23,13 @@ import functools
 import hashlib
 import re
 from pathlib import Path
+from runpy import run_path
 
 from openacr import messages
 from openacr.unity_c import (
+    Constant,
     Inline,
-    Number,
+    Qualified,
     UnityError,
     compiled_function,
     entrance,
@@ -109,6 +113,7 @@ ORDER = (
     "cnc/scan_cy.py",
 )
 CONSTANT_MODULES = ("openacr.map.numbers",)
+ROW_PACKAGES = ("openacr.map.rows", "openacr.map.words")  # generated, as the numbers are
 
 
 def source_files() -> list[Path]:
@@ -120,7 +125,10 @@ def source_hash() -> str:
     """Fingerprint of everything that decides the content of the extension."""
     digest = hashlib.blake2b(digest_size=16)
     joining = [Path(__file__), PACKAGE / "unity_c.py"]
-    for path in [*source_files(), PACKAGE / "map" / "numbers.py", *joining]:
+    generated = [PACKAGE / "map" / "numbers.py"]
+    for package in ("rows", "words"):
+        generated += sorted((PACKAGE / "map" / package).glob("*.py"))
+    for path in [*source_files(), *generated, *joining]:
         digest.update(path.read_bytes())
     digest.update(repr(_message_numbers()).encode())
     return digest.hexdigest()
@@ -161,7 +169,7 @@ def unity_source(*, checked: bool = False) -> str:
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
 
 
-def _message_numbers() -> dict[str, Number]:
+def _message_numbers() -> dict[str, Constant]:
     """`messages.NAME.number`, as the sources write it, of every message of the card."""
     rows = vars(messages).items()
     return {
@@ -172,20 +180,34 @@ def _message_numbers() -> dict[str, Number]:
 
 
 @functools.cache
-def _module_constants(path: Path) -> dict[str, Number]:
+def _module_constants(path: Path) -> dict[str, Constant]:
     """The module-level numbers of a source file, those it imports from others included."""
-    numbers = PACKAGE / "map" / "numbers.py"
-    found = {} if path == numbers else dict(_module_constants(numbers))
+    found: dict[str, Constant] = {}
     for node in ast.parse(path.read_text()).body:
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.endswith("_cy"):
-            source = PACKAGE.parent.joinpath(*node.module.split(".")).with_suffix(".py")
-            other = _module_constants(source)
-            found.update({a.name: other[a.name] for a in node.names if a.name in other})
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= _imported_constants(node)
         _take_constant(node, found)
     return found
 
 
-def _take_constant(node: ast.stmt, constants: dict[str, Number]) -> bool:
+def _imported_constants(node: ast.ImportFrom) -> dict[str, Constant]:
+    """What an import brings in: numbers by their names, rows as `module.name`."""
+    module = node.module or ""
+    source = PACKAGE.parent.joinpath(*module.split("."))
+    if module in ROW_PACKAGES:
+        return {
+            f"{each.asname or each.name}.{name}": value
+            for each in node.names
+            for name, value in run_path(str(source / f"{each.name}.py")).items()
+            if not name.startswith("_")
+        }
+    if module not in CONSTANT_MODULES and not module.endswith("_cy"):
+        return {}
+    others = _module_constants(source.with_suffix(".py"))
+    return {each.name: others[each.name] for each in node.names if each.name in others}
+
+
+def _take_constant(node: ast.stmt, constants: dict[str, Constant]) -> bool:
     """Record `NAME = expression of numbers and known constants`; False if it is not one."""
     if isinstance(node, ast.AnnAssign) and node.value is not None:
         target: ast.expr = node.target
@@ -197,8 +219,8 @@ def _take_constant(node: ast.stmt, constants: dict[str, Number]) -> bool:
     if not isinstance(target, ast.Name) or not target.id.isupper():
         return False
     try:
-        text = compile(ast.Expression(value), "<constant>", "eval")
-        number = eval(text, {"__builtins__": {}}, dict(constants))
+        plain = ast.fix_missing_locations(ast.Expression(Qualified(constants).visit(value)))
+        number = eval(compile(plain, "<constant>", "eval"), {"__builtins__": {}}, dict(constants))
     except (NameError, TypeError):
         return False
     if isinstance(number, bool) or not isinstance(number, int | float):
@@ -237,7 +259,9 @@ def _check_import(node: ast.ImportFrom, path: Path, math_names: set[str]) -> Non
         math_names.update(alias.name for alias in node.names)
     elif module == "openacr" and [alias.name for alias in node.names] == ["messages"]:
         return
-    elif module not in (*CONSTANT_MODULES, "openacr.views") and not module.endswith("_cy"):
+    elif module not in (*CONSTANT_MODULES, *ROW_PACKAGES, "openacr.views") and not (
+        module.endswith("_cy")
+    ):
         raise UnityError(f"{path.name}:{node.lineno}: import of {module} cannot be compiled")
 
 

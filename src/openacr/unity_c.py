@@ -2,12 +2,15 @@
 
 import ast
 import copy
+from collections.abc import Mapping
+from itertools import pairwise
 
 SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
 VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
 INTEGER_VIEWS = ("I32", "U8")  # elements narrower than the integers of the sources
 STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
 Number = int | float
+Constant = Number | tuple[int, ...]  # a tuple: the places of a row, one for each object
 
 
 class UnityError(Exception):
@@ -19,15 +22,26 @@ def is_docstring(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
 
 
+class Qualified(ast.NodeTransformer):
+    """Numbers of imported modules (`axes.COUNT`) become literals."""
+
+    def __init__(self, constants: Mapping[str, Constant]) -> None:
+        self.constants = constants
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        number = self.constants.get(ast.unparse(node))
+        return ast.Constant(number) if isinstance(number, int | float) else node
+
+
 class Inline(ast.NodeTransformer):
     """Constants become literals, int() and float() casts; every integer has 64 bits.
 
     C computes with the widest of its operands, so an element of a 32-bit view plus a
     literal would wrap at 2**31 where Python goes on. What is read from a view of integers
-    is widened before anything is done with it.
+    is widened before anything is done with it. A place in a row becomes its sum.
     """
 
-    def __init__(self, constants: dict[str, Number]) -> None:
+    def __init__(self, constants: Mapping[str, Constant]) -> None:
         self.constants = constants
         self._narrow: set[str] = set()
 
@@ -41,7 +55,10 @@ class Inline(ast.NodeTransformer):
         return node
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        row = self._row_of(node.value)
         self.generic_visit(node)
+        if row is not None:
+            return _place(row, node.slice, ast.unparse(node))
         is_narrow = isinstance(node.value, ast.Name) and node.value.id in self._narrow
         if is_narrow and isinstance(node.ctx, ast.Load):
             return _cast("int", [node])
@@ -61,18 +78,24 @@ class Inline(ast.NodeTransformer):
         return node
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
-        if isinstance(node.ctx, ast.Load) and node.id in self.constants:
-            return _literal(self.constants[node.id])
+        constant = self.constants.get(node.id)
+        if isinstance(node.ctx, ast.Load) and isinstance(constant, int | float):
+            return _literal(constant)
         return node
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
-        number = self.constants.get(ast.unparse(node))
-        if number is not None:
-            return _literal(number)
+        constant = self.constants.get(ast.unparse(node))
+        if isinstance(constant, int | float):
+            return _literal(constant)
         if isinstance(node.value, ast.Name) and node.value.id == "messages":
             raise UnityError(f"messages.{node.attr} is not `messages.<row>.number`")
         self.generic_visit(node)
         return node
+
+    def _row_of(self, node: ast.expr) -> tuple[int, ...] | None:
+        """The places of a row, if an expression names one."""
+        row = self.constants.get(ast.unparse(node)) if isinstance(node, ast.Attribute) else None
+        return row if isinstance(row, tuple) else None
 
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         return _literal(node.value) if type(node.value) is int else node
@@ -88,6 +111,32 @@ def _cast(kind: str, values: list[ast.expr]) -> ast.Call:
     """A C cast to the scalar that Python calls int or float."""
     cast = ast.parse("cython.cast", mode="eval").body
     return ast.Call(cast, [ast.parse(SCALARS[kind], mode="eval").body, *values], [])
+
+
+def _place(row: tuple[int, ...], index: ast.expr, text: str) -> ast.expr:
+    """The place of object `index` in a row, computed; a row may have one break."""
+    steps = [after - before for before, after in pairwise(row)]
+    breaks = [n for n, step in enumerate(steps, 1) if step != steps[0]]
+    if not breaks:
+        return _line(row[0], steps[0], index)
+    second = row[breaks[0] :]
+    if row != (*_run(row[0], steps[0], breaks[0]), *_run(second[0], steps[0], len(second))):
+        raise UnityError(f"{text}: the places of the row lie in more than two runs")
+    if not isinstance(index, ast.Name):
+        raise UnityError(f"{text}: an index into a row of two runs has to be a name")
+    is_low = ast.Compare(index, [ast.Lt()], [_literal(breaks[0])])
+    high = _line(second[0] - steps[0] * breaks[0], steps[0], index)
+    return ast.IfExp(is_low, _line(row[0], steps[0], index), high)
+
+
+def _run(first: int, step: int, count: int) -> range:
+    return range(first, first + step * count, step)
+
+
+def _line(first: int, step: int, index: ast.expr) -> ast.expr:
+    """`first + index * step` with literals of 64 bits."""
+    distance = index if step == 1 else ast.BinOp(index, ast.Mult(), _literal(step))
+    return ast.BinOp(_literal(first), ast.Add(), distance)
 
 
 def _literal(number: Number) -> ast.expr:

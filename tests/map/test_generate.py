@@ -7,7 +7,7 @@ import pytest
 
 import openacr.map
 from openacr.map import numbers
-from openacr.map.generate import image_text, numbers_text
+from openacr.map.generate import generated_files
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.hidden.block import HiddenBlock
 from openacr.map.layout import hidden_constants, slug
@@ -15,10 +15,19 @@ from openacr.map.layout import hidden_constants, slug
 FOLDER = Path(openacr.map.__file__).parent
 
 
-@pytest.mark.parametrize(("name", "text"), [("numbers.py", numbers_text), ("image.py", image_text)])
-def test_generated_files_are_current(name: str, text: object) -> None:
-    assert callable(text)
-    assert (FOLDER / name).read_text() == text(), "run python -m openacr.map.generate"
+@pytest.mark.parametrize(("name", "text"), list(generated_files()))
+def test_generated_files_are_current(name: str, text: str) -> None:
+    assert (FOLDER / name).read_text() == text, "run python -m openacr.map.generate"
+
+
+def test_no_generated_file_is_left_of_a_family_that_is_gone() -> None:
+    kept = {name for name, _ in generated_files()}
+    present = {
+        f"{folder}/{path.name}"
+        for folder in ("rows", "words")
+        for path in FOLDER.glob(f"{folder}/*")
+    }
+    assert {name for name in present if not name.endswith(("__init__.py", "__pycache__"))} <= kept
 
 
 def hidden_bytes() -> list[tuple[int, int, str]]:
@@ -44,7 +53,9 @@ def test_hidden_rows_lie_between_user_variables_and_heap_without_overlap() -> No
 
 
 def test_a_hidden_block_names_base_stride_fields_and_sizes() -> None:
-    block = HiddenBlock(prefix="TH", count=3, doubles=("a", ("queue", 4), "b"), ints=("pc",))
+    block = HiddenBlock(
+        prefix="TH", family="threads", count=3, doubles=("a", ("queue", 4), "b"), ints=("pc",)
+    )
     named = dict(hidden_constants([block]))
     assert (named["TH_COUNT"], named["THF_STRIDE"], named["THI_STRIDE"]) == (3, 6, 1)
     assert (named["THF_A"], named["THF_QUEUE"], named["THF_B"]) == (0, 1, 5)

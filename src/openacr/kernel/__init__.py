@@ -1,1 +1,28 @@
-"""The servo tick: everything the card does in one servo period."""
+"""The servo tick: everything the card does in one servo period.
+
+The functions get the state of the card as views of its one buffer:
+
+    F   64-bit floats: hidden rows of positions, speeds, times, user variables P0 to P4095
+    I   32-bit integers: hidden rows of states and choices, LONG parameters, flag words
+    S   32-bit floats: FP32 parameters
+    U   bytes: texts, which only the scanner of part programs reads
+
+A place is `family.row[object]`, where `openacr.map.rows` names families and rows; an array row has
+its elements from there on. A flag is `I[word.word[object]] & word.FLAG` of `openacr.map.words`,
+where mf1 to mf4 are the words of a master, af1 to af6 those of an axis, sf4 that of a slave, ef
+of an encoder, cmf of a commutator, mo of outputs:
+
+    F[masters.origin_u[m]]      I[moves.plane[record] + 2]      I[mf1.word[m]] & mf1.IN_MOTION
+
+Indices have the same letters everywhere:
+
+    m   master, 0 to 15                  e   encoder, 0 to 23
+    n   axis, 0 to 15 (in profile_cy:    s   slave of a master, 0 to 15
+        profile, 0 to 47)                t   tap of a source, trigger
+    record   move, 0 to 767              b   table of a cam or ballscrew
+    c   commutator, channel              k   anything else that is counted
+
+Suffixes give units: _u programming units, _cnt pulses (counts), _ups _ups2 _ups3 units per second,
+/s2 and /s3, _cps _cps2 pulses per second and /s2, _s seconds, _tk ticks, _hz, _deg, _rad, _v volts.
+A profile (profile_cy) has the unit of its owner: programming units for masters, pulses for axes.
+"""

@@ -17,22 +17,7 @@ spline.
 """
 
 from openacr.cmath import fabs, sqrt
-from openacr.map.numbers import (
-    MQF_BASE,
-    MQF_STRIDE,
-    MQF_TARGET_CNT,
-    MQF_WEIGHT,
-    MQI_BASE,
-    MQI_CURVE,
-    MQI_CURVED,
-    MQI_DEGREE,
-    MQI_STRIDE,
-    MWF_AMPLITUDE_CNT,
-    MWF_ARC_U,
-    MWF_BASE,
-    MWF_POLE_WEIGHT,
-    MWF_STRIDE,
-)
+from openacr.map.rows import curves, moves
 from openacr.views import F64, I32
 
 __all__ = ["bezier_measure", "bezier_position", "bezier_slope", "bezier_speed", "bezier_u"]
@@ -56,17 +41,17 @@ WEIGHT_2 = 0.2369268850561891
 
 def is_bezier(I: I32, record: int) -> bool:
     """Whether a move is a piece of SPLINE or NURB."""
-    return I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE] >= CURVE_TIMED
+    return I[moves.curve[record]] >= CURVE_TIMED
 
 
 def is_timed(I: I32, record: int) -> bool:
     """Whether the path of a move is time instead of a way."""
-    return I[MQI_BASE + record * MQI_STRIDE + MQI_CURVE] == CURVE_TIMED
+    return I[moves.curve[record]] == CURVE_TIMED
 
 
 def weight_sum(F: F64, record: int, degree: int, u: float) -> float:
     """Sum of B_k(u) w_k."""
-    w: int = MWF_BASE + record * MWF_STRIDE + MWF_POLE_WEIGHT
+    w: int = curves.pole_weight[record]
     total: float = F[w]
     power: float = 1.0
     for k in range(1, degree + 1):
@@ -77,7 +62,7 @@ def weight_sum(F: F64, record: int, degree: int, u: float) -> float:
 
 def weight_rise(F: F64, record: int, degree: int, u: float) -> float:
     """Derivative of `weight_sum` after u."""
-    w: int = MWF_BASE + record * MWF_STRIDE + MWF_POLE_WEIGHT
+    w: int = curves.pole_weight[record]
     total: float = F[w + 1] - F[w]
     power: float = 1.0
     for k in range(1, degree):
@@ -88,8 +73,7 @@ def weight_rise(F: F64, record: int, degree: int, u: float) -> float:
 
 def pole(F: F64, record: int, s: int, k: int) -> float:
     """Pole k of slave s times its weight."""
-    w: int = MWF_BASE + record * MWF_STRIDE
-    return F[w + MWF_AMPLITUDE_CNT + k * SLAVES + s] * F[w + MWF_POLE_WEIGHT + k]
+    return F[curves.amplitude_cnt[record] + k * SLAVES + s] * F[curves.pole_weight[record] + k]
 
 
 def pole_sum(F: F64, record: int, s: int, degree: int, u: float) -> float:
@@ -114,8 +98,8 @@ def pole_rise(F: F64, record: int, s: int, degree: int, u: float) -> float:
 
 def bezier_position(F: F64, I: I32, record: int, s: int, u: float) -> float:
     """Position of slave s at u."""
-    target: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s]
-    degree: int = I[MQI_BASE + record * MQI_STRIDE + MQI_DEGREE]
+    target: float = F[moves.target_cnt[record] + s]
+    degree: int = I[moves.degree[record]]
     if u >= 1.0:
         return target
     return target + pole_sum(F, record, s, degree, u) / weight_sum(F, record, degree, u)
@@ -123,7 +107,7 @@ def bezier_position(F: F64, I: I32, record: int, s: int, u: float) -> float:
 
 def bezier_slope(F: F64, I: I32, record: int, s: int, u: float) -> float:
     """Change of the position of slave s with u."""
-    degree: int = I[MQI_BASE + record * MQI_STRIDE + MQI_DEGREE]
+    degree: int = I[moves.degree[record]]
     below: float = weight_sum(F, record, degree, u)
     rise: float = pole_rise(F, record, s, degree, u) * below
     turn: float = pole_sum(F, record, s, degree, u) * weight_rise(F, record, degree, u)
@@ -132,11 +116,11 @@ def bezier_slope(F: F64, I: I32, record: int, s: int, u: float) -> float:
 
 def bezier_speed(F: F64, I: I32, record: int, u: float) -> float:
     """Change of the weighted way [units] with u."""
-    curved: int = I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED]
+    curved: int = I[moves.curved[record]]
     square: float = 0.0
     for s in range(SLAVES):
         if curved & (1 << s):
-            weight: float = F[MQF_BASE + record * MQF_STRIDE + MQF_WEIGHT + s]
+            weight: float = F[moves.weight[record] + s]
             if weight != 0.0:
                 slope: float = weight * bezier_slope(F, I, record, s, u)
                 square += slope * slope
@@ -157,7 +141,7 @@ def bezier_arc(F: F64, I: I32, record: int, a: float, b: float) -> float:
 
 def bezier_measure(F: F64, I: I32, record: int) -> float:
     """Note the arcs of a curve whose poles are known; return its length."""
-    w: int = MWF_BASE + record * MWF_STRIDE + MWF_ARC_U
+    w: int = curves.arc_u[record]
     total: float = 0.0
     for k in range(ARCS):
         total += bezier_arc(F, I, record, k * PART, (k + 1) * PART)
@@ -169,7 +153,7 @@ def bezier_u(F: F64, I: I32, record: int, part: float) -> float:
     """The u at a part of the path of a move, both from 0 to 1."""
     if part <= 0.0 or part >= 1.0 or is_timed(I, record):
         return part
-    w: int = MWF_BASE + record * MWF_STRIDE + MWF_ARC_U
+    w: int = curves.arc_u[record]
     length: float = F[w + ARCS - 1]
     gone: float = part * length
     k: int = 0
@@ -200,7 +184,7 @@ def bezier_u(F: F64, I: I32, record: int, part: float) -> float:
 
 def bezier_steepest(F: F64, I: I32, record: int, s: int) -> float:
     """The largest change of the position of slave s with the part of the path, sampled."""
-    length: float = F[MWF_BASE + record * MWF_STRIDE + MWF_ARC_U + ARCS - 1]
+    length: float = F[curves.arc_u[record] + ARCS - 1]
     timed: bool = is_timed(I, record)
     largest: float = 0.0
     for k in range(SAMPLES + 1):

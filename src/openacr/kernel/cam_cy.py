@@ -35,80 +35,17 @@ from openacr.kernel.source_cy import (
     source_shown,
     trigger_step,
 )
-from openacr.map.numbers import (
-    AF1_BALLSCREW_ACTIVATE,
-    AF1_CAM_ACTIVATE,
-    AF2_CAM_TRIGGER_MODE,
-    AF2_CAM_TRIGGER_STARTED,
-    AF4_KILL_ALL_MOTION_REQUEST,
-    AF4_WORD,
-    AX_BASE,
-    AX_CAM_CYCLES,
-    AX_CAM_VELOCITY_SMOOTH,
-    AX_STRIDE,
-    AXF_BALLSCREW_CNT,
-    AXF_BASE,
-    AXF_CAM_CNT,
-    AXF_CAM_SMOOTHING_CPS,
-    AXF_STRIDE,
-    CAF_BASE,
-    CAF_BASE_CNT,
-    CAF_CYCLE,
-    CAF_INDEX_CNT,
-    CAF_POFF_CNT,
-    CAF_PON_CNT,
-    CAF_STRIDE,
-    CAF_SUM_CNT,
-    CAF_WINDOW_CNT,
-    CAI_BASE,
-    CAI_POFF,
-    CAI_PON,
-    CAI_STRIDE,
-    CAI_WINDOW_COUNT,
-    CAI_WINDOW_INDEX,
-    CAI_WINDOW_SIZE,
-    HEAP_BYTE_BASE,
-    HEAP_BYTES,
-    SRF_BASE,
-    SRF_DELTA,
-    SRF_OLD,
-    SRF_STRIDE,
-    SRI_BASE,
-    SRI_KIND,
-    SRI_STRIDE,
-    STI_BASE,
-    STI_LA_BASE,
-    STI_LA_COUNT,
-    STI_STRIDE,
-    TBF_BASE,
-    TBF_FIRST_CNT,
-    TBF_FLZ_CNT,
-    TBF_LAST_CNT,
-    TBF_LENGTH_CNT,
-    TBF_OFFSET_U,
-    TBF_SCALE,
-    TBF_SHIFT_CNT,
-    TBF_SHOWN_CNT,
-    TBF_STRIDE,
-    TBF_TOTAL_CNT,
-    TBI_ARRAY,
-    TBI_ARRAY_SIZE,
-    TBI_BASE,
-    TBI_PROGRAM,
-    TBI_RUNNING,
-    TBI_SEGMENTS,
-    TBI_STRIDE,
-    TGF_BASE,
-    TGF_OVER_CNT,
-    TGF_STRIDE,
-    TGI_BASE,
-    TGI_KIND,
-    TGI_STRIDE,
-)
+from openacr.map.numbers import HEAP_BYTE_BASE, HEAP_BYTES
+from openacr.map.rows import axes, cams, sources, storage, tables, triggers
+from openacr.map.words import af1, af2, af4
 from openacr.views import F32, F64, I32
 
 __all__ = ["array_header", "ballscrew_step", "cam_step", "table_ready", "table_value"]
 
+# Tables of references to arrays of a program: each a place, then a count.
+LONGS = 0
+SINGLES = 2
+DOUBLES = 4
 HEAP_FIRST = HEAP_BYTE_BASE >> 2
 HEAP_END = (HEAP_BYTE_BASE + HEAP_BYTES) >> 2
 PROGRAMS = 16
@@ -121,16 +58,16 @@ NOT_PASSED = 1e300
 # tables
 
 
-def array_header(I: I32, program: int, row: int, array: int, words: int) -> int:
+def array_header(I: I32, program: int, table: int, array: int, words: int) -> int:
     """Index of the header (its length) of an array of a program; 0 if there is none.
 
-    `row` is the storage row of the table of references (that of its count follows it),
+    `table` says which of its tables of references (LONGS, SINGLES, DOUBLES) names the array,
     `words` the size of an element. Every index is checked: users may write them.
     """
     if not 0 <= program < PROGRAMS:
         return 0
-    place: int = STI_BASE + program * STI_STRIDE + row
-    if not 0 <= array < I[place + STI_LA_COUNT - STI_LA_BASE]:
+    place: int = storage.la_base[program] + table
+    if not 0 <= array < I[place + 1]:  # their count
         return 0
     reference: int = I[place] + array
     if not HEAP_FIRST <= reference < HEAP_END:
@@ -145,39 +82,36 @@ def array_header(I: I32, program: int, row: int, array: int, words: int) -> int:
 
 def segment_header(I: I32, b: int, k: int) -> int:
     """Header of the points of segment k of table b, 0 if they do not exist."""
-    i: int = TBI_BASE + b * TBI_STRIDE
-    array: int = I[i + TBI_ARRAY + k] - 1
-    return array_header(I, I[i + TBI_PROGRAM + k], STI_LA_BASE, array, 1)
+    array: int = I[tables.array[b] + k] - 1
+    return array_header(I, I[tables.program[b] + k], LONGS, array, 1)
 
 
 def table_ready(F: F64, I: I32, b: int) -> bool:
     """Whether table b is complete; finds its length, first and last value."""
-    f: int = TBF_BASE + b * TBF_STRIDE
-    segments: int = min(I[TBI_BASE + b * TBI_STRIDE + TBI_SEGMENTS], TBI_ARRAY_SIZE)
+    segments: int = min(I[tables.segments[b]], tables.ARRAY_SIZE)
     total: float = 0.0
     for k in range(segments):
         header: int = segment_header(I, b, k)
-        if header == 0 or I[header] < 2 or F[f + TBF_LENGTH_CNT + k] <= 0.0:
+        if header == 0 or I[header] < 2 or F[tables.length_cnt[b] + k] <= 0.0:
             return False
         if k == 0:
-            F[f + TBF_FIRST_CNT] = I[header + 1]
-        F[f + TBF_LAST_CNT] = I[header + I[header]]
-        total += F[f + TBF_LENGTH_CNT + k]
-    F[f + TBF_TOTAL_CNT] = total
+            F[tables.first_cnt[b]] = I[header + 1]
+        F[tables.last_cnt[b]] = I[header + I[header]]
+        total += F[tables.length_cnt[b] + k]
+    F[tables.total_cnt[b]] = total
     return total > 0.0
 
 
 def table_value(F: F64, I: I32, b: int, u: float) -> float:
     """Table b, which is ready, at u source pulses from its begin; held beyond its ends."""
-    f: int = TBF_BASE + b * TBF_STRIDE
-    last: int = min(I[TBI_BASE + b * TBI_STRIDE + TBI_SEGMENTS], TBI_ARRAY_SIZE) - 1
+    last: int = min(I[tables.segments[b]], tables.ARRAY_SIZE) - 1
     k: int = 0
-    while k < last and u >= F[f + TBF_LENGTH_CNT + k]:
-        u -= F[f + TBF_LENGTH_CNT + k]
+    while k < last and u >= F[tables.length_cnt[b] + k]:
+        u -= F[tables.length_cnt[b] + k]
         k += 1
     header: int = segment_header(I, b, k)
     intervals: int = I[header] - 1
-    place: float = u * intervals / F[f + TBF_LENGTH_CNT + k]
+    place: float = u * intervals / F[tables.length_cnt[b] + k]
     place = max(0.0, min(place, float(intervals)))
     point: int = int(place)
     if point >= intervals:
@@ -192,85 +126,75 @@ def table_value(F: F64, I: I32, b: int, u: float) -> float:
 
 def cam_place(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """Put the cam offset of axis n where the index is; count the cycles that were passed."""
-    c: int = CAF_BASE + n * CAF_STRIDE
-    f: int = TBF_BASE + n * TBF_STRIDE
-    a: int = AXF_BASE + n * AXF_STRIDE
-    total: float = F[f + TBF_TOTAL_CNT]
-    index: float = F[c + CAF_INDEX_CNT] + F[f + TBF_FLZ_CNT]
+    total: float = F[tables.total_cnt[n]]
+    index: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
     cycle: float = floor(index / total)
-    if cycle != F[c + CAF_CYCLE]:
-        gain: float = (F[f + TBF_LAST_CNT] - F[f + TBF_FIRST_CNT]) * F[f + TBF_SCALE]
-        F[f + TBF_SHIFT_CNT] += (cycle - F[c + CAF_CYCLE]) * gain
-        F[c + CAF_CYCLE] = cycle
-    old: float = F[a + AXF_CAM_CNT]
-    if old != F[f + TBF_SHOWN_CNT]:
-        F[c + CAF_BASE_CNT] += old - F[f + TBF_SHOWN_CNT]
-    offset: float = F[c + CAF_BASE_CNT] + cam_formula(F, I, S, n, index - cycle * total)
-    F[a + AXF_CAM_CNT] = offset
-    F[f + TBF_SHOWN_CNT] = offset
+    if cycle != F[cams.cycle[n]]:
+        gain: float = (F[tables.last_cnt[n]] - F[tables.first_cnt[n]]) * F[tables.scale[n]]
+        F[tables.shift_cnt[n]] += (cycle - F[cams.cycle[n]]) * gain
+        F[cams.cycle[n]] = cycle
+    old: float = F[axes.cam_cnt[n]]
+    if old != F[tables.shown_cnt[n]]:
+        F[cams.base_cnt[n]] += old - F[tables.shown_cnt[n]]
+    offset: float = F[cams.base_cnt[n]] + cam_formula(F, I, S, n, index - cycle * total)
+    F[axes.cam_cnt[n]] = offset
+    F[tables.shown_cnt[n]] = offset
     cam_smooth(F, I, n, offset - old, rate_hz)
 
 
 def cam_formula(F: F64, I: I32, S: F32, n: int, u: float) -> float:
     """What the table of axis n puts out at u, without base."""
-    f: int = TBF_BASE + n * TBF_STRIDE
-    value: float = table_value(F, I, n, u) * F[f + TBF_SCALE]
-    return value + F[f + TBF_OFFSET_U] * axis_scale(S, n) + F[f + TBF_SHIFT_CNT]
+    value: float = table_value(F, I, n, u) * F[tables.scale[n]]
+    return value + F[tables.offset_u[n]] * axis_scale(S, n) + F[tables.shift_cnt[n]]
 
 
 def cam_smooth(F: F64, I: I32, n: int, moved: float, rate_hz: float) -> None:
     """The feed-forward sees the cam's speed averaged over CAM Velocity Smooth samples."""
-    c: int = CAF_BASE + n * CAF_STRIDE
-    i: int = CAI_BASE + n * CAI_STRIDE
-    size: int = I[i + CAI_WINDOW_SIZE]
-    place: int = I[i + CAI_WINDOW_INDEX]
-    if I[i + CAI_WINDOW_COUNT] < size:
-        I[i + CAI_WINDOW_COUNT] += 1
+    size: int = I[cams.window_size[n]]
+    place: int = I[cams.window_index[n]]
+    if I[cams.window_count[n]] < size:
+        I[cams.window_count[n]] += 1
     else:
-        F[c + CAF_SUM_CNT] -= F[c + CAF_WINDOW_CNT + place]
-    F[c + CAF_SUM_CNT] += moved
-    F[c + CAF_WINDOW_CNT + place] = moved
-    I[i + CAI_WINDOW_INDEX] = 0 if place + 1 >= size else place + 1
-    mean: float = F[c + CAF_SUM_CNT] / I[i + CAI_WINDOW_COUNT]
-    F[AXF_BASE + n * AXF_STRIDE + AXF_CAM_SMOOTHING_CPS] = (mean - moved) * rate_hz
+        F[cams.sum_cnt[n]] -= F[cams.window_cnt[n] + place]
+    F[cams.sum_cnt[n]] += moved
+    F[cams.window_cnt[n] + place] = moved
+    I[cams.window_index[n]] = 0 if place + 1 >= size else place + 1
+    mean: float = F[cams.sum_cnt[n]] / I[cams.window_count[n]]
+    F[axes.cam_smoothing_cps[n]] = (mean - moved) * rate_hz
 
 
 def cam_start(F: F64, I: I32, S: F32, n: int, index: float) -> None:
     """Engage the cam of axis n at an index, without a jump."""
-    c: int = CAF_BASE + n * CAF_STRIDE
-    f: int = TBF_BASE + n * TBF_STRIDE
-    i: int = CAI_BASE + n * CAI_STRIDE
-    a: int = AXF_BASE + n * AXF_STRIDE
-    total: float = F[f + TBF_TOTAL_CNT]
-    place: float = index + F[f + TBF_FLZ_CNT]
-    F[c + CAF_INDEX_CNT] = index
-    F[c + CAF_CYCLE] = floor(place / total)
-    u: float = place - F[c + CAF_CYCLE] * total
-    F[c + CAF_BASE_CNT] = F[a + AXF_CAM_CNT] - cam_formula(F, I, S, n, u)
-    F[f + TBF_SHOWN_CNT] = F[a + AXF_CAM_CNT]
-    F[c + CAF_SUM_CNT] = 0.0
-    size: int = I[AX_BASE + n * AX_STRIDE + AX_CAM_VELOCITY_SMOOTH]
-    I[i + CAI_WINDOW_SIZE] = max(1, min(size, MOST_SAMPLES))
-    I[i + CAI_WINDOW_COUNT] = 0
-    I[i + CAI_WINDOW_INDEX] = 0
-    I[TBI_BASE + n * TBI_STRIDE + TBI_RUNNING] = 1
-    I[axis_word(n)] |= AF1_CAM_ACTIVATE
+    total: float = F[tables.total_cnt[n]]
+    place: float = index + F[tables.flz_cnt[n]]
+    F[cams.index_cnt[n]] = index
+    F[cams.cycle[n]] = floor(place / total)
+    u: float = place - F[cams.cycle[n]] * total
+    F[cams.base_cnt[n]] = F[axes.cam_cnt[n]] - cam_formula(F, I, S, n, u)
+    F[tables.shown_cnt[n]] = F[axes.cam_cnt[n]]
+    F[cams.sum_cnt[n]] = 0.0
+    size: int = I[axes.cam_velocity_smooth[n]]
+    I[cams.window_size[n]] = max(1, min(size, MOST_SAMPLES))
+    I[cams.window_count[n]] = 0
+    I[cams.window_index[n]] = 0
+    I[tables.running[n]] = 1
+    I[axis_word(n)] |= af1.CAM_ACTIVATE
 
 
 def cam_stop(F: F64, I: I32, n: int) -> None:
     """Disengage the cam of axis n; its offset stays."""
-    I[TBI_BASE + n * TBI_STRIDE + TBI_RUNNING] = 0
-    I[CAI_BASE + n * CAI_STRIDE + CAI_POFF] = 0
-    I[axis_word(n)] &= ~AF1_CAM_ACTIVATE
-    I[axis_word2(n)] &= ~(AF2_CAM_TRIGGER_MODE | AF2_CAM_TRIGGER_STARTED)
-    F[AXF_BASE + n * AXF_STRIDE + AXF_CAM_SMOOTHING_CPS] = 0.0
+    I[tables.running[n]] = 0
+    I[cams.poff[n]] = 0
+    I[axis_word(n)] &= ~af1.CAM_ACTIVATE
+    I[axis_word2(n)] &= ~(af2.CAM_TRIGGER_MODE | af2.CAM_TRIGGER_STARTED)
+    F[axes.cam_smoothing_cps[n]] = 0.0
 
 
 def cam_halt(F: F64, I: I32, n: int) -> None:
     """Stop and disarm: a kill or a limit."""
     cam_stop(F, I, n)
-    I[CAI_BASE + n * CAI_STRIDE + CAI_PON] = 0
-    I[TGI_BASE + (n * TRIGGERS + CAM_ON) * TGI_STRIDE + TGI_KIND] = DISARMED
+    I[cams.pon[n]] = 0
+    I[triggers.kind[n * TRIGGERS + CAM_ON]] = DISARMED
 
 
 def cam_passed(old: float, delta: float, position: float, total: float) -> float:
@@ -286,20 +210,18 @@ def cam_passed(old: float, delta: float, position: float, total: float) -> float
 
 def cam_run(F: F64, I: I32, S: F32, n: int, delta: float, rate_hz: float) -> None:
     """Follow `delta` source pulses; end at CAM CYCLES or where POFF says."""
-    c: int = CAF_BASE + n * CAF_STRIDE
-    f: int = TBF_BASE + n * TBF_STRIDE
-    total: float = F[f + TBF_TOTAL_CNT]
+    total: float = F[tables.total_cnt[n]]
     ends: bool = False
-    if I[CAI_BASE + n * CAI_STRIDE + CAI_POFF]:
-        old: float = F[c + CAF_INDEX_CNT] + F[f + TBF_FLZ_CNT]
-        way: float = cam_passed(old, delta, F[c + CAF_POFF_CNT], total)
+    if I[cams.poff[n]]:
+        old: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
+        way: float = cam_passed(old, delta, F[cams.poff_cnt[n]], total)
         if way != NOT_PASSED:
             delta = way
             ends = True
-    F[c + CAF_INDEX_CNT] += delta
-    limit: float = I[AX_BASE + n * AX_STRIDE + AX_CAM_CYCLES] * total
-    if limit > 0.0 and fabs(F[c + CAF_INDEX_CNT]) >= limit - EPS_CNT:
-        F[c + CAF_INDEX_CNT] = limit if F[c + CAF_INDEX_CNT] > 0.0 else -limit
+    F[cams.index_cnt[n]] += delta
+    limit: float = I[axes.cam_cycles[n]] * total
+    if limit > 0.0 and fabs(F[cams.index_cnt[n]]) >= limit - EPS_CNT:
+        F[cams.index_cnt[n]] = limit if F[cams.index_cnt[n]] > 0.0 else -limit
         ends = True
     cam_place(F, I, S, n, rate_hz)
     if ends:
@@ -309,42 +231,36 @@ def cam_run(F: F64, I: I32, S: F32, n: int, delta: float, rate_hz: float) -> Non
 def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """A cam that is off: see whether its trigger or the position of PON has come."""
     t: int = n * TRIGGERS + CAM_ON
-    c: int = CAF_BASE + n * CAF_STRIDE
-    f: int = TBF_BASE + n * TBF_STRIDE
-    tap: int = SRF_BASE + (n * USES + USE_CAM) * SRF_STRIDE
-    delta: float = F[tap + SRF_DELTA]
-    if I[TGI_BASE + t * TGI_STRIDE + TGI_KIND] != DISARMED:
-        captures: bool = I[TGI_BASE + t * TGI_STRIDE + TGI_KIND] >= CAPTURED
+    delta: float = F[sources.delta[n * USES + USE_CAM]]
+    if I[triggers.kind[t]] != DISARMED:
+        captures: bool = I[triggers.kind[t]] >= CAPTURED
         state: int = trigger_step(F, I, S, t, n * USES + USE_CAM, 0.0)
         if state == WAITING:
             return
         if state == EXPIRED:
-            I[axis_word2(n)] &= ~AF2_CAM_TRIGGER_MODE
+            I[axis_word2(n)] &= ~af2.CAM_TRIGGER_MODE
             return
         if captures:
-            I[axis_word2(n)] |= AF2_CAM_TRIGGER_STARTED
+            I[axis_word2(n)] |= af2.CAM_TRIGGER_STARTED
         cam_start(F, I, S, n, 0.0)
-        cam_run(F, I, S, n, F[TGF_BASE + t * TGF_STRIDE + TGF_OVER_CNT], rate_hz)
+        cam_run(F, I, S, n, F[triggers.over_cnt[t]], rate_hz)
         return
-    index: float = F[tap + SRF_OLD] - delta + F[f + TBF_FLZ_CNT]
-    way: float = cam_passed(index, delta, F[c + CAF_PON_CNT], F[f + TBF_TOTAL_CNT])
+    index: float = F[sources.old[n * USES + USE_CAM]] - delta + F[tables.flz_cnt[n]]
+    way: float = cam_passed(index, delta, F[cams.pon_cnt[n]], F[tables.total_cnt[n]])
     if way != NOT_PASSED:
-        I[CAI_BASE + n * CAI_STRIDE + CAI_PON] = 0
-        cam_start(F, I, S, n, F[c + CAF_PON_CNT] - F[f + TBF_FLZ_CNT])
+        I[cams.pon[n]] = 0
+        cam_start(F, I, S, n, F[cams.pon_cnt[n]] - F[tables.flz_cnt[n]])
         cam_run(F, I, S, n, delta - way, rate_hz)
 
 
 def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """The cam of axis n in one tick."""
-    running: int = I[TBI_BASE + n * TBI_STRIDE + TBI_RUNNING]
-    wanted: int = I[axis_word(n)] & AF1_CAM_ACTIVATE
-    armed: int = (
-        I[TGI_BASE + (n * TRIGGERS + CAM_ON) * TGI_STRIDE + TGI_KIND]
-        | I[CAI_BASE + n * CAI_STRIDE + CAI_PON]
-    )
+    running: int = I[tables.running[n]]
+    wanted: int = I[axis_word(n)] & af1.CAM_ACTIVATE
+    armed: int = I[triggers.kind[n * TRIGGERS + CAM_ON]] | I[cams.pon[n]]
     if not running and not wanted and not armed:
         return
-    if I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST or not table_ready(F, I, n):
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or not table_ready(F, I, n):
         cam_halt(F, I, n)
         return
     if not wanted:
@@ -355,7 +271,7 @@ def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
         return
     if not running:
         cam_start(F, I, S, n, 0.0)
-    delta: float = F[SRF_BASE + (n * USES + USE_CAM) * SRF_STRIDE + SRF_DELTA]
+    delta: float = F[sources.delta[n * USES + USE_CAM]]
     cam_run(F, I, S, n, delta, rate_hz)
 
 
@@ -365,33 +281,30 @@ def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
 def ballscrew_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> None:
     """The ballscrew offset of axis n at a primary setpoint."""
     b: int = BALLSCREW_TABLES + n
-    i: int = TBI_BASE + b * TBI_STRIDE
-    f: int = TBF_BASE + b * TBF_STRIDE
-    a: int = AXF_BASE + n * AXF_STRIDE
-    if not I[axis_word(n)] & AF1_BALLSCREW_ACTIVATE:
-        if I[i + TBI_RUNNING]:
-            I[i + TBI_RUNNING] = 0
-            F[a + AXF_BALLSCREW_CNT] = 0.0
+    if not I[axis_word(n)] & af1.BALLSCREW_ACTIVATE:
+        if I[tables.running[b]]:
+            I[tables.running[b]] = 0
+            F[axes.ballscrew_cnt[n]] = 0.0
         return
     if not table_ready(F, I, b):
-        I[axis_word(n)] &= ~AF1_BALLSCREW_ACTIVATE
-        I[i + TBI_RUNNING] = 0
-        F[a + AXF_BALLSCREW_CNT] = 0.0
+        I[axis_word(n)] &= ~af1.BALLSCREW_ACTIVATE
+        I[tables.running[b]] = 0
+        F[axes.ballscrew_cnt[n]] = 0.0
         return
-    if I[i + TBI_RUNNING] and F[a + AXF_BALLSCREW_CNT] != F[f + TBF_SHOWN_CNT]:
-        F[f + TBF_SHIFT_CNT] += F[a + AXF_BALLSCREW_CNT] - F[f + TBF_SHOWN_CNT]
+    if I[tables.running[b]] and F[axes.ballscrew_cnt[n]] != F[tables.shown_cnt[b]]:
+        F[tables.shift_cnt[b]] += F[axes.ballscrew_cnt[n]] - F[tables.shown_cnt[b]]
     tap: int = n * USES + USE_BALLSCREW
     index: float = psp_cnt
-    if I[SRI_BASE + tap * SRI_STRIDE + SRI_KIND] != FROM_SELF:
-        index = source_shown(I, tap, F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD])
-    value: float = table_value(F, I, b, index + F[f + TBF_FLZ_CNT]) * F[f + TBF_SCALE]
-    value += F[f + TBF_OFFSET_U] * axis_scale(S, n) + F[f + TBF_SHIFT_CNT]
-    F[a + AXF_BALLSCREW_CNT] = value
-    F[f + TBF_SHOWN_CNT] = value
-    I[i + TBI_RUNNING] = 1
+    if I[sources.kind[tap]] != FROM_SELF:
+        index = source_shown(I, tap, F[sources.old[tap]])
+    value: float = table_value(F, I, b, index + F[tables.flz_cnt[b]]) * F[tables.scale[b]]
+    value += F[tables.offset_u[b]] * axis_scale(S, n) + F[tables.shift_cnt[b]]
+    F[axes.ballscrew_cnt[n]] = value
+    F[tables.shown_cnt[b]] = value
+    I[tables.running[b]] = 1
 
 
 def ballscrew_halt(I: I32, n: int) -> None:
     """Stop a table for a kill: its offset stays, so that the setpoint does not step."""
-    I[axis_word(n)] &= ~AF1_BALLSCREW_ACTIVATE
-    I[TBI_BASE + (BALLSCREW_TABLES + n) * TBI_STRIDE + TBI_RUNNING] = 0
+    I[axis_word(n)] &= ~af1.BALLSCREW_ACTIVATE
+    I[tables.running[BALLSCREW_TABLES + n]] = 0

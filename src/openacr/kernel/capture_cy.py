@@ -16,59 +16,9 @@ from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import store_long
-from openacr.map.numbers import (
-    AF1_CAPTURE_COMPLETE,
-    AF2_DONT_USE_CAPTURE_REGISTER,
-    AF2_WORD,
-    AF2_WORD_HIGH,
-    AX_ACTUAL_POSITION,
-    AX_BASE,
-    AX_COUNT,
-    AX_HARDWARE_CAPTURE,
-    AX_PRIMARY_SETPOINT,
-    AX_SOFTWARE_CAPTURE,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_CAPTURE_CNT,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_CAPTURE_COPY,
-    AXI_CAPTURE_MODE,
-    AXI_POSITION_INDEX,
-    AXI_POSITION_SOURCE,
-    AXI_STRIDE,
-    ENF_BASE,
-    ENF_PARTIAL_CNT,
-    ENF_STEP_CNT,
-    ENF_STRIDE,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
-    ENXI_BASE,
-    ENXI_LIMIT_HZ,
-    ENXI_STRIDE,
-    KRI_BASE,
-    KRI_INPUTS_OLD,
-    PLF_BASE,
-    PLF_MARKER_FALL_CNT,
-    PLF_MARKER_RISE_CNT,
-    PLF_POSITION_CNT,
-    PLF_PREVIOUS_CNT,
-    PLF_RAW_COUNT,
-    PLF_STRIDE,
-    PLGF_BASE,
-    PLGF_FALL_FRACTION,
-    PLGF_RISE_FRACTION,
-    PLGI_BASE,
-    PLGI_FALLS,
-    PLGI_RISES,
-    PLI_BASE,
-    PLI_KIND,
-    PLI_MARKER_EDGES,
-    PLI_STRIDE,
-    W_INPUTS,
-    W_MISC_OUTPUTS,
-)
+from openacr.map.numbers import W_INPUTS, W_MISC_OUTPUTS
+from openacr.map.rows import axes, encoders, kernel, motors, plant
+from openacr.map.words import af1, af2
 from openacr.views import F32, F64, I32
 
 __all__ = ["capture_arm", "capture_step"]
@@ -89,12 +39,11 @@ SOFTWARE = 7
 
 def capture_arm(F: F64, I: I32, n: int, mode: int) -> None:
     """Arm the capture of axis n in `mode`, without a copy, or disarm it with -1."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    I[i + AXI_CAPTURE_MODE] = mode
-    I[i + AXI_CAPTURE_COPY] = 0
+    I[axes.capture_mode[n]] = mode
+    I[axes.capture_copy[n]] = 0
     if mode >= 0:
-        I[axis_word(n)] &= ~AF1_CAPTURE_COMPLETE
-        F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = 0.0
+        I[axis_word(n)] &= ~af1.CAPTURE_COMPLETE
+        F[axes.capture_cnt[n]] = 0.0
 
 
 def capture_signal(mode: int) -> int:
@@ -111,24 +60,22 @@ def marker_edge(I: I32, encoder: int, falling: bool) -> bool:
     """Whether the marker of an encoder had an edge in this tick."""
     if not 0 <= encoder < 16:
         return False
-    edges: int = I[PLI_BASE + encoder * PLI_STRIDE + PLI_MARKER_EDGES]
+    edges: int = I[motors.marker_edges[encoder]]
     return edges & (FALLING_EDGE if falling else RISING_EDGE) != 0
 
 
 def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
     """Store a captured position of axis n and disarm."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    p: int = AX_BASE + n * AX_STRIDE
-    word2: int = AF2_WORD + n if n < 8 else AF2_WORD_HIGH + n
-    if I[word2] & AF2_DONT_USE_CAPTURE_REGISTER:
-        position_cnt = I[p + AX_PRIMARY_SETPOINT]
-    I[p + AX_HARDWARE_CAPTURE] = position_cnt
-    F[AXF_BASE + n * AXF_STRIDE + AXF_CAPTURE_CNT] = position_cnt
-    copy: int = I[i + AXI_CAPTURE_COPY]
+    word2: int = af2.word[n]
+    if I[word2] & af2.DONT_USE_CAPTURE_REGISTER:
+        position_cnt = I[axes.primary_setpoint[n]]
+    I[axes.hardware_capture[n]] = position_cnt
+    F[axes.capture_cnt[n]] = position_cnt
+    copy: int = I[axes.capture_copy[n]]
     if FLAG_FIRST <= copy <= FLAG_LAST:
         store_long(I, copy, position_cnt)
-    I[i + AXI_CAPTURE_MODE] = -1
-    I[axis_word(n)] |= AF1_CAPTURE_COMPLETE
+    I[axes.capture_mode[n]] = -1
+    I[axis_word(n)] |= af1.CAPTURE_COMPLETE
 
 
 def external_input(n: int, order: int) -> int:
@@ -139,23 +86,23 @@ def external_input(n: int, order: int) -> int:
 def input_edge(I: I32, number: int, falling: bool) -> bool:
     """Whether input `number` had an edge in this tick, also one taken back within it."""
     now: int = I[W_INPUTS]
-    old: int = I[KRI_BASE + KRI_INPUTS_OLD]
+    old: int = I[kernel.inputs_old]
     changed: int = 0
     if falling:
-        changed = (old & ~now) | I[PLGI_BASE + PLGI_FALLS]
+        changed = (old & ~now) | I[plant.falls]
     else:
-        changed = (now & ~old) | I[PLGI_BASE + PLGI_RISES]
+        changed = (now & ~old) | I[plant.rises]
     return (changed >> number) & 1 != 0
 
 
 def input_fraction(F: F64, I: I32, number: int, falling: bool) -> float:
     """When within the tick the edge came: the plant knows for wired inputs, else the end."""
-    wired: int = I[PLGI_BASE + PLGI_FALLS] if falling else I[PLGI_BASE + PLGI_RISES]
+    wired: int = I[plant.falls] if falling else I[plant.rises]
     if not (wired >> number) & 1:
         return 1.0
     if falling:
-        return F[PLGF_BASE + PLGF_FALL_FRACTION + number]
-    return F[PLGF_BASE + PLGF_RISE_FRACTION + number]
+        return F[plant.fall_fraction + number]
+    return F[plant.rise_fraction + number]
 
 
 def position_at_fraction(F: F64, I: I32, n: int, fraction: float) -> int:
@@ -164,17 +111,15 @@ def position_at_fraction(F: F64, I: I32, n: int, fraction: float) -> int:
     A modelled motor moves on a straight line during the tick, its encoder shows whole
     counts; without a model the counts of the tick are spread evenly.
     """
-    i: int = AXI_BASE + n * AXI_STRIDE
-    e: int = I[i + AXI_POSITION_INDEX]
-    now: int = I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION]
-    if I[i + AXI_POSITION_SOURCE] != FROM_ENCODER or not 0 <= e < ENCODER_COUNT:
+    e: int = I[axes.position_index[n]]
+    now: int = I[axes.actual_position[n]]
+    if I[axes.position_source[n]] != FROM_ENCODER or not 0 <= e < ENCODER_COUNT:
         return now
-    f: int = PLF_BASE + e * PLF_STRIDE
-    if e < MODELLED and I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
-        travel: float = F[f + PLF_POSITION_CNT] - F[f + PLF_PREVIOUS_CNT]
-        raw: float = floor(F[f + PLF_PREVIOUS_CNT] + fraction * travel)
-        return position_before(F, I, n, e, F[f + PLF_RAW_COUNT] - raw)
-    step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
+    if e < MODELLED and I[motors.kind[e]]:
+        travel: float = F[motors.position_cnt[e]] - F[motors.previous_cnt[e]]
+        raw: float = floor(F[motors.previous_cnt[e]] + fraction * travel)
+        return position_before(F, I, n, e, F[motors.raw_count[e]] - raw)
+    step: float = F[encoders.step_cnt[e]]
     return wrap32(now - int(rint((1.0 - fraction) * step)))
 
 
@@ -183,19 +128,20 @@ def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
 
     MULT below 4 counts only some of them: the present fraction tells which.
     """
-    scaled: float = since_cnt * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
-    behind: float = floor(F[ENF_BASE + e * ENF_STRIDE + ENF_PARTIAL_CNT] - scaled)
-    if I[ENXI_BASE + e * ENXI_STRIDE + ENXI_LIMIT_HZ] > 0:  # counts lost in the filter are no way
-        step: float = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
+    scaled: float = since_cnt * I[encoders.mult[e]] * 0.25
+    behind: float = floor(F[encoders.partial_cnt[e]] - scaled)
+    if I[encoders.limit_hz[e]] > 0:  # counts lost in the filter are no way
+        step: float = F[encoders.step_cnt[e]]
         behind = max(min(0.0, -step), min(max(0.0, -step), behind))
-    return wrap32(I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION] + int(behind))
+    return wrap32(I[axes.actual_position[n]] + int(behind))
 
 
 def position_at_marker(F: F64, I: I32, n: int, encoder: int, falling: bool) -> int:
     """Actual position of axis n at the marker edge of its own encoder."""
-    f: int = PLF_BASE + encoder * PLF_STRIDE
-    raw: float = F[f + PLF_MARKER_FALL_CNT] if falling else F[f + PLF_MARKER_RISE_CNT]
-    return position_before(F, I, n, encoder, F[f + PLF_RAW_COUNT] - raw)
+    raw: float = (
+        F[motors.marker_fall_cnt[encoder]] if falling else F[motors.marker_rise_cnt[encoder]]
+    )
+    return position_before(F, I, n, encoder, F[motors.raw_count[encoder]] - raw)
 
 
 def capture_input_position(F: F64, I: I32, n: int, number: int, falling: bool) -> float:
@@ -208,16 +154,15 @@ def capture_input_position(F: F64, I: I32, n: int, number: int, falling: bool) -
 
 def encoder_shift(F: F64, I: I32, S: F32, n: int, origin_cnt: int) -> None:
     """Let the feedback of axis n read 0 where it read `origin_cnt`."""
-    p: int = AX_BASE + n * AX_STRIDE
-    I[p + AX_ACTUAL_POSITION] = wrap32(I[p + AX_ACTUAL_POSITION] - origin_cnt)
-    feedback_set(F, I, S, n, I[p + AX_ACTUAL_POSITION])
+    I[axes.actual_position[n]] = wrap32(I[axes.actual_position[n]] - origin_cnt)
+    feedback_set(F, I, S, n, I[axes.actual_position[n]])
 
 
 def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
     """Look for the edge axis n is armed for."""
     signal: int = capture_signal(mode)
     falling: bool = mode & FALLING != 0
-    own: int = I[AXI_BASE + n * AXI_STRIDE + AXI_POSITION_INDEX]
+    own: int = I[axes.position_index[n]]
     if signal == MARKER or signal == MARKER_AND_EXTERNAL:
         external: int = external_input(n, 0)
         if marker_edge(I, own, falling) and (signal == MARKER or (I[W_INPUTS] >> external) & 1):
@@ -237,13 +182,12 @@ def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
 
 def capture_step(F: F64, I: I32) -> None:
     """Captures of this tick, and the software capture of all axes on BIT113."""
-    for n in range(AX_COUNT):
-        mode: int = I[AXI_BASE + n * AXI_STRIDE + AXI_CAPTURE_MODE]
+    for n in range(axes.COUNT):
+        mode: int = I[axes.capture_mode[n]]
         if mode >= 0:
             capture_axis(F, I, n, mode)
     if I[W_MISC_OUTPUTS] & SOFTWARE_TRIGGER:
-        for n in range(AX_COUNT):
-            p: int = AX_BASE + n * AX_STRIDE
-            I[p + AX_SOFTWARE_CAPTURE] = I[p + AX_ACTUAL_POSITION]
+        for n in range(axes.COUNT):
+            I[axes.software_capture[n]] = I[axes.actual_position[n]]
         I[W_MISC_OUTPUTS] &= ~SOFTWARE_TRIGGER
-    I[KRI_BASE + KRI_INPUTS_OLD] = I[W_INPUTS]
+    I[kernel.inputs_old] = I[W_INPUTS]

@@ -1,17 +1,8 @@
 """Clocks of the card: simulated time, millisecond counter, clock pulse flags."""
 
 from openacr.cmath import floor
-from openacr.map.numbers import (
-    KRF_BASE,
-    KRF_MILLISECOND_PHASE,
-    P_GLOBAL_SYSTEM_CLOCK,
-    SYSF_BASE,
-    SYSF_TIME_S,
-    SYSI_BASE,
-    SYSI_TICK_HIGH,
-    SYSI_TICK_LOW,
-    W_MISC_INPUTS,
-)
+from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK, W_MISC_INPUTS
+from openacr.map.rows import kernel, system
 from openacr.views import F64, I32
 
 __all__ = ["clock_step"]
@@ -33,21 +24,21 @@ def pulse_on(clock_ms: int, cycle_ms: float) -> bool:
 
 def clock_step(F: F64, I: I32, period_s: float) -> None:
     """Advance time by one servo period."""
-    low: int = I[SYSI_BASE + SYSI_TICK_LOW] + 1
+    low: int = I[system.tick_low] + 1
     if low > LAST_MS:
         low = 0
-        I[SYSI_BASE + SYSI_TICK_HIGH] += 1
-    I[SYSI_BASE + SYSI_TICK_LOW] = low
-    F[SYSF_BASE + SYSF_TIME_S] = (I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648.0 + low) * period_s
-    phase: float = F[KRF_BASE + KRF_MILLISECOND_PHASE] + period_s * 1000.0
+        I[system.tick_high] += 1
+    I[system.tick_low] = low
+    F[system.time_s] = (I[system.tick_high] * 2147483648.0 + low) * period_s
+    phase: float = F[kernel.millisecond_phase] + period_s * 1000.0
     if phase < 1.0 - EPS_MS:
-        F[KRF_BASE + KRF_MILLISECOND_PHASE] = phase
+        F[kernel.millisecond_phase] = phase
         return
     clock: int = I[P_GLOBAL_SYSTEM_CLOCK]
     while phase >= 1.0 - EPS_MS:
         phase -= 1.0
         clock = 0 if clock >= LAST_MS else clock + 1
-    F[KRF_BASE + KRF_MILLISECOND_PHASE] = max(phase, 0.0)
+    F[kernel.millisecond_phase] = max(phase, 0.0)
     I[P_GLOBAL_SYSTEM_CLOCK] = clock
     pulses: int = 0
     if pulse_on(clock, 20.0):

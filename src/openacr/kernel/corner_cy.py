@@ -16,35 +16,7 @@ g(0) |u2 - u1| is how far the path stays off its corner: the tolerance gives T.
 """
 
 from openacr.cmath import fabs
-from openacr.map.numbers import (
-    AXF_BASE,
-    AXF_POSITION_CNT,
-    AXF_STRIDE,
-    AXF_TARGET_CNT,
-    MQF_BASE,
-    MQF_DELTA_CNT,
-    MQF_LENGTH_U,
-    MQF_STRIDE,
-    MQI_BASE,
-    MQI_SLAVES,
-    MQI_STRIDE,
-    MSF_BASE,
-    MSF_CORNER_IN_CNT,
-    MSF_CORNER_IN_TURN,
-    MSF_CORNER_IN_U,
-    MSF_CORNER_IN_UPS,
-    MSF_CORNER_OUT_CNT,
-    MSF_CORNER_OUT_TURN,
-    MSF_CORNER_OUT_U,
-    MSF_CORNER_OUT_UPS,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_CORNER_NEXT,
-    MSI_CORNER_SMOOTH_IN,
-    MSI_CORNER_SMOOTH_OUT,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-)
+from openacr.map.rows import axes, masters, moves
 from openacr.views import F64, I32
 
 SLAVE_COUNT = 16
@@ -62,60 +34,52 @@ def corner_lift(x: float, reach: float, smooth: int) -> float:
 
 def corner_open(F: F64, I: I32, m: int, a: int, b: int, reach: float, smooth: int) -> None:
     """The path comes to the rounded corner between records a and b: note its two directions."""
-    f: int = MSF_BASE + m * MSF_STRIDE
-    p: int = MQF_BASE + a * MQF_STRIDE
-    q: int = MQF_BASE + b * MQF_STRIDE
-    first: int = I[MQI_BASE + a * MQI_STRIDE + MQI_SLAVES]
-    second: int = I[MQI_BASE + b * MQI_STRIDE + MQI_SLAVES]
+    first: int = I[moves.slaves[a]]
+    second: int = I[moves.slaves[b]]
     for s in range(SLAVE_COUNT):
         turn: float = 0.0
-        if second & (1 << s) and F[q + MQF_LENGTH_U] > 0.0:
-            turn += F[q + MQF_DELTA_CNT + s] / F[q + MQF_LENGTH_U]
-        if first & (1 << s) and F[p + MQF_LENGTH_U] > 0.0:
-            turn -= F[p + MQF_DELTA_CNT + s] / F[p + MQF_LENGTH_U]
-        F[f + MSF_CORNER_OUT_CNT + s] = turn
-    F[f + MSF_CORNER_OUT_U] = reach
-    I[MSI_BASE + m * MSI_STRIDE + MSI_CORNER_SMOOTH_OUT] = smooth
+        if second & (1 << s) and F[moves.length_u[b]] > 0.0:
+            turn += F[moves.delta_cnt[b] + s] / F[moves.length_u[b]]
+        if first & (1 << s) and F[moves.length_u[a]] > 0.0:
+            turn -= F[moves.delta_cnt[a] + s] / F[moves.length_u[a]]
+        F[masters.corner_out_cnt[m] + s] = turn
+    F[masters.corner_out_u[m]] = reach
+    I[masters.corner_smooth_out[m]] = smooth
 
 
 def corner_pass(F: F64, I: I32, m: int, record: int) -> None:
     """The move in front of a corner has ended; `record` is to leave it."""
-    f: int = MSF_BASE + m * MSF_STRIDE
-    i: int = MSI_BASE + m * MSI_STRIDE
-    I[i + MSI_CORNER_NEXT] = 0
-    if F[f + MSF_CORNER_OUT_U] <= 0.0:
+    I[masters.corner_next[m]] = 0
+    if F[masters.corner_out_u[m]] <= 0.0:
         return
     for s in range(SLAVE_COUNT):
-        F[f + MSF_CORNER_IN_CNT + s] = F[f + MSF_CORNER_OUT_CNT + s]
-    F[f + MSF_CORNER_IN_U] = F[f + MSF_CORNER_OUT_U]
-    F[f + MSF_CORNER_IN_TURN] = F[f + MSF_CORNER_OUT_TURN]
-    F[f + MSF_CORNER_IN_UPS] = F[f + MSF_CORNER_OUT_UPS]
-    F[f + MSF_CORNER_OUT_U] = 0.0
-    I[i + MSI_CORNER_SMOOTH_IN] = I[i + MSI_CORNER_SMOOTH_OUT]
-    I[i + MSI_CORNER_NEXT] = record + 1
+        F[masters.corner_in_cnt[m] + s] = F[masters.corner_out_cnt[m] + s]
+    F[masters.corner_in_u[m]] = F[masters.corner_out_u[m]]
+    F[masters.corner_in_turn[m]] = F[masters.corner_out_turn[m]]
+    F[masters.corner_in_ups[m]] = F[masters.corner_out_ups[m]]
+    F[masters.corner_out_u[m]] = 0.0
+    I[masters.corner_smooth_in[m]] = I[masters.corner_smooth_out[m]]
+    I[masters.corner_next[m]] = record + 1
 
 
 def corner_enter(F: F64, I: I32, m: int, record: int) -> None:
     """A move begins: behind its corner from the corner itself, else from where the axes are."""
-    f: int = MSF_BASE + m * MSF_STRIDE
-    i: int = MSI_BASE + m * MSI_STRIDE
-    F[f + MSF_CORNER_OUT_U] = 0.0
-    if I[i + MSI_CORNER_NEXT] != record + 1:
-        F[f + MSF_CORNER_IN_U] = 0.0
-    elif F[f + MSF_CORNER_IN_U] > 0.0:
+    F[masters.corner_out_u[m]] = 0.0
+    if I[masters.corner_next[m]] != record + 1:
+        F[masters.corner_in_u[m]] = 0.0
+    elif F[masters.corner_in_u[m]] > 0.0:
         for s in range(SLAVE_COUNT):
-            axis: int = I[i + MSI_SLAVE_AXIS + s]
-            if axis >= 0 and F[f + MSF_CORNER_IN_CNT + s] != 0.0:
-                a: int = AXF_BASE + axis * AXF_STRIDE
-                F[a + AXF_POSITION_CNT] = F[a + AXF_TARGET_CNT]
-    I[i + MSI_CORNER_NEXT] = 0
+            axis: int = I[masters.slave_axis[m] + s]
+            if axis >= 0 and F[masters.corner_in_cnt[m] + s] != 0.0:
+                F[axes.position_cnt[axis]] = F[axes.target_cnt[axis]]
+    I[masters.corner_next[m]] = 0
 
 
 def corner_drop(F: F64, I: I32, m: int) -> None:
     """No corner is under way any more."""
-    F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_IN_U] = 0.0
-    F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_OUT_U] = 0.0
-    I[MSI_BASE + m * MSI_STRIDE + MSI_CORNER_NEXT] = 0
+    F[masters.corner_in_u[m]] = 0.0
+    F[masters.corner_out_u[m]] = 0.0
+    I[masters.corner_next[m]] = 0
 
 
 def corner_place(F: F64, I: I32, m: int, slaves: int, gone: float, left: float) -> None:
@@ -123,24 +87,21 @@ def corner_place(F: F64, I: I32, m: int, slaves: int, gone: float, left: float) 
 
     Those of `slaves` stand where the present move puts them, the others at their targets.
     """
-    f: int = MSF_BASE + m * MSF_STRIDE
-    i: int = MSI_BASE + m * MSI_STRIDE
-    if F[f + MSF_CORNER_IN_U] <= 0.0 and F[f + MSF_CORNER_OUT_U] <= 0.0:
+    if F[masters.corner_in_u[m]] <= 0.0 and F[masters.corner_out_u[m]] <= 0.0:
         return
-    behind: float = corner_lift(gone, F[f + MSF_CORNER_IN_U], I[i + MSI_CORNER_SMOOTH_IN])
-    ahead: float = corner_lift(left, F[f + MSF_CORNER_OUT_U], I[i + MSI_CORNER_SMOOTH_OUT])
+    behind: float = corner_lift(gone, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
+    ahead: float = corner_lift(left, F[masters.corner_out_u[m]], I[masters.corner_smooth_out[m]])
     for s in range(SLAVE_COUNT):
-        axis: int = I[i + MSI_SLAVE_AXIS + s]
+        axis: int = I[masters.slave_axis[m] + s]
         turn: float = 0.0
         lift: float = 0.0
-        if F[f + MSF_CORNER_IN_U] > 0.0:
-            turn = fabs(F[f + MSF_CORNER_IN_CNT + s])
-            lift = behind * F[f + MSF_CORNER_IN_CNT + s]
-        if F[f + MSF_CORNER_OUT_U] > 0.0:
-            turn += fabs(F[f + MSF_CORNER_OUT_CNT + s])
-            lift += ahead * F[f + MSF_CORNER_OUT_CNT + s]
+        if F[masters.corner_in_u[m]] > 0.0:
+            turn = fabs(F[masters.corner_in_cnt[m] + s])
+            lift = behind * F[masters.corner_in_cnt[m] + s]
+        if F[masters.corner_out_u[m]] > 0.0:
+            turn += fabs(F[masters.corner_out_cnt[m] + s])
+            lift += ahead * F[masters.corner_out_cnt[m] + s]
         if axis >= 0 and turn > 0.0:
-            a: int = AXF_BASE + axis * AXF_STRIDE
             if not slaves & (1 << s):
-                F[a + AXF_POSITION_CNT] = F[a + AXF_TARGET_CNT]
-            F[a + AXF_POSITION_CNT] += lift
+                F[axes.position_cnt[axis]] = F[axes.target_cnt[axis]]
+            F[axes.position_cnt[axis]] += lift

@@ -25,40 +25,8 @@ from openacr.kernel.bezier_cy import (
     bezier_u,
     is_bezier,
 )
-from openacr.map.numbers import (
-    AX_BASE,
-    AX_END_RADIUS,
-    AX_START_RADIUS,
-    AX_STRIDE,
-    MF2_SPIRAL_MODE,
-    MF2_WORD,
-    MF2_WORD_HIGH,
-    MQF_BASE,
-    MQF_DELTA_CNT,
-    MQF_STRIDE,
-    MQF_TARGET_CNT,
-    MQF_WEIGHT,
-    MQI_BASE,
-    MQI_CURVE,
-    MQI_CURVED,
-    MQI_HALF_WAVE,
-    MQI_PLANE,
-    MQI_STRIDE,
-    MSI_BASE,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-    MWF_AMPLITUDE_CNT,
-    MWF_BASE,
-    MWF_END_CNT,
-    MWF_GROWTH_CNT,
-    MWF_PHASE_RAD,
-    MWF_POINT_CNT,
-    MWF_RADIUS_SCALE,
-    MWF_SLOPE_CNT,
-    MWF_SPAN,
-    MWF_STRIDE,
-    MWF_SWEEP_RAD,
-)
+from openacr.map.rows import axes, curves, masters, moves
+from openacr.map.words import mf2
 from openacr.views import F32, F64, I32
 
 __all__ = ["curve_slope"]
@@ -74,10 +42,10 @@ CURVE_SPACE = 3
 SLAVES = 16
 
 
-def curve_wave(F: F64, w: int, s: int, part: float) -> float:
+def curve_wave(F: F64, record: int, s: int, part: float) -> float:
     """The wave of slave s at a part of the move."""
-    return (F[w + MWF_AMPLITUDE_CNT + s] + F[w + MWF_GROWTH_CNT + s] * part) * sin(
-        F[w + MWF_PHASE_RAD + s] + F[w + MWF_SWEEP_RAD + s] * part
+    return (F[curves.amplitude_cnt[record] + s] + F[curves.growth_cnt[record] + s] * part) * sin(
+        F[curves.phase_rad[record] + s] + F[curves.sweep_rad[record] + s] * part
     )
 
 
@@ -92,11 +60,10 @@ def curve_position(F: F64, I: I32, record: int, s: int, rest: float) -> float:
     """Position of slave s of a move when `rest` of it is still to go."""
     if is_bezier(I, record):
         return bezier_position(F, I, record, s, 1.0 - rest)
-    w: int = MWF_BASE + record * MWF_STRIDE
     return (
-        F[MQF_BASE + record * MQF_STRIDE + MQF_TARGET_CNT + s]
-        - F[w + MWF_SLOPE_CNT + s] * rest
-        + (curve_wave(F, w, s, 1.0 - rest) - F[w + MWF_END_CNT + s])
+        F[moves.target_cnt[record] + s]
+        - F[curves.slope_cnt[record] + s] * rest
+        + (curve_wave(F, record, s, 1.0 - rest) - F[curves.end_cnt[record] + s])
     )
 
 
@@ -104,14 +71,13 @@ def curve_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     """Change of the position of slave s with the part of the move."""
     if is_bezier(I, record):
         return bezier_slope(F, I, record, s, bezier_u(F, I, record, part))
-    w: int = MWF_BASE + record * MWF_STRIDE
-    angle: float = F[w + MWF_PHASE_RAD + s] + F[w + MWF_SWEEP_RAD + s] * part
-    growth: float = F[w + MWF_GROWTH_CNT + s]
-    size: float = F[w + MWF_AMPLITUDE_CNT + s] + growth * part
+    angle: float = F[curves.phase_rad[record] + s] + F[curves.sweep_rad[record] + s] * part
+    growth: float = F[curves.growth_cnt[record] + s]
+    size: float = F[curves.amplitude_cnt[record] + s] + growth * part
     return (
-        F[w + MWF_SLOPE_CNT + s]
+        F[curves.slope_cnt[record] + s]
         + growth * sin(angle)
-        + size * F[w + MWF_SWEEP_RAD + s] * cos(angle)
+        + size * F[curves.sweep_rad[record] + s] * cos(angle)
     )
 
 
@@ -119,12 +85,11 @@ def curve_steepest(F: F64, I: I32, record: int, s: int) -> float:
     """A bound of the size of `curve_slope` over the whole move."""
     if is_bezier(I, record):
         return bezier_steepest(F, I, record, s)
-    w: int = MWF_BASE + record * MWF_STRIDE
-    size: float = F[w + MWF_AMPLITUDE_CNT + s]
-    growth: float = F[w + MWF_GROWTH_CNT + s]
+    size: float = F[curves.amplitude_cnt[record] + s]
+    growth: float = F[curves.growth_cnt[record] + s]
     largest: float = max(fabs(size), fabs(size + growth))
-    sweep: float = fabs(F[w + MWF_SWEEP_RAD + s])
-    return fabs(F[w + MWF_SLOPE_CNT + s]) + fabs(growth) + largest * sweep
+    sweep: float = fabs(F[curves.sweep_rad[record] + s])
+    return fabs(F[curves.slope_cnt[record] + s]) + fabs(growth) + largest * sweep
 
 
 def curve_set(
@@ -138,17 +103,16 @@ def curve_set(
     closed: bool,
 ) -> None:
     """Give slave s its wave; a closed one lies on it, else the slope makes up the way."""
-    w: int = MWF_BASE + record * MWF_STRIDE
-    F[w + MWF_AMPLITUDE_CNT + s] = amplitude
-    F[w + MWF_GROWTH_CNT + s] = growth
-    F[w + MWF_PHASE_RAD + s] = phase
-    F[w + MWF_SWEEP_RAD + s] = sweep
-    F[w + MWF_END_CNT + s] = curve_wave(F, w, s, 1.0)
+    F[curves.amplitude_cnt[record] + s] = amplitude
+    F[curves.growth_cnt[record] + s] = growth
+    F[curves.phase_rad[record] + s] = phase
+    F[curves.sweep_rad[record] + s] = sweep
+    F[curves.end_cnt[record] + s] = curve_wave(F, record, s, 1.0)
     slope: float = 0.0
     if not closed:
-        delta: float = F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
-        slope = delta - (F[w + MWF_END_CNT + s] - curve_wave(F, w, s, 0.0))
-    F[w + MWF_SLOPE_CNT + s] = slope
+        delta: float = F[moves.delta_cnt[record] + s]
+        slope = delta - (F[curves.end_cnt[record] + s] - curve_wave(F, record, s, 0.0))
+    F[curves.slope_cnt[record] + s] = slope
 
 
 def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> float:
@@ -156,58 +120,54 @@ def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> flo
 
     `shown` publishes the radii of a circle in the parameters of its axes.
     """
-    q: int = MQI_BASE + record * MQI_STRIDE
-    kind: int = I[q + MQI_CURVE]
+    kind: int = I[moves.curve[record]]
     arc: float = 0.0
     if is_bezier(I, record):
-        return F[MWF_BASE + record * MWF_STRIDE + MWF_SPAN]
+        return F[curves.span[record]]
     curve_sines(F, I, record)
     if kind == CURVE_CW or kind == CURVE_CCW:
-        spiral: bool = I[MF2_WORD + m if m < 8 else MF2_WORD_HIGH + m] & MF2_SPIRAL_MODE != 0
+        spiral: bool = I[mf2.word[m]] & mf2.SPIRAL_MODE != 0
         arc = curve_circle(F, I, S, m, record, spiral, shown)
     elif kind == CURVE_SPACE:
         arc = curve_space(F, I, S, m, record)
-    return arc * F[MQF_BASE + record * MQF_STRIDE + MQF_WEIGHT + I[q + MQI_PLANE]]
+    return arc * F[moves.weight[record] + I[moves.plane[record]]]
 
 
 def curve_sines(F: F64, I: I32, record: int) -> None:
     """SINE as given; Sinusoidal Mode is half a wave over the whole way."""
-    q: int = MQI_BASE + record * MQI_STRIDE
-    w: int = MWF_BASE + record * MWF_STRIDE
     for s in range(SLAVES):
-        if I[q + MQI_HALF_WAVE] & (1 << s):
-            half: float = F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s] / 2.0
+        if I[moves.half_wave[record]] & (1 << s):
+            half: float = F[moves.delta_cnt[record] + s] / 2.0
             curve_set(F, record, s, half, 0.0, -PI / 2.0, PI, False)
-        elif I[q + MQI_CURVED] & (1 << s):
-            phase: float = F[w + MWF_PHASE_RAD + s]
-            sweep: float = F[w + MWF_SWEEP_RAD + s]
-            curve_set(F, record, s, F[w + MWF_AMPLITUDE_CNT + s], 0.0, phase, sweep, False)
+        elif I[moves.curved[record]] & (1 << s):
+            phase: float = F[curves.phase_rad[record] + s]
+            sweep: float = F[curves.sweep_rad[record] + s]
+            curve_set(F, record, s, F[curves.amplitude_cnt[record] + s], 0.0, phase, sweep, False)
 
 
 def curve_longest_deg(F: F64, I: I32, record: int) -> float:
     """The largest sweep of the waves of a move in degrees."""
     longest: float = 0.0
     for s in range(SLAVES):
-        if I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED] & (1 << s):
-            sweep: float = F[MWF_BASE + record * MWF_STRIDE + MWF_SWEEP_RAD + s]
+        if I[moves.curved[record]] & (1 << s):
+            sweep: float = F[curves.sweep_rad[record] + s]
             longest = max(longest, fabs(sweep) * DEGREES)
     return longest
 
 
 def curve_scale(F: F64, I: I32, S: F32, m: int, record: int, place: int) -> float:
     """Pulses per unit of axis `place` of the plane of a curve; an ellipse stretches its unit."""
-    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
-    axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
-    stretch: float = F[MWF_BASE + record * MWF_STRIDE + MWF_RADIUS_SCALE + place]
+    s: int = I[moves.plane[record] + place]
+    axis: int = I[masters.slave_axis[m] + s]
+    stretch: float = F[curves.radius_scale[record] + place]
     return axis_scale(S, axis) * stretch if axis >= 0 else stretch
 
 
 def curve_start(F: F64, I: I32, record: int, place: int) -> float:
     """Start of axis `place` of the plane relative to the given point, in pulses."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
-    start: float = F[q + MQF_TARGET_CNT + s] - F[q + MQF_DELTA_CNT + s]
-    return start - F[MWF_BASE + record * MWF_STRIDE + MWF_POINT_CNT + place]
+    s: int = I[moves.plane[record] + place]
+    start: float = F[moves.target_cnt[record] + s] - F[moves.delta_cnt[record] + s]
+    return start - F[curves.point_cnt[record] + place]
 
 
 def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, shown: bool) -> float:
@@ -215,21 +175,19 @@ def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, show
 
     Without Spiral Mode a start beside the circle of the target jumps onto it.
     """
-    i: int = MQI_BASE + record * MQI_STRIDE
-    q: int = MQF_BASE + record * MQF_STRIDE
-    a: int = I[i + MQI_PLANE]
-    b: int = I[i + MQI_PLANE + 1]
+    a: int = I[moves.plane[record]]
+    b: int = I[moves.plane[record] + 1]
     scale_a: float = curve_scale(F, I, S, m, record, 0)
     scale_b: float = curve_scale(F, I, S, m, record, 1)
     x0: float = curve_start(F, I, record, 0) / scale_a
     y0: float = curve_start(F, I, record, 1) / scale_b
-    x1: float = x0 + F[q + MQF_DELTA_CNT + a] / scale_a
-    y1: float = y0 + F[q + MQF_DELTA_CNT + b] / scale_b
+    x1: float = x0 + F[moves.delta_cnt[record] + a] / scale_a
+    y1: float = y0 + F[moves.delta_cnt[record] + b] / scale_b
     first: float = sqrt(x0 * x0 + y0 * y0)
     last: float = sqrt(x1 * x1 + y1 * y1)
     phase: float = atan2(y0, x0)
     sweep: float = atan2(y1, x1) - phase
-    clockwise: bool = I[i + MQI_CURVE] == CURVE_CW
+    clockwise: bool = I[moves.curve[record]] == CURVE_CW
     if clockwise:
         sweep = -sweep
     if sweep < -FULL_TURN_RAD:
@@ -240,9 +198,9 @@ def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, show
     arc: float = mean * sweep
     if shown:
         for place in range(2):
-            axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + I[i + MQI_PLANE + place]]
-            S[AX_BASE + axis * AX_STRIDE + AX_START_RADIUS] = first
-            S[AX_BASE + axis * AX_STRIDE + AX_END_RADIUS] = last
+            axis: int = I[masters.slave_axis[m] + I[moves.plane[record] + place]]
+            S[axes.start_radius[axis]] = first
+            S[axes.end_radius[axis]] = last
     if clockwise:
         sweep = -sweep
     growth: float = 0.0
@@ -261,17 +219,15 @@ def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     lies at ((n x a) b^2 + (b x n) a^2) / (2 n^2), and the way from start over mid point to
     target turns about n. u leads from centre to start, v a quarter turn on.
     """
-    i: int = MQI_BASE + record * MQI_STRIDE
-    q: int = MQF_BASE + record * MQF_STRIDE
     scale_x: float = curve_scale(F, I, S, m, record, 0)
     scale_y: float = curve_scale(F, I, S, m, record, 1)
     scale_z: float = curve_scale(F, I, S, m, record, 2)
     ax: float = -curve_start(F, I, record, 0) / scale_x
     ay: float = -curve_start(F, I, record, 1) / scale_y
     az: float = -curve_start(F, I, record, 2) / scale_z
-    bx: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE]] / scale_x
-    by: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE + 1]] / scale_y
-    bz: float = F[q + MQF_DELTA_CNT + I[i + MQI_PLANE + 2]] / scale_z
+    bx: float = F[moves.delta_cnt[record] + I[moves.plane[record]]] / scale_x
+    by: float = F[moves.delta_cnt[record] + I[moves.plane[record] + 1]] / scale_y
+    bz: float = F[moves.delta_cnt[record] + I[moves.plane[record] + 2]] / scale_z
     nx: float = ay * bz - az * by
     ny: float = az * bx - ax * bz
     nz: float = ax * by - ay * bx
@@ -302,5 +258,5 @@ def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
 
 def curve_turn(F: F64, I: I32, record: int, place: int, u: float, v: float, sweep: float) -> None:
     """Write u cos(t) + v sin(t) as one wave."""
-    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_PLANE + place]
+    s: int = I[moves.plane[record] + place]
     curve_set(F, record, s, sqrt(u * u + v * v), 0.0, atan2(u, v), sweep, True)

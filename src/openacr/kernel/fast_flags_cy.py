@@ -7,21 +7,8 @@ refreshed every three ticks. The slow scan goes on beside it.
 """
 
 from openacr.kernel.slow_cy import axis_bands, master_bands
-from openacr.map.numbers import (
-    AF1_NOT_EXCESS_ERROR,
-    AF1_NOT_IN_POSITION,
-    AF1_NOT_IN_TORQUE_BAND,
-    AF1_NOT_TORQUE_LIMIT,
-    AF1_NOT_WITHIN_B_LIMIT,
-    AF1_WITHIN_A_LIMIT,
-    AF2_WORD,
-    AF2_WORD_HIGH,
-    AXI_BASE,
-    AXI_MASTER,
-    AXI_STRIDE,
-    KRI_BASE,
-    KRI_FAST_GROUP,
-)
+from openacr.map.rows import axes, kernel
+from openacr.map.words import af1, af2
 from openacr.views import F32, F64, I32
 
 FIRST_BIT = 24
@@ -31,33 +18,33 @@ OF_MASTERS = 7
 
 def fast_chosen(I: I32, n: int) -> int:
     """Groups axis n chooses, bit 0 for the first."""
-    word: int = AF2_WORD + n if n < 8 else AF2_WORD_HIGH + n
+    word: int = af2.word[n]
     return (I[word] >> FIRST_BIT) & 0xBF
 
 
 def fast_group_flag(group: int) -> int:
     """The limit flag of an axis a group stands for."""
     if group == 0:
-        return AF1_NOT_EXCESS_ERROR
+        return af1.NOT_EXCESS_ERROR
     if group == 1:
-        return AF1_NOT_IN_POSITION
+        return af1.NOT_IN_POSITION
     if group == 2:
-        return AF1_WITHIN_A_LIMIT
+        return af1.WITHIN_A_LIMIT
     if group == 3:
-        return AF1_NOT_WITHIN_B_LIMIT
+        return af1.NOT_WITHIN_B_LIMIT
     if group == 4:
-        return AF1_NOT_TORQUE_LIMIT
-    return AF1_NOT_IN_TORQUE_BAND
+        return af1.NOT_TORQUE_LIMIT
+    return af1.NOT_IN_TORQUE_BAND
 
 
-def fast_next(I: I32, axes: int) -> int:
+def fast_next(I: I32, axis_count: int) -> int:
     """The group whose turn it is: the next behind the last that some axis chooses; -1 none."""
     chosen: int = 0
-    for n in range(axes):
+    for n in range(axis_count):
         chosen |= fast_chosen(I, n)
     if chosen == 0:
         return -1
-    group: int = I[KRI_BASE + KRI_FAST_GROUP] & (GROUPS - 1)
+    group: int = I[kernel.fast_group] & (GROUPS - 1)
     for _ in range(GROUPS):
         group = (group + 1) & (GROUPS - 1)
         if (chosen >> group) & 1:
@@ -65,16 +52,16 @@ def fast_next(I: I32, axes: int) -> int:
     return group
 
 
-def fast_flags_step(F: F64, I: I32, S: F32, axes: int) -> None:
+def fast_flags_step(F: F64, I: I32, S: F32, axis_count: int) -> None:
     """Refresh the group whose turn it is."""
-    group: int = fast_next(I, axes)
+    group: int = fast_next(I, axis_count)
     if group < 0:
         return
-    I[KRI_BASE + KRI_FAST_GROUP] = group
-    for n in range(axes):
+    I[kernel.fast_group] = group
+    for n in range(axis_count):
         if (fast_chosen(I, n) >> group) & 1:
             if group == OF_MASTERS:
-                m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
+                m: int = I[axes.master[n]]
                 if m >= 0:
                     master_bands(I, m)
             else:

@@ -7,27 +7,9 @@ copies stay as they are when FSTAT On is cleared.
 
 from openacr.kernel.source_cy import parameter_value
 from openacr.kernel.words_cy import round32, wrap32
-from openacr.map.numbers import (
-    FSB_COUNT,
-    FSBF_BASE,
-    FSBF_PHASE_MS,
-    FSBI_BASE,
-    FSBI_CODE,
-    FSBI_INDEX,
-    FSBI_STRIDE,
-    FSBI_TYPE,
-    FSBI_WORDS,
-    FSF_FSTAT_ON,
-    FSF_FSTAT_ON_REQUEST,
-    FST_BASE,
-    FST_FSTAT_CODE,
-    FST_FSTAT_INDEX,
-    FST_FSTAT_TYPE,
-    FST_STRIDE,
-    P_FSTAT_COUNT,
-    P_FSTAT_PERIOD,
-    W_FSTAT,
-)
+from openacr.map.numbers import P_FSTAT_COUNT, P_FSTAT_PERIOD, W_FSTAT
+from openacr.map.rows import fast_status
+from openacr.map.words import fsf
 from openacr.views import F32, F64, I32
 
 __all__ = ["fast_status_step", "group_number"]
@@ -53,41 +35,38 @@ def group_number(code: int, index: int, field: int) -> int:
 
 def fast_status_load(I: I32) -> None:
     """Take the entries over."""
-    for n in range(FSB_COUNT):
-        entry: int = FST_BASE + n * FST_STRIDE
-        row: int = FSBI_BASE + n * FSBI_STRIDE
-        I[row + FSBI_CODE] = I[entry + FST_FSTAT_CODE] & 255
-        I[row + FSBI_INDEX] = I[entry + FST_FSTAT_INDEX] & 255
-        I[row + FSBI_TYPE] = I[entry + FST_FSTAT_TYPE]
+    for n in range(fast_status.COUNT):
+        I[fast_status.code[n]] = I[fast_status.fstat_code[n]] & 255
+        I[fast_status.index[n]] = I[fast_status.fstat_index[n]] & 255
+        I[fast_status.type[n]] = I[fast_status.fstat_type[n]]
 
 
 def fast_status_copy(F: F64, I: I32, S: F32) -> None:
     """Copy all groups in use."""
-    for n in range(FSB_COUNT):
-        row: int = FSBI_BASE + n * FSBI_STRIDE
-        if I[row + FSBI_CODE] == 0:
+    for n in range(fast_status.COUNT):
+        if I[fast_status.code[n]] == 0:
             continue
         for field in range(FIELDS):
-            number: int = group_number(I[row + FSBI_CODE], I[row + FSBI_INDEX], field)
+            number: int = group_number(I[fast_status.code[n]], I[fast_status.index[n]], field)
             value: float = parameter_value(F, I, S, number)
-            if I[row + FSBI_TYPE] == AS_FP32:
-                S[row + FSBI_WORDS + field] = value
+            if I[fast_status.type[n]] == AS_FP32:
+                S[fast_status.words[n] + field] = value
             else:
-                I[row + FSBI_WORDS + field] = round32(value)
+                I[fast_status.words[n] + field] = round32(value)
     I[P_FSTAT_COUNT] = wrap32(I[P_FSTAT_COUNT] + 1)
 
 
 def fast_status_step(F: F64, I: I32, S: F32, period_s: float) -> None:
     """One tick while FSTAT runs or is asked to."""
     flags: int = I[W_FSTAT]
-    phase: float = F[FSBF_BASE + FSBF_PHASE_MS] + period_s * 1000.0
-    if flags & FSF_FSTAT_ON_REQUEST:
-        I[W_FSTAT] = (flags & ~FSF_FSTAT_ON_REQUEST) | FSF_FSTAT_ON
+    phase: float = F[fast_status.phase_ms[0]] + period_s * 1000.0
+    if flags & fsf.FSTAT_ON_REQUEST:
+        I[W_FSTAT] = (flags & ~fsf.FSTAT_ON_REQUEST) | fsf.FSTAT_ON
         fast_status_load(I)
         phase = I[P_FSTAT_PERIOD]  # the first copy at once
-    elif not flags & FSF_FSTAT_ON:
+    elif not flags & fsf.FSTAT_ON:
         return
     if phase >= I[P_FSTAT_PERIOD] - EPS_MS:
         fast_status_copy(F, I, S)
         phase = 0.0
-    F[FSBF_BASE + FSBF_PHASE_MS] = phase
+    F[fast_status.phase_ms[0]] = phase

@@ -29,74 +29,31 @@ from openacr.kernel.source_cy import (
     axis_word2,
     trigger_step,
 )
-from openacr.map.numbers import (
-    AF1_GEAR_ACTIVATE,
-    AF1_GEAR_ACTIVE,
-    AF1_GEAR_AT_SPEED,
-    AF1_GEAR_LOCK,
-    AF1_GEAR_STOPPING,
-    AF2_GEAR_MAX,
-    AF2_GEAR_MIN,
-    AF2_GEAR_OFF_ARMED,
-    AF2_GEAR_OFF_POSITION,
-    AF2_GEAR_ON_POSITION,
-    AF2_GEAR_ON_TRIG_ARMED,
-    AF2_GEAR_TRIGGER_STARTED,
-    AF4_KILL_ALL_MOTION_REQUEST,
-    AF4_WORD,
-    AX_BASE,
-    AX_GEAR_SLIP,
-    AX_GEAR_TRIGGER_OFF_OFFSET,
-    AX_GEAR_TRIGGER_ON_OFFSET,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_GEAR_CNT,
-    AXF_STRIDE,
-    GRF_ACC_RPS,
-    GRF_BASE,
-    GRF_DEC_RPS,
-    GRF_MAX_U,
-    GRF_MIN_U,
-    GRF_PPU,
-    GRF_RATIO,
-    GRF_RATIO_NOW,
-    GRF_SLIP_CNT,
-    GRF_SLIP_SHOWN_CNT,
-    GRF_STRIDE,
-    SRF_BASE,
-    SRF_DELTA,
-    SRF_STRIDE,
-    TGF_BASE,
-    TGF_OVER_CNT,
-    TGF_STRIDE,
-    TGI_BASE,
-    TGI_KIND,
-    TGI_STRIDE,
-)
+from openacr.map.rows import axes, gears, sources, triggers
+from openacr.map.words import af1, af2, af4
 from openacr.views import F32, F64, I32
 
 __all__ = ["gear_ramp", "gear_step"]
 
-ON_FLAGS = AF2_GEAR_ON_TRIG_ARMED | AF2_GEAR_ON_POSITION
-OFF_FLAGS = AF2_GEAR_OFF_ARMED | AF2_GEAR_OFF_POSITION
+ON_FLAGS = af2.GEAR_ON_TRIG_ARMED | af2.GEAR_ON_POSITION
+OFF_FLAGS = af2.GEAR_OFF_ARMED | af2.GEAR_OFF_POSITION
 EPS = 1e-9
-RATIO_STATE = AF1_GEAR_ACTIVE | AF1_GEAR_AT_SPEED | AF1_GEAR_STOPPING
+RATIO_STATE = af1.GEAR_ACTIVE | af1.GEAR_AT_SPEED | af1.GEAR_STOPPING
 
 
 def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
     """Ramp the internal ratio of axis n towards `goal` for `dt`; return its mean."""
-    g: int = GRF_BASE + n * GRF_STRIDE
-    ratio: float = F[g + GRF_RATIO_NOW]
+    ratio: float = F[gears.ratio_now[n]]
     if at_once:
         ratio = goal
     if ratio == goal or dt <= 0.0:
-        F[g + GRF_RATIO_NOW] = ratio
+        F[gears.ratio_now[n]] = ratio
         return ratio
     area: float = 0.0
     left: float = dt
     for _ in range(2):  # down to 0, then up on the other side
         stage: float = 0.0 if ratio * goal < 0.0 else goal
-        rate: float = F[g + GRF_DEC_RPS] if fabs(stage) < fabs(ratio) else F[g + GRF_ACC_RPS]
+        rate: float = F[gears.dec_rps[n]] if fabs(stage) < fabs(ratio) else F[gears.acc_rps[n]]
         if rate > 0.0:
             needed: float = fabs(stage - ratio) / rate
             if needed > left * (1.0 + EPS):
@@ -110,55 +67,50 @@ def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
         ratio = stage
         if ratio == goal:
             break
-    F[g + GRF_RATIO_NOW] = ratio
+    F[gears.ratio_now[n]] = ratio
     return (area + left * ratio) / dt
 
 
 def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
     """Add to Gear Slip, which anybody may write."""
-    g: int = GRF_BASE + n * GRF_STRIDE
-    p: int = AX_BASE + n * AX_STRIDE
-    if S[p + AX_GEAR_SLIP] != F[g + GRF_SLIP_SHOWN_CNT]:
-        F[g + GRF_SLIP_CNT] = S[p + AX_GEAR_SLIP]
-    F[g + GRF_SLIP_CNT] += lost_cnt
-    S[p + AX_GEAR_SLIP] = F[g + GRF_SLIP_CNT]
-    F[g + GRF_SLIP_SHOWN_CNT] = S[p + AX_GEAR_SLIP]
+    if S[axes.gear_slip[n]] != F[gears.slip_shown_cnt[n]]:
+        F[gears.slip_cnt[n]] = S[axes.gear_slip[n]]
+    F[gears.slip_cnt[n]] += lost_cnt
+    S[axes.gear_slip[n]] = F[gears.slip_cnt[n]]
+    F[gears.slip_shown_cnt[n]] = S[axes.gear_slip[n]]
 
 
 def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
     """Move the gear offset of axis n, never farther beyond GEAR MAX and MIN."""
-    g: int = GRF_BASE + n * GRF_STRIDE
-    a: int = AXF_BASE + n * AXF_STRIDE
     word: int = axis_word2(n)
-    flags: int = I[word] & ~(AF2_GEAR_MAX | AF2_GEAR_MIN)
+    flags: int = I[word] & ~(af2.GEAR_MAX | af2.GEAR_MIN)
     if not fabs(moved_cnt) < LARGEST_DELTA:
         return
-    if F[g + GRF_MAX_U] > F[g + GRF_MIN_U]:
+    if F[gears.max_u[n]] > F[gears.min_u[n]]:
         scale: float = axis_scale(S, n)
-        old: float = F[a + AXF_GEAR_CNT] / scale
+        old: float = F[axes.gear_cnt[n]] / scale
         new: float = old + moved_cnt / scale
-        if new >= F[g + GRF_MAX_U]:
-            flags |= AF2_GEAR_MAX
-            new = min(new, max(old, F[g + GRF_MAX_U]))
+        if new >= F[gears.max_u[n]]:
+            flags |= af2.GEAR_MAX
+            new = min(new, max(old, F[gears.max_u[n]]))
             moved_cnt = (new - old) * scale
-        elif new <= F[g + GRF_MIN_U]:
-            flags |= AF2_GEAR_MIN
-            new = max(new, min(old, F[g + GRF_MIN_U]))
+        elif new <= F[gears.min_u[n]]:
+            flags |= af2.GEAR_MIN
+            new = max(new, min(old, F[gears.min_u[n]]))
             moved_cnt = (new - old) * scale
     I[word] = flags
-    F[a + AXF_GEAR_CNT] += moved_cnt
+    F[axes.gear_cnt[n]] += moved_cnt
 
 
 def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
     """Let the gear of axis n follow `delta` source pulses that came within `dt`."""
-    g: int = GRF_BASE + n * GRF_STRIDE
     word: int = axis_word(n)
-    on: bool = I[word] & AF1_GEAR_ACTIVATE != 0
-    goal: float = F[g + GRF_RATIO] if on else 0.0
-    mean: float = gear_ramp(F, n, goal, dt, I[word] & AF1_GEAR_LOCK != 0)
+    on: bool = I[word] & af1.GEAR_ACTIVATE != 0
+    goal: float = F[gears.ratio[n]] if on else 0.0
+    mean: float = gear_ramp(F, n, goal, dt, I[word] & af1.GEAR_LOCK != 0)
     step: float = 0.0
-    if F[g + GRF_PPU] != 0.0:
-        step = delta / F[g + GRF_PPU] * axis_scale(S, n)
+    if F[gears.ppu[n]] != 0.0:
+        step = delta / F[gears.ppu[n]] * axis_scale(S, n)
     if on and mean != goal and step != 0.0:
         gear_slip(F, S, n, (goal - mean) * step)
     gear_place(F, I, S, n, step * mean)
@@ -166,30 +118,29 @@ def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
 
 def gear_show(F: F64, I: I32, n: int) -> None:
     """Flags of the gear of axis n."""
-    g: int = GRF_BASE + n * GRF_STRIDE
     word: int = axis_word(n)
     flags: int = I[word] & ~RATIO_STATE
-    if flags & AF1_GEAR_ACTIVATE:
-        flags |= AF1_GEAR_ACTIVE
-        if F[g + GRF_RATIO_NOW] == F[g + GRF_RATIO]:
-            flags |= AF1_GEAR_AT_SPEED
+    if flags & af1.GEAR_ACTIVATE:
+        flags |= af1.GEAR_ACTIVE
+        if F[gears.ratio_now[n]] == F[gears.ratio[n]]:
+            flags |= af1.GEAR_AT_SPEED
     else:
-        I[axis_word2(n)] &= ~AF2_GEAR_TRIGGER_STARTED
-        if F[g + GRF_RATIO_NOW] != 0.0:
-            flags |= AF1_GEAR_ACTIVE | AF1_GEAR_STOPPING
+        I[axis_word2(n)] &= ~af2.GEAR_TRIGGER_STARTED
+        if F[gears.ratio_now[n]] != 0.0:
+            flags |= af1.GEAR_ACTIVE | af1.GEAR_STOPPING
     I[word] = flags
 
 
 def gear_behind(F: F64, t: int, delta: float) -> float:
     """Part of the tick behind the event of trigger t."""
-    return F[TGF_BASE + t * TGF_STRIDE + TGF_OVER_CNT] / delta if delta != 0.0 else 0.0
+    return F[triggers.over_cnt[t]] / delta if delta != 0.0 else 0.0
 
 
 def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
     """Advance what GEAR ON waits for; True if the gear has started in this tick."""
     t: int = n * TRIGGERS + GEAR_ON
-    captures: bool = I[TGI_BASE + t * TGI_STRIDE + TGI_KIND] >= CAPTURED
-    offset: float = I[AX_BASE + n * AX_STRIDE + AX_GEAR_TRIGGER_ON_OFFSET]
+    captures: bool = I[triggers.kind[t]] >= CAPTURED
+    offset: float = I[axes.gear_trigger_on_offset[n]]
     state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
     if state == WAITING:
         return False
@@ -198,9 +149,9 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> 
     if state == EXPIRED:
         return False
     if captures:
-        I[word] |= AF2_GEAR_TRIGGER_STARTED
-    I[axis_word(n)] |= AF1_GEAR_ACTIVATE
-    over: float = F[TGF_BASE + t * TGF_STRIDE + TGF_OVER_CNT]
+        I[word] |= af2.GEAR_TRIGGER_STARTED
+    I[axis_word(n)] |= af1.GEAR_ACTIVATE
+    over: float = F[triggers.over_cnt[t]]
     gear_run(F, I, S, n, over, dt * gear_behind(F, t, delta))
     return True
 
@@ -208,38 +159,38 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> 
 def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
     """Advance what GEAR OFF waits for; True if it has come in this tick."""
     t: int = n * TRIGGERS + GEAR_OFF
-    offset: float = I[AX_BASE + n * AX_STRIDE + AX_GEAR_TRIGGER_OFF_OFFSET]
+    offset: float = I[axes.gear_trigger_off_offset[n]]
     state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
     if state != WAITING:
         I[axis_word2(n)] &= ~OFF_FLAGS
     if state != FIRED:
         return False
-    over: float = F[TGF_BASE + t * TGF_STRIDE + TGF_OVER_CNT]
+    over: float = F[triggers.over_cnt[t]]
     behind: float = gear_behind(F, t, delta)
     gear_run(F, I, S, n, delta - over, dt * (1.0 - behind))
-    I[axis_word(n)] &= ~AF1_GEAR_ACTIVATE
+    I[axis_word(n)] &= ~af1.GEAR_ACTIVATE
     gear_run(F, I, S, n, over, dt * behind)
     return True
 
 
 def gear_halt(F: F64, I: I32, n: int) -> None:
     """Let go of the source at once and disarm: a kill or a limit."""
-    I[axis_word(n)] &= ~(AF1_GEAR_ACTIVATE | RATIO_STATE)
-    I[axis_word2(n)] &= ~(ON_FLAGS | OFF_FLAGS | AF2_GEAR_TRIGGER_STARTED)
-    I[TGI_BASE + (n * TRIGGERS + GEAR_ON) * TGI_STRIDE + TGI_KIND] = DISARMED
-    I[TGI_BASE + (n * TRIGGERS + GEAR_OFF) * TGI_STRIDE + TGI_KIND] = DISARMED
-    F[GRF_BASE + n * GRF_STRIDE + GRF_RATIO_NOW] = 0.0
+    I[axis_word(n)] &= ~(af1.GEAR_ACTIVATE | RATIO_STATE)
+    I[axis_word2(n)] &= ~(ON_FLAGS | OFF_FLAGS | af2.GEAR_TRIGGER_STARTED)
+    I[triggers.kind[n * TRIGGERS + GEAR_ON]] = DISARMED
+    I[triggers.kind[n * TRIGGERS + GEAR_OFF]] = DISARMED
+    F[gears.ratio_now[n]] = 0.0
 
 
 def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     """The gear of axis n in one tick of `dt` seconds."""
-    if I[AF4_WORD + n] & AF4_KILL_ALL_MOTION_REQUEST:
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
         gear_halt(F, I, n)
         return
-    delta: float = F[SRF_BASE + (n * USES + USE_GEAR) * SRF_STRIDE + SRF_DELTA]
-    on: int = I[TGI_BASE + (n * TRIGGERS + GEAR_ON) * TGI_STRIDE + TGI_KIND]
-    off: int = I[TGI_BASE + (n * TRIGGERS + GEAR_OFF) * TGI_STRIDE + TGI_KIND]
-    running: int = I[axis_word(n)] & (AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE)
+    delta: float = F[sources.delta[n * USES + USE_GEAR]]
+    on: int = I[triggers.kind[n * TRIGGERS + GEAR_ON]]
+    off: int = I[triggers.kind[n * TRIGGERS + GEAR_OFF]]
+    running: int = I[axis_word(n)] & (af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE)
     if not running and on == DISARMED and off == DISARMED:
         return
     done: bool = False

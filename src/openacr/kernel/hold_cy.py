@@ -23,74 +23,8 @@ from openacr.kernel.profile_cy import (
 )
 from openacr.kernel.round_cy import round_hold_rate, round_holds
 from openacr.kernel.seek_cy import SEEK_NONE, SEEK_STOPPING
-from openacr.map.numbers import (
-    AXF_BASE,
-    AXF_FOLDED_CNT,
-    AXF_JOG_CNT,
-    AXF_POSITION_CNT,
-    AXF_STRIDE,
-    AXF_TARGET_CNT,
-    MA_BASE,
-    MA_DISTANCE_INTO_PATH,
-    MA_MBUF_FILLED,
-    MA_STRIDE,
-    MA_VECTOR_ACCELERATION,
-    MA_VECTOR_JERK,
-    MA_VECTOR_VELOCITY,
-    MA_VELOCITY_SQUARED,
-    MF1_ACCELERATING,
-    MF1_DECELERATING,
-    MF1_FEEDHOLDING,
-    MF1_IN_FEEDHOLD,
-    MF1_IN_MOTION,
-    MF1_INTERRUPT_ON_MOVE,
-    MF1_JERKING,
-    MF1_KILL_ALL_MOVES_REQUEST,
-    MF1_MOVE_BUFFERED,
-    MF1_STOP_ALL_MOVES_REQUEST,
-    MF1_STOPPING,
-    MF1_TRG_PENDING,
-    MF4_VEL_LIMIT,
-    MF4_WORD,
-    MQF_BASE,
-    MQF_DEC_UPS2,
-    MQF_JRK_UPS3,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQI_BASE,
-    MQI_MARKS,
-    MQI_STRIDE,
-    MSF_BASE,
-    MSF_ENTRY_UPS,
-    MSF_ENTRY_UPS2,
-    MSF_ORIGIN_U,
-    MSF_STRETCH_U,
-    MSF_STRIDE,
-    MSF_TARGET_CNT,
-    MSF_TRAVEL_U,
-    MSI_BASE,
-    MSI_CUT,
-    MSI_DROP_AT_REST,
-    MSI_HOLD,
-    MSI_HSINT_PHASE,
-    MSI_MOVING,
-    MSI_PIECE,
-    MSI_QUEUED,
-    MSI_SEEK_PHASE,
-    MSI_SLAVE_AXIS,
-    MSI_STRETCH,
-    MSI_STRIDE,
-    MSI_TRIGGER,
-    MSI_TRIGGER_AXIS,
-    PRF_BASE,
-    PRF_DISTANCE,
-    PRF_STRIDE,
-    PRF_TARGET_VELOCITY,
-    PRF_VELOCITY,
-    PRI_BASE,
-    PRI_KIND,
-    PRI_STRIDE,
-)
+from openacr.map.rows import axes, masters, moves, profiles
+from openacr.map.words import mf1, mf4
 from openacr.views import F32, F64, I32
 
 __all__ = ["master_drop", "master_hold", "master_release", "move_over"]
@@ -102,40 +36,39 @@ IN_FEEDHOLD = 2
 
 def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     """Drop the present move and all that wait; the axes stay where they are commanded."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    if I[i + MSI_MOVING]:
+    if I[masters.moving[m]]:
         move_over(F, I, m, FAR_U)
-    S[MA_BASE + m * MA_STRIDE + MA_DISTANCE_INTO_PATH] = F[MSF_BASE + m * MSF_STRIDE + MSF_TRAVEL_U]
-    I[MF4_WORD + m] &= ~MF4_VEL_LIMIT
-    I[i + MSI_QUEUED] = 0
-    I[i + MSI_MOVING] = 0
-    I[i + MSI_HOLD] = NOT_HELD
-    I[i + MSI_DROP_AT_REST] = 0
-    I[i + MSI_SEEK_PHASE] = SEEK_NONE
-    I[i + MSI_HSINT_PHASE] = HSINT_NONE
-    I[i + MSI_CUT] = 0
-    I[i + MSI_STRETCH] = 1
-    I[i + MSI_TRIGGER] = 0
-    I[i + MSI_TRIGGER_AXIS] = 0
-    I[i + MSI_PIECE] = 0
+    S[masters.distance_into_path[m]] = F[masters.travel_u[m]]
+    I[mf4.word[m]] &= ~mf4.VEL_LIMIT
+    I[masters.queued[m]] = 0
+    I[masters.moving[m]] = 0
+    I[masters.hold[m]] = NOT_HELD
+    I[masters.drop_at_rest[m]] = 0
+    I[masters.seek_phase[m]] = SEEK_NONE
+    I[masters.hsint_phase[m]] = HSINT_NONE
+    I[masters.cut[m]] = 0
+    I[masters.stretch[m]] = 1
+    I[masters.trigger[m]] = 0
+    I[masters.trigger_axis[m]] = 0
+    I[masters.piece[m]] = 0
     corner_drop(F, I, m)
     curve_drop(I, m)
-    F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS] = 0.0
-    F[MSF_BASE + m * MSF_STRIDE + MSF_ENTRY_UPS2] = 0.0
+    F[masters.entry_ups[m]] = 0.0
+    F[masters.entry_ups2[m]] = 0.0
     profile_reset(F, I, m, 0.0, 0.0)
-    F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY] = 0.0
+    F[profiles.target_velocity[m]] = 0.0
     master_settle(F, I, S, m)
     word: int = master_word(m)
     I[word] &= ~(
-        MF1_IN_MOTION
-        | MF1_MOVE_BUFFERED
-        | MF1_ACCELERATING
-        | MF1_DECELERATING
-        | MF1_STOPPING
-        | MF1_JERKING
-        | MF1_FEEDHOLDING
-        | MF1_IN_FEEDHOLD
-        | MF1_TRG_PENDING
+        mf1.IN_MOTION
+        | mf1.MOVE_BUFFERED
+        | mf1.ACCELERATING
+        | mf1.DECELERATING
+        | mf1.STOPPING
+        | mf1.JERKING
+        | mf1.FEEDHOLDING
+        | mf1.IN_FEEDHOLD
+        | mf1.TRG_PENDING
     )
 
 
@@ -144,29 +77,25 @@ def move_over(F: F64, I: I32, m: int, length_u: float) -> None:
 
     Interrupt On Move clears if the move itself has set it.
     """
-    if I[MQI_BASE + move_record(I, m) * MQI_STRIDE + MQI_MARKS] & MARK_INTERRUPT_LENT:
-        I[master_word(m)] &= ~MF1_INTERRUPT_ON_MOVE
-    f: int = MSF_BASE + m * MSF_STRIDE
-    gone_u: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE] - F[f + MSF_ORIGIN_U]
-    F[f + MSF_TRAVEL_U] += max(min(gone_u, length_u), 0.0)
+    if I[moves.marks[move_record(I, m)]] & MARK_INTERRUPT_LENT:
+        I[master_word(m)] &= ~mf1.INTERRUPT_ON_MOVE
+    gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    F[masters.travel_u[m]] += max(min(gone_u, length_u), 0.0)
 
 
 def master_settle(F: F64, I: I32, S: F32, m: int) -> None:
     """At rest the target of every slave is its current position; shown values clear."""
-    i: int = MSI_BASE + m * MSI_STRIDE
     for s in range(SLAVE_COUNT):
-        axis: int = I[i + MSI_SLAVE_AXIS + s]
+        axis: int = I[masters.slave_axis[m] + s]
         if axis >= 0:
-            a: int = AXF_BASE + axis * AXF_STRIDE
-            F[a + AXF_TARGET_CNT] = F[a + AXF_POSITION_CNT]
-            F[a + AXF_FOLDED_CNT] = 0.0
-            F[MSF_BASE + m * MSF_STRIDE + MSF_TARGET_CNT + s] = F[a + AXF_POSITION_CNT]
-    p: int = MA_BASE + m * MA_STRIDE
-    S[p + MA_VECTOR_VELOCITY] = 0.0
-    S[p + MA_VECTOR_ACCELERATION] = 0.0
-    S[p + MA_VECTOR_JERK] = 0.0
-    S[p + MA_VELOCITY_SQUARED] = 0.0
-    I[p + MA_MBUF_FILLED] = 0
+            F[axes.target_cnt[axis]] = F[axes.position_cnt[axis]]
+            F[axes.folded_cnt[axis]] = 0.0
+            F[masters.target_cnt[m] + s] = F[axes.position_cnt[axis]]
+    S[masters.vector_velocity[m]] = 0.0
+    S[masters.vector_acceleration[m]] = 0.0
+    S[masters.vector_jerk[m]] = 0.0
+    S[masters.velocity_squared[m]] = 0.0
+    I[masters.mbuf_filled[m]] = 0
 
 
 def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
@@ -175,46 +104,44 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     Where an end ramp no softer than that is already running, or the ramp would pass a target
     at which the path stops anyway, the move simply ends at its target.
     """
-    i: int = MSI_BASE + m * MSI_STRIDE
-    I[i + MSI_HOLD] = FEEDHOLDING
-    I[master_word(m)] |= MF1_FEEDHOLDING
-    if not I[i + MSI_MOVING]:
+    I[masters.hold[m]] = FEEDHOLDING
+    I[master_word(m)] |= mf1.FEEDHOLDING
+    if not I[masters.moving[m]]:
         return
-    q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
-    rate: float = F[q + MQF_DEC_UPS2]
+    record: int = move_record(I, m)
+    rate: float = F[moves.dec_ups2[record]]
     if rate <= 0.0:
-        rate = F[q + MQF_STP_UPS2]
-    if master_stopping(I, m) and (rate <= F[q + MQF_STP_UPS2] or ends_early(I, m)):
+        rate = F[moves.stp_ups2[record]]
+    if master_stopping(I, m) and (rate <= F[moves.stp_ups2[record]] or ends_early(I, m)):
         return
     if round_holds(F, I, S, m, rate):
         return
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
-    jerk: float = F[q + MQF_JRK_UPS3]
-    flows: bool = F[q + MQF_STP_UPS2] <= 0.0 or look_beyond(I, m, move_record(I, m))
+    end: float = F[masters.stretch_u[m]]
+    jerk: float = F[moves.jrk_ups3[record]]
+    flows: bool = F[moves.stp_ups2[record]] <= 0.0 or look_beyond(I, m, move_record(I, m))
     flows = flows or is_bezier(I, move_record(I, m))
-    merged: bool = flows and I[i + MSI_QUEUED] > I[i + MSI_STRETCH]
-    merged = merged or I[i + MSI_PIECE] != 0
+    merged: bool = flows and I[masters.queued[m]] > I[masters.stretch[m]]
+    merged = merged or I[masters.piece[m]] != 0
     rate = round_hold_rate(F, I, m, rate)
     if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
-        stp: float = F[q + MQF_STP_UPS2]
+        stp: float = F[moves.stp_ups2[record]]
         if stp <= 0.0:
             stp = rate
-        limit: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
+        limit: float = F[profiles.velocity[m]]
         profile_plan(F, I, m, end, limit, 0.0, rate, rate, stp, jerk)
 
 
 def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     """End a feedhold: the path speeds up again (Cycle Start)."""
-    i: int = MSI_BASE + m * MSI_STRIDE
     path_unfold(F, I, m)
-    I[i + MSI_HOLD] = NOT_HELD
-    I[i + MSI_DROP_AT_REST] = 0
-    I[master_word(m)] &= ~(MF1_FEEDHOLDING | MF1_IN_FEEDHOLD)
-    if not I[i + MSI_MOVING] or master_stopping(I, m):
+    I[masters.hold[m]] = NOT_HELD
+    I[masters.drop_at_rest[m]] = 0
+    I[master_word(m)] &= ~(mf1.FEEDHOLDING | mf1.IN_FEEDHOLD)
+    if not I[masters.moving[m]] or master_stopping(I, m):
         return
     if ends_early(I, m):
         # Has found what it looked for, or is to go no farther: it ends here.
-        profile_stop(F, I, m, F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE], 0.0, 0.0, STOPPING)
+        profile_stop(F, I, m, F[profiles.distance[m]], 0.0, 0.0, STOPPING)
     else:
         master_plan(F, I, S, m)
 
@@ -222,34 +149,31 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
 def path_unfold(F: F64, I: I32, m: int) -> None:
     """What JOG RES took into a held path is jog offset again: the path goes on where it was."""
     for s in range(SLAVE_COUNT):
-        axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
-        if axis >= 0 and F[AXF_BASE + axis * AXF_STRIDE + AXF_FOLDED_CNT] != 0.0:
-            a: int = AXF_BASE + axis * AXF_STRIDE
-            F[a + AXF_POSITION_CNT] -= F[a + AXF_FOLDED_CNT]
-            axis_jog_set(F, I, axis, F[a + AXF_JOG_CNT] + F[a + AXF_FOLDED_CNT])
-            F[a + AXF_FOLDED_CNT] = 0.0
+        axis: int = I[masters.slave_axis[m] + s]
+        if axis >= 0 and F[axes.folded_cnt[axis]] != 0.0:
+            F[axes.position_cnt[axis]] -= F[axes.folded_cnt[axis]]
+            axis_jog_set(F, I, axis, F[axes.jog_cnt[axis]] + F[axes.folded_cnt[axis]])
+            F[axes.folded_cnt[axis]] = 0.0
 
 
 def ends_early(I: I32, m: int) -> bool:
     """Whether the present move ends where it comes to rest: it has found what it looked for."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    passing: bool = I[i + MSI_HSINT_PHASE] == HSINT_PASSING
-    return I[i + MSI_SEEK_PHASE] == SEEK_STOPPING or passing or I[i + MSI_CUT] != 0
+    passing: bool = I[masters.hsint_phase[m]] == HSINT_PASSING
+    return I[masters.seek_phase[m]] == SEEK_STOPPING or passing or I[masters.cut[m]] != 0
 
 
 def master_stopping(I: I32, m: int) -> bool:
     """Whether the end ramp of the move, or the stop of a seek, is running already."""
-    return I[PRI_BASE + m * PRI_STRIDE + PRI_KIND] == STOPPING
+    return I[profiles.kind[m]] == STOPPING
 
 
 def master_at_rest(F: F64, I: I32, S: F32, m: int) -> None:
     """A feedhold has come to rest: note it, and finish what it was the first step of."""
-    i: int = MSI_BASE + m * MSI_STRIDE
     word: int = master_word(m)
-    I[i + MSI_HOLD] = IN_FEEDHOLD
-    I[word] |= MF1_IN_FEEDHOLD
-    if I[word] & MF1_STOP_ALL_MOVES_REQUEST:
-        I[word] = (I[word] & ~MF1_STOP_ALL_MOVES_REQUEST) | MF1_KILL_ALL_MOVES_REQUEST
+    I[masters.hold[m]] = IN_FEEDHOLD
+    I[word] |= mf1.IN_FEEDHOLD
+    if I[word] & mf1.STOP_ALL_MOVES_REQUEST:
+        I[word] = (I[word] & ~mf1.STOP_ALL_MOVES_REQUEST) | mf1.KILL_ALL_MOVES_REQUEST
         master_drop(F, I, S, m)
-    elif I[i + MSI_DROP_AT_REST]:
+    elif I[masters.drop_at_rest[m]]:
         master_drop(F, I, S, m)

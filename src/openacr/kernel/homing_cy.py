@@ -20,46 +20,8 @@ from openacr.kernel.axis_cy import axis_preload, axis_scale, axis_sense, limit_b
 from openacr.kernel.capture_cy import capture_input_position, encoder_shift
 from openacr.kernel.jogplan_cy import FAR_CNT, JOG_PROFILE, jog_ramp_down, jog_run, jog_setting
 from openacr.kernel.profile_cy import DECELERATING
-from openacr.map.numbers import (
-    AF4_KILL_ALL_MOTION_REQUEST,
-    AF4_WORD,
-    AF5_HOME_BACKUP_ENABLE,
-    AF5_HOME_FAILED,
-    AF5_HOME_INPUT,
-    AF5_HOME_LEVEL_INVERT,
-    AF5_HOME_NEGATIVE_EDGE_SELECT,
-    AF5_HOME_NEGATIVE_FINAL_DIRECTION,
-    AF5_HOME_SUCCESSFUL,
-    AF5_HOMING_IN_PROGRESS,
-    AF5_WORD,
-    AX_ACTUAL_POSITION,
-    AX_BASE,
-    AX_JOG_DECEL_SETTING,
-    AX_JOG_JERK_SETTING,
-    AX_JOG_VELOC_SETTING,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_HLDEC_UPS2,
-    AXF_HOME_EDGE_CNT,
-    AXF_HOMVF_UPS,
-    AXF_SLDEC_UPS2,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_HLBIT,
-    AXI_HOME_INPUT_OLD,
-    AXI_HOME_LIMIT_HIT,
-    AXI_HOME_MOVING,
-    AXI_HOME_REVERSED,
-    AXI_HOME_SEARCH,
-    AXI_HOME_STATE,
-    AXI_STRIDE,
-    PLGI_BASE,
-    PLGI_FALLS,
-    PLGI_RISES,
-    PRF_BASE,
-    PRF_STRIDE,
-    PRF_TARGET_VELOCITY,
-)
+from openacr.map.rows import axes, plant, profiles
+from openacr.map.words import af4, af5
 from openacr.views import F32, F64, I32
 
 __all__ = ["home_abort", "home_begin"]
@@ -81,48 +43,47 @@ SLOW_SHARE = 0.1  # of JOG VEL, where HOMVF is 0
 
 def home_edge(I: I32, n: int) -> int:
     """+1 or -1: which side of the active region is the reference edge."""
-    return -1 if I[AF5_WORD + n] & AF5_HOME_NEGATIVE_EDGE_SELECT else 1
+    return -1 if I[af5.word[n]] & af5.HOME_NEGATIVE_EDGE_SELECT else 1
 
 
 def home_final(I: I32, n: int) -> int:
     """+1 or -1: direction in which the final approach has to end."""
-    return -1 if I[AF5_WORD + n] & AF5_HOME_NEGATIVE_FINAL_DIRECTION else 1
+    return -1 if I[af5.word[n]] & af5.HOME_NEGATIVE_FINAL_DIRECTION else 1
 
 
 def home_run(F: F64, I: I32, S: F32, n: int, state: int, sign: int, speed: float) -> None:
     """Enter `state` and move in direction `sign` of the units, without a target."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    I[i + AXI_HOME_STATE] = state
-    I[i + AXI_HOME_MOVING] = sign
+    I[axes.home_state[n]] = state
+    I[axes.home_moving[n]] = sign
     jog_run(F, I, S, n, sign * axis_sense(S, n), FAR_CNT, speed)
 
 
 def home_brake(F: F64, I: I32, S: F32, n: int, state: int) -> None:
     """Enter `state` and ramp down with JOG DEC and JRK."""
-    I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] = state
-    dec: float = jog_setting(S, n, AX_JOG_DECEL_SETTING)
-    jog_ramp_down(F, I, n, dec, jog_setting(S, n, AX_JOG_JERK_SETTING), DECELERATING)
+    I[axes.home_state[n]] = state
+    dec: float = jog_setting(S, n, axes.jog_decel_setting[n])
+    jog_ramp_down(F, I, n, dec, jog_setting(S, n, axes.jog_jerk_setting[n]), DECELERATING)
 
 
 def home_approach(F: F64, I: I32, S: F32, n: int, sign: int) -> None:
     """Approach the edge slowly in direction `sign`."""
     scale: float = fabs(axis_scale(S, n))
-    speed: float = F[AXF_BASE + n * AXF_STRIDE + AXF_HOMVF_UPS] * scale
+    speed: float = F[axes.homvf_ups[n]] * scale
     if speed <= 0.0:
-        speed = SLOW_SHARE * jog_setting(S, n, AX_JOG_VELOC_SETTING)
+        speed = SLOW_SHARE * jog_setting(S, n, axes.jog_veloc_setting[n])
     home_run(F, I, S, n, HOME_APPROACH, sign, speed)
 
 
 def home_end(I: I32, n: int, result: int) -> None:
     """Leave homing with the given result flag."""
-    I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] = HOME_OFF
-    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~AF5_HOMING_IN_PROGRESS) | result
+    I[axes.home_state[n]] = HOME_OFF
+    I[af5.word[n]] = (I[af5.word[n]] & ~af5.HOMING_IN_PROGRESS) | result
 
 
 def home_abort(I: I32, n: int) -> None:
     """Homing was ended from outside (JOG OFF, kill): it has failed."""
-    if I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_STATE] != HOME_OFF:
-        home_end(I, n, AF5_HOME_FAILED)
+    if I[axes.home_state[n]] != HOME_OFF:
+        home_end(I, n, af5.HOME_FAILED)
 
 
 def home_zero(F: F64, I: I32, S: F32, n: int, origin: float) -> None:
@@ -133,34 +94,31 @@ def home_zero(F: F64, I: I32, S: F32, n: int, origin: float) -> None:
 
 def home_fail(I: I32, n: int) -> None:
     """Both limits were met: failed, and the axis is killed as by a limit."""
-    home_end(I, n, AF5_HOME_FAILED)
-    I[AF4_WORD + n] |= AF4_KILL_ALL_MOTION_REQUEST
+    home_end(I, n, af5.HOME_FAILED)
+    I[af4.word[n]] |= af4.KILL_ALL_MOTION_REQUEST
 
 
 def home_limit(F: F64, I: I32, S: F32, n: int) -> None:
     """A limit was met in search: turn round once, then fail."""
-    a: int = AXF_BASE + n * AXF_STRIDE
-    i: int = AXI_BASE + n * AXI_STRIDE
-    hit: int = I[i + AXI_HOME_LIMIT_HIT]
-    I[i + AXI_HOME_LIMIT_HIT] = 0
-    if I[i + AXI_HOME_STATE] == HOME_REVERSE:
+    hit: int = I[axes.home_limit_hit[n]]
+    I[axes.home_limit_hit[n]] = 0
+    if I[axes.home_state[n]] == HOME_REVERSE:
         return
-    if I[i + AXI_HOME_REVERSED] or I[i + AXI_HOME_STATE] != HOME_SEARCH:
+    if I[axes.home_reversed[n]] or I[axes.home_state[n]] != HOME_SEARCH:
         home_fail(I, n)
         return
-    I[i + AXI_HOME_REVERSED] = 1
-    I[i + AXI_HOME_STATE] = HOME_REVERSE
-    rate: float = F[a + AXF_SLDEC_UPS2] if hit == SOFT_LIMIT_HIT else F[a + AXF_HLDEC_UPS2]
+    I[axes.home_reversed[n]] = 1
+    I[axes.home_state[n]] = HOME_REVERSE
+    rate: float = F[axes.sldec_ups2[n]] if hit == SOFT_LIMIT_HIT else F[axes.hldec_ups2[n]]
     jog_ramp_down(F, I, n, rate * fabs(axis_scale(S, n)), 0.0, DECELERATING)
 
 
 def home_begin(I: I32, n: int, direction: int) -> None:
     """Let the search in `direction` begin with the next tick."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    results: int = AF5_HOME_SUCCESSFUL | AF5_HOME_FAILED
-    I[AF5_WORD + n] = (I[AF5_WORD + n] & ~results) | AF5_HOMING_IN_PROGRESS
-    I[i + AXI_HOME_SEARCH] = direction
-    I[i + AXI_HOME_STATE] = HOME_START
+    results: int = af5.HOME_SUCCESSFUL | af5.HOME_FAILED
+    I[af5.word[n]] = (I[af5.word[n]] & ~results) | af5.HOMING_IN_PROGRESS
+    I[axes.home_search[n]] = direction
+    I[axes.home_state[n]] = HOME_START
 
 
 def home_start(F: F64, I: I32, S: F32, n: int) -> None:
@@ -168,52 +126,50 @@ def home_start(F: F64, I: I32, S: F32, n: int) -> None:
 
     A limit that bars the direction already turns the search round before anything moves.
     """
-    i: int = AXI_BASE + n * AXI_STRIDE
-    flags: int = I[AF5_WORD + n]
-    sign: int = I[i + AXI_HOME_SEARCH]
-    if flags & AF5_HOME_BACKUP_ENABLE and flags & AF5_HOME_INPUT:
+    flags: int = I[af5.word[n]]
+    sign: int = I[axes.home_search[n]]
+    if flags & af5.HOME_BACKUP_ENABLE and flags & af5.HOME_INPUT:
         sign = home_edge(I, n)
-    I[i + AXI_HOME_INPUT_OLD] = flags & AF5_HOME_INPUT
-    I[i + AXI_HOME_REVERSED] = 0
-    I[i + AXI_HOME_LIMIT_HIT] = 0
+    I[axes.home_input_old[n]] = flags & af5.HOME_INPUT
+    I[axes.home_reversed[n]] = 0
+    I[axes.home_limit_hit[n]] = 0
     if limit_bars(F, I, S, n, sign):
-        I[i + AXI_HOME_REVERSED] = 1
+        I[axes.home_reversed[n]] = 1
         sign = -sign
         if limit_bars(F, I, S, n, sign):
             home_fail(I, n)
             return
-    home_run(F, I, S, n, HOME_SEARCH, sign, jog_setting(S, n, AX_JOG_VELOC_SETTING))
+    home_run(F, I, S, n, HOME_SEARCH, sign, jog_setting(S, n, axes.jog_veloc_setting[n]))
 
 
 def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
     """Look at limits and home input of this tick; True when the axis is to rest at once."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    state: int = I[i + AXI_HOME_STATE]
+    state: int = I[axes.home_state[n]]
     if state == HOME_START:
         home_start(F, I, S, n)
         return False
-    if I[i + AXI_HOME_LIMIT_HIT]:
+    if I[axes.home_limit_hit[n]]:
         home_limit(F, I, S, n)
-    if I[i + AXI_HOME_STATE] == HOME_SEARCH:
+    if I[axes.home_state[n]] == HOME_SEARCH:
         home_pace(F, I, S, n)
-    now: int = I[AF5_WORD + n] & AF5_HOME_INPUT
-    old: int = I[i + AXI_HOME_INPUT_OLD]
-    I[i + AXI_HOME_INPUT_OLD] = now
+    now: int = I[af5.word[n]] & af5.HOME_INPUT
+    old: int = I[axes.home_input_old[n]]
+    I[axes.home_input_old[n]] = now
     if now == old and not home_passed(I, n):
         return False
-    same: bool = I[i + AXI_HOME_MOVING] == home_edge(I, n)
+    same: bool = I[axes.home_moving[n]] == home_edge(I, n)
     if now == old:  # of the two edges that were met, the one that counts
-        now = 0 if same else AF5_HOME_INPUT
+        now = 0 if same else af5.HOME_INPUT
     crossed: bool = now == 0 if same else now != 0
-    backup: bool = I[AF5_WORD + n] & AF5_HOME_BACKUP_ENABLE != 0
-    state = I[i + AXI_HOME_STATE]
+    backup: bool = I[af5.word[n]] & af5.HOME_BACKUP_ENABLE != 0
+    state = I[axes.home_state[n]]
     if state == HOME_SEARCH and not backup:
         home_brake(F, I, S, n, HOME_STOP0)
     elif state == HOME_SEARCH and crossed:
         home_brake(F, I, S, n, HOME_STOP1)
     elif state == HOME_APPROACH and crossed:
-        if I[i + AXI_HOME_MOVING] == home_final(I, n):
-            F[AXF_BASE + n * AXF_STRIDE + AXF_HOME_EDGE_CNT] = home_edge_position(F, I, n, now)
+        if I[axes.home_moving[n]] == home_final(I, n):
+            F[axes.home_edge_cnt[n]] = home_edge_position(F, I, n, now)
             home_stop_dead(F, I, S, n)
             return True
         home_brake(F, I, S, n, HOME_STOP2)
@@ -222,15 +178,15 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
 
 def home_pace(F: F64, I: I32, S: F32, n: int) -> None:
     """Follow a JOG VEL changed during the search."""
-    speed: float = jog_setting(S, n, AX_JOG_VELOC_SETTING)
-    if speed != F[PRF_BASE + (JOG_PROFILE + n) * PRF_STRIDE + PRF_TARGET_VELOCITY]:
-        home_run(F, I, S, n, HOME_SEARCH, I[AXI_BASE + n * AXI_STRIDE + AXI_HOME_MOVING], speed)
+    speed: float = jog_setting(S, n, axes.jog_veloc_setting[n])
+    if speed != F[profiles.target_velocity[JOG_PROFILE + n]]:
+        home_run(F, I, S, n, HOME_SEARCH, I[axes.home_moving[n]], speed)
 
 
 def home_passed(I: I32, n: int) -> bool:
     """Whether the home input has changed and changed back within this tick."""
-    number: int = I[AXI_BASE + n * AXI_STRIDE + AXI_HLBIT] + 2
-    both: int = I[PLGI_BASE + PLGI_RISES] & I[PLGI_BASE + PLGI_FALLS]
+    number: int = I[axes.hlbit[n]] + 2
+    both: int = I[plant.rises] & I[plant.falls]
     return 0 <= number < INPUTS and (both >> number) & 1 != 0
 
 
@@ -239,29 +195,28 @@ def home_edge_position(F: F64, I: I32, n: int, now: int) -> float:
 
     The edge of the input itself is the other one where its level is inverted.
     """
-    number: int = I[AXI_BASE + n * AXI_STRIDE + AXI_HLBIT] + 2
-    inverted: bool = I[AF5_WORD + n] & AF5_HOME_LEVEL_INVERT != 0
+    number: int = I[axes.hlbit[n]] + 2
+    inverted: bool = I[af5.word[n]] & af5.HOME_LEVEL_INVERT != 0
     return capture_input_position(F, I, n, number, (now == 0) != inverted)
 
 
 def home_stop_dead(F: F64, I: I32, S: F32, n: int) -> None:
     """End the approach in this tick; the reference edge becomes 0."""
-    home_zero(F, I, S, n, F[AXF_BASE + n * AXF_STRIDE + AXF_HOME_EDGE_CNT])
-    home_end(I, n, AF5_HOME_SUCCESSFUL)
+    home_zero(F, I, S, n, F[axes.home_edge_cnt[n]])
+    home_end(I, n, af5.HOME_SUCCESSFUL)
 
 
 def home_arrived(F: F64, I: I32, S: F32, n: int) -> bool:
     """A ramp of the sequence has come to rest; True when homing is over."""
-    i: int = AXI_BASE + n * AXI_STRIDE
-    state: int = I[i + AXI_HOME_STATE]
-    speed: float = jog_setting(S, n, AX_JOG_VELOC_SETTING)
+    state: int = I[axes.home_state[n]]
+    speed: float = jog_setting(S, n, axes.jog_veloc_setting[n])
     if state == HOME_REVERSE:
-        home_run(F, I, S, n, HOME_SEARCH, -I[i + AXI_HOME_MOVING], speed)
+        home_run(F, I, S, n, HOME_SEARCH, -I[axes.home_moving[n]], speed)
     elif state == HOME_STOP1:
-        home_approach(F, I, S, n, -I[i + AXI_HOME_MOVING])
+        home_approach(F, I, S, n, -I[axes.home_moving[n]])
     elif state == HOME_STOP2:
         home_approach(F, I, S, n, home_final(I, n))
     elif state == HOME_STOP0:
-        home_zero(F, I, S, n, I[AX_BASE + n * AX_STRIDE + AX_ACTUAL_POSITION])
-        home_end(I, n, AF5_HOME_SUCCESSFUL)
-    return I[i + AXI_HOME_STATE] == HOME_OFF
+        home_zero(F, I, S, n, I[axes.actual_position[n]])
+        home_end(I, n, af5.HOME_SUCCESSFUL)
+    return I[axes.home_state[n]] == HOME_OFF

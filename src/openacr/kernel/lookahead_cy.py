@@ -31,50 +31,8 @@ from openacr.kernel.path_cy import (
     move_limit,
     move_override,
 )
-from openacr.map.numbers import (
-    MA_BASE,
-    MA_LOOK_AHEAD_MIN_VEL,
-    MA_STRIDE,
-    MF4_LOOK_AHEAD_MODE,
-    MF4_LOOK_AHEAD_NEGLECT,
-    MF4_WORD,
-    MQF_ACC_UPS2,
-    MQF_BASE,
-    MQF_CORNER_U,
-    MQF_CORNER_UPS,
-    MQF_DEC_UPS2,
-    MQF_JRK_UPS3,
-    MQF_LENGTH_U,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQF_TMOV_S,
-    MQF_TURN_DEG,
-    MQI_AHEAD,
-    MQI_BASE,
-    MQI_HSINT_AXIS,
-    MQI_INTERRUPT,
-    MQI_MARKS,
-    MQI_RAPID,
-    MQI_SEEK_AXIS,
-    MQI_STRIDE,
-    MQI_TRIGGER,
-    MQI_TRIGGER_AXIS,
-    MSF_BASE,
-    MSF_LOOK_CAP_UPS,
-    MSF_LOOK_EXIT_UPS,
-    MSF_LOOK_FROM_DEG,
-    MSF_LOOK_TO_DEG,
-    MSF_ORIGIN_U,
-    MSF_STRETCH_U,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_FIRST,
-    MSI_HEAD,
-    MSI_QUEUED,
-    MSI_SIZE,
-    MSI_STRETCH,
-    MSI_STRIDE,
-)
+from openacr.map.rows import masters, moves
+from openacr.map.words import mf4
 from openacr.views import F32, F64, I32
 
 __all__ = ["ramp_start"]
@@ -87,13 +45,13 @@ ENDLESS_UPS = 1e30
 
 def look_active(I: I32, m: int) -> bool:
     """Whether master m looks ahead."""
-    flags: int = I[MF4_WORD + m]
-    return flags & MF4_LOOK_AHEAD_MODE != 0 and not flags & MF4_LOOK_AHEAD_NEGLECT
+    flags: int = I[mf4.word[m]]
+    return flags & mf4.LOOK_AHEAD_MODE != 0 and not flags & mf4.LOOK_AHEAD_NEGLECT
 
 
 def look_beyond(I: I32, m: int, record: int) -> bool:
     """Whether plans may run beyond a move: of its master, or because it brings a tolerance."""
-    return look_active(I, m) or I[MQI_BASE + record * MQI_STRIDE + MQI_AHEAD] != 0
+    return look_active(I, m) or I[moves.ahead[record]] != 0
 
 
 def look_through(F: F64, I: I32, m: int, record: int) -> bool:
@@ -103,26 +61,26 @@ def look_through(F: F64, I: I32, m: int, record: int) -> bool:
 
 def same_curve(I: I32, a: int, b: int) -> bool:
     """Whether both of two moves that follow each other are pieces of one curve."""
-    marks: int = I[MQI_BASE + b * MQI_STRIDE + MQI_MARKS]
+    marks: int = I[moves.marks[b]]
     return is_bezier(I, a) and is_bezier(I, b) and not marks & MARK_CURVE_BEGIN
 
 
 def look_record(I: I32, m: int, k: int) -> int:
     """Record of the move `k` places behind the present one."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    place: int = I[i + MSI_HEAD] + k
-    if place >= I[i + MSI_SIZE]:
-        place -= I[i + MSI_SIZE]
-    return I[i + MSI_FIRST] + place
+    place: int = I[masters.head[m]] + k
+    if place >= I[masters.size[m]]:
+        place -= I[masters.size[m]]
+    return I[masters.first[m]] + place
 
 
 def look_plain(F: F64, I: I32, record: int) -> bool:
     """Whether a move may merge: it has no time, flag, capture or trigger of its own."""
-    q: int = MQI_BASE + record * MQI_STRIDE
-    special: int = I[q + MQI_SEEK_AXIS] | I[q + MQI_HSINT_AXIS] | I[q + MQI_INTERRUPT]
-    special = special | I[q + MQI_TRIGGER] | I[q + MQI_TRIGGER_AXIS]
-    special = special | (I[q + MQI_MARKS] & MARK_TURN)
-    return special == 0 and F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S] <= 0.0
+    special: int = (
+        I[moves.seek_axis[record]] | I[moves.hsint_axis[record]] | I[moves.interrupt[record]]
+    )
+    special = special | I[moves.trigger[record]] | I[moves.trigger_axis[record]]
+    special = special | (I[moves.marks[record]] & MARK_TURN)
+    return special == 0 and F[moves.tmov_s[record]] <= 0.0
 
 
 def look_speed(F: F64, I: I32, S: F32, m: int, record: int) -> float:
@@ -136,19 +94,19 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
     velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
-    rounded: bool = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U] > 0.0
+    rounded: bool = F[moves.corner_u[a]] > 0.0
     if rounded and look_beyond(I, m, a):  # see round_law_cy
-        return min(velocity, F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_UPS])
+        return min(velocity, F[moves.corner_ups[a]])
     if same_curve(I, a, b) or is_timed(I, a):
         return velocity
     if is_timed(I, b):
         return 0.0
     if not look_active(I, m):  # beside a curve moves merge as they do without look-ahead
         return min(velocity, look_final(F, I, S, m, a))
-    turn: float = F[MQF_BASE + a * MQF_STRIDE + MQF_TURN_DEG]
-    begin: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_FROM_DEG]
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_TO_DEG]
-    lowest: float = S[MA_BASE + m * MA_STRIDE + MA_LOOK_AHEAD_MIN_VEL]
+    turn: float = F[moves.turn_deg[a]]
+    begin: float = F[masters.look_from_deg[m]]
+    end: float = F[masters.look_to_deg[m]]
+    lowest: float = S[masters.look_ahead_min_vel[m]]
     lowest = lowest if lowest > 0.0 else 0.0
     lowest = min(lowest, velocity)
     if turn <= begin:
@@ -160,21 +118,19 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
 
 def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -> bool:
     """Whether one plan may run through the junction of two moves."""
-    p: int = MQF_BASE + a * MQF_STRIDE
-    q: int = MQF_BASE + b * MQF_STRIDE
     velocity: float = look_speed(F, I, S, m, a)
     if velocity != look_speed(F, I, S, m, b) or not velocity > 0.0:
         return False
-    if F[p + MQF_ACC_UPS2] != F[q + MQF_ACC_UPS2] or F[p + MQF_DEC_UPS2] != F[q + MQF_DEC_UPS2]:
+    if F[moves.acc_ups2[a]] != F[moves.acc_ups2[b]] or F[moves.dec_ups2[a]] != F[moves.dec_ups2[b]]:
         return False
-    if F[p + MQF_JRK_UPS3] != F[q + MQF_JRK_UPS3]:
+    if F[moves.jrk_ups3[a]] != F[moves.jrk_ups3[b]]:
         return False
-    if F[p + MQF_CORNER_U] > 0.0 or F[q + MQF_CORNER_U] > 0.0:
+    if F[moves.corner_u[a]] > 0.0 or F[moves.corner_u[b]] > 0.0:
         return False
-    rapid: int = I[MQI_BASE + a * MQI_STRIDE + MQI_RAPID]
-    if rapid != I[MQI_BASE + b * MQI_STRIDE + MQI_RAPID]:
+    rapid: int = I[moves.rapid[a]]
+    if rapid != I[moves.rapid[b]]:
         return False
-    return corner >= velocity * (SLIGHT if F[p + MQF_JRK_UPS3] > 0.0 else FREE)
+    return corner >= velocity * (SLIGHT if F[moves.jrk_ups3[a]] > 0.0 else FREE)
 
 
 def ramp_start(length: float, end: float, rate: float, jerk: float) -> float:
@@ -205,45 +161,45 @@ def ramp_start(length: float, end: float, rate: float, jerk: float) -> float:
 
 def look_final(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     """Speed at which the last move of the buffer ends."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    if F[q + MQF_STP_UPS2] <= 0.0:
+    if F[moves.stp_ups2[record]] <= 0.0:
         return look_speed(F, I, S, m, record)
     return move_final_ups(F, I, m, record)
 
 
 def look_rate(F: F64, record: int) -> float:
     """The ramp for slowing down inside a path: DEC, or STP if that is 0."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    return F[q + MQF_DEC_UPS2] if F[q + MQF_DEC_UPS2] > 0.0 else F[q + MQF_STP_UPS2]
+    return (
+        F[moves.dec_ups2[record]] if F[moves.dec_ups2[record]] > 0.0 else F[moves.stp_ups2[record]]
+    )
 
 
 def look_jerk(F: F64, record: int) -> float:
     """The jerk of a move."""
-    return F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3]
+    return F[moves.jrk_ups3[record]]
 
 
 def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
     """Backward pass: the speed at which the move `first` places behind may be entered."""
-    k: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
+    k: int = I[masters.queued[m]] - 1
     b: int = look_record(I, m, k)
     end: float = look_final(F, I, S, m, b)
-    rate: float = F[MQF_BASE + b * MQF_STRIDE + MQF_STP_UPS2]
-    length: float = F[MQF_BASE + b * MQF_STRIDE + MQF_LENGTH_U]
+    rate: float = F[moves.stp_ups2[b]]
+    length: float = F[moves.length_u[b]]
     cap: float = look_speed(F, I, S, m, b)
     while k > first:
         a: int = look_record(I, m, k - 1)
         corner: float = look_corner(F, I, S, m, a, b)
         if look_merges(F, I, S, m, a, b, corner):
-            length += F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+            length += F[moves.length_u[a]]
             cap = min(cap, corner)
         else:
-            length -= F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U]
-            jerk: float = F[MQF_BASE + b * MQF_STRIDE + MQF_JRK_UPS3]
+            length -= F[moves.corner_u[a]]
+            jerk: float = F[moves.jrk_ups3[b]]
             entry: float = ramp_start(max(length, 0.0), end, rate, jerk)
             end = min(corner, min(entry, cap))
             rate = look_rate(F, a)
-            length = F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
-            length -= F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U]
+            length = F[moves.length_u[a]]
+            length -= F[moves.corner_u[a]]
             cap = look_speed(F, I, S, m, a)
         b = a
         k -= 1
@@ -252,11 +208,9 @@ def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
 
 def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
     """Find the stretch of the present move: its end, its cap and the speed at its end."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    f: int = MSF_BASE + m * MSF_STRIDE
-    queued: int = I[i + MSI_QUEUED]
+    queued: int = I[masters.queued[m]]
     a: int = look_record(I, m, 0)
-    end: float = F[f + MSF_ORIGIN_U] + F[MQF_BASE + a * MQF_STRIDE + MQF_LENGTH_U]
+    end: float = F[masters.origin_u[m]] + F[moves.length_u[a]]
     cap: float = 0.0
     velocity: float = look_speed(F, I, S, m, a)
     k: int = 1
@@ -268,7 +222,7 @@ def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
             break
         if corner < velocity * FREE and (cap <= 0.0 or corner < cap):
             cap = corner
-        end += F[MQF_BASE + b * MQF_STRIDE + MQF_LENGTH_U]
+        end += F[moves.length_u[b]]
         a = b
         k += 1
     exit_speed: float = 0.0
@@ -276,7 +230,7 @@ def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
         exit_speed = min(corner, look_entry(F, I, S, m, k))
     else:
         exit_speed = look_final(F, I, S, m, a)
-    I[i + MSI_STRETCH] = k
-    F[f + MSF_STRETCH_U] = end
-    F[f + MSF_LOOK_CAP_UPS] = cap
-    F[f + MSF_LOOK_EXIT_UPS] = exit_speed
+    I[masters.stretch[m]] = k
+    F[masters.stretch_u[m]] = end
+    F[masters.look_cap_ups[m]] = cap
+    F[masters.look_exit_ups[m]] = exit_speed

@@ -12,7 +12,7 @@ of its source.
 """
 
 from openacr.cmath import fabs, floor
-from openacr.kernel.cam_cy import array_header
+from openacr.kernel.cam_cy import LONGS, array_header
 from openacr.kernel.source_cy import (
     LIMITER_TAPS,
     OUTPUT_TAPS,
@@ -22,58 +22,9 @@ from openacr.kernel.source_cy import (
     source_reading,
 )
 from openacr.map.kinds_cy import kind_of, store_long
-from openacr.map.numbers import (
-    FLAG_LAST,
-    FLAG_WORD_BASE,
-    KIND_LONG,
-    LTF_BACKLOG_CNT,
-    LTF_BASE,
-    LTF_FREQ_HZ,
-    LTF_MULT,
-    LTF_OUTPUT_CNT,
-    LTF_STRIDE,
-    MO_PLS0_ON,
-    OOF_BASE,
-    OOF_FROM_CNT,
-    OOF_PITCH_CNT,
-    OOF_START_CNT,
-    OOF_STRIDE,
-    OOF_TO_CNT,
-    OOF_WIDTH_CNT,
-    OOI_BASE,
-    OOI_BIT,
-    OOI_ON,
-    OOI_STRIDE,
-    OOI_WINDOWS,
-    PSF_BASE,
-    PSF_BASE_CNT,
-    PSF_FLZ_CNT,
-    PSF_RATIO,
-    PSF_ROTARY,
-    PSF_STRIDE,
-    PSI_ARRAY,
-    PSI_BASE,
-    PSI_DESTINATION,
-    PSI_MASK,
-    PSI_PROGRAM,
-    PSI_STRIDE,
-    RTF_BACKLOG_CNT,
-    RTF_BASE,
-    RTF_OUTPUT_CNT,
-    RTF_STRIDE,
-    RTI_BASE,
-    RTI_MODE,
-    RTI_STRIDE,
-    SRF_BASE,
-    SRF_DELTA,
-    SRF_STRIDE,
-    SRI_BASE,
-    SRI_INDEX,
-    SRI_KIND,
-    SRI_STRIDE,
-    STI_LA_BASE,
-    W_MISC_OUTPUTS,
-)
+from openacr.map.numbers import FLAG_LAST, FLAG_WORD_BASE, KIND_LONG, W_MISC_OUTPUTS
+from openacr.map.rows import limit_switches, limiters, output_objects, ratchets, sources
+from openacr.map.words import mo
 from openacr.views import F32, F64, I32
 
 __all__ = ["limiter_follow", "object_outputs_step", "object_sources_step", "ratchet_follow"]
@@ -87,52 +38,49 @@ BUFFERED = 3
 
 def ratchet_follow(F: F64, I: I32, k: int, delta: float) -> None:
     """Ratchet k gets a source delta."""
-    f: int = RTF_BASE + k * RTF_STRIDE
-    mode: int = I[RTI_BASE + k * RTI_STRIDE + RTI_MODE]
-    backlog: float = F[f + RTF_BACKLOG_CNT]
+    mode: int = I[ratchets.mode[k]]
+    backlog: float = F[ratchets.backlog_cnt[k]]
     if backlog * delta < 0.0:
         if fabs(delta) <= fabs(backlog):
-            F[f + RTF_BACKLOG_CNT] = backlog + delta
+            F[ratchets.backlog_cnt[k]] = backlog + delta
             return
         delta += backlog
-        F[f + RTF_BACKLOG_CNT] = 0.0
+        F[ratchets.backlog_cnt[k]] = 0.0
     treatment: int = mode >> 2 if delta > 0.0 else mode
     treatment = treatment & 3
     if treatment == PASSED:
-        F[f + RTF_OUTPUT_CNT] += delta
+        F[ratchets.output_cnt[k]] += delta
     elif treatment == TURNED:
-        F[f + RTF_OUTPUT_CNT] -= delta
+        F[ratchets.output_cnt[k]] -= delta
     elif treatment == BUFFERED:
-        F[f + RTF_BACKLOG_CNT] += delta
+        F[ratchets.backlog_cnt[k]] += delta
 
 
 def limiter_follow(F: F64, k: int, delta: float, period_s: float) -> None:
     """Limiter k gets a source delta."""
-    f: int = LTF_BASE + k * LTF_STRIDE
-    due: float = F[f + LTF_BACKLOG_CNT] + F[f + LTF_MULT] * delta
+    due: float = F[limiters.backlog_cnt[k]] + F[limiters.mult[k]] * delta
     step: float = due
-    if F[f + LTF_FREQ_HZ] > 0.0:
-        most: float = F[f + LTF_FREQ_HZ] * period_s
+    if F[limiters.freq_hz[k]] > 0.0:
+        most: float = F[limiters.freq_hz[k]] * period_s
         step = max(-most, min(most, due))
-    F[f + LTF_BACKLOG_CNT] = due - step
-    F[f + LTF_OUTPUT_CNT] += step
+    F[limiters.backlog_cnt[k]] = due - step
+    F[limiters.output_cnt[k]] += step
 
 
 def object_sources_step(F: F64, I: I32, S: F32, period_s: float) -> None:
     """Ratchets, then limiters, ahead of everything that may follow them."""
     for k in range(OBJECTS):
         source_follow(F, I, S, RATCHET_TAPS + k)
-        ratchet_follow(F, I, k, F[SRF_BASE + (RATCHET_TAPS + k) * SRF_STRIDE + SRF_DELTA])
+        ratchet_follow(F, I, k, F[sources.delta[RATCHET_TAPS + k]])
     for j in range(OBJECTS):
         source_follow(F, I, S, LIMITER_TAPS + j)
-        delta: float = F[SRF_BASE + (LIMITER_TAPS + j) * SRF_STRIDE + SRF_DELTA]
+        delta: float = F[sources.delta[LIMITER_TAPS + j]]
         limiter_follow(F, j, delta, period_s)
 
 
 def tap_value(F: F64, I: I32, S: F32, t: int) -> float:
     """Present value of the source of tap t."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    return source_reading(F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX])
+    return source_reading(F, I, S, I[sources.kind[t]], I[sources.index[t]])
 
 
 def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
@@ -140,43 +88,45 @@ def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
 
     Without BASE it writes nothing; one whose array was freed is switched off.
     """
-    i: int = PSI_BASE + k * PSI_STRIDE
-    f: int = PSF_BASE + k * PSF_STRIDE
-    if I[i + PSI_ARRAY] == 0:
+    if I[limit_switches.array[k]] == 0:
         return
-    header: int = array_header(I, I[i + PSI_PROGRAM], STI_LA_BASE, I[i + PSI_ARRAY] - 1, 1)
-    if header == 0 or kind_of(I, I[i + PSI_DESTINATION]) != KIND_LONG:
-        I[W_MISC_OUTPUTS] &= ~(MO_PLS0_ON << k)
+    header: int = array_header(
+        I, I[limit_switches.program[k]], LONGS, I[limit_switches.array[k]] - 1, 1
+    )
+    if header == 0 or kind_of(I, I[limit_switches.destination[k]]) != KIND_LONG:
+        I[W_MISC_OUTPUTS] &= ~(mo.PLS0_ON << k)
         return
     source: float = tap_value(F, I, S, SWITCH_TAPS + k)
-    index: float = floor((source - F[f + PSF_BASE_CNT] + F[f + PSF_FLZ_CNT]) * F[f + PSF_RATIO])
-    if F[f + PSF_ROTARY] > 0.0:
-        index -= floor(index / F[f + PSF_ROTARY]) * F[f + PSF_ROTARY]
+    index: float = floor(
+        (source - F[limit_switches.base_cnt[k]] + F[limit_switches.flz_cnt[k]])
+        * F[limit_switches.ratio[k]]
+    )
+    if F[limit_switches.rotary[k]] > 0.0:
+        index -= floor(index / F[limit_switches.rotary[k]]) * F[limit_switches.rotary[k]]
     if 0.0 <= index < I[header]:
-        mask: int = I[i + PSI_MASK]
-        row: int = I[i + PSI_DESTINATION]
+        mask: int = I[limit_switches.mask[k]]
+        row: int = I[limit_switches.destination[k]]
         store_long(I, row, (I[row] & ~mask) | (I[header + 1 + int(index)] & mask))
 
 
 def output_inside(F: F64, I: I32, k: int, source: float) -> bool:
     """Whether a source value lies in the window of POS or one of those of INC."""
-    f: int = OOF_BASE + k * OOF_STRIDE
-    if F[f + OOF_FROM_CNT] <= source < F[f + OOF_TO_CNT]:
+    if F[output_objects.from_cnt[k]] <= source < F[output_objects.to_cnt[k]]:
         return True
-    pitch: float = F[f + OOF_PITCH_CNT]
+    pitch: float = F[output_objects.pitch_cnt[k]]
     if pitch <= 0.0:
         return False
-    way: float = source - F[f + OOF_START_CNT]
+    way: float = source - F[output_objects.start_cnt[k]]
     window: float = floor(way / pitch)
-    windows: int = I[OOI_BASE + k * OOI_STRIDE + OOI_WINDOWS]
+    windows: int = I[output_objects.windows[k]]
     if window < 0.0 or (windows > 0 and window >= windows):
         return False
-    return way - window * pitch < F[f + OOF_WIDTH_CNT]
+    return way - window * pitch < F[output_objects.width_cnt[k]]
 
 
 def output_step(F: F64, I: I32, S: F32, k: int) -> None:
     """Output object k: its flag is set inside the windows."""
-    bit: int = I[OOI_BASE + k * OOI_STRIDE + OOI_BIT]
+    bit: int = I[output_objects.bit[k]]
     if not 0 <= bit <= FLAG_LAST:
         return
     word: int = FLAG_WORD_BASE + (bit >> 5)
@@ -192,7 +142,7 @@ def object_outputs_step(F: F64, I: I32, S: F32) -> None:
     """Limit switches and output objects, behind the servo loops."""
     switches: int = I[W_MISC_OUTPUTS]
     for k in range(OBJECTS):
-        if switches & (MO_PLS0_ON << k):
+        if switches & (mo.PLS0_ON << k):
             switch_step(F, I, S, k)
-        if I[OOI_BASE + k * OOI_STRIDE + OOI_ON]:
+        if I[output_objects.on[k]]:
             output_step(F, I, S, k)

@@ -36,33 +36,7 @@ Instances 0-15 are the masters (programming units), 16-31 the jog profilers (pul
 """
 
 from openacr.cmath import fabs, sqrt
-from openacr.map.numbers import (
-    PRF_ACCEL,
-    PRF_BASE,
-    PRF_DISTANCE,
-    PRF_END_DISTANCE,
-    PRF_END_VELOCITY,
-    PRF_JERK,
-    PRF_PLAN_ACCEL,
-    PRF_PLAN_DISTANCE,
-    PRF_PLAN_VELOCITY,
-    PRF_SEG_ACCEL,
-    PRF_SEG_DISTANCE,
-    PRF_SEG_JERK,
-    PRF_SEG_TIME_S,
-    PRF_SEG_TIME_S_SIZE,
-    PRF_SEG_VELOCITY,
-    PRF_STRIDE,
-    PRF_TARGET_VELOCITY,
-    PRF_TIME_S,
-    PRF_VELOCITY,
-    PRI_BASE,
-    PRI_KIND,
-    PRI_SEG_COUNT,
-    PRI_SEG_INDEX,
-    PRI_SEG_KIND,
-    PRI_STRIDE,
-)
+from openacr.map.rows import profiles
 from openacr.views import F64, I32
 
 __all__ = ["profile_advance", "profile_plan", "profile_reset", "profile_stop"]
@@ -82,36 +56,34 @@ LARGEST = 1e15  # speeds and rates beyond are no numbers of any machine
 
 def profile_reset(F: F64, I: I32, n: int, velocity: float, accel: float) -> None:
     """Start profile n at distance 0 with the given speed and acceleration and no plan."""
-    f: int = PRF_BASE + n * PRF_STRIDE
-    i: int = PRI_BASE + n * PRI_STRIDE
-    F[f + PRF_DISTANCE] = 0.0
-    F[f + PRF_VELOCITY] = velocity
-    F[f + PRF_ACCEL] = accel
-    F[f + PRF_JERK] = 0.0
-    F[f + PRF_TIME_S] = 0.0
-    F[f + PRF_END_DISTANCE] = 0.0
-    F[f + PRF_END_VELOCITY] = velocity
-    I[i + PRI_SEG_COUNT] = 0
-    I[i + PRI_SEG_INDEX] = 0
-    I[i + PRI_KIND] = CRUISING
+    F[profiles.distance[n]] = 0.0
+    F[profiles.velocity[n]] = velocity
+    F[profiles.accel[n]] = accel
+    F[profiles.jerk[n]] = 0.0
+    F[profiles.time_s[n]] = 0.0
+    F[profiles.end_distance[n]] = 0.0
+    F[profiles.end_velocity[n]] = velocity
+    I[profiles.seg_count[n]] = 0
+    I[profiles.seg_index[n]] = 0
+    I[profiles.kind[n]] = CRUISING
 
 
-def plan_start(F: F64, I: I32, f: int, i: int, jerk: float) -> None:
+def plan_start(F: F64, I: I32, n: int, jerk: float) -> None:
     """Empty the plan; planning continues from where the profile is now.
 
     A jerk too low to end the present braking before the path would run backwards (it has
     been lowered meanwhile) lets the acceleration start from 0 instead.
     """
-    velocity: float = F[f + PRF_VELOCITY]
-    accel: float = F[f + PRF_ACCEL]
+    velocity: float = F[profiles.velocity[n]]
+    accel: float = F[profiles.accel[n]]
     if jerk <= 0.0 or rest_speed(velocity, accel, jerk) < -BACKWARD * fabs(velocity):
         accel = 0.0
-    F[f + PRF_PLAN_DISTANCE] = F[f + PRF_DISTANCE]
-    F[f + PRF_PLAN_VELOCITY] = velocity
-    F[f + PRF_PLAN_ACCEL] = accel
-    F[f + PRF_TIME_S] = 0.0
-    I[i + PRI_SEG_COUNT] = 0
-    I[i + PRI_SEG_INDEX] = 0
+    F[profiles.plan_distance[n]] = F[profiles.distance[n]]
+    F[profiles.plan_velocity[n]] = velocity
+    F[profiles.plan_accel[n]] = accel
+    F[profiles.time_s[n]] = 0.0
+    I[profiles.seg_count[n]] = 0
+    I[profiles.seg_index[n]] = 0
 
 
 def rest_speed(velocity: float, accel: float, jerk: float) -> float:
@@ -145,35 +117,33 @@ def plain(value: float) -> float:
     return min(value, LARGEST)
 
 
-def plan_append(
-    F: F64, I: I32, f: int, i: int, time: float, accel: float, jerk: float, kind: int
-) -> None:
+def plan_append(F: F64, I: I32, n: int, time: float, accel: float, jerk: float, kind: int) -> None:
     """Append a segment of constant jerk that starts with `accel`."""
-    k: int = I[i + PRI_SEG_COUNT]
-    if time <= 0.0 or k >= PRF_SEG_TIME_S_SIZE:
+    k: int = I[profiles.seg_count[n]]
+    if time <= 0.0 or k >= profiles.SEG_TIME_S_SIZE:
         return
-    distance: float = F[f + PRF_PLAN_DISTANCE]
-    velocity: float = F[f + PRF_PLAN_VELOCITY]
-    F[f + PRF_SEG_TIME_S + k] = time
-    F[f + PRF_SEG_JERK + k] = jerk
-    F[f + PRF_SEG_ACCEL + k] = accel
-    F[f + PRF_SEG_VELOCITY + k] = velocity
-    F[f + PRF_SEG_DISTANCE + k] = distance
-    I[i + PRI_SEG_KIND + k] = kind
-    I[i + PRI_SEG_COUNT] = k + 1
-    F[f + PRF_PLAN_DISTANCE] = distance + time * (
+    distance: float = F[profiles.plan_distance[n]]
+    velocity: float = F[profiles.plan_velocity[n]]
+    F[profiles.seg_time_s[n] + k] = time
+    F[profiles.seg_jerk[n] + k] = jerk
+    F[profiles.seg_accel[n] + k] = accel
+    F[profiles.seg_velocity[n] + k] = velocity
+    F[profiles.seg_distance[n] + k] = distance
+    I[profiles.seg_kind[n] + k] = kind
+    I[profiles.seg_count[n]] = k + 1
+    F[profiles.plan_distance[n]] = distance + time * (
         velocity + time * (accel / 2.0 + time * jerk / 6.0)
     )
-    F[f + PRF_PLAN_VELOCITY] = velocity + time * (accel + time * jerk / 2.0)
-    F[f + PRF_PLAN_ACCEL] = accel + time * jerk
+    F[profiles.plan_velocity[n]] = velocity + time * (accel + time * jerk / 2.0)
+    F[profiles.plan_accel[n]] = accel + time * jerk
 
 
 def plan_ramp(
-    F: F64, I: I32, f: int, i: int, velocity: float, limit: float, jerk: float, kind: int
+    F: F64, I: I32, n: int, velocity: float, limit: float, jerk: float, kind: int
 ) -> None:
     """Append the ramp from the end of the plan to `velocity`; limit 0 is a velocity step."""
-    v0: float = F[f + PRF_PLAN_VELOCITY]
-    a0: float = F[f + PRF_PLAN_ACCEL]
+    v0: float = F[profiles.plan_velocity[n]]
+    a0: float = F[profiles.plan_accel[n]]
     if limit > 0.0 and jerk > 0.0:
         sign: float = 1.0 if velocity >= rest_speed(v0, a0, jerk) else -1.0
         square: float = jerk * sign * (velocity - v0) + a0 * a0 / 2.0
@@ -183,21 +153,20 @@ def plan_ramp(
         hold: float = 0.0
         if peak != 0.0:
             hold = (velocity - v0 - gained) / peak
-        plan_append(F, I, f, i, (peak - a0) / rise, a0, rise, kind)
-        plan_append(F, I, f, i, hold, peak, 0.0, kind)
-        plan_append(F, I, f, i, fabs(peak) / jerk, peak, -sign * jerk, kind)
+        plan_append(F, I, n, (peak - a0) / rise, a0, rise, kind)
+        plan_append(F, I, n, hold, peak, 0.0, kind)
+        plan_append(F, I, n, fabs(peak) / jerk, peak, -sign * jerk, kind)
     elif limit > 0.0 and velocity != v0:
         rate: float = limit if velocity > v0 else -limit
-        plan_append(F, I, f, i, (velocity - v0) / rate, rate, 0.0, kind)
-    F[f + PRF_PLAN_VELOCITY] = velocity
-    F[f + PRF_PLAN_ACCEL] = 0.0
+        plan_append(F, I, n, (velocity - v0) / rate, rate, 0.0, kind)
+    F[profiles.plan_velocity[n]] = velocity
+    F[profiles.plan_accel[n]] = 0.0
 
 
 def plan_build(
     F: F64,
     I: I32,
-    f: int,
-    i: int,
+    n: int,
     peak: float,
     end_velocity: float,
     acc: float,
@@ -207,47 +176,47 @@ def plan_build(
     cruise: float,
 ) -> float:
     """Plan ramp to `peak`, `cruise` seconds there, end ramp; return the distance used."""
-    plan_start(F, I, f, i, jerk)
-    if peak >= rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk):
-        plan_ramp(F, I, f, i, peak, acc, jerk, ACCELERATING)
+    plan_start(F, I, n, jerk)
+    if peak >= rest_speed(F[profiles.plan_velocity[n]], F[profiles.plan_accel[n]], jerk):
+        plan_ramp(F, I, n, peak, acc, jerk, ACCELERATING)
     else:
-        plan_ramp(F, I, f, i, peak, dec, jerk, DECELERATING)
-    plan_append(F, I, f, i, cruise, 0.0, 0.0, CRUISING)
+        plan_ramp(F, I, n, peak, dec, jerk, DECELERATING)
+    plan_append(F, I, n, cruise, 0.0, 0.0, CRUISING)
     if end_velocity < peak:
-        plan_ramp(F, I, f, i, end_velocity, stp, jerk, STOPPING)
-    return F[f + PRF_PLAN_DISTANCE] - F[f + PRF_DISTANCE]
+        plan_ramp(F, I, n, end_velocity, stp, jerk, STOPPING)
+    return F[profiles.plan_distance[n]] - F[profiles.distance[n]]
 
 
-def plan_finish(F: F64, I: I32, f: int, i: int, end: float) -> None:
+def plan_finish(F: F64, I: I32, n: int, end: float) -> None:
     """Make the end of the plan exact: `end` is reached however the sums were rounded."""
-    F[f + PRF_END_DISTANCE] = end
-    F[f + PRF_END_VELOCITY] = F[f + PRF_PLAN_VELOCITY]
+    F[profiles.end_distance[n]] = end
+    F[profiles.end_velocity[n]] = F[profiles.plan_velocity[n]]
 
 
-def plan_truncate(F: F64, I: I32, f: int, i: int, end: float) -> None:
+def plan_truncate(F: F64, I: I32, n: int, end: float) -> None:
     """Cut the plan where it passes `end`; speed and acceleration there become its end."""
-    count: int = I[i + PRI_SEG_COUNT]
+    count: int = I[profiles.seg_count[n]]
     k: int = 0
-    while k + 1 < count and F[f + PRF_SEG_DISTANCE + k + 1] < end:
+    while k + 1 < count and F[profiles.seg_distance[n] + k + 1] < end:
         k += 1
     if count > 0:
-        accel: float = F[f + PRF_SEG_ACCEL + k]
-        velocity: float = F[f + PRF_SEG_VELOCITY + k]
-        jerk: float = F[f + PRF_SEG_JERK + k]
-        wanted: float = end - F[f + PRF_SEG_DISTANCE + k]
+        accel: float = F[profiles.seg_accel[n] + k]
+        velocity: float = F[profiles.seg_velocity[n] + k]
+        jerk: float = F[profiles.seg_jerk[n] + k]
+        wanted: float = end - F[profiles.seg_distance[n] + k]
         low: float = 0.0
-        high: float = F[f + PRF_SEG_TIME_S + k]
+        high: float = F[profiles.seg_time_s[n] + k]
         for _ in range(BISECTIONS):
             time: float = (low + high) / 2.0
             if time * (velocity + time * (accel / 2.0 + time * jerk / 6.0)) < wanted:
                 low = time
             else:
                 high = time
-        F[f + PRF_SEG_TIME_S + k] = high
-        F[f + PRF_PLAN_VELOCITY] = velocity + high * (accel + high * jerk / 2.0)
-        F[f + PRF_PLAN_ACCEL] = accel + high * jerk
-        I[i + PRI_SEG_COUNT] = k + 1
-    plan_finish(F, I, f, i, end)
+        F[profiles.seg_time_s[n] + k] = high
+        F[profiles.plan_velocity[n]] = velocity + high * (accel + high * jerk / 2.0)
+        F[profiles.plan_accel[n]] = accel + high * jerk
+        I[profiles.seg_count[n]] = k + 1
+    plan_finish(F, I, n, end)
 
 
 def profile_plan(
@@ -269,40 +238,37 @@ def profile_plan(
     acceleration) it has. A rate of 0 is a velocity step. `cruise` 0 slows to a stop and
     waits there.
     """
-    f: int = PRF_BASE + n * PRF_STRIDE
-    i: int = PRI_BASE + n * PRI_STRIDE
-    F[f + PRF_TARGET_VELOCITY] = cruise
+    F[profiles.target_velocity[n]] = cruise
     cruise = plain(cruise)
     acc = plain(acc)
     dec = plain(dec)
     stp = plain(stp)
     jerk = plain(jerk)
-    distance: float = end - F[f + PRF_DISTANCE]
-    plan_start(F, I, f, i, jerk)
-    rest: float = rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk)
+    distance: float = end - F[profiles.distance[n]]
+    plan_start(F, I, n, jerk)
+    rest: float = rest_speed(F[profiles.plan_velocity[n]], F[profiles.plan_accel[n]], jerk)
     # FVEL never speeds up: at or below it there is nothing to slow down for.
     if end_velocity >= cruise and end_velocity >= rest:
         stp = 0.0
     if stp <= 0.0:
         end_velocity = cruise
-    used: float = plan_build(F, I, f, i, cruise, end_velocity, acc, dec, stp, jerk, 0.0)
+    used: float = plan_build(F, I, n, cruise, end_velocity, acc, dec, stp, jerk, 0.0)
     if used <= distance:
         wait: float = (distance - used) / cruise if cruise > 0.0 else FOREVER_S
-        plan_build(F, I, f, i, cruise, end_velocity, acc, dec, stp, jerk, wait)
-        plan_finish(F, I, f, i, end)
+        plan_build(F, I, n, cruise, end_velocity, acc, dec, stp, jerk, wait)
+        plan_finish(F, I, n, end)
     elif stp <= 0.0:
-        plan_truncate(F, I, f, i, end)
+        plan_truncate(F, I, n, end)
     elif jerk > 0.0:
-        plan_short_jerk(F, I, f, i, end, cruise, end_velocity, acc, dec, stp, jerk)
+        plan_short_jerk(F, I, n, end, cruise, end_velocity, acc, dec, stp, jerk)
     else:
-        plan_short(F, I, f, i, end, cruise, end_velocity, acc, dec, stp)
+        plan_short(F, I, n, end, cruise, end_velocity, acc, dec, stp)
 
 
 def plan_short(
     F: F64,
     I: I32,
-    f: int,
-    i: int,
+    n: int,
     end: float,
     cruise: float,
     end_velocity: float,
@@ -316,25 +282,25 @@ def plan_short(
     (p^2 - v^2)/(2r) + (p^2 - e^2)/(2 stp) = d with r = ACC on a rise (v <= p) and
     r = -DEC on a fall, which is linear in p^2.
     """
-    velocity: float = F[f + PRF_VELOCITY]
-    distance: float = end - F[f + PRF_DISTANCE]
+    velocity: float = F[profiles.velocity[n]]
+    distance: float = end - F[profiles.distance[n]]
     peak: float = 0.0
     if velocity <= cruise:
         peak = short_peak(velocity, end_velocity, distance, acc, stp)
         if peak <= end_velocity:
             # Not even FVEL is reached: speed up to the end, no end ramp.
-            plan_build(F, I, f, i, cruise, cruise, acc, dec, stp, 0.0, 0.0)
-            plan_truncate(F, I, f, i, end)
+            plan_build(F, I, n, cruise, cruise, acc, dec, stp, 0.0, 0.0)
+            plan_truncate(F, I, n, end)
             return
         peak = peak if peak >= velocity else -1.0
     else:
         peak = short_peak(velocity, end_velocity, distance, -dec, stp)
         peak = peak if end_velocity <= peak <= velocity else -1.0
     if peak >= 0.0:
-        plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, 0.0, 0.0)
-        plan_finish(F, I, f, i, end)
+        plan_build(F, I, n, peak, end_velocity, acc, dec, stp, 0.0, 0.0)
+        plan_finish(F, I, n, end)
     else:
-        plan_forced(F, I, f, i, end, end_velocity)
+        plan_forced(F, I, n, end, end_velocity)
 
 
 def short_peak(v: float, end_velocity: float, distance: float, rate: float, stp: float) -> float:
@@ -349,28 +315,27 @@ def short_peak(v: float, end_velocity: float, distance: float, rate: float, stp:
     return -1.0
 
 
-def plan_forced(F: F64, I: I32, f: int, i: int, end: float, end_velocity: float) -> None:
+def plan_forced(F: F64, I: I32, n: int, end: float, end_velocity: float) -> None:
     """Brake at the one constant rate that still arrives with `end_velocity` (or less)."""
-    velocity: float = F[f + PRF_VELOCITY]
-    distance: float = end - F[f + PRF_DISTANCE]
-    plan_start(F, I, f, i, 0.0)
+    velocity: float = F[profiles.velocity[n]]
+    distance: float = end - F[profiles.distance[n]]
+    plan_start(F, I, n, 0.0)
     if distance > 0.0 and velocity > end_velocity:
         # By time: exact even where the two speeds differ in their last bits only.
         time: float = 2.0 * distance / (velocity + end_velocity)
-        plan_append(F, I, f, i, time, (end_velocity - velocity) / time, 0.0, STOPPING)
+        plan_append(F, I, n, time, (end_velocity - velocity) / time, 0.0, STOPPING)
     elif distance > 0.0 and velocity > 0.0:
-        plan_append(F, I, f, i, distance / velocity, 0.0, 0.0, STOPPING)
+        plan_append(F, I, n, distance / velocity, 0.0, 0.0, STOPPING)
         end_velocity = velocity
-    F[f + PRF_PLAN_VELOCITY] = end_velocity
-    F[f + PRF_PLAN_ACCEL] = 0.0
-    plan_finish(F, I, f, i, end)
+    F[profiles.plan_velocity[n]] = end_velocity
+    F[profiles.plan_accel[n]] = 0.0
+    plan_finish(F, I, n, end)
 
 
 def plan_short_jerk(
     F: F64,
     I: I32,
-    f: int,
-    i: int,
+    n: int,
     end: float,
     cruise: float,
     end_velocity: float,
@@ -385,45 +350,43 @@ def plan_short_jerk(
     tried, so bisection finds the p that covers exactly the distance. The last bracket end
     that still fits is used and the tiny remainder becomes cruising time.
     """
-    distance: float = end - F[f + PRF_DISTANCE]
-    plan_start(F, I, f, i, jerk)
-    rest: float = rest_speed(F[f + PRF_PLAN_VELOCITY], F[f + PRF_PLAN_ACCEL], jerk)
+    distance: float = end - F[profiles.distance[n]]
+    plan_start(F, I, n, jerk)
+    rest: float = rest_speed(F[profiles.plan_velocity[n]], F[profiles.plan_accel[n]], jerk)
     fits: float = max(rest, 0.0)
     if rest <= end_velocity:
         # Not even FVEL is reached: speed up to the end, no end ramp.
         fits = end_velocity
-        if plan_build(F, I, f, i, fits, fits, acc, dec, stp, jerk, 0.0) > distance:
-            plan_truncate(F, I, f, i, end)
+        if plan_build(F, I, n, fits, fits, acc, dec, stp, jerk, 0.0) > distance:
+            plan_truncate(F, I, n, end)
             return
     elif rest > cruise and dec > stp:
         fits = end_velocity
     fails: float = cruise
-    if plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
-        plan_brake(F, I, f, i, end, end_velocity, max(dec, stp), jerk)
+    if plan_build(F, I, n, fits, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
+        plan_brake(F, I, n, end, end_velocity, max(dec, stp), jerk)
         return
     for _ in range(BISECTIONS):
         peak: float = (fits + fails) / 2.0
-        if plan_build(F, I, f, i, peak, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
+        if plan_build(F, I, n, peak, end_velocity, acc, dec, stp, jerk, 0.0) > distance:
             fails = peak
         else:
             fits = peak
-    used: float = plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, 0.0)
+    used: float = plan_build(F, I, n, fits, end_velocity, acc, dec, stp, jerk, 0.0)
     wait: float = (distance - used) / fits if fits > 0.0 else 0.0
-    plan_build(F, I, f, i, fits, end_velocity, acc, dec, stp, jerk, wait)
-    plan_finish(F, I, f, i, end)
+    plan_build(F, I, n, fits, end_velocity, acc, dec, stp, jerk, wait)
+    plan_finish(F, I, n, end)
 
 
-def plan_ramp_at_once(
-    F: F64, I: I32, f: int, i: int, velocity: float, rate: float, jerk: float
-) -> float:
+def plan_ramp_at_once(F: F64, I: I32, n: int, velocity: float, rate: float, jerk: float) -> float:
     """Plan an end ramp that begins now; return the distance it takes."""
-    plan_start(F, I, f, i, jerk)
-    plan_ramp(F, I, f, i, velocity, rate, jerk, STOPPING)
-    return F[f + PRF_PLAN_DISTANCE] - F[f + PRF_DISTANCE]
+    plan_start(F, I, n, jerk)
+    plan_ramp(F, I, n, velocity, rate, jerk, STOPPING)
+    return F[profiles.plan_distance[n]] - F[profiles.distance[n]]
 
 
 def plan_brake(
-    F: F64, I: I32, f: int, i: int, end: float, end_velocity: float, limit: float, jerk: float
+    F: F64, I: I32, n: int, end: float, end_velocity: float, limit: float, jerk: float
 ) -> None:
     """Plan the end ramp from here, at the softest rate that still fits; else force it.
 
@@ -431,20 +394,20 @@ def plan_brake(
     keeps braking. The way grows as the rate falls, so bisection finds the rate; it may be
     above STP, which is then too weak, but not above `limit`.
     """
-    distance: float = end - F[f + PRF_DISTANCE]
-    if plan_ramp_at_once(F, I, f, i, end_velocity, limit, jerk) > distance + SLACK * fabs(end):
-        plan_forced(F, I, f, i, end, end_velocity)
+    distance: float = end - F[profiles.distance[n]]
+    if plan_ramp_at_once(F, I, n, end_velocity, limit, jerk) > distance + SLACK * fabs(end):
+        plan_forced(F, I, n, end, end_velocity)
         return
     fails: float = 0.0
     fits: float = limit
     for _ in range(BISECTIONS):
         rate: float = (fits + fails) / 2.0
-        if plan_ramp_at_once(F, I, f, i, end_velocity, rate, jerk) > distance:
+        if plan_ramp_at_once(F, I, n, end_velocity, rate, jerk) > distance:
             fails = rate
         else:
             fits = rate
-    plan_ramp_at_once(F, I, f, i, end_velocity, fits, jerk)
-    plan_finish(F, I, f, i, end)
+    plan_ramp_at_once(F, I, n, end_velocity, fits, jerk)
+    plan_finish(F, I, n, end)
 
 
 def profile_stop(F: F64, I: I32, n: int, end: float, rate: float, jerk: float, kind: int) -> bool:
@@ -452,47 +415,43 @@ def profile_stop(F: F64, I: I32, n: int, end: float, rate: float, jerk: float, k
 
     When False is returned the plan is cut at `end` and still moving there.
     """
-    f: int = PRF_BASE + n * PRF_STRIDE
-    i: int = PRI_BASE + n * PRI_STRIDE
     jerk = plain(jerk)
-    plan_start(F, I, f, i, jerk)
-    plan_ramp(F, I, f, i, 0.0, plain(rate), jerk, kind)
-    if F[f + PRF_PLAN_DISTANCE] > end:
-        plan_truncate(F, I, f, i, end)
+    plan_start(F, I, n, jerk)
+    plan_ramp(F, I, n, 0.0, plain(rate), jerk, kind)
+    if F[profiles.plan_distance[n]] > end:
+        plan_truncate(F, I, n, end)
         return False
-    plan_finish(F, I, f, i, F[f + PRF_PLAN_DISTANCE])
+    plan_finish(F, I, n, F[profiles.plan_distance[n]])
     return True
 
 
 def profile_advance(F: F64, I: I32, n: int, dt: float) -> float:
     """Advance profile n by `dt` seconds; return the time left over at its end, else -1."""
-    f: int = PRF_BASE + n * PRF_STRIDE
-    i: int = PRI_BASE + n * PRI_STRIDE
-    count: int = I[i + PRI_SEG_COUNT]
-    k: int = I[i + PRI_SEG_INDEX]
-    t: float = F[f + PRF_TIME_S] + dt
-    while k < count and t >= F[f + PRF_SEG_TIME_S + k] - TIME_EPS_S:
-        t -= F[f + PRF_SEG_TIME_S + k]
+    count: int = I[profiles.seg_count[n]]
+    k: int = I[profiles.seg_index[n]]
+    t: float = F[profiles.time_s[n]] + dt
+    while k < count and t >= F[profiles.seg_time_s[n] + k] - TIME_EPS_S:
+        t -= F[profiles.seg_time_s[n] + k]
         k += 1
-    I[i + PRI_SEG_INDEX] = k
-    F[f + PRF_TIME_S] = t
+    I[profiles.seg_index[n]] = k
+    F[profiles.time_s[n]] = t
     if k >= count:
-        F[f + PRF_DISTANCE] = F[f + PRF_END_DISTANCE]
-        F[f + PRF_VELOCITY] = F[f + PRF_END_VELOCITY]
-        F[f + PRF_ACCEL] = F[f + PRF_PLAN_ACCEL]
-        F[f + PRF_JERK] = 0.0
-        I[i + PRI_KIND] = CRUISING
+        F[profiles.distance[n]] = F[profiles.end_distance[n]]
+        F[profiles.velocity[n]] = F[profiles.end_velocity[n]]
+        F[profiles.accel[n]] = F[profiles.plan_accel[n]]
+        F[profiles.jerk[n]] = 0.0
+        I[profiles.kind[n]] = CRUISING
         return max(t, 0.0)
-    jerk: float = F[f + PRF_SEG_JERK + k]
-    accel: float = F[f + PRF_SEG_ACCEL + k]
-    velocity: float = F[f + PRF_SEG_VELOCITY + k]
-    F[f + PRF_JERK] = jerk
-    F[f + PRF_ACCEL] = accel + t * jerk
-    F[f + PRF_VELOCITY] = velocity + t * (accel + t * jerk / 2.0)
-    distance: float = F[f + PRF_SEG_DISTANCE + k] + t * (
+    jerk: float = F[profiles.seg_jerk[n] + k]
+    accel: float = F[profiles.seg_accel[n] + k]
+    velocity: float = F[profiles.seg_velocity[n] + k]
+    F[profiles.jerk[n]] = jerk
+    F[profiles.accel[n]] = accel + t * jerk
+    F[profiles.velocity[n]] = velocity + t * (accel + t * jerk / 2.0)
+    distance: float = F[profiles.seg_distance[n] + k] + t * (
         velocity + t * (accel / 2.0 + t * jerk / 6.0)
     )
     # Just before the end the sum may be beyond it in its last bit.
-    F[f + PRF_DISTANCE] = min(distance, F[f + PRF_END_DISTANCE])
-    I[i + PRI_KIND] = I[i + PRI_SEG_KIND + k]
+    F[profiles.distance[n]] = min(distance, F[profiles.end_distance[n]])
+    I[profiles.kind[n]] = I[profiles.seg_kind[n] + k]
     return -1.0

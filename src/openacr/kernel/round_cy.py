@@ -21,50 +21,7 @@ from openacr.kernel.path_cy import master_limit, move_record
 from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan, ramp_way, rest_speed
 from openacr.kernel.round_law_cy import round_accel, round_brake, round_ramp2
 from openacr.kernel.round_pass_cy import AHEAD, BEHIND, LINE, round_exit2, round_last
-from openacr.map.numbers import (
-    MQF_ACC_UPS2,
-    MQF_BASE,
-    MQF_CORNER_TURN,
-    MQF_CORNER_U,
-    MQF_CORNER_UPS,
-    MQF_DEC_UPS2,
-    MQF_JRK_UPS3,
-    MQF_LENGTH_U,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQI_AHEAD,
-    MQI_BASE,
-    MQI_STRIDE,
-    MSF_BASE,
-    MSF_CORNER_IN_TURN,
-    MSF_CORNER_IN_U,
-    MSF_CORNER_IN_UPS,
-    MSF_CORNER_OUT_TURN,
-    MSF_CORNER_OUT_U,
-    MSF_CORNER_OUT_UPS,
-    MSF_LOOK_CAP_UPS,
-    MSF_LOOK_EXIT_UPS,
-    MSF_ORIGIN_U,
-    MSF_STRETCH_U,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_PIECE,
-    MSI_QUEUED,
-    MSI_ROUNDING,
-    MSI_STRETCH,
-    MSI_STRIDE,
-    PRF_ACCEL,
-    PRF_BASE,
-    PRF_DISTANCE,
-    PRF_END_DISTANCE,
-    PRF_STRIDE,
-    PRF_TARGET_VELOCITY,
-    PRF_VELOCITY,
-    PRI_BASE,
-    PRI_SEG_COUNT,
-    PRI_SEG_KIND,
-    PRI_STRIDE,
-)
+from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
 SLACK = 1e-9  # of a length
@@ -75,107 +32,99 @@ BISECTIONS = 50
 
 def round_through(F: F64, I: I32, m: int, record: int) -> bool:
     """Whether the present move is planned in pieces."""
-    if not I[MSI_BASE + m * MSI_STRIDE + MSI_ROUNDING]:
+    if not I[masters.rounding[m]]:
         return False
     if not look_plain(F, I, record) or is_bezier(I, record):
         return False
     if not look_active(I, m):
-        leaves: bool = F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_IN_U] > 0.0
-        return leaves or I[MQI_BASE + record * MQI_STRIDE + MQI_AHEAD] != 0
-    if F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3] <= 0.0:
+        leaves: bool = F[masters.corner_in_u[m]] > 0.0
+        return leaves or I[moves.ahead[record]] != 0
+    if F[moves.jrk_ups3[record]] <= 0.0:
         return True
     # With jerk moves between corners that are not rounded merge, as LOOK has it.
-    behind: float = F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_IN_U]
+    behind: float = F[masters.corner_in_u[m]]
     return behind > 0.0 or round_reach(F, I, m, record) > 0.0
 
 
 def round_part(F: F64, I: I32, m: int) -> int:
     """The piece of the present move in which the path is; open the corner ahead."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    f: int = MSF_BASE + m * MSF_STRIDE
     record: int = move_record(I, m)
-    q: int = MQF_BASE + record * MQF_STRIDE
-    length: float = F[q + MQF_LENGTH_U]
-    gone: float = F[PRF_BASE + m * PRF_STRIDE + PRF_DISTANCE] - F[f + MSF_ORIGIN_U]
-    if gone < F[f + MSF_CORNER_IN_U] - SLACK * length:
+    length: float = F[moves.length_u[record]]
+    gone: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    if gone < F[masters.corner_in_u[m]] - SLACK * length:
         return BEHIND
     reach: float = round_reach(F, I, m, record)
     if reach <= 0.0 or gone < length - reach - SLACK * length:
         return LINE
-    if F[f + MSF_CORNER_OUT_U] <= 0.0 and I[i + MSI_QUEUED] > 1:
-        smooth: int = 1 if F[q + MQF_JRK_UPS3] > 0.0 else 0
+    if F[masters.corner_out_u[m]] <= 0.0 and I[masters.queued[m]] > 1:
+        smooth: int = 1 if F[moves.jrk_ups3[record]] > 0.0 else 0
         corner_open(F, I, m, record, look_record(I, m, 1), reach, smooth)
-        F[f + MSF_CORNER_OUT_TURN] = F[q + MQF_CORNER_TURN]
-        F[f + MSF_CORNER_OUT_UPS] = F[q + MQF_CORNER_UPS]
+        F[masters.corner_out_turn[m]] = F[moves.corner_turn[record]]
+        F[masters.corner_out_ups[m]] = F[moves.corner_ups[record]]
     return AHEAD
 
 
 def round_reach(F: F64, I: I32, m: int, record: int) -> float:
     """From how far before its end the present move is rounded."""
-    f: int = MSF_BASE + m * MSF_STRIDE
-    if F[f + MSF_CORNER_OUT_U] > 0.0:
-        return F[f + MSF_CORNER_OUT_U]
-    if I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] > 1 and look_beyond(I, m, record):
-        return F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_U]
+    if F[masters.corner_out_u[m]] > 0.0:
+        return F[masters.corner_out_u[m]]
+    if I[masters.queued[m]] > 1 and look_beyond(I, m, record):
+        return F[moves.corner_u[record]]
     return 0.0
 
 
 def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the piece of the present move in which the path is."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    f: int = MSF_BASE + m * MSF_STRIDE
     record: int = move_record(I, m)
     part: int = round_part(F, I, m)
     reach: float = round_reach(F, I, m, record)
-    end: float = F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U]
-    I[i + MSI_PIECE] = 0
+    end: float = F[moves.length_u[record]]
+    I[masters.piece[m]] = 0
     if part == BEHIND:
-        end = F[f + MSF_CORNER_IN_U]
-        I[i + MSI_PIECE] = 1
+        end = F[masters.corner_in_u[m]]
+        I[masters.piece[m]] = 1
     elif part == LINE and reach > 0.0:
         end = end - reach
-        I[i + MSI_PIECE] = 1
-    F[f + MSF_STRETCH_U] = F[f + MSF_ORIGIN_U] + end
-    F[f + MSF_LOOK_CAP_UPS] = 0.0
-    I[i + MSI_STRETCH] = 1
+        I[masters.piece[m]] = 1
+    F[masters.stretch_u[m]] = F[masters.origin_u[m]] + end
+    F[masters.look_cap_ups[m]] = 0.0
+    I[masters.stretch[m]] = 1
     w: float = round_exit2(F, I, S, m, part)
-    F[f + MSF_LOOK_EXIT_UPS] = sqrt(w)
+    F[masters.look_exit_ups[m]] = sqrt(w)
     limit: float = master_limit(F, I, S, m)
     if part == LINE:
         round_line(F, I, m, record, limit, sqrt(w))
     elif part == BEHIND:
-        cap: float = F[f + MSF_CORNER_IN_UPS]
+        cap: float = F[masters.corner_in_ups[m]]
         round_corner(
-            F, I, m, record, limit, w, F[f + MSF_CORNER_IN_TURN], F[f + MSF_CORNER_IN_U], cap
+            F, I, m, record, limit, w, F[masters.corner_in_turn[m]], F[masters.corner_in_u[m]], cap
         )
     else:
-        cap = F[f + MSF_CORNER_OUT_UPS]
-        round_corner(F, I, m, record, limit, w, F[f + MSF_CORNER_OUT_TURN], reach, cap)
-    F[PRF_BASE + m * PRF_STRIDE + PRF_TARGET_VELOCITY] = limit
+        cap = F[masters.corner_out_ups[m]]
+        round_corner(F, I, m, record, limit, w, F[masters.corner_out_turn[m]], reach, cap)
+    F[profiles.target_velocity[m]] = limit
 
 
 def round_line(F: F64, I: I32, m: int, record: int, limit: float, leaving: float) -> None:
     """Plan the line of the present move, to the corner ahead or the end of the path."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    f: int = PRF_BASE + m * PRF_STRIDE
-    acc: float = F[q + MQF_ACC_UPS2]
-    dec: float = F[q + MQF_DEC_UPS2]
-    jerk: float = F[q + MQF_JRK_UPS3]
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
+    acc: float = F[moves.acc_ups2[record]]
+    dec: float = F[moves.dec_ups2[record]]
+    jerk: float = F[moves.jrk_ups3[record]]
+    end: float = F[masters.stretch_u[m]]
     ends: bool = round_last(I, m) == 0
-    rate: float = F[q + MQF_STP_UPS2]
+    rate: float = F[moves.stp_ups2[record]]
     if not ends:
         rate = look_rate(F, record)
         if jerk > 0.0 and acc > 0.0:  # corners are entered without acceleration
-            reached: float = round_reached(F, m, end - F[f + PRF_DISTANCE], limit, acc, jerk)
+            reached: float = round_reached(F, m, end - F[profiles.distance[m]], limit, acc, jerk)
             leaving = min(leaving, reached * (1.0 - SLACK))
         if jerk > 0.0 and rate > 0.0:
             wanted: float = min(leaving, limit)
-            reached = round_settle(F, m, end - F[f + PRF_DISTANCE], wanted, rate, jerk)
+            reached = round_settle(F, m, end - F[profiles.distance[m]], wanted, rate, jerk)
             if reached < 0.0 and round_planned(F, I, m, end):
                 return
             if reached > wanted:
-                if limit <= 0.0 and I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
+                if limit <= 0.0 and I[masters.piece[m]]:
                     reached = max(reached, LINGER * leaving)
                 round_even(F, I, m, end, reached, acc, rate, jerk)
                 return
@@ -188,8 +137,8 @@ def round_line(F: F64, I: I32, m: int, record: int, limit: float, leaving: float
 
 def round_reached(F: F64, m: int, way: float, limit: float, rate: float, jerk: float) -> float:
     """The highest speed up to `limit` that is reached, without acceleration, within a way."""
-    velocity: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
-    accel: float = F[PRF_BASE + m * PRF_STRIDE + PRF_ACCEL]
+    velocity: float = F[profiles.velocity[m]]
+    accel: float = F[profiles.accel[m]]
     low: float = max(rest_speed(velocity, accel, jerk), 0.0)
     high: float = limit
     if high <= low or ramp_way(velocity, accel, high, rate, jerk) <= way:
@@ -208,8 +157,8 @@ def round_settle(F: F64, m: int, way: float, wanted: float, rate: float, jerk: f
 
     -1 if there is not even room to let go of the present acceleration.
     """
-    velocity: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
-    accel: float = F[PRF_BASE + m * PRF_STRIDE + PRF_ACCEL]
+    velocity: float = F[profiles.velocity[m]]
+    accel: float = F[profiles.accel[m]]
     high: float = max(rest_speed(velocity, accel, jerk), 0.0)
     if wanted >= high:
         return wanted
@@ -229,8 +178,7 @@ def round_settle(F: F64, m: int, way: float, wanted: float, rate: float, jerk: f
 
 def round_planned(F: F64, I: I32, m: int, end: float) -> bool:
     """Whether the plan under way leads to `end`."""
-    f: int = PRF_BASE + m * PRF_STRIDE
-    return I[PRI_BASE + m * PRI_STRIDE + PRI_SEG_COUNT] > 0 and F[f + PRF_END_DISTANCE] == end
+    return I[profiles.seg_count[m]] > 0 and F[profiles.end_distance[m]] == end
 
 
 def round_even(
@@ -242,10 +190,9 @@ def round_even(
 
 def round_decelerate(I: I32, m: int) -> None:
     """Slowing down for a corner is no end of the path."""
-    p: int = PRI_BASE + m * PRI_STRIDE
-    for k in range(I[p + PRI_SEG_COUNT]):
-        if I[p + PRI_SEG_KIND + k] == STOPPING:
-            I[p + PRI_SEG_KIND + k] = DECELERATING
+    for k in range(I[profiles.seg_count[m]]):
+        if I[profiles.seg_kind[m] + k] == STOPPING:
+            I[profiles.seg_kind[m] + k] = DECELERATING
 
 
 def round_corner(
@@ -260,17 +207,15 @@ def round_corner(
     cap: float,
 ) -> None:
     """Plan the rest of a corner: one constant acceleration, or constant speed under jerk."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    f: int = PRF_BASE + m * PRF_STRIDE
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
-    left: float = end - F[f + PRF_DISTANCE]
-    velocity: float = F[f + PRF_VELOCITY]
+    end: float = F[masters.stretch_u[m]]
+    left: float = end - F[profiles.distance[m]]
+    velocity: float = F[profiles.velocity[m]]
     now: float = velocity * velocity
-    jerk: float = F[q + MQF_JRK_UPS3]
+    jerk: float = F[moves.jrk_ups3[record]]
     accel: float = round_accel(F, record)
     leaving: float = min(sqrt(w), min(limit, cap))
     if jerk > 0.0:
-        if velocity <= LINGER * leaving or F[f + PRF_ACCEL] != 0.0:
+        if velocity <= LINGER * leaving or F[profiles.accel[m]] != 0.0:
             soft: float = SOFT * accel
             profile_plan(F, I, m, end, min(limit, 0.5 * cap), 0.0, soft, soft, 0.0, SOFT * jerk)
         else:
@@ -303,24 +248,23 @@ def round_holds(F: F64, I: I32, S: F32, m: int, rate: float) -> bool:
     the corner, where the path neither stops nor lingers.
     """
     record: int = move_record(I, m)
-    jerk: float = F[MQF_BASE + record * MQF_STRIDE + MQF_JRK_UPS3]
+    jerk: float = F[moves.jrk_ups3[record]]
     if jerk <= 0.0 or not round_through(F, I, m, record):
         return False
     if round_part(F, I, m) != LINE:
         return True
-    if not I[MSI_BASE + m * MSI_STRIDE + MSI_PIECE]:
+    if not I[masters.piece[m]]:
         return False
-    f: int = PRF_BASE + m * PRF_STRIDE
-    end: float = F[MSF_BASE + m * MSF_STRIDE + MSF_STRETCH_U]
-    way: float = end - F[f + PRF_DISTANCE]
+    end: float = F[masters.stretch_u[m]]
+    way: float = end - F[profiles.distance[m]]
     reached: float = round_settle(F, m, way, 0.0, rate, jerk)
     if reached == 0.0:
         return False
-    cap: float = F[MQF_BASE + record * MQF_STRIDE + MQF_CORNER_UPS]
-    wanted: float = LINGER * min(cap, F[MSF_BASE + m * MSF_STRIDE + MSF_LOOK_EXIT_UPS])
+    cap: float = F[moves.corner_ups[record]]
+    wanted: float = LINGER * min(cap, F[masters.look_exit_ups[m]])
     if wanted > reached:
         reached = round_settle(F, m, way, wanted, rate, jerk)
-    speed: float = rest_speed(F[f + PRF_VELOCITY], F[f + PRF_ACCEL], jerk)
+    speed: float = rest_speed(F[profiles.velocity[m]], F[profiles.accel[m]], jerk)
     if 0.0 < reached < speed:
         round_even(F, I, m, end, reached, rate, rate, jerk)
     return True
@@ -330,15 +274,14 @@ def round_hold_rate(F: F64, I: I32, m: int, rate: float) -> float:
     """The rate of a feedhold: less in a corner."""
     if not round_through(F, I, m, move_record(I, m)):
         return rate
-    f: int = MSF_BASE + m * MSF_STRIDE
     part: int = round_part(F, I, m)
     accel: float = round_accel(F, move_record(I, m))
-    velocity: float = F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY]
-    turn: float = F[f + MSF_CORNER_IN_TURN]
-    reach: float = F[f + MSF_CORNER_IN_U]
+    velocity: float = F[profiles.velocity[m]]
+    turn: float = F[masters.corner_in_turn[m]]
+    reach: float = F[masters.corner_in_u[m]]
     if part == AHEAD:
-        turn = F[f + MSF_CORNER_OUT_TURN]
-        reach = F[f + MSF_CORNER_OUT_U]
+        turn = F[masters.corner_out_turn[m]]
+        reach = F[masters.corner_out_u[m]]
     if part == LINE or reach <= 0.0 or accel <= 0.0:
         return rate
     return min(rate, round_brake(turn, reach, accel, velocity * velocity))

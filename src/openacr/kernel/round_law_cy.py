@@ -17,41 +17,7 @@ from openacr.kernel.bezier_cy import is_bezier
 from openacr.kernel.lookahead_cy import look_plain, look_rate, ramp_start
 from openacr.kernel.path_cy import MARK_ROUNDS, SLAVE_COUNT
 from openacr.kernel.profile_cy import ramp_way, rest_speed
-from openacr.map.numbers import (
-    MQF_ACC_UPS2,
-    MQF_BASE,
-    MQF_CORNER_TURN,
-    MQF_CORNER_U,
-    MQF_CORNER_UPS,
-    MQF_DEC_UPS2,
-    MQF_DELTA_CNT,
-    MQF_JRK_UPS3,
-    MQF_LENGTH_U,
-    MQF_STRIDE,
-    MQF_TOLERANCE_U,
-    MQF_VEL_UPS,
-    MQF_WEIGHT,
-    MQI_AHEAD,
-    MQI_BASE,
-    MQI_CURVED,
-    MQI_MARKS,
-    MQI_SLAVES,
-    MQI_STRIDE,
-    MQI_TANG,
-    MSF_BASE,
-    MSF_ORIGIN_U,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_MOVING,
-    MSI_QUEUED,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-    PRF_ACCEL,
-    PRF_BASE,
-    PRF_DISTANCE,
-    PRF_STRIDE,
-    PRF_VELOCITY,
-)
+from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
 __all__ = ["round_between", "round_brake", "round_cap", "round_ramp2"]
@@ -63,8 +29,8 @@ ENDLESS = 1e30
 
 def round_accel(F: F64, record: int) -> float:
     """The acceleration limit of a move: the lower of ACC and DEC, 0 none."""
-    acc: float = F[MQF_BASE + record * MQF_STRIDE + MQF_ACC_UPS2]
-    dec: float = F[MQF_BASE + record * MQF_STRIDE + MQF_DEC_UPS2]
+    acc: float = F[moves.acc_ups2[record]]
+    dec: float = F[moves.dec_ups2[record]]
     if acc <= 0.0:
         return max(dec, 0.0)
     return min(acc, dec) if dec > 0.0 else acc
@@ -72,31 +38,28 @@ def round_accel(F: F64, record: int) -> float:
 
 def round_straight(F: F64, I: I32, record: int) -> bool:
     """Whether a move is a straight line that merges with others."""
-    q: int = MQI_BASE + record * MQI_STRIDE
-    if I[q + MQI_CURVED] or I[q + MQI_TANG] or is_bezier(I, record):
+    if I[moves.curved[record]] or I[moves.tang_slave[record]] or is_bezier(I, record):
         return False
-    return look_plain(F, I, record) and F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U] > 0.0
+    return look_plain(F, I, record) and F[moves.length_u[record]] > 0.0
 
 
 def round_turn(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     """Size of the change of direction between two lines; of the largest weightless one."""
-    p: int = MQF_BASE + a * MQF_STRIDE
-    q: int = MQF_BASE + b * MQF_STRIDE
-    first: int = I[MQI_BASE + a * MQI_STRIDE + MQI_SLAVES]
-    second: int = I[MQI_BASE + b * MQI_STRIDE + MQI_SLAVES]
+    first: int = I[moves.slaves[a]]
+    second: int = I[moves.slaves[b]]
     square: float = 0.0
     largest: float = 0.0
     for s in range(SLAVE_COUNT):
-        axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+        axis: int = I[masters.slave_axis[m] + s]
         if axis >= 0 and (first | second) & (1 << s):
             turn: float = 0.0
             weight: float = 0.0
             if first & (1 << s):
-                turn -= F[p + MQF_DELTA_CNT + s] / F[p + MQF_LENGTH_U]
-                weight = F[p + MQF_WEIGHT + s]
+                turn -= F[moves.delta_cnt[a] + s] / F[moves.length_u[a]]
+                weight = F[moves.weight[a] + s]
             if second & (1 << s):
-                turn += F[q + MQF_DELTA_CNT + s] / F[q + MQF_LENGTH_U]
-                weight = max(weight, F[q + MQF_WEIGHT + s])
+                turn += F[moves.delta_cnt[b] + s] / F[moves.length_u[b]]
+                weight = max(weight, F[moves.weight[b] + s])
             turn = turn / fabs(axis_scale(S, axis))
             square += weight * weight * turn * turn
             largest = max(largest, fabs(turn))
@@ -105,36 +68,34 @@ def round_turn(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
 
 def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     """Find how the corner between a move and the one just put behind it is rounded."""
-    p: int = MQF_BASE + a * MQF_STRIDE
-    q: int = MQF_BASE + b * MQF_STRIDE
-    F[p + MQF_CORNER_U] = 0.0
-    F[p + MQF_CORNER_TURN] = 0.0
-    ahead: int = MQI_BASE + a * MQI_STRIDE + MQI_AHEAD
+    F[moves.corner_u[a]] = 0.0
+    F[moves.corner_turn[a]] = 0.0
+    ahead: int = moves.ahead[a]
     I[ahead] = 0
-    tolerance: float = F[p + MQF_TOLERANCE_U]
+    tolerance: float = F[moves.tolerance_u[a]]
     if not tolerance > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
         return
-    own: int = 1 if I[MQI_BASE + a * MQI_STRIDE + MQI_MARKS] & MARK_ROUNDS else 0
+    own: int = 1 if I[moves.marks[a]] & MARK_ROUNDS else 0
     turn: float = round_turn(F, I, S, m, a, b)
     if turn <= STRAIGHT:
         I[ahead] = own
         return
-    F[p + MQF_CORNER_TURN] = turn
-    jerk: float = F[p + MQF_JRK_UPS3]
+    F[moves.corner_turn[a]] = turn
+    jerk: float = F[moves.jrk_ups3[a]]
     reach: float = (6.0 if jerk > 0.0 else 4.0) * tolerance / turn
-    reach = min(reach, 0.5 * min(F[p + MQF_LENGTH_U], F[q + MQF_LENGTH_U]))
+    reach = min(reach, 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]))
     limit: float = round_accel(F, a)
     other: float = round_accel(F, b)
     if limit <= 0.0 or 0.0 < other < limit:
         limit = other
-    F[p + MQF_CORNER_UPS] = round_cap(turn, reach, limit, jerk)
+    F[moves.corner_ups[a]] = round_cap(turn, reach, limit, jerk)
     if jerk > 0.0 and not round_pays(F, a, b, reach, limit, jerk):
-        F[p + MQF_CORNER_TURN] = 0.0
+        F[moves.corner_turn[a]] = 0.0
         return
-    if I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] == 1 and I[MSI_BASE + m * MSI_STRIDE + MSI_MOVING]:
-        if not round_in_time(F, m, a, reach, F[p + MQF_CORNER_UPS]):
+    if I[masters.queued[m]] == 1 and I[masters.moving[m]]:
+        if not round_in_time(F, m, a, reach, F[moves.corner_ups[a]]):
             return
-    F[p + MQF_CORNER_U] = reach
+    F[moves.corner_u[a]] = reach
     I[ahead] = own
 
 
@@ -157,11 +118,9 @@ def round_pays(F: F64, a: int, b: int, reach: float, limit: float, jerk: float) 
     corner and the way at that speed, or by the ramp to rest. Lines too short to speed up on
     are left to the merging of LOOK.
     """
-    p: int = MQF_BASE + a * MQF_STRIDE
-    q: int = MQF_BASE + b * MQF_STRIDE
-    feed: float = min(F[p + MQF_VEL_UPS], F[q + MQF_VEL_UPS])
-    cap: float = F[p + MQF_CORNER_UPS]
-    room: float = 0.5 * min(F[p + MQF_LENGTH_U], F[q + MQF_LENGTH_U]) - reach
+    feed: float = min(F[moves.vel_ups[a]], F[moves.vel_ups[b]])
+    cap: float = F[moves.corner_ups[a]]
+    room: float = 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]) - reach
     if limit <= 0.0 or cap <= 0.0 or room <= 0.0:
         return False
     feed = min(feed, ramp_start(room, 0.0, limit, jerk))
@@ -182,16 +141,14 @@ def ramp_loss(low: float, high: float, rate: float, jerk: float) -> float:
 
 def round_in_time(F: F64, m: int, record: int, reach: float, cap: float) -> bool:
     """Whether the move under way can still slow down in front of its corner."""
-    q: int = MQF_BASE + record * MQF_STRIDE
-    f: int = PRF_BASE + m * PRF_STRIDE
-    gone: float = F[f + PRF_DISTANCE] - F[MSF_BASE + m * MSF_STRIDE + MSF_ORIGIN_U]
-    left: float = F[q + MQF_LENGTH_U] - reach - gone
+    gone: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    left: float = F[moves.length_u[record]] - reach - gone
     if left <= 0.0:
         return False
-    velocity: float = F[f + PRF_VELOCITY]
-    jerk: float = F[q + MQF_JRK_UPS3]
+    velocity: float = F[profiles.velocity[m]]
+    jerk: float = F[moves.jrk_ups3[record]]
     if jerk > 0.0:
-        accel: float = F[f + PRF_ACCEL]
+        accel: float = F[profiles.accel[m]]
         slow: bool = rest_speed(velocity, accel, jerk) <= cap
         rate: float = look_rate(F, record)
         return slow or ramp_way(velocity, accel, cap, rate, jerk) <= left * SHARE

@@ -16,26 +16,7 @@ from openacr.kernel.lookahead_cy import (
     look_speed,
 )
 from openacr.kernel.round_law_cy import STRAIGHT, line_start2, round_accel, round_ramp2
-from openacr.map.numbers import (
-    MQF_BASE,
-    MQF_CORNER_TURN,
-    MQF_CORNER_U,
-    MQF_CORNER_UPS,
-    MQF_JRK_UPS3,
-    MQF_LENGTH_U,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQF_TOLERANCE_U,
-    MQI_AHEAD,
-    MQI_BASE,
-    MQI_STRIDE,
-    MSF_BASE,
-    MSF_CORNER_IN_U,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_QUEUED,
-    MSI_STRIDE,
-)
+from openacr.map.rows import masters, moves
 from openacr.views import F32, F64, I32
 
 __all__ = ["round_exit2"]
@@ -48,11 +29,10 @@ FEW = 16  # moves the backward pass looks at first
 
 def round_join2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     """Speed squared at a corner that is not rounded."""
-    p: int = MQF_BASE + a * MQF_STRIDE
-    if I[MQI_BASE + a * MQI_STRIDE + MQI_AHEAD]:  # straight on
+    if I[moves.ahead[a]]:  # straight on
         speed: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
         return speed * speed
-    if F[p + MQF_TOLERANCE_U] > 0.0 and F[p + MQF_CORNER_TURN] > STRAIGHT:
+    if F[moves.tolerance_u[a]] > 0.0 and F[moves.corner_turn[a]] > STRAIGHT:
         return 0.0  # the next move has come too late
     law: float = look_corner(F, I, S, m, a, b)
     return law * law
@@ -71,41 +51,40 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
     if far >= last:
         w = look_final(F, I, S, m, r)
         w = w * w
-        rate = F[MQF_BASE + r * MQF_STRIDE + MQF_STP_UPS2]
+        rate = F[moves.stp_ups2[r]]
     while True:
-        q: int = MQF_BASE + r * MQF_STRIDE
         speed: float = look_speed(F, I, S, m, r)
         top: float = speed * speed
-        jerk: float = F[q + MQF_JRK_UPS3]
-        reach: float = F[q + MQF_CORNER_U] if k < last else 0.0
-        before: float = F[MSF_BASE + m * MSF_STRIDE + MSF_CORNER_IN_U]
+        jerk: float = F[moves.jrk_ups3[r]]
+        reach: float = F[moves.corner_u[r]] if k < last else 0.0
+        before: float = F[masters.corner_in_u[m]]
         a: int = r
         if k > 0:
             a = look_record(I, m, k - 1)
-            before = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_U]
+            before = F[moves.corner_u[a]]
         if w >= top:
             w = top
             capped = True
         if k == 0 and part == AHEAD:
             break
         if reach > 0.0:
-            w = round_ramp2(F[q + MQF_CORNER_TURN], reach, round_accel(F, r), jerk, w)
-            cap: float = min(F[q + MQF_CORNER_UPS] * F[q + MQF_CORNER_UPS], top)
+            w = round_ramp2(F[moves.corner_turn[r]], reach, round_accel(F, r), jerk, w)
+            cap: float = min(F[moves.corner_ups[r]] * F[moves.corner_ups[r]], top)
             if w >= cap:
                 w = cap
                 capped = True
         if k == 0 and part == LINE:
             break
-        w = line_start2(F[q + MQF_LENGTH_U] - reach - before, w, rate, jerk)
+        w = line_start2(F[moves.length_u[r]] - reach - before, w, rate, jerk)
         if w >= top:
             w = top
             capped = True
         if k == 0:
             break
-        corner: float = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_UPS]
+        corner: float = F[moves.corner_ups[a]]
         if before > 0.0:
             w = min(w, corner * corner)
-            turn: float = F[MQF_BASE + a * MQF_STRIDE + MQF_CORNER_TURN]
+            turn: float = F[moves.corner_turn[a]]
             w = round_ramp2(turn, before, round_accel(F, r), jerk, w)
             corner = corner * corner
         else:
@@ -121,7 +100,7 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
 
 def round_last(I: I32, m: int) -> int:
     """How far behind the present move the last one is that plans may run through."""
-    last: int = I[MSI_BASE + m * MSI_STRIDE + MSI_QUEUED] - 1
+    last: int = I[masters.queued[m]] - 1
     k: int = 0
     while k < last and look_beyond(I, m, look_record(I, m, k)):
         k += 1

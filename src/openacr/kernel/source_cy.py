@@ -33,79 +33,30 @@ from openacr.kernel.feedback_cy import (
     FROM_ENCODER,
     adc_counts,
     encoder_count,
-    encoder_row,
     encoder_turn,
 )
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import kind_of, store_long
 from openacr.map.numbers import (
-    AF2_WORD,
-    AF2_WORD_HIGH,
-    AX_BASE,
-    AX_PRIMARY_SETPOINT,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_PSP_CNT,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_POSITION_INDEX,
-    AXI_POSITION_SOURCE,
-    AXI_STRIDE,
-    ENC_ENCODER_POSITION,
-    ENF_BASE,
-    ENF_STEP_CNT,
-    ENF_STRIDE,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
-    ENXI_BASE,
-    ENXI_STRIDE,
-    ENXI_TURNED,
     KIND_FP32,
     KIND_FP64,
     KIND_LONG,
-    LTF_BASE,
-    LTF_OUTPUT_CNT,
-    LTF_STRIDE,
-    PLF_BASE,
-    PLF_MARKER_FALL_CNT,
-    PLF_MARKER_RISE_CNT,
-    PLF_RAW_COUNT,
-    PLF_STRIDE,
-    RTF_BASE,
-    RTF_OUTPUT_CNT,
-    RTF_STRIDE,
-    SRF_BASE,
-    SRF_DELTA,
-    SRF_OLD,
-    SRF_STRIDE,
-    SRI_BASE,
-    SRI_INDEX,
-    SRI_KIND,
-    SRI_STRIDE,
-    STPR_BASE,
-    STPR_STEPPER_COUNT,
-    STPR_STRIDE,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
-    SYSF_TIME_S,
-    TGF_BASE,
-    TGF_OVER_CNT,
-    TGF_SETPOINT,
-    TGF_STRIDE,
-    TGF_TRAVEL_CNT,
-    TGI_BASE,
-    TGI_COPY,
-    TGI_KIND,
-    TGI_MODE,
-    TGI_PARAMETER,
-    TGI_REGISTER,
-    TGI_STRIDE,
-    TGI_TICKS_LEFT,
     USER_BASE,
     W_INPUTS,
     W_MISC_OUTPUTS,
 )
+from openacr.map.rows import (
+    axes,
+    encoders,
+    limiters,
+    motors,
+    ratchets,
+    sources,
+    steppers,
+    system,
+    triggers,
+)
+from openacr.map.words import af2
 from openacr.views import F32, F64, I32
 
 __all__ = ["parameter_value", "source_follow", "source_prime", "source_reading", "trigger_step"]
@@ -157,7 +108,7 @@ NO_EDGE = -1.0
 
 def axis_word2(n: int) -> int:
     """Parameter number of the secondary flag word of axis n."""
-    return AF2_WORD + n if n < 8 else AF2_WORD_HIGH + n
+    return af2.word[n]
 
 
 def parameter_value(F: F64, I: I32, S: F32, number: int) -> float:
@@ -175,17 +126,17 @@ def parameter_value(F: F64, I: I32, S: F32, number: int) -> float:
 def source_reading(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
     """Present value of a source."""
     if kind == FROM_CLOCK:
-        return F[SYSF_BASE + SYSF_TIME_S] * PULSES_PER_S
+        return F[system.time_s] * PULSES_PER_S
     if kind == FROM_COUNTER and 0 <= k < ENCODER_COUNT:
-        return I[encoder_row(k) + ENC_ENCODER_POSITION]
+        return I[encoders.encoder_position[k]]
     if kind == FROM_STEPS and 0 <= k < 16:
-        return I[STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT]
+        return I[steppers.stepper_count[k]]
     if kind == FROM_AXIS and 0 <= k < 16:
-        return F[AXF_BASE + k * AXF_STRIDE + AXF_PSP_CNT]
+        return F[axes.psp_cnt[k]]
     if kind == FROM_RATCHET and 0 <= k < 8:
-        return F[RTF_BASE + k * RTF_STRIDE + RTF_OUTPUT_CNT]
+        return F[ratchets.output_cnt[k]]
     if kind == FROM_LIMITER and 0 <= k < 8:
-        return F[LTF_BASE + k * LTF_STRIDE + LTF_OUTPUT_CNT]
+        return F[limiters.output_cnt[k]]
     if kind == FROM_ANALOG and 0 <= k < 16:
         return adc_counts(S, k)
     if kind == FROM_PARAMETER:
@@ -202,11 +153,10 @@ def source_count(F: F64, I: I32, S: F32, kind: int, k: int) -> float:
 
 def source_shown(I: I32, t: int, value: float) -> float:
     """What the source of tap t showed when it had counted to `value`."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    k: int = I[i + SRI_INDEX]
-    if I[i + SRI_KIND] != FROM_COUNTER or not 0 <= k < ENCODER_COUNT:
+    k: int = I[sources.index[t]]
+    if I[sources.kind[t]] != FROM_COUNTER or not 0 <= k < ENCODER_COUNT:
         return value
-    return encoder_turn(I, k, wrap32(round32(value) - I[ENXI_BASE + k * ENXI_STRIDE + ENXI_TURNED]))
+    return encoder_turn(I, k, wrap32(round32(value) - I[encoders.turned[k]]))
 
 
 def source_wraps(I: I32, kind: int, k: int) -> bool:
@@ -218,31 +168,26 @@ def source_wraps(I: I32, kind: int, k: int) -> bool:
 
 def source_prime(F: F64, I: I32, S: F32, t: int) -> None:
     """Let tap t count from the present value of its source."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    F[SRF_BASE + t * SRF_STRIDE + SRF_OLD] = source_count(
-        F, I, S, I[i + SRI_KIND], I[i + SRI_INDEX]
-    )
-    F[SRF_BASE + t * SRF_STRIDE + SRF_DELTA] = 0.0
+    F[sources.old[t]] = source_count(F, I, S, I[sources.kind[t]], I[sources.index[t]])
+    F[sources.delta[t]] = 0.0
 
 
 def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
     """Take the change of the source of tap t in this tick."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    f: int = SRF_BASE + t * SRF_STRIDE
-    kind: int = I[i + SRI_KIND]
+    kind: int = I[sources.kind[t]]
     if kind == FROM_NONE or kind == FROM_SELF:
-        F[f + SRF_DELTA] = 0.0
+        F[sources.delta[t]] = 0.0
         return
-    value: float = source_count(F, I, S, kind, I[i + SRI_INDEX])
-    delta: float = value - F[f + SRF_OLD]
+    value: float = source_count(F, I, S, kind, I[sources.index[t]])
+    delta: float = value - F[sources.old[t]]
     if kind == FROM_CLOCK:
-        delta = F[SYSF_BASE + SYSF_PERIOD_S] * PULSES_PER_S
-    elif source_wraps(I, kind, I[i + SRI_INDEX]):
+        delta = F[system.period_s] * PULSES_PER_S
+    elif source_wraps(I, kind, I[sources.index[t]]):
         delta = wrap32(round32(delta))
     elif not fabs(delta) < LARGEST_DELTA:
         delta = 0.0
-    F[f + SRF_OLD] = value
-    F[f + SRF_DELTA] = delta
+    F[sources.old[t]] = value
+    F[sources.delta[t]] = delta
 
 
 def sources_follow(F: F64, I: I32, S: F32, n: int) -> None:
@@ -253,17 +198,16 @@ def sources_follow(F: F64, I: I32, S: F32, n: int) -> None:
 
 def source_parameter(I: I32, t: int) -> int:
     """The parameter that shows the source of tap t, -1 if none does."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    kind: int = I[i + SRI_KIND]
-    k: int = I[i + SRI_INDEX]
+    kind: int = I[sources.kind[t]]
+    k: int = I[sources.index[t]]
     if kind == FROM_PARAMETER:
         return k
     if kind == FROM_COUNTER:
-        return encoder_row(k) + ENC_ENCODER_POSITION
+        return encoders.encoder_position[k]
     if kind == FROM_STEPS:
-        return STPR_BASE + k * STPR_STRIDE + STPR_STEPPER_COUNT
+        return steppers.stepper_count[k]
     if kind == FROM_AXIS:
-        return AX_BASE + k * AX_STRIDE + AX_PRIMARY_SETPOINT
+        return axes.primary_setpoint[k]
     return -1
 
 
@@ -272,18 +216,16 @@ def source_parameter(I: I32, t: int) -> int:
 
 def source_encoder(I: I32, t: int, n: int) -> int:
     """Encoder whose markers trigger a follower of axis n with tap t, -1 if there is none."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    if I[i + SRI_KIND] == FROM_COUNTER:
-        return I[i + SRI_INDEX]
-    axis: int = AXI_BASE + source_inputs(I, t, n) * AXI_STRIDE
-    return I[axis + AXI_POSITION_INDEX] if I[axis + AXI_POSITION_SOURCE] == FROM_ENCODER else -1
+    if I[sources.kind[t]] == FROM_COUNTER:
+        return I[sources.index[t]]
+    axis: int = source_inputs(I, t, n)
+    return I[axes.position_index[axis]] if I[axes.position_source[axis]] == FROM_ENCODER else -1
 
 
 def source_inputs(I: I32, t: int, n: int) -> int:
     """Axis whose capture inputs trigger a follower of axis n with tap t."""
-    i: int = SRI_BASE + t * SRI_STRIDE
-    k: int = I[i + SRI_INDEX]
-    kind: int = I[i + SRI_KIND]
+    k: int = I[sources.index[t]]
+    kind: int = I[sources.kind[t]]
     if (kind == FROM_COUNTER or kind == FROM_AXIS) and 0 <= k < 16:
         return k
     return n
@@ -291,9 +233,8 @@ def source_inputs(I: I32, t: int, n: int) -> int:
 
 def marker_behind(F: F64, I: I32, e: int, falling: bool, delta: float) -> float:
     """Part of the tick behind the marker edge of encoder e, which moved `delta` in it."""
-    f: int = PLF_BASE + e * PLF_STRIDE
-    edge: float = F[f + PLF_MARKER_FALL_CNT] if falling else F[f + PLF_MARKER_RISE_CNT]
-    since: float = (F[f + PLF_RAW_COUNT] - edge) * I[ENI_BASE + e * ENI_STRIDE + ENI_MULT] * 0.25
+    edge: float = F[motors.marker_fall_cnt[e]] if falling else F[motors.marker_rise_cnt[e]]
+    since: float = (F[motors.raw_count[e]] - edge) * I[encoders.mult[e]] * 0.25
     if delta == 0.0:
         return 0.0
     return max(0.0, min(1.0, since / delta))
@@ -322,29 +263,27 @@ def edge_behind(F: F64, I: I32, mode: int, e: int, inputs: int, moved: float) ->
 
 def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
     """Look for the edges that triggers of axis n wait for; the edges last one tick."""
-    kind: int = TGI_BASE + n * TRIGGERS * TGI_STRIDE + TGI_KIND
-    if not (I[kind] | I[kind + TGI_STRIDE] | I[kind + 2 * TGI_STRIDE]):
+    first: int = n * TRIGGERS
+    if not (I[triggers.kind[first]] | I[triggers.kind[first + 1]] | I[triggers.kind[first + 2]]):
         return  # all disarmed
     for place in range(TRIGGERS):
         t: int = n * TRIGGERS + place
-        i: int = TGI_BASE + t * TGI_STRIDE
-        if I[i + TGI_KIND] != CAPTURE:
+        if I[triggers.kind[t]] != CAPTURE:
             continue
         tap: int = n * USES + (USE_CAM if place == CAM_ON else USE_GEAR)
-        s: int = SRI_BASE + tap * SRI_STRIDE
-        old: float = F[SRF_BASE + tap * SRF_STRIDE + SRF_OLD]
-        moved: float = source_count(F, I, S, I[s + SRI_KIND], I[s + SRI_INDEX]) - old
+        old: float = F[sources.old[tap]]
+        moved: float = source_count(F, I, S, I[sources.kind[tap]], I[sources.index[tap]]) - old
         e: int = source_encoder(I, tap, n)
         inputs: int = source_inputs(I, tap, n)
-        register: int = I[i + TGI_REGISTER]
+        register: int = I[triggers.register[t]]
         if 1 <= register <= ENCODER_COUNT:
             e = register - 1
             inputs = e
-            moved = F[ENF_BASE + e * ENF_STRIDE + ENF_STEP_CNT]
-        behind: float = edge_behind(F, I, I[i + TGI_MODE], e, inputs, moved)
+            moved = F[encoders.step_cnt[e]]
+        behind: float = edge_behind(F, I, I[triggers.mode[t]], e, inputs, moved)
         if behind >= 0.0:
-            I[i + TGI_KIND] = CAPTURED
-            F[TGF_BASE + t * TGF_STRIDE + TGF_TRAVEL_CNT] = behind
+            I[triggers.kind[t]] = CAPTURED
+            F[triggers.travel_cnt[t]] = behind
 
 
 # triggers
@@ -359,22 +298,18 @@ def trigger_over(over: float, delta: float) -> float:
 
 def trigger_passed(F: F64, I: I32, S: F32, t: int) -> bool:
     """IHPOS: whether the parameter is strictly beyond the setpoint."""
-    i: int = TGI_BASE + t * TGI_STRIDE
-    value: float = parameter_value(F, I, S, I[i + TGI_PARAMETER])
-    setpoint: float = F[TGF_BASE + t * TGF_STRIDE + TGF_SETPOINT]
-    return value > setpoint if I[i + TGI_KIND] == ABOVE else value < setpoint
+    value: float = parameter_value(F, I, S, I[triggers.parameter[t]])
+    setpoint: float = F[triggers.setpoint[t]]
+    return value > setpoint if I[triggers.kind[t]] == ABOVE else value < setpoint
 
 
 def trigger_captured(F: F64, I: I32, t: int, tap: int) -> None:
     """The edge came in this tick: keep the source position at it and count on from there."""
-    i: int = TGI_BASE + t * TGI_STRIDE
-    f: int = TGF_BASE + t * TGF_STRIDE
-    s: int = SRF_BASE + tap * SRF_STRIDE
-    F[f + TGF_TRAVEL_CNT] = F[f + TGF_TRAVEL_CNT] * F[s + SRF_DELTA]
-    I[i + TGI_KIND] = TRAVELLING
-    copy: int = I[i + TGI_COPY]
+    F[triggers.travel_cnt[t]] = F[triggers.travel_cnt[t]] * F[sources.delta[tap]]
+    I[triggers.kind[t]] = TRAVELLING
+    copy: int = I[triggers.copy[t]]
     if kind_of(I, copy) == KIND_LONG:
-        shown: float = source_shown(I, tap, F[s + SRF_OLD] - F[f + TGF_TRAVEL_CNT])
+        shown: float = source_shown(I, tap, F[sources.old[tap]] - F[triggers.travel_cnt[t]])
         store_long(I, copy, round32(shown))
 
 
@@ -383,39 +318,35 @@ def trigger_step(F: F64, I: I32, S: F32, t: int, tap: int, offset_cnt: float) ->
 
     A captured edge fires once the source has gone on by `offset_cnt`.
     """
-    i: int = TGI_BASE + t * TGI_STRIDE
-    f: int = TGF_BASE + t * TGF_STRIDE
-    s: int = SRF_BASE + tap * SRF_STRIDE
-    delta: float = F[s + SRF_DELTA]
+    delta: float = F[sources.delta[tap]]
     over: float = 0.0
-    kind: int = I[i + TGI_KIND]
+    kind: int = I[triggers.kind[t]]
     if kind == CAPTURE:
         return WAITING
     if kind == CAPTURED or kind == TRAVELLING:
         if kind == CAPTURED:
             trigger_captured(F, I, t, tap)
         else:
-            F[f + TGF_TRAVEL_CNT] += delta
-        over = F[f + TGF_TRAVEL_CNT] - offset_cnt
+            F[triggers.travel_cnt[t]] += delta
+        over = F[triggers.travel_cnt[t]] - offset_cnt
         if (offset_cnt > 0.0 and over < 0.0) or (offset_cnt < 0.0 and over > 0.0):
             return WAITING
     elif trigger_passed(F, I, S, t):
-        if source_parameter(I, tap) == I[i + TGI_PARAMETER]:
-            over = source_shown(I, tap, F[s + SRF_OLD]) - F[f + TGF_SETPOINT]
+        if source_parameter(I, tap) == I[triggers.parameter[t]]:
+            over = source_shown(I, tap, F[sources.old[tap]]) - F[triggers.setpoint[t]]
     else:
         return trigger_timed(I, t)
-    I[i + TGI_KIND] = DISARMED
-    F[f + TGF_OVER_CNT] = trigger_over(over, delta)
+    I[triggers.kind[t]] = DISARMED
+    F[triggers.over_cnt[t]] = trigger_over(over, delta)
     return FIRED
 
 
 def trigger_timed(I: I32, t: int) -> int:
     """One tick of waiting less until the timeout."""
-    i: int = TGI_BASE + t * TGI_STRIDE
-    if I[i + TGI_TICKS_LEFT] <= 0:
+    if I[triggers.ticks_left[t]] <= 0:
         return WAITING
-    I[i + TGI_TICKS_LEFT] -= 1
-    if I[i + TGI_TICKS_LEFT] > 0:
+    I[triggers.ticks_left[t]] -= 1
+    if I[triggers.ticks_left[t]] > 0:
         return WAITING
-    I[i + TGI_KIND] = DISARMED
+    I[triggers.kind[t]] = DISARMED
     return EXPIRED

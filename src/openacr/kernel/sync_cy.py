@@ -17,60 +17,35 @@ from openacr.kernel.path_cy import (
 )
 from openacr.kernel.profile_cy import profile_reset
 from openacr.kernel.timed_cy import plan_seconds
-from openacr.map.numbers import (
-    AF4_KILL_ALL_MOTION_REQUEST,
-    AF4_WORD,
-    KRI_BASE,
-    KRI_SYNC_KILLED,
-    MA_BASE,
-    MA_DELTA_TMOV_TIME,
-    MA_STRIDE,
-    MF1_KILL_ALL_MOVES_REQUEST,
-    MF2_SYNC_MANUAL,
-    MF2_SYNC_MANUAL_LOADED,
-    MF2_SYNC_MODE,
-    MQF_BASE,
-    MQF_LENGTH_U,
-    MQF_STRIDE,
-    MQF_TMOV_S,
-    MSI_BASE,
-    MSI_HOLD,
-    MSI_MOVING,
-    MSI_QUEUED,
-    MSI_SLAVE_AXIS,
-    MSI_STRETCH,
-    MSI_STRIDE,
-    MSI_SYNC_GO,
-    MSI_SYNC_START,
-)
+from openacr.map.rows import kernel, masters, moves
+from openacr.map.words import af4, mf1, mf2
 from openacr.views import F32, F64, I32
 
 
 def sync_member(I: I32, m: int) -> bool:
     """Whether master m is synchronised."""
-    return I[master_word2(m)] & MF2_SYNC_MODE != 0
+    return I[master_word2(m)] & mf2.SYNC_MODE != 0
 
 
 def sync_bars(I: I32, m: int) -> bool:
     """Whether the move at the head waits for those of the other members."""
-    return sync_member(I, m) and not I[MSI_BASE + m * MSI_STRIDE + MSI_SYNC_GO]
+    return sync_member(I, m) and not I[masters.sync_go[m]]
 
 
 def sync_loaded(I: I32, m: int) -> bool:
     """Whether a move of master m waits for its begin."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    if not I[i + MSI_QUEUED] or I[i + MSI_MOVING] or I[i + MSI_HOLD] != NOT_HELD:
+    if not I[masters.queued[m]] or I[masters.moving[m]] or I[masters.hold[m]] != NOT_HELD:
         return False
     return not move_barred(I, m)
 
 
 def sync_killed(I: I32, m: int) -> bool:
     """Whether a kill stands against master m or one of its axes."""
-    if I[master_word(m)] & MF1_KILL_ALL_MOVES_REQUEST:
+    if I[master_word(m)] & mf1.KILL_ALL_MOVES_REQUEST:
         return True
     for s in range(SLAVE_COUNT):
-        axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
-        if axis >= 0 and I[AF4_WORD + axis] & AF4_KILL_ALL_MOTION_REQUEST:
+        axis: int = I[masters.slave_axis[m] + s]
+        if axis >= 0 and I[af4.word[axis]] & af4.KILL_ALL_MOTION_REQUEST:
             return True
     return False
 
@@ -79,9 +54,9 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
     """The least time the waiting move of master m takes."""
     move_geometry(F, I, S, m)
     record: int = move_record(I, m)
-    time: float = F[MQF_BASE + record * MQF_STRIDE + MQF_TMOV_S]
+    time: float = F[moves.tmov_s[record]]
     bound: float = move_limit(F, I, S, m, record, 1.0)
-    if not bound > 0.0 or F[MQF_BASE + record * MQF_STRIDE + MQF_LENGTH_U] <= 0.0:
+    if not bound > 0.0 or F[moves.length_u[record]] <= 0.0:
         return time
     profile_reset(F, I, m, 0.0, 0.0)
     return max(time, plan_seconds(F, I, m, bound))
@@ -89,48 +64,47 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
 
 def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
     """Drop the moves of master m that wait; one under way goes on."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    if I[i + MSI_MOVING]:
-        I[i + MSI_QUEUED] = I[i + MSI_STRETCH]
-    elif I[i + MSI_QUEUED]:
+    if I[masters.moving[m]]:
+        I[masters.queued[m]] = I[masters.stretch[m]]
+    elif I[masters.queued[m]]:
         master_drop(F, I, S, m)
 
 
-def sync_release(F: F64, I: I32, S: F32, masters: int) -> None:
+def sync_release(F: F64, I: I32, S: F32, master_count: int) -> None:
     """Let the waiting moves of all members begin, with the time of the slowest."""
     time: float = 0.0
-    for m in range(masters):
+    for m in range(master_count):
         if sync_member(I, m):
             time = max(time, sync_seconds(F, I, S, m))
-    for m in range(masters):
+    for m in range(master_count):
         if sync_member(I, m):
-            F[MQF_BASE + move_record(I, m) * MQF_STRIDE + MQF_TMOV_S] = time
-            S[MA_BASE + m * MA_STRIDE + MA_DELTA_TMOV_TIME] = time
-            I[MSI_BASE + m * MSI_STRIDE + MSI_SYNC_GO] = 1
-            I[MSI_BASE + m * MSI_STRIDE + MSI_SYNC_START] = 0
+            F[moves.tmov_s[move_record(I, m)]] = time
+            S[masters.delta_tmov_time[m]] = time
+            I[masters.sync_go[m]] = 1
+            I[masters.sync_start[m]] = 0
 
 
-def sync_step(F: F64, I: I32, S: F32, masters: int) -> None:
+def sync_step(F: F64, I: I32, S: F32, master_count: int) -> None:
     """Look which members have a move loaded, and let all begin once every one has."""
     ready: bool = True
     manual: bool = False
     started: bool = False
     killed: bool = False
-    for m in range(masters):
+    for m in range(master_count):
         if sync_member(I, m):
             loaded: bool = sync_loaded(I, m)
             word2: int = master_word2(m)
             ready = ready and loaded
             killed = killed or sync_killed(I, m)
-            manual = manual or I[word2] & MF2_SYNC_MANUAL != 0
-            started = started or I[MSI_BASE + m * MSI_STRIDE + MSI_SYNC_START] != 0
-            I[word2] &= ~MF2_SYNC_MANUAL_LOADED
+            manual = manual or I[word2] & mf2.SYNC_MANUAL != 0
+            started = started or I[masters.sync_start[m]] != 0
+            I[word2] &= ~mf2.SYNC_MANUAL_LOADED
             if loaded:
-                I[word2] |= MF2_SYNC_MANUAL_LOADED
-    if killed and not I[KRI_BASE + KRI_SYNC_KILLED]:
-        for m in range(masters):
+                I[word2] |= mf2.SYNC_MANUAL_LOADED
+    if killed and not I[kernel.sync_killed]:
+        for m in range(master_count):
             if sync_member(I, m):
                 sync_drop(F, I, S, m)
-    I[KRI_BASE + KRI_SYNC_KILLED] = 1 if killed else 0
+    I[kernel.sync_killed] = 1 if killed else 0
     if ready and not killed and (started or not manual):
-        sync_release(F, I, S, masters)
+        sync_release(F, I, S, master_count)

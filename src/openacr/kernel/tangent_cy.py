@@ -12,23 +12,7 @@ pulses per degree of the axis, offset and lag in degrees.
 from openacr.cmath import atan2, rint
 from openacr.kernel.bezier_cy import bezier_slope, is_bezier
 from openacr.kernel.curve_cy import DEGREES, curve_slope
-from openacr.map.numbers import (
-    AXF_BASE,
-    AXF_POSITION_CNT,
-    AXF_STRIDE,
-    MQF_BASE,
-    MQF_DELTA_CNT,
-    MQF_STRIDE,
-    MQF_TANG,
-    MQI_BASE,
-    MQI_CURVED,
-    MQI_SLAVES,
-    MQI_STRIDE,
-    MQI_TANG,
-    MSI_BASE,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-)
+from openacr.map.rows import axes, masters, moves
 from openacr.views import F64, I32
 
 __all__ = ["tangent_deg"]
@@ -43,10 +27,10 @@ BESIDE = 1e-6  # at its very ends a spline stands still
 
 def tangent_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     """Change of slave s with the parameter of its curve, in pulses."""
-    if not I[MQI_BASE + record * MQI_STRIDE + MQI_SLAVES] & (1 << s):
+    if not I[moves.slaves[record]] & (1 << s):
         return 0.0
-    if not I[MQI_BASE + record * MQI_STRIDE + MQI_CURVED] & (1 << s):
-        return F[MQF_BASE + record * MQF_STRIDE + MQF_DELTA_CNT + s]
+    if not I[moves.curved[record]] & (1 << s):
+        return F[moves.delta_cnt[record] + s]
     if is_bezier(I, record):
         return bezier_slope(F, I, record, s, part + (0.5 - part) * BESIDE)
     return curve_slope(F, I, record, s, part)
@@ -63,13 +47,13 @@ def tangent_deg(F: F64, I: I32, record: int, x_unit: float, y_unit: float, part:
 
 def tangent_place(F: F64, I: I32, m: int, record: int, rest: float, along: float) -> None:
     """Turn the tangential axis; `along` is what is left of the parameter of the curve."""
-    t: int = MQF_BASE + record * MQF_STRIDE + MQF_TANG
-    s: int = I[MQI_BASE + record * MQI_STRIDE + MQI_TANG] - 1
-    axis: int = I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+    t: int = moves.tang[record]
+    s: int = I[moves.tang_slave[record]] - 1
+    axis: int = I[masters.slave_axis[m] + s]
     angle: float = tangent_deg(F, I, record, F[t + UNITS_0], F[t + UNITS_1], 1.0 - along)
     if axis < 0 or angle < -999.0:
         return
-    a: int = AXF_BASE + axis * AXF_STRIDE + AXF_POSITION_CNT
+    a: int = axes.position_cnt[axis]
     now: float = F[a] / F[t + SCALE]
     turn: float = angle + F[t + OFFSET_DEG] - now
     turn -= 360.0 * rint(turn / 360.0)

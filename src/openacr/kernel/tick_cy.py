@@ -37,65 +37,25 @@ from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
 from openacr.kernel.source_cy import sources_follow, triggers_watch
 from openacr.kernel.sync_cy import sync_step
-from openacr.map.numbers import (
-    AF1_BALLSCREW_ACTIVATE,
-    AF1_CAM_ACTIVATE,
-    AF1_GEAR_ACTIVE,
-    AF1_JOG_ACTIVE,
-    AXF_BASE,
-    AXF_JOINT_CNT,
-    AXF_KINEMATICS_CNT,
-    AXF_POSITION_CNT,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_MASTER,
-    AXI_ON,
-    AXI_STRIDE,
-    FOI_BASE,
-    FOI_LIVE,
-    FOI_STRIDE,
-    HWI_BASE,
-    HWI_ON,
-    HWI_STRIDE,
-    KRI_AXES,
-    KRI_BASE,
-    KRI_FILTERED_ENCODERS,
-    KRI_KINEMATICS,
-    KRI_LINKED_ENCODERS,
-    KRI_MASTERS,
-    KRI_MISSING_ADCS,
-    KRI_MISSING_DACS,
-    KRI_MISSING_ENCODERS,
-    KRI_MISSING_STEPPERS,
-    KRI_SLOW_TICKS,
-    KRI_SYNCED,
-    MC1_ENABLE_FAST_FLAGS_UPDATE_MODE,
-    MF1_IN_MOTION,
-    MO_SAMPLE_TRIGGER_ARMED,
-    OBI_BASE,
-    OBI_LIVE,
-    OBI_LOCKED,
-    PLGI_ANALOGS,
-    PLGI_BASE,
-    PLI_BASE,
-    PLI_KIND,
-    PLI_STRIDE,
-    SAI_ARMED_OLD,
-    SAI_BASE,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
-    SYSI_BASE,
-    SYSI_SLOW_PHASE,
-    W_FSTAT,
-    W_MISC_CONTROL_1,
-    W_MISC_OUTPUTS,
+from openacr.map.numbers import W_FSTAT, W_MISC_CONTROL_1, W_MISC_OUTPUTS
+from openacr.map.rows import (
+    axes,
+    followers,
+    hand_wheels,
+    kernel,
+    motors,
+    objects,
+    plant,
+    sampler,
+    system,
 )
+from openacr.map.words import af1, mc1, mf1, mo
 from openacr.views import F32, F64, I32
 
 __all__ = ["tick"]
 
 MODELLED = 16
-OFFSETS_ACTIVE = AF1_JOG_ACTIVE | AF1_GEAR_ACTIVE | AF1_CAM_ACTIVATE | AF1_BALLSCREW_ACTIVATE
+OFFSETS_ACTIVE = af1.JOG_ACTIVE | af1.GEAR_ACTIVE | af1.CAM_ACTIVATE | af1.BALLSCREW_ACTIVATE
 
 
 def axis_changing(I: I32, n: int) -> bool:
@@ -103,10 +63,10 @@ def axis_changing(I: I32, n: int) -> bool:
 
     Parts can cancel each other out; at rest a refresh with every slow scan is enough.
     """
-    m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
-    if I[axis_word(n)] & OFFSETS_ACTIVE or I[SYSI_BASE + SYSI_SLOW_PHASE] == 0:
+    m: int = I[axes.master[n]]
+    if I[axis_word(n)] & OFFSETS_ACTIVE or I[system.slow_phase] == 0:
         return True
-    return m >= 0 and I[master_word(m)] & MF1_IN_MOTION != 0
+    return m >= 0 and I[master_word(m)] & mf1.IN_MOTION != 0
 
 
 def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
@@ -114,9 +74,9 @@ def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float
     dt: float = period_s
     used: bool = followers_used(I, n) != 0
     if used:
-        if I[HWI_BASE + n * HWI_STRIDE + HWI_ON]:
+        if I[hand_wheels.on[n]]:
             wheel_step(F, I, S, n)
-        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+        if I[followers.live[n]]:
             dt = jog_time(F, I, n, period_s)
     jog_step(F, I, S, n, dt)
     if used:
@@ -125,100 +85,96 @@ def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float
         axis_show(F, I, n)
 
 
-def locked_advance(F: F64, I: I32, S: F32, axes: int, period_s: float, rate_hz: float) -> None:
+def locked_advance(
+    F: F64, I: I32, S: F32, axis_count: int, period_s: float, rate_hz: float
+) -> None:
     """Axes locked to others, behind their leaders."""
-    for n in range(axes):
-        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON] and lock_leader(I, n) >= 0:
+    for n in range(axis_count):
+        if I[axes.on[n]] and lock_leader(I, n) >= 0:
             lock_step(F, I, S, n)
             axis_advance(F, I, S, n, period_s, rate_hz)
     locks_couple(F, I, S)
 
 
-def joints_keep(F: F64, I: I32, axes: int) -> None:
+def joints_keep(F: F64, I: I32, axis_count: int) -> None:
     """INVK: note the joint positions before the masters go on."""
-    for n in range(axes):
-        a: int = AXF_BASE + n * AXF_STRIDE
-        F[a + AXF_JOINT_CNT] = F[a + AXF_POSITION_CNT] + F[a + AXF_KINEMATICS_CNT]
+    for n in range(axis_count):
+        F[axes.joint_cnt[n]] = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
 
 
-def joints_stay(F: F64, I: I32, axes: int) -> None:
+def joints_stay(F: F64, I: I32, axis_count: int) -> None:
     """INVK: the joints are where the last evaluation has put them, not where the path is."""
-    for n in range(axes):
-        m: int = I[AXI_BASE + n * AXI_STRIDE + AXI_MASTER]
-        if m >= 0 and I[KRI_BASE + KRI_KINEMATICS] & (1 << m):
-            a: int = AXF_BASE + n * AXF_STRIDE
-            F[a + AXF_KINEMATICS_CNT] = F[a + AXF_JOINT_CNT] - F[a + AXF_POSITION_CNT]
+    for n in range(axis_count):
+        m: int = I[axes.master[n]]
+        if m >= 0 and I[kernel.kinematics] & (1 << m):
+            F[axes.kinematics_cnt[n]] = F[axes.joint_cnt[n]] - F[axes.position_cnt[n]]
 
 
 def tick(F: F64, I: I32, S: F32) -> None:
     """Everything the card does in one servo period."""
-    period_s: float = F[SYSF_BASE + SYSF_PERIOD_S]
+    period_s: float = F[system.period_s]
     rate_hz: float = 1.0 / period_s
-    axes: int = I[KRI_BASE + KRI_AXES]
-    masters: int = I[KRI_BASE + KRI_MASTERS]
-    if I[KRI_BASE + KRI_FILTERED_ENCODERS]:
+    axis_count: int = I[kernel.axes]
+    master_count: int = I[kernel.masters]
+    if I[kernel.filtered_encoders]:
         encoder_filters_step(F, I, period_s)
     for e in range(MODELLED):
-        if I[PLI_BASE + e * PLI_STRIDE + PLI_KIND]:
+        if I[motors.kind[e]]:
             encoder_step(F, I, e, rate_hz)
-    if I[PLGI_BASE + PLGI_ANALOGS]:
+    if I[plant.analogs]:
         analog_step(F, I, S)
-    if (
-        I[KRI_BASE + KRI_MISSING_ENCODERS]
-        | I[KRI_BASE + KRI_MISSING_ADCS]
-        | I[KRI_BASE + KRI_MISSING_STEPPERS]
-    ):
+    if I[kernel.missing_encoders] | I[kernel.missing_adcs] | I[kernel.missing_steppers]:
         missing_inputs_step(I, S)
-    if I[KRI_BASE + KRI_LINKED_ENCODERS]:
+    if I[kernel.linked_encoders]:
         encoder_links_step(I, rate_hz)
-    for n in range(axes):
-        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
+    for n in range(axis_count):
+        if I[axes.on[n]]:
             written: bool = axis_take_written(F, I, n)
             feedback_step(F, I, S, n, written, rate_hz)
-    for n in range(axes):
-        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+    for n in range(axis_count):
+        if I[followers.live[n]]:
             triggers_watch(F, I, S, n)
     capture_step(F, I)
     clock_step(F, I, period_s)
-    if I[OBI_BASE + OBI_LIVE]:
+    if I[objects.live]:
         object_sources_step(F, I, S, period_s)
-    for n in range(axes):
-        if I[FOI_BASE + n * FOI_STRIDE + FOI_LIVE]:
+    for n in range(axis_count):
+        if I[followers.live[n]]:
             sources_follow(F, I, S, n)
-    motion_enable_step(I, axes)
-    for n in range(axes):
-        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
+    motion_enable_step(I, axis_count)
+    for n in range(axis_count):
+        if I[axes.on[n]]:
             drive_step(I, n, period_s)
             limits_step(F, I, S, n)
-    if I[KRI_BASE + KRI_SYNCED]:
-        sync_step(F, I, S, masters)
-    if I[KRI_BASE + KRI_KINEMATICS]:
-        joints_keep(F, I, axes)
-    for m in range(masters):
+    if I[kernel.synced]:
+        sync_step(F, I, S, master_count)
+    if I[kernel.kinematics]:
+        joints_keep(F, I, axis_count)
+    for m in range(master_count):
         if master_busy(I, m):
             master_step(F, I, S, m, period_s)
-    if I[KRI_BASE + KRI_KINEMATICS]:
-        joints_stay(F, I, axes)
-    for n in range(axes):
-        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON] and lock_leader(I, n) < 0:
+    if I[kernel.kinematics]:
+        joints_stay(F, I, axis_count)
+    for n in range(axis_count):
+        if I[axes.on[n]] and lock_leader(I, n) < 0:
             axis_advance(F, I, S, n, period_s, rate_hz)
-    if I[OBI_BASE + OBI_LOCKED]:
-        locked_advance(F, I, S, axes, period_s, rate_hz)
-    for n in range(axes):
-        if I[AXI_BASE + n * AXI_STRIDE + AXI_ON]:
+    if I[objects.locked]:
+        locked_advance(F, I, S, axis_count, period_s, rate_hz)
+    for n in range(axis_count):
+        if I[axes.on[n]]:
             servo_step(F, I, S, n, period_s, rate_hz)
-    if I[OBI_BASE + OBI_LIVE]:
+    if I[objects.live]:
         object_outputs_step(F, I, S)
-    if I[W_MISC_OUTPUTS] & MO_SAMPLE_TRIGGER_ARMED or I[SAI_BASE + SAI_ARMED_OLD]:
+    if I[W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED or I[sampler.armed_old]:
         sample_step(F, I, S, period_s)
     if I[W_FSTAT]:
         fast_status_step(F, I, S, period_s)
-    if I[KRI_BASE + KRI_MISSING_DACS]:
+    if I[kernel.missing_dacs]:
         missing_outputs_step(I, S)
-    if I[W_MISC_CONTROL_1] & MC1_ENABLE_FAST_FLAGS_UPDATE_MODE:
-        fast_flags_step(F, I, S, axes)
-    slow: int = I[SYSI_BASE + SYSI_SLOW_PHASE] + 1
-    if slow >= I[KRI_BASE + KRI_SLOW_TICKS]:
+    if I[W_MISC_CONTROL_1] & mc1.ENABLE_FAST_FLAGS_UPDATE_MODE:
+        fast_flags_step(F, I, S, axis_count)
+    slow: int = I[system.slow_phase] + 1
+    if slow >= I[kernel.slow_ticks]:
         slow = 0
-        slow_scan(F, I, S, axes, masters)
-    I[SYSI_BASE + SYSI_SLOW_PHASE] = slow
+        slow_scan(F, I, S, axis_count, master_count)
+    I[system.slow_phase] = slow

@@ -8,33 +8,8 @@ A source that runs backwards takes the path back, to the start of the present pl
 from openacr.kernel.path_cy import master_word2
 from openacr.kernel.profile_cy import profile_advance
 from openacr.kernel.source_cy import FROM_CLOCK, PULSES_PER_S, TIME_TAPS, source_follow
-from openacr.map.numbers import (
-    MA_BASE,
-    MA_STRIDE,
-    MA_TIME_OVER_VELOCITY,
-    MA_TOV_INTERNAL,
-    MA_TOV_RATE,
-    MF2_MASTER_TOV,
-    MSF_BASE,
-    MSF_PACE,
-    MSF_STRIDE,
-    MSI_BASE,
-    MSI_PACED,
-    MSI_STRIDE,
-    PRF_BASE,
-    PRF_SEG_TIME_S,
-    PRF_STRIDE,
-    PRF_TIME_S,
-    PRI_BASE,
-    PRI_SEG_INDEX,
-    PRI_STRIDE,
-    SRF_BASE,
-    SRF_DELTA,
-    SRF_STRIDE,
-    SRI_BASE,
-    SRI_KIND,
-    SRI_STRIDE,
-)
+from openacr.map.rows import masters, profiles, sources
+from openacr.map.words import mf2
 from openacr.views import F32, F64, I32
 
 FASTEST = 2.0
@@ -42,48 +17,46 @@ FASTEST = 2.0
 
 def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
     """TOV Internal, on its way to the value wanted with TOV Rate."""
-    p: int = MA_BASE + m * MA_STRIDE
     wanted: float = 1.0
-    if I[master_word2(m)] & MF2_MASTER_TOV:
-        wanted = S[p + MA_TIME_OVER_VELOCITY]
+    if I[master_word2(m)] & mf2.MASTER_TOV:
+        wanted = S[masters.time_over_velocity[m]]
         wanted = wanted if wanted > 0.0 else 0.0
         wanted = wanted if wanted < FASTEST else FASTEST
-    factor: float = S[p + MA_TOV_INTERNAL]
-    step: float = S[p + MA_TOV_RATE] * dt
+    factor: float = S[masters.tov_internal[m]]
+    step: float = S[masters.tov_rate[m]] * dt
     if step > 0.0 and factor + step < wanted:
         wanted = factor + step
     elif step > 0.0 and factor - step > wanted:
         wanted = factor - step
-    S[p + MA_TOV_INTERNAL] = wanted
+    S[masters.tov_internal[m]] = wanted
     return wanted
 
 
 def path_time(F: F64, I: I32, S: F32, m: int, dt: float) -> float:
     """Path time of a paced master m in a servo period of `dt` seconds; also while it rests."""
     tap: int = TIME_TAPS + m
-    by_clock: bool = I[SRI_BASE + tap * SRI_STRIDE + SRI_KIND] == FROM_CLOCK
+    by_clock: bool = I[sources.kind[tap]] == FROM_CLOCK
     time: float = dt
     if not by_clock:
         source_follow(F, I, S, tap)
-        time = F[SRF_BASE + tap * SRF_STRIDE + SRF_DELTA] / PULSES_PER_S
+        time = F[sources.delta[tap]] / PULSES_PER_S
     factor: float = tov_factor(I, S, m, dt)
     if by_clock and factor == 1.0:
-        I[MSI_BASE + m * MSI_STRIDE + MSI_PACED] = I[master_word2(m)] & MF2_MASTER_TOV
+        I[masters.paced[m]] = I[master_word2(m)] & mf2.MASTER_TOV
     time = time * factor
-    F[MSF_BASE + m * MSF_STRIDE + MSF_PACE] = time / dt
+    F[masters.pace[m]] = time / dt
     return time
 
 
 def path_advance(F: F64, I: I32, m: int, time: float) -> float:
     """Advance the path, backwards for negative times; as `profile_advance`."""
     if time < 0.0:
-        f: int = PRF_BASE + m * PRF_STRIDE
-        k: int = I[PRI_BASE + m * PRI_STRIDE + PRI_SEG_INDEX]
-        t: float = F[f + PRF_TIME_S] + time
+        k: int = I[profiles.seg_index[m]]
+        t: float = F[profiles.time_s[m]] + time
         while t < 0.0 and k > 0:
             k -= 1
-            t += F[f + PRF_SEG_TIME_S + k]
-        F[f + PRF_TIME_S] = t if t > 0.0 else 0.0
-        I[PRI_BASE + m * PRI_STRIDE + PRI_SEG_INDEX] = k
+            t += F[profiles.seg_time_s[m] + k]
+        F[profiles.time_s[m]] = t if t > 0.0 else 0.0
+        I[profiles.seg_index[m]] = k
         time = 0.0
     return profile_advance(F, I, m, time)

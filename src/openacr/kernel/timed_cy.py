@@ -8,29 +8,8 @@ on plans, whose time falls as their cruising speed rises.
 from openacr.cmath import sqrt
 from openacr.kernel.path_cy import master_word2, move_final_ups, move_limit, move_record
 from openacr.kernel.profile_cy import profile_plan
-from openacr.map.numbers import (
-    MA_BASE,
-    MA_STRIDE,
-    MA_TMOV_VELOCITY,
-    MF2_MASTER_SHORT_TIME,
-    MQF_ACC_UPS2,
-    MQF_BASE,
-    MQF_DEC_UPS2,
-    MQF_FVEL_UPS,
-    MQF_JRK_UPS3,
-    MQF_LENGTH_U,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQF_TMOV_S,
-    MQF_VEL_UPS,
-    PRF_BASE,
-    PRF_SEG_TIME_S,
-    PRF_STRIDE,
-    PRF_VELOCITY,
-    PRI_BASE,
-    PRI_SEG_COUNT,
-    PRI_STRIDE,
-)
+from openacr.map.rows import masters, moves, profiles
+from openacr.map.words import mf2
 from openacr.views import F32, F64, I32
 
 BISECTIONS = 60
@@ -39,34 +18,39 @@ SLACK = 1e-9
 
 def plan_seconds(F: F64, I: I32, m: int, cruise: float) -> float:
     """Time the present move takes with a cruising speed, from where it is."""
-    q: int = MQF_BASE + move_record(I, m) * MQF_STRIDE
+    record: int = move_record(I, m)
     profile_plan(
         F,
         I,
         m,
-        F[q + MQF_LENGTH_U],
+        F[moves.length_u[record]],
         cruise,
         move_final_ups(F, I, m, move_record(I, m)),
-        F[q + MQF_ACC_UPS2],
-        F[q + MQF_DEC_UPS2],
-        F[q + MQF_STP_UPS2],
-        F[q + MQF_JRK_UPS3],
+        F[moves.acc_ups2[record]],
+        F[moves.dec_ups2[record]],
+        F[moves.stp_ups2[record]],
+        F[moves.jrk_ups3[record]],
     )
     total: float = 0.0
-    for k in range(I[PRI_BASE + m * PRI_STRIDE + PRI_SEG_COUNT]):
-        total += F[PRF_BASE + m * PRF_STRIDE + PRF_SEG_TIME_S + k]
+    for k in range(I[profiles.seg_count[m]]):
+        total += F[profiles.seg_time_s[m] + k]
     return total
 
 
-def timed_closed(F: F64, m: int, q: int, time: float) -> float:
+def timed_closed(F: F64, m: int, record: int, time: float) -> float:
     """Speed of a trapezoid from rest to rest, -1 where the move is none."""
-    acc: float = F[q + MQF_ACC_UPS2]
-    stp: float = F[q + MQF_STP_UPS2]
-    if acc <= 0.0 or stp <= 0.0 or F[q + MQF_JRK_UPS3] > 0.0 or F[q + MQF_FVEL_UPS] > 0.0:
+    acc: float = F[moves.acc_ups2[record]]
+    stp: float = F[moves.stp_ups2[record]]
+    if (
+        acc <= 0.0
+        or stp <= 0.0
+        or F[moves.jrk_ups3[record]] > 0.0
+        or F[moves.fvel_ups[record]] > 0.0
+    ):
         return -1.0
-    if F[PRF_BASE + m * PRF_STRIDE + PRF_VELOCITY] != 0.0:
+    if F[profiles.velocity[m]] != 0.0:
         return -1.0
-    length: float = F[q + MQF_LENGTH_U]
+    length: float = F[moves.length_u[record]]
     square: float = time * time - 2.0 * (1.0 / acc + 1.0 / stp) * length
     return 2.0 * length / (time + sqrt(max(square, 0.0)))
 
@@ -77,17 +61,16 @@ def move_timed(F: F64, I: I32, S: F32, m: int) -> None:
     Where even its programmed speed is too slow it keeps that, and Short Time is set.
     """
     record: int = move_record(I, m)
-    q: int = MQF_BASE + record * MQF_STRIDE
-    time: float = F[q + MQF_TMOV_S]
+    time: float = F[moves.tmov_s[record]]
     bound: float = move_limit(F, I, S, m, record, 1.0)
-    if not bound > 0.0 or F[q + MQF_LENGTH_U] <= 0.0:
+    if not bound > 0.0 or F[moves.length_u[record]] <= 0.0:
         return
     word2: int = master_word2(m)
     if plan_seconds(F, I, m, bound) > time * (1.0 + SLACK):
-        I[word2] |= MF2_MASTER_SHORT_TIME
+        I[word2] |= mf2.MASTER_SHORT_TIME
         return
-    I[word2] &= ~MF2_MASTER_SHORT_TIME
-    velocity: float = timed_closed(F, m, q, time)
+    I[word2] &= ~mf2.MASTER_SHORT_TIME
+    velocity: float = timed_closed(F, m, record, time)
     if velocity < 0.0:
         low: float = 0.0
         velocity = bound
@@ -97,5 +80,5 @@ def move_timed(F: F64, I: I32, S: F32, m: int) -> None:
                 low = middle
             else:
                 velocity = middle
-    F[q + MQF_VEL_UPS] = velocity
-    S[MA_BASE + m * MA_STRIDE + MA_TMOV_VELOCITY] = velocity
+    F[moves.vel_ups[record]] = velocity
+    S[masters.tmov_velocity[m]] = velocity

@@ -147,6 +147,7 @@ class Block:
         *,
         object: str,
         prefix: str,
+        family: str = "",
         spans: tuple[Span, ...],
         stride: int = 0,
         packet: PacketRule | None = None,
@@ -157,6 +158,7 @@ class Block:
         indexed: bool = True,
     ) -> None:
         self.title, self.object, self.prefix = title, object, prefix
+        self.family = family
         self.spans, self.stride, self.packet, self.ref = spans, stride, packet, ref
         self.packet_erratum = packet_erratum
         self.section_of, self.indexed = section_of, indexed

@@ -31,21 +31,29 @@ def slug(name: str) -> str:
     return "_".join(kept.split())
 
 
-def hidden_constants(blocks: Iterable[HiddenBlock]) -> Iterator[Constant]:
-    """Place all hidden rows: float64 first, then int32, then the heap."""
+def hidden_bases(blocks: Iterable[HiddenBlock]) -> Iterator[tuple[HiddenBlock, int, int]]:
+    """Where the float64 and the int32 rows of each block begin: all float64 rows come first."""
     blocks = tuple(blocks)
-    base = HIDDEN_BASE
+    real = HIDDEN_BASE
+    whole = 2 * (HIDDEN_BASE + sum(block.count * block.doubles_stride for block in blocks))
     for block in blocks:
+        yield block, real, whole
+        real += block.count * block.doubles_stride
+        whole += block.count * block.ints_stride
+
+
+def hidden_constants(blocks: Iterable[HiddenBlock]) -> Iterator[Constant]:
+    """Names of the hidden rows, then of the heap."""
+    bases = tuple(hidden_bases(blocks))
+    for block, real, _ in bases:
         yield f"{block.prefix}_COUNT", block.count
         if block.doubles:
-            yield from _fields(f"{block.prefix}F", base, block.doubles_stride, block.doubles)
-        base += block.count * block.doubles_stride
-    base *= 2
-    for block in blocks:
+            yield from _fields(f"{block.prefix}F", real, block.doubles_stride, block.doubles)
+    for block, _, whole in bases:
         if block.ints:
-            yield from _fields(f"{block.prefix}I", base, block.ints_stride, block.ints)
-        base += block.count * block.ints_stride
-    heap = (base + 1) // 2 * 8
+            yield from _fields(f"{block.prefix}I", whole, block.ints_stride, block.ints)
+    end = max(whole + block.count * block.ints_stride for block, _, whole in bases)
+    heap = (end + 1) // 2 * 8
     yield "HEAP_BYTE_BASE", heap
     yield "HEAP_BYTES", HEAP_BYTES
     yield "MEMORY_BYTES", heap + HEAP_BYTES

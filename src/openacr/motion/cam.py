@@ -5,7 +5,7 @@ from __future__ import annotations
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import cam_cy
-from openacr.kernel.cam_cy import BALLSCREW_TABLES
+from openacr.kernel.cam_cy import BALLSCREW_TABLES, LONGS
 from openacr.kernel.source_cy import CAM_ON, TRIGGERS
 from openacr.map.numbers import (
     AF1_BALLSCREW_ACTIVATE,
@@ -24,7 +24,6 @@ from openacr.map.numbers import (
     CAI_POFF,
     CAI_PON,
     CAI_STRIDE,
-    STI_LA_BASE,
     TBF_BASE,
     TBF_LENGTH_CNT,
     TBF_SHIFT_CNT,
@@ -81,9 +80,9 @@ def dimension(card: Card, table: int, count: int) -> None:
     card.memory.I[TBI_BASE + table * TBI_STRIDE + TBI_SEGMENTS] = count
 
 
-def array_length(card: Card, program: int, row: int, array: int, words: int) -> int:
+def array_length(card: Card, program: int, table: int, array: int, words: int) -> int:
     """Elements of an array of a program; `Undefined variable` if it does not exist."""
-    header = _header(card.memory.I, program, row, array, words)
+    header = _header(card.memory.I, program, table, array, words)
     if not header:
         raise CardError(UNDEFINED_VARIABLE)
     return card.memory.I[header]
@@ -95,7 +94,7 @@ def set_segment(
     """SEG: a segment is so many source pulses long and has the points of an array."""
     if not 0 <= segment < segments(card, table):
         raise CardError(SUBSCRIPT_OUT_OF_RANGE)
-    if array_length(card, program, STI_LA_BASE, array, 1) < 2 or not length_cnt > 0.0:
+    if array_length(card, program, LONGS, array, 1) < 2 or not length_cnt > 0.0:
         raise CardError(INVALID_ARGUMENT)
     memory = card.memory
     memory.F[TBF_BASE + table * TBF_STRIDE + TBF_LENGTH_CNT + segment] = length_cnt

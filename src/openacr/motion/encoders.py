@@ -7,7 +7,6 @@ from openacr.map.numbers import (
     EF_ENCODER_SIGNAL_FAULT,
     EF_ENCODER_SIGNAL_LOST,
     EF_WORD,
-    ENC_ENCODER_POSITION,
     ENI_BASE,
     ENI_DESTINATION,
     ENI_LOCKED_TO,
@@ -21,6 +20,7 @@ from openacr.map.numbers import (
     KRI_FILTERED_ENCODERS,
     KRI_LINKED_ENCODERS,
 )
+from openacr.map.rows import encoders
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
 from openacr.motion.settings import LONG_MAX
@@ -33,7 +33,7 @@ _encoder_count = pick(feedback_cy.encoder_count)
 
 def position(card: Card, number: int) -> int:
     """The position in pulses."""
-    return card.memory.I[feedback_cy.encoder_row(number) + ENC_ENCODER_POSITION]
+    return card.memory.I[encoders.encoder_position[number]]
 
 
 def reset(card: Card, number: int, position_cnt: float) -> None:

@@ -43,7 +43,7 @@ from openacr.map.numbers import (
     MQI_SEEK_AXIS,
     MQI_SLAVES,
     MQI_STRIDE,
-    MQI_TANG,
+    MQI_TANG_SLAVE,
     MQI_TRIGGER,
     MQI_TRIGGER_AXIS,
     MSF_ACC_UPS2,
@@ -92,7 +92,7 @@ _CLEARED = (
     MQI_INTERRUPT,
     MQI_HSINT_AXIS,
     MQI_MARKS,
-    MQI_TANG,
+    MQI_TANG_SLAVE,
     MQI_AHEAD,
 )
 _move_shape = pick(path_cy.move_shape)

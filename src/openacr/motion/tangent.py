@@ -24,7 +24,7 @@ from openacr.map.numbers import (
     MQI_CURVED,
     MQI_MARKS,
     MQI_STRIDE,
-    MQI_TANG,
+    MQI_TANG_SLAVE,
     MSF_STRIDE,
     MSF_TANG_DEG,
     MSF_TARGET_CNT,
@@ -166,6 +166,6 @@ def _note(
     memory, rows = card.memory, MQI_BASE + record * MQI_STRIDE
     if not memory.I[rows + MQI_CURVED]:
         return
-    memory.I[rows + MQI_TANG] = slave + 1
+    memory.I[rows + MQI_TANG_SLAVE] = slave + 1
     for n, value in enumerate((*_units(card, master), scale, offset, lag)):
         memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TANG + n] = value

@@ -20,6 +20,7 @@ from openacr.basic.registry import ANY, command
 from openacr.basic.run import Run, whole
 from openacr.basic.value_commands import ObjectValue, check_number, object_values
 from openacr.errors import CardError
+from openacr.kernel.cam_cy import LONGS
 from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
 from openacr.map import block
 from openacr.map import numbers as at
@@ -142,7 +143,7 @@ def pls_base(run: Run, number: int, array: ObjectRef) -> None:
     """Choose the array of output patterns of a limit switch."""
     check_number(number, at.PS_COUNT)
     program = run.needed_program()
-    cam.array_length(run.card, program, at.STI_LA_BASE, array.number, 1)
+    cam.array_length(run.card, program, LONGS, array.number, 1)
     row = at.PSI_BASE + number * at.PSI_STRIDE
     run.card.memory.I[row + at.PSI_PROGRAM] = program
     run.card.memory.I[row + at.PSI_ARRAY] = array.number + 1

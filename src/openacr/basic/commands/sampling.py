@@ -9,6 +9,7 @@ from openacr.basic.registry import ANY, command
 from openacr.basic.run import Run
 from openacr.basic.value_commands import check_number
 from openacr.errors import CardError
+from openacr.kernel.cam_cy import DOUBLES, LONGS, SINGLES
 from openacr.kernel.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT, INVALID_BIT
@@ -20,11 +21,11 @@ CHANNELS = at.SAI_SOURCE_SIZE
 MS_PER_S = 1000.0
 LONGEST_S = 2e6
 
-# Kind of array: its number in the kernel, its storage row, words per element.
+# Kind of array: its number in the kernel, its table of references, words per element.
 _ARRAYS = {
-    "LA": (INTO_LONG, at.STI_LA_BASE, 1),
-    "SA": (INTO_SINGLE, at.STI_SA_BASE, 1),
-    "DA": (INTO_DOUBLE, at.STI_DA_BASE, 2),
+    "LA": (INTO_LONG, LONGS, 1),
+    "SA": (INTO_SINGLE, SINGLES, 1),
+    "DA": (INTO_DOUBLE, DOUBLES, 2),
 }
 _WORDS = {row[0]: word for word, row in _ARRAYS.items()}
 
@@ -42,8 +43,8 @@ def samp_base(run: Run, channel: int, array: ObjectRef) -> None:
     """Choose the array a channel records into."""
     check_number(channel, CHANNELS)
     program = run.needed_program()
-    kind, row, words = _ARRAYS[array.word]
-    cam.array_length(run.card, program, row, array.number, words)
+    kind, table, words = _ARRAYS[array.word]
+    cam.array_length(run.card, program, table, array.number, words)
     memory = run.card.memory
     memory.I[at.SAI_BASE + at.SAI_KIND + channel] = kind
     memory.I[at.SAI_BASE + at.SAI_PROGRAM + channel] = program

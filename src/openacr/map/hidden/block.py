@@ -2,12 +2,16 @@
 
 A hidden block is a family of `count` equal records. Its float64 fields lie in one run of
 the map (view F), its int32 fields in another (view I); `python -m openacr.map.generate`
-gives every field its place and a name in `openacr.map.numbers`:
+gives every field its places, in the module of its family in `openacr.map.rows`, and names for
+their parts in `openacr.map.numbers`:
 
-    HiddenBlock(prefix="TH", count=32, doubles=("clock_s", ("stack", 16)), ints=("pc",))
+    HiddenBlock(
+        prefix="TH", family="threads", count=32, doubles=("clock_s", ("stack", 16)), ints=("pc",)
+    )
 
-    F[THF_BASE + n * THF_STRIDE + THF_CLOCK_S]       THF_STACK_SIZE == 16
-    I[THI_BASE + n * THI_STRIDE + THI_PC]            TH_COUNT == 32
+    F[threads.stack[n] + 3]     is  F[THF_BASE + n * THF_STRIDE + THF_STACK + 3]
+    I[threads.pc[n]]            is  I[THI_BASE + n * THI_STRIDE + THI_PC]
+    threads.COUNT == TH_COUNT == 32          threads.STACK_SIZE == THF_STACK_SIZE == 16
 """
 
 from collections.abc import Iterator, Mapping
@@ -31,15 +35,18 @@ class HiddenBlock:
 
     `ranges` belong to every row that the card uses as an index, a size or a divisor without asking:
     a snapshot from a file is refused where a row is outside. `usual` is the range of all other
-    doubles; other ints may have any value.
+    doubles; other ints may have any value. Further blocks of a `family` are not `is_whole`: their
+    records are parts of its objects, in a run of their own.
     """
 
     prefix: str
+    family: str
     count: int
     doubles: tuple[Field, ...] = ()
     ints: tuple[Field, ...] = ()
     ranges: Mapping[str, Range] = field(default_factory=dict)
     usual: Range = ANY_NUMBER
+    is_whole: bool = True
 
     @property
     def doubles_stride(self) -> int:

@@ -8,6 +8,7 @@ SMOOTHING = 64
 # A table of segments: 0-15 the cams, 16-31 the ballscrews of the axes.
 TABLE = HiddenBlock(
     prefix="TB",
+    family="tables",
     count=32,
     doubles=(
         ("length_cnt", SEGMENTS),
@@ -35,6 +36,7 @@ TABLE = HiddenBlock(
 
 CAM = HiddenBlock(
     prefix="CA",
+    family="cams",
     count=16,
     doubles=(
         "index_cnt",  # source pulses since the cam was switched on

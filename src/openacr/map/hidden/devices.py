@@ -7,6 +7,7 @@ from openacr.map.hidden.block import HiddenBlock
 
 DEVICES = HiddenBlock(
     prefix="DQ",
+    family="devices",
     count=64,
     ints=(
         "characters",  # received and not read

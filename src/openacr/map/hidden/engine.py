@@ -4,6 +4,7 @@ from openacr.map.hidden.block import HiddenBlock
 
 ENGINE = HiddenBlock(
     prefix="ENG",
+    family="engine",
     count=1,
     ints=(
         "ticks_left",
@@ -28,6 +29,7 @@ ENGINE = HiddenBlock(
 # What the caller waits for: the engine returns behind a tick in which one of these changed.
 WATCH = HiddenBlock(
     prefix="WAT",
+    family="watches",
     count=128,
     doubles=("bound",),
     ints=(
@@ -42,6 +44,7 @@ WATCH = HiddenBlock(
 # Values that a trace records beside the axes.
 SAMPLE = HiddenBlock(
     prefix="SMV",
+    family="trace_values",
     count=64,
     ints=("kind", "row", "mask"),  # as those of WATCH
 )

@@ -6,6 +6,7 @@ FILTER_WINDOW = 128
 
 GEAR = HiddenBlock(
     prefix="GR",
+    family="gears",
     count=16,
     doubles=(
         "ppu",  # source pulses per source unit
@@ -22,6 +23,7 @@ GEAR = HiddenBlock(
 
 FILTER = HiddenBlock(
     prefix="FL",
+    family="filters",
     count=16,
     doubles=(("window_cnt", FILTER_WINDOW), "sum_cnt", "carry_cnt"),
     ints=("on", "size", "index", "out"),
@@ -34,6 +36,7 @@ FILTER = HiddenBlock(
 
 HAND_WHEEL = HiddenBlock(
     prefix="HW",
+    family="hand_wheels",
     count=16,
     doubles=("ppu", "ratio", "vel_ups", "acc_ups2"),
     ints=("on",),

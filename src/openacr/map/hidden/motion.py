@@ -22,6 +22,7 @@ KNOTS = 24
 # position maintenance.
 PROFILE = HiddenBlock(
     prefix="PR",
+    family="profiles",
     count=48,
     doubles=(
         ("seg_time_s", SEGMENTS),
@@ -57,6 +58,7 @@ PROFILE = HiddenBlock(
 # belong to the masters in turn, those behind are lent to the masters with DIM MBUF.
 MOVE = HiddenBlock(
     prefix="MQ",
+    family="moves",
     count=MOVES,
     doubles=(
         "vel_ups",
@@ -101,7 +103,7 @@ MOVE = HiddenBlock(
         "hsint_axis",  # HSINT: axis + 1
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
-        "tang",  # slave + 1 that is kept tangential along a curve
+        "tang_slave",  # slave + 1 that is kept tangential along a curve
         "ahead",  # planned through the corner at its end though LOOK is off
         "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
@@ -119,7 +121,7 @@ MOVE = HiddenBlock(
         "trigger_axis": (0, SLAVES),
         "hsint_axis": (0, SLAVES),
         "hsint_abort": (-17664, 17664),
-        "tang": (0, SLAVES),
+        "tang_slave": (0, SLAVES),
     },
 )
 
@@ -127,6 +129,7 @@ MOVE = HiddenBlock(
 # and NURB keep up to six poles per slave in the first six rows (kernel/bezier_cy.py).
 CURVE = HiddenBlock(
     prefix="MW",
+    family="curves",
     count=MOVES,
     doubles=(
         ("amplitude_cnt", SLAVES),
@@ -145,6 +148,7 @@ CURVE = HiddenBlock(
 
 MASTER = HiddenBlock(
     prefix="MS",
+    family="masters",
     count=16,
     doubles=(
         "acc_ups2",
@@ -234,6 +238,7 @@ MASTER = HiddenBlock(
 # What SPLINE and NURB have been given and cannot follow yet (motion/splines.py).
 CURVE_POINTS = HiddenBlock(
     prefix="CP",
+    family="curve_points",
     count=16,
     doubles=(
         ("point_cnt", POINTS * SLAVES),
@@ -261,6 +266,7 @@ CURVE_POINTS = HiddenBlock(
 
 AXIS = HiddenBlock(
     prefix="AX",
+    family="axes",
     count=16,
     doubles=(
         "position_cnt",  # coordinated position
@@ -386,6 +392,7 @@ AXIS = HiddenBlock(
 
 ENCODER = HiddenBlock(
     prefix="EN",
+    family="encoders",
     count=24,
     doubles=(
         "raw_old_cnt",
@@ -409,6 +416,8 @@ ENCODER = HiddenBlock(
 # What few encoders need, apart from the rows that every tick reads.
 ENCODER_EXTRA = HiddenBlock(
     prefix="ENX",
+    family="encoders",
+    is_whole=False,
     count=24,
     doubles=(
         "filter_old_cnt",  # LIMIT: raw count of the last tick
@@ -429,6 +438,7 @@ ENCODER_EXTRA = HiddenBlock(
 # A stepper output: what goes to the drive, whatever its count is made.
 STEPPER_OUTPUT = HiddenBlock(
     prefix="STO",
+    family="stepper_outputs",
     count=16,
     doubles=(
         "pulses",  # since power-up
@@ -440,6 +450,7 @@ STEPPER_OUTPUT = HiddenBlock(
 # The kernel as a whole.
 KERNEL = HiddenBlock(
     prefix="KR",
+    family="kernel",
     count=1,
     doubles=("millisecond_phase",),
     ints=(

@@ -17,6 +17,7 @@ LOG_ENTRIES = 8
 # The world: node n of the machine file.
 NODE = HiddenBlock(
     prefix="BUSN",
+    family="bus_nodes",
     count=NODES,
     doubles=(
         ("measured", ANALOG_CHANNELS),  # what is at the analog inputs, in their unit
@@ -52,6 +53,7 @@ NODE = HiddenBlock(
 
 FAULT = HiddenBlock(
     prefix="BUSX",
+    family="bus_faults",
     count=16,
     doubles=("from_s", "until_s", "rate"),
     ints=("kind", "node"),
@@ -63,6 +65,7 @@ FAULT = HiddenBlock(
 # What comes to an analog input from somewhere in the world: source * scale + offset.
 SIGNAL = HiddenBlock(
     prefix="BUSS",
+    family="bus_signals",
     count=16,
     doubles=("scale", "offset"),
     ints=(
@@ -81,6 +84,7 @@ SIGNAL = HiddenBlock(
 
 BUS = HiddenBlock(
     prefix="BUS",
+    family="bus",
     count=1,
     doubles=("before_s",),  # lived before the card was switched on the last time
     ints=("fitted",),  # the card has a CANopen controller
@@ -89,6 +93,7 @@ BUS = HiddenBlock(
 # The card: its network master, and each of its slave nodes.
 MASTER = HiddenBlock(
     prefix="NETM",
+    family="network_master",
     count=1,
     doubles=(
         "phase_tk",  # end of the present phase
@@ -114,6 +119,7 @@ MASTER = HiddenBlock(
 
 SLAVE = HiddenBlock(
     prefix="NETS",
+    family="network_slaves",
     count=NODES,
     doubles=("change_tk",),  # a message with changed inputs arrives
     ints=(
@@ -132,6 +138,7 @@ SLAVE = HiddenBlock(
 # The world: the drive of motor n, as its serial port shows it.
 DRIVE = HiddenBlock(
     prefix="BUSD",
+    family="bus_drives",
     count=16,
     doubles=(
         ("settings", 6),  # see plant/aries.py
@@ -164,6 +171,7 @@ DRIVE = HiddenBlock(
 # The card: the Drive Talk line of each port, and what it knows of the drive of each axis.
 LINE = HiddenBlock(
     prefix="NETL",
+    family="drive_talk_lines",
     count=PORTS,
     doubles=("due_tk",),
     ints=(
@@ -192,10 +200,13 @@ LINE = HiddenBlock(
     },
 )
 
-AXIS = HiddenBlock(prefix="NETD", count=16, doubles=("limit_tk",), ints=("known",))
+AXIS = HiddenBlock(
+    prefix="NETD", family="drive_talk_axes", count=16, doubles=("limit_tk",), ints=("known",)
+)
 
 NETWORKS = HiddenBlock(
     prefix="NET",
+    family="networks",
     count=1,
     doubles=(
         "due_tk",  # the slow side is wanted

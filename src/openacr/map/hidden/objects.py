@@ -8,6 +8,7 @@ CHANNELS = 8
 # What an axis uses beyond moves and jogs.
 FOLLOWER = HiddenBlock(
     prefix="FO",
+    family="followers",
     count=16,
     doubles=(
         "jog_debt_s",  # time the source of the jog has run back
@@ -28,6 +29,7 @@ FOLLOWER = HiddenBlock(
 
 RATCHET = HiddenBlock(
     prefix="RT",
+    family="ratchets",
     count=OBJECTS,
     doubles=("output_cnt", "backlog_cnt"),
     ints=("mode",),
@@ -35,12 +37,14 @@ RATCHET = HiddenBlock(
 
 LIMITER = HiddenBlock(
     prefix="LT",
+    family="limiters",
     count=OBJECTS,
     doubles=("output_cnt", "backlog_cnt", "freq_hz", "mult"),
 )
 
 LIMIT_SWITCH = HiddenBlock(
     prefix="PS",
+    family="limit_switches",
     count=OBJECTS,
     doubles=("base_cnt", "ratio", "flz_cnt", "rotary"),
     ints=("program", "array", "destination", "mask"),
@@ -53,6 +57,7 @@ LIMIT_SWITCH = HiddenBlock(
 
 OUTPUT_OBJECT = HiddenBlock(
     prefix="OO",
+    family="output_objects",
     count=OBJECTS,
     doubles=("from_cnt", "to_cnt", "start_cnt", "pitch_cnt", "width_cnt"),
     ints=("on", "bit", "windows"),
@@ -64,6 +69,7 @@ OUTPUT_OBJECT = HiddenBlock(
 
 FAST_STATUS = HiddenBlock(
     prefix="FSB",
+    family="fast_status",
     count=10,
     doubles=("phase_ms",),  # since the last copy; entry 0 counts for all
     ints=(
@@ -81,6 +87,7 @@ FAST_STATUS = HiddenBlock(
 
 SAMPLER = HiddenBlock(
     prefix="SA",
+    family="sampler",
     count=1,
     doubles=("timer_ms",),
     ints=(
@@ -104,6 +111,7 @@ SAMPLER = HiddenBlock(
 
 OBJECT_STATE = HiddenBlock(
     prefix="OB",
+    family="objects",
     count=1,
     ints=(
         "live",  # ratchets, limiters or output objects are in use

@@ -13,6 +13,7 @@ INPUTS = 32
 # Instance n is the motor whose encoder is wired to encoder input n.
 MOTOR = HiddenBlock(
     prefix="PL",
+    family="motors",
     count=16,
     doubles=(
         "position_cnt",
@@ -84,6 +85,7 @@ MOTOR = HiddenBlock(
 # What a motor that the card commutates has on top, see plant/phases_cy.py.
 PHASES = HiddenBlock(
     prefix="PLB",
+    family="phases",
     count=16,
     doubles=("radians_per_cnt", "zero_rad", "peak_v"),
     ints=("second_dac", "phases"),
@@ -96,6 +98,7 @@ PHASES = HiddenBlock(
 # What a stepper motor has on top, see plant/stepper_cy.py.
 STEPPER = HiddenBlock(
     prefix="PLT",
+    family="stepper_motors",
     count=16,
     doubles=(
         "field_cnt",  # where the field would hold the rotor
@@ -113,6 +116,7 @@ STEPPER = HiddenBlock(
 # The terminals of the analog inputs of the card and what is wired to them.
 ANALOG = HiddenBlock(
     prefix="PLA",
+    family="analogs",
     count=8,
     doubles=("volts", "base_v", "volts_per_cnt", "dac_step"),
     ints=("axis", "dac"),  # both + 1, 0 none,
@@ -126,6 +130,7 @@ ANALOG = HiddenBlock(
 # What drives an input: a box in space, one entry per side of the box, or an output.
 WIRE = HiddenBlock(
     prefix="PLW",
+    family="wires",
     count=64,
     doubles=("low_cnt", "high_cnt", "delay_s", "waited_s"),
     ints=(
@@ -153,6 +158,7 @@ WIRE = HiddenBlock(
 # The words in which inputs are wired.
 INPUT_WORD = HiddenBlock(
     prefix="PLN",
+    family="input_words",
     count=16,
     doubles=(),
     ints=(
@@ -169,6 +175,7 @@ INPUT_WORD = HiddenBlock(
 
 GENERAL = HiddenBlock(
     prefix="PLG",
+    family="plant",
     count=1,
     doubles=(("rise_fraction", INPUTS), ("fall_fraction", INPUTS)),
     ints=(

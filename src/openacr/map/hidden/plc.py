@@ -6,6 +6,7 @@ INSTRUCTIONS = 200  # of one PLC
 
 PLC = HiddenBlock(
     prefix="PC",
+    family="plcs",
     count=8,
     doubles=("timer_ms",),  # since the timer count last went down
     ints=(

@@ -6,6 +6,7 @@ from openacr.map.hidden.block import HiddenBlock
 # limiter, limit switch and output object.
 SOURCE = HiddenBlock(
     prefix="SR",
+    family="sources",
     count=144,
     doubles=(
         "old",  # value of the last tick
@@ -21,6 +22,7 @@ SOURCE = HiddenBlock(
 # What a gear or cam waits for: three per axis (gear on, gear off, cam on).
 TRIGGER = HiddenBlock(
     prefix="TG",
+    family="triggers",
     count=48,
     doubles=(
         "setpoint",  # of IHPOS

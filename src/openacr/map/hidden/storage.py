@@ -14,7 +14,7 @@ from openacr.map.hidden.block import HiddenBlock
 STREAMS = 9
 
 PROGRAM_STORAGE = HiddenBlock(
-    prefix="ST",
+    prefix="ST", family="storage",
     count=24,
     ints=(
         "size_bytes",
@@ -37,6 +37,7 @@ PROGRAM_STORAGE = HiddenBlock(
 
 SYSTEM_STORAGE = HiddenBlock(
     prefix="SM",
+    family="system_storage",
     count=1,
     ints=(
         "def_count",  # aliases there is space for

@@ -4,6 +4,7 @@ from openacr.map.hidden.block import HiddenBlock
 
 SYSTEM = HiddenBlock(
     prefix="SYS",
+    family="system",
     count=1,
     doubles=(
         "period_s",  # servo period: one tick

@@ -12,6 +12,7 @@ DEPTH = 64  # FOR, WHILE, GOSUB and IF levels open at a time
 
 THREAD = HiddenBlock(
     prefix="TH",
+    family="threads",
     count=48,
     doubles=(
         "result",  # of an expression computed for a command
@@ -58,10 +59,13 @@ THREAD = HiddenBlock(
 )
 
 # Where code and constants of each thread begin in the buffers of this process.
-THREAD_CODE = HiddenBlock(prefix="THC", count=48, ints=("code_base", "num_base"))
+THREAD_CODE = HiddenBlock(
+    prefix="THC", family="thread_code", count=48, ints=("code_base", "num_base")
+)
 
 SCHEDULER = HiddenBlock(
     prefix="SCH",
+    family="scheduler",
     count=1,
     ints=(
         "programs",  # mask of the threads 0-15 that are not idle

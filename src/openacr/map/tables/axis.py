@@ -9,6 +9,7 @@ AXIS = Block(
     "Axis Parameters",
     object="AXIS",
     prefix="AX",
+    family="axes",
     spans=(Span(12288, 16),),
     stride=256,
     packet=objects_apart,

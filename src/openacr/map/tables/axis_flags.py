@@ -80,7 +80,7 @@ AXIS_2.row(12, "Gear Off Armed", R, "Set by gear-off trigger mode, cleared by th
 AXIS_2.row(13, "Gear Off Position")
 AXIS_2.row(14, "Gear Max", NS, "Set while the upper gear limit is hit; self clearing.")
 AXIS_2.row(15, "Gear Min", NS, "Set while the lower gear limit is hit; self clearing.")
-AXIS_2.row(17, "3D ARC")
+AXIS_2.row(17, "3D ARC", ident="ARC_3D")
 AXIS_2.row(22, "Don't use capture Register", RW, "For steppers: capture the commanded position.")
 AXIS_2.row(23, "Stepper FeedBack", NS, "Open-loop stepper with an encoder used for captures only.")
 AXIS_2.row(24, "Fast EXC Flags", RW, "With BIT5632: Not Excess Error in the servo interrupt.")

@@ -17,6 +17,7 @@ COMMUTATOR = Block(
     "CMT Parameters",
     object="CMT",
     prefix="CMT",
+    family="commutators",
     spans=(Span(16384, 8),),
     stride=256,
     packet=objects_apart,

@@ -7,6 +7,7 @@ DRIVE_TALK = Block(
     "Drive Talk Parameters",
     object="DTALK",
     prefix="DTK",
+    family="drive_talk",
     spans=(Span(28672, 16),),
     stride=256,
     ref=ManualRef.PROGRAMMERS_GUIDE,

@@ -18,6 +18,7 @@ FSTAT_SETUP = Block(
     "FSTAT Setup Parameters",
     object="FSTAT",
     prefix="FST",
+    family="fast_status",
     spans=(Span(7424, 10),),
     stride=16,
     packet=sixteen_apart,

@@ -6,6 +6,7 @@ MASTER = Block(
     "Master Parameters",
     object="MASTER",
     prefix="MA",
+    family="masters",
     spans=(Span(8192, 16),),
     stride=256,
     packet=objects_apart,

@@ -7,6 +7,7 @@ PROGRAM = Block(
     "Program Parameters",
     object="PROG",
     prefix="PROG",
+    family="programs",
     spans=(Span(7168, 16),),
     stride=16,
     packet=sixteen_apart,

@@ -1,0 +1,1 @@
+"""Places of every row in the state, one module per family of objects (`map/families.py`)."""
