@@ -74,6 +74,58 @@ def test_a_slip_gets_a_suggestion() -> None:
     assert "Did you mean 'check'" in result.stderr
 
 
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder with the programs `-part.nc`, `-h.nc` and `--part.nc`, and a store."""
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+    monkeypatch.chdir(tmp_path)
+    for name in ("-part.nc", "-h.nc", "--part.nc"):
+        (tmp_path / name).write_text("F10 G1 X1\nM2\n")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mill", "check", "-part.nc"],
+        ["mill", "check", "--json", "-part.nc"],
+        ["mill", "check", "-part.nc", "--json"],
+        ["mill", "check", "--part.nc"],
+        ["mill", "check", "--", "-part.nc"],
+        ["mill", "check", "./-h.nc"],
+        ["mill", "time", "-part.nc", "--dry"],
+        ["mill", "plot", "-part.nc", "-part.svg"],
+    ],
+    ids=" ".join,
+)
+def test_a_file_may_have_a_minus_in_front(folder: Path, words: list[str]) -> None:
+    (folder / "-part.svg").write_text("")
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["check", "-lost.nc"], "No such option: -l (a file of this name is written ./-lost.nc)"),
+        (["check", "./-lost.nc"], "error: -lost.nc: no such file"),
+        (["check", "--lost.nc"], "No such option: --lost.nc"),
+        (["check", "-x"], "No such option: -x"),
+        (["check", "-part.nc", "-x.nc"], "(a file of this name is written ./-x.nc)"),
+        (["check", "-part.nc", "--jsno"], "No such option: --jsno"),
+        (["time", "-part.nc", "--", "-part.nc"], "(-part.nc)"),
+    ],
+)
+def test_a_name_that_no_file_has_is_an_option_that_is_not_there(
+    folder: Path, words: list[str], said: str
+) -> None:
+    result = CliRunner().invoke(app, ["mill", *words])
+    assert result.exit_code == 2
+    assert said in " ".join(result.output.split())
+    if "-x" in words or any(word.startswith("--") for word in words):
+        assert "is written" not in result.output
+
+
 def test_the_version_is_shown() -> None:
     result = CliRunner().invoke(app, ["--version"])
     assert result.exit_code == 0

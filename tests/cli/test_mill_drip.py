@@ -14,7 +14,8 @@ from tests.mill.shop import Shop
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.mill_console import Console
+from openacr.cli.mill_console import COMMANDS, Console, command
+from openacr.mill.overrides import Override
 from openacr.mill.states import State
 from openacr.mill.workshop import Workshop
 
@@ -95,6 +96,50 @@ def test_the_console_says_what_it_does_not_know_and_ends_when_it_is_left(tmp_pat
     assert "back: cannot trace the path: the state is" in said
     assert "M0: nobody is at the console to go on" in said
     assert code != 0
+
+
+def test_the_help_of_a_run_lists_every_command_of_its_console() -> None:
+    code, said = run("run", "--help")
+    assert code == 0
+    text = " ".join(said.split())
+    for name, row in COMMANDS.items():
+        assert f"{name} {row.value}".strip() + f" ({row.meaning})" in text
+    assert {"stop", "resume", "start", "abort", "acknowledge", "fov"} <= set(COMMANDS)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("fov", "fov: no such command; there are stop, resume, start, abort, acknowledge, confirm,"
+         " block, back, forward, halt, answer VALUE, fov CLICK, rov CLICK, sov CLICK"),
+        ("fov 1 2", "fov 1 2: no such command"),
+        ("abort now", "abort now: no such command"),
+        ("fov x", "fov x: a click of the switch is a whole number from 0"),
+        ("answer x", "answer x: x: a number is asked for"),
+        ("answer 1", "answer 1: nothing is asked"),
+    ],
+)  # fmt: skip
+def test_a_line_that_is_no_command_says_what_there_is(tmp_path: Path, line: str, said: str) -> None:
+    file = tmp_path / "PART.TXT"
+    file.write_text("G90 F600\nG1 X.2\nM0\nX.3\nM2\n")
+    assert said in " ".join(run("run", str(file), "--console", typed=f"{line}\n")[1].split())
+
+
+def test_the_overrides_are_chosen_by_their_names() -> None:
+    shop = Shop()
+    for name, override in (
+        ("fov", Override.FEED),
+        ("rov", Override.RAPID),
+        ("sov", Override.SPINDLE),
+    ):
+        before = [shop.runner.overrides.factor(each) for each in Override]
+        command([name, "3"])(shop.runner)
+        changed = [
+            each
+            for each, factor in zip(Override, before, strict=True)
+            if shop.runner.overrides.factor(each) != factor
+        ]
+        assert changed == [override]
 
 
 @pytest.mark.req("MILL-BEY-RETRACE", "MILL-BEY-RETRACE-RESUME")

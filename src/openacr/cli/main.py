@@ -9,6 +9,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from importlib.metadata import version
+from pathlib import Path
 from typing import Annotated, Any, NamedTuple, TextIO
 
 import typer
@@ -244,6 +245,21 @@ HELP = {"help_option_names": ["-h", "--help"]}
 class SubCommand(TyperCommand):
     """A sub-command: with --json also what was wrong with its input is an object on stdout."""
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the words; a name with a minus in front that a file has is that file."""
+        words = list(args)
+        while True:
+            try:
+                return super().parse_args(ctx, list(words))
+            except Exception as error:  # of click, or of the copy of it that typer brings
+                place = _refused_word(words, getattr(error, "option_name", ""))
+                if place is None:
+                    raise
+                if not Path(words[place]).exists():
+                    hint = f"{error.message} (a file of this name is written ./{words[place]})"  # type: ignore[attr-defined]
+                    raise typer.BadParameter(hint, ctx) from None
+                words[place] = f"./{words[place]}"
+
     def invoke(self, ctx: Any) -> Any:
         """Run it."""
         try:
@@ -252,6 +268,17 @@ class SubCommand(TyperCommand):
             if any("--json" in each.opts and ctx.params.get(each.name) for each in self.params):
                 typer.echo(failed_json(parts_of(error)))
             raise
+
+
+def _refused_word(words: Sequence[str], option: str) -> int | None:
+    """Which word is no option but may be a name, `-part.nc`; None for a slip in an option."""
+    if not option:
+        return None
+    before = list(words[: words.index("--")] if "--" in words else words)
+    for place, word in enumerate(before):
+        if word.startswith("-") and len(word) > 2 and option[1:] in word:
+            return None if option.startswith("--") and not Path(word).exists() else place
+    return None
 
 
 class LazyGroup(TyperGroup):

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, NamedTuple, TextIO
 
 import typer
 
@@ -62,31 +62,57 @@ class Console:
             typer.echo(text, err=True)
 
 
-_COMMANDS: dict[str, Callable[["Runner"], object]] = {
-    "stop": lambda runner: runner.stop(),
-    "resume": lambda runner: runner.resume(),
-    "start": lambda runner: runner.start(),
-    "abort": lambda runner: runner.abort(),
-    "acknowledge": lambda runner: runner.acknowledge(),
-    "confirm": lambda runner: runner.doing.changer.confirm(),
-    "block": lambda runner: runner.block(not runner.options.is_single),
-    "back": lambda runner: runner.trace(-1),
-    "forward": lambda runner: runner.trace(1),
-    "halt": lambda runner: runner.trace(0),
+class Row(NamedTuple):
+    """A command: its value, what it does, and the action."""
+
+    value: str
+    meaning: str
+    act: Callable[["Runner", str], object]
+
+
+COMMANDS = {
+    "stop": Row("", "feed hold", lambda runner, _: runner.stop()),
+    "resume": Row("", "go on with the path where it was held", lambda runner, _: runner.resume()),
+    "start": Row("", "go on from a hold or a pause", lambda runner, _: runner.start()),
+    "abort": Row("", "end the program", lambda runner, _: runner.abort()),
+    "acknowledge": Row("", "clear alarms", lambda runner, _: runner.acknowledge()),
+    "confirm": Row("", "the tool is changed", lambda runner, _: runner.doing.changer.confirm()),
+    "block": Row(
+        "",
+        "stop behind every block, or not",
+        lambda runner, _: runner.block(not runner.options.is_single),
+    ),
+    "back": Row("", "held: back along the path", lambda runner, _: runner.trace(-1)),
+    "forward": Row("", "held: forward again", lambda runner, _: runner.trace(1)),
+    "halt": Row("", "held: come to rest on the path", lambda runner, _: runner.trace(0)),
+    "answer": Row("VALUE", "to an INPUT", lambda runner, value: runner.answer(number_in(value))),
+    "fov": Row("CLICK", "feed override", lambda runner, value: _choose(runner, "FEED", value)),
+    "rov": Row("CLICK", "rapid override", lambda runner, value: _choose(runner, "RAPID", value)),
+    "sov": Row(
+        "CLICK", "spindle override", lambda runner, value: _choose(runner, "SPINDLE", value)
+    ),
 }
+"""What may be typed, by name."""
+
+COMMAND_LIST = ", ".join(
+    f"{f'{name} {row.value}'.strip()} ({row.meaning})" for name, row in COMMANDS.items()
+)
+
+
+def _choose(runner: "Runner", name: str, click: str) -> None:
+    from openacr.mill.overrides import Override
+
+    if not click.isdecimal():
+        raise UserError("a click of the switch is a whole number from 0")
+    runner.overrides.choose(Override[name], int(click))
 
 
 def command(words: list[str]) -> Callable[["Runner"], object]:
-    """What a line means: a command, or a click of an override: fov 7."""
-    from openacr.mill.overrides import Override
-
-    switches = {"fov": Override.FEED, "rov": Override.RAPID, "sov": Override.SPINDLE}
+    """What a line means: a command, with its value where it has one: fov 7."""
     name, *rest = words
-    if name in switches and len(rest) == 1 and rest[0].isdigit():
-        return lambda runner: runner.overrides.choose(switches[name], int(rest[0]))
-    if name == "answer" and len(rest) == 1:
-        return lambda runner: runner.answer(number_in(rest[0]))
-    if name not in _COMMANDS or rest:
-        known = " ".join((*_COMMANDS, "answer VALUE", "fov N", "rov N", "sov N"))
+    row = COMMANDS.get(name)
+    if row is None or len(rest) != bool(row.value):
+        known = ", ".join(f"{name} {row.value}".strip() for name, row in COMMANDS.items())
         raise UserError(f"no such command; there are {known}")
-    return _COMMANDS[name]
+    value = rest[0] if rest else ""
+    return lambda runner: row.act(runner, value)

@@ -19,7 +19,7 @@ from openacr.cli.mill import (
     opened_store,
     show_findings,
 )
-from openacr.cli.mill_console import Console
+from openacr.cli.mill_console import COMMAND_LIST, Console
 from openacr.cli.mill_shop import ToHost, end_with_alarms, place_text, workshop
 from openacr.cli.mill_terminal import Attendant, require_yes
 from openacr.cli.mill_trace import Every, ToTrace, require_trace, trace_file
@@ -66,8 +66,7 @@ def run_program(
         bool,
         typer.Option(
             "--console",
-            help="Take commands while it runs: stop, resume, back, forward, halt, start, block,"
-            " abort, fov N.",
+            help=f"Take commands while it runs: {COMMAND_LIST}.",
         ),
     ] = False,
     trace: ToTrace = None,
