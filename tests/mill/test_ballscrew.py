@@ -87,12 +87,55 @@ def test_positions_before_home_follow_at_the_end(tmp_path: Path) -> None:
     assert small.period_u == 5.0
 
 
+# The table of Appendix A as it is printed, with the position of its last row, which the guide
+# prints as 40: the mean it gives and the entry X39E.00250 are those of 41.
+PRINTED = """\
+Primary Setpoint Actual 1 Actual 2 Actual 3 Actual 4 Actual Mean Actual Difference
+(N) (n1) (n2) (n3) (n4) (n1+n2+n3+n4)/\u03a3n (N\u2212ActualMean)
+
+0 0 0 0 0 0 0
+1 0.979 1.000 0.997 0.999 0.99375 0.00625
+2 1.996 1.998 1.995 1.998 1.99675 0.00325
+3 2.997 3.000 2.997 2.999 2.99825 0.00175
+4 4.004 4.001 4.004 4.001 4.00250 \u22120.00250
+"""
+
+
+def test_the_table_of_the_guide_is_read_as_it_is_printed(tmp_path: Path) -> None:
+    between = "".join(f"{n} {n} {n} {n} {n} {n} 0\n" for n in range(5, 41))
+    file = tmp_path / "x.txt"
+    file.write_text(f"{PRINTED}{between}41 40.996 40.999 40.996 40.999 40.9975 0.00250\n")
+    lines = measured(file, "X", 2.0).text().splitlines()
+    assert lines[:3] == ["X0E.00325", "X1E.00175", "X2E-.00250"]
+    assert lines[-3:] == ["X39E.00250", "X40E.00000", "X41E.00625"]
+    assert len(lines) == 42
+
+
+@pytest.mark.parametrize("separator", [" ", ",", ";", "\t"])
+def test_results_behind_the_measurements_need_no_headline(tmp_path: Path, separator: str) -> None:
+    rows = PRINTED.splitlines()[3:]
+    file = tmp_path / "x.txt"
+    file.write_text("\n".join(row.replace(" ", separator) for row in rows))
+    assert measured(file, "X", 2.0).text() == GUIDE + "X3E.00000\nX4E.00625\n"
+    file.write_text("0 0 0 0\n1 1.0 1.0 1.1\n")  # four measurements in all, no results
+    assert measured(file, "X", 0.0).entries[1] == (1.0, -0.033333333)
+
+
+def test_a_position_may_have_its_measurements_in_several_lines(tmp_path: Path) -> None:
+    file = tmp_path / "x.csv"
+    file.write_text("0, 0\n1, .979\n2, 1.996\n1, 1.000\n1, .997\n2, 1.998\n1, .999\n")
+    assert measured(file, "X", 0.0).entries == ((0.0, 0.0), (1.0, 0.00625), (2.0, 0.003))
+
+
 @pytest.mark.parametrize(
     ("text", "home", "said"),
     [
         ("0 0\n1 x\n", 0, "m.csv:2: a position and at least one measurement"),
         ("0 0\n1\n", 0, "m.csv:2: a position and at least one measurement"),
-        ("0 0\n0 1\n", 0, "m.csv:2: position 0 is there twice"),
+        ("0 0\n0 1\n", 0, "1 positions; a table needs 2"),
+        ("Mean\n0 0 0 0\n1 1.002 1.002 0\n", 0, "m.csv:3: the last two columns are not the mean"),
+        ("Mean\n0 0 0 0\n1 1.002 1.003 -.003\n", 0, "m.csv:3: the last two columns are not"),
+        ("Difference\n0 0 0\n1 1 0\n", 0, "m.csv:2: the last two columns are not the mean"),
         ("0 0\n1 1\n", 7, "home 7 is not from 0 to 1"),
         ("# nothing\n", 0, "0 positions; a table needs 2"),
     ],

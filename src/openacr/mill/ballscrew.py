@@ -27,6 +27,8 @@ LEAST_ENTRIES, MOST_SEGMENTS = 2, 64
 MOST_BYTES = 1_000_000
 SAME_U, SAME_CNT = 1e-6, 1e-3
 DECIMALS = 5
+LEAST_COLUMNS = 4  # position, a measurement, its mean and the difference
+ROUNDED_U = 5.01e-4  # of results with three digits
 
 Entries = tuple[tuple[float, float], ...]
 
@@ -124,26 +126,60 @@ def measured(path: Path, letter: str, home_u: float) -> Table:
     """A table from a file of measurements: lines of a position and what was measured there.
 
     Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with # and
-    a headline are left out. Positions are physical, `home_u` is the reference point.
+    a headline are left out. A position may have several measurements, in one line or in lines
+    of their own, and behind them their mean and the difference, as the guide prints them
+    (Appendix A). Positions are physical, `home_u` is the reference point.
     """
     rows: dict[float, list[float]] = {}
-    for number, line in enumerate(_content(path).translate(MINUS_SIGNS).splitlines(), 1):
-        words = re.split(r"[,;\s]+", line.strip().strip(",;"))
-        if not words[0] or words[0].startswith("#"):
-            continue
-        values = _numbers(words)
-        if values is None and not rows:
-            continue  # a headline
-        if values is None or len(values) < LEAST_ENTRIES:
-            raise UserError(f"{path}:{number}: a position and at least one measurement are needed")
-        if values[0] in rows:
-            raise UserError(f"{path}:{number}: position {values[0]:g} is there twice")
-        rows[values[0]] = values[1:]
+    for place, values in _measurements(path):
+        if len(values) < LEAST_ENTRIES:
+            raise UserError(f"{place}: a position and at least one measurement are needed")
+        rows.setdefault(values[0], []).extend(values[1:])
     if len(rows) < LEAST_ENTRIES:
         raise UserError(f"{path}: {len(rows)} positions; a table needs {LEAST_ENTRIES}")
     if not min(rows) <= home_u <= max(rows):
         raise UserError(f"{path}: home {home_u:g} is not from {min(rows):g} to {max(rows):g}")
     return wrapped(letter, {n: errors(n, values) for n, values in rows.items()}, home_u)
+
+
+def _measurements(path: Path) -> list[tuple[str, list[float]]]:
+    """Place, and position with its measurements, of every line."""
+    found: list[tuple[str, list[float]]] = []
+    has_results = False
+    for number, line in enumerate(_content(path).translate(MINUS_SIGNS).splitlines(), 1):
+        words = re.split(r"[,;\s]+", line.strip().strip(",;"))
+        if not words[0] or words[0].startswith("#"):
+            continue
+        values = _numbers(words)
+        if values is not None:
+            found.append((f"{path}:{number}", values))
+        elif found:
+            raise UserError(f"{path}:{number}: a position and at least one measurement are needed")
+        else:
+            has_results |= "mean" in line.lower() or "difference" in line.lower()
+    if has_results or (found and all(_has_results(values) for _, values in found)):
+        return [(place, _without_results(place, values)) for place, values in found]
+    return found
+
+
+def _has_results(values: list[float]) -> bool:
+    """Whether a line ends with the mean of its measurements and the difference."""
+    if len(values) < LEAST_COLUMNS:
+        return False
+    position, *measurements, mean, difference = values
+    return (
+        abs(mean - fmean(measurements)) <= ROUNDED_U
+        and abs(difference - (position - mean)) <= ROUNDED_U
+    )
+
+
+def _without_results(place: str, values: list[float]) -> list[float]:
+    if not _has_results(values):
+        raise UserError(
+            f"{place}: the last two columns are not the mean of the measurements and its difference"
+            " from the position"
+        )
+    return values[:-2]
 
 
 def _numbers(words: Iterable[str]) -> list[float] | None:
