@@ -221,11 +221,41 @@ def test_the_input_test_can_be_switched_off() -> None:
     program = "F10\nIF #1=1 THEN GOTO 100\nX1\nN100 X2"
     done = run(program, {700_001: 0, 1: 1})
     assert done.moves == ["L X2"]
-    assert "W211" not in done.codes
-    found = run(program).interpreter.program.findings
-    (told,) = (each for each in found if each.code == "W211")
-    assert told.text == "input test form: tests input 1, not the parameter: that is IF (#1)=..."
     assert run("F10\nIF INP(1)=1 THEN GOTO 9\nX1\nN9", machine=Bench(bits={1})).moves == []
+
+
+@pytest.mark.parametrize(
+    "assignment", ["#1=0", "P1=0", "P(3-2)=0", 'INPUT "one", P1', "G4 F1 #1=0"]
+)
+def test_an_input_test_is_doubted_where_the_parameter_was_assigned(assignment: str) -> None:
+    text = f"F10\n{assignment}\nN5 IF #1=0 THEN GOTO 9\nX1\nN9 #2=1\nM2"
+    (told,) = run(text, machine=Bench(answers={1: 0.0})).interpreter.warnings
+    assert str(told) == (
+        "PROGRAM:3:4: W211 input test form:"
+        " tests input 1, not parameter 1 that was assigned: that is IF (#1)=..."
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "more"),
+    [
+        ("IF #1=1 THEN GOTO 9\nX1\nN9", {}),  # as the guide tests inputs
+        ("#2=1\nIF #1=1 THEN GOTO 9\nX1\nN9", {}),
+        ("#1=0\nIF (#1)=0 THEN GOTO 9\nX1\nN9", {}),
+        ("#1=0\nIF #1=0 THEN GOTO 9\nX1\nN9", {700_001: 0.0}),
+        ("G65 P100 X1\nM2\nN100 IF #1=0 THEN GOTO 9\n#1=0\nIF #1=0 THEN GOTO 9\nN9 RET", {}),
+        ("G65 P100\nIF #1=1 THEN GOTO 9\nX1\nN9\nM2\nN100 #1=0\nRET", {}),  # a local of a macro
+    ],
+)  # fmt: skip
+def test_an_input_test_is_not_doubted_elsewhere(text: str, more: dict[int, float]) -> None:
+    assert "W211" not in run(f"F10\n{text}\nM2", more).codes
+
+
+def test_what_was_assigned_is_forgotten_when_a_program_starts_anew() -> None:
+    done = run("F10\nIF #1=1 THEN GOTO 9\n#1=0\nN9")
+    assert [finding.code for finding in done.interpreter.warnings] == []
+    list(done.interpreter.entries())
+    assert [finding.code for finding in done.interpreter.warnings] == []
 
 
 @pytest.mark.req("MILL-FLOW-GOSUB")

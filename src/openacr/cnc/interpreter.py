@@ -212,9 +212,11 @@ class Interpreter:
 
     def warn(self, b: Turn, code: str, letter: str = "", detail: str = "", hint: str = "") -> None:
         """Note something doubtful about a block."""
-        node = b.node
-        name, column = node.part.text.name, b.plan.column(letter)
-        finding = found(code, name, node.line, column, detail, hint, node.raw)
+        self.doubt(b.node, code, b.plan.column(letter), detail, hint)
+
+    def doubt(self, node: Node, code: str, column: int, detail: str = "", hint: str = "") -> None:
+        """Note something doubtful at a column of a line, once."""
+        finding = found(code, node.part.text.name, node.line, column, detail, hint, node.raw)
         if sum(each.code == code for each in self.warnings) < MOST and finding not in self.warnings:
             self.warnings.append(finding)
 

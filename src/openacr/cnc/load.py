@@ -11,7 +11,7 @@ from itertools import islice
 from pathlib import Path
 
 from openacr.cnc.blocks import Block, Gosub, Goto, If, Include, OWord, Word
-from openacr.cnc.cells import HASH_TEST, M30_ENDS
+from openacr.cnc.cells import M30_ENDS
 from openacr.cnc.checks import Checks, Report
 from openacr.cnc.codes import AXIS_LETTERS, DIALECTS, Dialect, Group
 from openacr.cnc.findings import MOST, CodeError
@@ -98,7 +98,6 @@ class Loader:
         self._checks = Checks(self._report, cells, dialect)
         self._seen = self._checks.seen
         self._targets = Targets(self._report)
-        self._hash_tests = cells.read(HASH_TEST) != 0.0
 
     def load(self, text: Text, folder: Path | None) -> Program:
         """The program of a text."""
@@ -234,8 +233,6 @@ class Loader:
     def _statement(self, block: Block, place: Place, after: int, depth: int) -> None:
         statement = block.statement
         if isinstance(statement, If):
-            if statement.test is not None and self._hash_tests:
-                self._report.warn("W211", statement.column, _input_test(statement.test.number))
             statement = statement.then
         if isinstance(statement, Goto | Gosub):
             if isinstance(statement.label, Number):
@@ -296,8 +293,3 @@ class Loader:
         part = Part(supplied_cycles(), main.labels, is_cycles=True)
         self._program.has_cycles = True
         self._read(part, depth=1)
-
-
-def _input_test(number: int) -> str:
-    """What is said about IF #n=0 or 1, which macros of other systems write for a parameter."""
-    return f"tests input {number}, not the parameter: that is IF (#{number})=..."

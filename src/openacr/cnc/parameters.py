@@ -72,12 +72,14 @@ class Parameters:
         self.values: list[float] = [0.0] * (LOCALS + 1)
         self.names: dict[str, float] = {}  # of this call
         self.global_names: dict[str, float] = {}
+        self.assigned: set[int] = set()  # variables of the card the program has assigned
         self.reset()
 
     def reset(self) -> None:
         """A program starts: no call is in force."""
         self.values[:] = [0.0] * len(self.values)
         self.names = {}
+        self.assigned.clear()
 
     @property
     def is_in_call(self) -> bool:
@@ -116,6 +118,7 @@ class Parameters:
         """Set a variable of the card."""
         if not self._run.is_rested:
             raise NotAtRestError
+        self.assigned.add(k)
         self._run.machine.write_parameter(k, value)
 
     def names_of_formulas(self) -> dict[str, object]:
@@ -216,8 +219,7 @@ class Parameters:
         if error:
             raise CodeError(error, 0, f"P{k}")
         if home.is_on_card:
-            self.rest()
-            self._run.machine.write_parameter(k, value)
+            self.write_card(k, value)
             return
         self.store(k, value)
 

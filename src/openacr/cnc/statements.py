@@ -68,8 +68,13 @@ def _if(statement: If, run: Interpreter, node: Node) -> Act:
         wanted, bit = float(test.wanted), float(test.number)
 
         def act_by_input(node: Node) -> None:
-            is_call = parameters.is_in_call
-            if condition.now() if is_call else parameters.read_input(bit) == wanted:
+            if parameters.is_in_call:
+                is_met = condition.now() != 0.0
+            else:
+                is_met = parameters.read_input(bit) == wanted
+                if test.number in parameters.assigned:
+                    run.doubt(node, "W211", statement.column, _input_test(test.number))
+            if is_met:
                 then(node)
 
         return act_by_input
@@ -79,6 +84,11 @@ def _if(statement: If, run: Interpreter, node: Node) -> Act:
             then(node)
 
     return act
+
+
+def _input_test(n: int) -> str:
+    """What is said of IF #n=0 or 1 in a program that has given #n a value."""
+    return f"tests input {n}, not parameter {n} that was assigned: that is IF (#{n})=..."
 
 
 def _print(statement: Print, run: Interpreter, node: Node) -> Act:
