@@ -53,6 +53,32 @@ def test_settings_come_from_the_store_and_options_go_before_them(square: Path) -
     assert "counter-clockwise" in text
 
 
+def test_the_depth_of_a_path_is_an_option_and_a_cut_at_the_surface_is_said(square: Path) -> None:
+    program = square.with_suffix(".TXT")
+    note = "note: the path is cut at Z0: --cut-z says how deep\n"
+    assert note in run(str(square)).output
+    assert program.read_text().count("G1 Z0\n") == 1
+    assert note not in run(str(square), "--force", "--cut-z", "0").output
+    assert program.read_text().count("G1 Z0\n") == 1
+    result = run(str(square), "--force", "--cut-z", "-0.125")
+    assert note not in result.output
+    text = program.read_text()
+    assert text.count("G1 Z-0.125\n") == 1
+    assert "Z0\n" not in text
+    run(str(square), "--force", "--cut-z", "-0.25", "--tool", "3")
+    assert program.read_text().count("G1 Z-0.25\n") == 1
+    assert note not in run(str(square), "--force", "--drill").output
+    result = run(str(square), "--force", "--cut-z", "nan")
+    assert (result.exit_code, result.output) == (2, "error: --cut-z nan: it must be a number\n")
+
+
+def test_the_depth_is_in_the_unit_of_the_store(square: Path) -> None:
+    with Store(square.parent / "s.db") as store:
+        store.write(250_001, 1)
+    run(str(square), "--cut-z", "-2.54")
+    assert "G1 Z-0.1\n" in square.with_suffix(".TXT").read_text()
+
+
 def test_a_program_that_is_there_is_kept(square: Path) -> None:
     square.with_suffix(".TXT").write_text("G1 X1\n")
     result = run(str(square))
@@ -87,7 +113,7 @@ def test_json_says_what_was_done(square: Path) -> None:
     record = json.loads(run(str(square), "--json").output)
     assert record["pattern"] == "path"
     assert record["unit"] == "inch"
-    assert record["notes"] == ["not used: 2 POINT"]
+    assert record["notes"] == ["not used: 2 POINT", "the path is cut at Z0: --cut-z says how deep"]
 
 
 def test_without_a_name_the_drawings_of_the_folder_are_listed(

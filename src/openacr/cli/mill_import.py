@@ -1,6 +1,7 @@
 """`openacr mill import`: a DXF drawing as a part program."""
 
 import json as json_format
+from dataclasses import replace
 from enum import StrEnum
 from math import isfinite
 from pathlib import Path
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 EPSILON, SAFE_HEIGHT, DRILL_Z, DRILL_R, DRILL_F, LEAD_IN = (
     250_101, 250_120, 250_121, 250_122, 250_123, 250_005,
 )  # fmt: skip
+
+
+NO_DEPTH = "the path is cut at Z0: --cut-z says how deep"
 
 
 class Direction(StrEnum):
@@ -54,6 +58,9 @@ def import_drawing(
     ] = None,
     safe_height: Annotated[
         float | None, typer.Option("--safe-height", help="Z between chains and holes.")
+    ] = None,
+    cut_z: Annotated[
+        float | None, typer.Option("--cut-z", help="Z of the path; else 0, the surface.")
     ] = None,
     drill_z: Annotated[float | None, typer.Option("--drill-z", help="Bottom of holes.")] = None,
     drill_r: Annotated[float | None, typer.Option("--drill-r", help="R level of holes.")] = None,
@@ -100,6 +107,7 @@ def import_drawing(
             is_metric=cells.is_metric,
             epsilon=_positive("--epsilon", _given(epsilon, cells, EPSILON)),
             safe_height=_finite("--safe-height", _given(safe_height, cells, SAFE_HEIGHT)),
+            cut_z=_finite("--cut-z", cut_z or 0.0),
             drill_bottom=_finite("--drill-z", _given(drill_z, cells, DRILL_Z)),
             drill_level=_finite("--drill-r", _given(drill_r, cells, DRILL_R)),
             drill_feed=_positive("--feed", _given(feed, cells, DRILL_F)),
@@ -110,6 +118,8 @@ def import_drawing(
         )
     conversion = convert(file, options)
     write_text(target, conversion.text)
+    if cut_z is None and not is_drill:
+        conversion = replace(conversion, notes=(*conversion.notes, NO_DEPTH))
     _report(conversion, options, target, as_json)
 
 

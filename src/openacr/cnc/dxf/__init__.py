@@ -39,6 +39,7 @@ class Options:
     drill_level: float = 0.1
     drill_feed: float = 10.0
     feed: float | None = None
+    cut_z: float = 0.0  # of the path
     d_number: int = 0  # cutter compensation with this radius, 0 none
     radius: float = 0.0  # of that tool
     lead: float = 0.25  # radius of ways in and out
@@ -99,6 +100,7 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
         title=f"{_printable(path.name)}: {summary}",
         safe_height=unit(options.safe_height),
         feed=None if options.feed is None else unit(options.feed),
+        cut_z=unit(options.cut_z),
         straight=STRAIGHT_R * unit(options.epsilon),
         d_number=options.d_number,
     )

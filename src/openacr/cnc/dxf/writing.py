@@ -39,15 +39,18 @@ def path_program(
     *,
     title: str,
     safe_height: float,
+    cut_z: float,
     feed: float | None,
     straight: float,
     d_number: int = 0,
 ) -> str:
-    """The chains one after the other; arcs flatter than `straight` become lines.
+    """The chains one after the other, at Z `cut_z`; arcs flatter than `straight` become lines.
 
     Chains with a lead are compensated by the radius D.
     """
-    up = f"G0 {numbers.words('Z', [safe_height])}"
+    up, down = (
+        f"{code} {numbers.words('Z', [z])}" for code, z in (("G0", safe_height), ("G1", cut_z))
+    )
     lines = [*_head(title, numbers), "G200 F2"]
     if feed is not None:
         lines.append(numbers.words("F", [feed]))
@@ -55,9 +58,9 @@ def path_program(
         chain = way.chain if isinstance(way, Led) else way
         lines += [f"; chain {number}: {_described(chain, numbers)}", up]
         if isinstance(way, Led):
-            lines += _compensated(way, numbers, straight, d_number)
+            lines += _compensated(way, numbers, straight, d_number, down)
         else:
-            lines += [f"G0 {numbers.words('XY', chain.start)}", "G1 Z0"]
+            lines += [f"G0 {numbers.words('XY', chain.start)}", down]
             lines += _moves(chain, numbers, straight)
     return "\n".join([*lines, up, "M2", ""])
 
@@ -74,13 +77,15 @@ def _described(chain: Chain, numbers: Numbers) -> str:
     return f"{way}, length {numbers.text(chain.length)}"
 
 
-def _compensated(led: Led, numbers: Numbers, straight: float, d_number: int) -> Iterator[str]:
+def _compensated(
+    led: Led, numbers: Numbers, straight: float, d_number: int, down: str
+) -> Iterator[str]:
     """Beside the contour, on the lead circle to it, around, and away."""
     chain, contact = led.chain, led.chain.start
     into = quarter(led.first, contact, led.centre, led.is_left)
     out = quarter(contact, led.last, led.centre, led.is_left)
     yield f"G0 {numbers.words('XY', led.centre)}"
-    yield "G1 Z0"
+    yield down
     yield f"G{41 if led.is_left else 42} D{d_number} G1 {numbers.words('XY', led.first)}"
     yield from _moves(Chain((into, *chain.segments, out), is_closed=False), numbers, straight)
     yield f"G40 G1 {numbers.words('XY', led.centre)}"
