@@ -13,6 +13,11 @@ def bench() -> Bench:
     return Bench()
 
 
+def shares(first: int = 0) -> str:
+    """The factory allocation of the programs from one number on."""
+    return "".join(f"DIM PROG{program}(65536)\n" for program in range(first, 8))
+
+
 def answer(text: str, prompt: str = "SYS>") -> str:
     return text.replace("\n", "|") + prompt
 
@@ -20,7 +25,7 @@ def answer(text: str, prompt: str = "SYS>") -> str:
 @pytest.mark.req("ACR-MEM-01")
 def test_a_factory_card_reports_its_allocation(bench: Bench) -> None:
     assert bench.type("MEM") == answer(f"{FACTORY_FREE}\n")
-    assert bench.type("DIM") == "SYS>"
+    assert bench.type("DIM") == answer(shares())
     for program in range(8):
         assert bench.type(f"MEM PROG{program}") == answer("65536\n")
     for other in ("PROG8", "PROG15", "PLC0", "PLC7"):
@@ -34,12 +39,14 @@ def test_a_factory_card_reports_its_allocation(bench: Bench) -> None:
 @pytest.mark.parametrize("line", ["DIM PROG0(8192)", "DIM PLC3(2000)", "DIM P(100)"])
 def test_an_allocation_changes_only_after_clear(bench: Bench, line: str) -> None:
     assert bench.type(line, line) == "SYS>Re-dimensioned block|SYS>"
-    assert bench.type("CLEAR", line, "DIM") == f"SYS>SYS>{line}|SYS>"
+    assert bench.type("CLEAR", line) == "SYS>SYS>"
+    programs = f"{line}\n{shares(1)}" if "PROG" in line else f"{shares()}{line}\n"
+    assert bench.type("DIM") == answer(programs)
 
 
 def test_hosts_may_leave_the_parentheses_out(bench: Bench) -> None:
     assert bench.type("DIM PROG 15 16384", "DIM P 100", "dim def 20", "DIM PLC2 2000") == "SYS>" * 4
-    listed = "DIM PROG15(16384)\nDIM PLC2(2000)\nDIM P(100)\nDIM DEF(20)\n"
+    listed = f"{shares()}DIM PROG15(16384)\nDIM PLC2(2000)\nDIM P(100)\nDIM DEF(20)\n"
     assert bench.type("DIM") == answer(listed)
 
 
@@ -48,7 +55,8 @@ def test_dim_at_sys_reports_programs_plcs_streams_globals_and_aliases(bench: Ben
     bench.type("DIM PROG0(8192)", "DIM PLC1(1000)", "DIM P (100)", "DIM DEF(5)", "DIM COM1(1000)")
     bench.type("DIM FIFO(512)")
     assert bench.type("DIM") == answer(
-        "DIM PROG0(8192)\nDIM PLC1(1000)\nDIM P(100)\nDIM DEF(5)\nDIM FIFO(512)\nDIM COM1(1000)\n"
+        f"DIM PROG0(8192)\n{shares(1)}DIM PLC1(1000)\nDIM P(100)\nDIM DEF(5)\n"
+        "DIM FIFO(512)\nDIM COM1(1000)\n"
     )
 
 
@@ -147,7 +155,8 @@ def test_clear_frees_everything_at_sys_and_locals_at_a_program(bench: Bench) -> 
     bench.type("PROG 1", "DIM LV(10)", "PROG 2", "DIM LV(10)")
     assert bench.type("CLEAR", "MEM", "DIM") == "P02>" + "65536|P02>" + "P02>"
     assert bench.type("PROG 1", "MEM") == answer("P01>65496\n", "P01>")
-    assert bench.type("SYS", "CLEAR", "DIM", "MEM", "DEF") == f"SYS>SYS>SYS>{FACTORY_FREE}|SYS>SYS>"
+    assert bench.type("SYS", "CLEAR", "DIM") == "SYS>SYS>" + answer(shares())
+    assert bench.type("MEM", "DEF") == f"{FACTORY_FREE}|SYS>SYS>"
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
 FACTORY_FREE = 1048576 - 8 * 65536
+SHARES = [f"DIM PROG{program}(65536)" for program in range(8)]
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def test_a_new_card_shares_half_its_memory_among_eight_programs(storage: Storage
     assert storage.free_system() == FACTORY_FREE
     assert storage.global_count == 0
     assert storage.stream_size("COM1") == 256
-    assert list(storage.system_lines()) == []
+    assert list(storage.system_lines()) == SHARES
 
 
 def test_the_first_dim_of_a_program_replaces_its_share(storage: Storage) -> None:
@@ -101,7 +102,8 @@ def test_dim_at_sys_lists_what_was_dimensioned(storage: Storage) -> None:
     storage.dimension_globals(100)
     storage.dimension_stream("COM1", 1000)
     assert list(storage.system_lines()) == [
-        "DIM PROG15(16384)", "DIM PLC3(2000)", "DIM P(100)", "DIM DEF(20)", "DIM COM1(1000)",
+        *SHARES, "DIM PROG15(16384)",
+        "DIM PLC3(2000)", "DIM P(100)", "DIM DEF(20)", "DIM COM1(1000)",
     ]  # fmt: skip
 
 
@@ -113,7 +115,7 @@ def test_system_clear_returns_to_the_factory_allocation(storage: Storage) -> Non
     storage.locals.variables(1, "LV", 10)
     storage.clear_system()
     assert storage.free_system() == FACTORY_FREE
-    assert list(storage.system_lines()) == []
+    assert list(storage.system_lines()) == SHARES
     assert storage.free_program(1) == 65536
     storage.dimension_program(0, 8192)
     assert storage.size(0) == 8192

@@ -264,3 +264,13 @@ def test_numbers_in_lines_executed_at_once_are_checked(tmp_path: Path) -> None:
         "14:5: Invalid bit",
     ):
         assert f"setup.8k:{place}" in shown
+
+
+def test_config_is_warned_of_as_it_acts_later(tmp_path: Path) -> None:
+    path = tmp_path / "setup.8k"
+    path.write_text("CONFIG\n  CONFIG ENC4 DAC4 NONE NONE\nCONFIG XIO 1\nCONFIG CLEAR\n")
+    result = check(path)
+    notice = "warning: CONFIG acts after ESAVE and REBOOT"
+    found = [line.split("setup.8k:")[1] for line in result.stdout.splitlines() if notice in line]
+    assert found == [f"2:3: {notice}", f"4:1: {notice}"]
+    assert (result.exit_code, result.stderr) == (0, "2 warnings\n")

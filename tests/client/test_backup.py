@@ -100,6 +100,14 @@ def small_backup(folder: Path, *lines: str) -> Path:
     return folder
 
 
+def test_a_backup_leaves_out_what_clear_allocates_by_itself(tmp_path: Path) -> None:
+    small_backup(tmp_path, "SYS", "DIM PROG1(65535)", "DIM PROG8(65536)", "DIM P(5)")
+    lines = texts(tmp_path)["setup.8k"].splitlines()
+    assert [line for line in lines if line.startswith("DIM")] == [
+        "DIM PROG0(2000)", "DIM PROG1(65535)", "DIM PROG8(65536)", "DIM P(5)",
+    ]  # fmt: skip
+
+
 def test_a_backup_with_a_setting_the_card_does_not_know_changes_nothing(tmp_path: Path) -> None:
     backup = small_backup(tmp_path / "b", "LOOK TOL 0.25")
     number = texts(backup)["setup.8k"].splitlines().index("LOOK TOL 0.25") + 1

@@ -26,6 +26,7 @@ FACTORY_DEFAULT = (
     "HALT ALL", "NEW ALL", "DETACH ALL", "CLEAR", "ERASE", "FLASH ERASE", "CONFIG CLEAR",
     "CLEAR DPCB", "CLEAR FIFO", "CLEAR COM1", "CLEAR COM2", "BRESET",
 )  # fmt: skip
+SHARES = "".join(f"DIM PROG{program}(65536)|" for program in range(8))
 BLINK = ("PBOOT", "_LOOP1", "BIT 32 = NOT BIT 32", "DWL 0.25", "GOTO LOOP1")
 
 PowerUp = Callable[..., Host]
@@ -168,7 +169,7 @@ def test_flash_save_keeps_programs_and_sizes_and_no_values() -> None:
     host = connected("DIM P(10)", "DIM PLC1(1000)", "P1 = 5", "PROG0")
     store(host, "PRINT 1")
     host.type("SYS", "FLASH SAVE", "REBOOT")
-    assert host.type("DIM") == "DIM PLC1(1000)|DIM P(10)|SYS>"
+    assert host.type("DIM") == SHARES + "DIM PLC1(1000)|DIM P(10)|SYS>"
     assert host.ask("?P1") == "0"
     assert host.type("PROG0", "LIST") == "P00>PROGRAM| PRINT 1|ENDP|P00>"
 
@@ -318,8 +319,8 @@ def test_a_clean_end_keeps_the_last_values(power_up: PowerUp) -> None:
 def test_a_card_without_battery_forgets(power_up: PowerUp) -> None:
     host = power_up("ACR9000")
     host.type("DIM P(10)", "P38912 = 1", "PROG0", "10 PRINT 1", "REBOOT")
-    assert host.type("DIM", "?P38912", "PROG0", "LIST") == "SYS>0|SYS>P00>P00>"
-    assert power_up("ACR9000").type("DIM", "PROG0", "LIST") == "SYS>P00>P00>"
+    assert host.type("DIM", "?P38912", "PROG0", "LIST") == SHARES + "SYS>0|SYS>P00>P00>"
+    assert power_up("ACR9000").type("DIM", "PROG0", "LIST") == SHARES + "SYS>P00>P00>"
 
 
 @pytest.mark.req("ACR-CMD-BRESET", "ACR-MEM-04")
@@ -327,8 +328,8 @@ def test_breset_takes_the_battery_away_until_power_is_removed(power_up: PowerUp)
     host = power_up()
     host.type("DIM P(10)", "DIM PROG8(5000)", "PROG0", "10 PRINT 1", "SYS")
     assert host.type("BRESET") == "SYS>"
-    assert host.type("DIM") == "DIM PROG8(5000)|DIM P(10)|SYS>"
-    assert host.type("REBOOT", "DIM", "PROG0", "LIST") == "SYS>SYS>P00>P00>"
+    assert host.type("DIM") == SHARES + "DIM PROG8(5000)|DIM P(10)|SYS>"
+    assert host.type("REBOOT", "DIM", "PROG0", "LIST") == f"SYS>{SHARES}SYS>P00>P00>"
     host.type("10 PRINT 2", "REBOOT", "PROG0")
     assert host.type("LIST") == "P00>"
     host.type("10 PRINT 3")
@@ -472,7 +473,7 @@ def test_a_file_that_is_no_database_does_not_keep_the_card_from_starting(
     assert "card.db.damaged1" in notices(host)
     assert host.heard().startswith("Warning: ")
     assert host.type("DIM P(10)", "ESAVE") == "SYS>SYS>"
-    assert power_up().type("DIM") == "DIM P(10)|SYS>"
+    assert power_up().type("DIM") == SHARES + "DIM P(10)|SYS>"
 
 
 def test_data_of_another_model_is_refused(power_up: PowerUp, tmp_path: Path) -> None:

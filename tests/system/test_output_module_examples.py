@@ -64,11 +64,12 @@ peak_amps = 20.0
 
 
 def restarted(example: str, card: Controller | None = None) -> Controller:
-    """A card that was given the lines of an example, ESAVE and REBOOT, each without a word."""
+    """A card that was given the lines of an example, ESAVE and REBOOT, and took all of them."""
     card = card or Controller()
     card.send("ECHO 4\r")
     for line in (*example.strip().splitlines(), "ESAVE"):
-        assert card.send(f"{line}\r") == "", line
+        notice = "CONFIG acts after ESAVE and REBOOT\r\n" if line.startswith("CONFIG") else ""
+        assert card.send(f"{line}\r") == notice, line
     card.send("REBOOT\r")
     card.advance(1)
     card.send("ECHO 4\r")

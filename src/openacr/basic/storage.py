@@ -74,6 +74,11 @@ class Storage:
         """Aliases there is space for."""
         return self._system(_DEF_COUNT)
 
+    @staticmethod
+    def factory_lines() -> list[str]:
+        """DIM at SYS of a new card."""
+        return [f"DIM PROG{n}({AUTOMATIC_SHARE_BYTES})" for n in range(AUTOMATIC_SHARES)]
+
     def free_system(self) -> int:
         """Unallocated system memory in bytes."""
         owners = range(at.ST_COUNT)
@@ -128,10 +133,10 @@ class Storage:
         self.restore_factory()
 
     def system_lines(self) -> Iterator[str]:
-        """DIM at SYS: what is dimensioned, in the form in which it is typed."""
+        """DIM at SYS: what is allocated, as typed; of the factory allocation programs alone."""
         for owner in range(at.ST_COUNT):
             size = self.heap.row(owner, at.STI_SIZE_BYTES)
-            if size and not self.heap.row(owner, at.STI_IS_SHARE):
+            if size:
                 is_plc = owner >= PROGRAMS
                 name = f"PLC{owner - PROGRAMS}" if is_plc else f"PROG{owner}"
                 yield f"DIM {name}({size})"

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.aliases import check_name, numbered_names
+from openacr.basic.commands.card_setup import CONFIG_NOTICE
 from openacr.basic.commands.operating_system import Definition
 from openacr.basic.entry import split_at_level
 from openacr.basic.lister import Lister
@@ -248,6 +249,8 @@ class Reader:
         for statement in statements(blocks):
             command = statement.command
             warning = EXTENSION_WARNING if command.is_extension else command.lacks
+            if command.name == "CONFIG" and statement.arguments != (None,):
+                warning = CONFIG_NOTICE
             if warning:
                 span = Span(1, statement.column, len(command.name))
                 self._report(Finding(line, None, span, warning))

@@ -19,6 +19,7 @@ from openacr.basic import commands as _registered  # noqa: F401 - fills the regi
 from openacr.basic import registry
 from openacr.basic.grammar import AxisList, Either, Num
 from openacr.basic.registry import INDEX, Command
+from openacr.basic.storage import Storage
 from openacr.client import values
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
@@ -128,6 +129,7 @@ def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
 
 def _read_system(reader: _Reader) -> Op[None]:
     sizes = yield from reader.commands("DIM", "DIM")
+    sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR does that
     aliases = yield from reader.commands("DEF", "#DEFINE")
     attachments = yield from reader.commands("ATTACH", "ATTACH")
     axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]

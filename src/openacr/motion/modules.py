@@ -25,17 +25,30 @@ _OUTPUTS = {"DAC": ("DAC",), "STEPPER": ("STEPPER",), "DACSTEP": ("DAC", "STEPPE
 
 def fit(card: Card, modules: Sequence[str]) -> None:
     """Fit the card with these modules: encoders, module 0, module 1, module 2."""
+    for row, missing in _missing_by_row(modules).items():
+        card.memory.I[row] = missing
+
+
+def is_fitted(card: Card, modules: Sequence[str]) -> bool:
+    """Whether the card has the hardware these modules name, no more and no less."""
+    rows = _missing_by_row(modules).items()
+    return all(card.memory.I[row] == missing for row, missing in rows)
+
+
+def _missing_by_row(modules: Sequence[str]) -> dict[int, int]:
+    """What is left out of each kind of hardware, by the row that says so."""
     encoders, first, second, inputs = modules
     present = {"DAC": 0, "STEPPER": 0}
     for socket, module in enumerate((first, second)):
         word, count = _parts(module)
         for kind in _OUTPUTS.get(word, ()):
             present[kind] |= _first(count) << socket * OF_MODULE
-    rows = card.memory.I
-    rows[KRI_BASE + KRI_MISSING_ENCODERS] = _missing(_first(_parts(encoders)[1]))
-    rows[KRI_BASE + KRI_MISSING_DACS] = _missing(present["DAC"])
-    rows[KRI_BASE + KRI_MISSING_STEPPERS] = _missing(present["STEPPER"])
-    rows[KRI_BASE + KRI_MISSING_ADCS] = _missing(_first(_parts(inputs)[1]))
+    return {
+        KRI_BASE + KRI_MISSING_ENCODERS: _missing(_first(_parts(encoders)[1])),
+        KRI_BASE + KRI_MISSING_DACS: _missing(present["DAC"]),
+        KRI_BASE + KRI_MISSING_STEPPERS: _missing(present["STEPPER"]),
+        KRI_BASE + KRI_MISSING_ADCS: _missing(_first(_parts(inputs)[1])),
+    }
 
 
 def _parts(module: str) -> tuple[str, int]:

@@ -13,6 +13,7 @@ from openacr.lang.lexer import Kind
 from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
 from openacr.motion.card import Card
+from openacr.motion.modules import is_fitted
 from openacr.motion.rows import axis_ints
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ CANOPEN_STATE = 32779
 SERVO_FIXED_S = 25e-6
 SERVO_PER_AXIS_S = 15e-6
 EPL_OPERATIONAL, EPL_FAILED = 16649, 16650
+CONFIG_NOTICE = "CONFIG acts after ESAVE and REBOOT"
 
 
 class Modules(Form):
@@ -62,12 +64,14 @@ class Modules(Form):
     saved=True,
 )
 def config(run: Run, modules: tuple[str, ...] | None) -> None:
-    """Set the hardware modules, effective after REBOOT, or show them."""
+    """Set the hardware modules, effective after ESAVE and REBOOT, or show them."""
     setup: Setup = run.system.setup
     if modules is None:
         run.print("CONFIG " + " ".join(setup.config))
-    else:
-        setup.configure(modules)
+        return
+    setup.configure(modules)
+    if not is_fitted(run.system.card, modules):
+        run.print(CONFIG_NOTICE)
 
 
 @command(
