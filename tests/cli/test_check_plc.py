@@ -55,6 +55,6 @@ def test_a_plc_that_is_too_long_is_reported_at_its_last_line(tmp_path: Path) -> 
 
 
 def test_aliases_of_the_set_up_are_known(tmp_path: Path) -> None:
-    written(tmp_path, "DIM DEF(2)\n#DEFINE Door BIT5\n", "setup.8k")
+    written(tmp_path, "DIM PLC2(99)\nDIM DEF(2)\n#DEFINE Door BIT5\n", "setup.8k")
     path = written(tmp_path, "10 LD Door\n20 OUT 32\n")
     assert run("list", path) == (0, "10 LD Door\n20 OUT 32\n")

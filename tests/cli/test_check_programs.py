@@ -7,6 +7,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.controller import Controller
+from openacr.project import find_project
 
 SETUP = """\
 DIM P(10)
@@ -274,3 +276,106 @@ def test_config_is_warned_of_as_it_acts_later(tmp_path: Path) -> None:
     found = [line.split("setup.8k:")[1] for line in result.stdout.splitlines() if notice in line]
     assert found == [f"2:3: {notice}", f"4:1: {notice}"]
     assert (result.exit_code, result.stderr) == (0, "2 warnings\n")
+
+
+@pytest.mark.parametrize("option", [("--program", "3"), ("--plc", "0"), ()])
+def test_a_file_is_checked_for_the_program_or_plc_that_is_named(
+    tmp_path: Path, option: tuple[str, ...]
+) -> None:
+    path = tmp_path / "mine.8k"
+    path.write_text("10 LD 1\n20 OUT 32\n" if option[:1] == ("--plc",) else "PROGRAM\nP0=1\nENDP\n")
+    result = check(path, *option)
+    assert (result.exit_code == 0) is bool(option), result.output
+
+
+def test_a_named_program_is_read_after_the_set_up_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text('PROG2\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "Q"\n')
+    path = tmp_path / "mine.8k"
+    path.write_text("PROGRAM\nQ1\nENDP\n")
+    assert check(path, "--program", "2").exit_code == 0
+    assert "2:1: Unknown command" in check(path, "--program", "1").stdout
+
+
+def test_options_without_a_meaning_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "mine.8k"
+    path.write_text("PROGRAM\nENDP\n")
+    both = check(path, "--program", "0", "--plc", "0")
+    whole = check(tmp_path, "--program", "0")
+    assert (both.exit_code, whole.exit_code) == (2, 2)
+    assert "--program and --plc exclude each other" in both.output
+    assert "a folder says itself" in whole.output
+
+
+def room(folder: Path, *setup: str, **files: str) -> list[str]:
+    """What is said about the memory of a project."""
+    (folder / "setup.8k").write_text("".join(f"{line}\n" for line in setup))
+    for name, text in files.items():
+        (folder / f"{name}.8k").write_text(text)
+    found = check(folder).stdout.splitlines()
+    return [line.rsplit("/", 1)[1] for line in found if line.startswith(f"{folder}/")]
+
+
+LINE_BYTES = 4 + 4 + 4 + 4 + 4  # number, P, 0, =, 1
+
+
+def test_programs_larger_than_their_memory_are_found(tmp_path: Path) -> None:
+    program = "PROGRAM\nP0=1\nP0=1\n\nENDP\n"
+    whole = 8 + 2 * LINE_BYTES + 8
+    enough = f"DIM P(1)\nDIM PROG9({whole})".split("\n")
+    assert room(tmp_path, *enough, prog9=program) == []
+    for short in (whole - 1, whole - 8):
+        lines = room(tmp_path, "DIM P(1)", f"DIM PROG9({short})", prog9=program)
+        hint = f"the text takes {whole} bytes, there is room for {short}"
+        assert lines == [f"prog9.8k:5:1: Out of memory ({hint})"]
+    (first,) = room(tmp_path, "DIM P(1)", prog9=program)
+    assert first.startswith("prog9.8k:1:1: Out of memory (the text takes")
+
+
+def test_variables_take_from_the_memory_of_their_program(tmp_path: Path) -> None:
+    program = "PROGRAM\nLV0=1\nENDP\n"
+    whole = 8 + LINE_BYTES + 8
+    for size, found in ((whole + 12, 0), (whole + 11, 1)):
+        lines = room(tmp_path, f"DIM PROG1({size})", "PROG1", "DIM LV(3)", prog1=program)
+        assert len(lines) == found, lines
+
+
+def test_dims_the_card_refuses_are_found(tmp_path: Path) -> None:
+    assert room(
+        tmp_path,
+        *("DIM PROG0(100)", "DIM PROG0(100)", "DIM P(4097)", "DIM DEF(100000)", "PROG0"),
+        *("DIM LV(26)", "DIM LV(25)", "SYS", "NEW ALL", "CLEAR", "DIM PROG0(4)"),
+    ) == [
+        "setup.8k:2:1: Re-dimensioned block",
+        "setup.8k:3:1: Invalid argument",
+        "setup.8k:4:1: Out of memory",
+        "setup.8k:6:1: Out of memory",
+    ]
+
+
+def test_a_plc_needs_its_memory(tmp_path: Path) -> None:
+    rungs = "10 LD 1\n20 OUT 32\n"
+    assert room(tmp_path, "DIM PLC0(16)", plc0=rungs) == []
+    hint = "the text takes 16 bytes, there is room for 15"
+    assert room(tmp_path, "DIM PLC0(15)", plc0=rungs) == [f"plc0.8k:2:1: Out of memory ({hint})"]
+
+
+def test_check_finds_what_a_card_refuses_for_lack_of_memory(tmp_path: Path) -> None:
+    """The same lines, in the same files, as a card that loads the project."""
+    setup = ("DIM PROG0(40)", "DIM PROG0(40)", "DIM P(3)", "PROG0", "DIM LV(6)", "DIM $V(2,9)")
+    found = room(tmp_path, *setup, prog0="PROGRAM\nP0=1\nENDP\n", plc3="10 LD 1\n20 OUT 32\n")
+    _, errors = Controller.load(find_project(tmp_path))
+    refused = {(Path(str(error.path)).name, error.line) for error in errors}
+    places = {(line.split(":")[0], int(line.split(":")[1])) for line in found}
+    assert places == {("setup.8k", 2), ("setup.8k", 6), ("prog0.8k", 2), ("plc3.8k", 1)}
+    assert places <= refused
+
+
+def test_a_computed_size_ends_the_arithmetic(tmp_path: Path) -> None:
+    assert room(tmp_path, "DIM P(5)", "P0=8", "DIM PROG0(P0)", prog0="PROGRAM\nP0=1\nENDP\n") == []
+    assert room(tmp_path, "DIM P(5)", "IF (P0) THEN DIM PROG0(8)", "DIM PROG0(8)") == []
+
+
+def test_a_program_for_which_no_set_up_is_known_has_its_memory(tmp_path: Path) -> None:
+    path = tmp_path / "prog9.8k"
+    path.write_text("PROGRAM\nP12288=1\nENDP\n")
+    assert check(path).exit_code == 0

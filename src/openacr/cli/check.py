@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.errors import SourceError
+from openacr.cli.online import Plc, Program
+from openacr.errors import SourceError, UserError
 from openacr.lang.characters import readable, shown
 from openacr.models import MODELS
 from openacr.project import Place, Project, find_project, place_of, read_source
@@ -42,6 +43,8 @@ def list_file(
 
 def check_file(
     file: File,
+    program: Program = None,
+    plc: Plc = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the errors as a JSON array.")
     ] = False,
@@ -49,10 +52,12 @@ def check_file(
     """Find every error in a controller file.
 
     A project folder is checked as a whole: machine file, scenario and all controller files.
+    --program and --plc say for which one a file is whose name does not, as for download.
     Exit code 1: there are errors; 2: the input cannot be read at all. Warnings leave it 0.
     """
+    at = _place(file, program, plc)
     project = find_project(file)
-    faults = [*_table_faults(project), *read(file, project).faults]
+    faults = [*_table_faults(project), *read(file, project, at).faults]
     if as_json:
         records = [asdict(fault) for fault in faults]
         typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
@@ -64,32 +69,65 @@ def check_file(
         raise typer.Exit(HAS_ERRORS)
 
 
-def read(file: Path, project: Project) -> "Reader":
-    """Read all files; one of a project alone is read behind the set-up beside it."""
-    from openacr.cli.cutoffs import Cutoffs
-    from openacr.cli.source import Reader
+def read(file: Path, project: Project, at: tuple[Place, int] | None = None) -> "Reader":
+    """Read all files; one of a project alone is read after the set-up beside it.
 
-    place, number = place_of(file)
+    `at` is the level of a file whose name does not say it.
+    """
+    from openacr.basic.storage import Storage
+    from openacr.cli.cutoffs import Cutoffs
+    from openacr.cli.room import Room
+    from openacr.cli.source import Reader
+    from openacr.map.memory import Memory
+
+    place, number = place_of(file) if at is None else at
     is_whole = file.is_dir() or place is Place.SETUP
-    home = project if is_whole else find_project(file.parent)
+    home = project if is_whole else _home(file.parent, is_needed=at is None)
     card = _card(home)
     model = MODELS[card.model]
     reader = Reader(
+        room=Room(Storage(Memory(), streams=model.streams)),
         has_digits_in_names=model.has_digits_in_names,
         axis_count=model.axes,
         cutoffs=Cutoffs(card.period_s),
     )
     if is_whole:
-        reader.sizes.is_complete = file.is_dir()
+        reader.sizes.is_complete = reader.room.is_complete = file.is_dir()
         for source in project.sources:
             reader.read(source)
         return reader
     if home.setup:
+        reader.room.is_complete = True
         reader.read(home.setup)
         reader.faults.clear()
         reader.parts.clear()
     reader.read(read_source(file, place, number))
     return reader
+
+
+def _place(file: Path, program: int | None, plc: int | None) -> tuple[Place, int] | None:
+    """What a file is for by the options; UserError where they have no meaning."""
+    if program is None and plc is None:
+        return None
+    if program is not None and plc is not None:
+        raise UserError("--program and --plc exclude each other")
+    if file.is_dir():
+        raise UserError(f"{file}: a folder says itself for what its files are")
+    if program is not None:
+        return Place.PROGRAM, program
+    return Place.PLC, plc or 0
+
+
+def _home(folder: Path, *, is_needed: bool) -> Project:
+    """The project a file lies in; one without files where there is none and none is needed."""
+    try:
+        return find_project(folder)
+    except SourceError:
+        raise
+    except UserError:
+        if is_needed:
+            raise
+        return Project(folder)
 
 
 def _card(project: Project) -> "Card":

@@ -26,6 +26,7 @@ from openacr.cli import numbers
 from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault
 from openacr.cli.hints import hint_for
+from openacr.cli.room import Room
 from openacr.cli.sizes import Sizes, undimensioned, variable
 from openacr.cli.structure import Structure
 from openacr.cli.texts import Finding, Text, TextLine, label_of
@@ -59,6 +60,7 @@ class Reader:
     aliases: dict[str, Expr] = field(default_factory=dict)
     axes: dict[int, set[str]] = field(default_factory=dict)
     sizes: Sizes = field(default_factory=Sizes)
+    room: Room = field(default_factory=Room)
     cutoffs: Cutoffs = field(default_factory=Cutoffs)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
     parts: list[Part] = field(default_factory=list)
@@ -188,6 +190,9 @@ class Reader:
             self.parts.append(Part(tokens=tuple(found)))
         self.sizes.note(self.number, tree.blocks)
         self._judge(line, found, tree.blocks)
+        refused = self.room.note(self.level, self.number, tree.blocks)
+        if refused is not None:
+            self._fault(line, refused)
         for block in tree.blocks:
             for statement in block:
                 if not isinstance(statement, Move):
@@ -212,6 +217,8 @@ class Reader:
     def _check(self, level: Level, number: int) -> None:
         """Tie the lines of a program or PLC together."""
         text = self.texts[level, number]
+        for finding in self.room.store(level, number, text):
+            self._report(finding)
         if level is Level.PROG:
             for finding in Structure(text).check():
                 self._report(finding)

@@ -91,10 +91,17 @@ def dim(run: Run, what: Dimension | None) -> None:
     """Allocate memory: of the system at SYS, for variables at a program; alone, list it."""
     if what is None:
         _list(run)
-    elif what.word in _SYSTEM:
-        _dim_system(run, what)
+        return
+    index = None if what.index is None else run.integer(what.index)
+    sizes = tuple(run.integer(size) for size in what.sizes)
+    if what.word not in _SYSTEM:
+        dimension_local(
+            run.system.storage, run.needed_program(), what.word, index, sizes, repeat=run.stored
+        )
+    elif run.level is not Level.SYS:
+        raise CardError(NOT_VALID_AT_THIS_LEVEL)
     else:
-        _dim_local(run, what)
+        dimension_system(run.system.storage, what.word, index, sizes)
 
 
 def _list(run: Run) -> None:
@@ -107,41 +114,51 @@ def _list(run: Run) -> None:
         run.print(line)
 
 
-def _dim_system(run: Run, what: Dimension) -> None:
-    if run.level is not Level.SYS:
-        raise CardError(NOT_VALID_AT_THIS_LEVEL)
-    storage: Storage = run.system.storage
-    size = run.integer(what.sizes[0])
-    index = -1 if what.index is None else run.integer(what.index)
+def dimension_system(
+    storage: Storage, word: str, index: int | None, sizes: tuple[int, ...]
+) -> None:
+    """DIM at SYS: memory of a program or PLC, of P, aliases or the buffer of a stream."""
+    size, number = sizes[0], -1 if index is None else index
     kinds: dict[str, Callable[[], None]] = {
-        "PROG": lambda: storage.dimension_program(index, size),
-        "PLC": lambda: storage.dimension_plc(index, size),
+        "PROG": lambda: storage.dimension_program(number, size),
+        "PLC": lambda: storage.dimension_plc(number, size),
         "P": lambda: storage.dimension_globals(size),
         "DEF": lambda: storage.dimension_defines(size),
     }
-    name = what.word if index < 0 else f"{what.word}{index}"
-    kinds.get(what.word, lambda: storage.dimension_stream(name, size))()
+    name = word if number < 0 else f"{word}{number}"
+    kinds.get(word, lambda: storage.dimension_stream(name, size))()
 
 
-def _dim_local(run: Run, what: Dimension) -> None:
-    """A stored program may repeat its own DIM with unchanged sizes."""
-    program, again = run.needed_program(), run.stored
-    local = run.system.storage.locals
-    first, *rest = (run.integer(size) for size in what.sizes)
-    if what.index is not None:
-        index = run.integer(what.index)
-        if what.word == "$A":
-            local.string_array(program, index, first, *rest, repeat=again)
+def dimension_local(
+    storage: Storage,
+    program: int,
+    word: str,
+    index: int | None,
+    sizes: tuple[int, ...],
+    *,
+    repeat: bool,
+) -> None:
+    """DIM at a program; a stored one may `repeat` its own DIM with unchanged sizes."""
+    local = storage.locals
+    first, *rest = sizes
+    if index is not None:
+        if word == "$A":
+            local.string_array(program, index, first, *rest, repeat=repeat)
         else:
-            local.array(program, what.word, index, first, repeat=again)
-    elif what.word == "$V":
-        local.string_variables(program, first, *rest, repeat=again)
-    elif what.word == "MBUF":
-        local.move_buffer(program, first, repeat=again)
-    elif what.word in _SCALARS:
-        local.variables(program, what.word, first, repeat=again)
+            local.array(program, word, index, first, repeat=repeat)
+    elif word == "$V":
+        local.string_variables(program, first, *rest, repeat=repeat)
+    elif word == "MBUF":
+        local.move_buffer(program, first, repeat=repeat)
+    elif word in _SCALARS:
+        local.variables(program, word, first, repeat=repeat)
     else:
-        local.references(program, what.word, first, repeat=again)
+        local.references(program, word, first, repeat=repeat)
+
+
+def is_of_system(word: str) -> bool:
+    """Whether DIM of this word belongs to SYS; the others belong to a program."""
+    return word in _SYSTEM
 
 
 @command(
