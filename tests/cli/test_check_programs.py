@@ -319,7 +319,7 @@ LINE_BYTES = 4 + 4 + 4 + 4 + 4  # number, P, 0, =, 1
 
 
 def test_programs_larger_than_their_memory_are_found(tmp_path: Path) -> None:
-    program = "PROGRAM\nP0=1\nP0=1\n\nENDP\n"
+    program = "PROGRAM\nP0=1\nP0=1\n:\nENDP\n"
     whole = 8 + 2 * LINE_BYTES + 8
     enough = f"DIM P(1)\nDIM PROG9({whole})".split("\n")
     assert room(tmp_path, *enough, prog9=program) == []
