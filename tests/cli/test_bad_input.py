@@ -197,3 +197,10 @@ def test_time_lists_the_errors_of_a_program_as_json(tmp_path: Path) -> None:
     record = json.loads(out)
     assert code == 1
     assert [(each["code"], each["line"]) for each in record["errors"]] == [("E205", 2)]
+
+
+def test_bytes_of_a_file_name_that_are_no_text_do_no_harm(tmp_path: Path) -> None:
+    code, out, err = openacr("check", tmp_path / "\udcff", "--json")
+    assert code == 2
+    assert json.loads(out)["error"] == f"{tmp_path}/?: no such file or folder"
+    assert err == f"error: {tmp_path}/?: no such file or folder\n"

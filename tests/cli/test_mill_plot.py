@@ -2,6 +2,7 @@
 
 import json
 import re
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
@@ -230,7 +231,7 @@ def test_shades_go_from_dark_to_light() -> None:
 @pytest.mark.parametrize(
     "name",
     ["@DATA@.nc", "@TITLE@@DATA@.nc", "a$x_{1$b$.nc", "<!--<script>.nc", "<_script>&amp;.nc",
-     "\\1\\g<0>.nc", "-x.nc", "\udcff.nc"],
+     "\\1\\g<0>.nc", "-x.nc", "\udcff.nc", "\x1b[31m\x07.nc"],
 )  # fmt: skip
 @pytest.mark.parametrize("suffix", [".html", ".png", ".svg"])
 def test_no_name_of_a_file_can_spoil_the_picture(tmp_path: Path, name: str, suffix: str) -> None:
@@ -252,6 +253,8 @@ def test_no_name_of_a_file_can_spoil_the_picture(tmp_path: Path, name: str, suff
         )
     else:
         assert picture.stat().st_size > 5000
+        if suffix == ".svg":
+            ET.parse(picture)
 
 
 def test_a_picture_of_too_many_moves_is_cut_and_says_so(

@@ -2,6 +2,8 @@
 
 import json
 import os
+import re
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
@@ -91,3 +93,38 @@ def test_lines_of_plcs_have_places_too(tmp_path: Path) -> None:
     card, refused = Controller.load(find_project(file))
     assert refused == []
     assert card.origin(17, 20) == (str(file), 4)
+
+
+@pytest.mark.parametrize("name", ["run.svg", "run.html"])
+def test_a_picture_of_the_run_shows_the_event(project: Path, name: str) -> None:
+    code, _, _ = run(project, "--for", "1", "--plot", name)
+    assert code == 1
+    text = Path(name).read_text(encoding="utf-8")
+    assert f"PROG2: stopped in line 60 (mine{os.sep}prog2.8k:8): Divide by zero" in text
+
+
+@pytest.mark.parametrize("name", ["\udcff", "\x1b[31m\x07", "a$x_{1$b$", "<!--<script>"])
+@pytest.mark.parametrize("suffix", [".html", ".png", ".svg"])
+def test_no_name_of_a_project_can_spoil_pictures_and_messages(
+    project: Path, name: str, suffix: str
+) -> None:
+    folder, picture = project.rename(name), Path(f"p{suffix}")
+    code, out, err = run(folder, "--for", "1", "--json", "--plot", picture)
+    assert code == 1
+    assert not {"\x1b", "\x07"} & set(out + err)
+    shown = name.replace("\udcff", "?").replace("\x1b", "^[").replace("\x07", "^G")
+    place = f"{shown}{os.sep}prog2.8k"
+    assert json.loads(out)["programs"]["2"]["file"] == place
+    if suffix == ".png":
+        assert picture.stat().st_size > 5000
+        return
+    text = picture.read_text(encoding="utf-8")
+    if suffix == ".svg":
+        text = "".join(ET.fromstring(text).itertext())
+    else:
+        found = re.search(r'<script id="data" type="application/json">(.*?)</script>', text)
+        assert found is not None
+        data = json.loads(found[1])
+        assert data["title"] == shown
+        text = data["events"][0]["text"]
+    assert f"({place}:8): Divide by zero" in text

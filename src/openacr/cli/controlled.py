@@ -18,7 +18,7 @@ from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import WATCHES, Watch
 from openacr.errors import SourceError, UserError
-from openacr.lang.characters import as_typed, readable
+from openacr.lang.characters import as_typed, readable, shown
 from openacr.map.memory import Memory
 from openacr.project import Project
 from openacr.protocol.stream import StreamKind
@@ -164,7 +164,7 @@ class ControlledMachine:
         text = Lister(system.aliases.nodes).line(stored.tokens) if stored else ""
         file, file_line = self._controller.origin(program, line) or (None, None)
         error = self._controller.executor.failures.get(program, "error")
-        return Failure(error, readable(text), file, file_line)
+        return Failure(error, readable(text), file and shown(file), file_line)
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch an input."""

@@ -18,7 +18,8 @@ def failed_json(errors: Sequence[OpenacrError]) -> str:
     `path` is null and `line` and `column` are 0 where an error has no place.
     """
     record = {"error": str(errors[0]), "errors": [_record(error) for error in errors]}
-    return json.dumps(record, indent=2, ensure_ascii=False)
+    text = json.dumps(record, indent=2, ensure_ascii=False)
+    return text.encode("utf-8", "replace").decode()
 
 
 def _record(error: OpenacrError) -> dict[str, Any]:

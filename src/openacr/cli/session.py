@@ -21,6 +21,7 @@ from openacr.cli.report import (
 from openacr.cli.signals import terminations_as_interrupts
 from openacr.cli.watched import Watched
 from openacr.compiled import is_compiled
+from openacr.lang.characters import shown
 from openacr.scenario import Condition, Play, Scenario
 
 SCAN_S = 0.05  # the slow scan of the card: time between two looks whether it is idle
@@ -257,7 +258,8 @@ class Session:
         if options.summary:
             output.write_summary(options.summary, summary(report))
         if options.trace or options.plot:
-            curves = self._machine.curves(options.project.resolve().stem)
+            curves = self._machine.curves(shown(options.project.resolve().stem))
+            curves = replace(curves, events=report.events)
             if options.trace:
                 output.write_trace(options.trace, curves)
             if options.plot:

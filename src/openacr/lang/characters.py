@@ -38,8 +38,11 @@ del _IN_LINES[ord("\t")], _IN_LINES[ord("\n")]
 
 
 def shown(text: str) -> str:
-    """Lines of a file or message as a terminal may show them: only tabs and line ends act."""
-    return text.translate(_IN_LINES)
+    """Lines of a file or message as any screen or file may show them: only tabs and line ends act.
+
+    Bytes of a file name that are no text are question marks.
+    """
+    return text.translate(_IN_LINES).encode("utf-8", "replace").decode()
 
 
 def _as_single_byte(error: UnicodeError) -> tuple[str, int]:

@@ -3,13 +3,16 @@
 import json
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from openacr.cli.events import Event
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, draw, require
-from openacr.cli.plots.curves import Array, edges, envelope
+from openacr.cli.plots.curves import Array, Mark, edges, envelope, marks
+from openacr.cli.plots.image import EVENT, EVENTS, build_figure
 from openacr.cli.plots.page import build_page, page_data
 from openacr.errors import UserError
 
@@ -145,3 +148,69 @@ def test_a_missing_drawing_library_is_named_before_the_run(monkeypatch: pytest.M
     with pytest.raises(UserError, match=r"need matplotlib: pip install 'openacr\[plot\]'"):
         require(Path("run.png"))
     require(Path("run.html"))
+
+
+def events(*times_s: float) -> tuple[Event, ...]:
+    return tuple(Event(time_s, f"event at {time_s:g}") for time_s in times_s)
+
+
+def test_events_nearer_than_a_mark_is_wide_share_one() -> None:
+    found = marks(events(0.0, 0.4, 0.5, 0.9, 3.0), 0.5)
+    assert found == [Mark(0.0, 1, 2), Mark(0.5, 3, 4), Mark(3.0, 5, 5)]
+    assert [mark.label for mark in found] == ["1\u20132", "3\u20134", "5"]
+    assert marks((), 0.5) == []
+
+
+def test_a_mark_begins_anew_only_beyond_the_first_event_of_the_last_one() -> None:
+    # Each is near to the one before it; the third is as far as a mark is wide from the first.
+    assert marks(events(1.0, 1.3, 1.6), 0.5) == [Mark(1.0, 1, 2), Mark(1.6, 3, 3)]
+
+
+def with_events(*times_s: float) -> Curves:
+    return replace(run(axis(0), axis(1)), events=events(*times_s))
+
+
+def test_a_picture_lists_events_and_numbers_them_above_every_axis(tmp_path: Path) -> None:
+    path = tmp_path / "run.svg"
+    draw(with_events(0.5, 0.5, 1.5), path)
+    texts = texts_of_svg(path)
+    for line in ("  1  0.5000 s: event at 0.5", "  2  0.5000 s: event at 0.5",
+                 "  3  1.5000 s: event at 1.5"):  # fmt: skip
+        assert line.replace(" ", "") in texts.replace(" ", "").replace("\xa0", "")
+    figure = build_figure(with_events(0.5, 0.5, 1.5))
+    labels = [sorted(note.get_text() for note in panel.texts) for panel in figure.axes]
+    # Two columns of three panels: numbers at the top ones only; then the path and the list.
+    assert labels[:6] == [["1\u20132", "3"], [], [], ["1\u20132", "3"], [], []]
+
+
+def test_every_panel_of_a_time_axis_has_a_line_at_every_event() -> None:
+    figure = build_figure(with_events(0.5, 1.5))
+    for panel in figure.axes[:6]:
+        marked = (line for line in panel.lines if line.get_color() == EVENT)
+        places = [float(np.asarray(line.get_xdata())[0]) for line in marked]
+        assert places == [0.5, 1.5]
+    assert not [line for line in figure.axes[6].lines if line.get_color() == EVENT]  # the path
+
+
+def test_a_long_list_of_events_says_how_many_more_there_are() -> None:
+    times = [0.01 * n for n in range(EVENTS + 3)]
+    (text,) = build_figure(with_events(*times)).axes[-1].texts
+    lines = text.get_text().split("\n")
+    assert len(lines) == EVENTS + 1
+    assert lines[-1] == "     and 3 more"
+    (text,) = build_figure(with_events(*times[:EVENTS])).axes[-1].texts
+    assert len(text.get_text().split("\n")) == EVENTS
+
+
+def test_events_are_listed_where_no_axis_moved() -> None:
+    figure = build_figure(replace(run(axis(0, moves=False)), events=events(0.5)))
+    assert [text.get_text() for text in figure.axes[0].texts] == ["  1  0.5000 s: event at 0.5"]
+
+
+def test_a_page_has_the_events() -> None:
+    data = page_data(with_events(0.5, 1.5))
+    assert data["events"] == [
+        {"t": 0.5, "text": "event at 0.5"},
+        {"t": 1.5, "text": "event at 1.5"},
+    ]
+    assert page_data(run(axis(0)))["events"] == []

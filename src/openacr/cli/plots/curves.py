@@ -1,10 +1,12 @@
 """What a picture shows: the curves of the axes that moved and of the outputs that changed."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
+from openacr.cli.events import Event
 from openacr.cli.watched import Watched
 
 Array = npt.NDArray[np.float64]
@@ -74,6 +76,7 @@ class Curves:
     bits: tuple[BitCurve, ...] = ()
     title: str = ""
     watched: tuple[ValueCurve, ...] = ()
+    events: tuple[Event, ...] = ()
     moved: tuple[AxisCurves, ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -127,6 +130,31 @@ def envelope(*values: Array, buckets: int = BUCKETS) -> Index:
         rows = curve[:whole].reshape(-1, length)
         kept += [starts + rows.argmin(axis=1), starts + rows.argmax(axis=1)]
     return np.unique(np.concatenate(kept))
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """Events so near to each other that one mark stands for all of them."""
+
+    time_s: float  # of the first
+    first: int  # number of the first and last, from 1
+    last: int
+
+    @property
+    def label(self) -> str:
+        """The numbers as they are written at the mark."""
+        return f"{self.first}" if self.first == self.last else f"{self.first}\u2013{self.last}"
+
+
+def marks(events: Sequence[Event], apart_s: float) -> list[Mark]:
+    """Where to mark events, which are in the order of time; nearer than `apart_s` is one mark."""
+    found: list[Mark] = []
+    for number, event in enumerate(events, 1):
+        if found and event.time_s - found[-1].time_s < apart_s:
+            found[-1] = Mark(found[-1].time_s, found[-1].first, number)
+        else:
+            found.append(Mark(event.time_s, number, number))
+    return found
 
 
 def edges(bit: BitCurve, time_s: Array) -> list[tuple[float, float]]:

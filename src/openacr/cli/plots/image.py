@@ -3,7 +3,8 @@
 One column per axis, so that position, velocity and following error of one axis stand
 below each other on one time axis; the path in the plane of one master beside them, with
 equal scales; parameters that were chosen, and as strips outputs that changed and flags that were
-chosen, below.
+chosen, below. Events of the run (limits, kills, programs that stopped) are numbered marks on the
+time axes and a list at the foot.
 """
 
 import math
@@ -18,7 +19,8 @@ from matplotlib.gridspec import GridSpec
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 
-from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope
+from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope, marks
+from openacr.cli.plots.saved import save
 
 # Okabe and Ito's palette: told apart with every common colour vision deficiency, and in grey.
 ACTUAL = "#0072B2"
@@ -27,10 +29,14 @@ VELOCITY = "#009E73"
 ERROR = "#D55E00"
 STRIP = "#56B4E9"
 QUIET = "#666666"
+EVENT = "#9A4A7C"  # its purple, darkened: numbers on it are white
 
 COLUMNS = 4  # axes beside each other; more axes go into further blocks below
 COLUMN_INCHES, PATH_INCHES, BLOCK_INCHES = 4.8, 6.2, 7.6
 NUMBER_INCHES, STRIP_INCHES = 1.7, 0.26
+EVENTS, EVENT_INCHES = 24, 0.17  # lines of the list of events
+LINES_APART = 0.002  # of the time shown: nearer events share a line
+BADGE, DIGIT = 0.03, 0.03  # width of a number, and of each of its digits
 HEIGHTS = (2.4, 1.6, 1.6)  # position, velocity, following error
 
 _STYLE: Any = {
@@ -52,8 +58,7 @@ _STYLE: Any = {
 def write_image(curves: Curves, path: Path) -> None:
     """Draw the curves into a PNG or SVG file."""
     with mpl.rc_context(_STYLE):
-        figure = build_figure(curves)
-        figure.savefig(path, dpi=120)
+        save(build_figure(curves), path, dpi=120)
 
 
 def build_figure(curves: Curves) -> Figure:
@@ -68,6 +73,8 @@ def build_figure(curves: Curves) -> Figure:
     heights += [NUMBER_INCHES] * len(curves.numbers)
     if curves.strips:
         heights.append(STRIP_INCHES * len(curves.strips) + 0.9)
+    if curves.events:
+        heights.append(_events_inches(curves))
     figure = Figure(
         figsize=(sum(widths), sum(heights) + 0.5),
         layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.05),
@@ -85,10 +92,45 @@ def _headline(figure: Figure, curves: Curves) -> None:
 
 
 def _nothing_moved(curves: Curves) -> Figure:
-    figure = Figure(figsize=(7, 2), layout="constrained")
+    inches = 2 + (_events_inches(curves) if curves.events else 0.0)
+    figure = Figure(figsize=(7, inches), layout="constrained")
     _headline(figure, curves)
-    figure.text(0.5, 0.4, "no axis moved", ha="center", color=QUIET, fontsize=14)
+    figure.text(0.5, 1.0 - 1.2 / inches, "no axis moved", ha="center", color=QUIET, fontsize=14)
+    if curves.events:
+        grid = GridSpec(2, 1, figure, height_ratios=[2, inches - 2])
+        _event_list(figure.add_subplot(grid[1]), curves)
     return figure
+
+
+def _events_inches(curves: Curves) -> float:
+    return EVENT_INCHES * (min(len(curves.events), EVENTS + 1) + 1) + 0.2
+
+
+def _event_list(panel: Axes, curves: Curves) -> None:
+    """What the numbers of the marks mean."""
+    panel.set_axis_off()
+    panel.set_title("events", loc="left", fontweight="bold", pad=2)
+    lines = [f"{n:>3}  {event}" for n, event in enumerate(curves.events[:EVENTS], 1)]
+    if len(curves.events) > EVENTS:
+        lines.append(f"     and {len(curves.events) - EVENTS} more")
+    panel.text(
+        0.0, 1.0, "\n".join(lines), transform=panel.transAxes, va="top", linespacing=1.35,
+        parse_math=False, fontfamily="monospace", fontsize=8,
+    )  # fmt: skip
+
+
+def _mark_events(panel: Axes, curves: Curves, *, is_labelled: bool) -> None:
+    """A line at every event; at the top panel of a column its number, too."""
+    span_s = float(curves.time_s[-1]) - min(0.0, float(curves.time_s[0]))
+    for mark in marks(curves.events, span_s * LINES_APART):
+        panel.axvline(mark.time_s, color=EVENT, linewidth=0.9, linestyle=(0, (3, 2)), zorder=1.5)
+    apart_s = span_s * (BADGE + DIGIT * len(str(len(curves.events))))
+    for mark in marks(curves.events, apart_s) if is_labelled else ():
+        panel.annotate(
+            mark.label, (mark.time_s, 1.0), xycoords=panel.get_xaxis_transform(),
+            ha="center", va="center", fontsize=7, color="white", annotation_clip=False,
+            bbox={"boxstyle": "round,pad=0.2", "facecolor": EVENT, "edgecolor": "none"},
+        )  # fmt: skip
 
 
 def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
@@ -100,6 +142,8 @@ def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
             panels.append(figure.add_subplot(grid[top + row, column], sharex=first))
             first = first or panels[0]
         _axis_column(panels, axis, curves.time_s)
+        for row, panel in enumerate(panels):
+            _mark_events(panel, curves, is_labelled=row == 0)
     if curves.plane:
         # The path shares the height of the first block and is as tall as it is wide.
         _path_panel(figure.add_subplot(grid[: len(HEIGHTS), columns]), *curves.plane)
@@ -108,10 +152,14 @@ def _fill(figure: Figure, grid: GridSpec, curves: Curves, columns: int) -> None:
         panel = figure.add_subplot(grid[row, :columns], sharex=first)
         first = first or panel
         _number_panel(panel, number, curves.time_s)
+        _mark_events(panel, curves, is_labelled=True)
     if curves.strips:
-        strips = figure.add_subplot(grid[-1, :columns], sharex=first)
+        strips = figure.add_subplot(grid[-2 if curves.events else -1, :columns], sharex=first)
         first = first or strips
         _strip_panel(strips, curves)
+        _mark_events(strips, curves, is_labelled=True)
+    if curves.events:
+        _event_list(figure.add_subplot(grid[-1, :]), curves)
     if first is not None:
         first.set_xlim(min(0.0, float(curves.time_s[0])), float(curves.time_s[-1]))
 

@@ -33,6 +33,7 @@ def page_data(curves: Curves) -> dict[str, Any]:
         "axes": [_axis(axis, time_s) for axis in curves.moved],
         "path": _path(*plane, time_s) if plane else None,
         "bits": [{"title": b.title, "on": edges(b, time_s)} for b in curves.strips],
+        "events": [{"t": event.time_s, "text": event.text} for event in curves.events],
         "numbers": [_number(one, time_s) for one in curves.numbers],
     }
 

@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from openacr.cli.plots.saved import save
 from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, shade
 from openacr.mill.plot import Array, thinned
 
@@ -42,7 +43,7 @@ STYLE: Any = {
 def write_image(scene: Scene, path: Path) -> None:
     """Draw a scene into a PNG or SVG file."""
     with mpl.rc_context(STYLE):
-        build_figure(scene).savefig(path, dpi=DPI)
+        save(build_figure(scene), path, dpi=DPI)
 
 
 def build_figure(scene: Scene) -> Figure:
