@@ -75,6 +75,10 @@ class UserError(OpenacrError):
     """A wrong option, a missing file, a port in use: bad input at the command line."""
 
 
+class NoFreeStreamError(OpenacrError):
+    """All streams of the card are taken."""
+
+
 class StoreError(OpenacrError):
     """A snapshot or stored image that cannot be used here."""
 

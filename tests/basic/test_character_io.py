@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.basic.session import Attention
+from openacr.channels import Attention
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 
 

@@ -5,7 +5,7 @@ from tests.basic.bench import Bench
 from tests.basic.machine import Machine
 
 from openacr.basic.run import Wait, WaitKind
-from openacr.basic.session import Attention
+from openacr.channels import Attention
 from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import DIVIDE_BY_ZERO

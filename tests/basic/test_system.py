@@ -5,7 +5,7 @@ from tests.basic.machine import Machine
 
 from openacr.basic.language_state import Language, put_back, take
 from openacr.basic.loader import file_lines
-from openacr.basic.session import Attention
+from openacr.channels import Attention
 
 
 def test_a_snapshot_taken_at_any_moment_goes_on_the_same_way() -> None:

@@ -4,12 +4,12 @@ from itertools import pairwise
 import pytest
 from tests.client.cards import with_axis, wrapped
 
+from openacr.channels import EchoMode
 from openacr.client import Card, Level, NoReplyError, Options, RefusedError
 from openacr.controller import Controller
 from openacr.errors import MapError, UserError
 from openacr.messages import UNKNOWN_COMMAND
 from openacr.protocol.bits import ClearBit, SetBit
-from openacr.protocol.stream import EchoMode
 
 
 @pytest.fixture(params=[(1, True), (4, True), (0, False)], ids=["echo 1", "echo 4", "text only"])

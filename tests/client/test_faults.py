@@ -3,6 +3,7 @@
 import pytest
 from tests.client.cards import wrapped
 
+from openacr.channels import EchoMode, StreamKind
 from openacr.client import (
     Card,
     ConnectionLostError,
@@ -13,7 +14,6 @@ from openacr.client import (
 )
 from openacr.client.links import ProcessLink
 from openacr.controller import Controller
-from openacr.protocol.stream import EchoMode, StreamKind
 
 
 @pytest.mark.parametrize("echo", [1, 4, 0])

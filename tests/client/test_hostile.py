@@ -22,12 +22,12 @@ from tests.client.hostile import (
     silent,
 )
 
+from openacr.channels import EchoMode
 from openacr.client import AsyncCard, Card, ClientError, GarbledError, Level, NoReplyError, Options
 from openacr.client.async_links import ThreadLink
 from openacr.client.moves import MoveStream
 from openacr.client.script import Script
 from openacr.protocol.move import Move
-from openacr.protocol.stream import EchoMode
 
 TEXT = "PROGRAM\nDWL 1\nENDP\n"
 

@@ -15,6 +15,7 @@ import pytest
 from tests.client.cards import AXIS
 from tests.io.served import Served, serving
 
+from openacr.channels import EchoMode
 from openacr.client import (
     AsyncCard,
     Card,
@@ -30,7 +31,6 @@ from openacr.client.links import ProcessLink, SerialLink, TcpLink, link_to
 from openacr.client.values import next_due_s
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.protocol.stream import EchoMode
 
 LOOPBACK = "127.0.0.1"
 PROGRAM = 'PROGRAM\nPRINT "one"\nDWL 0.3\nPRINT "two"\nENDP\n'

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from openacr.channels import BinaryMode, EchoMode
 from openacr.client.requests import (
     SYS,
     Align,
@@ -19,10 +20,8 @@ from openacr.client.requests import (
 )
 from openacr.client.session import Session
 from openacr.errors import UserError
-from openacr.protocol.escape import BinaryMode
 from openacr.protocol.events import NEED_DATA, ControlKey
 from openacr.protocol.parameter import GetLong
-from openacr.protocol.stream import EchoMode
 
 PLAIN, QUIET, NO_ECHO = EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0)
 REPLY = bytes.fromhex("00 88 00 30 E8 03 00 00")

@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 from tests.client.cards import EXAMPLES, load_example, wrapped
 
+from openacr.channels import EchoMode
 from openacr.client import (
     Card,
     DownloadError,
@@ -13,7 +14,6 @@ from openacr.client import (
 )
 from openacr.client.listing import Stored, is_numbered, meaning
 from openacr.controller import Controller
-from openacr.protocol.stream import EchoMode
 
 P0, PLC0 = Level.program(0), Level.plc(0)
 NAMES = sorted(path.name for path in EXAMPLES.iterdir() if (path / "setup.8k").is_file())

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.plant.schema import World
-from openacr.protocol.stream import StreamKind
 
 X_AND_Y = (
     "PROG0",

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from tests.controller.hosts import Host, connected
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.map import numbers as at
 from openacr.protocol.bits import SetBit
@@ -15,7 +16,6 @@ from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
 from openacr.protocol.override import FeedrateOverride
-from openacr.protocol.stream import StreamKind
 
 IN_MOTION, RAPID_MODES, SPIRAL, BLOCK_SKIP_CHECK, BLOCK_SKIP_INPUT = 516, 2053, 2072, 2048, 2049
 VELOCITY, COUNTER = 8193, 8208

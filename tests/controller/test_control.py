@@ -5,10 +5,10 @@ import struct
 import pytest
 from tests.controller.hosts import X_AND_Y, Host, connected, store
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.models import MODELS
 from openacr.plant import schema
-from openacr.protocol.stream import StreamKind
 
 PAUSED = 1048
 

@@ -11,6 +11,7 @@ import pytest
 from msgspec.structs import replace as replace_world
 from tests.controller.hosts import Host, at_axes, connected, store
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.controller.journal import Entered, read_journal
 from openacr.controller.recorder import Recorder
@@ -20,7 +21,6 @@ from openacr.errors import StoreError
 from openacr.plant.network_schema import Canopen, Node
 from openacr.plant.schema import default_world
 from openacr.protocol.events import ControlKey
-from openacr.protocol.stream import StreamKind
 
 WITH_A_NODE = replace_world(default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)))
 

@@ -3,7 +3,7 @@
 import pytest
 from tests.controller.hosts import Host, connected, store
 
-from openacr.protocol.stream import StreamKind
+from openacr.channels import StreamKind
 
 KAMR = (8467, 8499, 8531)
 CTRL_X, CTRL_Y, CTRL_Z, ESC = "\x18", "\x19", "\x1a", "\x1b"

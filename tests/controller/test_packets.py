@@ -8,6 +8,7 @@ import pytest
 from msgspec.structs import replace
 from tests.controller.hosts import Host, connected
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.map.kinds_cy import is_read_only
 from openacr.map.numbers import (
@@ -18,7 +19,6 @@ from openacr.map.numbers import (
 )
 from openacr.models import ACR9040
 from openacr.plant.schema import default_world
-from openacr.protocol.stream import StreamKind
 
 FOV, ROV = MA_BASE + MA_FEEDRATE_OVERRIDE, MA_BASE + MA_RAPID_FEEDRATE_OVERRIDE
 

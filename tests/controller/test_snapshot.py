@@ -10,13 +10,13 @@ from msgspec.structs import replace
 from tests.controller.hosts import Host, at_axes, store
 from tests.parity.journeys import WORLD
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.controller import snapshot_file as snapshot
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import StoreError
 from openacr.plant.load import parse_world
 from openacr.protocol.move import Move
-from openacr.protocol.stream import StreamKind
 
 
 def busy_host() -> Host:

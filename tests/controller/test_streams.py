@@ -3,8 +3,9 @@
 import pytest
 from tests.controller.hosts import X_AND_Y, Host, connected, store
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
+from openacr.errors import NoFreeStreamError
 
 DATA = bytes.fromhex("00 30 02 01")
 

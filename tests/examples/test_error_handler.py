@@ -8,8 +8,8 @@ import pytest
 from tests.examples.observe import Observation, load, observe
 from tests.examples.watches import ERRORS
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
-from openacr.protocol.stream import StreamKind
 
 X, Y = 0, 1
 MOTION, KILL_MOVES, KILL = 516, 522, 8467

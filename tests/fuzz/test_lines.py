@@ -18,11 +18,11 @@ from openacr.basic.levels import CompileError
 from openacr.basic.nodes import Number, Parameter
 from openacr.basic.registry import Level
 from openacr.basic.scope import Scope
+from openacr.channels import StreamKind
 from openacr.cli.source import Reader
 from openacr.controller import Controller
 from openacr.errors import CardError
 from openacr.project import Place, SourceFile, read_source
-from openacr.protocol.stream import StreamKind
 
 SET_UP = (
     "SYS", "DIM PROG1(8000)", "DIM PROG2(8000)", "DIM P(100)", "DIM DEF(10)", "#DEFINE count P3",

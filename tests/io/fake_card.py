@@ -6,10 +6,11 @@ lines, `TICK` the tick, anything else `ok`. A data packet is answered by the tic
 
 from dataclasses import dataclass
 
+from openacr.channels import Attention, StreamKind
+from openacr.errors import NoFreeStreamError
 from openacr.protocol.data import DataRequest
-from openacr.protocol.events import NEED_DATA, Attention, Control, Escape, Event, Line, Received
+from openacr.protocol.events import NEED_DATA, Control, Escape, Event, Line, Received
 from openacr.protocol.status import FastStatus
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import Terminal
 
 PERIOD_S = 0.0005

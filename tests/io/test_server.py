@@ -9,10 +9,10 @@ import pytest
 from tests.io.fake_card import FakeCard
 from tests.io.served import LOOPBACK
 
+from openacr.channels import StreamKind
 from openacr.errors import UserError
 from openacr.io.peers import SEND_LIMIT_BYTES, TcpPeer
 from openacr.io.server import Address, CardServer, Guests
-from openacr.protocol.stream import StreamKind
 
 GET = bytes.fromhex("00 30 02 01")
 WAIT_S = 5.0

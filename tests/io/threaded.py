@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from tests.io.fake_card import FakeCard
 from tests.io.served import LOOPBACK
 
+from openacr.channels import StreamKind
 from openacr.io.server import Address, CardServer
-from openacr.protocol.stream import StreamKind
 
 WAIT_S = 10.0
 

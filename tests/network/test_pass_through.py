@@ -6,7 +6,7 @@ import pytest
 from tests.io.served import Caller, serving
 from tests.network.talk import TIMEOUT, Bench, axis, control, talking
 
-from openacr.protocol.stream import StreamKind
+from openacr.channels import StreamKind
 
 GET = 1
 DIALOGUE = (

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openacr.protocol.escape import BinaryMode, decode, encode, encode_packet
+from openacr.channels import BinaryMode
+from openacr.protocol.escape import decode, encode, encode_packet
 
 PLAIN, PREFIXED, UNUSED, STRIPPED = map(BinaryMode, range(4))
 EVERY_BYTE = bytes(range(256))

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.channels import BinaryMode, StreamKind
+from openacr.protocol.escape import encode_packet
 from openacr.protocol.events import NEED_DATA, Event, Line, Received
 from openacr.protocol.override import (
     FeedrateOverride,
@@ -17,7 +18,6 @@ from openacr.protocol.override import (
 )
 from openacr.protocol.packets import PacketError
 from openacr.protocol.parameter import GetLong
-from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import Terminal
 
 SHORT = bytes.fromhex("07 08 00 00 00 3F")  # FOV 0.5 of master 3, as the first edition prints it

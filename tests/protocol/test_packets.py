@@ -7,11 +7,11 @@ from typing import Any, ClassVar
 
 import pytest
 
+from openacr.channels import ASCII_PORT, BINARY_PORT, BinaryMode
 from openacr.protocol import packet as packet_module
 from openacr.protocol import packets
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest, locate
-from openacr.protocol.escape import BinaryMode
 from openacr.protocol.execute import execute
 from openacr.protocol.framing import PacketReader
 from openacr.protocol.host import Host
@@ -34,7 +34,6 @@ from openacr.protocol.parameter import (
     SetIeee,
     SetLong,
 )
-from openacr.protocol.stream import ASCII_PORT, BINARY_PORT
 
 EXAMPLES: list[tuple[str, Packet]] = [
     ("00 30 02 2C", DataRequest(0x30, 2, 0x2C)),

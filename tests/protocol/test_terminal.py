@@ -6,12 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from openacr.channels import Attention, BinaryMode, EchoMode, StreamKind
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.data import DataRequest
-from openacr.protocol.escape import BinaryMode
 from openacr.protocol.events import (
     NEED_DATA,
-    Attention,
     Control,
     ControlKey,
     Escape,
@@ -23,7 +22,6 @@ from openacr.protocol.events import (
 )
 from openacr.protocol.move import Move
 from openacr.protocol.parameter import GetLong, SetLong
-from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.terminal import Terminal
 
 TIMEOUT_TK = 100

@@ -8,9 +8,9 @@ import pytest
 from tests.controller.hosts import X_AND_Y, Host, connected
 from tests.soak.noise import Noise
 
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.map import parameters
-from openacr.protocol.stream import StreamKind
 
 SET_UP = (
     "DIM P(100)", "DIM DEF(10)", "#DEFINE count P3", *X_AND_Y, "DIM LV(5)", "DIM SV(5)",

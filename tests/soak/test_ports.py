@@ -9,9 +9,9 @@ import pytest
 from tests.controller.hosts import X_AND_Y, Host, connected
 from tests.soak.noise import Noise
 
+from openacr.channels import BinaryMode, StreamKind
 from openacr.map import numbers as at
-from openacr.protocol.escape import BinaryMode, encode_packet
-from openacr.protocol.stream import StreamKind
+from openacr.protocol.escape import encode_packet
 
 MODEL = "ACR8020"  # the card with a port of every kind
 GET = bytes.fromhex("00 88 04 1B")  # P6916, the clock, which nothing sets back

@@ -3,7 +3,7 @@
 import pytest
 from tests.system.terminal import Console
 
-from openacr.protocol.stream import StreamKind
+from openacr.channels import StreamKind
 
 CRLF = "\r\n"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from openacr.channels import BinaryMode, EchoMode
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     P_COM1_CHARACTER_BUFFER_COUNT,
@@ -16,9 +17,8 @@ from openacr.map.numbers import (
     W_FIFO,
 )
 
-ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT = 1, 2, 4
 LARGEST = 0x7FFFFFFF
-ECHO_BITS, MODE_BITS = 7, 3
+ECHO_BITS, MODE_BITS = sum(EchoMode), sum(BinaryMode)
 MODE_SHIFT = 20  # of the two flags Control Prefixing and High Bit Stripping
 COUNTS = {  # characters and lines waiting, free space, lines executed
     "FIFO": P_FIFO_CHARACTER_BUFFER_COUNT,
@@ -49,25 +49,25 @@ class ChannelWords:
         self._memory = memory
         self._counts = COUNTS.get(name)
         self._flags = FLAG_WORDS.get(name)
-        self._own = ECHO_CHARACTERS
+        self._own = EchoMode.CHARACTERS.value
 
     @property
     def echo(self) -> int:
-        """ECHO mode: 1 echo characters, 2 no error reports, 4 no prompt."""
+        """Bits of EchoMode."""
         return self._word & ECHO_BITS
 
     @echo.setter
     def echo(self, mode: int) -> None:
-        self._word = self._word & ~ECHO_BITS | mode
+        self._word = self._word & ~ECHO_BITS | int(mode)
 
     @property
     def mode(self) -> int:
-        """MODE of binary data: 1 control prefixing, 2 high bit stripping."""
+        """Bits of BinaryMode."""
         return self._word >> MODE_SHIFT & MODE_BITS
 
     @mode.setter
     def mode(self, mode: int) -> None:
-        self._word = self._word & ~(MODE_BITS << MODE_SHIFT) | mode << MODE_SHIFT
+        self._word = self._word & ~(MODE_BITS << MODE_SHIFT) | int(mode) << MODE_SHIFT
 
     @property
     def _word(self) -> int:

@@ -46,10 +46,9 @@ from openacr.basic.nodes import (
     resolved,
 )
 from openacr.map.kinds_cy import is_read_only
-from openacr.map.memory import kind_table
+from openacr.map.memory import flag_place, kind_table
 from openacr.map.numbers import (
     FLAG_LAST,
-    FLAG_WORD_BASE,
     KIND_FP32,
     KIND_LONG,
     KIND_NONE,
@@ -166,9 +165,7 @@ class ExpressionEmitter(Assembler):
         elif number > FLAG_LAST:
             self.fail(INVALID_BIT)
         else:
-            word, bit = divmod(number, 32)
-            mask = 1 << bit if bit < 31 else -(1 << 31)
-            self._direct(vm.DO_LOAD_BIT, vm.DO_STORE_BIT, (FLAG_WORD_BASE + word, mask), value)
+            self._direct(vm.DO_LOAD_BIT, vm.DO_STORE_BIT, flag_place(number), value)
 
     def _local(self, kind: LocalKind, index: Expr, value: Callable[[], None] | None) -> None:
         number = _literal(index)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.basic.channel_words import ECHO_CHARACTERS
+from openacr.channels import EchoMode
 from openacr.errors import CardError
 from openacr.messages import DEVICE_IN_USE
 from openacr.network.drivetalk import lines
@@ -31,7 +31,7 @@ def type_byte(session: Session, byte: int) -> None:
     """One byte typed on a joined channel."""
     if session.drive is not None:
         shown = lines.type_byte(session.system.card.memory, session.index, byte)
-        if session.echo & ECHO_CHARACTERS:
+        if session.echo & EchoMode.CHARACTERS:
             session.write(shown)
     elif session.partner is not None:
         session.system.sessions[session.partner].write(chr(byte))

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import TYPE_CHECKING, Any, Literal
 
 from msgspec import Struct
 
 from openacr.basic import pass_through
-from openacr.basic.channel_words import ECHO_CHARACTERS, NO_ERRORS, NO_PROMPT, ChannelWords
+from openacr.basic.channel_words import ChannelWords
 from openacr.basic.entry import Entry, split_at_level
 from openacr.basic.parser import Parser
 from openacr.basic.program_memory import PROGRAMS
@@ -30,6 +29,7 @@ from openacr.basic.ranges import (
 from openacr.basic.registry import Level
 from openacr.basic.run import LINE_END
 from openacr.basic.scope import Scope
+from openacr.channels import Attention, EchoMode, startup_mode
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, spelled, tokens
 from openacr.messages import LINE_TOO_LONG
@@ -38,15 +38,6 @@ if TYPE_CHECKING:
     from openacr.basic.system import System
 
 FIRST_CHANNEL_THREAD = 16
-
-
-class Attention(Enum):
-    """Who gets what is typed."""
-
-    COMMANDS = "commands"
-    LISTENING = "listening"
-    PASS_THROUGH = "pass-through"
-    OPEN = "open"
 
 
 class Channel(Struct, frozen=True):
@@ -175,7 +166,7 @@ class Session:
     def reset(self) -> None:
         """The state after power-up: SYS level, echo on, control prefixing on serial lines."""
         self.level, self.number = Level.SYS, 0
-        self.echo, self.mode = ECHO_CHARACTERS, int(self.name.startswith("COM"))
+        self.echo, self.mode = EchoMode.CHARACTERS, startup_mode(self.name)
         self.show_waiting(0, 0)
         self._output.clear()
 
@@ -262,7 +253,7 @@ class Session:
             return
         self.busy = False
         self.last_error = error
-        if error is not None and not self.echo & NO_ERRORS:
+        if error is not None and not self.echo & EchoMode.NO_ERRORS:
             self.write(error.text + LINE_END)
         if self.attention is Attention.COMMANDS:
             self._send_prompt()
@@ -286,7 +277,7 @@ class Session:
         self._send_prompt()
 
     def _send_prompt(self) -> None:
-        if not self.echo & NO_PROMPT:
+        if not self.echo & EchoMode.NO_PROMPT:
             self.write(self.prompt)
 
     # levels and modes

@@ -28,7 +28,6 @@ from openacr.messages import (
 
 PLCS = at.PLC_COUNT
 AUTOMATIC_SHARES = 8
-MOST_GLOBALS = 4096
 STREAMS = ("FIFO", "COM1", "COM2", "DPCB", "STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 _REDIMENSIONED_FLAG = {"FIFO": 1805, "COM1": 1869, "COM2": 1901, "DPCB": 5805}
 
@@ -97,7 +96,7 @@ class Storage:
 
     def dimension_globals(self, count: int) -> None:
         """DIM P: P0 to P(count - 1), all 0."""
-        if not 0 < count <= MOST_GLOBALS:
+        if not 0 < count <= at.USER_COUNT:
             raise CardError(INVALID_ARGUMENT)
         self._dimension_system(_P_COUNT, count, GLOBAL_VARIABLE.bytes(count))
         for index in range(count):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from openacr.basic.lister import Lister
+from openacr.channels import StreamKind
 from openacr.cli import card_view
 from openacr.cli.events import Event, EventLog
 from openacr.cli.machine import Failure
@@ -21,7 +22,6 @@ from openacr.errors import SourceError, UserError
 from openacr.lang.characters import as_typed, readable, shown
 from openacr.map.memory import Memory
 from openacr.project import Project
-from openacr.protocol.stream import StreamKind
 from openacr.scenario import Condition
 from openacr.scenario.watches import watches
 

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from openacr.channels import BinaryMode
 from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, flag, parameter
-from openacr.protocol.escape import BinaryMode
 from openacr.protocol.framing import PacketReader
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, Part

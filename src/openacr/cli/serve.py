@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.channels import ASCII_PORT, BINARY_PORT
 from openacr.errors import StoreError, UserError
 from openacr.protocol.status import STATUS_PORT
-from openacr.protocol.stream import ASCII_PORT, BINARY_PORT
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
@@ -169,9 +169,9 @@ async def serve_card(
     card: "CardHost", ports: Ports, speed: float = 1.0, guests: "Guests | None" = None
 ) -> None:
     """Serve until SIGTERM, SIGHUP or Ctrl-C; prints one line when everything listens."""
+    from openacr.channels import StreamKind
     from openacr.io.serial_port import LineSettings
     from openacr.io.server import CardServer
-    from openacr.protocol.stream import StreamKind
 
     stop = asyncio.Event()
     _stop_on_signals(stop)

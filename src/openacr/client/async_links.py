@@ -6,11 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Protocol, TypeVar
 
+from openacr.channels import StreamKind
 from openacr.client.causes import cannot_connect
 from openacr.client.errors import ConnectionLostError
 from openacr.client.links import CONNECT_S, READ_BYTES, Link, ProcessLink, TcpLink
 from openacr.errors import reason
-from openacr.protocol.stream import StreamKind
 
 T = TypeVar("T")
 

@@ -9,10 +9,10 @@ import socket
 import time
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
+from openacr.channels import ASCII_PORT, StreamKind
 from openacr.client.causes import NO_DRIVER, cannot_connect
 from openacr.client.errors import ConnectionLostError
-from openacr.errors import UserError, reason
-from openacr.protocol.stream import ASCII_PORT, NoFreeStreamError, StreamKind
+from openacr.errors import NoFreeStreamError, UserError, reason
 
 if TYPE_CHECKING:
     import serial

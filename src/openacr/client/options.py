@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from openacr.protocol.stream import EchoMode
+from openacr.channels import EchoMode
 
 SLOWEST_BYTES_PER_S = 1024  # what a line may take for a long reply, beyond the deadline
 

@@ -8,9 +8,9 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from openacr.channels import EchoMode
 from openacr.client.errors import NoReplyError
 from openacr.client.links import Link
-from openacr.protocol.stream import EchoMode
 
 QUIET_S = 0.3
 ESC = b"\x1b"

@@ -18,6 +18,7 @@ repeated request, so text and packets may alternate on one stream.
 import re
 from collections.abc import Callable
 
+from openacr.channels import BinaryMode, EchoMode
 from openacr.client.lines import bytes_of, split
 from openacr.client.requests import (
     SYS,
@@ -34,11 +35,10 @@ from openacr.client.requests import (
 )
 from openacr.errors import UserError
 from openacr.lang.characters import readable
-from openacr.protocol.escape import BinaryMode, Decoder, encode_packet
+from openacr.protocol.escape import Decoder, encode_packet
 from openacr.protocol.events import NEED_DATA, NeedData
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import Packet
-from openacr.protocol.stream import EchoMode
 
 CR, CRLF, ESC = b"\r", b"\r\n", b"\x1b"
 ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))

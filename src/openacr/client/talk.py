@@ -7,6 +7,7 @@ shell drive the same generators (`card`, `async_card`); tests can drive them wit
 
 from collections.abc import Callable, Iterable
 
+from openacr.channels import BinaryMode, EchoMode, StreamKind
 from openacr.client.effects import Close, Op, Open, Pause, Receive, Send
 from openacr.client.errors import (
     ConnectionLostError,
@@ -30,10 +31,9 @@ from openacr.client.requests import (
 )
 from openacr.client.session import Event, Session
 from openacr.errors import UserError
-from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.escape import encode_packet
 from openacr.protocol.events import NEED_DATA
 from openacr.protocol.packets import Packet
-from openacr.protocol.stream import EchoMode, StreamKind
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0

@@ -7,13 +7,13 @@ from typing import TypeAlias
 
 from openacr.basic.loader import FileLine, file_lines
 from openacr.basic.program_store import opens_capture
+from openacr.channels import EchoMode
 from openacr.client.effects import Op
 from openacr.client.errors import ClientError, DownloadError, RefusedError, VerificationError
 from openacr.client.listing import Stored, is_free_form, is_numbered, plain
 from openacr.client.requests import SYS, Level, Line
 from openacr.client.talk import Talk, checked
 from openacr.errors import UserError
-from openacr.protocol.stream import EchoMode
 
 Progress: TypeAlias = Callable[[int, int], None]
 

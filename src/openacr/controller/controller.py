@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller.journal import Entered
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
@@ -36,7 +37,6 @@ from openacr.plant import load, schema
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus
-from openacr.protocol.stream import StreamKind
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,7 @@ from typing import Annotated, Any, TypeAlias
 import msgspec
 from msgspec import Meta
 
+from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller import snapshot_file
 from openacr.errors import StoreError, reason
@@ -43,7 +44,6 @@ from openacr.models import MODELS
 from openacr.plant import schema
 from openacr.plant.check import contradictions
 from openacr.protocol.events import ControlKey
-from openacr.protocol.stream import StreamKind
 
 MAGIC = b"openacr journal 1\n"
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from openacr.channels import StreamKind
 from openacr.controller.controller import Controller
 from openacr.controller.journal import Entered, Journal, JournalEntry
-from openacr.errors import CardError, StoreError, UserError
+from openacr.errors import CardError, NoFreeStreamError, StoreError, UserError
 from openacr.protocol.events import ControlKey
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 
 @dataclass(frozen=True, slots=True)

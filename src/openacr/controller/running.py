@@ -18,6 +18,7 @@ from openacr.engine.samples import Sample, set_samples
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 from openacr.engine.watches import Watch, set_watches
 from openacr.errors import UserError
+from openacr.map.memory import flag_place
 from openacr.map.numbers import (
     ENGI_BASE,
     ENGI_SAMPLE_COUNT,
@@ -84,8 +85,9 @@ class Running(Machine):
             raise UserError(f"wait {limit_s} for flag {bit}: time only goes forward")
         if self.memory.bit(bit) == is_:
             return True
-        self._set_engine(ENGI_UNTIL_WORD, 4096 + (bit >> 5))
-        self._set_engine(ENGI_UNTIL_MASK, 1 << bit % 32 if bit % 32 < 31 else -(1 << 31))
+        word, mask = flag_place(bit)
+        self._set_engine(ENGI_UNTIL_WORD, word)
+        self._set_engine(ENGI_UNTIL_MASK, mask)
         self._set_engine(ENGI_UNTIL_STATE, int(is_))
         limit = round(timeout_s / self.period_s) if ticks is None else ticks
         reason = self._live(limit)

@@ -8,15 +8,13 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from openacr.basic import session as sessions
 from openacr.basic.ranges import Index, ProgramNumber
 from openacr.basic.session import Session
+from openacr.channels import CHANNELS, Attention, BinaryMode, StreamKind
 from openacr.controller.packets import PacketHost
-from openacr.errors import StoreError, UserError
-from openacr.protocol.escape import BinaryMode
+from openacr.errors import NoFreeStreamError, StoreError, UserError
 from openacr.protocol.events import (
     NEED_DATA,
-    Attention,
     Control,
     ControlKey,
     Escape,
@@ -28,15 +26,8 @@ from openacr.protocol.events import (
 )
 from openacr.protocol.execute import execute
 from openacr.protocol.move import Move
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
 from openacr.protocol.terminal import Terminal, TerminalState
 
-_NAMES = {
-    StreamKind.TERMINAL: ("STREAM2", "STREAM3", "STREAM4", "STREAM5"),
-    StreamKind.SERIAL: ("COM1", "COM2"),
-    StreamKind.DPCB: ("DPCB",),
-}
-_ATTENTION = {each: Attention(each.value) for each in sessions.Attention}
 CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
 LINE_WORK = 150  # to take one line, in the units of a LIST: 2.5 of them are a microsecond
 CHARACTER_WORK = 30  # more for each of its characters
@@ -104,7 +95,7 @@ class Streams:
         if kind is not StreamKind.PACKETS:
             session = self._free(kind, name)
             session.connect()
-            session.mode = int(kind.startup_mode)
+            session.mode = kind.startup_mode
         number, self._next = self._next, self._next + 1
         terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
         self._open[number] = Stream(terminal, session)
@@ -112,7 +103,7 @@ class Streams:
         return number
 
     def _free(self, kind: StreamKind, name: str | None) -> Session:
-        for candidate in (name,) if name else _NAMES[kind]:
+        for candidate in (name,) if name else CHANNELS[kind]:
             session = self._sessions.get(candidate)
             if session is not None and not session.is_connected:
                 return session
@@ -281,7 +272,7 @@ class Streams:
         if session is None:
             return
         terminal.busy = session.busy
-        attention = _ATTENTION[session.attention]
+        attention = session.attention
         if (terminal.attention, attention) == (Attention.LISTENING, Attention.COMMANDS):
             # What the program has read is no part of the next command.
             terminal.begin_line(session.typed_ahead)

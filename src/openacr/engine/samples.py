@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from openacr.engine.watches import Place, flag_place, parameter_place
+from openacr.engine.watches import Place, parameter_place
 from openacr.map import numbers as at
-from openacr.map.memory import Memory
+from openacr.map.memory import Memory, flag_place
 
 SAMPLES = at.SMV_COUNT
 

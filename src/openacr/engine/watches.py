@@ -36,12 +36,6 @@ class Place(Enum):
 _PLACES = {at.KIND_LONG: Place.LONG, at.KIND_FP32: Place.FP32, at.KIND_FP64: Place.FP64}
 
 
-def flag_place(number: int) -> tuple[int, int]:
-    """Row and mask of the word of a flag."""
-    word, bit = divmod(number, 32)
-    return at.FLAG_WORD_BASE + word, 1 << bit if bit < 31 else -(1 << 31)
-
-
 def parameter_place(memory: Memory, number: int) -> tuple[Place, int] | None:
     """Where a parameter is; None where the card has no such number."""
     place = _PLACES.get(kind_of(memory.I, number))

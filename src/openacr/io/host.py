@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from openacr.protocol.stream import StreamKind
+from openacr.channels import StreamKind
 
 
 class CardHost(Protocol):

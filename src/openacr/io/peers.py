@@ -12,7 +12,7 @@ import socket
 from collections.abc import Callable
 from typing import Protocol
 
-from openacr.protocol.stream import StreamKind
+from openacr.channels import StreamKind
 from openacr.protocol.web import Opening
 
 log = logging.getLogger(__name__)

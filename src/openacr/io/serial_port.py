@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import serial
 
+from openacr.channels import StreamKind
 from openacr.errors import UserError, reason
 from openacr.io.peers import Switchboard
 from openacr.protocol.output import SLICE_BYTES
-from openacr.protocol.stream import StreamKind
 from openacr.protocol.terminal import XOFF, XON
 
 log = logging.getLogger(__name__)

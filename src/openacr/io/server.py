@@ -12,14 +12,14 @@ import socket
 import time
 from dataclasses import dataclass
 
-from openacr.errors import UserError, reason
+from openacr.channels import StreamKind
+from openacr.errors import NoFreeStreamError, UserError, reason
 from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
 from openacr.io.refusals import Refusals
 from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.io.status_port import StatusPort, open_status_port
-from openacr.protocol.stream import NoFreeStreamError, StreamKind
 
 STEP_S = 0.001
 CONNECTIONS = 16

@@ -16,7 +16,7 @@ from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import store_long
-from openacr.map.numbers import W_INPUTS, W_MISC_OUTPUTS
+from openacr.map.numbers import FLAG_WORD_BASE, W_INPUTS, W_MISC_OUTPUTS
 from openacr.map.rows import axes, encoders, kernel, motors, plant
 from openacr.map.words import af1, af2
 from openacr.views import F32, F64, I32
@@ -27,7 +27,6 @@ FALLING = 4
 RISING_EDGE = 1
 FALLING_EDGE = 2
 SOFTWARE_TRIGGER = 131072  # BIT113
-FLAG_FIRST = 4096
 FLAG_LAST = 40959
 # Signals: 0 marker, 1 marker of the pair, 2-5 external inputs, 6 marker and external, 7 software
 MARKER = 0
@@ -72,7 +71,7 @@ def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
     I[axes.hardware_capture[n]] = position_cnt
     F[axes.capture_cnt[n]] = position_cnt
     copy: int = I[axes.capture_copy[n]]
-    if FLAG_FIRST <= copy <= FLAG_LAST:
+    if FLAG_WORD_BASE <= copy <= FLAG_LAST:
         store_long(I, copy, position_cnt)
     I[axes.capture_mode[n]] = -1
     I[axis_word(n)] |= af1.CAPTURE_COMPLETE

@@ -25,6 +25,7 @@ from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import store_long
+from openacr.map.numbers import FLAG_WORD_BASE
 from openacr.map.rows import adcs, axes, encoders, kernel, motors, steppers
 from openacr.map.words import af1, ef
 from openacr.views import F32, F64, I32
@@ -44,7 +45,6 @@ FROM_STEPPER = 2
 ENCODER_COUNT = 24
 MODELLED = 16  # encoders that can have a motor in the plant
 FITTED = 8  # encoders CONFIG can leave out
-FIRST_LONG = 4096  # of the parameters that are no user variables
 LAST_PARAMETER = 40959
 ADC_COUNTS_PER_VOLT = 1000.0
 
@@ -204,7 +204,7 @@ def encoder_links_step(I: I32, rate_hz: float) -> None:
             I[encoders.encoder_velocity[e]] = round32(step * rate_hz)
         encoder_wrap(I, e)
         destination: int = I[encoders.destination[e]]
-        if FIRST_LONG <= destination <= LAST_PARAMETER:
+        if FLAG_WORD_BASE <= destination <= LAST_PARAMETER:
             store_long(I, destination, I[encoders.encoder_position[e]])
 
 

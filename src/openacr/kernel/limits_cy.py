@@ -14,6 +14,7 @@ from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, JOG_KILLED, jog_take_over
 from openacr.kernel.offset_cy import followers_halt, lock_leader
 from openacr.kernel.path_cy import master_word
+from openacr.map.numbers import FLAG_WORD_BASE
 from openacr.map.rows import axes, filters, masters
 from openacr.map.words import af1, af4, af5, mf1
 from openacr.views import F32, F64, I32
@@ -22,7 +23,6 @@ __all__ = ["limits_step"]
 
 SLAVE_COUNT = 16
 THREE_INPUTS = 7
-FLAG_WORDS = 4096
 LAST_FLAG = 17663
 PREVIOUS_SHIFT = 8
 INVERT_SHIFT = 16
@@ -49,7 +49,7 @@ def limit_inputs(I: I32, n: int) -> int:
     state: int = 0
     if 0 <= first <= LAST_FLAG:
         bit: int = first & 31
-        inputs: int = I[FLAG_WORDS + (first >> 5)] & 4294967295
+        inputs: int = I[FLAG_WORD_BASE + (first >> 5)] & 4294967295
         state = (
             ((inputs >> bit) ^ (flags >> INVERT_SHIFT)) & THREE_INPUTS & ((4294967296 >> bit) - 1)
         )

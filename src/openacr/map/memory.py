@@ -78,12 +78,12 @@ class Memory:
 
     def bit(self, number: int) -> bool:
         """State of flag `number`; CardError beyond the last flag."""
-        word, mask = _flag_place(number)
+        word, mask = flag_place(number)
         return bool(self.I[word] & mask)
 
     def set_bit(self, number: int, on: bool) -> None:
         """Set or clear flag `number`; CardError beyond the last flag."""
-        word, mask = _flag_place(number)
+        word, mask = flag_place(number)
         self.I[word] = self.I[word] | mask if on else self.I[word] & ~mask
 
     def snapshot(self) -> bytes:
@@ -126,8 +126,8 @@ def long_of(value: float) -> int:
     return (trunc(value) + 2**31) % 2**32 - 2**31
 
 
-def _flag_place(number: int) -> tuple[int, int]:
-    """Index of the word of a flag and its mask as a signed 32-bit number."""
+def flag_place(number: int) -> tuple[int, int]:
+    """Index of the word of a flag and its mask as a signed 32-bit number; CardError for none."""
     if not 0 <= number <= FLAG_LAST:
         raise CardError(INVALID_BIT)
     word, bit = divmod(number, 32)

@@ -24,8 +24,7 @@ LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
 CLEAR_S = 2.0  # longest time the card takes to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
-FIRST_FLAG_WORD = 4096
-USER_FLAGS = FIRST_FLAG_WORD + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
+USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
 TRIPPED_MASK = 1 << TRIPPED % BITS_PER_WORD
 LIMIT_LATCHES = (
     n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
@@ -33,7 +32,7 @@ LIMIT_LATCHES = (
     n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
     n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
 )
-FIRST_MODULE_FLAG = (n.XIOI_WORD - FIRST_FLAG_WORD) * BITS_PER_WORD
+FIRST_MODULE_FLAG = (n.XIOI_WORD - n.FLAG_WORD_BASE) * BITS_PER_WORD
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +87,7 @@ class Look:
 
 def flag_of(word: int, mask: int) -> int:
     """The number of the flag that is this bit of a flag word."""
-    return (word - FIRST_FLAG_WORD) * BITS_PER_WORD + mask.bit_length() - 1
+    return (word - n.FLAG_WORD_BASE) * BITS_PER_WORD + mask.bit_length() - 1
 
 
 class StepLostError(ConnectionLostError):

@@ -16,10 +16,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from openacr.map import numbers as at
-from openacr.map.memory import Memory
+from openacr.map.memory import Memory, flag_place
 from openacr.plant import analogs, apply_networks, apply_phases, apply_stepper, bus
 from openacr.plant.counts import count_of
-from openacr.plant.inputs import WORD_BITS, input_place, output_place, place, word_row
+from openacr.plant.inputs import WORD_BITS, input_place, output_place, word_row
 from openacr.plant.schema import (
     LOADLESS,
     Axis,
@@ -173,7 +173,7 @@ def _int_rows(axis: Axis) -> dict[int, int]:
     if not axis.has_encoder:
         rows[at.PLI_ENCODER_FAULT] = NO_ENCODER
     if drive.fault_input is not None:
-        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = place(drive.fault_input)
+        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = flag_place(drive.fault_input)
         rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)
     return rows
 

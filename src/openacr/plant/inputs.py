@@ -7,10 +7,9 @@ behind it.
 """
 
 from openacr.map import numbers as at
-from openacr.map.memory import Memory
+from openacr.map.memory import Memory, flag_place
 from openacr.plant import terminals
 
-FLAG_WORDS = 4096
 WORD_BITS = 32
 # The onboard inputs and those of the four expansion boards, which wires may lead to.
 WIRED_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
@@ -18,28 +17,22 @@ MISCELLANEOUS = (64, 95)
 NODE_RANGES = tuple(
     (first, first + at.BUSNI_LEVELS_SIZE * WORD_BITS - 1)
     for node in range(at.BUSN_COUNT)
-    for first in ((at.CANDI_WORD + node * at.CANDI_WORD_STRIDE - FLAG_WORDS) * WORD_BITS,)
+    for first in ((at.CANDI_WORD + node * at.CANDI_WORD_STRIDE - at.FLAG_WORD_BASE) * WORD_BITS,)
 )
 RANGES = tuple(sorted((*WIRED_RANGES, MISCELLANEOUS, *NODE_RANGES)))
-
-
-def place(flag: int) -> tuple[int, int]:
-    """Parameter number of the word that holds a flag, and the flag's signed mask."""
-    word, bit = divmod(flag, WORD_BITS)
-    return FLAG_WORDS + word, 1 << bit if bit < WORD_BITS - 1 else -(1 << bit)
 
 
 def input_place(flag: int) -> tuple[int, int]:
     """Word and mask of what drives an input: of a node it is the level at its terminal."""
     terminal = terminals.input_terminal(flag)
-    word, mask = place(flag)
+    word, mask = flag_place(flag)
     return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
 
 
 def output_place(flag: int) -> tuple[int, int]:
     """Word and mask of an output; of a node it is the level at its terminal."""
     terminal = terminals.output_terminal(flag)
-    word, mask = place(flag)
+    word, mask = flag_place(flag)
     return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
-FLAG_WORDS = 4096
 WORD_BITS = 32
 FULL_SCALE = 32767  # counts of a signed 16-bit converter
 BOTTOM = -32768
@@ -33,7 +32,7 @@ def terminal_row(node: int, terminal: int, rows: int) -> int:
 
 def _place(flag: int, first_word: int) -> tuple[int, int] | None:
     """Node and number of a terminal, by a flag of the block that begins with a word."""
-    offset = flag - (first_word - FLAG_WORDS) * WORD_BITS
+    offset = flag - (first_word - at.FLAG_WORD_BASE) * WORD_BITS
     node, terminal = divmod(offset, at.CANDI_WORD_STRIDE * WORD_BITS)
     is_terminal = terminal < at.BUSNI_LEVELS_SIZE * WORD_BITS
     return (node, terminal) if 0 <= node < at.BUSN_COUNT and is_terminal else None

@@ -6,29 +6,12 @@ is never converted; everything behind it is.
 """
 
 from dataclasses import dataclass
-from enum import IntFlag
+
+from openacr.channels import BinaryMode
 
 PREFIX = ord("#")
 HIGH = ord("&")
 TOGGLE = 0x40  # turns a control character into a printable one and back
-
-
-class BinaryMode(IntFlag):
-    """The value of the MODE command; stripping alone (MODE 2) converts nothing."""
-
-    PLAIN = 0
-    PREFIX_CONTROLS = 1
-    STRIP_HIGH_BIT = 2
-
-    @property
-    def prefixes(self) -> bool:
-        """Control characters travel behind a `#`."""
-        return int.__and__(self, 1) == 1  # asked for every byte: an enum would be slow
-
-    @property
-    def strips(self) -> bool:
-        """Bytes above 0x7F travel behind an `&`."""
-        return self.prefixes and bool(self & BinaryMode.STRIP_HIGH_BIT)
 
 
 def _encode_byte(byte: int, strips: bool) -> bytes:

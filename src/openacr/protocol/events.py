@@ -15,15 +15,6 @@ class ControlKey(IntEnum):
     CTRL_Z = 0x1A  # as Ctrl-X, then drives off
 
 
-class Attention(Enum):
-    """Who gets what is typed."""
-
-    COMMANDS = "commands"  # the command interpreter, line by line
-    LISTENING = "listening"  # a program (LRUN, LISTEN); ESC ends it
-    PASS_THROUGH = "pass-through"  # another device (DTALK, TALK TO); not echoed, ESC ends it
-    OPEN = "open"  # a program holds the stream OPEN: every byte is data
-
-
 @dataclass(frozen=True, slots=True)
 class Line:
     """A complete line for the command interpreter, without its end."""

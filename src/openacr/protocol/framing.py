@@ -13,7 +13,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from openacr.protocol.escape import BinaryMode, Decoder
+from openacr.channels import BinaryMode
+from openacr.protocol.escape import Decoder
 from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
 from openacr.protocol.packets import Packet, PacketError, decode, dpcb_padding, total_length
 

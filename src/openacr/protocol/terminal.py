@@ -27,11 +27,11 @@ from typing import Annotated, TypeAlias
 
 from msgspec import Meta, Struct
 
+from openacr.channels import Attention, BinaryMode, EchoMode, StreamKind
 from openacr.lang.lexer import LINE_LIMIT
-from openacr.protocol.escape import BinaryMode, encode_packet
+from openacr.protocol.escape import encode_packet
 from openacr.protocol.events import (
     NEED_DATA,
-    Attention,
     Control,
     ControlKey,
     Escape,
@@ -48,7 +48,6 @@ from openacr.protocol.output import Output, OutputState
 from openacr.protocol.override import Override, belongs_to_next
 from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
 from openacr.protocol.segment import Segment
-from openacr.protocol.stream import EchoMode, StreamKind
 from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
 
 log = logging.getLogger(__name__)

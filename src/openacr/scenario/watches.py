@@ -6,9 +6,9 @@ by whoever looks (`Play.step`). A condition that cannot change needs no watch.
 
 from collections.abc import Iterator
 
-from openacr.engine.watches import Place, Watch, flag_place, parameter_place
+from openacr.engine.watches import Place, Watch, parameter_place
 from openacr.map import numbers as at
-from openacr.map.memory import Memory
+from openacr.map.memory import Memory, flag_place
 from openacr.scenario.schema import Condition
 
 _STATES = (

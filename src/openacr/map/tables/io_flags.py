@@ -1,13 +1,13 @@
 """Inputs, outputs, user flags and the general control words."""
 
-from openacr.map.block import NS, RW, UNDOCUMENTED, R, Span, consecutive
+from openacr.map.block import FLAG_WORD_BASE, NS, RW, UNDOCUMENTED, R, Span, consecutive
 from openacr.map.flag_block import FlagBlock, reserved_words
 
 INPUTS = FlagBlock(
     "Optoisolated Inputs",
     object="INPUT",
     prefix="",
-    spans=(Span(4096, 1),),
+    spans=(Span(FLAG_WORD_BASE, 1),),
     word_name="Optoisolated Inputs",
     group="General Flags",
     ident="INPUTS",
