@@ -179,18 +179,81 @@ def test_a_software_limit_bars_by_position_whatever_its_flag_says() -> None:
     assert rig.real("psp_cnt") == pytest.approx(here + 25)
 
 
+def stopping(side: int, sldec_ups2: float) -> tuple[Rig, float]:
+    """An axis that a software limit has begun to stop; where the stop alone ends."""
+    ends: list[float] = []
+    for _ in range(2):
+        rig = soft(1.0, -1.0, sldec_ups2=sldec_ups2)
+        rig.jog(dec=1000, acc=1000)
+        jog.continuous(rig.card, 0, side)
+        while not rig.bit(KILL_ALL_MOVES):
+            rig.ticks()
+        rig.ticks(3)
+        if not ends:
+            rig.record(while_=ACTIVE)
+            ends.append(rig.real("psp_cnt"))
+    return rig, ends[0]
+
+
 @pytest.mark.parametrize("side", [1, -1])
-def test_a_jog_inwards_during_the_stop_turns_back_and_arrives(side: int) -> None:
-    rig = soft(1.0, -1.0, sldec_ups2=50.0)
-    rig.jog(dec=100, acc=100)
-    jog.continuous(rig.card, 0, side)
-    while not rig.bit(KILL_ALL_MOVES):
-        rig.ticks()
-    rig.ticks(10)
+@pytest.mark.parametrize("sldec_ups2", [50.0, 5000.0])
+def test_a_jog_inwards_begins_when_the_stop_has_ended(side: int, sldec_ups2: float) -> None:
+    rig, stop_cnt = stopping(side, sldec_ups2)
     jog.absolute(rig.card, 0, 0.5 * side)
     path = rig.record(while_=ACTIVE)
+    farthest = max(abs(each) for each in path)
+    assert farthest == pytest.approx(abs(stop_cnt), abs=0.2), "with SLDEC, not JOG DEC"
     assert rig.real("jog_cnt") == 500.0 * side
-    assert 1000 < max(abs(path)) < 2000
+
+
+def test_increments_during_the_stop_add_up() -> None:
+    rig, _ = stopping(1, 50.0)
+    jog.absolute(rig.card, 0, 0.75)
+    for _ in range(2):
+        rig.ticks(2)
+        jog.incremental(rig.card, 0, -0.125)
+    rig.record(while_=ACTIVE)
+    assert rig.real("jog_cnt") == 500.0
+
+
+def test_an_increment_during_the_stop_begins_where_the_axis_is() -> None:
+    rig, _ = stopping(1, 50.0)
+    rig.ticks()
+    here = rig.real("jog_cnt")
+    jog.incremental(rig.card, 0, -0.5)
+    rig.record(while_=ACTIVE)
+    assert rig.real("jog_cnt") == pytest.approx(here - 500.0)
+
+
+@pytest.mark.parametrize("by", ["off", "kill"])
+def test_a_jog_that_waits_for_the_end_of_the_stop_can_be_taken_back(by: str) -> None:
+    rig, stop_cnt = stopping(1, 50.0)
+    jog.absolute(rig.card, 0, 0.5)
+    rig.ticks(2)
+    if by == "off":
+        jog.off(rig.card, 0)
+    else:
+        rig.bit(KAMR, True)
+    rig.record(while_=ACTIVE)
+    assert rig.real("psp_cnt") > 1000
+    if by == "off":
+        assert rig.real("psp_cnt") == stop_cnt
+    rig.seconds(0.2)
+    assert rig.real("psp_cnt") > 1000
+
+
+def test_the_last_jog_command_during_the_stop_counts() -> None:
+    rig, _ = stopping(1, 50.0)
+    jog.absolute(rig.card, 0, 0.5)
+    jog.continuous(rig.card, 0, -1)
+    rig.seconds(0.5)
+    assert rig.real("psp_cnt") < 400
+    jog.off(rig.card, 0)
+    rig, _ = stopping(1, 50.0)
+    jog.continuous(rig.card, 0, -1)
+    jog.absolute(rig.card, 0, 0.5)
+    rig.record(while_=ACTIVE)
+    assert rig.real("jog_cnt") == 500.0
 
 
 def test_a_jog_that_turns_too_late_is_stopped_at_the_software_limit() -> None:

@@ -318,6 +318,20 @@ def test_the_status_words_of_the_drive_are_fetched_into_flags(axis: int) -> None
     assert [bit for bit in range(32) if bench.card.bit[second + bit]] == [2]
 
 
+@pytest.mark.parametrize("axis", [0, 7])
+def test_a_drive_tells_that_the_card_has_switched_it_off_and_on(axis: int) -> None:
+    bench = Bench(talking(axis, address=axis + 1))
+    bench.open(axis)
+    bench.card.bit[control(axis, STATUS_1)] = True
+    shown = []
+    for word in ("ON", "OFF", "ON"):
+        bench.type(f"DRIVE {word} AXIS{axis}")
+        bench.card.advance(seconds=0.1)
+        bench.request(axis, DATA)
+        shown.append(bench.card.bit[9472 + 32 * axis])
+    assert shown == [True, False, True]
+
+
 @pytest.mark.req("ACR-DTALK-14")
 def test_a_drive_that_is_lost_is_told_from_one_that_never_answered() -> None:
     bench = Bench(talking(0, address=1, lost_s=2.0, back_s=4.0))

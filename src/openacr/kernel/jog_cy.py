@@ -191,13 +191,20 @@ def jog_rest(F: F64, I: I32, n: int) -> None:
     profile_reset(F, I, JOG_PROFILE + n, 0.0, 0.0)
 
 
+def jog_waits(I: I32, n: int) -> bool:
+    """Whether JOG ABS or INC waits for the end of the stop of a limit or kill."""
+    return I[axes.jog_mode[n]] == JOG_KILLED and I[axes.jog_replan[n]] != 0
+
+
 def jog_arrived(F: F64, I: I32, S: F32, n: int, left: float) -> None:
     """The plan of axis n has ended with `left` seconds of the tick to go."""
     mode: int = I[axes.jog_mode[n]]
     if mode == JOG_HOMING:
         if home_arrived(F, I, S, n):
             jog_rest(F, I, n)
-    elif I[axes.jog_turning[n]]:
+    elif I[axes.jog_turning[n]] or jog_waits(I, n):
+        if mode == JOG_KILLED:
+            I[axes.jog_mode[n]] = JOG_TO_TARGET
         profile_reset(F, I, JOG_PROFILE + n, 0.0, 0.0)
         jog_plan(F, I, S, n)
         if profile_advance(F, I, JOG_PROFILE + n, left) >= 0.0:

@@ -3,7 +3,13 @@
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import axis_cy, homing_cy
-from openacr.kernel.jog_cy import JOG_CONTINUOUS, JOG_HOMING, JOG_IDLE, JOG_TO_TARGET
+from openacr.kernel.jog_cy import (
+    JOG_CONTINUOUS,
+    JOG_HOMING,
+    JOG_IDLE,
+    JOG_KILLED,
+    JOG_TO_TARGET,
+)
 from openacr.kernel.jogplan_cy import FAR_CNT
 from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.numbers import (
@@ -79,9 +85,17 @@ def incremental(card: Card, axis: int, distance_u: float) -> None:
     """JOG INC: from the jog offset, or from the target of a running JOG ABS or INC."""
     card.take_written(axis)
     reals = axis_reals(axis)
-    running = card.memory.I[axis_ints(axis) + AXI_JOG_MODE] == JOG_TO_TARGET
+    running = card.memory.I[axis_ints(axis) + AXI_JOG_MODE] == JOG_TO_TARGET or waits(card, axis)
     start = card.memory.F[reals + (AXF_JOG_TARGET_CNT if running else AXF_JOG_CNT)]
     _to_target(card, axis, start + distance_u * scale_of(card, axis))
+
+
+def waits(card: Card, axis: int) -> bool:
+    """Whether JOG ABS or INC waits for the end of the stop of a limit or kill."""
+    ints = axis_ints(axis)
+    return card.memory.I[ints + AXI_JOG_MODE] == JOG_KILLED and bool(
+        card.memory.I[ints + AXI_JOG_REPLAN]
+    )
 
 
 def _to_target(card: Card, axis: int, target_cnt: float) -> None:
@@ -91,15 +105,17 @@ def _to_target(card: Card, axis: int, target_cnt: float) -> None:
     distance = target_cnt - memory.F[axis_reals(axis) + AXF_JOG_CNT]
     permit(card, axis, distance / scale_of(card, axis))
     ints, word = axis_ints(axis), axis_word(axis)
-    if memory.I[ints + AXI_JOG_MODE] == JOG_HOMING:
+    mode = memory.I[ints + AXI_JOG_MODE]
+    if mode == JOG_HOMING:
         _home_abort(memory.I, axis)
     memory.F[axis_reals(axis) + AXF_JOG_TARGET_CNT] = target_cnt
     memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
     if distance == 0.0 and not memory.I[word] & AF1_JOG_ACTIVE:
         return
-    if memory.I[word] & AF1_JOG_LOCKOUT and memory.I[ints + AXI_JOG_MODE] == JOG_IDLE:
+    if memory.I[word] & AF1_JOG_LOCKOUT and mode == JOG_IDLE:
         return
-    memory.I[ints + AXI_JOG_MODE] = JOG_TO_TARGET
+    if mode != JOG_KILLED:  # else a limit or kill brings the axis to rest first
+        memory.I[ints + AXI_JOG_MODE] = JOG_TO_TARGET
     memory.I[ints + AXI_JOG_REPLAN] = 1
     memory.I[word] |= AF1_JOG_ACTIVE
 
@@ -115,6 +131,8 @@ def off(card: Card, axis: int) -> None:
     if mode in (JOG_HOMING, JOG_TO_TARGET):
         memory.I[ints + AXI_JOG_WANT] = 0
         memory.I[ints + AXI_JOG_MODE] = JOG_CONTINUOUS  # without a direction: ramp to rest
+    elif mode == JOG_KILLED:
+        memory.I[ints + AXI_JOG_REPLAN] = 0  # a target that waits for the end of the stop
     elif mode == JOG_IDLE:
         memory.I[word] &= ~AF1_JOG_ACTIVE
 
