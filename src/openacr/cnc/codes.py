@@ -251,6 +251,7 @@ class Dialect:
     rises_first: bool = False  # a series of cycles has one initial level and goes up to R first
     clearance_inch: float | None = None  # of G73 and G83; None: as in the store
     has_spirals: bool = True  # arcs whose radii differ
+    has_entry_arcs: bool = False  # compensation may begin with an arc
     centre_codes: dict[int, str] = field(default_factory=dict)  # how to choose readings of I, J
     has_custom: bool = True  # M codes from files
 

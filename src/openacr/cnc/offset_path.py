@@ -33,7 +33,11 @@ class OffsetPath:
     def _new(self) -> Compensator[Entry]:
         read = self._run.cells.read
         rules = Rules(
-            read(EPSILON), read(SWEEP_EPSILON), int(read(ROOT_EPSILON)), read(GOUGE_STOP) != 0.0
+            read(EPSILON),
+            read(SWEEP_EPSILON),
+            int(read(ROOT_EPSILON)),
+            read(GOUGE_STOP) != 0.0,
+            self._run.dialect.has_entry_arcs,
         )
         watch = self._run.options.watch
         if watch is None and self._run.options.collects_errors:
@@ -55,7 +59,8 @@ class OffsetPath:
         run = self._run
         if code == OFF and run.modal.compensation == OFF:
             return
-        if self._is_arc(b):
+        begins = code != OFF and run.modal.compensation == OFF
+        if self._is_arc(b) and not (begins and run.dialect.has_entry_arcs):
             raise b.fault("E313")
         run.modal.compensation = code
         run.path.change_pace()

@@ -97,6 +97,13 @@ class Chain(Generic[Held]):
         begin_lead_in(self._table.F, lead)
         self._chain = [lead]
 
+    def begin_with_arc(self, contour: Element) -> None:
+        """The way in along an arc: the tool is beside its start."""
+        self._laid_out(contour)
+        if self._watch:
+            self._watch.contour(contour)
+        self._chain = [Piece[Held](contour, self._table.keep())]
+
     def _laid_out(self, element: Element) -> int:
         """Fill the next row with an element."""
         start, end, plane = element.start, element.end, element.plane

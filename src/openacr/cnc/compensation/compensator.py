@@ -4,6 +4,7 @@ from enum import Enum, auto
 from typing import Generic
 
 from openacr.cnc.compensation.chain import Chain, Held
+from openacr.cnc.compensation.entry import entry_arc
 from openacr.cnc.compensation.moves import is_motion, moved
 from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
 from openacr.cnc.elements import Element
@@ -27,6 +28,7 @@ class Compensator(Generic[Held]):
 
     def __init__(self, rules: Rules, report: Report, watch: Watch | None = None) -> None:
         self._report = report
+        self._has_entry_arcs = rules.has_entry_arcs
         self._chain: Chain[Held] = Chain(rules, report, watch)
         self._phase = Phase.OFF
         self._side = Side.LEFT
@@ -105,12 +107,27 @@ class Compensator(Generic[Held]):
     def _lead_in(self, element: Element) -> None:
         chain = self._chain
         chain.tell(element)
-        if element.centre is not None:
-            self._report("E313", "compensation cannot begin with an arc", element)
+        if element.centre is None:
+            chain.begin(self._from_here(element))
+        elif (contour := self._entry_arc(element)) is not None:
+            chain.begin_with_arc(contour)
+        else:
             chain.ready.append(element)
             return
-        chain.begin(self._from_here(element))
         self._phase = Phase.ON
+
+    def _entry_arc(self, element: Element) -> Element | None:
+        """The contour of an arc as way in; None, with a report, where it cannot be one."""
+        if not self._has_entry_arcs:
+            self._report("E313", "compensation cannot begin with an arc", element)
+            return None
+        plane, away = element.plane, self._chain.away
+        here = self._chain.at or (element.start[plane.first], element.start[plane.second])
+        contour = entry_arc(element, away, here)
+        if contour is None:
+            text = f"the tool, radius {abs(away):g}, does not come in along this arc"
+            self._report("E313", text, element)
+        return contour
 
     def _lead_out(self, element: Element) -> None:
         if element.centre is not None:

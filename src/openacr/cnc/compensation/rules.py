@@ -39,6 +39,7 @@ class Rules:
     sweep_epsilon: float = 0.01  # the smallest arc, radians
     root_epsilon: int = -4  # exponent of ten: negative squares that count as 0
     gouge_stop: bool = True  # elements that cannot be reached are errors
+    has_entry_arcs: bool = False  # the way in may be an arc
 
     @property
     def root(self) -> float:

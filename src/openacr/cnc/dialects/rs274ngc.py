@@ -57,5 +57,6 @@ DIALECTS["rs274ngc"] = Dialect(
     rises_first=True,
     clearance_inch=0.010,
     has_spirals=False,
+    has_entry_arcs=True,
     centre_codes={1: "G91.1", 2: "G90.1"},
 )
