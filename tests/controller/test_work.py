@@ -1,5 +1,6 @@
 """What one host asks for is dealt with in slices: others are served between."""
 
+import struct
 from collections.abc import Iterator
 
 import pytest
@@ -92,6 +93,42 @@ def test_what_arrives_together_is_dealt_with_turn_by_turn(host: Host) -> None:
     debt = cost * first - 5000
     assert waited == -(-(cost * (asked - first - 1) + debt + 1) // one_tick)
     assert host.send("?1\r" * first) == answer * first, "what arrives anew has a turn of its own"
+
+
+def test_packets_that_ask_for_much_are_answered_turn_by_turn(host: Host) -> None:
+    host.type("DIM P(1000)")
+    other = Host(host.card)
+    ask = bytes.fromhex("00 90 01 FF 01 00 50 00")
+    cost, asked = 12 + 8 * 255, 20
+    length = len(ask) + 4 * 255
+    host.card.receive(host.stream, ask * asked)
+    heard = b"".join(iter(lambda: host.card.take_output(host.stream), b""))
+    assert len(heard) == length * -(-5000 // cost)
+    assert other.ask("?BIT1") == "0"
+    waited = 0
+    while len(heard) < length * asked:
+        host.card.advance(1)
+        waited += 1
+        heard += b"".join(iter(lambda: host.card.take_output(host.stream), b""))
+    assert heard == (ask + bytes(4 * 255)) * asked
+    assert waited == -(-(cost * (asked - 1) - 5000 + 1) // 250)
+
+
+def test_pokes_count_by_their_values_and_moves_as_one(host: Host) -> None:
+    host.type("DIM P(1000)")
+    poke = bytes.fromhex("00 91 01 FF 01 00 50 00") + struct.pack("<255f", *[1.0] * 255)
+    last = bytes.fromhex("1C 80 00")
+    for packets, at_once in (
+        (poke * 2, True),
+        (poke * 3, False),
+        (last * 415, True),
+        (last * 417, False),
+    ):
+        host.card.bit[128] = host.card.bit[129] = False
+        host.card.receive(host.stream, packets + bytes.fromhex("1C 81 00"))
+        assert host.card.bit[129] is at_once, len(packets)
+        host.card.advance(100)
+        assert host.card.bit[129]
 
 
 def test_keys_go_before_lines_that_wait_for_their_turn(host: Host) -> None:

@@ -76,8 +76,6 @@ def test_the_clock_counts_on(step: Callable[..., None], crossing: int) -> None:
 @pytest.mark.parametrize("crossing", CROSSINGS)
 def test_a_journal_is_replayed_across_it(crossing: int, tmp_path: Path) -> None:
     made = card(crossing - BEFORE)
-    for line in ("PLC0", "NEW", "PROG0"):
-        made.send(f"{line}\r")
     made.recorder = Recorder(made, tmp_path / "a.journal")
     list(live(made))
     made.advance(seconds=1.1)  # one digest of every second

@@ -117,7 +117,7 @@ class Controller(Surroundings):
     def receive(self, stream: int, data: bytes) -> None:
         """Bytes that arrived together, at the present tick; UserError for a stream not open.
 
-        Lines beyond some 2 ms of work wait for the ticks that follow; keys and packets do not.
+        Lines and packets beyond some 2 ms of work wait for the ticks that follow; keys do not.
         """
         self.streams.opened(stream)
         self._note(Entered.BYTES, stream, text=data.decode("latin-1"))

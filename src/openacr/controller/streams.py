@@ -25,12 +25,15 @@ from openacr.protocol.events import (
     Typed,
 )
 from openacr.protocol.execute import execute
+from openacr.protocol.memory import Poke
 from openacr.protocol.move import Move
 from openacr.protocol.terminal import Terminal, TerminalState
 
 CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
 LINE_WORK = 150  # to take one line, in the units of a LIST: 2.5 of them are a microsecond
 CHARACTER_WORK = 30  # more for each of its characters
+PACKET_WORK = 12  # to act on a packet
+VALUE_WORK = 8  # more for each value it reads or pokes
 WORK_PER_TURN = 5000  # some 2 ms of the computer for what arrives together
 WORK_PER_TICK = 250  # some 0.1 ms in every tick for lines that are left over
 
@@ -288,7 +291,11 @@ class Streams:
 
 
 def _work(event: Event) -> int:
-    """What an event may cost; packets and keys cost little."""
+    """What an event may cost; keys cost nothing."""
     if isinstance(event, Line):
         return LINE_WORK + CHARACTER_WORK * len(event.text)
+    if isinstance(event, Received):
+        packet = event.packet
+        values = packet.count if isinstance(packet, Poke) else packet.reply_words()
+        return PACKET_WORK + VALUE_WORK * values
     return LINE_WORK if isinstance(event, LineTooLong) else 0
