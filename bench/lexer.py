@@ -4,7 +4,7 @@ from pathlib import Path
 
 from bench.cards import ROOT
 from bench.figures import best_s, value_only
-from openacr.basic.loader import file_lines
+from openacr.basic.language.loader import file_lines
 from openacr.controller import Controller
 from openacr.lang.lexer import tokens
 

@@ -2,7 +2,7 @@
 
 from bench.cards import type_lines
 from bench.figures import at_least, best_s, value_only
-from openacr.basic.vm_cy import vm_run
+from openacr.basic.vm.vm_cy import vm_run
 from openacr.compiled import pick
 from openacr.controller import Controller
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.basic.channel_words import ECHO_BITS, MODE_BITS
+from openacr.basic.channels.channel_words import ECHO_BITS, MODE_BITS
 from openacr.channels import CHANNELS, BinaryMode, StreamKind, startup_mode
 from openacr.models import MODELS
 

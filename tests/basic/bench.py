@@ -5,8 +5,10 @@ from collections.abc import Callable
 from tests.basic.parsing import parse_line
 
 import openacr.basic.commands
-import openacr.basic.strings  # noqa: F401 - both enter their words
-from openacr.basic.nodes import (
+import openacr.basic.commands.strings  # noqa: F401 - both enter their words
+from openacr.basic.channels.session import Session
+from openacr.basic.execute.system import System
+from openacr.basic.language.nodes import (
     Alias,
     Apply,
     Binary,
@@ -22,12 +24,10 @@ from openacr.basic.nodes import (
     StringLocal,
     Unary,
 )
-from openacr.basic.program_store import StoredLine
-from openacr.basic.registry import Level
-from openacr.basic.run import Evaluator, Run, Wait
-from openacr.basic.session import Session
-from openacr.basic.string_storage import StringBlock
-from openacr.basic.system import System
+from openacr.basic.language.registry import Level
+from openacr.basic.memory.program_store import StoredLine
+from openacr.basic.memory.string_storage import StringBlock
+from openacr.basic.vm.run import Evaluator, Run, Wait
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import UNDEFINED_VARIABLE

@@ -1,9 +1,9 @@
 """A card without servo interrupt: channels, programs and their clock."""
 
-from openacr.basic.control import ProgramControl
-from openacr.basic.executor import Executor
-from openacr.basic.session import Session
-from openacr.basic.system import System
+from openacr.basic.channels.session import Session
+from openacr.basic.execute.control import ProgramControl
+from openacr.basic.execute.executor import Executor
+from openacr.basic.execute.system import System
 from openacr.map import numbers as at
 from openacr.models import ACR9000, Model
 from openacr.motion.card import Card

@@ -2,11 +2,11 @@
 
 import math
 
-from openacr.basic.control import ProgramControl
-from openacr.basic.executor import Executor
-from openacr.basic.registry import Level
-from openacr.basic.session import Session
-from openacr.basic.system import System
+from openacr.basic.channels.session import Session
+from openacr.basic.execute.control import ProgramControl
+from openacr.basic.execute.executor import Executor
+from openacr.basic.execute.system import System
+from openacr.basic.language.registry import Level
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at

@@ -1,8 +1,8 @@
 """The tree of one line, as the card parses it."""
 
-from openacr.basic.nodes import Line
-from openacr.basic.parser import Parser
-from openacr.basic.scope import Scope
+from openacr.basic.language.nodes import Line
+from openacr.basic.language.parser import Parser
+from openacr.basic.language.scope import Scope
 from openacr.lang.lexer import tokens
 
 

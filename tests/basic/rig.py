@@ -1,9 +1,9 @@
 """A card whose programs and typed lines are executed for real, tick by tick, without motion."""
 
-from openacr.basic.executor import Executor
-from openacr.basic.registry import Level
-from openacr.basic.session import Session
-from openacr.basic.system import System
+from openacr.basic.channels.session import Session
+from openacr.basic.execute.executor import Executor
+from openacr.basic.execute.system import System
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 from openacr.models import ACR8020
 from openacr.motion.card import Card

@@ -3,10 +3,10 @@
 import pytest
 from tests.basic.bench import Bench
 
-import openacr.basic.strings  # noqa: F401 - enters its functions
-from openacr.basic.aliases import Aliases
-from openacr.basic.nodes import Flag, Number, Parameter
-from openacr.basic.scope import join_names
+import openacr.basic.commands.strings  # noqa: F401 - enters its functions
+from openacr.basic.language.aliases import Aliases
+from openacr.basic.language.nodes import Flag, Number, Parameter
+from openacr.basic.language.scope import join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.models import ACR7000

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 POSITIVE_HARD, NEGATIVE_HARD, POSITIVE_SOFT, NEGATIVE_SOFT = 16132, 16133, 16140, 16141

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 KAMR_X, KAMR_Y, KILL_MOVES, STOP_MOVES = 8467, 8499, 522, 523

@@ -5,9 +5,9 @@ from tests.basic.parsing import parse_line
 from tests.basic.rig import Rig
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
-from openacr.basic.compiler import compile_program
-from openacr.basic.levels import CompileError
-from openacr.basic.scope import Scope
+from openacr.basic.language.scope import Scope
+from openacr.basic.vm.compiler import compile_program
+from openacr.basic.vm.levels import CompileError
 
 STORED = Scope(stored=True)
 

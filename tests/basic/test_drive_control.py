@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 ENABLED = 8465

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.rig import Rig
 
-from openacr.basic import arith_cy, functions_cy
+from openacr.basic.vm import arith_cy, functions_cy
 from openacr.compiled import counterpart, is_compiled
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -315,8 +315,8 @@ def test_expressions_agree_with_python(rig: Rig, tree: tuple[str, float | None])
     text, expected = tree
     if len(text) > 200:
         return
-    from openacr.basic.expressions import ExpressionParser
-    from openacr.basic.nodes import Number
+    from openacr.basic.language.expressions import ExpressionParser
+    from openacr.basic.language.nodes import Number
     from openacr.lang.lexer import tokens
 
     node = ExpressionParser(tokens(text), {}).expression()

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 CURRENT, TARGET, ACTUAL, ERROR, CAPTURE = 12288, 12289, 12290, 12291, 12292

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 CURRENT, ACTUAL, PSP, GEAR, SLIP, ON_OFFSET = 12288, 12290, 12294, 12296, 12369, 12396

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 from openacr.motion import attach
 from openacr.motion.attach import Feedback, Signal

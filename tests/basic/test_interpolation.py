@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.motion import settings
 
 IN_MOTION, BUFFERED = 516, 517

@@ -4,7 +4,7 @@ import pytest
 from tests.basic.bench import Bench
 from typer.testing import CliRunner
 
-from openacr.basic.ip_address import IpAddress
+from openacr.basic.memory.ip_address import IpAddress
 from openacr.cli.main import app
 from openacr.errors import CardError
 

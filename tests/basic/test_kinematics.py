@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.language_state import put_back, take
-from openacr.basic.registry import Level
+from openacr.basic.execute.language_state import put_back, take
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 IN_MOTION, KINEMATICS = 516, (at.MF4_WORD - 4096) * 32 + 16

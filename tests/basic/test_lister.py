@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from tests.basic.parsing import parse_line
 
 import openacr.basic.commands
-import openacr.basic.strings  # noqa: F401 - both enter their words
-from openacr.basic.lister import Lister, literal
-from openacr.basic.loader import file_lines
-from openacr.basic.program_store import StoredLine
-from openacr.basic.registry import Level
-from openacr.basic.scope import Scope
+import openacr.basic.commands.strings  # noqa: F401 - both enter their words
+from openacr.basic.language.lister import Lister, literal
+from openacr.basic.language.loader import file_lines
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope
+from openacr.basic.memory.program_store import StoredLine
 from openacr.lang.lexer import Kind, tokens
 
 STORED = Scope(Level.PROG, stored=True)

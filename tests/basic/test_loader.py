@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.basic.loader import FileLine, file_lines
+from openacr.basic.language.loader import FileLine, file_lines
 
 
 def texts(source: str) -> list[str]:

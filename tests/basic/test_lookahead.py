@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 from openacr.motion import moves
 from openacr.motion.orders import Target

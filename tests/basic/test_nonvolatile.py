@@ -6,9 +6,10 @@ import msgspec
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.basic import registry, saved, saved_flags, saving, user_memory
 from openacr.basic.commands.nonvolatile import hex_records
-from openacr.basic.user_memory import UserMemory
+from openacr.basic.language import registry
+from openacr.basic.memory import saved, saved_flags, saving, user_memory
+from openacr.basic.memory.user_memory import UserMemory
 from openacr.controller import Controller
 from openacr.map import numbers as at
 from openacr.models import ACR8020, ACR9000

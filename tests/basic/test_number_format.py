@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openacr.basic.number_format import (
+from openacr.basic.language.number_format import (
     Kind,
     UsingFormat,
     bit_text,

@@ -4,9 +4,9 @@ import pytest
 from tests.basic.bench import Bench
 from tests.basic.parsing import parse_line
 
-from openacr.basic import registry
-from openacr.basic.registry import Level
-from openacr.basic.scope import Scope
+from openacr.basic.language import registry
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope
 from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import UNDEFINED_SYMBOL, UNKNOWN_COMMAND

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here

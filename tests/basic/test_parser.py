@@ -6,9 +6,9 @@ import pytest
 from tests.basic.parsing import parse_line
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
-from openacr.basic.expressions import StatementError
-from openacr.basic.grammar import AxisItem, TargetItem
-from openacr.basic.nodes import (
+from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.grammar import AxisItem, TargetItem
+from openacr.basic.language.nodes import (
     AxisRef,
     Binary,
     Expr,
@@ -22,8 +22,8 @@ from openacr.basic.nodes import (
     Parameter,
     Statement,
 )
-from openacr.basic.registry import Level
-from openacr.basic.scope import Scope
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope
 
 AXES = frozenset(("X", "Y"))
 ALIASES: dict[str, Expr] = {

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from openacr.basic.program_store import ProgramStore, StoredLine, line_number, opens_capture
-from openacr.basic.scope import Scope
-from openacr.basic.storage import Storage
+from openacr.basic.language.scope import Scope
+from openacr.basic.memory.program_store import ProgramStore, StoredLine, line_number, opens_capture
+from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.map import numbers as at

@@ -5,10 +5,10 @@ import pickle
 import pytest
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
-from openacr.basic import registry
-from openacr.basic.grammar import Num
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
+from openacr.basic.language import registry
+from openacr.basic.language.grammar import Num
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm.run import Run
 
 
 def test_every_command_says_what_it_does() -> None:
@@ -41,8 +41,8 @@ def test_rows_pickle_by_name() -> None:
 def test_a_new_command_is_one_decorated_function(monkeypatch: pytest.MonkeyPatch) -> None:
     from tests.basic.parsing import parse_line
 
-    from openacr.basic.nodes import Number, Statement
-    from openacr.basic.scope import Scope
+    from openacr.basic.language.nodes import Number, Statement
+    from openacr.basic.language.scope import Scope
 
     monkeypatch.setattr(registry, "_commands", dict(registry._commands))
     monkeypatch.setattr(registry, "root", registry.Node(dict(registry.root.children)))

@@ -3,8 +3,8 @@
 import pytest
 from tests.basic.rig import Rig
 
-from openacr.basic import scheduler_cy, vm_cy
-from openacr.basic.language_state import put_back, take
+from openacr.basic.execute.language_state import put_back, take
+from openacr.basic.vm import scheduler_cy, vm_cy
 from openacr.compiled import counterpart, is_compiled
 
 RUNNING, DWELLING, INHIBITED, TIMEOUT = 1024, 1025, 1026, 1028

@@ -4,7 +4,7 @@ import pytest
 from tests.basic.bench import Bench
 from tests.basic.machine import Machine
 
-from openacr.basic.run import Wait, WaitKind
+from openacr.basic.vm.run import Wait, WaitKind
 from openacr.channels import Attention
 from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openacr.basic.heap import ARRAYS, SCALARS, Heap
-from openacr.basic.storage import Storage
+from openacr.basic.memory.heap import ARRAYS, SCALARS, Heap
+from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import openacr.basic.strings  # noqa: F401 - enters the functions
-from openacr.basic.number_format import double_text
-from openacr.basic.registry import functions
+import openacr.basic.commands.strings  # noqa: F401 - enters the functions
+from openacr.basic.language.number_format import double_text
+from openacr.basic.language.registry import functions
 from openacr.errors import CardError
 
 

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import PERIOD_S, Bench
 
-from openacr.basic.registry import Level
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 MOVING = (516, 548)  # In Motion of masters 0 and 1

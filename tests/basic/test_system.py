@@ -3,8 +3,8 @@
 from msgspec import msgpack
 from tests.basic.machine import Machine
 
-from openacr.basic.language_state import Language, put_back, take
-from openacr.basic.loader import file_lines
+from openacr.basic.execute.language_state import Language, put_back, take
+from openacr.basic.language.loader import file_lines
 from openacr.channels import Attention
 
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from openacr.basic import registry
 from openacr.basic.commands.operating_system import help_words
+from openacr.basic.language import registry
+from openacr.basic.language.written import levels, reports, syntax
 from openacr.basic.reference import examples_of, groups, pages, slug, title
-from openacr.basic.written import levels, reports, syntax
 from openacr.map import flags, parameters
 from openacr.messages import MESSAGES
 

@@ -6,8 +6,8 @@ from functools import cache
 import pytest
 from tests.fuzz.test_lines import Victim
 
-from openacr.basic import grammar as forms
-from openacr.basic import registry
+from openacr.basic.language import grammar as forms
+from openacr.basic.language import registry
 from openacr.map.numbers import USER_BASE
 
 NUMBERS = (math.inf, -math.inf, math.nan, 1e300, -1e300, 2.0**63, -(2.0**63), 2.0**31, -1.0, 1e-320)

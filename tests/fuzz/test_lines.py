@@ -13,11 +13,11 @@ from tests.basic.parsing import parse_line
 from tests.controller.hosts import X_AND_Y, Host
 from tests.fuzz.programs import BROKEN, Programs
 
-from openacr.basic.compiler import compile_program
-from openacr.basic.levels import CompileError
-from openacr.basic.nodes import Number, Parameter
-from openacr.basic.registry import Level
-from openacr.basic.scope import Scope
+from openacr.basic.language.nodes import Number, Parameter
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope
+from openacr.basic.vm.compiler import compile_program
+from openacr.basic.vm.levels import CompileError
 from openacr.channels import StreamKind
 from openacr.cli.source import Reader
 from openacr.controller import Controller

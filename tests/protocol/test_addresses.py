@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from openacr.basic.storage import Storage
+from openacr.basic.memory.storage import Storage
 from openacr.errors import MapError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory

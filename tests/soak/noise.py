@@ -4,7 +4,7 @@ import random
 import struct
 
 from openacr.basic import commands as _commands  # noqa: F401 - registers the commands
-from openacr.basic import registry
+from openacr.basic.language import registry
 
 NUMBERS = (
     "0", "1", "-1", "2", "3", "15", "16", "0.5", "-0.001", "1e5", "-1E-7", "255", "256", "4095",

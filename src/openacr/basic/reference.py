@@ -15,16 +15,16 @@ from inspect import cleandoc
 from pathlib import Path
 
 from openacr.basic import commands as _commands  # noqa: F401 - registers the commands
-from openacr.basic import registry
-from openacr.basic import strings as _strings  # noqa: F401 - registers the functions
-from openacr.basic.expressions import BINARY, NOT_LEVEL, SIGN_LEVEL
-from openacr.basic.lister import Lister
-from openacr.basic.loader import file_lines
-from openacr.basic.nodes import Block, Line, Statement
-from openacr.basic.parser import Parser
-from openacr.basic.registry import INDEX, Command, Level
-from openacr.basic.scope import Scope
-from openacr.basic.written import call, levels, limits, reports, syntax
+from openacr.basic.commands import strings as _strings  # noqa: F401 - registers the functions
+from openacr.basic.language import registry
+from openacr.basic.language.expressions import BINARY, NOT_LEVEL, SIGN_LEVEL
+from openacr.basic.language.lister import Lister
+from openacr.basic.language.loader import file_lines
+from openacr.basic.language.nodes import Block, Line, Statement
+from openacr.basic.language.parser import Parser
+from openacr.basic.language.registry import INDEX, Command, Level
+from openacr.basic.language.scope import Scope
+from openacr.basic.language.written import call, levels, limits, reports, syntax
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, tokens
 from openacr.map import flags, parameters

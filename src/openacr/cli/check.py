@@ -74,7 +74,7 @@ def read(file: Path, project: Project, at: tuple[Place, int] | None = None) -> "
 
     `at` is the level of a file whose name does not say it.
     """
-    from openacr.basic.storage import Storage
+    from openacr.basic.memory.storage import Storage
     from openacr.cli.cutoffs import Cutoffs
     from openacr.cli.room import Room
     from openacr.cli.source import Reader

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from openacr.basic.lister import Lister
+from openacr.basic.language.lister import Lister
 from openacr.channels import StreamKind
 from openacr.cli import card_view
 from openacr.cli.events import Event, EventLog

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from openacr.basic.grammar.axes import AxisItem
-from openacr.basic.loader import FileLine
-from openacr.basic.nodes import Block, Number, Statement
+from openacr.basic.language.grammar.axes import AxisItem
+from openacr.basic.language.loader import FileLine
+from openacr.basic.language.nodes import Block, Number, Statement
 from openacr.cli.texts import Finding
 from openacr.lang.lexer import Kind, Token
 from openacr.lang.source import Span

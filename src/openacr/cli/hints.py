@@ -3,9 +3,9 @@
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
-from openacr.basic import registry
-from openacr.basic.registry import Level
-from openacr.basic.written import call, command_before, function_at, syntax
+from openacr.basic.language import registry
+from openacr.basic.language.registry import Level
+from openacr.basic.language.written import call, command_before, function_at, syntax
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind, Token, tokens
 from openacr.lang.source import Span

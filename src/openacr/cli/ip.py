@@ -13,7 +13,7 @@ def explain_address(
     host: Annotated[str, typer.Option(help="The address of the computer that asks.")] = "",
 ) -> None:
     """Explain an address of the network: class, network, host, reach."""
-    from openacr.basic.ip_address import IpAddress
+    from openacr.basic.memory.ip_address import IpAddress
 
     def read(text: str) -> IpAddress:
         try:

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
-from openacr.basic.expressions import StatementError
-from openacr.basic.grammar.flags import BitItem
-from openacr.basic.loader import FileLine
-from openacr.basic.nodes import (
+from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.grammar.flags import BitItem
+from openacr.basic.language.loader import FileLine
+from openacr.basic.language.nodes import (
     Alias,
     AxisRef,
     Block,
@@ -18,7 +18,7 @@ from openacr.basic.nodes import (
     Prefix,
     Statement,
 )
-from openacr.basic.registry import Command, Function
+from openacr.basic.language.registry import Command, Function
 from openacr.cli.cutoffs import statements
 from openacr.cli.texts import Finding
 from openacr.lang.lexer import Kind, Token

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
-from openacr.basic import targets
+from openacr.basic.commands import targets
 from openacr.basic.commands.character_io import channel_name
 from openacr.basic.commands.memory_control import (
     Dimension,
@@ -11,13 +11,13 @@ from openacr.basic.commands.memory_control import (
     dimension_system,
     is_of_system,
 )
-from openacr.basic.grammar import ObjectRef
-from openacr.basic.memory_cost import PLC_INSTRUCTION, line_bytes
-from openacr.basic.nodes import Block, Expr, Number, Statement, resolved
-from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.program_store import OWNERS
-from openacr.basic.registry import Level
-from openacr.basic.storage import Storage
+from openacr.basic.language.grammar import ObjectRef
+from openacr.basic.language.nodes import Block, Expr, Number, Statement, resolved
+from openacr.basic.language.registry import Level
+from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, line_bytes
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.memory.program_store import OWNERS
+from openacr.basic.memory.storage import Storage
 from openacr.cli.texts import Finding, Text, TextLine
 from openacr.errors import CardError
 from openacr.map.memory import Memory

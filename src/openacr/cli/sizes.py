@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from openacr.basic.commands.memory_control import Dimension
-from openacr.basic.expressions import StatementError
-from openacr.basic.nodes import (
+from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.nodes import (
     Block,
     Element,
     Expr,
@@ -20,7 +20,7 @@ from openacr.basic.nodes import (
     StringLocal,
     resolved,
 )
-from openacr.basic.outline import STORED_KINDS
+from openacr.basic.vm.outline import STORED_KINDS
 from openacr.cli.texts import Finding, Text, TextLine
 from openacr.lang.lexer import Kind, Token
 from openacr.map.numbers import USER_COUNT

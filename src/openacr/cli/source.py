@@ -9,19 +9,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
-from openacr.basic.aliases import check_name, numbered_names
+from openacr.basic.channels.entry import split_at_level
 from openacr.basic.commands.card_setup import CONFIG_NOTICE
 from openacr.basic.commands.operating_system import Definition
-from openacr.basic.entry import split_at_level
-from openacr.basic.lister import Lister
-from openacr.basic.loader import FileLine, file_lines, long_lived_objects
-from openacr.basic.nodes import Block, Expr, Move, Number, Statement, String
-from openacr.basic.outline import Outline, outline
-from openacr.basic.parser import Parser
-from openacr.basic.plc_names import PlcNames
-from openacr.basic.program_store import line_number, opens_capture
-from openacr.basic.registry import Level
-from openacr.basic.scope import Scope, join_names
+from openacr.basic.language.aliases import check_name, numbered_names
+from openacr.basic.language.lister import Lister
+from openacr.basic.language.loader import FileLine, file_lines, long_lived_objects
+from openacr.basic.language.nodes import Block, Expr, Move, Number, Statement, String
+from openacr.basic.language.parser import Parser
+from openacr.basic.language.plc_names import PlcNames
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope, join_names
+from openacr.basic.memory.program_store import line_number, opens_capture
+from openacr.basic.vm.outline import Outline, outline
 from openacr.cli import numbers
 from openacr.cli.cutoffs import Cutoffs, statements
 from openacr.cli.faults import Fault

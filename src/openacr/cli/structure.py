@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from openacr.basic import flow_cy as flow
-from openacr.basic.expressions import StatementError
-from openacr.basic.levels import CompileError, Level, Levels, unclosed
-from openacr.basic.outline import KINDS, Event, OpenLevel, follow
+from openacr.basic.language.expressions import StatementError
+from openacr.basic.vm import flow_cy as flow
+from openacr.basic.vm.levels import CompileError, Level, Levels, unclosed
+from openacr.basic.vm.outline import KINDS, Event, OpenLevel, follow
 from openacr.cli.hints import lines_near, names_like
 from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError

@@ -4,11 +4,11 @@ import re
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from openacr.basic.loader import FileLine
-from openacr.basic.outline import Outline
-from openacr.basic.parser import LONGEST_LABEL
-from openacr.basic.program_store import StoredLine
-from openacr.basic.scope import Scope
+from openacr.basic.language.loader import FileLine
+from openacr.basic.language.parser import LONGEST_LABEL
+from openacr.basic.language.scope import Scope
+from openacr.basic.memory.program_store import StoredLine
+from openacr.basic.vm.outline import Outline
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, plain, tokens
 from openacr.lang.source import Span

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import TypeAlias
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
-from openacr.basic import registry
-from openacr.basic.grammar import AxisList, Either, Num
-from openacr.basic.registry import INDEX, Command
-from openacr.basic.storage import Storage
+from openacr.basic.language import registry
+from openacr.basic.language.grammar import AxisList, Either, Num
+from openacr.basic.language.registry import INDEX, Command
+from openacr.basic.memory.storage import Storage
 from openacr.client import values
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError

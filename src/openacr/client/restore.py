@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from openacr.basic import registry
-from openacr.basic.registry import Command
+from openacr.basic.language import registry
+from openacr.basic.language.registry import Command
 from openacr.client.backup import Files, backup, files_of
 from openacr.client.effects import Op
 from openacr.client.errors import ClientError, DownloadError, RefusedError, RestoreError

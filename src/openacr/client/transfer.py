@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from openacr.basic.loader import FileLine, file_lines
-from openacr.basic.program_store import opens_capture
+from openacr.basic.language.loader import FileLine, file_lines
+from openacr.basic.memory.program_store import opens_capture
 from openacr.channels import EchoMode
 from openacr.client.effects import Op
 from openacr.client.errors import ClientError, DownloadError, RefusedError, VerificationError

@@ -11,9 +11,9 @@ from array import array
 import msgspec
 from msgspec import Struct
 
-from openacr.basic import user_memory
-from openacr.basic.system import System
-from openacr.basic.user_memory import Data, Text, UserMemory
+from openacr.basic.execute.system import System
+from openacr.basic.memory import user_memory
+from openacr.basic.memory.user_memory import Data, Text, UserMemory
 from openacr.controller.shelf import Shelf
 from openacr.errors import CardError
 from openacr.map import numbers as at

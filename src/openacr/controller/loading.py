@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from openacr.basic.loader import file_lines, long_lived_objects
-from openacr.basic.program_store import ProgramStore, StoredLine
-from openacr.basic.registry import Level
-from openacr.basic.session import Session
+from openacr.basic.channels.session import Session
+from openacr.basic.language.loader import file_lines, long_lived_objects
+from openacr.basic.language.registry import Level
+from openacr.basic.memory.program_store import ProgramStore, StoredLine
 from openacr.errors import CardError, SourceError
 from openacr.motion import modules
 from openacr.project import Place, Project, SourceFile

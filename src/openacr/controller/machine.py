@@ -10,12 +10,12 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
-from openacr.basic.control import ProgramControl
-from openacr.basic.executor import Executor
-from openacr.basic.plc_names import PlcNames
-from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.scope import Scope, join_names
-from openacr.basic.system import System
+from openacr.basic.execute.control import ProgramControl
+from openacr.basic.execute.executor import Executor
+from openacr.basic.execute.system import System
+from openacr.basic.language.plc_names import PlcNames
+from openacr.basic.language.scope import Scope, join_names
+from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.packets import PacketHost
 from openacr.controller.persistence import Persistence

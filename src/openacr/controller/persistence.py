@@ -18,10 +18,10 @@ from zlib import crc32
 
 import msgspec
 
-from openacr.basic import saved, user_memory
-from openacr.basic.setup import Setup
-from openacr.basic.system import System
-from openacr.basic.user_memory import UserMemory
+from openacr.basic.execute.system import System
+from openacr.basic.memory import saved, user_memory
+from openacr.basic.memory.setup import Setup
+from openacr.basic.memory.user_memory import UserMemory
 from openacr.controller.battery import BATTERY, Battery
 from openacr.controller.shelf import UNREADABLE, Shelf
 from openacr.errors import CardError, StoreError

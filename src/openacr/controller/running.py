@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from openacr.basic.channel_words import take_escapes
+from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import pick
 from openacr.controller.machine import Machine
 from openacr.controller.trace import Reals, Trace, build_trace

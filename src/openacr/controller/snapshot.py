@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import msgspec
 from msgspec import Struct
 
-from openacr.basic import language_state
-from openacr.basic.language_state import Language
-from openacr.basic.ranges import Index
+from openacr.basic.execute import language_state
+from openacr.basic.execute.language_state import Language
+from openacr.basic.memory.ranges import Index
 from openacr.controller.streams import StreamsState
 from openacr.errors import StoreError
 from openacr.map import numbers

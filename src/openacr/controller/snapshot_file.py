@@ -18,7 +18,7 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta, Struct
 
-from openacr.basic.heap import Heap
+from openacr.basic.memory.heap import Heap
 from openacr.controller.snapshot import Beside, Snapshot, layout
 from openacr.errors import StoreError
 from openacr.map.memory import Memory

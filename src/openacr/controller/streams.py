@@ -8,8 +8,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from openacr.basic.ranges import Index, ProgramNumber
-from openacr.basic.session import Session
+from openacr.basic.channels.session import Session
+from openacr.basic.memory.ranges import Index, ProgramNumber
 from openacr.channels import CHANNELS, Attention, BinaryMode, StreamKind
 from openacr.controller.packets import PacketHost
 from openacr.errors import NoFreeStreamError, StoreError, UserError

@@ -6,7 +6,7 @@ Whoever calls deals with the reason for coming back and calls again; the work go
 the same place of the same tick.
 """
 
-from openacr.basic.scheduler_cy import scheduler_step
+from openacr.basic.vm.scheduler_cy import scheduler_step
 from openacr.engine.trace_cy import trace_tick
 from openacr.engine.watch_cy import watch_fired
 from openacr.kernel.modules_cy import missing_outputs_step

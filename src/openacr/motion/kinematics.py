@@ -2,7 +2,7 @@
 
 The coordinated positions of the slaves are those of the tool; what the joints are off is a
 part of its own of the setpoints (kernel/axis_cy.py). The program that computes the joints
-is the language's business (basic/kinematics_cy.py).
+is the language's business (basic/vm/kinematics_cy.py).
 """
 
 from openacr.compiled import pick

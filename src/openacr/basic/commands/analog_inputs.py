@@ -8,11 +8,11 @@ of four bits each (P6918, P6919), the resolution and the number of scanned input
 
 from dataclasses import dataclass
 
-from openacr.basic.grammar import Int, Word
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
-from openacr.basic.saving import each, kept
-from openacr.basic.value_commands import check_number
+from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language.grammar import Int, Word
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.memory.saving import each, kept
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import (
     KRI_ADC_CHANNELS,

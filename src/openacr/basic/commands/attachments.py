@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from openacr.basic.commands.operating_system import GROUP
-from openacr.basic.grammar import Object, ObjectRef, Str
-from openacr.basic.registry import ANY, PROG, SYS, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Object, ObjectRef, Str
+from openacr.basic.language.registry import ANY, PROG, SYS, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL
 from openacr.motion import attach as attachment

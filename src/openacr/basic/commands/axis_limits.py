@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openacr.basic.grammar import Axis, AxisList, AxisValue, AxisValues, Either, Int, Word
-from openacr.basic.nodes import AxisRef
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run, whole
-from openacr.basic.value_commands import Band, Value, axis_bands, axis_values, check_all, value_text
+from openacr.basic.commands.value_commands import (
+    Band,
+    Value,
+    axis_bands,
+    axis_values,
+    check_all,
+    value_text,
+)
+from openacr.basic.language.grammar import Axis, AxisList, AxisValue, AxisValues, Either, Int, Word
+from openacr.basic.language.nodes import AxisRef
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run, whole
 from openacr.map.numbers import (
     AX_MINUS_A_LIMIT,
     AX_MINUS_B_LIMIT,

@@ -1,6 +1,6 @@
 """Setpoint control: backlash."""
 
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.map.numbers import AX_BACKLASH_SETTING
 from openacr.motion.settings import of_axis
 

@@ -9,11 +9,11 @@ from openacr.basic.commands.cam import (
     set_segments,
     set_shifts,
 )
-from openacr.basic.follower_forms import AxisSources, Segment, SegmentForm, choose_sources
-from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.follower_forms import AxisSources, Segment, SegmentForm, choose_sources
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.kernel.cam_cy import BALLSCREW_TABLES
 from openacr.kernel.source_cy import FROM_SELF, USE_BALLSCREW
 from openacr.map.numbers import TBF_FLZ_CNT, TBF_OFFSET_U, TBF_SCALE

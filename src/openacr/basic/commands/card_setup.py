@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.basic.grammar import Form, Int, Repeat, Str, Word
-from openacr.basic.registry import ANY, IMMEDIATE, command
-from openacr.basic.run import Run
-from openacr.basic.setup import DEFAULT_CONFIG, Setup
+from openacr.basic.language.grammar import Form, Int, Repeat, Str, Word
+from openacr.basic.language.registry import ANY, IMMEDIATE, command
+from openacr.basic.memory.setup import DEFAULT_CONFIG, Setup
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.map import numbers as at
@@ -17,7 +17,7 @@ from openacr.motion.modules import is_fitted
 from openacr.motion.rows import axis_ints
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Operating System"
 REF = "PG Operating System"

@@ -5,25 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
-from openacr.basic import strings
+from openacr.basic.channels.devices import Key
+from openacr.basic.commands import strings
 from openacr.basic.commands.character_io import (
     DEVICES,
     GROUP,
     at_separator,
     read_device,
 )
-from openacr.basic.devices import Key
-from openacr.basic.grammar import Form, Lvalue, Repeat
-from openacr.basic.nodes import Expr, is_text
-from openacr.basic.registry import PROG, PROGRAM, command, function
-from openacr.basic.run import LINE_END, Run, Show, Wait, WaitKind
+from openacr.basic.language.grammar import Form, Lvalue, Repeat
+from openacr.basic.language.nodes import Expr, is_text
+from openacr.basic.language.registry import PROG, PROGRAM, command, function
+from openacr.basic.vm.run import LINE_END, Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.map import numbers as at
 from openacr.messages import INVALID_DEVICE
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic.grammar import (
+from openacr.basic.channels.pass_through import join_channel
+from openacr.basic.language.grammar import (
     Command,
     Either,
     Form,
@@ -16,22 +17,21 @@ from openacr.basic.grammar import (
     ObjectRef,
     Str,
 )
-from openacr.basic.nodes import (
+from openacr.basic.language.nodes import (
     Expr,
     Statement,
     is_text,
 )
-from openacr.basic.number_format import UsingFormat
-from openacr.basic.pass_through import join_channel
-from openacr.basic.printed import printed
-from openacr.basic.registry import ANY, IMMEDIATE, PROG, command, functions
-from openacr.basic.run import LINE_END, Run, Wait, WaitKind
+from openacr.basic.language.number_format import UsingFormat
+from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command, functions
+from openacr.basic.vm.printed import printed
+from openacr.basic.vm.run import LINE_END, Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.messages import INVALID_DEVICE, SYNTAX_ERROR, UNDEFINED_SYMBOL
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Character I/O"
 TAB = "\t"

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.basic.commands.global_objects import adcs, dacs, encoder_count
-from openacr.basic.grammar import Form, Group, Int
-from openacr.basic.nodes import Expr
-from openacr.basic.number_format import Kind, number_text
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
-from openacr.basic.saving import each, kept
-from openacr.basic.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.language.grammar import Form, Group, Int
+from openacr.basic.language.nodes import Expr
+from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.memory.saving import each, kept
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind as TokenKind
 from openacr.map import block
@@ -25,7 +25,7 @@ from openacr.motion.settings import Setting, not_negative
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"

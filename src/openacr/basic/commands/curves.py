@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.basic.commands.interpolation import GROUP, REF, Given
-from openacr.basic.grammar import AxisTarget, AxisTargets, Group, TargetItem
-from openacr.basic.registry import PROG, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import AxisTarget, AxisTargets, Group, TargetItem
+from openacr.basic.language.registry import PROG, command
+from openacr.basic.vm.run import Run
 from openacr.map.numbers import MF2_TARC_MODE
 from openacr.messages import SYNTAX_ERROR
 from openacr.motion.orders import Circle, Direction, Sine, SpaceArc
 from openacr.motion.rows import master_word2
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 
 class CurveTargets(AxisTargets):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
+from openacr.basic.channels.pass_through import join_drive
 from openacr.basic.commands.character_io import DEVICES, GROUP, port_name
-from openacr.basic.grammar import Axes, Axis, Int, Mark, Str
-from openacr.basic.pass_through import join_drive
-from openacr.basic.registry import ANY, IMMEDIATE, PROG, command
-from openacr.basic.run import Run, Wait, WaitKind
+from openacr.basic.language.grammar import Axes, Axis, Int, Mark, Str
+from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command
+from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import (

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from openacr.basic.commands.global_objects import encoder_count
-from openacr.basic.grammar import Int, ParameterName, SignedParameter
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
-from openacr.basic.saving import each, kept
-from openacr.basic.value_commands import check_number
+from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language.grammar import Int, ParameterName, SignedParameter
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.memory.saving import each, kept
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import KIND_LONG

@@ -5,19 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic import (
-    functions_cy,
-    strings,  # noqa: F401 (importing the module registers its functions)
-)
-from openacr.basic.grammar import Form, Lvalue
-from openacr.basic.nodes import Expr, Statement, is_text
-from openacr.basic.registry import ANY, command, function
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Form, Lvalue
+from openacr.basic.language.nodes import Expr, Statement, is_text
+from openacr.basic.language.registry import ANY, command, function
+from openacr.basic.vm import functions_cy
+from openacr.basic.vm.run import Run
 from openacr.messages import TYPE_MISMATCH
 
 if TYPE_CHECKING:
-    from openacr.basic.compiler import Emitter
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
+    from openacr.basic.vm.compiler import Emitter
 
 for _name, _code, _summary in (
     ("ABS", functions_cy.FN_ABS, "Absolute value."),

@@ -6,11 +6,11 @@ The virtual card has no bus to a PC: the copies are kept as the card would hand 
 
 from __future__ import annotations
 
-from openacr.basic.grammar import Group, Int
-from openacr.basic.number_format import Kind, number_text
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run, whole
-from openacr.basic.value_commands import check_number
+from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language.grammar import Group, Int
+from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of

@@ -6,9 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from openacr.basic.commands.follower_forms import LAST_CAPTURE_MODE, needs_long
 from openacr.basic.commands.interpolation import room
-from openacr.basic.follower_forms import LAST_CAPTURE_MODE, needs_long
-from openacr.basic.grammar import (
+from openacr.basic.commands.value_commands import Value, axis_values, report_all, set_or_print
+from openacr.basic.language.grammar import (
     Axes,
     Axis,
     AxisGroups,
@@ -20,10 +21,9 @@ from openacr.basic.grammar import (
     ParameterName,
     Word,
 )
-from openacr.basic.nodes import Expr
-from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run, Wait, whole
-from openacr.basic.value_commands import Value, axis_values, report_all, set_or_print
+from openacr.basic.language.nodes import Expr
+from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.map.numbers import AX_PPU, AXF_ROTARY_U
 from openacr.messages import INVALID_ARGUMENT
@@ -31,7 +31,7 @@ from openacr.motion import moves, permits, registers, settings
 from openacr.motion.settings import not_negative, not_zero, of_axis, of_axis_real
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Feedback Control"
 REF = "PG Feedback Control"

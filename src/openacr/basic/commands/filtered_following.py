@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from openacr.basic.follower_forms import AxisSources, choose_sources, needs_parameter
-from openacr.basic.grammar import (
+from openacr.basic.commands.follower_forms import AxisSources, choose_sources, needs_parameter
+from openacr.basic.language.grammar import (
     Axes,
     Axis,
     AxisList,
@@ -13,8 +13,8 @@ from openacr.basic.grammar import (
     ParameterName,
     SignedParameter,
 )
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run, whole
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run, whole
 from openacr.kernel.source_cy import USE_FILTER
 from openacr.map.numbers import FLF_WINDOW_CNT_SIZE, FLI_BASE, FLI_SIZE, FLI_STRIDE
 from openacr.motion import gear, objects

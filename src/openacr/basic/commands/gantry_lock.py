@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from openacr.basic.grammar import Axes, Axis
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Axes, Axis
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import SYNTAX_ERROR
 from openacr.motion import objects

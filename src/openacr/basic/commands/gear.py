@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openacr.basic.follower_forms import (
+from openacr.basic.commands.follower_forms import (
     AxisSources,
     Captured,
     CapturedForm,
@@ -12,11 +12,11 @@ from openacr.basic.follower_forms import (
     PassingForm,
     choose_sources,
 )
-from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
-from openacr.basic.number_format import Kind, number_text
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
+from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.kernel.source_cy import USE_GEAR
 from openacr.map import block
 from openacr.map.numbers import (

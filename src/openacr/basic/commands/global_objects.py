@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from openacr.basic.grammar import Num
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import ObjectValue, check_number, object_values, value_text
+from openacr.basic.commands.value_commands import (
+    ObjectValue,
+    check_number,
+    object_values,
+    value_text,
+)
+from openacr.basic.language.grammar import Num
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm.run import Run
 from openacr.map.block import Kind
 from openacr.map.numbers import (
     ADC_ADC_GAIN,

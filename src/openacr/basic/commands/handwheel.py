@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from openacr.basic.follower_forms import AxisSources, choose_sources
-from openacr.basic.grammar import Axes, Axis, ObjectRef
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.follower_forms import AxisSources, choose_sources
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import Axes, Axis, ObjectRef
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.kernel.source_cy import USE_JOG, USE_WHEEL
 from openacr.map import block
 from openacr.map.numbers import (

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from openacr.basic import registry
-from openacr.basic.grammar import AxisTarget, AxisTargets, Bit, BitState
-from openacr.basic.registry import PROG, command
-from openacr.basic.run import Run, Show, Wait, WaitKind
+from openacr.basic.language import registry
+from openacr.basic.language.grammar import AxisTarget, AxisTargets, Bit, BitState
+from openacr.basic.language.registry import PROG, command
+from openacr.basic.vm.run import Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT, NOT_VALID_AT_THIS_LEVEL
 from openacr.motion import curve_modes, curve_points, moves, pieces, tangent, transform

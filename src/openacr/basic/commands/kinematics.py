@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from openacr.basic.commands.interpolation import GROUP, REF
-from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import kinematics

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic import opcodes_cy as vm
-from openacr.basic.grammar import Bit, BitItem, Bits, Group, Num, ParameterName
-from openacr.basic.nodes import Flag, Statement
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Bit, BitItem, Bits, Group, Num, ParameterName
+from openacr.basic.language.nodes import Flag, Statement
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm import opcodes_cy as vm
+from openacr.basic.vm.run import Run
 
 if TYPE_CHECKING:
-    from openacr.basic.compiler import Emitter
+    from openacr.basic.vm.compiler import Emitter
 
 GROUP = "Logic Function"
 REF = "PG Logic Function"

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from openacr.basic.commands.value_commands import Value, master_values
 from openacr.basic.commands.velocity_profile import GROUP, REF
-from openacr.basic.grammar import Group, Word
-from openacr.basic.number_format import number_text
-from openacr.basic.registry import BY_OBJECT, EXTENSION, command
-from openacr.basic.run import Run, Show, Wait, WaitKind
-from openacr.basic.value_commands import Value, master_values
+from openacr.basic.language.grammar import Group, Word
+from openacr.basic.language.number_format import number_text
+from openacr.basic.language.registry import BY_OBJECT, EXTENSION, command
+from openacr.basic.vm.run import Run, Show, Wait, WaitKind
 from openacr.map.numbers import (
     MA_LOOK_AHEAD_MIN_VEL,
     MSF_TOLERANCE_U,

@@ -6,20 +6,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic import targets
+from openacr.basic.commands import targets
 from openacr.basic.commands.character_io import Channel, channel_name
-from openacr.basic.grammar import Form, Object, ObjectRef
-from openacr.basic.nodes import Expr
-from openacr.basic.program_memory import PROGRAMS
-from openacr.basic.registry import ANY, Level, command
-from openacr.basic.run import Run
-from openacr.basic.storage import Storage
+from openacr.basic.language.grammar import Form, Object, ObjectRef
+from openacr.basic.language.nodes import Expr
+from openacr.basic.language.registry import ANY, Level, command
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.memory.storage import Storage
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, PROGRAM_IN_MEMORY, SYNTAX_ERROR
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Memory Control"
 

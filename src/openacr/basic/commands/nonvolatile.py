@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import msgspec
 
-from openacr.basic import user_memory
-from openacr.basic.grammar import Int, Word
-from openacr.basic.registry import ANY, IMMEDIATE, PROG, SYS, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Int, Word
+from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, SYS, command
+from openacr.basic.memory import user_memory
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import NOT_SUPPORTED, PROGRAMS_RUNNING
 from openacr.motion.permits import axis_moving

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic import registry
-from openacr.basic.aliases import Aliases, read_target
-from openacr.basic.grammar import Form, Int, Num, Str
-from openacr.basic.lister import Lister
-from openacr.basic.nodes import Expr
-from openacr.basic.number_format import double_text
-from openacr.basic.registry import ANY, IMMEDIATE, SYS, Level, command
-from openacr.basic.run import Run
+from openacr.basic.language import registry
+from openacr.basic.language.aliases import Aliases, read_target
+from openacr.basic.language.grammar import Form, Int, Num, Str
+from openacr.basic.language.lister import Lister
+from openacr.basic.language.nodes import Expr
+from openacr.basic.language.number_format import double_text
+from openacr.basic.language.registry import ANY, IMMEDIATE, SYS, Level, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import (
     INVALID_ARGUMENT,
@@ -22,7 +22,7 @@ from openacr.motion import filters
 from openacr.motion.permits import axis_moving
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Operating System"
 REF = "PG Operating System"

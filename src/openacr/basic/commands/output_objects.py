@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openacr.basic.follower_forms import ArrayName, choose_object_source
-from openacr.basic.grammar import (
+from openacr.basic.commands.follower_forms import ArrayName, choose_object_source
+from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.language.grammar import (
     Bit,
     BitState,
     Group,
@@ -15,10 +16,9 @@ from openacr.basic.grammar import (
     SignedParameter,
     Source,
 )
-from openacr.basic.number_format import Kind, number_text
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run, whole
-from openacr.basic.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.kernel.cam_cy import LONGS
 from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from openacr.basic.commands.axis_limits import GROUP, REF
-from openacr.basic.grammar import Axes, Axis
-from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import Axes, Axis
+from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.vm.run import Run
 from openacr.map.numbers import AXF_PM_ACC_UPS2, AXF_PM_BAND_U, AXF_PM_TIME_S, AXF_PM_VEL_UPS
 from openacr.motion import maintenance
 from openacr.motion.settings import not_negative, of_axis_real

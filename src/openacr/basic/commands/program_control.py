@@ -6,12 +6,11 @@ from bisect import bisect_left
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic import targets
-from openacr.basic.grammar import Form, Int, ObjectRef, Target
-from openacr.basic.lister import Lister, depth_after, opens_free_form
-from openacr.basic.nodes import Expr
-from openacr.basic.program_store import HIGHEST_LINE_NUMBER, OWNERS, StoredLine
-from openacr.basic.registry import (
+from openacr.basic.commands import targets
+from openacr.basic.language.grammar import Form, Int, ObjectRef, Target
+from openacr.basic.language.lister import Lister, depth_after, opens_free_form
+from openacr.basic.language.nodes import Expr
+from openacr.basic.language.registry import (
     ANY,
     BY_TARGET,
     IMMEDIATE,
@@ -19,13 +18,14 @@ from openacr.basic.registry import (
     PROG,
     command,
 )
-from openacr.basic.run import Run, Wait, WaitKind
+from openacr.basic.memory.program_store import HIGHEST_LINE_NUMBER, OWNERS, StoredLine
+from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import Kind
 from openacr.messages import PROGRAM_IS_RUNNING
 
 if TYPE_CHECKING:
-    from openacr.basic.parser import Parser
+    from openacr.basic.language.parser import Parser
 
 GROUP = "Program Control"
 FORCE_LINE_NUMBERS = 5651

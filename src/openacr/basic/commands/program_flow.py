@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from openacr.basic import opcodes_cy as vm
-from openacr.basic.flow_code import (
+from openacr.basic.language.flow_forms import Destination, Step, Then, Value
+from openacr.basic.language.grammar import Condition, Int, Lvalue, Mark, Rest
+from openacr.basic.language.registry import ANY, BOTH, PLC, PROG, PROGRAM, command
+from openacr.basic.vm import opcodes_cy as vm
+from openacr.basic.vm.flow_code import (
     emit_break,
     emit_else,
     emit_elseif,
@@ -17,10 +20,7 @@ from openacr.basic.flow_code import (
     emit_wend,
     emit_while,
 )
-from openacr.basic.flow_forms import Destination, Step, Then, Value
-from openacr.basic.grammar import Condition, Int, Lvalue, Mark, Rest
-from openacr.basic.registry import ANY, BOTH, PLC, PROG, PROGRAM, command
-from openacr.basic.run import Run
+from openacr.basic.vm.run import Run
 
 GROUP = "Program Flow"
 REF = "PG Program Flow"

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from openacr.basic.follower_forms import ArrayName, needs_parameter
-from openacr.basic.grammar import Bit, BitState, Num, ObjectRef, ParameterName, SignedParameter
-from openacr.basic.number_format import Kind, number_text
-from openacr.basic.registry import ANY, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import check_number
+from openacr.basic.commands.follower_forms import ArrayName, needs_parameter
+from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language.grammar import (
+    Bit,
+    BitState,
+    Num,
+    ObjectRef,
+    ParameterName,
+    SignedParameter,
+)
+from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.registry import ANY, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.kernel.cam_cy import DOUBLES, LONGS, SINGLES
 from openacr.kernel.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openacr.basic.grammar import AxisGroups, AxisValue
-from openacr.basic.number_format import number_text
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import AxisGroups, AxisValue
+from openacr.basic.language.number_format import number_text
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import (
     AX_DERIVATIVE_GAIN,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from openacr.basic.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Int, Num
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run, whole
-from openacr.basic.value_commands import Value, axis_values
+from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Int, Num
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.map.numbers import (
     AX_JOG_ACCEL_SETTING,

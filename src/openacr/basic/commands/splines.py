@@ -7,9 +7,9 @@ SK, NK and NW, which are words also where axes are named K and W.
 from __future__ import annotations
 
 from openacr.basic.commands.interpolation import GROUP, REF, Given, Manner, room_for_pieces
-from openacr.basic.grammar import Int, Num
-from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run, Wait
+from openacr.basic.language.grammar import Int, Num
+from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.vm.run import Run, Wait
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import curve_modes, curve_points, pieces

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from openacr.basic.commands.velocity_profile import GROUP, REF
-from openacr.basic.grammar import Object, ObjectRef, Repeat
-from openacr.basic.registry import PROG, command
-from openacr.basic.run import Run
+from openacr.basic.language.grammar import Object, ObjectRef, Repeat
+from openacr.basic.language.registry import PROG, command
+from openacr.basic.vm.run import Run
 from openacr.motion import synchronism
 
 MASTERS = Repeat(Object("MASTER"))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from openacr.basic.commands.interpolation import GROUP, REF
-from openacr.basic.grammar import Axes, Axis
-from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, master_values
+from openacr.basic.commands.value_commands import Value, master_values
+from openacr.basic.language.grammar import Axes, Axis
+from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import MSF_TANG_DEG
 from openacr.messages import INVALID_ARGUMENT

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from openacr.basic.commands.value_commands import value_text
 from openacr.basic.commands.velocity_profile import GROUP, REF
-from openacr.basic.grammar import Either, Num, ObjectRef, Source, Word
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import value_text
+from openacr.basic.language.grammar import Either, Num, ObjectRef, Source, Word
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.map.numbers import MA_MOVE_TIME, MA_TIME_OVER_VELOCITY
 from openacr.motion import time_base
 from openacr.motion.settings import of_master

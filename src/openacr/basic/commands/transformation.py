@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from openacr.basic.grammar import AxisGroups, AxisList, AxisValue, AxisValues, Num
-from openacr.basic.registry import BY_OBJECT, PROG, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, axis_values, check_all, value_text
+from openacr.basic.commands.value_commands import Value, axis_values, check_all, value_text
+from openacr.basic.language.grammar import AxisGroups, AxisList, AxisValue, AxisValues, Num
+from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import AXF_FLZ_U, AXF_OFFSET_U, AXF_SCALE, AXF_SCALE_CENTER_U
 from openacr.messages import INVALID_ARGUMENT

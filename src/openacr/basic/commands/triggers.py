@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from openacr.basic.commands.follower_forms import LAST_CAPTURE_MODE, Captured, CapturedForm
 from openacr.basic.commands.interpolation import flag_state, room
-from openacr.basic.follower_forms import LAST_CAPTURE_MODE, Captured, CapturedForm
-from openacr.basic.grammar import Axis, AxisGroups, AxisList, AxisValue, Bit, BitState, Either
-from openacr.basic.registry import PROG, command
-from openacr.basic.run import Run, Wait, whole
+from openacr.basic.language.grammar import (
+    Axis,
+    AxisGroups,
+    AxisList,
+    AxisValue,
+    Bit,
+    BitState,
+    Either,
+)
+from openacr.basic.language.registry import PROG, command
+from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import moves, triggers

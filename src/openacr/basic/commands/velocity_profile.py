@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from openacr.basic.grammar import AxisValue, AxisValues
-from openacr.basic.registry import BY_OBJECT, command
-from openacr.basic.run import Run
-from openacr.basic.value_commands import Value, master_values, set_or_print
+from openacr.basic.commands.value_commands import Value, master_values, set_or_print
+from openacr.basic.language.grammar import AxisValue, AxisValues
+from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.vm.run import Run
 from openacr.map.numbers import (
     MA_FEEDRATE_OVERRIDE,
     MA_MANUAL_VECTOR,

@@ -24,8 +24,8 @@ THREAD = HiddenBlock(
         ("stack", STACK),
     ),
     ints=(
-        "state",  # see basic/scheduler_cy.py
-        "event",  # why the VM came back, see basic/vm_cy.py
+        "state",  # see basic/vm/scheduler_cy.py
+        "event",  # why the VM came back, see basic/vm/vm_cy.py
         "budget",  # statements left in this slice
         "pc",  # next operation, counted from code_base
         "sp",  # numbers on the expression stack

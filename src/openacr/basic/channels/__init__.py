@@ -1,0 +1,1 @@
+"""The command channels of a card: typed lines, levels, devices of programs."""

@@ -1,0 +1,151 @@
+"""Entering programs: numbered lines, and PROGRAM ... ENDP."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from openacr.basic.language.parser import LEVEL_WORDS
+from openacr.basic.language.registry import Level
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.memory.program_store import StoredLine, line_number, opens_capture
+from openacr.errors import CardError
+from openacr.lang.lexer import Kind, Token, plain, tokens
+from openacr.lang.shape import shape
+from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
+
+if TYPE_CHECKING:
+    from openacr.basic.channels.session import Session
+    from openacr.basic.execute.system import System
+
+_REMARK = re.compile(r":|REM(?![A-Za-z])", re.IGNORECASE)
+
+
+class Entry:
+    """Decides whether a line typed on a channel is stored."""
+
+    def __init__(self, system: System, session: Session) -> None:
+        self.system = system
+        self.session = session
+        self.store = system.programs
+
+    def take(self, text: str) -> list[Token] | None:
+        """Store the line if it is one to be stored; else its tokens, to be executed."""
+        owner = self.session.capture
+        if owner is not None:
+            return self._captured(owner, text)
+        found = tokens(text)
+        if found[0].kind is Kind.NUMBER:
+            self._numbered(self._level_owner(), found, text)
+        elif (behind := opens_capture(text)) is not None:
+            self._open(self._level_owner(), behind)
+        else:
+            return found
+        return None
+
+    def _level_owner(self) -> int:
+        owner = self.session.owner
+        if owner is None:
+            raise CardError(UNKNOWN_COMMAND)
+        return owner
+
+    def _numbered(self, owner: int, found: list[Token], text: str) -> None:
+        """A number in front: store the rest under it, or delete the line."""
+        number = line_number(found[0])
+        if found[1].kind is Kind.END:
+            self.store.delete(owner, number)
+        else:
+            begin = found[0].column - 1 + len(found[0].text)
+            self._store(owner, number, " " * begin + plain(text)[begin:], found[1:])
+
+    def _open(self, owner: int, behind: str) -> None:
+        """PROGRAM: erase the old text and store everything from here on."""
+        if self.system.control.is_running(owner):
+            raise CardError(PROGRAM_IS_RUNNING)
+        has_label = behind.startswith("_")
+        if behind and not has_label and not behind.startswith("'") and not _REMARK.match(behind):
+            raise CardError(SYNTAX_ERROR)
+        self.store.erase(owner)
+        self.session.capture = owner
+        self._append(owner, "PROGRAM" if has_label else f"PROGRAM {behind}")
+        if has_label:
+            self._append(owner, behind)
+
+    def _captured(self, owner: int, text: str) -> list[Token] | None:
+        """A line between PROGRAM and ENDP: stored, unless it ends the capture."""
+        kind = shape(text)
+        if owner < PROGRAMS and self._store_known(owner, text, kind):
+            return None
+        found = tokens(text)
+        first = next((token for token in found if token.value != ":"), found[-1])
+        word = first.value if first.kind is Kind.WORD else ""
+        if word in LEVEL_WORDS:
+            self.session.capture = None
+            self._append(owner, "ENDP")
+            return found
+        if word == "ENDP":
+            self.session.capture = None  # also where no room is left to store it
+        if found[0].kind is Kind.NUMBER:
+            self._numbered(owner, found, text)
+        elif found[0].kind is not Kind.END and self._append(owner, text, found):
+            self._learn(owner, kind, found, word)
+        return None
+
+    def _store_known(self, owner: int, text: str, kind: str) -> bool:
+        """Store a line whose shape has been accepted before."""
+        scope = self.system.scope(Level.PROG, owner, stored=True)
+        cost_bytes = self.system.known_lines.cost(scope, kind, text)
+        if cost_bytes is None:
+            return False
+        number = self.store.next_number(owner)
+        self.store.put(owner, StoredLine(number, plain(text), scope, cost_bytes))
+        return True
+
+    def _learn(self, owner: int, kind: str, found: list[Token], word: object) -> None:
+        """Remember a shape; labels are left out, their length is limited."""
+        if owner < PROGRAMS and word != "ENDP" and found[0].kind is not Kind.LABEL:
+            scope = self.system.scope(Level.PROG, owner, stored=True)
+            self.system.known_lines.learn(scope, kind, found)
+
+    def _append(self, owner: int, text: str, found: list[Token] | None = None) -> bool:
+        found = tokens(text) if found is None else found
+        return self._store(owner, self.store.next_number(owner), plain(text), found)
+
+    def _store(self, owner: int, number: int, text: str, found: list[Token]) -> bool:
+        """Store a line; False if there was nothing to store."""
+        line = self.system.read_stored(owner, number, text, found=found)
+        if line is None:
+            return False
+        self.store.put(owner, line)
+        return True
+
+
+def split_at_level(found: list[Token]) -> tuple[list[Token], list[Token]]:
+    """A typed line up to its first SYS, PROG n or PLC n, and what stands behind that.
+
+    Such a command begins a block; behind THEN it is a part of the IF.
+    """
+    begins_block = True
+    for place, token in enumerate(found):
+        if token.value == "THEN":
+            break
+        if begins_block and token.kind is Kind.WORD and token.value in LEVEL_WORDS:
+            behind = _behind_level(found, place)
+            if found[behind].kind is not Kind.END:
+                return [*found[:behind], found[-1]], found[behind:]
+        begins_block = token.kind is Kind.OPERATOR and token.value == ":"
+    return found, []
+
+
+def _behind_level(found: list[Token], place: int) -> int:
+    """The place behind a level command: PROG and PLC have a number, or `(expr)`."""
+    behind = place + 1
+    if found[place].value == "SYS":
+        return behind
+    depth = 0
+    while found[behind].kind is not Kind.END:
+        depth += (found[behind].value == "(") - (found[behind].value == ")")
+        behind += 1
+        if depth <= 0:
+            break
+    return behind

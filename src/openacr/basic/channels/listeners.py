@@ -1,0 +1,51 @@
+"""Who follows which program: PRINT output, trace and run-time errors go there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from openacr.basic.vm.run import LINE_END
+
+if TYPE_CHECKING:
+    from openacr.basic.channels.session import Session
+
+
+class Listeners:
+    """Delivers what programs say; nobody listening, it is lost."""
+
+    def __init__(self, sessions: Mapping[str, Session]) -> None:
+        self._sessions = sessions
+        self.taps: list[Callable[[int, str], None]] = []  # hear everything, beside the channels
+
+    def of(self, program: int) -> Iterator[Session]:
+        """The channels that listen to a program, in their fixed order."""
+        for session in self._sessions.values():
+            if session.listening_to == program:
+                yield session
+
+    def print(self, program: int, text: str) -> None:
+        """Send text as it is."""
+        for tap in self.taps:
+            tap(program, text)
+        for session in self.of(program):
+            session.write(text)
+
+    def error(self, program: int, line: int, message: str) -> None:
+        """Report the run-time error that has ended a program."""
+        self.print(program, f"Error in PROG{program} line {line}: {message}{LINE_END}")
+
+    def trace(self, program: int, line: int) -> None:
+        """TRON: the number of the line that is about to be executed."""
+        self.print(program, f"[{line}]")
+
+    def set_line_end(self, program: int, shown: bool) -> None:
+        """Whether the CR of a typed line is echoed; `INPUT;` keeps the cursor in its line."""
+        for session in self.of(program):
+            session.echo_line_end = shown
+
+    def ended(self, program: int) -> None:
+        """A program has ended: channels that typed LRUN get their prompt back."""
+        for session in self.of(program):
+            if session.until_end:
+                session.program_ended()

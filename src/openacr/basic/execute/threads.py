@@ -1,0 +1,138 @@
+"""The threads of a card: programs, command channels and kinematics, as rows of the memory.
+
+Where a thread stands lies in its rows; what it executes, and for whom, lies here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.memory.program_store import StoredLine
+from openacr.basic.vm import scheduler_cy as scheduler
+from openacr.basic.vm.code import Chunk, CodeSpace
+from openacr.basic.vm.run import Run
+from openacr.errors import CardError
+from openacr.map import numbers as at
+from openacr.messages import LABEL_NOT_FOUND, MESSAGES
+
+if TYPE_CHECKING:
+    from openacr.basic.execute.system import System
+
+KINEMATICS = 32  # first thread of the kinematics of masters
+
+ENDS_WITH_PROGRAM = (
+    at.PF_PROGRAM_RUNNING
+    | at.PF_PROGRAM_DWELLING
+    | at.PF_PROGRAM_INHIBITED
+    | at.PF_MOVE_PENDING
+    | at.PF_BLOCK_MODE_WAITING
+    | at.PF_PAUSE_MODE_WAITING
+    | at.PF_STEP_REQUEST_FLAG
+)
+_CLEARED_BY_START = (
+    at.THI_SP,
+    at.THI_DEPTH,
+    at.THI_LINE,
+    at.THI_PASSED,
+    at.THI_SPARE_FLAGS,
+    at.THI_ERROR,
+)
+
+
+class Threads:
+    """Begins and ends what threads execute."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.memory = system.card.memory
+        self.space = CodeSpace(self.memory)
+        self._runs: list[Run | None] = [None] * at.TH_COUNT
+        self.sources: dict[int, tuple[StoredLine, ...]] = {}  # what each thread executes
+        self.failures: dict[int, str] = {}  # of programs that an error has ended
+
+    @property
+    def tick(self) -> int:
+        """The present tick."""
+        return self.system.card.tick
+
+    def _views(self) -> tuple[Any, Any, Any, Any, Any]:
+        memory, space = self.memory, self.space
+        return memory.F, memory.I, memory.S, space.code, space.nums
+
+    def _row(self, thread: int, row: int) -> int:
+        return self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row]
+
+    def set_row(self, thread: int, row: int, value: int) -> None:
+        """Write one int32 row of a thread."""
+        self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row] = value
+
+    def run_of(self, thread: int) -> Run:
+        """The context of what a thread executes."""
+        run = self._runs[thread]
+        if run is None:
+            raise LookupError(f"thread {thread} executes nothing")
+        return run
+
+    def _start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
+        self.space.put(thread, chunk)
+        self._runs[thread] = run
+        self.failures.pop(thread, None)
+        for row in _CLEARED_BY_START:
+            self.set_row(thread, row, 0)
+        self.set_row(thread, at.THI_PC, start)
+        self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_READY)
+        self._mark(thread, active=True)
+
+    def _mark(self, thread: int, *, active: bool) -> None:
+        if thread >= KINEMATICS:
+            return  # started anew by the scheduler whenever a tool has moved
+        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
+        bit = 1 << thread % PROGRAMS
+        mask = self.memory.I[at.SCHI_BASE + row]
+        self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
+
+    def _is_marked(self, thread: int) -> bool:
+        """Whether the scheduler attends to a program or channel."""
+        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
+        return bool(self.memory.I[at.SCHI_BASE + row] >> thread % PROGRAMS & 1)
+
+    def _forget(self, thread: int) -> None:
+        self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
+        self.set_row(thread, at.THI_DEPTH, 0)
+        self._mark(thread, active=False)
+        self._runs[thread] = None
+        self.sources.pop(thread, None)
+
+    def _end(self, thread: int, error: CardError | None) -> None:
+        """A thread is done, or stopped by an error: tell who wants to know."""
+        session = self.run_of(thread).channel
+        self._forget(thread)
+        if session is not None:
+            session.finished(error)
+            return
+        self.memory.I[at.PF_WORD + thread] &= ~ENDS_WITH_PROGRAM
+        if error is not None:
+            self._fail(thread, self._row(thread, at.THI_LINE), error)
+        self.system.listeners.ended(thread)
+
+    def _fail(self, program: int, line: int, error: CardError) -> None:
+        """Note and report the error that has ended a program."""
+        self.set_row(program, at.THI_ERROR, error.message.number)
+        self.failures[program] = error.text
+        self.system.listeners.error(program, line, error.text)
+
+    def _error(self, thread: int) -> CardError:
+        """The error the VM has stopped with."""
+        message = MESSAGES[self._row(thread, at.THI_ERROR)]
+        detail = int(self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_ERROR_DETAIL])
+        if message is LABEL_NOT_FOUND:
+            return CardError(message, self.space.chunks[thread].names[detail])
+        return CardError(message, detail)
+
+    def reset(self) -> None:
+        """Forget what all threads execute (REBOOT)."""
+        self.failures.clear()
+        for thread in range(at.TH_COUNT):
+            self._forget(thread)

@@ -1,0 +1,1 @@
+"""Words, grammar and rows of the language: text to tree and back."""

@@ -1,0 +1,99 @@
+"""Forms of branches, loops and jumps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.basic.language import registry
+from openacr.basic.language.grammar import Form
+from openacr.basic.language.nodes import Block, Expr, Statement
+from openacr.basic.language.registry import Level
+from openacr.lang.lexer import Kind
+from openacr.messages import (
+    NOT_VALID_AT_THIS_LEVEL,
+    SYNTAX_ERROR,
+    UNKNOWN_COMMAND,
+)
+
+if TYPE_CHECKING:
+    from openacr.basic.language.parser import Parser
+
+
+@dataclass(frozen=True, slots=True)
+class Conditional:
+    """What stands behind THEN."""
+
+    blocks: tuple[Block, ...]
+
+
+class Then(Form):
+    """`THEN statements`: everything up to the end of the line; `THEN 100` means GOTO 100."""
+
+    def __init__(self) -> None:
+        super().__init__("THEN", optional=True)
+
+    def starts(self, p: Parser) -> bool:
+        """Whether THEN stands here; the block form belongs to programs only."""
+        if p.is_word("THEN"):
+            return True
+        if not p.at_block_end:
+            raise p.error(SYNTAX_ERROR)
+        if not p.scope.stored:
+            at_sys = p.scope.level is Level.SYS
+            raise p.error(UNKNOWN_COMMAND if at_sys else NOT_VALID_AT_THIS_LEVEL)
+        return False
+
+    def parse(self, p: Parser) -> Conditional:
+        """Read the statements."""
+        p.advance()
+        if p.token.kind is Kind.NUMBER and p.scope.stored:
+            column = p.token.column
+            goto_line = Statement(registry.find("GOTO"), (Destination().parse(p),), column=column)
+            first, *others = p.rest_of_line()
+            return Conditional(((goto_line, *first), *others))
+        if p.at_block_end and p.token.kind is not Kind.REMARK:
+            raise p.error(SYNTAX_ERROR)
+        return Conditional(p.rest_of_line())
+
+
+class Destination(Form):
+    """A label, a line number, or `(expr)` that computes a line number."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether one of them stands here."""
+        return p.token.kind in (Kind.LABEL, Kind.NUMBER) or p.is_operator("(")
+
+    def parse(self, p: Parser) -> str | Expr:
+        """Read it."""
+        if p.token.kind is Kind.LABEL:
+            return str(p.advance().value)
+        return p.object_index()
+
+
+class Value(Form):
+    """A numeric expression, as far as it goes."""
+
+    def starts(self, p: Parser) -> bool:
+        """Whether anything stands here."""
+        return not p.at_block_end
+
+    def parse(self, p: Parser) -> Expr:
+        """Read it."""
+        return p.numeric()
+
+
+class Step(Form):
+    """`STEP expr` of FOR."""
+
+    def __init__(self) -> None:
+        super().__init__("STEP", optional=True)
+
+    def starts(self, p: Parser) -> bool:
+        """Whether STEP stands here."""
+        return p.is_word("STEP")
+
+    def parse(self, p: Parser) -> Expr:
+        """Read it."""
+        p.advance()
+        return p.numeric()

@@ -1,0 +1,197 @@
+"""Place the local variables and numeric arrays of programs in the heap of the map.
+
+There is no list of blocks beside the rows that own them: what is in use is read from the
+rows each time, so a restored snapshot needs nothing else. DIM is rare, programs are few.
+"""
+
+from array import array
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.basic.memory.memory_cost import (
+    DOUBLE_ARRAY,
+    DOUBLE_VARIABLE,
+    LONG_ARRAY,
+    LONG_VARIABLE,
+    SINGLE_ARRAY,
+    SINGLE_VARIABLE,
+    Cost,
+)
+from openacr.errors import CardError, StoreError
+from openacr.map import numbers as at
+from openacr.map.memory import Memory
+from openacr.messages import OUT_OF_MEMORY, SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
+
+WORD_BYTES = 4
+_FIRST = at.HEAP_BYTE_BASE // WORD_BYTES
+_END = _FIRST + at.HEAP_BYTES // WORD_BYTES
+
+
+@dataclass(frozen=True, slots=True)
+class ScalarType:
+    """LV, SV or DV: its rows, its cost and the 32-bit words one of them takes."""
+
+    name: str
+    base_row: int
+    count_row: int
+    cost: Cost
+    words: int
+
+
+@dataclass(frozen=True, slots=True)
+class ArrayType:
+    """LA, SA or DA: the rows of its table of references, cost and words per element."""
+
+    name: str
+    base_row: int
+    count_row: int
+    cost: Cost
+    words: int
+
+
+SCALARS = (
+    ScalarType("LV", at.STI_LV_BASE, at.STI_LV_COUNT, LONG_VARIABLE, 1),
+    ScalarType("SV", at.STI_SV_BASE, at.STI_SV_COUNT, SINGLE_VARIABLE, 1),
+    ScalarType("DV", at.STI_DV_BASE, at.STI_DV_COUNT, DOUBLE_VARIABLE, 2),
+)
+ARRAYS = (
+    ArrayType("LA", at.STI_LA_BASE, at.STI_LA_COUNT, LONG_ARRAY, 1),
+    ArrayType("SA", at.STI_SA_BASE, at.STI_SA_COUNT, SINGLE_ARRAY, 1),
+    ArrayType("DA", at.STI_DA_BASE, at.STI_DA_COUNT, DOUBLE_ARRAY, 2),
+)
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class _Block:
+    """A used stretch of the heap, in words."""
+
+    start: int
+    words: int
+
+
+class Heap:
+    """First-fit allocation over the heap of the state buffer."""
+
+    def __init__(self, memory: Memory) -> None:
+        self.memory = memory
+
+    def row(self, program: int, offset: int) -> int:
+        """One storage row of a program."""
+        return self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset]
+
+    def rows(self, program: int) -> list[int]:
+        """All storage rows of a program."""
+        first = at.STI_BASE + program * at.STI_STRIDE
+        return self.memory.I[first : first + at.STI_STRIDE].tolist()
+
+    def set_row(self, program: int, offset: int, value: int) -> None:
+        """Write one storage row of a program."""
+        self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset] = value
+
+    def place_scalars(self, program: int, kind: ScalarType, count: int) -> None:
+        """Give a program `count` variables of a type, all 0."""
+        start = self._allocate(count * kind.words, phase=0, step=kind.words)
+        self.set_row(program, kind.base_row, start // kind.words)
+        self.set_row(program, kind.count_row, count)
+
+    def place_references(self, program: int, kind: ArrayType, count: int) -> None:
+        """Give a program room for `count` arrays of a type, none dimensioned yet."""
+        self.set_row(program, kind.base_row, self._allocate(count, phase=0, step=1))
+        self.set_row(program, kind.count_row, count)
+
+    def place_array(self, program: int, kind: ArrayType, index: int, count: int) -> None:
+        """Give one array `count` elements, all 0; elements of DA are 8-byte aligned."""
+        start = self._allocate(1 + count * kind.words, phase=kind.words - 1, step=kind.words)
+        self.memory.I[start] = count
+        self.memory.I[self._reference(program, kind, index)] = start
+
+    def array_count(self, program: int, kind: ArrayType, index: int) -> int:
+        """Elements of one array, 0 while it is not dimensioned."""
+        header = self.memory.I[self._reference(program, kind, index)]
+        return self.memory.I[header] if header else 0
+
+    def free(self, program: int) -> None:
+        """Forget all locals of a program."""
+        for kind in (*SCALARS, *ARRAYS):
+            self.set_row(program, kind.count_row, 0)
+            self.set_row(program, kind.base_row, 0)
+
+    def check(self) -> None:
+        """StoreError unless everything in use lies in the heap, and nothing on anything else.
+
+        For rows from a file: programs reach what these rows say without asking.
+        """
+        end = _FIRST
+        for block in sorted(self._checked_blocks()):
+            if block.start < end or block.words < 0 or block.start + block.words > _END:
+                raise StoreError("the snapshot is damaged: variables or arrays overlap")
+            end = block.start + block.words
+
+    def _checked_blocks(self) -> Iterator[_Block]:
+        """All blocks; a table is read once it is known to lie in the heap."""
+        for program in range(at.ST_COUNT):
+            for scalar in SCALARS:
+                count, base = (
+                    self.row(program, scalar.count_row),
+                    self.row(program, scalar.base_row),
+                )
+                if count:
+                    yield _Block(base * scalar.words, count * scalar.words)
+            for kind in ARRAYS:
+                table, count = self.row(program, kind.base_row), self.row(program, kind.count_row)
+                if count:
+                    self._needs_heap(table, count)
+                    yield _Block(table, count)
+                    yield from self._checked_arrays(table, count, kind)
+
+    def _checked_arrays(self, table: int, count: int, kind: ArrayType) -> Iterator[_Block]:
+        for header in self.memory.I[table : table + count]:
+            if header:
+                self._needs_heap(header, 1)
+                if (header + 1) % kind.words:
+                    raise StoreError("the snapshot is damaged: an array lies at an odd place")
+                yield _Block(header, 1 + self.memory.I[header] * kind.words)
+
+    @staticmethod
+    def _needs_heap(start: int, words: int) -> None:
+        if not (_FIRST <= start and 0 < words and start + words <= _END):
+            raise StoreError("the snapshot is damaged: a table of arrays lies outside the heap")
+
+    def _reference(self, program: int, kind: ArrayType, index: int) -> int:
+        count = self.row(program, kind.count_row)
+        if not count:
+            raise CardError(UNDEFINED_VARIABLE)
+        if not 0 <= index < count:
+            raise CardError(SUBSCRIPT_OUT_OF_RANGE)
+        return self.row(program, kind.base_row) + index
+
+    def _allocate(self, words: int, *, phase: int, step: int) -> int:
+        """First zeroed stretch of `words` whose start is `phase` modulo `step`."""
+        start = _FIRST + (phase - _FIRST) % step
+        for block in sorted(self._blocks()):
+            if start + words <= block.start:
+                break
+            after = max(start, block.start + block.words)
+            start = after + (phase - after) % step
+        if start + words > _END:
+            raise CardError(OUT_OF_MEMORY)
+        self.memory.I[start : start + words] = array("i", bytes(WORD_BYTES * words))
+        return start
+
+    def _blocks(self) -> Iterator[_Block]:
+        for program in range(at.ST_COUNT):
+            for scalar in SCALARS:
+                count = self.row(program, scalar.count_row)
+                start = self.row(program, scalar.base_row) * scalar.words
+                if count:
+                    yield _Block(start, count * scalar.words)
+            for kind in ARRAYS:
+                count = self.row(program, kind.count_row)
+                if count:
+                    yield from self._array_blocks(self.row(program, kind.base_row), count, kind)
+
+    def _array_blocks(self, table: int, count: int, kind: ArrayType) -> Iterator[_Block]:
+        yield _Block(table, count)
+        for header in self.memory.I[table : table + count]:
+            if header:
+                yield _Block(header, 1 + self.memory.I[header] * kind.words)

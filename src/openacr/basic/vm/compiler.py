@@ -1,0 +1,146 @@
+"""Turn trees into byte code of the VM.
+
+A program is compiled as a whole when it is started: labels, line numbers and the levels
+of IF, FOR and WHILE are tied together then, and what does not fit together is reported
+with its line. A line typed at a prompt takes the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from openacr.basic.language.nodes import (
+    Block,
+    Expr,
+    Line,
+    Move,
+    Statement,
+)
+from openacr.basic.vm import opcodes_cy as vm
+from openacr.basic.vm.assembly import Place
+from openacr.basic.vm.code import Chunk
+from openacr.basic.vm.expression_code import ExpressionEmitter
+from openacr.basic.vm.levels import Level, Levels, unclosed
+from openacr.messages import (
+    DUPLICATE_LABEL,
+    LABEL_NOT_FOUND,
+    LINE_NOT_FOUND,
+    Message,
+)
+
+
+@dataclass(slots=True, eq=False)
+class CodeLevel(Level):
+    """A level with the places of its code."""
+
+    start: Place = field(default_factory=Place)
+    stop: Place = field(default_factory=Place)
+    next_branch: Place | None = None
+    data: Expr | None = None  # the variable of a FOR
+
+
+def compile_program(lines: Iterable[tuple[int, Line]]) -> Chunk:
+    """The code of a whole program; CompileError if its structure is wrong."""
+    emitter = Emitter()
+    for number, line in lines:
+        emitter.line(number, line)
+    return emitter.finish()
+
+
+def compile_line(line: Line) -> Chunk:
+    """The code of a line typed at a prompt."""
+    emitter = Emitter()
+    emitter.blocks(line.blocks)
+    return emitter.finish()
+
+
+class Emitter(ExpressionEmitter):
+    """Writes byte code; commands with `emit=` in their row use it."""
+
+    def __init__(self, chunk: Chunk | None = None) -> None:
+        super().__init__(chunk)
+        self.levels = Levels[CodeLevel]()
+        self._labels: dict[str, Place] = {}
+        self._lines: dict[int, Place] = {}
+        self._is_first = True
+
+    # lines and statements
+
+    def line(self, number: int, line: Line) -> None:
+        """One stored line."""
+        self.line_number = number
+        self._is_first = True
+        self.put(self._lines.setdefault(number, Place()))
+        self.chunk.starts[number] = len(self.chunk.code)
+        if line.label is not None:
+            place = self._labels.setdefault(line.label, Place())
+            if place.at >= 0:
+                raise self.error(DUPLICATE_LABEL, line.label)
+            self.put(place)
+        self.blocks(line.blocks)
+
+    def blocks(self, blocks: Iterable[Block]) -> None:
+        """Blocks one after the other."""
+        for block in blocks:
+            for statement in block:
+                self.statement(statement)
+
+    def statement(self, statement: Statement | Move) -> None:
+        """One statement: its own code, or a trap to the handler of its command."""
+        self.begin_statement()
+        if isinstance(statement, Move) or statement.command.emit is None:
+            self.trap(statement)
+        else:
+            statement.command.emit(self, statement)
+
+    def begin_statement(self) -> None:
+        """Mark the beginning of a statement: slices, pauses and steps stop there."""
+        self.op(vm.DO_STATEMENT, self.line_number, int(self._is_first))
+        self._is_first = False
+
+    def trap(self, statement: Statement | Move) -> None:
+        """Leave a statement to Python."""
+        self.op(vm.DO_TRAP, len(self.chunk.statements))
+        self.chunk.statements.append(statement)
+
+    def finish(self) -> Chunk:
+        """Tie up all loose ends; CompileError if a level is still open."""
+        if self.levels.innermost is not None:
+            raise unclosed(self.levels.innermost)
+        self.op(vm.DO_END)
+        for label, place in self._labels.items():
+            if place.at < 0:
+                self._fail_at(place, LABEL_NOT_FOUND, len(self.chunk.names))
+                self.chunk.names.append(label)
+        for number, place in self._lines.items():
+            if place.at < 0:
+                self._fail_at(place, LINE_NOT_FOUND, number)
+        self._write_line_table()
+        return self.chunk
+
+    def _fail_at(self, place: Place, message: Message, detail: int) -> None:
+        self.put(place)
+        self.op(vm.DO_FAIL, message.number, detail)
+
+    def _write_line_table(self) -> None:
+        self.chunk.lines_at = len(self.chunk.code)
+        self.chunk.lines_count = len(self.chunk.starts)
+        for number in sorted(self.chunk.starts):
+            self.op(number, self.chunk.starts[number])
+
+    # code
+
+    def open(self, kind: int) -> CodeLevel:
+        """Begin a level of IF, FOR or WHILE."""
+        level = CodeLevel(kind, self.line_number)
+        self.levels.enter(level)
+        return level
+
+    def label(self, name: str) -> Place:
+        """The place of a label."""
+        return self._labels.setdefault(name, Place())
+
+    def numbered(self, line: int) -> Place:
+        """The place of a line."""
+        return self._lines.setdefault(line, Place())

@@ -1,0 +1,136 @@
+"""INVK: the joints of a master, computed by a program of the user behind every tick.
+
+The path of the master is that of the tool. Whenever it has moved, the coordinated
+positions of the slaves go to their INVK Input in units, the program runs once from its
+first line to its end, and INVK Output are the positions of the joints from the next tick
+on. An output the program leaves alone is its input. While the program waits, or takes more
+than STATEMENTS in a tick, the joints stay; at rest nothing is computed.
+"""
+
+from openacr.basic.vm.opcodes_cy import VM_END, VM_SLICE, VM_WAIT
+from openacr.basic.vm.vm_cy import vm_run
+from openacr.basic.vm.waits_cy import wait_is_over
+from openacr.kernel.axis_cy import axis_scale
+from openacr.kernel.path_cy import SLAVE_COUNT, master_word
+from openacr.map.numbers import (
+    AX_BASE,
+    AX_INVK_INPUT,
+    AX_INVK_INPUT_PREVIOUS,
+    AX_INVK_OUTPUT,
+    AX_STRIDE,
+    AXF_BASE,
+    AXF_KINEMATICS_CNT,
+    AXF_POSITION_CNT,
+    AXF_SEEN_CNT,
+    AXF_STRIDE,
+    KRI_BASE,
+    KRI_KINEMATICS,
+    MF1_IN_MOTION,
+    MSI_BASE,
+    MSI_INVK_MOVING,
+    MSI_SLAVE_AXIS,
+    MSI_STRIDE,
+    THI_BASE,
+    THI_DEPTH,
+    THI_EVENT,
+    THI_PC,
+    THI_SP,
+    THI_STATE,
+    THI_STRIDE,
+)
+from openacr.views import F32, F64, I32
+
+FIRST_THREAD = 32
+MASTERS = 16
+STATEMENTS = 1000
+# States of a thread, as in scheduler_cy.
+IDLE = 0
+READY = 1
+WAITING = 2
+LARGEST_FP32 = 3.4028235e38
+
+
+def slave_axis(I: I32, m: int, s: int) -> int:
+    """The axis of a slave, -1 without one."""
+    return I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+
+
+def tool_moved(F: F64, I: I32, m: int) -> bool:
+    """Whether the joints have to be computed anew; at rest positions may be written freely."""
+    i: int = MSI_BASE + m * MSI_STRIDE
+    moving: int = I[master_word(m)] & MF1_IN_MOTION
+    due: bool = moving != 0 or I[i + MSI_INVK_MOVING] != 0
+    I[i + MSI_INVK_MOVING] = moving
+    moved: bool = False
+    for s in range(SLAVE_COUNT):
+        axis: int = slave_axis(I, m, s)
+        if axis >= 0:
+            a: int = AXF_BASE + axis * AXF_STRIDE
+            moved = moved or F[a + AXF_SEEN_CNT] != F[a + AXF_POSITION_CNT]
+            F[a + AXF_SEEN_CNT] = F[a + AXF_POSITION_CNT]
+    return due and moved
+
+
+def inputs_show(F: F64, I: I32, S: F32, m: int) -> None:
+    """Give the program the positions of the tool."""
+    for s in range(SLAVE_COUNT):
+        axis: int = slave_axis(I, m, s)
+        if axis >= 0:
+            p: int = AX_BASE + axis * AX_STRIDE
+            place: float = F[AXF_BASE + axis * AXF_STRIDE + AXF_SEEN_CNT] / axis_scale(S, axis)
+            S[p + AX_INVK_INPUT_PREVIOUS] = S[p + AX_INVK_INPUT]
+            S[p + AX_INVK_INPUT] = place
+            S[p + AX_INVK_OUTPUT] = place
+
+
+def outputs_take(F: F64, I: I32, S: F32, m: int) -> None:
+    """Put the joints where the program wants them; an output that is no number changes nothing."""
+    for s in range(SLAVE_COUNT):
+        axis: int = slave_axis(I, m, s)
+        if axis >= 0:
+            p: int = AX_BASE + axis * AX_STRIDE
+            a: int = AXF_BASE + axis * AXF_STRIDE
+            joint: float = S[p + AX_INVK_OUTPUT]
+            if joint == S[p + AX_INVK_INPUT]:
+                F[a + AXF_KINEMATICS_CNT] = F[a + AXF_SEEN_CNT] - F[a + AXF_POSITION_CNT]
+            elif -LARGEST_FP32 <= joint and joint <= LARGEST_FP32:
+                joint = joint * axis_scale(S, axis)
+                F[a + AXF_KINEMATICS_CNT] = joint - F[a + AXF_POSITION_CNT]
+
+
+def kinematics_run(F: F64, I: I32, S: F32, code: I32, nums: F64, m: int, tick: int) -> bool:
+    """Begin or continue the program of master m; True if Python is needed."""
+    rows: int = THI_BASE + (FIRST_THREAD + m) * THI_STRIDE
+    if I[rows + THI_STATE] == IDLE:
+        if not tool_moved(F, I, m):
+            return False
+        inputs_show(F, I, S, m)
+        I[rows + THI_PC] = 0
+        I[rows + THI_SP] = 0
+        I[rows + THI_DEPTH] = 0
+        I[rows + THI_STATE] = READY
+    elif I[rows + THI_STATE] == WAITING:
+        if not wait_is_over(F, I, S, FIRST_THREAD + m, tick):
+            return False
+        I[rows + THI_STATE] = READY
+    event: int = vm_run(F, I, S, code, nums, FIRST_THREAD + m, STATEMENTS, tick)
+    if event == VM_SLICE:
+        return False
+    if event == VM_WAIT:
+        I[rows + THI_STATE] = WAITING
+        return False
+    if event == VM_END:
+        I[rows + THI_STATE] = IDLE
+        outputs_take(F, I, S, m)
+        return False
+    I[rows + THI_EVENT] = event
+    return True
+
+
+def kinematics_step(F: F64, I: I32, S: F32, code: I32, nums: F64, tick: int) -> int:
+    """Compute the joints of all masters with INVK ON; a thread if Python is needed, else 0."""
+    for m in range(MASTERS):
+        if I[KRI_BASE + KRI_KINEMATICS] & (1 << m):
+            if kinematics_run(F, I, S, code, nums, m, tick):
+                return FIRST_THREAD + m
+    return 0
