@@ -1,9 +1,18 @@
 """Card time follows the wall clock by absolute deadlines and never spirals."""
 
-import pytest
+import asyncio
+import re
+import time
+from itertools import count, cycle
+from pathlib import Path
 
+import pytest
+from tests.io.fake_card import FakeCard
+
+import openacr
 from openacr.errors import UserError
 from openacr.io.pacing import MAX_LAG_S, Pacer
+from openacr.io.server import CardServer
 
 PERIOD_S = 0.0005
 
@@ -97,3 +106,42 @@ def test_the_report_holds_percentiles_of_the_error() -> None:
 def test_a_speed_must_be_above_zero(speed: float) -> None:
     with pytest.raises(UserError, match="speed"):
         Pacer(PERIOD_S, speed)
+
+
+def test_no_clock_that_can_be_set_reaches_card_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The date is set back and forth by days; card time follows the steady clock all the same."""
+    dates = cycle([1e9, 1e9 + 86_400.0, 0.0, 4e9])
+    monkeypatch.setattr(time, "time", lambda: next(dates))
+    card = FakeCard()
+    steady_s = count(1000.0, 0.001)  # one millisecond each time it is read
+    reads = 0
+
+    async def body() -> None:
+        nonlocal reads
+        server, stop = CardServer(card), asyncio.Event()
+
+        def now_s() -> float:
+            nonlocal reads
+            reads += 1
+            if reads == 500:
+                stop.set()
+            return next(steady_s)
+
+        server._now = now_s
+        await server.run(stop)
+
+    asyncio.run(body())
+    # The last readings may come after the last advance.
+    assert reads * 0.001 / PERIOD_S - 10 <= card.tick <= reads * 0.001 / PERIOD_S
+
+
+def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
+    """Pacing, deadlines and time-outs take clocks that nobody can set."""
+    source = Path(openacr.__file__).parent
+    dated = re.compile(r"\btime\.time(_ns)?\(|\btime import .*\btime\b|datetime\.|\.localtime\(")
+    found = {
+        path.relative_to(source).as_posix()
+        for path in source.rglob("*.py")
+        if dated.search(path.read_text(encoding="utf-8"))
+    }
+    assert found == {"cli/journals.py", "mill/alarms.py"}

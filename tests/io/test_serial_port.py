@@ -6,6 +6,8 @@ import select
 import sys
 import threading
 import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
 
 import pytest
 from tests.io.fake_card import FakeCard
@@ -30,23 +32,33 @@ def read_until(fd: int, end: bytes, timeout_s: float = 5.0) -> bytes:
     return seen
 
 
+@asynccontextmanager
+async def served(card: FakeCard) -> AsyncIterator[tuple[int, int]]:
+    """A card behind a pseudo terminal: our end of the line, and that of the card."""
+    ours, theirs = pty.openpty()
+    tty.setraw(theirs)
+    server, stop = CardServer(card), asyncio.Event()
+    server.open_serial(os.ttyname(theirs), LineSettings())
+    running = asyncio.create_task(server.run(stop))
+    yield ours, theirs
+    stop.set()
+    await asyncio.wait_for(running, 5)
+    assert card.streams == {}
+    for end in (ours, theirs):
+        with suppress(OSError):  # a test may have closed it
+            os.close(end)
+
+
 def test_a_serial_line_is_a_stream_like_any_other() -> None:
     async def body() -> None:
-        ours, theirs = pty.openpty()
-        tty.setraw(theirs)
-        server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), LineSettings())
-        running = asyncio.create_task(server.run(stop))
-        os.write(ours, b"LEN 12\r")
-        answer = await asyncio.to_thread(read_until, ours, b"SYS>")
-        assert answer == b"LEN 12\r\n6\r\nSYS>"
-        os.write(ours, b"\x00\x30#B#A")  # serial lines start in MODE 1
-        assert (await asyncio.to_thread(read_until, ours, b"\x00"))[:5] == b"\x000#B#"
-        stop.set()
-        await asyncio.wait_for(running, 5)
-        assert card.streams == {}
-        os.close(ours)
-        os.close(theirs)
+        async with served(card) as (ours, theirs):
+            os.write(ours, b"LEN 12\r")
+            answer = await asyncio.to_thread(read_until, ours, b"SYS>")
+            assert answer == b"LEN 12\r\n6\r\nSYS>"
+            os.write(ours, b"\x00\x30#B#A")  # serial lines start in MODE 1
+            assert (await asyncio.to_thread(read_until, ours, b"\x00"))[:5] == b"\x000#B#"
+            os.close(ours)
+            os.close(theirs)
 
     card = FakeCard()
     asyncio.run(body())
@@ -54,18 +66,10 @@ def test_a_serial_line_is_a_stream_like_any_other() -> None:
 
 def test_an_answer_longer_than_a_serial_line_is_given_together_arrives_whole() -> None:
     async def body() -> None:
-        ours, theirs = pty.openpty()
-        tty.setraw(theirs)
-        server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), LineSettings())
-        running = asyncio.create_task(server.run(stop))
-        os.write(ours, b"SPAM 3000\r")
-        answer = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
-        assert answer == b"SPAM 3000\r\n" + (b"x" * 98 + b"\r\n") * 3000 + b"SYS>"
-        stop.set()
-        await asyncio.wait_for(running, 5)
-        os.close(ours)
-        os.close(theirs)
+        async with served(card) as (ours, _):
+            os.write(ours, b"SPAM 3000\r")
+            answer = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
+            assert answer == b"SPAM 3000\r\n" + (b"x" * 98 + b"\r\n") * 3000 + b"SYS>"
 
     card = FakeCard()
     asyncio.run(body())
@@ -73,30 +77,22 @@ def test_an_answer_longer_than_a_serial_line_is_given_together_arrives_whole() -
 
 def test_xoff_of_a_host_stops_a_long_answer_within_two_slices() -> None:
     async def body() -> None:
-        ours, theirs = pty.openpty()
-        tty.setraw(theirs)
-        server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), LineSettings())
-        running = asyncio.create_task(server.run(stop))
-        os.write(ours, b"SPAM 3000\r")  # 300 kB: more than the pseudo terminal takes
-        output = next(iter(card.streams.values())).terminal.output
-        while not output._size:
-            await asyncio.sleep(0.001)
-        assert output._size > 200_000  # waits in the card, where XOFF can stop it
-        os.write(ours, b"\x13")
-        while not output.stopped:
-            await asyncio.sleep(0.001)
-        held = output._size
-        seen = await asyncio.to_thread(read_until, ours, b"SYS>", 0.3)
-        assert output._size == held
-        assert len(seen) + held == len(b"SPAM 3000\r\n") + 300_000 + len(b"SYS>")
-        os.write(ours, b"\x11")
-        rest = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
-        assert len(rest) == held
-        stop.set()
-        await asyncio.wait_for(running, 5)
-        os.close(ours)
-        os.close(theirs)
+        async with served(card) as (ours, _):
+            os.write(ours, b"SPAM 3000\r")  # 300 kB: more than the pseudo terminal takes
+            output = next(iter(card.streams.values())).terminal.output
+            while not output._size:
+                await asyncio.sleep(0.001)
+            assert output._size > 200_000  # waits in the card, where XOFF can stop it
+            os.write(ours, b"\x13")
+            while not output.stopped:
+                await asyncio.sleep(0.001)
+            held = output._size
+            seen = await asyncio.to_thread(read_until, ours, b"SYS>", 0.3)
+            assert output._size == held
+            assert len(seen) + held == len(b"SPAM 3000\r\n") + 300_000 + len(b"SYS>")
+            os.write(ours, b"\x11")
+            rest = await asyncio.to_thread(read_until, ours, b"SYS>", 20.0)
+            assert len(rest) == held
 
     card = FakeCard()
     asyncio.run(body())
@@ -104,21 +100,15 @@ def test_xoff_of_a_host_stops_a_long_answer_within_two_slices() -> None:
 
 def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
     async def body() -> None:
-        ours, theirs = pty.openpty()
-        tty.setraw(theirs)
-        server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), LineSettings())
-        running = asyncio.create_task(server.run(stop))
-        os.close(theirs)
-        os.close(ours)
-        async with asyncio.timeout(5):
-            while card.streams:
-                await asyncio.sleep(0.01)
-        tick = card.tick
-        await asyncio.sleep(0.05)
-        assert card.tick > tick
-        stop.set()
-        await asyncio.wait_for(running, 5)
+        async with served(card) as (ours, theirs):
+            os.close(theirs)
+            os.close(ours)
+            async with asyncio.timeout(5):
+                while card.streams:
+                    await asyncio.sleep(0.01)
+            tick = card.tick
+            await asyncio.sleep(0.05)
+            assert card.tick > tick
 
     card = FakeCard()
     asyncio.run(body())
@@ -148,21 +138,13 @@ def test_a_host_that_sends_too_much_is_told_to_wait_and_loses_nothing() -> None:
         return seen
 
     async def body() -> None:
-        ours, theirs = pty.openpty()
-        tty.setraw(theirs)
-        server, stop = CardServer(card), asyncio.Event()
-        server.open_serial(os.ttyname(theirs), LineSettings())
-        running = asyncio.create_task(server.run(stop))
-        writing = asyncio.create_task(asyncio.to_thread(flood, ours))
-        seen = await asyncio.to_thread(listen, ours)
-        await asyncio.wait_for(writing, 5)
-        assert (seen.count(bytes((XOFF,))), seen.count(bytes((XON,)))) == (1, 1)
-        assert seen.index(XOFF) < seen.index(XON)
-        assert seen.count(b"3\r\nSYS>") == lines
-        stop.set()
-        await asyncio.wait_for(running, 5)
-        os.close(ours)
-        os.close(theirs)
+        async with served(card) as (ours, _):
+            writing = asyncio.create_task(asyncio.to_thread(flood, ours))
+            seen = await asyncio.to_thread(listen, ours)
+            await asyncio.wait_for(writing, 5)
+            assert (seen.count(bytes((XOFF,))), seen.count(bytes((XON,)))) == (1, 1)
+            assert seen.index(XOFF) < seen.index(XON)
+            assert seen.count(b"3\r\nSYS>") == lines
 
     card = FakeCard()
     may_send = threading.Event()

@@ -2,6 +2,7 @@
 
 import asyncio
 import socket
+from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 
@@ -11,8 +12,11 @@ from tests.io.served import LOOPBACK
 
 from openacr.channels import StreamKind
 from openacr.errors import UserError
+from openacr.io import peers
+from openacr.io.bounded_log import LINES
 from openacr.io.peers import SEND_LIMIT_BYTES, TcpPeer
 from openacr.io.server import Address, CardServer, Guests
+from openacr.protocol import terminal
 
 GET = bytes.fromhex("00 30 02 01")
 WAIT_S = 5.0
@@ -422,3 +426,18 @@ def test_a_stranger_is_turned_away_before_the_card_hears_of_it() -> None:
             assert bench.card.next_id == 0
 
     asyncio.run(body())
+
+
+def test_a_host_that_comes_again_and_again_cannot_fill_the_log(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def body(bench: Bench) -> None:
+        await (await bench.connect()).ask(b"LEN 12\r")  # the server runs
+        for _ in range(20):
+            bench.server.refused("10.0.0.7:1", "all streams are taken")
+            terminal.log.warning("an override of %g was refused", 7.0)
+            peers.log.warning("%s does not read what it is sent", "10.0.0.7:1")
+
+    serve(body)
+    kinds = Counter(str(record.msg).split(" ")[1] for record in caplog.records)
+    assert kinds == {"refused:": LINES, "override": LINES, "does": LINES}

@@ -4,10 +4,10 @@ from collections.abc import Callable, Generator, Iterable
 from contextlib import suppress
 from pathlib import Path
 from threading import RLock
-from types import TracebackType
 from typing import Self, TypeVar
 
 from openacr.client import transfer, values
+from openacr.client.closing import Closing
 from openacr.client.drive import carry_out
 from openacr.client.effects import Op
 from openacr.client.errors import ConnectionLostError
@@ -53,7 +53,7 @@ class Flags:
         self._card.write_bit(what, on)
 
 
-class Card:
+class Card(Closing):
     """A card at the other end of a link. Threads may share it; each call is one exchange."""
 
     def __init__(self, link: Link, options: Options | None = None) -> None:
@@ -71,17 +71,6 @@ class Card:
         card = cls(link_to(target, baud), options)
         card.connect()
         return card
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def _do(self, op: Op[T]) -> T:
         with self._lock:

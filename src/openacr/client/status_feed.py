@@ -3,10 +3,9 @@
 import socket
 import time
 from collections.abc import Generator
-from types import TracebackType
-from typing import Self
 
 from openacr.client.causes import cannot_connect
+from openacr.client.closing import Closing
 from openacr.client.errors import ConnectionLostError, NoReplyError
 from openacr.errors import UserError, reason
 from openacr.protocol.status import (
@@ -22,7 +21,7 @@ from openacr.protocol.status import (
 RENEW_S = LIFE_S / 4
 
 
-class StatusFeed:
+class StatusFeed(Closing):
     """A subscription: `for status in StatusFeed(host): print(status.longs(0))`.
 
     FSTAT on the card says what the words are. Datagrams may be lost; those that come are in
@@ -65,17 +64,6 @@ class StatusFeed:
         except OSError as failure:
             raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
         self._asked_s = time.monotonic()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def __iter__(self) -> Generator[FastStatus, None, None]:
         """Every status that arrives, until the feed is closed."""

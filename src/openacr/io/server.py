@@ -8,21 +8,29 @@ advanced on, at most AHEAD_S before the clock, until the answer is there.
 import asyncio
 import errno
 import ipaddress
+import logging
 import socket
 import time
 from dataclasses import dataclass
 
 from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError, reason
+from openacr.io import peers
+from openacr.io.bounded_log import bounded
 from openacr.io.host import CardHost
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
-from openacr.io.refusals import Refusals
 from openacr.io.serial_port import LineSettings, SerialPeer
 from openacr.io.status_port import StatusPort, open_status_port
+from openacr.protocol import terminal
 
 STEP_S = 0.001
 CONNECTIONS = 16
+
+
+log = logging.getLogger(__name__)
+# Loggers a host can make write as often as it connects.
+OF_HOSTS = (log, *map(logging.getLogger, (peers.__name__, terminal.__name__)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +101,6 @@ class CardServer:
         self._listeners: list[asyncio.Server] = []
         self._status: StatusPort | None = None
         self._now = time.monotonic
-        self.refused = Refusals(self._now).note
 
     # --- set-up and end ---------------------------------------------------------------
 
@@ -121,6 +128,10 @@ class CardServer:
     async def run(self, stop: asyncio.Event) -> None:
         """Keep card time with the wall clock until `stop` is set; then close everything."""
         self._pacer.start(self._now())
+        with bounded(self._now, *OF_HOSTS):
+            await self._run(stop)
+
+    async def _run(self, stop: asyncio.Event) -> None:
         try:
             while not stop.is_set():
                 self._catch_up()
@@ -130,6 +141,10 @@ class CardServer:
                 await asyncio.sleep(self._pacer.pause_s(self._now(), STEP_S))
         finally:
             await self.close()
+
+    def refused(self, name: str, why: str) -> None:
+        """A connection from `name` was refused; `why` completes the sentence."""
+        log.warning("%s refused: %s", name, why)
 
     async def close(self) -> None:
         """Stop listening and end every connection."""
