@@ -153,6 +153,27 @@ COMMANDS: dict[str, Entry | Family] = {
                 "run_blocks",
                 "MDI: run single blocks on the virtual machine, or on a card.",
             ),
+            "zero": Family(
+                "The floating zero of a card: SET ZERO, CLR ZERO, GOTO ZERO.",
+                {
+                    "set": Entry(
+                        "mill_zero",
+                        "set_floating_zero",
+                        "SET ZERO: axes of a card read 0 where they are; nothing moves.",
+                    ),
+                    "clear": Entry(
+                        "mill_zero",
+                        "clear_floating_zero",
+                        "CLR ZERO: no axis has a floating zero any more; nothing moves.",
+                    ),
+                    "goto": Entry(
+                        "mill_zero",
+                        "go_to_zero",
+                        "GOTO ZERO: rapids to the floating zero; Z first where that is upward,"
+                        " else last.",
+                    ),
+                },
+            ),
             "home": Entry("mill_hand", "home_axes", "Find the reference points of axes on a card."),
             "stop": Entry(
                 "mill_stop",

@@ -1,0 +1,68 @@
+"""SET ZERO, CLR ZERO and GOTO ZERO: the floating zero at the present position, gone, and reached.
+
+The shift is that of G92 (P800 to P832); it counts in every work system and is kept by the store.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+
+from openacr.cnc.canonical import TOOL_AXIS, Point
+from openacr.cnc.gcodes.work import clear_zero, preset_zero
+from openacr.cnc.interpreter import Interpreter
+from openacr.cnc.load import load_blank
+from openacr.errors import UserError
+from openacr.mill.folders import folders_of
+from openacr.mill.workshop import Workshop
+
+MDI_DIALECT = "acromill"
+
+
+def reader(shop: Workshop) -> Interpreter:
+    """An interpreter that stands where the machine does, with nothing chosen, as MDI begins."""
+    program = load_blank(shop.cells, MDI_DIALECT, folders_of(shop.cells, None), name="ZERO")
+    return Interpreter(program, shop.cells, shop.runner.course.host, MDI_DIALECT)
+
+
+def set_zero(shop: Workshop, axes: Iterable[int]) -> Point:
+    """SET ZERO: these axes read 0 where they are; the program position. Nothing moves."""
+    _require_rest(shop)
+    run = reader(shop)
+    with shop.cells.transaction():
+        preset_zero(run, dict.fromkeys(axes, 0.0))
+    return run.position
+
+
+def clear_all(shop: Workshop) -> Point:
+    """CLR ZERO: no axis has a floating zero any more; the program position. Nothing moves."""
+    _require_rest(shop)
+    run = reader(shop)
+    with shop.cells.transaction():
+        clear_zero(run)
+    return run.position
+
+
+def goto_zero(
+    shop: Workshop, axes: Iterable[int], attend: Callable[[Workshop], None]
+) -> Iterator[Point]:
+    """GOTO ZERO: rapids to program 0; the program position behind each.
+
+    The tool axis goes first where that is upward, else last; the others go together.
+    """
+    for _ in shop.run_blocks(_blocks(shop, set(axes)), MDI_DIALECT, attend):
+        yield reader(shop).position
+
+
+def _blocks(shop: Workshop, axes: set[int]) -> list[str]:
+    names = {axis: shop.runner.settings.axis(axis).name for axis in sorted(axes)}
+    others = "".join(f" {name}0" for axis, name in names.items() if axis != TOOL_AXIS)
+    blocks = [f"G90 G0{others}"] if others else []
+    if TOOL_AXIS in names:
+        is_upward = reader(shop).position[TOOL_AXIS] < 0.0
+        blocks.insert(0 if is_upward else len(blocks), f"G90 G0 {names[TOOL_AXIS]}0")
+    return blocks
+
+
+def _require_rest(shop: Workshop) -> None:
+    """A zero is set where the machine rests, and nothing is wrong with it."""
+    shop.runner.alarms.require_none()
+    if shop.runner.is_busy or shop.machine.look().is_moving or shop.machine.is_jogging():
+        raise UserError("the machine moves: a zero is set at rest")
