@@ -35,6 +35,7 @@ class Doing:
         self.spindle = Spindle(panel)
         self.coolant = Coolant(panel)
         self.changer = ToolChanger(panel, self.spindle)
+        self.is_tapping = False  # a tap may be in its hole
 
     def off(self) -> None:
         """Spindle, coolant and beam off, as ABORT and E-stop want it; each for itself."""
@@ -82,6 +83,11 @@ class Doing:
             yield from self.spindle.orient()
         else:
             self.spindle.release()
+
+    @steps.register
+    def _(self, entry: c.Tapping) -> Steps:
+        self.is_tapping = entry.is_on
+        yield from ()
 
     @steps.register
     def _(self, entry: c.Coolant) -> Steps:

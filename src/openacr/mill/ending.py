@@ -73,6 +73,7 @@ class Ending:
     def _leave(self, state: State) -> None:
         self._pausing.close()
         self._course.end()
+        self._doing.is_tapping = False
         self._status.end(state)
 
     def _to_rest(self) -> Steps:

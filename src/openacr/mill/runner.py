@@ -256,7 +256,8 @@ class Runner:
         """BLOCK: stop behind every block, also behind the one that is being executed."""
         self._status.options = replace(self.options, is_single=on)
         self.course.set_single(on)
-        if on and self.state is State.RUN and not self._script.is_active:
+        is_free = self.state is State.RUN and not self._supervision.is_tapping
+        if on and is_free and not self._script.is_active:
             self._script.begin(self.course.retake())
 
     def acknowledge(self) -> list[Alarm]:

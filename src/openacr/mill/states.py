@@ -36,6 +36,7 @@ class Status:
     reason: str = ""  # what a WAIT or HOLD is for
     options: Options = field(default_factory=Options)
     is_homing: bool = False
+    holds_later: bool = False  # a feed hold was requested that waits for a tap to be out
     has_operator: bool = True  # somebody answers and starts again
 
     @property
@@ -55,4 +56,5 @@ class Status:
 
     def end(self, state: State) -> None:
         """Nothing is waited for any more."""
-        self.state, self.reason, self.is_homing = state, "", False
+        self.state, self.reason = state, ""
+        self.is_homing = self.holds_later = False

@@ -48,6 +48,7 @@ class Supervision:
         self._panel = panel
         self._alarms = alarm_list
         self._course = course
+        self._doing = doing
         self._spindle = doing.spindle
         self._hands = hands
         self._retrace = retrace
@@ -102,6 +103,9 @@ class Supervision:
         """Go on with what is being done as far as the card lets it."""
         status, script = self._status, self._script
         self.guard(partial(script.play, look, step_s))
+        if status.holds_later and not self.is_tapping:
+            status.holds_later = False
+            self._pausing.begin()
         if script.is_active and status.state is State.RUN:
             status.state = State.WAIT
         if status.state is State.WAIT:
@@ -186,7 +190,7 @@ class Supervision:
         """
         self._panel.renew()
         self._console.renew()
-        is_acting = self._script.is_active and not self._course.is_retaking
+        is_acting = self.is_tapping or (self._script.is_active and not self._course.is_retaking)
         if self._retrace.is_active or (is_acting and self._status.is_under_way):
             self.lose_link()
         elif self._status.state is State.PAUSED:
@@ -202,11 +206,22 @@ class Supervision:
         self._retrace.stop()
 
     def pause(self) -> None:
-        """Feed hold; a homing fails by it, for it cannot be resumed."""
+        """Feed hold; a homing fails by it, for it cannot be resumed.
+
+        A tap comes out of its hole first: its feed never rests while the spindle turns.
+        """
         if self._status.is_homing:
             self.give(alarms.HOMING_FAILED, "stopped")
-        else:
+        elif not self.is_tapping:
             self._pausing.begin()
+        elif not self._status.holds_later:
+            self._status.holds_later = True
+            self._say("feed hold: the tap comes out of its hole first")
+
+    @property
+    def is_tapping(self) -> bool:
+        """Whether a turning tap may be in its hole."""
+        return self._doing.is_tapping and not self._status.options.is_dry
 
     def acknowledge(self) -> list[Alarm]:
         """Clear the alarms whose cause is gone; those that stay.

@@ -27,6 +27,7 @@ from openacr.cnc.canonical.actions import (
     Spindle,
     Stop,
     Sync,
+    Tapping,
     Tool,
     Transfer,
     WaitBit,
@@ -39,6 +40,7 @@ Action = (
     Dwell
     | Spindle
     | Orient
+    | Tapping
     | Coolant
     | Output
     | SetBit
@@ -86,6 +88,7 @@ __all__ = [
     "Spindle",
     "Stop",
     "Sync",
+    "Tapping",
     "Tool",
     "Transfer",
     "WaitBit",

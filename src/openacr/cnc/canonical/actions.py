@@ -41,6 +41,14 @@ class Orient:
 
 
 @dataclass(frozen=True, slots=True)
+class Tapping:
+    """A tap is about to enter its hole, or is out of it again: no feed hold in between."""
+
+    source: Source
+    is_on: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Coolant:
     """The coolant that flows from now on; both off is M9."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Entry, Orient, Pause, Spin, Spindle, Stop
+from openacr.cnc.canonical import Entry, Orient, Pause, Spin, Spindle, Stop, Tapping
 from openacr.cnc.codes import Step
 from openacr.cnc.tables import ACROMILL
 
@@ -41,8 +41,9 @@ def halt(run: Interpreter, b: Turn) -> None:
 
 @mcode(583, 584, step=Step.SWITCHES)
 def lock_feed(run: Interpreter, b: Turn) -> None:
-    """M583 holds the feed override at 100 %, M584 lets it act again."""
+    """M583, before a tap enters: feed override at 100 %, no feed hold before M584."""
     run.modal.is_feed_locked = b.number == 583
+    run.tell(Tapping(b.source, run.modal.is_feed_locked))
     run.path.change_pace()
 
 
