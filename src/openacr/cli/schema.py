@@ -21,7 +21,10 @@ class Kind(StrEnum):
 
 
 def show_schema(
-    kind: Annotated[Kind, typer.Argument(help="The file: machine.toml, scenario.toml ...")],
+    kind: Annotated[
+        Kind,
+        typer.Argument(metavar="machine|scenario|configure", help="The file without its suffix."),
+    ],
 ) -> None:
     """Print the JSON schema of machine.toml, scenario.toml or configure.toml.
 
