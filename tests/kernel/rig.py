@@ -11,7 +11,7 @@ from openacr import compiled
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.models import ACR8020
-from openacr.motion import attach, moves, rows
+from openacr.motion import attach, moves, row_index
 from openacr.motion.card import Card
 from openacr.motion.orders import Target
 from openacr.plant.apply import apply_world
@@ -44,7 +44,7 @@ class Rig:
         for n in range(axes):
             attach.slave(self.card, 0, n, n, NAMES[n])
         for n, scale in enumerate(ppu):
-            self.S[rows.axis_parameter(n) + at.AX_PPU] = scale
+            self.S[row_index.axis_parameter(n) + at.AX_PPU] = scale
         self.I[at.KRI_BASE + at.KRI_AXES] = axes
         self.I[at.KRI_BASE + at.KRI_MASTERS] = 1
 
@@ -66,13 +66,13 @@ class Rig:
     def jog(self, axis: int = 0, **settings: float) -> Rig:
         """Set VEL, ACC, DEC or JRK of the jog profiler of an axis."""
         for name, value in settings.items():
-            self.S[rows.axis_parameter(axis) + JOG_ROWS[name]] = value
+            self.S[row_index.axis_parameter(axis) + JOG_ROWS[name]] = value
         return self
 
     def axis(self, axis: int = 0, **settings: float) -> Rig:
         """Set public rows of an axis by their name in lower case."""
         for name, value in settings.items():
-            self.memory.write(rows.axis_parameter(axis) + row_of("AX", name), value)
+            self.memory.write(row_index.axis_parameter(axis) + row_of("AX", name), value)
         return self
 
     def bit(self, number: int, on: bool | None = None) -> bool:
@@ -133,15 +133,15 @@ class Rig:
 
     def real(self, name: str, axis: int = 0) -> float:
         """A hidden float64 row of an axis."""
-        return self.F[rows.axis_reals(axis) + row_of("AXF", name)]
+        return self.F[row_index.axis_reals(axis) + row_of("AXF", name)]
 
     def long(self, name: str, axis: int = 0) -> int:
         """A public LONG row of an axis."""
-        return self.I[rows.axis_parameter(axis) + row_of("AX", name)]
+        return self.I[row_index.axis_parameter(axis) + row_of("AX", name)]
 
     def fp32(self, name: str, axis: int = 0) -> float:
         """A public FP32 row of an axis."""
-        return self.S[rows.axis_parameter(axis) + row_of("AX", name)]
+        return self.S[row_index.axis_parameter(axis) + row_of("AX", name)]
 
     @property
     def path_velocity(self) -> float:

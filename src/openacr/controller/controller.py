@@ -32,7 +32,7 @@ from openacr.map.numbers import (
 )
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import axis_reals
+from openacr.motion.row_index import axis_reals
 from openacr.plant import load, schema
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey

@@ -20,7 +20,7 @@ from openacr.motion.curve_modes import Family
 from openacr.motion.host_moves import Arc, HostMove, HostPoint
 from openacr.motion.orders import Direction
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import master_ints
+from openacr.motion.row_index import master_ints
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code1, Curve
 from openacr.protocol.packets import PacketError

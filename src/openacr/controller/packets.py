@@ -12,7 +12,7 @@ from openacr.map.numbers import (
     P_FIFO_COMMUNICATION_TIMEOUT,
 )
 from openacr.motion.card import Card
-from openacr.motion.rows import master_parameter
+from openacr.motion.row_index import master_parameter
 from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.move import Move
 from openacr.protocol.string_words import ProgramStrings

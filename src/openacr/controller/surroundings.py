@@ -17,7 +17,7 @@ from openacr.map.numbers import (
 )
 from openacr.motion.attach import Feedback
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import axis_ints, axis_parameter
+from openacr.motion.row_index import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
 
 RAW_COUNTS = 4  # of an encoder per line, at MULT 4

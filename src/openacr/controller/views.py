@@ -12,7 +12,7 @@ from openacr.map.numbers import (
 )
 from openacr.motion.card import Card
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import axis_parameter, axis_reals
+from openacr.motion.row_index import axis_parameter, axis_reals
 
 
 class Parameters:

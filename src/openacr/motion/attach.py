@@ -3,21 +3,7 @@
 from enum import IntEnum
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    AXF_POSITION_CNT,
-    AXI_DRIVE_WIRED,
-    AXI_MASTER,
-    AXI_POSITION_INDEX,
-    AXI_POSITION_SOURCE,
-    AXI_SIGNAL_INDEX,
-    AXI_SIGNAL_SOURCE,
-    AXI_SLAVE,
-    AXI_VELOCITY_INDEX,
-    AXI_VELOCITY_SOURCE,
-    MSF_TARGET_CNT,
-    MSI_PROGRAM,
-    MSI_SLAVE_AXIS,
-)
+from openacr.map.rows import axes, masters
 from openacr.messages import (
     AXIS_ALREADY_ATTACHED,
     ILLEGAL_NAME,
@@ -30,7 +16,6 @@ from openacr.messages import (
 from openacr.motion.attachments import Slave
 from openacr.motion.card import Card
 from openacr.motion.permits import master_moving, needs_rest
-from openacr.motion.rows import axis_ints, axis_reals, master_ints, master_reals
 
 NAME_LENGTH = 4
 RESERVED_NAMES = frozenset({"P", "F"})
@@ -60,7 +45,7 @@ def master(card: Card, program: int, number: int) -> None:
     if attachments.master(program) is not None or attachments.program(number) is not None:
         raise CardError(MASTER_ALREADY_ATTACHED)
     attachments.put_master(program, number)
-    card.memory.I[master_ints(number) + MSI_PROGRAM] = program
+    card.memory.I[masters.program[number]] = program
 
 
 def slave(card: Card, program: int, number: int, axis: int, name: str) -> None:
@@ -81,11 +66,11 @@ def slave(card: Card, program: int, number: int, axis: int, name: str) -> None:
         raise CardError(ILLEGAL_NAME)
     card.attachments.put_slave(program, Slave(number, axis, name))
     rows = card.memory.I
-    rows[master_ints(owner) + MSI_SLAVE_AXIS + number] = axis
-    rows[axis_ints(axis) + AXI_MASTER] = owner
-    rows[axis_ints(axis) + AXI_SLAVE] = number
-    position = card.memory.F[axis_reals(axis) + AXF_POSITION_CNT]
-    card.memory.F[master_reals(owner) + MSF_TARGET_CNT + number] = position
+    rows[masters.slave_axis[owner] + number] = axis
+    rows[axes.master[axis]] = owner
+    rows[axes.slave[axis]] = number
+    position = card.memory.F[axes.position_cnt[axis]]
+    card.memory.F[masters.target_cnt[owner] + number] = position
 
 
 def _is_legal(name: str) -> bool:
@@ -112,11 +97,11 @@ def axis(
         _check(feedback[1], _feedback_count(card, feedback[0]))
     _check(signal[1], _signal_count(card, signal[0]))
     needs_rest(card, number)
-    rows, ints = card.memory.I, axis_ints(number)
-    rows[ints + AXI_POSITION_SOURCE], rows[ints + AXI_POSITION_INDEX] = position
-    rows[ints + AXI_SIGNAL_SOURCE], rows[ints + AXI_SIGNAL_INDEX] = signal
-    rows[ints + AXI_VELOCITY_SOURCE], rows[ints + AXI_VELOCITY_INDEX] = velocity
-    rows[ints + AXI_DRIVE_WIRED] = -1  # another motor may be behind it
+    rows = card.memory.I
+    rows[axes.position_source[number]], rows[axes.position_index[number]] = position
+    rows[axes.signal_source[number]], rows[axes.signal_index[number]] = signal
+    rows[axes.velocity_source[number]], rows[axes.velocity_index[number]] = velocity
+    rows[axes.drive_wired[number]] = -1  # another motor may be behind it
 
 
 def _check(index: int, count: int) -> None:
@@ -141,7 +126,7 @@ def detach(card: Card, program: int) -> None:
     _needs_idle(card, number)
     for item in card.attachments.slaves(program):
         _free_slave(card, number, item)
-    card.memory.I[master_ints(number) + MSI_PROGRAM] = -1
+    card.memory.I[masters.program[number]] = -1
     card.attachments.drop_program(program)
 
 
@@ -179,8 +164,8 @@ def _needs_idle(card: Card, number: int) -> None:
 
 
 def _free_slave(card: Card, owner: int, item: Slave) -> None:
-    card.memory.I[master_ints(owner) + MSI_SLAVE_AXIS + item.number] = -1
-    card.memory.I[axis_ints(item.axis) + AXI_MASTER] = -1
+    card.memory.I[masters.slave_axis[owner] + item.number] = -1
+    card.memory.I[axes.master[item.axis]] = -1
 
 
 def report_program(card: Card, program: int) -> list[str]:
@@ -196,13 +181,13 @@ def report_program(card: Card, program: int) -> list[str]:
 
 def report_axis(card: Card, number: int) -> str:
     """The ATTACH AXIS line of one axis."""
-    rows, ints = card.memory.I, axis_ints(number)
-    position = Feedback(rows[ints + AXI_POSITION_SOURCE]).name
-    signal = Signal(rows[ints + AXI_SIGNAL_SOURCE]).name
-    velocity = Feedback(rows[ints + AXI_VELOCITY_SOURCE]).name
+    rows = card.memory.I
+    position = Feedback(rows[axes.position_source[number]]).name
+    signal = Signal(rows[axes.signal_source[number]]).name
+    velocity = Feedback(rows[axes.velocity_source[number]]).name
     return (
-        f"ATTACH AXIS{number} {position}{rows[ints + AXI_POSITION_INDEX]}"
-        f" {signal}{rows[ints + AXI_SIGNAL_INDEX]} {velocity}{rows[ints + AXI_VELOCITY_INDEX]}"
+        f"ATTACH AXIS{number} {position}{rows[axes.position_index[number]]}"
+        f" {signal}{rows[axes.signal_index[number]]} {velocity}{rows[axes.velocity_index[number]]}"
     )
 
 

@@ -8,58 +8,7 @@ from openacr.compiled import pick
 from openacr.kernel import axis_cy, slow_cy
 from openacr.map.hidden.motion import MOVES_PER_MASTER
 from openacr.map.memory import Memory
-from openacr.map.numbers import (
-    AX_BASE,
-    AX_FILTER0_A0,
-    AX_FILTER1_A0,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_PM_TIME_S,
-    AXF_SCALE,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_CAPTURE_MODE,
-    AXI_DRIVE_WIRED,
-    AXI_HLBIT,
-    AXI_MASTER,
-    AXI_ON,
-    AXI_POSITION_INDEX,
-    AXI_SIGNAL_INDEX,
-    AXI_STRIDE,
-    AXI_VELOCITY_INDEX,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
-    KRI_ADC_CHANNELS,
-    KRI_ADC_MODE,
-    KRI_AXES,
-    KRI_BASE,
-    KRI_MASTERS,
-    KRI_SLOW_TICKS,
-    MA_BASE,
-    MA_STRIDE,
-    MA_USER_VELOCITY,
-    MSF_ACC_UPS2,
-    MSF_BASE,
-    MSF_DEC_UPS2,
-    MSF_LOOK_TO_DEG,
-    MSF_STP_UPS2,
-    MSF_STRIDE,
-    MSF_VECDEF,
-    MSI_BASE,
-    MSI_DEPTH,
-    MSI_FIRST,
-    MSI_PROGRAM,
-    MSI_ROTATE_SLAVE,
-    MSI_SIZE,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
-    SYSI_BASE,
-    SYSI_TICK_HIGH,
-    SYSI_TICK_LOW,
-)
+from openacr.map.rows import axes, encoders, kernel, masters, system
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.attachments import Attachments
 from openacr.motion.follower_defaults import set_follower_defaults
@@ -95,13 +44,13 @@ class Card:
     @property
     def period_s(self) -> float:
         """Servo period, the length of one tick [s]."""
-        return self.memory.F[SYSF_BASE + SYSF_PERIOD_S]
+        return self.memory.F[system.period_s]
 
     @property
     def tick(self) -> int:
         """Servo interrupts since power-up."""
         rows = self.memory.I
-        return rows[SYSI_BASE + SYSI_TICK_HIGH] * 2**31 + rows[SYSI_BASE + SYSI_TICK_LOW]
+        return rows[system.tick_high] * 2**31 + rows[system.tick_low]
 
     def ticks(self, time_s: float) -> int:
         """The number of ticks nearest to a time, at least 1."""
@@ -109,59 +58,57 @@ class Card:
 
     def set_period(self, period_s: float) -> None:
         """Set the servo period and what follows from it."""
-        self.memory.F[SYSF_BASE + SYSF_PERIOD_S] = period_s
-        self.memory.I[KRI_BASE + KRI_SLOW_TICKS] = self.ticks(SLOW_SCAN_S)
+        self.memory.F[system.period_s] = period_s
+        self.memory.I[kernel.slow_ticks] = self.ticks(SLOW_SCAN_S)
 
     def power_up(self) -> None:
         """Return to the state after switching on; the world outside is not part of it."""
         self.memory.power_up()
         self.attachments.clear()
         rows = self.memory.I
-        rows[KRI_BASE + KRI_AXES] = self.model.axes
-        rows[KRI_BASE + KRI_MASTERS] = self.model.masters
-        rows[KRI_BASE + KRI_ADC_CHANNELS] = SCANNED_ADCS
-        rows[KRI_BASE + KRI_ADC_MODE] = int(self.model.has_fixed_adc_mode)
+        rows[kernel.axes] = self.model.axes
+        rows[kernel.masters] = self.model.masters
+        rows[kernel.adc_channels] = SCANNED_ADCS
+        rows[kernel.adc_mode] = int(self.model.has_fixed_adc_mode)
         self.set_period(DEFAULT_PERIOD_S)
         for axis in range(AXES):
-            self._default_axis(AXI_BASE + axis * AXI_STRIDE, axis)
+            self._default_axis(axis)
         for master in range(MASTERS):
             self._default_master(master)
         for encoder in range(ENCODERS):
-            rows[ENI_BASE + encoder * ENI_STRIDE + ENI_MULT] = 1
+            rows[encoders.mult[encoder]] = 1
         memory = self.memory
         set_follower_defaults(memory)
         _slow_scan(memory.F, memory.I, memory.S, self.model.axes, self.model.masters)
 
-    def _default_axis(self, row: int, axis: int) -> None:
+    def _default_axis(self, axis: int) -> None:
         rows = self.memory.I
-        rows[row + AXI_ON] = int(axis < self.model.axes)
-        rows[row + AXI_MASTER] = -1
-        rows[row + AXI_POSITION_INDEX] = axis
-        rows[row + AXI_SIGNAL_INDEX] = axis
-        rows[row + AXI_VELOCITY_INDEX] = axis
-        rows[row + AXI_HLBIT] = 3 * axis
-        rows[row + AXI_CAPTURE_MODE] = -1
-        rows[row + AXI_DRIVE_WIRED] = -1
-        for bypass in (AX_FILTER0_A0, AX_FILTER1_A0):
-            self.memory.S[AX_BASE + axis * AX_STRIDE + bypass] = 1.0
-        self.memory.F[AXF_BASE + axis * AXF_STRIDE + AXF_SCALE] = 1.0
-        self.memory.F[AXF_BASE + axis * AXF_STRIDE + AXF_PM_TIME_S] = DEFAULT_PM_TIME_S
+        rows[axes.on[axis]] = int(axis < self.model.axes)
+        rows[axes.master[axis]] = -1
+        rows[axes.position_index[axis]] = axis
+        rows[axes.signal_index[axis]] = axis
+        rows[axes.velocity_index[axis]] = axis
+        rows[axes.hlbit[axis]] = 3 * axis
+        rows[axes.capture_mode[axis]] = -1
+        rows[axes.drive_wired[axis]] = -1
+        for bypass in (axes.filter0_a0, axes.filter1_a0):
+            self.memory.S[bypass[axis]] = 1.0
+        self.memory.F[axes.scale[axis]] = 1.0
+        self.memory.F[axes.pm_time_s[axis]] = DEFAULT_PM_TIME_S
 
     def _default_master(self, master: int) -> None:
-        reals = MSF_BASE + master * MSF_STRIDE
-        for row in (MSF_ACC_UPS2, MSF_DEC_UPS2, MSF_STP_UPS2):
-            self.memory.F[reals + row] = DEFAULT_RAMP_UPS2
-        self.memory.F[reals + MSF_LOOK_TO_DEG] = DEFAULT_LOOK_TO_DEG
-        self.memory.S[MA_BASE + master * MA_STRIDE + MA_USER_VELOCITY] = DEFAULT_VEL_UPS
-        rows = MSI_BASE + master * MSI_STRIDE
-        self.memory.I[rows + MSI_PROGRAM] = -1
-        self.memory.I[rows + MSI_DEPTH] = 1
-        self.memory.I[rows + MSI_FIRST] = master * MOVES_PER_MASTER
-        self.memory.I[rows + MSI_SIZE] = MOVES_PER_MASTER
+        for row in (masters.acc_ups2, masters.dec_ups2, masters.stp_ups2):
+            self.memory.F[row[master]] = DEFAULT_RAMP_UPS2
+        self.memory.F[masters.look_to_deg[master]] = DEFAULT_LOOK_TO_DEG
+        self.memory.S[masters.user_velocity[master]] = DEFAULT_VEL_UPS
+        self.memory.I[masters.program[master]] = -1
+        self.memory.I[masters.depth[master]] = 1
+        self.memory.I[masters.first[master]] = master * MOVES_PER_MASTER
+        self.memory.I[masters.size[master]] = MOVES_PER_MASTER
         for slave in range(SLAVES):
-            self.memory.F[reals + MSF_VECDEF + slave] = 1.0
-            self.memory.I[rows + MSI_SLAVE_AXIS + slave] = -1
-        self.memory.I[rows + MSI_ROTATE_SLAVE + 1] = 1
+            self.memory.F[masters.vecdef[master] + slave] = 1.0
+            self.memory.I[masters.slave_axis[master] + slave] = -1
+        self.memory.I[masters.rotate_slave[master] + 1] = 1
 
     def take_written(self, axis: int) -> None:
         """Take over what was written into the shown positions of an axis."""

@@ -6,15 +6,9 @@ limits of the moves.
 """
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    MQF_BASE,
-    MQF_STRIDE,
-    MQF_TOLERANCE_U,
-    MSI_ROUNDING,
-)
+from openacr.map.rows import masters, moves
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
-from openacr.motion.rows import master_ints
 
 LARGEST_U = 1e9
 
@@ -28,6 +22,6 @@ def set_of_move(card: Card, master: int, record: int, tolerance_u: float) -> Non
     """Give the move just put into a record a tolerance of its own for the corner at its end."""
     if not is_tolerance(tolerance_u):
         raise CardError(INVALID_ARGUMENT)
-    card.memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TOLERANCE_U] = tolerance_u
+    card.memory.F[moves.tolerance_u[record]] = tolerance_u
     if tolerance_u > 0.0:
-        card.memory.I[master_ints(master) + MSI_ROUNDING] = 1
+        card.memory.I[masters.rounding[master]] = 1

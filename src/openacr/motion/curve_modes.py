@@ -3,56 +3,42 @@
 from enum import IntEnum
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    MA_SPLINE_TIME_FACTOR,
-    MF3_NURB_DYNAMIC,
-    MF3_NURB_INTERPOLATION,
-    MF3_NURB_NEG_KNOT,
-    MF3_NURB_SMOOTH,
-    MF3_NURB_TIME,
-    MF3_SPLINE_END,
-    MF3_SPLINE_INTERPOLATION,
-    MF3_SPLINE_KNOT_PRESENT,
-    MF3_SPLINE_NEG_KNOT,
-    MF3_SPLINE_TIME_MODE,
-    MF3_SPLINE_VELOCITY_MODE,
-    MF3_WORD,
-)
+from openacr.map.rows import masters
+from openacr.map.words import mf3
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import curve_points, nurbs, splines
 from openacr.motion.card import Card
 from openacr.motion.curve_points import CurvePoints
-from openacr.motion.rows import master_parameter
 
 
 class Family(IntEnum):
     """Which curve moves are points of; the values are the flags of its mode."""
 
     NONE = 0
-    SPLINE = MF3_SPLINE_INTERPOLATION
-    NURB = MF3_NURB_INTERPOLATION
+    SPLINE = mf3.SPLINE_INTERPOLATION
+    NURB = mf3.NURB_INTERPOLATION
 
 
-SPLINE_MODES = {0: MF3_SPLINE_TIME_MODE, 1: MF3_SPLINE_VELOCITY_MODE}
-NURB_MODES = {0: MF3_NURB_TIME, 1: MF3_NURB_DYNAMIC, 4: MF3_NURB_SMOOTH}
+SPLINE_MODES = {0: mf3.SPLINE_TIME_MODE, 1: mf3.SPLINE_VELOCITY_MODE}
+NURB_MODES = {0: mf3.NURB_TIME, 1: mf3.NURB_DYNAMIC, 4: mf3.NURB_SMOOTH}
 _MODES = {Family.SPLINE: SPLINE_MODES, Family.NURB: NURB_MODES}
 _NEGATIVE_KNOT = {
     Family.NONE: 0,
-    Family.SPLINE: MF3_SPLINE_NEG_KNOT,
-    Family.NURB: MF3_NURB_NEG_KNOT,
+    Family.SPLINE: mf3.SPLINE_NEG_KNOT,
+    Family.NURB: mf3.NURB_NEG_KNOT,
 }
 SHORTEST_S = 1e-6
 
 
 def family(card: Card, master: int) -> Family:
     """What the moves of a master are points of."""
-    flags = card.memory.I[MF3_WORD + master]
+    flags = card.memory.I[mf3.word[master]]
     return next((one for one in (Family.NURB, Family.SPLINE) if flags & one), Family.NONE)
 
 
 def mode(card: Card, master: int, wanted: Family) -> int | None:
     """The mode of a family, None while it is off."""
-    flags = card.memory.I[MF3_WORD + master]
+    flags = card.memory.I[mf3.word[master]]
     if not flags & wanted:
         return None
     return next((mode for mode, flag in _MODES[wanted].items() if flags & flag), 0)
@@ -66,10 +52,10 @@ def begin(card: Card, master: int, wanted: Family, number: int) -> None:
         raise CardError(INVALID_ARGUMENT)
     if curve.points:
         curve_points.store(card, master, CurvePoints())
-    flags = card.memory.I[MF3_WORD + master]
+    flags = card.memory.I[mf3.word[master]]
     for one, modes in _MODES.items():
         flags &= ~(one | sum(modes.values()))
-    card.memory.I[MF3_WORD + master] = flags | wanted | flag
+    card.memory.I[mf3.word[master]] = flags | wanted | flag
 
 
 def end(card: Card, program: int, master: int, wanted: Family) -> None:
@@ -80,9 +66,9 @@ def end(card: Card, program: int, master: int, wanted: Family) -> None:
         nurbs.finish(card, program, master)
     else:
         splines.finish(card, program, master)
-        card.memory.I[MF3_WORD + master] |= MF3_SPLINE_END
-    flags = card.memory.I[MF3_WORD + master]
-    card.memory.I[MF3_WORD + master] = flags & ~(wanted | sum(_MODES[wanted].values()))
+        card.memory.I[mf3.word[master]] |= mf3.SPLINE_END
+    flags = card.memory.I[mf3.word[master]]
+    card.memory.I[mf3.word[master]] = flags & ~(wanted | sum(_MODES[wanted].values()))
 
 
 def take(
@@ -103,7 +89,7 @@ def take(
         size = None if knot is None else abs(knot)
         _point(card, program, master, values_cnt, size, weight)
     if is_end:
-        card.memory.I[MF3_WORD + master] |= _NEGATIVE_KNOT[wanted]
+        card.memory.I[mf3.word[master]] |= _NEGATIVE_KNOT[wanted]
         end(card, program, master, wanted)
 
 
@@ -121,14 +107,14 @@ def _point(
     elif wanted is Family.SPLINE and values_cnt and weight is None:
         splines.take(card, program, master, values_cnt, _time_s(card, master, knot))
         if knot is not None:
-            card.memory.I[MF3_WORD + master] |= MF3_SPLINE_KNOT_PRESENT
+            card.memory.I[mf3.word[master]] |= mf3.SPLINE_KNOT_PRESENT
     else:
         raise CardError(INVALID_ARGUMENT)
 
 
 def _time_s(card: Card, master: int, knot: float | None) -> float:
     """The time of the way to a point of a spline."""
-    factor = card.memory.S[master_parameter(master) + MA_SPLINE_TIME_FACTOR]
+    factor = card.memory.S[masters.spline_time_factor[master]]
     time_s = (1.0 if knot is None else knot) * factor
     if not SHORTEST_S <= time_s < 1.0 / SHORTEST_S:
         raise CardError(INVALID_ARGUMENT)

@@ -3,26 +3,9 @@
 from dataclasses import dataclass, field
 
 from openacr.map.hidden.motion import KNOTS, POINTS, SLAVES
-from openacr.map.numbers import (
-    CPF_BASE,
-    CPF_KNOT,
-    CPF_POINT_CNT,
-    CPF_STRIDE,
-    CPF_TANGENT_CPS,
-    CPF_WEIGHT,
-    CPI_BASE,
-    CPI_BEHIND,
-    CPI_KNOTS,
-    CPI_LIVE,
-    CPI_OPEN,
-    CPI_POINTS,
-    CPI_RANK,
-    CPI_SLAVES,
-    CPI_STRIDE,
-    MF3_NURB_INTERPOLATION,
-    MF3_SPLINE_INTERPOLATION,
-    MF3_WORD,
-)
+from openacr.map.memory import Memory
+from openacr.map.rows import curve_points
+from openacr.map.words import mf3
 from openacr.motion.card import Card
 
 USUAL_RANK = 4
@@ -46,75 +29,69 @@ class CurvePoints:
         return [s for s in range(SLAVES) if self.slaves >> s & 1]
 
 
-def reals(master: int) -> int:
-    """Index in F of the rows of a master."""
-    return CPF_BASE + master * CPF_STRIDE
-
-
-def ints(master: int) -> int:
-    """Index in I of the rows of a master."""
-    return CPI_BASE + master * CPI_STRIDE
-
-
 def load(card: Card, master: int) -> CurvePoints:
     """What has been given so far."""
-    row, base, memory = ints(master), reals(master), card.memory
-    count, knots = memory.I[row + CPI_POINTS], memory.I[row + CPI_KNOTS]
-    first = base + CPF_POINT_CNT
+    memory = card.memory
+    count, knots = memory.I[curve_points.points[master]], memory.I[curve_points.knots[master]]
+    first = curve_points.point_cnt[master]
     return CurvePoints(
-        memory.I[row + CPI_SLAVES],
-        [list(memory.F[first + n * SLAVES : first + (n + 1) * SLAVES]) for n in range(count)],
-        list(memory.F[base + CPF_WEIGHT : base + CPF_WEIGHT + count]),
-        list(memory.F[base + CPF_KNOT : base + CPF_KNOT + knots]),
-        memory.I[row + CPI_BEHIND],
-        list(memory.F[base + CPF_TANGENT_CPS : base + CPF_TANGENT_CPS + SLAVES]),
-        bool(memory.I[row + CPI_OPEN]),
+        memory.I[curve_points.slaves[master]],
+        [_listed(memory, first + n * SLAVES, SLAVES) for n in range(count)],
+        _listed(memory, curve_points.weight[master], count),
+        _listed(memory, curve_points.knot[master], knots),
+        memory.I[curve_points.behind[master]],
+        _listed(memory, curve_points.tangent_cps[master], SLAVES),
+        bool(memory.I[curve_points.open[master]]),
     )
+
+
+def _listed(memory: Memory, first: int, count: int) -> list[float]:
+    return list(memory.F[first : first + count])
 
 
 def store(card: Card, master: int, curve: CurvePoints) -> None:
     """Keep what is left for the next point."""
-    row, base, memory = ints(master), reals(master), card.memory
+    memory = card.memory
     if len(curve.points) > POINTS or len(curve.knots) > KNOTS:
         raise OverflowError(f"{len(curve.points)} points, {len(curve.knots)} knots")
     for n, point in enumerate(curve.points):
         for s, value in enumerate(point):
-            memory.F[base + CPF_POINT_CNT + n * SLAVES + s] = value
+            memory.F[curve_points.point_cnt[master] + n * SLAVES + s] = value
     for first, values in (
-        (CPF_WEIGHT, curve.weights),
-        (CPF_KNOT, curve.knots),
-        (CPF_TANGENT_CPS, curve.tangent),
+        (curve_points.weight, curve.weights),
+        (curve_points.knot, curve.knots),
+        (curve_points.tangent_cps, curve.tangent),
     ):
         for n, value in enumerate(values):
-            memory.F[base + first + n] = value
-    memory.I[row + CPI_SLAVES] = curve.slaves
-    memory.I[row + CPI_POINTS] = len(curve.points)
-    memory.I[row + CPI_KNOTS] = len(curve.knots)
-    memory.I[row + CPI_BEHIND] = curve.behind
-    memory.I[row + CPI_OPEN] = int(curve.is_open)
-    memory.I[row + CPI_LIVE] = 1
+            memory.F[first[master] + n] = value
+    memory.I[curve_points.slaves[master]] = curve.slaves
+    memory.I[curve_points.points[master]] = len(curve.points)
+    memory.I[curve_points.knots[master]] = len(curve.knots)
+    memory.I[curve_points.behind[master]] = curve.behind
+    memory.I[curve_points.open[master]] = int(curve.is_open)
+    memory.I[curve_points.live[master]] = 1
 
 
 def last_cnt(card: Card, master: int, slave: int) -> float | None:
     """Where the last point given lies, None without an unfinished curve."""
-    count = card.memory.I[ints(master) + CPI_POINTS]
+    count = card.memory.I[curve_points.points[master]]
     if not count:
         return None
-    return card.memory.F[reals(master) + CPF_POINT_CNT + (count - 1) * SLAVES + slave]
+    return card.memory.F[curve_points.point_cnt[master] + (count - 1) * SLAVES + slave]
 
 
 def rank(card: Card, master: int) -> int:
     """Order of the NURBs of a master: points that act on a place of the curve."""
-    return card.memory.I[ints(master) + CPI_RANK] or USUAL_RANK
+    return card.memory.I[curve_points.rank[master]] or USUAL_RANK
 
 
 def set_rank(card: Card, master: int, value: int) -> None:
     """Choose the order of NURBs."""
-    card.memory.I[ints(master) + CPI_RANK] = value
+    card.memory.I[curve_points.rank[master]] = value
 
 
 def is_given(card: Card, master: int) -> bool:
     """Whether moves of a master are points of a curve at present."""
     return bool(
-        card.memory.I[MF3_WORD + master] & (MF3_NURB_INTERPOLATION | MF3_SPLINE_INTERPOLATION)
+        card.memory.I[mf3.word[master]] & (mf3.NURB_INTERPOLATION | mf3.SPLINE_INTERPOLATION)
     )

@@ -2,44 +2,27 @@
 
 from openacr.compiled import pick
 from openacr.kernel import drive_cy
-from openacr.map.numbers import (
-    AF4_DRIVE_ENABLED,
-    AF4_DRIVE_FAULT,
-    AF4_DRIVE_I_O_ENABLE,
-    AF4_DRIVE_RESET_REQUEST,
-    AF4_EXCESS_ERROR_FAULT,
-    AF4_KILL_ALL_MOTION_REQUEST,
-    AF4_WORD,
-    AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    AF5_WORD,
-    AXI_DRIVE_OLD,
-    AXI_ENABLE_TICKS,
-    AXI_RESET_TICKS,
-    MF1_KILL_ALL_MOVES_REQUEST,
-)
+from openacr.map.rows import axes
+from openacr.map.words import af4, af5, mf1
 from openacr.motion import registers
 from openacr.motion.card import Card
 from openacr.motion.permits import axes_of, master_of, needs_rest
-from openacr.motion.rows import axis_ints, master_word
 
 _drive_disable = pick(drive_cy.drive_disable)
 _drive_driven = pick(drive_cy.drive_driven)
 
 ENABLE_S = 0.01  # from the command to the status flag
 LIMIT_LATCHES = (
-    AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
-    | AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
-    | AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
-    | AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
+    | af5.NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+    | af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+    | af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
 )
 
 
 def is_enabled(card: Card, axis: int) -> bool:
     """Whether the drive of an axis reports enabled."""
-    return bool(card.memory.I[AF4_WORD + axis] & AF4_DRIVE_ENABLED)
+    return bool(card.memory.I[af4.word[axis]] & af4.DRIVE_ENABLED)
 
 
 def is_driven(card: Card, axis: int) -> bool:
@@ -49,7 +32,7 @@ def is_driven(card: Card, axis: int) -> bool:
 
 def has_fault(card: Card, axis: int) -> bool:
     """Whether a drive fault or an excess error is latched."""
-    return bool(card.memory.I[AF4_WORD + axis] & (AF4_DRIVE_FAULT | AF4_EXCESS_ERROR_FAULT))
+    return bool(card.memory.I[af4.word[axis]] & (af4.DRIVE_FAULT | af4.EXCESS_ERROR_FAULT))
 
 
 def on(card: Card, axis: int) -> None:
@@ -59,8 +42,8 @@ def on(card: Card, axis: int) -> None:
         return
     _lift(card, axis)
     registers.ren(card, axis)
-    ticks = card.ticks(ENABLE_S) if card.memory.I[AF4_WORD + axis] & AF4_DRIVE_I_O_ENABLE else 1
-    card.memory.I[axis_ints(axis) + AXI_ENABLE_TICKS] = ticks
+    ticks = card.ticks(ENABLE_S) if card.memory.I[af4.word[axis]] & af4.DRIVE_I_O_ENABLE else 1
+    card.memory.I[axes.enable_ticks[axis]] = ticks
 
 
 def _lift(card: Card, axis: int) -> None:
@@ -68,11 +51,11 @@ def _lift(card: Card, axis: int) -> None:
     rows = card.memory.I
     master = master_of(card, axis)
     for other in [axis] if master is None else axes_of(card, master):
-        rows[AF4_WORD + other] &= ~AF4_KILL_ALL_MOTION_REQUEST
+        rows[af4.word[other]] &= ~af4.KILL_ALL_MOTION_REQUEST
     if master is not None:
-        rows[master_word(master)] &= ~MF1_KILL_ALL_MOVES_REQUEST
-    rows[AF4_WORD + axis] &= ~(AF4_DRIVE_FAULT | AF4_EXCESS_ERROR_FAULT)
-    rows[AF5_WORD + axis] &= ~LIMIT_LATCHES
+        rows[mf1.word[master]] &= ~mf1.KILL_ALL_MOVES_REQUEST
+    rows[af4.word[axis]] &= ~(af4.DRIVE_FAULT | af4.EXCESS_ERROR_FAULT)
+    rows[af5.word[axis]] &= ~LIMIT_LATCHES
 
 
 def off(card: Card, axis: int) -> None:
@@ -83,30 +66,29 @@ def off(card: Card, axis: int) -> None:
 
 def disable(card: Card, axis: int) -> None:
     """Switch the drive of an axis off, moving or not."""
-    rows = axis_ints(axis)
     _drive_disable(card.memory.I, axis)
-    card.memory.I[rows + AXI_DRIVE_OLD] = 0  # or the kernel would undo a DRIVE ON of this tick
+    card.memory.I[axes.drive_old[axis]] = 0  # or the kernel would undo a DRIVE ON of this tick
 
 
 def reset(card: Card, axis: int) -> None:
     """DRIVE RES: pulse the reset output for 50 ms; the fault latch clears."""
-    card.memory.I[axis_ints(axis) + AXI_RESET_TICKS] = 0
-    card.memory.I[AF4_WORD + axis] &= ~AF4_DRIVE_FAULT
-    card.memory.I[AF4_WORD + axis] |= AF4_DRIVE_RESET_REQUEST
+    card.memory.I[axes.reset_ticks[axis]] = 0
+    card.memory.I[af4.word[axis]] &= ~af4.DRIVE_FAULT
+    card.memory.I[af4.word[axis]] |= af4.DRIVE_RESET_REQUEST
 
 
 def kill_all(card: Card) -> None:
     """Set the kill request of every axis (CTRL-X)."""
     for axis in range(card.model.axes):
-        card.memory.I[AF4_WORD + axis] |= AF4_KILL_ALL_MOTION_REQUEST
+        card.memory.I[af4.word[axis]] |= af4.KILL_ALL_MOTION_REQUEST
 
 
 def clear_kills(card: Card) -> None:
     """Clear the kill requests of all axes and masters (CTRL-Y); nothing moves by it."""
     for axis in range(card.model.axes):
-        card.memory.I[AF4_WORD + axis] &= ~AF4_KILL_ALL_MOTION_REQUEST
+        card.memory.I[af4.word[axis]] &= ~af4.KILL_ALL_MOTION_REQUEST
     for master in range(card.model.masters):
-        card.memory.I[master_word(master)] &= ~MF1_KILL_ALL_MOVES_REQUEST
+        card.memory.I[mf1.word[master]] &= ~mf1.KILL_ALL_MOVES_REQUEST
 
 
 def disable_all(card: Card) -> None:

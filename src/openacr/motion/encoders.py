@@ -3,24 +3,8 @@
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import feedback_cy
-from openacr.map.numbers import (
-    EF_ENCODER_SIGNAL_FAULT,
-    EF_ENCODER_SIGNAL_LOST,
-    EF_WORD,
-    ENI_BASE,
-    ENI_DESTINATION,
-    ENI_LOCKED_TO,
-    ENI_SEEN,
-    ENI_STRIDE,
-    ENXI_BASE,
-    ENXI_LIMIT_HZ,
-    ENXI_ROTARY,
-    ENXI_STRIDE,
-    KRI_BASE,
-    KRI_FILTERED_ENCODERS,
-    KRI_LINKED_ENCODERS,
-)
-from openacr.map.rows import encoders
+from openacr.map.rows import encoders, kernel
+from openacr.map.words import ef
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
 from openacr.motion.settings import LONG_MAX
@@ -41,12 +25,12 @@ def reset(card: Card, number: int, position_cnt: float) -> None:
     if not abs(position_cnt) <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
     _encoder_set(card.memory.F, card.memory.I, number, int(position_cnt))
-    card.memory.I[EF_WORD + number] &= ~(EF_ENCODER_SIGNAL_FAULT | EF_ENCODER_SIGNAL_LOST)
+    card.memory.I[ef.word[number]] &= ~(ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST)
 
 
 def leader(card: Card, number: int) -> int | None:
     """The encoder that one is locked to."""
-    locked_to = card.memory.I[_row(number, ENI_LOCKED_TO)]
+    locked_to = card.memory.I[encoders.locked_to[number]]
     return locked_to - 1 if locked_to else None
 
 
@@ -57,28 +41,28 @@ def lock(card: Card, number: int, to: int) -> None:
         if chain == number:
             raise CardError(INVALID_ARGUMENT)
         chain = leader(card, chain)
-    card.memory.I[_row(number, ENI_SEEN)] = _encoder_count(card.memory.I, to)
-    _link(card, number, ENI_LOCKED_TO, to + 1)
+    card.memory.I[encoders.seen[number]] = _encoder_count(card.memory.I, to)
+    _link(card, encoders.locked_to[number], to + 1)
 
 
 def unlock(card: Card, number: int) -> None:
     """ENC UNLOCK: count alone again."""
-    _link(card, number, ENI_LOCKED_TO, 0)
+    _link(card, encoders.locked_to[number], 0)
 
 
 def destination(card: Card, number: int) -> int | None:
     """The parameter that gets the position of an encoder."""
-    return card.memory.I[_row(number, ENI_DESTINATION)] or None
+    return card.memory.I[encoders.destination[number]] or None
 
 
 def copy_to(card: Card, number: int, parameter: int | None) -> None:
     """ENC DST: copy the position to a parameter in every servo period, or to none."""
-    _link(card, number, ENI_DESTINATION, parameter or 0)
+    _link(card, encoders.destination[number], parameter or 0)
 
 
 def turn_length(card: Card, number: int) -> int:
     """The length of a turn, 0 for a linear encoder."""
-    return card.memory.I[_extra(number, ENXI_ROTARY)]
+    return card.memory.I[encoders.rotary[number]]
 
 
 def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
@@ -87,12 +71,12 @@ def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
         raise CardError(INVALID_ARGUMENT)
     was = turn_length(card, number)
     _encoder_roll(card.memory.I, number, length_cnt)
-    _count(card, KRI_LINKED_ENCODERS, was, length_cnt)
+    _count(card, kernel.linked_encoders, was, length_cnt)
 
 
 def edge_limit(card: Card, number: int) -> int:
     """The rate of the quickest edges that count, 0 for all."""
-    return card.memory.I[_extra(number, ENXI_LIMIT_HZ)]
+    return card.memory.I[encoders.limit_hz[number]]
 
 
 def set_edge_limit(card: Card, number: int, hz: int) -> None:
@@ -101,24 +85,16 @@ def set_edge_limit(card: Card, number: int, hz: int) -> None:
         raise CardError(INVALID_ARGUMENT)
     was = edge_limit(card, number)
     _encoder_limit(card.memory.F, card.memory.I, number, hz)
-    _count(card, KRI_FILTERED_ENCODERS, was, hz)
+    _count(card, kernel.filtered_encoders, was, hz)
 
 
-def _row(number: int, row: int) -> int:
-    return ENI_BASE + number * ENI_STRIDE + row
-
-
-def _extra(number: int, row: int) -> int:
-    return ENXI_BASE + number * ENXI_STRIDE + row
-
-
-def _link(card: Card, number: int, row: int, value: int) -> None:
+def _link(card: Card, place: int, value: int) -> None:
     """Change a link."""
-    old = card.memory.I[_row(number, row)]
-    card.memory.I[_row(number, row)] = value
-    _count(card, KRI_LINKED_ENCODERS, old, value)
+    old = card.memory.I[place]
+    card.memory.I[place] = value
+    _count(card, kernel.linked_encoders, old, value)
 
 
-def _count(card: Card, row: int, old: int, new: int) -> None:
+def _count(card: Card, place: int, old: int, new: int) -> None:
     """Count how many encoders use something: without any the kernel looks at none."""
-    card.memory.I[KRI_BASE + row] += bool(new) - bool(old)
+    card.memory.I[place] += bool(new) - bool(old)

@@ -10,21 +10,13 @@ from __future__ import annotations
 from math import cos, pi, sin, sqrt, tan
 from typing import NamedTuple
 
-from openacr.map.numbers import (
-    AF1_BIQUAD_FILTER_ACTIVATE,
-    AX_FILTER0_B2,
-    AX_FILTER1_B2,
-    AXF_FILTER_STATE,
-    AXF_LOPASS_HZ,
-    AXF_NOTCH_HZ,
-    AXF_NOTCH_WIDTH_HZ,
-)
+from openacr.map.rows import axes
+from openacr.map.words import af1
 from openacr.motion.card import AXES, Card
-from openacr.motion.rows import axis_parameter, axis_reals, axis_word
 
 HIGHEST_SHARE = 0.45  # of the servo rate
 STATES = 2  # per filter
-_FIRST_ROWS = (AX_FILTER0_B2, AX_FILTER1_B2)
+_FIRST_ROWS = (axes.filter0_b2, axes.filter1_b2)
 
 
 class Biquad(NamedTuple):
@@ -64,27 +56,25 @@ def notch(center_hz: float, width_hz: float, period_s: float) -> Biquad:
 
 def low_pass_hz(card: Card, axis: int) -> float:
     """What LOPASS was given."""
-    return card.memory.F[axis_reals(axis) + AXF_LOPASS_HZ]
+    return card.memory.F[axes.lopass_hz[axis]]
 
 
 def notch_hz(card: Card, axis: int) -> tuple[float, float]:
     """Centre and width NOTCH was given."""
-    reals = axis_reals(axis)
-    return card.memory.F[reals + AXF_NOTCH_HZ], card.memory.F[reals + AXF_NOTCH_WIDTH_HZ]
+    return card.memory.F[axes.notch_hz[axis]], card.memory.F[axes.notch_width_hz[axis]]
 
 
 def set_low_pass(card: Card, axis: int, cutoff_hz: float) -> None:
     """LOPASS: 0 is bypass."""
-    card.memory.F[axis_reals(axis) + AXF_LOPASS_HZ] = cutoff_hz
+    card.memory.F[axes.lopass_hz[axis]] = cutoff_hz
     _put(card, axis, 0, low_pass(cutoff_hz, card.period_s))
     _activate(card, axis)
 
 
 def set_notch(card: Card, axis: int, center_hz: float, width_hz: float) -> None:
     """NOTCH: 0 is bypass."""
-    reals = axis_reals(axis)
-    card.memory.F[reals + AXF_NOTCH_HZ] = center_hz
-    card.memory.F[reals + AXF_NOTCH_WIDTH_HZ] = width_hz
+    card.memory.F[axes.notch_hz[axis]] = center_hz
+    card.memory.F[axes.notch_width_hz[axis]] = width_hz
     _put(card, axis, 1, notch(center_hz, width_hz, card.period_s))
     _activate(card, axis)
 
@@ -112,7 +102,7 @@ def _designed(card: Card, axis: int) -> tuple[Biquad, Biquad]:
 
 
 def _row(axis: int, place: int) -> int:
-    return axis_parameter(axis) + _FIRST_ROWS[place]
+    return _FIRST_ROWS[place][axis]
 
 
 def _put(card: Card, axis: int, place: int, filter_: Biquad) -> None:
@@ -130,13 +120,13 @@ def _is(card: Card, axis: int, place: int, filter_: Biquad) -> bool:
 
 def _activate(card: Card, axis: int) -> None:
     """Set Biquad Filter Activate if any filter does anything; then it starts from rest."""
-    word = axis_word(axis)
+    word = af1.word[axis]
     flags = card.memory.I[word]
     if all(_is(card, axis, place, BYPASS) for place in (0, 1)):
-        card.memory.I[word] = flags & ~AF1_BIQUAD_FILTER_ACTIVATE
+        card.memory.I[word] = flags & ~af1.BIQUAD_FILTER_ACTIVATE
         return
-    if not flags & AF1_BIQUAD_FILTER_ACTIVATE:
-        states = axis_reals(axis) + AXF_FILTER_STATE
+    if not flags & af1.BIQUAD_FILTER_ACTIVATE:
+        states = axes.filter_state[axis]
         for place in range(len(_FIRST_ROWS) * STATES):
             card.memory.F[states + place] = 0.0
-    card.memory.I[word] = flags | AF1_BIQUAD_FILTER_ACTIVATE
+    card.memory.I[word] = flags | af1.BIQUAD_FILTER_ACTIVATE

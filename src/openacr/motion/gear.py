@@ -3,26 +3,13 @@
 from __future__ import annotations
 
 from openacr.kernel.source_cy import GEAR_OFF, GEAR_ON, TRIGGERS
-from openacr.map.numbers import (
-    AF1_GEAR_ACTIVATE,
-    AF1_GEAR_ACTIVE,
-    AF2_GEAR_OFF_ARMED,
-    AF2_GEAR_OFF_POSITION,
-    AF2_GEAR_ON_POSITION,
-    AF2_GEAR_ON_TRIG_ARMED,
-    AXF_CAM_CNT,
-    AXF_GEAR_CNT,
-    AXF_POSITION_CNT,
-    GRF_BASE,
-    GRF_RATIO_NOW,
-    GRF_STRIDE,
-)
+from openacr.map.rows import axes, gears
+from openacr.map.words import af1, af2
 from openacr.motion import registers, sources
 from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_gear_defaults
 from openacr.motion.jog import needs_no_moves
 from openacr.motion.permits import needs_no_kill, needs_on, scale_of
-from openacr.motion.rows import axis_reals, axis_word, axis_word2
 
 
 def permit(card: Card, axis: int) -> None:
@@ -43,39 +30,39 @@ def off_trigger(axis: int) -> int:
 
 def is_on(card: Card, axis: int) -> bool:
     """Whether the gear is switched on."""
-    return bool(card.memory.I[axis_word(axis)] & AF1_GEAR_ACTIVATE)
+    return bool(card.memory.I[af1.word[axis]] & af1.GEAR_ACTIVATE)
 
 
 def on(card: Card, axis: int) -> None:
     """GEAR ON: follow the source from now."""
     sources.go_live(card, axis)
     disarm_on(card, axis)
-    card.memory.I[axis_word(axis)] |= AF1_GEAR_ACTIVATE | AF1_GEAR_ACTIVE
+    card.memory.I[af1.word[axis]] |= af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE
 
 
 def off(card: Card, axis: int) -> None:
     """GEAR OFF: ramp the ratio down; anything armed is disarmed."""
     disarm_on(card, axis)
     disarm_off(card, axis)
-    card.memory.I[axis_word(axis)] &= ~AF1_GEAR_ACTIVATE
+    card.memory.I[af1.word[axis]] &= ~af1.GEAR_ACTIVATE
 
 
 def disarm_on(card: Card, axis: int) -> None:
     """Forget what GEAR ON waits for."""
     sources.disarm(card, on_trigger(axis))
-    card.memory.I[axis_word2(axis)] &= ~(AF2_GEAR_ON_TRIG_ARMED | AF2_GEAR_ON_POSITION)
+    card.memory.I[af2.word[axis]] &= ~(af2.GEAR_ON_TRIG_ARMED | af2.GEAR_ON_POSITION)
 
 
 def disarm_off(card: Card, axis: int) -> None:
     """Forget what GEAR OFF waits for."""
     sources.disarm(card, off_trigger(axis))
-    card.memory.I[axis_word2(axis)] &= ~(AF2_GEAR_OFF_ARMED | AF2_GEAR_OFF_POSITION)
+    card.memory.I[af2.word[axis]] &= ~(af2.GEAR_OFF_ARMED | af2.GEAR_OFF_POSITION)
 
 
 def clear(card: Card, axis: int) -> None:
     """GEAR CLEAR: off at once, settings as at power-up; the offset stays."""
     off(card, axis)
-    card.memory.F[GRF_BASE + axis * GRF_STRIDE + GRF_RATIO_NOW] = 0.0
+    card.memory.F[gears.ratio_now[axis]] = 0.0
     set_gear_defaults(card.memory, axis)
 
 
@@ -83,26 +70,26 @@ def set_offset(card: Card, axis: int, offset_u: float) -> None:
     """GEAR OFFSET: the axis moves by the difference."""
     permit(card, axis)
     card.take_written(axis)
-    card.memory.F[axis_reals(axis) + AXF_GEAR_CNT] = offset_u * scale_of(card, axis)
+    card.memory.F[axes.gear_cnt[axis]] = offset_u * scale_of(card, axis)
     card.show(axis)
 
 
 def reset(card: Card, axis: int, offset_u: float) -> None:
     """GEAR RES: the gear offset becomes `offset_u`, the coordinated position the rest."""
-    transfer(card, axis, AXF_GEAR_CNT, offset_u)
+    transfer(card, axis, axes.gear_cnt[axis], offset_u)
 
 
 def reset_cam(card: Card, axis: int, offset_u: float) -> None:
     """CAM RES: the cam offset becomes `offset_u`, the coordinated position the rest."""
-    transfer(card, axis, AXF_CAM_CNT, offset_u)
+    transfer(card, axis, axes.cam_cnt[axis], offset_u)
 
 
 def transfer(card: Card, axis: int, part: int, offset_u: float) -> None:
     """Set one offset and give the difference to the coordinated position; PSP stays."""
     needs_no_moves(card, axis)
     card.take_written(axis)
-    reals, memory = axis_reals(axis), card.memory
+    memory = card.memory
     offset_cnt = offset_u * scale_of(card, axis)
-    position = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + part] - offset_cnt
-    memory.F[reals + part] = offset_cnt
+    position = memory.F[axes.position_cnt[axis]] + memory.F[part] - offset_cnt
+    memory.F[part] = offset_cnt
     registers.set_position(card, axis, position)

@@ -18,23 +18,8 @@ from openacr.kernel.path_cy import (
     MARK_OVERRIDE_LOCKED,
     MARK_ROUNDS,
 )
-from openacr.map.numbers import (
-    MA_MOVE_COUNTER,
-    MA_USER_VELOCITY,
-    MF2_ENABLE_RAPID_MOVE_MODES,
-    MQF_BASE,
-    MQF_DEC_UPS2,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQI_BASE,
-    MQI_MARKS,
-    MQI_RAPID,
-    MQI_STRIDE,
-    MSF_ACC_UPS2,
-    MSF_DEC_UPS2,
-    MSF_FVEL_UPS,
-    MSI_SLAVE_AXIS,
-)
+from openacr.map.rows import masters, moves
+from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
 from openacr.motion import corners, curve_modes
 from openacr.motion.card import Card
@@ -46,7 +31,6 @@ from openacr.motion.permits import (
     scale_of,
 )
 from openacr.motion.records import Way, append
-from openacr.motion.rows import master_ints, master_parameter, master_reals, master_word2
 
 LONGEST_COUNT = 2**31 - 1
 
@@ -113,13 +97,13 @@ class HostPoint:
 
 def has_rapid_modes(card: Card, master: int) -> bool:
     """Whether move packets of a master carry rapid modes (Enable Rapid Move Modes)."""
-    return bool(card.memory.I[master_word2(master)] & MF2_ENABLE_RAPID_MOVE_MODES)
+    return bool(card.memory.I[mf2.word[master]] & mf2.ENABLE_RAPID_MOVE_MODES)
 
 
 def slave_axis(card: Card, master: int, slave: int) -> int:
     """The axis of a slave; `Undefined symbol` if nothing is attached there."""
     _program(card, master)
-    axis = card.memory.I[master_ints(master) + MSI_SLAVE_AXIS + slave]
+    axis = card.memory.I[masters.slave_axis[master] + slave]
     if axis < 0:
         raise CardError(UNDEFINED_SYMBOL)
     return axis
@@ -147,11 +131,10 @@ def issue(card: Card, move: HostMove) -> None:
             return
     parts: list[Part] = [_circle(card, move, ways)] if move.arc else []
     record = append(card, program, move.master, ways, parts)
-    reals, ints = MQF_BASE + record * MQF_STRIDE, MQI_BASE + record * MQI_STRIDE
-    ramp = card.memory.F[reals + MQF_DEC_UPS2]
-    card.memory.F[reals + MQF_STP_UPS2] = ramp if move.stop_ramp else 0.0
-    card.memory.I[ints + MQI_RAPID] = int(move.rapid)
-    card.memory.I[ints + MQI_MARKS] = move.marks
+    ramp = card.memory.F[moves.dec_ups2[record]]
+    card.memory.F[moves.stp_ups2[record]] = ramp if move.stop_ramp else 0.0
+    card.memory.I[moves.rapid[record]] = int(move.rapid)
+    card.memory.I[moves.marks[record]] = move.marks
     if move.tolerance_u is not None:
         corners.set_of_move(card, move.master, record, move.tolerance_u)
 
@@ -174,7 +157,7 @@ def take_point(card: Card, point: HostPoint) -> None:
 
 def _count_at_once(card: Card, move: HostMove) -> None:
     """A move that leads nowhere is over when it comes."""
-    row = master_parameter(move.master) + MA_MOVE_COUNTER
+    row = masters.move_counter[move.master]
     counted = card.memory.I[row] + move.count
     if abs(counted) <= LONGEST_COUNT:
         card.memory.I[row] = counted
@@ -185,14 +168,13 @@ def _take_profile(card: Card, move: HostMove | HostPoint) -> None:
     given = (move.vel_ups, move.acc_ups2, move.fvel_ups)
     if any(value is not None and value < 0.0 for value in given):
         raise CardError(INVALID_ARGUMENT)
-    reals = master_reals(move.master)
     if move.vel_ups is not None:
-        card.memory.S[master_parameter(move.master) + MA_USER_VELOCITY] = move.vel_ups
+        card.memory.S[masters.user_velocity[move.master]] = move.vel_ups
     if move.acc_ups2 is not None:
-        card.memory.F[reals + MSF_ACC_UPS2] = move.acc_ups2
-        card.memory.F[reals + MSF_DEC_UPS2] = move.acc_ups2
+        card.memory.F[masters.acc_ups2[move.master]] = move.acc_ups2
+        card.memory.F[masters.dec_ups2[move.master]] = move.acc_ups2
     if move.fvel_ups is not None:
-        card.memory.F[reals + MSF_FVEL_UPS] = move.fvel_ups
+        card.memory.F[masters.fvel_ups[move.master]] = move.fvel_ups
 
 
 def _ways(card: Card, move: HostMove) -> list[Way]:

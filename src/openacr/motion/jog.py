@@ -12,24 +12,8 @@ from openacr.kernel.jog_cy import (
 )
 from openacr.kernel.jogplan_cy import FAR_CNT
 from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
-from openacr.map.numbers import (
-    AF1_JOG_ACTIVE,
-    AF1_JOG_FORWARD,
-    AF1_JOG_LOCKOUT,
-    AF1_JOG_REVERSE,
-    AXF_FOLDED_CNT,
-    AXF_JOG_CNT,
-    AXF_JOG_TARGET_CNT,
-    AXF_POSITION_CNT,
-    AXI_JOG_MODE,
-    AXI_JOG_REPLAN,
-    AXI_JOG_WANT,
-    MF1_IN_FEEDHOLD,
-    MSI_QUEUED,
-    SRI_BASE,
-    SRI_KIND,
-    SRI_STRIDE,
-)
+from openacr.map.rows import axes, masters, sources
+from openacr.map.words import af1, mf1
 from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE, NOT_VALID_WHILE_IN_MOTION
 from openacr.motion import registers
 from openacr.motion.card import Card
@@ -42,7 +26,6 @@ from openacr.motion.permits import (
     needs_rest,
     scale_of,
 )
-from openacr.motion.rows import axis_ints, axis_reals, axis_word, master_ints, master_word
 
 _axis_jog_set = pick(axis_cy.axis_jog_set)
 _home_abort = pick(homing_cy.home_abort)
@@ -59,20 +42,20 @@ def permit(card: Card, axis: int, direction: float) -> None:
 def continuous(card: Card, axis: int, direction: int) -> None:
     """JOG FWD (+1) or JOG REV (-1): run until JOG OFF."""
     permit(card, axis, direction)
-    word = axis_word(axis)
-    wanted, other = AF1_JOG_FORWARD, AF1_JOG_REVERSE
+    word = af1.word[axis]
+    wanted, other = af1.JOG_FORWARD, af1.JOG_REVERSE
     if direction < 0:
         wanted, other = other, wanted
     flags = card.memory.I[word] & ~other | wanted
-    if not flags & AF1_JOG_LOCKOUT:
-        flags |= AF1_JOG_ACTIVE
+    if not flags & af1.JOG_LOCKOUT:
+        flags |= af1.JOG_ACTIVE
     card.memory.I[word] = flags
 
 
 def offset(card: Card, axis: int) -> float:
     """The jog offset in units."""
     card.take_written(axis)
-    return card.memory.F[axis_reals(axis) + AXF_JOG_CNT] / scale_of(card, axis)
+    return card.memory.F[axes.jog_cnt[axis]] / scale_of(card, axis)
 
 
 def absolute(card: Card, axis: int, position_u: float) -> None:
@@ -84,17 +67,15 @@ def absolute(card: Card, axis: int, position_u: float) -> None:
 def incremental(card: Card, axis: int, distance_u: float) -> None:
     """JOG INC: from the jog offset, or from the target of a running JOG ABS or INC."""
     card.take_written(axis)
-    reals = axis_reals(axis)
-    running = card.memory.I[axis_ints(axis) + AXI_JOG_MODE] == JOG_TO_TARGET or waits(card, axis)
-    start = card.memory.F[reals + (AXF_JOG_TARGET_CNT if running else AXF_JOG_CNT)]
+    running = card.memory.I[axes.jog_mode[axis]] == JOG_TO_TARGET or waits(card, axis)
+    start = card.memory.F[(axes.jog_target_cnt if running else axes.jog_cnt)[axis]]
     _to_target(card, axis, start + distance_u * scale_of(card, axis))
 
 
 def waits(card: Card, axis: int) -> bool:
     """Whether JOG ABS or INC waits for the end of the stop of a limit or kill."""
-    ints = axis_ints(axis)
-    return card.memory.I[ints + AXI_JOG_MODE] == JOG_KILLED and bool(
-        card.memory.I[ints + AXI_JOG_REPLAN]
+    return card.memory.I[axes.jog_mode[axis]] == JOG_KILLED and bool(
+        card.memory.I[axes.jog_replan[axis]]
     )
 
 
@@ -102,39 +83,39 @@ def _to_target(card: Card, axis: int, target_cnt: float) -> None:
     memory = card.memory
     if not abs(target_cnt) < FAR_CNT:
         raise CardError(INVALID_ARGUMENT)
-    distance = target_cnt - memory.F[axis_reals(axis) + AXF_JOG_CNT]
+    distance = target_cnt - memory.F[axes.jog_cnt[axis]]
     permit(card, axis, distance / scale_of(card, axis))
-    ints, word = axis_ints(axis), axis_word(axis)
-    mode = memory.I[ints + AXI_JOG_MODE]
+    word = af1.word[axis]
+    mode = memory.I[axes.jog_mode[axis]]
     if mode == JOG_HOMING:
         _home_abort(memory.I, axis)
-    memory.F[axis_reals(axis) + AXF_JOG_TARGET_CNT] = target_cnt
-    memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
-    if distance == 0.0 and not memory.I[word] & AF1_JOG_ACTIVE:
+    memory.F[axes.jog_target_cnt[axis]] = target_cnt
+    memory.I[word] &= ~(af1.JOG_FORWARD | af1.JOG_REVERSE)
+    if distance == 0.0 and not memory.I[word] & af1.JOG_ACTIVE:
         return
-    if memory.I[word] & AF1_JOG_LOCKOUT and mode == JOG_IDLE:
+    if memory.I[word] & af1.JOG_LOCKOUT and mode == JOG_IDLE:
         return
     if mode != JOG_KILLED:  # else a limit or kill brings the axis to rest first
-        memory.I[ints + AXI_JOG_MODE] = JOG_TO_TARGET
-    memory.I[ints + AXI_JOG_REPLAN] = 1
-    memory.I[word] |= AF1_JOG_ACTIVE
+        memory.I[axes.jog_mode[axis]] = JOG_TO_TARGET
+    memory.I[axes.jog_replan[axis]] = 1
+    memory.I[word] |= af1.JOG_ACTIVE
 
 
 def off(card: Card, axis: int) -> None:
     """JOG OFF: ramp to rest with JOG DEC."""
     memory = card.memory
-    ints, word = axis_ints(axis), axis_word(axis)
-    memory.I[word] &= ~(AF1_JOG_FORWARD | AF1_JOG_REVERSE)
-    mode = memory.I[ints + AXI_JOG_MODE]
+    word = af1.word[axis]
+    memory.I[word] &= ~(af1.JOG_FORWARD | af1.JOG_REVERSE)
+    mode = memory.I[axes.jog_mode[axis]]
     if mode == JOG_HOMING:
         _home_abort(memory.I, axis)
     if mode in (JOG_HOMING, JOG_TO_TARGET):
-        memory.I[ints + AXI_JOG_WANT] = 0
-        memory.I[ints + AXI_JOG_MODE] = JOG_CONTINUOUS  # without a direction: ramp to rest
+        memory.I[axes.jog_want[axis]] = 0
+        memory.I[axes.jog_mode[axis]] = JOG_CONTINUOUS  # without a direction: ramp to rest
     elif mode == JOG_KILLED:
-        memory.I[ints + AXI_JOG_REPLAN] = 0  # a target that waits for the end of the stop
+        memory.I[axes.jog_replan[axis]] = 0  # a target that waits for the end of the stop
     elif mode == JOG_IDLE:
-        memory.I[word] &= ~AF1_JOG_ACTIVE
+        memory.I[word] &= ~af1.JOG_ACTIVE
 
 
 def permit_home(card: Card, axis: int) -> None:
@@ -142,19 +123,20 @@ def permit_home(card: Card, axis: int) -> None:
     needs_rest(card, axis)
     needs_no_kill(card, axis)
     needs_on(card, axis)
-    if card.memory.I[SRI_BASE + (axis * USES + USE_JOG) * SRI_STRIDE + SRI_KIND] != FROM_CLOCK:
+    if card.memory.I[sources.kind[axis * USES + USE_JOG]] != FROM_CLOCK:
         raise CardError(INVALID_SOURCE)
 
 
 def home(card: Card, axis: int, direction: int) -> None:
     """JOG HOME: start the homing sequence in `direction` (+1 or -1), unless locked out."""
     permit_home(card, axis)
-    rows, word = card.memory.I, axis_word(axis)
-    if rows[word] & AF1_JOG_LOCKOUT:
+    rows = card.memory.I
+    word = af1.word[axis]
+    if rows[word] & af1.JOG_LOCKOUT:
         return
     _home_begin(rows, axis, direction)
-    rows[axis_ints(axis) + AXI_JOG_MODE] = JOG_HOMING
-    rows[word] |= AF1_JOG_ACTIVE
+    rows[axes.jog_mode[axis]] = JOG_HOMING
+    rows[word] |= af1.JOG_ACTIVE
 
 
 def needs_no_moves(card: Card, axis: int) -> None:
@@ -167,24 +149,23 @@ def needs_no_moves(card: Card, axis: int) -> None:
 def path_held(card: Card, axis: int) -> bool:
     """Whether the axis belongs to a path with moves that rests in a feedhold."""
     master = master_of(card, axis)
-    if master is None or not card.memory.I[master_ints(master) + MSI_QUEUED]:
+    if master is None or not card.memory.I[masters.queued[master]]:
         return False
-    return card.memory.I[master_word(master)] & MF1_IN_FEEDHOLD != 0
+    return card.memory.I[mf1.word[master]] & mf1.IN_FEEDHOLD != 0
 
 
 def needs_no_jog(card: Card, axis: int) -> None:
     """Refuse while the axis jogs."""
-    if card.memory.I[axis_word(axis)] & AF1_JOG_ACTIVE:
+    if card.memory.I[af1.word[axis]] & af1.JOG_ACTIVE:
         raise CardError(NOT_VALID_WHILE_IN_MOTION)
 
 
 def renew(card: Card, axis: int, position_u: float) -> None:
     """JOG REN: the coordinated position becomes `position_u`, the jog offset the rest."""
     needs_no_moves(card, axis)
-    reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
-    total = memory.F[reals + AXF_POSITION_CNT] + memory.F[reals + AXF_JOG_CNT]
+    total = memory.F[axes.position_cnt[axis]] + memory.F[axes.jog_cnt[axis]]
     position = position_u * scale_of(card, axis)
     _share(card, axis, position, total - position)
 
@@ -198,17 +179,16 @@ def reset(card: Card, axis: int, offset_u: float) -> None:
     is_held = path_held(card, axis)
     if not is_held:
         needs_no_moves(card, axis)
-    reals = axis_reals(axis)
     card.take_written(axis)
     memory = card.memory
-    jog = memory.F[reals + AXF_JOG_CNT]
+    jog = memory.F[axes.jog_cnt[axis]]
     kept = offset_u * scale_of(card, axis)
-    position = memory.F[reals + AXF_POSITION_CNT] + jog - kept
+    position = memory.F[axes.position_cnt[axis]] + jog - kept
     if not is_held:
         _share(card, axis, position, kept)
         return
-    memory.F[reals + AXF_FOLDED_CNT] += jog - kept
-    memory.F[reals + AXF_POSITION_CNT] = position
+    memory.F[axes.folded_cnt[axis]] += jog - kept
+    memory.F[axes.position_cnt[axis]] = position
     _axis_jog_set(memory.F, memory.I, axis, kept)
     card.show(axis)
 

@@ -8,35 +8,25 @@ is the language's business (basic/vm/kinematics_cy.py).
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import axis_cy
-from openacr.map.numbers import (
-    AXF_KINEMATICS_CNT,
-    AXF_POSITION_CNT,
-    AXF_SEEN_CNT,
-    KRI_BASE,
-    KRI_KINEMATICS,
-    MF4_PERFORM_KINEMATICS,
-    MF4_WORD,
-    MSI_INVK_MOVING,
-    MSI_INVK_PROGRAM,
-)
+from openacr.map.rows import axes, kernel, masters
+from openacr.map.words import mf4
 from openacr.messages import NOT_VALID_WHILE_IN_MOTION
 from openacr.motion.card import Card
 from openacr.motion.permits import axes_of, master_moving
-from openacr.motion.rows import axis_reals, master_ints
 
-_MASK = KRI_BASE + KRI_KINEMATICS
+_MASK = kernel.kinematics
 _axis_settled = pick(axis_cy.axis_settled)
 
 
 def program_of(card: Card, master: int) -> int | None:
     """The program that computes the joints of a master, None before one is chosen."""
-    program = card.memory.I[master_ints(master) + MSI_INVK_PROGRAM] - 1
+    program = card.memory.I[masters.invk_program[master]] - 1
     return program if program >= 0 else None
 
 
 def choose(card: Card, master: int, program: int) -> None:
     """INVK PROGn."""
-    card.memory.I[master_ints(master) + MSI_INVK_PROGRAM] = program + 1
+    card.memory.I[masters.invk_program[master]] = program + 1
 
 
 def is_on(card: Card, master: int) -> bool:
@@ -53,19 +43,17 @@ def needs_rest(card: Card, master: int) -> None:
 def switch_on(card: Card, master: int) -> None:
     """INVK ON: the tool is said to be where the joints are until somebody writes otherwise."""
     for axis in axes_of(card, master):
-        row = axis_reals(axis)
-        card.memory.F[row + AXF_SEEN_CNT] = card.memory.F[row + AXF_POSITION_CNT]
-    card.memory.I[master_ints(master) + MSI_INVK_MOVING] = 0
+        card.memory.F[axes.seen_cnt[axis]] = card.memory.F[axes.position_cnt[axis]]
+    card.memory.I[masters.invk_moving[master]] = 0
     card.memory.I[_MASK] |= 1 << master
-    card.memory.I[MF4_WORD + master] |= MF4_PERFORM_KINEMATICS
+    card.memory.I[mf4.word[master]] |= mf4.PERFORM_KINEMATICS
 
 
 def switch_off(card: Card, master: int) -> None:
     """INVK OFF: the coordinated positions are those of the joints again; nothing moves."""
     card.memory.I[_MASK] &= ~(1 << master)
-    card.memory.I[MF4_WORD + master] &= ~MF4_PERFORM_KINEMATICS
+    card.memory.I[mf4.word[master]] &= ~mf4.PERFORM_KINEMATICS
     for axis in axes_of(card, master):
-        row = axis_reals(axis)
-        card.memory.F[row + AXF_POSITION_CNT] += card.memory.F[row + AXF_KINEMATICS_CNT]
-        card.memory.F[row + AXF_KINEMATICS_CNT] = 0.0
+        card.memory.F[axes.position_cnt[axis]] += card.memory.F[axes.kinematics_cnt[axis]]
+        card.memory.F[axes.kinematics_cnt[axis]] = 0.0
         _axis_settled(card.memory.F, card.memory.I, axis)

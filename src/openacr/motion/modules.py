@@ -9,13 +9,7 @@ is left out reads 0 and is not driven.
 
 from collections.abc import Sequence
 
-from openacr.map.numbers import (
-    KRI_BASE,
-    KRI_MISSING_ADCS,
-    KRI_MISSING_DACS,
-    KRI_MISSING_ENCODERS,
-    KRI_MISSING_STEPPERS,
-)
+from openacr.map.rows import kernel
 from openacr.motion.card import Card
 
 OF_EACH = 8
@@ -44,10 +38,10 @@ def _missing_by_row(modules: Sequence[str]) -> dict[int, int]:
         for kind in _OUTPUTS.get(word, ()):
             present[kind] |= _first(count) << socket * OF_MODULE
     return {
-        KRI_BASE + KRI_MISSING_ENCODERS: _missing(_first(_parts(encoders)[1])),
-        KRI_BASE + KRI_MISSING_DACS: _missing(present["DAC"]),
-        KRI_BASE + KRI_MISSING_STEPPERS: _missing(present["STEPPER"]),
-        KRI_BASE + KRI_MISSING_ADCS: _missing(_first(_parts(inputs)[1])),
+        kernel.missing_encoders: _missing(_first(_parts(encoders)[1])),
+        kernel.missing_dacs: _missing(present["DAC"]),
+        kernel.missing_steppers: _missing(present["STEPPER"]),
+        kernel.missing_adcs: _missing(_first(_parts(inputs)[1])),
     }
 
 

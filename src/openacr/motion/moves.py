@@ -5,32 +5,8 @@ from collections.abc import Sequence
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import hold_cy
-from openacr.map.numbers import (
-    AXF_POSITION_CNT,
-    AXF_ROTARY_U,
-    MF1_START_MOVE_INHIBIT,
-    MQF_BASE,
-    MQF_HSINT_START_CNT,
-    MQF_HSINT_WAY_CNT,
-    MQF_HSINT_WINDOW_CNT,
-    MQF_STRIDE,
-    MQI_BASE,
-    MQI_HSINT_ABORT,
-    MQI_HSINT_AXIS,
-    MQI_HSINT_MODE,
-    MQI_INTERRUPT,
-    MQI_RAPID,
-    MQI_SEEK_AXIS,
-    MQI_SEEK_MODE,
-    MQI_STRIDE,
-    MSF_TARGET_CNT,
-    MSI_DEPTH,
-    MSI_DROP_AT_REST,
-    MSI_HOLD,
-    MSI_MOVING,
-    MSI_QUEUED,
-    MSI_STEP_GO,
-)
+from openacr.map.rows import axes, masters, moves
+from openacr.map.words import mf1
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
 from openacr.motion import corners, curve_modes, curve_points, replacing, tangent
 from openacr.motion.card import Card
@@ -44,7 +20,6 @@ from openacr.motion.permits import (
     scale_of,
 )
 from openacr.motion.records import Way, append
-from openacr.motion.rows import axis_reals, master_ints, master_reals, master_word
 
 FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
 
@@ -63,18 +38,18 @@ def needed_master(card: Card, program: int) -> int:
 
 def capacity(card: Card, master: int) -> int:
     """How many moves a master holds, the running one included."""
-    return card.memory.I[master_ints(master) + MSI_DEPTH] + 1
+    return card.memory.I[masters.depth[master]] + 1
 
 
 def has_room(card: Card, master: int, count: int = 1) -> bool:
     """Whether the move buffer of a master takes another `count` moves."""
-    queued = card.memory.I[master_ints(master) + MSI_QUEUED]
+    queued = card.memory.I[masters.queued[master]]
     return queued + count <= capacity(card, master)
 
 
 def room_row(card: Card, master: int) -> tuple[int, int]:
     """Row in I and value it must stay below for the buffer to have room."""
-    return master_ints(master) + MSI_QUEUED, capacity(card, master)
+    return masters.queued[master], capacity(card, master)
 
 
 def issue(
@@ -104,9 +79,8 @@ def issue(
     record = tangent.add(card, program, master, ways, parts)
     if tolerance_u is not None:
         corners.set_of_move(card, master, record, tolerance_u)
-    rows = MQI_BASE + record * MQI_STRIDE
-    card.memory.I[rows + MQI_RAPID] = int(rapid)
-    card.memory.I[rows + MQI_INTERRUPT] = interrupt.signed if interrupt else 0
+    card.memory.I[moves.rapid[record]] = int(rapid)
+    card.memory.I[moves.interrupt[record]] = interrupt.signed if interrupt else 0
 
 
 def point(
@@ -143,9 +117,8 @@ def seek(card: Card, program: int, axis: int, distance_u: float, mode: int) -> N
     """MSEEK: an incremental move that looks for a capture and returns to it."""
     record = _single(card, program, Target(axis, distance_u, incremental=True))
     if record is not None:
-        row = MQI_BASE + record * MQI_STRIDE
-        card.memory.I[row + MQI_SEEK_AXIS] = axis + 1
-        card.memory.I[row + MQI_SEEK_MODE] = mode
+        card.memory.I[moves.seek_axis[record]] = axis + 1
+        card.memory.I[moves.seek_mode[record]] = mode
 
 
 def high_speed_interrupt(
@@ -162,14 +135,12 @@ def high_speed_interrupt(
     if record is None:
         return
     scale = scale_of(card, target.axis)
-    row = MQI_BASE + record * MQI_STRIDE
-    card.memory.I[row + MQI_HSINT_AXIS] = target.axis + 1
-    card.memory.I[row + MQI_HSINT_MODE] = mode
-    card.memory.I[row + MQI_HSINT_ABORT] = abort.signed if abort else 0
-    reals = MQF_BASE + record * MQF_STRIDE
-    card.memory.F[reals + MQF_HSINT_WAY_CNT] = way_u * scale
-    card.memory.F[reals + MQF_HSINT_WINDOW_CNT] = window_u[0] * abs(scale)
-    card.memory.F[reals + MQF_HSINT_START_CNT] = window_u[1] * abs(scale)
+    card.memory.I[moves.hsint_axis[record]] = target.axis + 1
+    card.memory.I[moves.hsint_mode[record]] = mode
+    card.memory.I[moves.hsint_abort[record]] = abort.signed if abort else 0
+    card.memory.F[moves.hsint_way_cnt[record]] = way_u * scale
+    card.memory.F[moves.hsint_window_cnt[record]] = window_u[0] * abs(scale)
+    card.memory.F[moves.hsint_start_cnt[record]] = window_u[1] * abs(scale)
 
 
 def _single(card: Card, program: int, target: Target) -> int | None:
@@ -192,7 +163,7 @@ def _way(card: Card, program: int, master: int, target: Target, *, here: bool) -
     if target.incremental:
         delta = target.value_u * scale
         return Way(slave, target.axis, start, start + delta, delta, relative=True)
-    length = card.memory.F[axis_reals(target.axis) + AXF_ROTARY_U] * scale
+    length = card.memory.F[axes.rotary_u[target.axis]] * scale
     delta = target.value_u * scale - start
     if length:
         delta = shortest_way(delta, abs(length))
@@ -211,45 +182,43 @@ def start_cnt(card: Card, master: int, slave: int, axis: int, *, here: bool) -> 
     if point is not None:
         return point
     if not here:
-        return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]
+        return card.memory.F[masters.target_cnt[master] + slave]
     if not master_moving(card, master):
         card.take_written(axis)
-    return card.memory.F[axis_reals(axis) + AXF_POSITION_CNT]
+    return card.memory.F[axes.position_cnt[axis]]
 
 
 def hold(card: Card, master: int) -> None:
     """Feedhold: slow the path to rest; the move stays loaded."""
-    if card.memory.I[master_ints(master) + MSI_HOLD] == hold_cy.NOT_HELD:
+    if card.memory.I[masters.hold[master]] == hold_cy.NOT_HELD:
         _master_hold(card.memory.F, card.memory.I, card.memory.S, master)
 
 
 def release(card: Card, master: int) -> None:
     """Cycle start: the path goes on."""
-    if card.memory.I[master_ints(master) + MSI_HOLD] != hold_cy.NOT_HELD:
+    if card.memory.I[masters.hold[master]] != hold_cy.NOT_HELD:
         _master_release(card.memory.F, card.memory.I, card.memory.S, master)
 
 
 def step(card: Card, master: int) -> None:
     """STEP of block mode: the move that is held goes on, or the next one may begin; no more."""
-    rows = master_ints(master)
-    card.memory.I[master_word(master)] |= MF1_START_MOVE_INHIBIT
-    card.memory.I[rows + MSI_STEP_GO] = int(not card.memory.I[rows + MSI_MOVING])
+    card.memory.I[mf1.word[master]] |= mf1.START_MOVE_INHIBIT
+    card.memory.I[masters.step_go[master]] = int(not card.memory.I[masters.moving[master]])
     release(card, master)
 
 
 def end_steps(card: Card, master: int) -> None:
     """Block mode has ended: moves begin as ever."""
-    card.memory.I[master_word(master)] &= ~MF1_START_MOVE_INHIBIT
-    card.memory.I[master_ints(master) + MSI_STEP_GO] = 0
+    card.memory.I[mf1.word[master]] &= ~mf1.START_MOVE_INHIBIT
+    card.memory.I[masters.step_go[master]] = 0
 
 
 def halt(card: Card, master: int) -> None:
     """HALT: slow the path to rest, then drop all its moves; no kill flag is left."""
     if not master_moving(card, master):
         return
-    rows = master_ints(master)
-    if card.memory.I[rows + MSI_HOLD] == hold_cy.IN_FEEDHOLD:
+    if card.memory.I[masters.hold[master]] == hold_cy.IN_FEEDHOLD:
         _master_drop(card.memory.F, card.memory.I, card.memory.S, master)
     else:
         hold(card, master)
-        card.memory.I[rows + MSI_DROP_AT_REST] = 1
+        card.memory.I[masters.drop_at_rest[master]] = 1

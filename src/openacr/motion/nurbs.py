@@ -8,24 +8,14 @@ knots up to j + RANK - 1, so the motion is RANK - 1 points behind the input.
 from itertools import pairwise
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    MA_NURB_START_TIME,
-    MA_NURB_TIME_FACTOR,
-    MF3_NURB_LOADED,
-    MF3_NURB_PENDING,
-    MF3_NURB_SMOOTH,
-    MF3_NURB_TIME,
-    MF3_WORD,
-    MSF_ACC_UPS2,
-    MSI_SLAVE_AXIS,
-)
+from openacr.map.rows import masters
+from openacr.map.words import mf3
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import bezier, curve_points, pieces
 from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
 from openacr.motion.curve_points import CurvePoints
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import master_ints, master_parameter, master_reals
 
 STEP = 1.0  # between knots that are not given
 FASTEST = 1e6
@@ -47,7 +37,7 @@ def take(
     elif weight is not None or len(curve.knots) >= len(curve.points) + _rank(card, master):
         raise CardError(INVALID_ARGUMENT)
     curve.knots.append(value)
-    card.memory.I[MF3_WORD + master] |= MF3_NURB_PENDING
+    card.memory.I[mf3.word[master]] |= mf3.NURB_PENDING
     _follow(card, program, master, curve, ends=False)
     curve_points.store(card, master, curve)
 
@@ -123,24 +113,24 @@ def _send(
     *,
     ends: bool,
 ) -> None:
-    flags = card.memory.I[MF3_WORD + master]
-    if not flags & MF3_NURB_TIME and way.is_point:
+    flags = card.memory.I[mf3.word[master]]
+    if not flags & mf3.NURB_TIME and way.is_point:
         return
-    parts = bezier.halves(way) if flags & MF3_NURB_SMOOTH else (way,)
+    parts = bezier.halves(way) if flags & mf3.NURB_SMOOTH else (way,)
     for part in parts:
         pace = _pace(card, master, curve, part, ends=ends and part is parts[-1])
         size = span / len(parts)
         pieces.hand_over(card, program, master, curve.numbers, part, size, pace)
         curve.is_open = True
-    card.memory.I[MF3_WORD + master] |= MF3_NURB_LOADED
+    card.memory.I[mf3.word[master]] |= mf3.NURB_LOADED
 
 
 def _pace(card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bool) -> pieces.Pace:
-    flags, base = card.memory.I[MF3_WORD + master], master_parameter(master)
+    flags = card.memory.I[mf3.word[master]]
     begins = not curve.is_open
-    if flags & MF3_NURB_TIME:
-        factor = card.memory.S[base + MA_NURB_TIME_FACTOR]
-        start_s = card.memory.S[base + MA_NURB_START_TIME]
+    if flags & mf3.NURB_TIME:
+        factor = card.memory.S[masters.nurb_time_factor[master]]
+        start_s = card.memory.S[masters.nurb_start_time[master]]
         return pieces.Pace(
             rate=1.0 / factor if factor > 1.0 / FASTEST else FASTEST,
             start_s=start_s if start_s > 0.0 else 0.0,
@@ -148,14 +138,14 @@ def _pace(card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bo
             begins=begins,
             ends=ends,
         )
-    most = _bend_speed(card, master, curve, part) if flags & MF3_NURB_SMOOTH else 0.0
+    most = _bend_speed(card, master, curve, part) if flags & mf3.NURB_SMOOTH else 0.0
     return pieces.Pace(most_ups=most, is_nurb=True, begins=begins, ends=ends)
 
 
 def _bend_speed(card: Card, master: int, curve: CurvePoints, part: Bezier) -> float:
     """Speed at which the tightest bend takes ACC: v^2 / R <= ACC."""
-    acc = card.memory.F[master_reals(master) + MSF_ACC_UPS2]
-    axes = [card.memory.I[master_ints(master) + MSI_SLAVE_AXIS + s] for s in curve.numbers]
+    acc = card.memory.F[masters.acc_ups2[master]]
+    axes = [card.memory.I[masters.slave_axis[master] + s] for s in curve.numbers]
     radius = bezier.tightest_radius(part, [scale_of(card, axis) for axis in axes])
     bound = (acc * radius) ** 0.5
     return bound if bound < FASTEST else 0.0

@@ -5,12 +5,21 @@ from __future__ import annotations
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel import offset_cy
-from openacr.map import numbers as at
+from openacr.map.rows import (
+    axes,
+    filters,
+    followers,
+    hand_wheels,
+    limiters,
+    objects,
+    output_objects,
+    ratchets,
+)
+from openacr.map.words import af3
 from openacr.messages import AXIS_IS_LOCKED, INVALID_ARGUMENT
 from openacr.motion import sources
 from openacr.motion.card import Card
 from openacr.motion.permits import needs_on, needs_rest
-from openacr.motion.rows import axis_reals
 
 _filter_clear = pick(offset_cy.filter_clear)
 _filter_halt = pick(offset_cy.filter_halt)
@@ -23,8 +32,8 @@ def filter_on(card: Card, axis: int) -> None:
     """FLT ON: follow the source through an empty window."""
     sources.go_live(card, axis)
     _filter_clear(card.memory.F, card.memory.I, axis)
-    card.memory.I[at.FLI_BASE + axis * at.FLI_STRIDE + at.FLI_ON] = 1
-    card.memory.I[at.AF3_WORD + axis] |= at.AF3_FILTER_MOVED
+    card.memory.I[filters.on[axis]] = 1
+    card.memory.I[af3.word[axis]] |= af3.FILTER_MOVED
 
 
 def filter_off(card: Card, axis: int) -> None:
@@ -35,13 +44,13 @@ def filter_off(card: Card, axis: int) -> None:
 def set_filter_size(card: Card, axis: int, ticks: int) -> None:
     """FLT COEF: ticks to average over; the window starts empty."""
     _filter_clear(card.memory.F, card.memory.I, axis)
-    card.memory.I[at.FLI_BASE + axis * at.FLI_STRIDE + at.FLI_SIZE] = ticks
+    card.memory.I[filters.size[axis]] = ticks
 
 
 def set_filter_out(card: Card, axis: int, parameter: int | None) -> None:
     """FLT OUT: the parameter that moves, None for the gear offset."""
     out = -1 if parameter is None else parameter
-    card.memory.I[at.FLI_BASE + axis * at.FLI_STRIDE + at.FLI_OUT] = out
+    card.memory.I[filters.out[axis]] = out
 
 
 # hand wheels
@@ -51,7 +60,7 @@ def wheel_on(card: Card, axis: int, on: bool) -> None:
     """HDW ON and OFF; a target already given is still reached."""
     if on:
         sources.go_live(card, axis)
-    card.memory.I[at.HWI_BASE + axis * at.HWI_STRIDE + at.HWI_ON] = int(on)
+    card.memory.I[hand_wheels.on[axis]] = int(on)
 
 
 # locked pairs
@@ -59,7 +68,7 @@ def wheel_on(card: Card, axis: int, on: bool) -> None:
 
 def leader(card: Card, axis: int) -> int | None:
     """The axis that leads a locked one."""
-    found = card.memory.I[at.FOI_BASE + axis * at.FOI_STRIDE + at.FOI_LEADER]
+    found = card.memory.I[followers.leader[axis]]
     return found - 1 if found else None
 
 
@@ -73,10 +82,10 @@ def lock(card: Card, first: int, second: int) -> None:
     if any(leader(card, axis) == second for axis in range(card.model.axes)):
         raise CardError(AXIS_IS_LOCKED)
     memory = card.memory
-    old = at.FOF_BASE + second * at.FOF_STRIDE + at.FOF_LOCK_OLD_CNT
-    memory.F[old] = memory.F[axis_reals(first) + at.AXF_PSP_CNT]
-    memory.I[at.FOI_BASE + second * at.FOI_STRIDE + at.FOI_LEADER] = first + 1
-    memory.I[at.OBI_BASE + at.OBI_LOCKED] += 1
+    old = followers.lock_old_cnt[second]
+    memory.F[old] = memory.F[axes.psp_cnt[first]]
+    memory.I[followers.leader[second]] = first + 1
+    memory.I[objects.locked] += 1
 
 
 def unlock(card: Card, axis: int) -> None:
@@ -84,10 +93,10 @@ def unlock(card: Card, axis: int) -> None:
     for other in range(card.model.axes):
         found = leader(card, other)
         if found is not None and axis in (other, found):
-            card.memory.I[at.FOI_BASE + other * at.FOI_STRIDE + at.FOI_LEADER] = 0
-            card.memory.I[at.OBI_BASE + at.OBI_LOCKED] -= 1
+            card.memory.I[followers.leader[other]] = 0
+            card.memory.I[objects.locked] -= 1
             for freed in (other, found):
-                card.memory.F[at.FOF_BASE + freed * at.FOF_STRIDE + at.FOF_LOCK_V] = 0.0
+                card.memory.F[followers.lock_v[freed]] = 0.0
 
 
 def locked_pairs(card: Card) -> list[tuple[int, int]]:
@@ -102,17 +111,15 @@ def locked_pairs(card: Card) -> list[tuple[int, int]]:
 def reset_ratchet(card: Card, number: int, value: float) -> None:
     """RATCH RES: the output is `value`, nothing is buffered."""
     sources.objects_go_live(card)
-    row = at.RTF_BASE + number * at.RTF_STRIDE
-    card.memory.F[row + at.RTF_OUTPUT_CNT] = value
-    card.memory.F[row + at.RTF_BACKLOG_CNT] = 0.0
+    card.memory.F[ratchets.output_cnt[number]] = value
+    card.memory.F[ratchets.backlog_cnt[number]] = 0.0
 
 
 def reset_limiter(card: Card, number: int, value: float) -> None:
     """LIMIT RES: the output is `value`, nothing is held back."""
     sources.objects_go_live(card)
-    row = at.LTF_BASE + number * at.LTF_STRIDE
-    card.memory.F[row + at.LTF_OUTPUT_CNT] = value
-    card.memory.F[row + at.LTF_BACKLOG_CNT] = 0.0
+    card.memory.F[limiters.output_cnt[number]] = value
+    card.memory.F[limiters.backlog_cnt[number]] = 0.0
 
 
 # output objects
@@ -121,17 +128,15 @@ def reset_limiter(card: Card, number: int, value: float) -> None:
 def output_on(card: Card, number: int, on: bool) -> None:
     """OOP ON and OFF; switched off, its flag is clear."""
     sources.objects_go_live(card)
-    row = at.OOI_BASE + number * at.OOI_STRIDE
-    card.memory.I[row + at.OOI_ON] = int(on)
+    card.memory.I[output_objects.on[number]] = int(on)
     if not on:
-        card.memory.set_bit(card.memory.I[row + at.OOI_BIT], False)
+        card.memory.set_bit(card.memory.I[output_objects.bit[number]], False)
 
 
 def set_window(card: Card, number: int, first: float, second: float) -> None:
     """OOP POS: one window, from the smaller to below the larger position."""
-    row = at.OOF_BASE + number * at.OOF_STRIDE
-    card.memory.F[row + at.OOF_FROM_CNT] = min(first, second)
-    card.memory.F[row + at.OOF_TO_CNT] = max(first, second)
+    card.memory.F[output_objects.from_cnt[number]] = min(first, second)
+    card.memory.F[output_objects.to_cnt[number]] = max(first, second)
 
 
 def set_windows(
@@ -140,8 +145,7 @@ def set_windows(
     """OOP INC: windows of a width, `count` of them (0: endless)."""
     if not (pitch > 0.0 and width > 0.0 and 0 <= count < 1 << 31):
         raise CardError(INVALID_ARGUMENT)
-    row = at.OOF_BASE + number * at.OOF_STRIDE
-    card.memory.F[row + at.OOF_START_CNT] = start
-    card.memory.F[row + at.OOF_PITCH_CNT] = pitch
-    card.memory.F[row + at.OOF_WIDTH_CNT] = width
-    card.memory.I[at.OOI_BASE + number * at.OOI_STRIDE + at.OOI_WINDOWS] = count
+    card.memory.F[output_objects.start_cnt[number]] = start
+    card.memory.F[output_objects.pitch_cnt[number]] = pitch
+    card.memory.F[output_objects.width_cnt[number]] = width
+    card.memory.I[output_objects.windows[number]] = count

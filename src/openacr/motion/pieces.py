@@ -12,33 +12,14 @@ from openacr.compiled import pick
 from openacr.kernel import bezier_cy
 from openacr.kernel.path_cy import MARK_CURVE_BEGIN, MARK_NURB
 from openacr.map.hidden.motion import SLAVES
-from openacr.map.numbers import (
-    AXF_POSITION_CNT,
-    MQF_ACC_UPS2,
-    MQF_BASE,
-    MQF_DEC_UPS2,
-    MQF_FVEL_UPS,
-    MQF_IVEL_UPS,
-    MQF_JRK_UPS3,
-    MQF_STP_UPS2,
-    MQF_STRIDE,
-    MQF_TMOV_S,
-    MQF_VEL_UPS,
-    MQI_BASE,
-    MQI_MARKS,
-    MQI_STRIDE,
-    MSF_TARGET_CNT,
-    MSI_QUEUED,
-    MSI_SIZE,
-    MSI_SLAVE_AXIS,
-)
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import masters, moves
 from openacr.motion import tangent
 from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
 from openacr.motion.orders import Piece, Target
 from openacr.motion.permits import scale_of
 from openacr.motion.records import Way
-from openacr.motion.rows import axis_reals, master_ints, master_reals
 
 MOST = 12  # records that one statement can make, the way to the first one included
 NEAR_CNT = 0.01
@@ -67,8 +48,7 @@ def has_room(card: Card, master: int, count: int) -> bool:
 
 def room_row(card: Card, master: int, count: int) -> tuple[int, int]:
     """Row in I and value it must stay below for `count` pieces to have room."""
-    rows = master_ints(master)
-    return rows + MSI_QUEUED, card.memory.I[rows + MSI_SIZE] - count + 1
+    return masters.queued[master], card.memory.I[masters.size[master]] - count + 1
 
 
 def hand_over(
@@ -81,7 +61,7 @@ def hand_over(
     pace: Pace,
 ) -> None:
     """Append a piece; one that begins elsewhere is led up to in a straight line."""
-    axes = {s: card.memory.I[master_ints(master) + MSI_SLAVE_AXIS + s] for s in slaves}
+    axes = {s: card.memory.I[masters.slave_axis[master] + s] for s in slaves}
     if _lead_up(card, program, master, axes, curve.poles[0]):
         pace = replace(pace, begins=True)
     time_s = span if pace.rate else 0.0
@@ -89,7 +69,7 @@ def hand_over(
     ways = _ways(axes, curve.poles[0], curve.poles[-1])
     record = tangent.add(card, program, master, ways, [piece])
     marks = (MARK_CURVE_BEGIN if pace.begins else 0) | (MARK_NURB if pace.is_nurb else 0)
-    card.memory.I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] = marks
+    card.memory.I[moves.marks[record]] = marks
     if pace.rate:
         _write_timed(card, record, span, pace)
     else:
@@ -118,44 +98,44 @@ def _lead_up(
 
 def _end(card: Card, master: int, slave: int, axis: int) -> float:
     """Where the last move of the buffer ends, or the axis is."""
-    if card.memory.I[master_ints(master) + MSI_QUEUED]:
-        return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]
-    return card.memory.F[axis_reals(axis) + AXF_POSITION_CNT]
+    if card.memory.I[masters.queued[master]]:
+        return card.memory.F[masters.target_cnt[master] + slave]
+    return card.memory.F[axis_rows.position_cnt[axis]]
 
 
 def _write_timed(card: Card, record: int, span: float, pace: Pace) -> None:
-    memory, row = card.memory, MQF_BASE + record * MQF_STRIDE
+    memory = card.memory
     steepest = max(
         _bezier_speed(memory.F, memory.I, record, n / SAMPLES) for n in range(SAMPLES + 1)
     )
     per_unit = span / steepest if steepest > 0.0 else 0.0
-    acc = memory.F[row + MQF_ACC_UPS2] * per_unit
-    for place, value in (
-        (MQF_VEL_UPS, pace.rate),
-        (MQF_ACC_UPS2, pace.rate / pace.start_s if pace.start_s else acc),
-        (MQF_DEC_UPS2, memory.F[row + MQF_DEC_UPS2] * per_unit),
-        (MQF_IVEL_UPS, pace.rate if pace.begins and not pace.start_s else 0.0),
+    acc = memory.F[moves.acc_ups2[record]] * per_unit
+    for row, value in (
+        (moves.vel_ups, pace.rate),
+        (moves.acc_ups2, pace.rate / pace.start_s if pace.start_s else acc),
+        (moves.dec_ups2, memory.F[moves.dec_ups2[record]] * per_unit),
+        (moves.ivel_ups, pace.rate if pace.begins and not pace.start_s else 0.0),
     ):
-        memory.F[row + place] = value
-    for place in (MQF_STP_UPS2, MQF_FVEL_UPS, MQF_JRK_UPS3, MQF_TMOV_S):
-        memory.F[row + place] = 0.0
+        memory.F[row[record]] = value
+    for row in (moves.stp_ups2, moves.fvel_ups, moves.jrk_ups3, moves.tmov_s):
+        memory.F[row[record]] = 0.0
 
 
 def _write_path(card: Card, record: int, pace: Pace) -> None:
     """A piece that may be the last known one ends at rest: what follows may come late."""
-    reals, row = card.memory.F, MQF_BASE + record * MQF_STRIDE
-    reals[row + MQF_TMOV_S] = 0.0
+    reals = card.memory.F
+    reals[moves.tmov_s[record]] = 0.0
     if pace.most_ups:
-        reals[row + MQF_VEL_UPS] = min(reals[row + MQF_VEL_UPS], pace.most_ups)
+        reals[moves.vel_ups[record]] = min(reals[moves.vel_ups[record]], pace.most_ups)
     if not pace.begins:
-        reals[row + MQF_IVEL_UPS] = 0.0
+        reals[moves.ivel_ups[record]] = 0.0
     if not pace.ends:
-        reals[row + MQF_FVEL_UPS] = 0.0
-        if reals[row + MQF_STP_UPS2] <= 0.0:
-            reals[row + MQF_STP_UPS2] = reals[row + MQF_DEC_UPS2]
+        reals[moves.fvel_ups[record]] = 0.0
+        if reals[moves.stp_ups2[record]] <= 0.0:
+            reals[moves.stp_ups2[record]] = reals[moves.dec_ups2[record]]
 
 
 def base_point(card: Card, master: int) -> list[float]:
     """Where all slaves of a master are when the moves that wait are done."""
-    axes = card.memory.I[master_ints(master) + MSI_SLAVE_AXIS :][:SLAVES]
+    axes = card.memory.I[masters.slave_axis[master] :][:SLAVES]
     return [_end(card, master, s, axis) if axis >= 0 else 0.0 for s, axis in enumerate(axes)]

@@ -13,49 +13,27 @@ from math import isfinite
 from openacr.errors import CardError
 from openacr.map.block import Kind
 from openacr.map.numbers import (
-    AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE,
-    AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE,
-    AF5_POSITIVE_HARDWARE_LIMIT_ENABLE,
-    AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE,
-    AF5_WORD,
     AX_BASE,
-    AX_DGAIN_SMOOTH,
     AX_MAX_VELOCITY_LIMIT,
-    AX_OUTPUT_SIGNAL,
     AX_STRIDE,
     AXF_BASE,
-    AXF_DERIVATIVE_HISTORY,
-    AXF_DERIVATIVE_HISTORY_SIZE,
-    AXF_DERIVATIVE_SUM,
     AXF_STRIDE,
     AXI_BASE,
-    AXI_DERIVATIVE_INDEX,
-    AXI_DERIVATIVE_SMOOTH,
-    AXI_ON,
-    AXI_POSITION_INDEX,
-    AXI_POSITION_SOURCE,
-    AXI_SIGNAL_INDEX,
-    AXI_SIGNAL_SOURCE,
-    AXI_SLAVE,
     AXI_STRIDE,
-    DAC_BASE,
-    DAC_DAC_OUTPUT,
-    DAC_STRIDE,
     ENI_BASE,
     ENI_MULT,
     ENI_STRIDE,
     MA_BASE,
     MA_STRIDE,
-    MF2_SLAVEMAXVEL,
     MSF_BASE,
     MSF_STRIDE,
-    MSF_VECDEF,
 )
+from openacr.map.rows import axes, dacs, masters
+from openacr.map.words import af5, mf2
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
 from openacr.motion.attach import Feedback, Signal
 from openacr.motion.card import Card
 from openacr.motion.permits import axes_of, master_of, needs_rest
-from openacr.motion.rows import axis_ints, axis_parameter, axis_reals, master_reals, master_word2
 
 LONG_MAX = 2**31 - 1
 FP32_MAX = 3.4028234663852886e38
@@ -164,19 +142,19 @@ class LimitEnables:
 
     def read(self, card: Card, axis: int) -> int:
         """0 none, 1 positive, 2 negative, 3 both."""
-        flags = card.memory.I[AF5_WORD + axis]
+        flags = card.memory.I[af5.word[axis]]
         return bool(flags & self.positive) + 2 * bool(flags & self.negative)
 
     def write(self, card: Card, axis: int, mode: int) -> None:
         """Enable by mode."""
-        flags = card.memory.I[AF5_WORD + axis] & ~(self.positive | self.negative)
+        flags = card.memory.I[af5.word[axis]] & ~(self.positive | self.negative)
         positive = self.positive if mode & 1 else 0
         negative = self.negative if mode & 2 else 0
-        card.memory.I[AF5_WORD + axis] = flags | positive | negative
+        card.memory.I[af5.word[axis]] = flags | positive | negative
 
 
-HARD_LIMITS = LimitEnables(AF5_POSITIVE_HARDWARE_LIMIT_ENABLE, AF5_NEGATIVE_HARDWARE_LIMIT_ENABLE)
-SOFT_LIMITS = LimitEnables(AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE, AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE)
+HARD_LIMITS = LimitEnables(af5.POSITIVE_HARDWARE_LIMIT_ENABLE, af5.NEGATIVE_HARDWARE_LIMIT_ENABLE)
+SOFT_LIMITS = LimitEnables(af5.POSITIVE_SOFTWARE_LIMIT_ENABLE, af5.NEGATIVE_SOFTWARE_LIMIT_ENABLE)
 
 
 # MAXVEL
@@ -194,10 +172,10 @@ def set_max_velocity(card: Card, axis: int, value_ups: float) -> None:
 
 def refresh_max_velocity(card: Card, master: int) -> None:
     """Let SlaveMaxVel of a master say whether any of its axes has a limit."""
-    word = master_word2(master)
+    word = mf2.word[master]
     limited = any(MAX_VELOCITY.read(card, axis) > 0.0 for axis in axes_of(card, master))
-    flags = card.memory.I[word] & ~MF2_SLAVEMAXVEL
-    card.memory.I[word] = flags | MF2_SLAVEMAXVEL if limited else flags
+    flags = card.memory.I[word] & ~mf2.SLAVEMAXVEL
+    card.memory.I[word] = flags | mf2.SLAVEMAXVEL if limited else flags
 
 
 # VECDEF
@@ -208,8 +186,8 @@ def vector_weight(card: Card, axis: int) -> Setting:
     master = master_of(card, axis)
     if master is None:
         raise CardError(NO_MASTER_ATTACHED)
-    slave = card.memory.I[axis_ints(axis) + AXI_SLAVE]
-    return Setting(Kind.FP64, master_reals(master) + MSF_VECDEF + slave, 0, not_negative)
+    slave = card.memory.I[axes.slave[axis]]
+    return Setting(Kind.FP64, masters.vecdef[master] + slave, 0, not_negative)
 
 
 # MULT
@@ -219,10 +197,9 @@ ENCODER_MULTIPLIER = Setting(Kind.LONG, ENI_BASE + ENI_MULT, ENI_STRIDE, multipl
 
 def position_encoder(card: Card, axis: int) -> int:
     """The encoder that is the position feedback; `Invalid argument` if it is none."""
-    ints = axis_ints(axis)
-    if card.memory.I[ints + AXI_POSITION_SOURCE] != Feedback.ENC:
+    if card.memory.I[axes.position_source[axis]] != Feedback.ENC:
         raise CardError(INVALID_ARGUMENT)
-    return card.memory.I[ints + AXI_POSITION_INDEX]
+    return card.memory.I[axes.position_index[axis]]
 
 
 # DGAIN
@@ -230,16 +207,15 @@ def position_encoder(card: Card, axis: int) -> int:
 
 def activate_derivative_smoothing(card: Card, axis: int) -> None:
     """Take over DGain Smooth: n averages the slope of the error over 2^n samples."""
-    ints, reals = axis_ints(axis), axis_reals(axis)
-    wanted = card.memory.I[axis_parameter(axis) + AX_DGAIN_SMOOTH]
+    wanted = card.memory.I[axes.dgain_smooth[axis]]
     size = 1 << max(0, min(wanted, DEEPEST_SMOOTHING))
-    if size == max(1, card.memory.I[ints + AXI_DERIVATIVE_SMOOTH]):
+    if size == max(1, card.memory.I[axes.derivative_smooth[axis]]):
         return
-    card.memory.I[ints + AXI_DERIVATIVE_SMOOTH] = size
-    card.memory.I[ints + AXI_DERIVATIVE_INDEX] = 0
-    card.memory.F[reals + AXF_DERIVATIVE_SUM] = 0.0
-    for place in range(AXF_DERIVATIVE_HISTORY_SIZE):
-        card.memory.F[reals + AXF_DERIVATIVE_HISTORY + place] = 0.0
+    card.memory.I[axes.derivative_smooth[axis]] = size
+    card.memory.I[axes.derivative_index[axis]] = 0
+    card.memory.F[axes.derivative_sum[axis]] = 0.0
+    for place in range(axes.DERIVATIVE_HISTORY_SIZE):
+        card.memory.F[axes.derivative_history[axis] + place] = 0.0
 
 
 # AXIS ON and OFF
@@ -247,17 +223,16 @@ def activate_derivative_smoothing(card: Card, axis: int) -> None:
 
 def is_axis_on(card: Card, axis: int) -> bool:
     """Whether the axis is computed at all."""
-    return bool(card.memory.I[axis_ints(axis) + AXI_ON])
+    return bool(card.memory.I[axes.on[axis]])
 
 
 def set_axis_on(card: Card, axis: int, on: bool) -> None:
     """AXIS ON and OFF; an axis that is off puts out 0 V."""
     needs_rest(card, axis)
-    ints = axis_ints(axis)
-    card.memory.I[ints + AXI_ON] = int(on)
+    card.memory.I[axes.on[axis]] = int(on)
     if on:
         return
-    card.memory.S[axis_parameter(axis) + AX_OUTPUT_SIGNAL] = 0.0
-    if card.memory.I[ints + AXI_SIGNAL_SOURCE] == Signal.DAC:
-        index = card.memory.I[ints + AXI_SIGNAL_INDEX]
-        card.memory.S[DAC_BASE + index * DAC_STRIDE + DAC_DAC_OUTPUT] = 0.0
+    card.memory.S[axes.output_signal[axis]] = 0.0
+    if card.memory.I[axes.signal_source[axis]] == Signal.DAC:
+        index = card.memory.I[axes.signal_index[axis]]
+        card.memory.S[dacs.dac_output[index]] = 0.0

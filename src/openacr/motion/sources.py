@@ -19,30 +19,8 @@ from openacr.kernel.source_cy import (
     USES,
 )
 from openacr.map.kinds_cy import kind_of
-from openacr.map.numbers import (
-    FOI_BASE,
-    FOI_LIVE,
-    FOI_STRIDE,
-    KIND_NONE,
-    OBI_BASE,
-    OBI_LIVE,
-    RT_COUNT,
-    SRI_BASE,
-    SRI_INDEX,
-    SRI_KIND,
-    SRI_STRIDE,
-    TGF_BASE,
-    TGF_SETPOINT,
-    TGF_STRIDE,
-    TGI_BASE,
-    TGI_COPY,
-    TGI_KIND,
-    TGI_MODE,
-    TGI_PARAMETER,
-    TGI_REGISTER,
-    TGI_STRIDE,
-    TGI_TICKS_LEFT,
-)
+from openacr.map.numbers import KIND_NONE
+from openacr.map.rows import followers, objects, ratchets, sources, triggers
 from openacr.messages import INVALID_SOURCE
 from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_source
@@ -74,7 +52,7 @@ def axis_tap(axis: int, use: int) -> int:
 
 def go_live(card: Card, axis: int) -> None:
     """From now on follow the sources of an axis, counting from where they are."""
-    row = FOI_BASE + axis * FOI_STRIDE + FOI_LIVE
+    row = followers.live[axis]
     if card.memory.I[row]:
         return
     for use in range(USES):
@@ -84,7 +62,7 @@ def go_live(card: Card, axis: int) -> None:
 
 def objects_go_live(card: Card) -> None:
     """From now on serve ratchets, limiters and the output objects."""
-    card.memory.I[OBI_BASE + OBI_LIVE] = 1
+    card.memory.I[objects.live] = 1
 
 
 def prime(card: Card, tap: int) -> None:
@@ -94,10 +72,9 @@ def prime(card: Card, tap: int) -> None:
 
 def value(card: Card, tap: int) -> float:
     """The present value of the source of a tap."""
-    row = SRI_BASE + tap * SRI_STRIDE
     rows = card.memory.I
     memory = card.memory
-    return _value(memory.F, rows, memory.S, rows[row + SRI_KIND], rows[row + SRI_INDEX])
+    return _value(memory.F, rows, memory.S, rows[sources.kind[tap]], rows[sources.index[tap]])
 
 
 def check(card: Card, word: str, number: int) -> None:
@@ -107,8 +84,8 @@ def check(card: Card, word: str, number: int) -> None:
         "ENC": model.encoders,
         "STEPPER": model.axes,
         "AXIS": model.axes,
-        "RATCH": RT_COUNT,
-        "LIMIT": RT_COUNT,
+        "RATCH": ratchets.COUNT,
+        "LIMIT": ratchets.COUNT,
         "ADC": model.adcs,
     }
     if word == "P":
@@ -127,8 +104,7 @@ def choose(card: Card, tap: int, word: str, number: int) -> None:
 
 def connection(card: Card, tap: int) -> list[int]:
     """Kind and index of the source of a tap."""
-    row = SRI_BASE + tap * SRI_STRIDE
-    return [card.memory.I[row + SRI_KIND], card.memory.I[row + SRI_INDEX]]
+    return [card.memory.I[sources.kind[tap]], card.memory.I[sources.index[tap]]]
 
 
 def connect(card: Card, axis: int, use: int, kind: int, index: int) -> None:
@@ -144,12 +120,11 @@ def connect(card: Card, axis: int, use: int, kind: int, index: int) -> None:
 
 def text(card: Card, tap: int) -> str:
     """The source of a tap as it is typed."""
-    row = SRI_BASE + tap * SRI_STRIDE
-    kind = card.memory.I[row + SRI_KIND]
+    kind = card.memory.I[sources.kind[tap]]
     if kind == FROM_SELF:
         return _OWN_SETPOINT
     name = _NAMES[kind]
-    return name if kind in _SINGLE else f"{name}{card.memory.I[row + SRI_INDEX]}"
+    return name if kind in _SINGLE else f"{name}{card.memory.I[sources.index[tap]]}"
 
 
 # triggers
@@ -159,12 +134,11 @@ def arm_passing(
     card: Card, trigger: int, parameter: int, setpoint: float, *, below: bool, timeout_s: float
 ) -> None:
     """Fire when a parameter passes a setpoint; give up after the timeout (0: never)."""
-    row = TGI_BASE + trigger * TGI_STRIDE
     memory = card.memory
-    memory.F[TGF_BASE + trigger * TGF_STRIDE + TGF_SETPOINT] = setpoint
-    memory.I[row + TGI_PARAMETER] = parameter
-    memory.I[row + TGI_TICKS_LEFT] = card.ticks(timeout_s) if timeout_s > 0.0 else 0
-    memory.I[row + TGI_KIND] = source_cy.BELOW if below else source_cy.ABOVE
+    memory.F[triggers.setpoint[trigger]] = setpoint
+    memory.I[triggers.parameter[trigger]] = parameter
+    memory.I[triggers.ticks_left[trigger]] = card.ticks(timeout_s) if timeout_s > 0.0 else 0
+    memory.I[triggers.kind[trigger]] = source_cy.BELOW if below else source_cy.ABOVE
 
 
 def arm_capture(
@@ -174,13 +148,12 @@ def arm_capture(
 
     The signals are those of the source, or of the encoder whose `register` is named.
     """
-    row = TGI_BASE + trigger * TGI_STRIDE
-    card.memory.I[row + TGI_MODE] = mode
-    card.memory.I[row + TGI_COPY] = copy_to
-    card.memory.I[row + TGI_REGISTER] = 0 if register is None else register + 1
-    card.memory.I[row + TGI_KIND] = source_cy.CAPTURE
+    card.memory.I[triggers.mode[trigger]] = mode
+    card.memory.I[triggers.copy[trigger]] = copy_to
+    card.memory.I[triggers.register[trigger]] = 0 if register is None else register + 1
+    card.memory.I[triggers.kind[trigger]] = source_cy.CAPTURE
 
 
 def disarm(card: Card, trigger: int) -> None:
     """Wait for nothing."""
-    card.memory.I[TGI_BASE + trigger * TGI_STRIDE + TGI_KIND] = source_cy.DISARMED
+    card.memory.I[triggers.kind[trigger]] = source_cy.DISARMED

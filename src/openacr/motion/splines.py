@@ -12,18 +12,12 @@ So the motion is that many points less two behind the input. At both ends of the
 velocity is 0. It begins where the axes are; a first point there is no further one.
 """
 
-from openacr.map.numbers import (
-    MA_SPLINE_BUFFER_LENGTH,
-    MF3_SPLINE_DATA_AVAIL,
-    MF3_SPLINE_LOADED,
-    MF3_SPLINE_TIME_MODE,
-    MF3_WORD,
-)
+from openacr.map.rows import masters
+from openacr.map.words import mf3
 from openacr.motion import bezier, curve_points, pieces
 from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
 from openacr.motion.curve_points import CurvePoints
-from openacr.motion.rows import master_parameter
 
 SHORTEST, LONGEST = 2, 5
 
@@ -43,7 +37,7 @@ def take(
         curve.points.append(point)
         curve.weights.append(1.0)
         curve.knots.append(time_s)
-    card.memory.I[MF3_WORD + master] |= MF3_SPLINE_DATA_AVAIL
+    card.memory.I[mf3.word[master]] |= mf3.SPLINE_DATA_AVAIL
     _follow(card, program, master, curve, _length(card, master) - 2, ends=False)
     curve_points.store(card, master, curve)
 
@@ -58,7 +52,7 @@ def finish(card: Card, program: int, master: int) -> None:
 
 def _length(card: Card, master: int) -> int:
     """Spline Buffer Length; whatever else was written counts as the nearest."""
-    value = card.memory.S[master_parameter(master) + MA_SPLINE_BUFFER_LENGTH]
+    value = card.memory.S[masters.spline_buffer_length[master]]
     if not value < LONGEST:
         return LONGEST
     return max(int(value), SHORTEST)
@@ -133,10 +127,10 @@ def _send(
     *,
     ends: bool,
 ) -> None:
-    is_timed = bool(card.memory.I[MF3_WORD + master] & MF3_SPLINE_TIME_MODE)
+    is_timed = bool(card.memory.I[mf3.word[master]] & mf3.SPLINE_TIME_MODE)
     if not is_timed and way.is_point:
         return
     pace = pieces.Pace(rate=float(is_timed), begins=not curve.is_open, ends=ends)
     pieces.hand_over(card, program, master, curve.numbers, way, time_s, pace)
     curve.is_open = True
-    card.memory.I[MF3_WORD + master] |= MF3_SPLINE_LOADED
+    card.memory.I[mf3.word[master]] |= mf3.SPLINE_LOADED

@@ -3,21 +3,13 @@
 from collections.abc import Iterable
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    KRI_BASE,
-    KRI_SYNC_MANUAL,
-    KRI_SYNCED,
-    MF2_SYNC_MANUAL,
-    MF2_SYNC_MANUAL_LOADED,
-    MF2_SYNC_MODE,
-    MSI_SYNC_GO,
-    MSI_SYNC_START,
-)
+from openacr.map.rows import kernel
+from openacr.map.rows import masters as master_rows
+from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.card import Card
-from openacr.motion.rows import master_ints, master_word2
 
-_FLAGS = MF2_SYNC_MODE | MF2_SYNC_MANUAL | MF2_SYNC_MANUAL_LOADED
+_FLAGS = mf2.SYNC_MODE | mf2.SYNC_MANUAL | mf2.SYNC_MANUAL_LOADED
 
 
 def members(card: Card) -> list[int]:
@@ -25,34 +17,34 @@ def members(card: Card) -> list[int]:
     return [
         master
         for master in range(card.model.masters)
-        if card.memory.I[master_word2(master)] & MF2_SYNC_MODE
+        if card.memory.I[mf2.word[master]] & mf2.SYNC_MODE
     ]
 
 
 def join(card: Card, masters: Iterable[int]) -> None:
     """SYNC ON: their next moves wait for each other."""
     for master in _checked(card, masters):
-        card.memory.I[master_ints(master) + MSI_SYNC_GO] = 0
-        card.memory.I[master_word2(master)] |= MF2_SYNC_MODE
-    set_manual(card, manual=bool(card.memory.I[KRI_BASE + KRI_SYNC_MANUAL]))
-    card.memory.I[KRI_BASE + KRI_SYNCED] = 1
+        card.memory.I[master_rows.sync_go[master]] = 0
+        card.memory.I[mf2.word[master]] |= mf2.SYNC_MODE
+    set_manual(card, manual=bool(card.memory.I[kernel.sync_manual]))
+    card.memory.I[kernel.synced] = 1
 
 
 def leave(card: Card, masters: Iterable[int]) -> None:
     """SYNC OFF: their moves no longer wait for others."""
     for master in _checked(card, masters):
-        card.memory.I[master_word2(master)] &= ~_FLAGS
-        card.memory.I[master_ints(master) + MSI_SYNC_GO] = 0
-    card.memory.I[KRI_BASE + KRI_SYNCED] = int(bool(members(card)))
+        card.memory.I[mf2.word[master]] &= ~_FLAGS
+        card.memory.I[master_rows.sync_go[master]] = 0
+    card.memory.I[kernel.synced] = int(bool(members(card)))
 
 
 def set_manual(card: Card, *, manual: bool) -> None:
     """SYNC MDI: wait for a cycle start as well; SYNC PROG: begin when all are loaded."""
-    card.memory.I[KRI_BASE + KRI_SYNC_MANUAL] = int(manual)
+    card.memory.I[kernel.sync_manual] = int(manual)
     for master in members(card):
-        card.memory.I[master_ints(master) + MSI_SYNC_START] = 0
-        flags = card.memory.I[master_word2(master)] & ~MF2_SYNC_MANUAL
-        card.memory.I[master_word2(master)] = flags | (MF2_SYNC_MANUAL if manual else 0)
+        card.memory.I[master_rows.sync_start[master]] = 0
+        flags = card.memory.I[mf2.word[master]] & ~mf2.SYNC_MANUAL
+        card.memory.I[mf2.word[master]] = flags | (mf2.SYNC_MANUAL if manual else 0)
 
 
 def _checked(card: Card, masters: Iterable[int]) -> list[int]:

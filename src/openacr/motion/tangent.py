@@ -11,40 +11,14 @@ from itertools import pairwise
 from openacr.compiled import pick
 from openacr.kernel import tangent_cy
 from openacr.kernel.path_cy import MARK_TURN
-from openacr.map.numbers import (
-    AF3_TANGENTIAL,
-    AF3_WORD,
-    AXF_POSITION_CNT,
-    MA_TANG_TURN_LIMIT,
-    MF2_TANG_MODE,
-    MQF_BASE,
-    MQF_STRIDE,
-    MQF_TANG,
-    MQI_BASE,
-    MQI_CURVED,
-    MQI_MARKS,
-    MQI_STRIDE,
-    MQI_TANG_SLAVE,
-    MSF_STRIDE,
-    MSF_TANG_DEG,
-    MSF_TARGET_CNT,
-    MSI_QUEUED,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-    MSI_TANG_AXIS,
-)
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import masters, moves
+from openacr.map.words import af3, mf2
 from openacr.motion.card import Card
 from openacr.motion.curves import slave_of
 from openacr.motion.orders import Shape, Target
 from openacr.motion.permits import needs_on, scale_of
 from openacr.motion.records import Way, append
-from openacr.motion.rows import (
-    axis_reals,
-    master_ints,
-    master_parameter,
-    master_reals,
-    master_word2,
-)
 
 SAMPLES = 32
 LEAST_CNT = 0.5
@@ -55,28 +29,28 @@ def switch_on(card: Card, program: int, master: int, axis: int) -> None:
     """Keep an axis of the program tangential from the next move on."""
     slave_of(card, program, axis)
     switch_off(card, master)
-    card.memory.I[master_ints(master) + MSI_TANG_AXIS] = axis + 1
-    card.memory.I[AF3_WORD + axis] |= AF3_TANGENTIAL
-    card.memory.I[master_word2(master)] |= MF2_TANG_MODE
+    card.memory.I[masters.tang_axis[master]] = axis + 1
+    card.memory.I[af3.word[axis]] |= af3.TANGENTIAL
+    card.memory.I[mf2.word[master]] |= mf2.TANG_MODE
 
 
 def switch_off(card: Card, master: int) -> None:
     """Leave the axis alone again."""
     axis = _axis(card, master)
     if axis is not None:
-        card.memory.I[AF3_WORD + axis] &= ~AF3_TANGENTIAL
-    card.memory.I[master_ints(master) + MSI_TANG_AXIS] = 0
-    card.memory.I[master_word2(master)] &= ~MF2_TANG_MODE
+        card.memory.I[af3.word[axis]] &= ~af3.TANGENTIAL
+    card.memory.I[masters.tang_axis[master]] = 0
+    card.memory.I[mf2.word[master]] &= ~mf2.TANG_MODE
 
 
 def _axis(card: Card, master: int) -> int | None:
-    axis = card.memory.I[master_ints(master) + MSI_TANG_AXIS] - 1
+    axis = card.memory.I[masters.tang_axis[master]] - 1
     return axis if axis >= 0 else None
 
 
 def axis_of(card: Card, master: int) -> int | None:
     """The axis that is kept tangential, None while TANG is off."""
-    return _axis(card, master) if card.memory.I[master_word2(master)] & MF2_TANG_MODE else None
+    return _axis(card, master) if card.memory.I[mf2.word[master]] & mf2.TANG_MODE else None
 
 
 def moves_of(card: Card, master: int) -> int:
@@ -106,14 +80,14 @@ def _turned(
     course: tuple[float, float],
 ) -> int:
     slave, scale = slave_of(card, program, axis), scale_of(card, axis)
-    offset = card.memory.F[master_reals(master) + MSF_TANG_DEG]
+    offset = card.memory.F[masters.tang_deg[master]]
     start = _start(card, master, slave, axis)
     lag = (course[0] + offset - start / scale + 180.0) % 360.0 - 180.0
-    limit = card.memory.S[master_parameter(master) + MA_TANG_TURN_LIMIT]
+    limit = card.memory.S[masters.tang_turn_limit[master]]
     if abs(lag) > limit and abs(lag * scale) > LEAST_CNT:
         turn = Way(slave, axis, start, start + lag * scale, lag * scale, relative=True)
         record = append(card, program, master, [turn], [Target(axis, lag, incremental=True)])
-        card.memory.I[MQI_BASE + record * MQI_STRIDE + MQI_MARKS] = MARK_TURN
+        card.memory.I[moves.marks[record]] = MARK_TURN
         start, lag = start + lag * scale, 0.0
     delta = (lag + course[1]) * scale
     way = Way(slave, axis, start, start + delta, delta, relative=True, weightless=True)
@@ -123,14 +97,14 @@ def _turned(
 
 
 def _start(card: Card, master: int, slave: int, axis: int) -> float:
-    if card.memory.I[master_ints(master) + MSI_QUEUED]:
-        return card.memory.F[master_reals(master) + MSF_TARGET_CNT + slave]
-    return card.memory.F[axis_reals(axis) + AXF_POSITION_CNT]
+    if card.memory.I[masters.queued[master]]:
+        return card.memory.F[masters.target_cnt[master] + slave]
+    return card.memory.F[axis_rows.position_cnt[axis]]
 
 
 def _units(card: Card, master: int) -> tuple[float, float]:
     """Units per pulse of the first two slaves."""
-    axes = card.memory.I[master_ints(master) + MSI_SLAVE_AXIS :][:2]
+    axes = card.memory.I[masters.slave_axis[master] :][:2]
     x, y = (1.0 / scale_of(card, axis) if axis >= 0 else 0.0 for axis in axes)
     return x, y
 
@@ -143,15 +117,17 @@ def _course(
     The move is written to be measured, then taken back.
     """
     memory = card.memory
-    ints, reals = master_ints(master), master_reals(master)
-    kept = bytes(memory.I[ints : ints + MSI_STRIDE]), bytes(memory.F[reals : reals + MSF_STRIDE])
+    ints = masters.ints[master]
+    reals = masters.reals[master]
+    kept_ints = bytes(memory.I[ints : ints + masters.INTS_SIZE])
+    kept_reals = bytes(memory.F[reals : reals + masters.REALS_SIZE])
     record = append(card, program, master, ways, shapes)
     x, y = _units(card, master)
     angles = [
         _tangent_deg(memory.F, memory.I, record, x, y, n / SAMPLES) for n in range(SAMPLES + 1)
     ]
-    memory.I[ints : ints + MSI_STRIDE] = memoryview(kept[0]).cast("i")
-    memory.F[reals : reals + MSF_STRIDE] = memoryview(kept[1]).cast("d")
+    memory.I[ints : ints + masters.INTS_SIZE] = memoryview(kept_ints).cast("i")
+    memory.F[reals : reals + masters.REALS_SIZE] = memoryview(kept_reals).cast("d")
     angles = [angle for angle in angles if angle > -999.0]
     if not angles:
         return None
@@ -163,9 +139,9 @@ def _note(
     card: Card, master: int, record: int, slave: int, scale: float, offset: float, lag: float
 ) -> None:
     """Let the kernel follow the tangent of a curve; a line has but one."""
-    memory, rows = card.memory, MQI_BASE + record * MQI_STRIDE
-    if not memory.I[rows + MQI_CURVED]:
+    memory = card.memory
+    if not memory.I[moves.curved[record]]:
         return
-    memory.I[rows + MQI_TANG_SLAVE] = slave + 1
+    memory.I[moves.tang_slave[record]] = slave + 1
     for n, value in enumerate((*_units(card, master), scale, offset, lag)):
-        memory.F[MQF_BASE + record * MQF_STRIDE + MQF_TANG + n] = value
+        memory.F[moves.tang[record] + n] = value

@@ -2,17 +2,11 @@
 
 from openacr.errors import CardError
 from openacr.kernel import source_cy
-from openacr.map.numbers import (
-    MA_MOVE_TIME,
-    MA_TIME_OVER_VELOCITY,
-    MF2_MASTER_IN_TMOV,
-    MF2_MASTER_TOV,
-    MSI_PACED,
-)
+from openacr.map.rows import masters
+from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import sources
 from openacr.motion.card import Card
-from openacr.motion.rows import master_ints, master_parameter, master_word2
 
 FASTEST = 2.0
 _OBJECTS = frozenset(("RATCH", "LIMIT"))
@@ -23,15 +17,15 @@ _OBJECTS = frozenset(("RATCH", "LIMIT"))
 
 def set_move_time(card: Card, master: int, time_s: float) -> None:
     """Let every move take this time; 0 lets them take what they need."""
-    card.memory.S[master_parameter(master) + MA_MOVE_TIME] = time_s
+    card.memory.S[masters.move_time[master]] = time_s
     switch_move_time(card, master, on=time_s > 0.0)
 
 
 def switch_move_time(card: Card, master: int, *, on: bool) -> None:
     """Switch timed moves on, which needs a time, or off."""
-    if on and not card.memory.S[master_parameter(master) + MA_MOVE_TIME] > 0.0:
+    if on and not card.memory.S[masters.move_time[master]] > 0.0:
         raise CardError(INVALID_ARGUMENT)
-    _switch(card, master, MF2_MASTER_IN_TMOV, on=on)
+    _switch(card, master, mf2.MASTER_IN_TMOV, on=on)
 
 
 # TOV
@@ -41,18 +35,18 @@ def set_factor(card: Card, master: int, factor: float) -> None:
     """Multiply the pace of the time base, 0 to 2."""
     if not 0.0 <= factor <= FASTEST:
         raise CardError(INVALID_ARGUMENT)
-    card.memory.S[master_parameter(master) + MA_TIME_OVER_VELOCITY] = factor
+    card.memory.S[masters.time_over_velocity[master]] = factor
     switch_factor(card, master, on=True)
 
 
 def switch_factor(card: Card, master: int, *, on: bool) -> None:
     """Switch the factor on or off."""
-    _switch(card, master, MF2_MASTER_TOV, on=on)
-    card.memory.I[master_ints(master) + MSI_PACED] = 1
+    _switch(card, master, mf2.MASTER_TOV, on=on)
+    card.memory.I[masters.paced[master]] = 1
 
 
 def _switch(card: Card, master: int, flag: int, *, on: bool) -> None:
-    word = master_word2(master)
+    word = mf2.word[master]
     flags = card.memory.I[word] & ~flag
     card.memory.I[word] = flags | flag if on else flags
 
@@ -70,7 +64,7 @@ def set_source(card: Card, master: int, word: str, number: int) -> None:
     if word in _OBJECTS:
         sources.objects_go_live(card)
     sources.choose(card, _tap(master), word, number)
-    card.memory.I[master_ints(master) + MSI_PACED] = 1
+    card.memory.I[masters.paced[master]] = 1
 
 
 def source_text(card: Card, master: int) -> str:

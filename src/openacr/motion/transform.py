@@ -18,22 +18,14 @@ from functools import partial
 from math import cos, radians, sin
 
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    AXF_FLZ_U,
-    AXF_OFFSET_U,
-    AXF_SCALE,
-    AXF_SCALE_CENTER_U,
-    MSF_ROTATE_CENTER_U,
-    MSF_ROTATE_DEG,
-    MSI_ROTATE_SLAVE,
-)
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import masters
 from openacr.messages import INVALID_ARC, INVALID_ARGUMENT
 from openacr.motion import moves
 from openacr.motion.card import Card
 from openacr.motion.curves import slave_of
 from openacr.motion.orders import Circle, Direction, Part, Sine, SpaceArc, Target
 from openacr.motion.permits import master_moving, scale_of
-from openacr.motion.rows import axis_reals, master_ints, master_reals
 
 
 def apply(card: Card, program: int, parts: Sequence[Part]) -> list[Part]:
@@ -44,7 +36,7 @@ def apply(card: Card, program: int, parts: Sequence[Part]) -> list[Part]:
 
 def rotate(card: Card, program: int, angle_deg: float) -> None:
     """Turn later paths by an angle about the centre that is set."""
-    card.memory.F[master_reals(moves.needed_master(card, program)) + MSF_ROTATE_DEG] = angle_deg
+    card.memory.F[masters.rotate_deg[moves.needed_master(card, program)]] = angle_deg
 
 
 def rotate_about(
@@ -55,27 +47,24 @@ def rotate_about(
         raise CardError(INVALID_ARGUMENT)
     master = moves.needed_master(card, program)
     for place, (axis, center) in enumerate(zip(axes, center_u, strict=True)):
-        card.memory.I[master_ints(master) + MSI_ROTATE_SLAVE + place] = slave_of(
-            card, program, axis
-        )
-        card.memory.F[master_reals(master) + MSF_ROTATE_CENTER_U + place] = center
+        card.memory.I[masters.rotate_slave[master] + place] = slave_of(card, program, axis)
+        card.memory.F[masters.rotate_center_u[master] + place] = center
 
 
 def angle_deg(card: Card, program: int) -> float:
     """The angle of ROTATE."""
-    return card.memory.F[master_reals(moves.needed_master(card, program)) + MSF_ROTATE_DEG]
+    return card.memory.F[masters.rotate_deg[moves.needed_master(card, program)]]
 
 
 def float_zero(card: Card, program: int, axis: int, value_u: float) -> None:
     """FLZ: let the present target position of an axis have a programmed value."""
-    row = axis_reals(axis)
     end_u = _machine_end(card, program, axis)
-    card.memory.F[row + AXF_FLZ_U] = end_u - card.memory.F[row + AXF_OFFSET_U] - value_u
+    card.memory.F[axis_rows.flz_u[axis]] = end_u - card.memory.F[axis_rows.offset_u[axis]] - value_u
 
 
 def clear_float_zero(card: Card, axis: int) -> None:
     """FLZ OFF for one axis."""
-    card.memory.F[axis_reals(axis) + AXF_FLZ_U] = 0.0
+    card.memory.F[axis_rows.flz_u[axis]] = 0.0
 
 
 def _machine_end(card: Card, program: int, axis: int) -> float:
@@ -91,11 +80,11 @@ def _machine_end(card: Card, program: int, axis: int) -> float:
 
 
 def _factor(card: Card, axis: int) -> float:
-    return card.memory.F[axis_reals(axis) + AXF_SCALE]
+    return card.memory.F[axis_rows.scale[axis]]
 
 
 def _scale(card: Card, axis: int, value_u: float) -> float:
-    center = card.memory.F[axis_reals(axis) + AXF_SCALE_CENTER_U]
+    center = card.memory.F[axis_rows.scale_center_u[axis]]
     return center + _factor(card, axis) * (value_u - center)
 
 
@@ -160,8 +149,7 @@ def _needs_equal_factors(card: Card, axes: Sequence[int]) -> None:
 
 
 def _shift(card: Card, axis: int) -> float:
-    row = axis_reals(axis)
-    return card.memory.F[row + AXF_OFFSET_U] + card.memory.F[row + AXF_FLZ_U]
+    return card.memory.F[axis_rows.offset_u[axis]] + card.memory.F[axis_rows.flz_u[axis]]
 
 
 def _moved(card: Card, axis: int, value_u: float) -> float:
@@ -200,11 +188,12 @@ class _Rotation:
         self._card = card
         self._program = program
         master = moves.needed_master(card, program)
-        reals, ints = master_reals(master), master_ints(master)
-        self._angle = radians(card.memory.F[reals + MSF_ROTATE_DEG])
-        self._center = tuple(card.memory.F[reals + MSF_ROTATE_CENTER_U + n] for n in (0, 1))
+        self._angle = radians(card.memory.F[masters.rotate_deg[master]])
+        self._center = tuple(card.memory.F[masters.rotate_center_u[master] + n] for n in (0, 1))
         slaves = {s.number: s.axis for s in card.attachments.slaves(program)}
-        self._plane = [slaves.get(card.memory.I[ints + MSI_ROTATE_SLAVE + n], -1) for n in (0, 1)]
+        self._plane = [
+            slaves.get(card.memory.I[masters.rotate_slave[master] + n], -1) for n in (0, 1)
+        ]
 
     def turn(self, parts: list[Part]) -> list[Part]:
         """All parts turned; those without an axis of the plane stay."""

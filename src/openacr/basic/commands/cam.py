@@ -39,7 +39,7 @@ from openacr.map.numbers import (
     TBF_STRIDE,
 )
 from openacr.motion import cam, gear, jog, sources
-from openacr.motion.rows import axis_word2
+from openacr.motion.row_index import axis_word2
 from openacr.motion.settings import Setting, not_negative, of_axis_long
 
 GROUP = "Setpoint Control"

@@ -14,7 +14,7 @@ from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
 from openacr.motion.card import Card
 from openacr.motion.modules import is_fitted
-from openacr.motion.rows import axis_ints
+from openacr.motion.row_index import axis_ints
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser

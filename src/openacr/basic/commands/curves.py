@@ -11,7 +11,7 @@ from openacr.basic.vm.run import Run
 from openacr.map.numbers import MF2_TARC_MODE
 from openacr.messages import SYNTAX_ERROR
 from openacr.motion.orders import Circle, Direction, Sine, SpaceArc
-from openacr.motion.rows import master_word2
+from openacr.motion.row_index import master_word2
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser

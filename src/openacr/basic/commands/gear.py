@@ -36,7 +36,7 @@ from openacr.map.numbers import (
 )
 from openacr.motion import gear, jog, sources
 from openacr.motion.permits import scale_of
-from openacr.motion.rows import axis_reals, axis_word2
+from openacr.motion.row_index import axis_reals, axis_word2
 from openacr.motion.settings import Setting, anything, not_negative, not_zero
 
 GROUP = "Setpoint Control"

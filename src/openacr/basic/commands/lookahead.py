@@ -15,7 +15,7 @@ from openacr.map.numbers import (
     STI_MBUF_COUNT,
 )
 from openacr.motion import buffer, corners
-from openacr.motion.rows import master_ints
+from openacr.motion.row_index import master_ints
 from openacr.motion.settings import of_master, of_master_real
 
 

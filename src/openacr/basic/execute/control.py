@@ -17,7 +17,7 @@ from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED
 from openacr.motion import moves
 from openacr.motion.permits import master_moving
-from openacr.motion.rows import master_word
+from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.execute.executor import Executor

@@ -32,7 +32,7 @@ from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import LINE_NOT_FOUND, PROGRAM_IS_RUNNING
 from openacr.motion import kinematics
-from openacr.motion.rows import master_word
+from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.channels.session import Session

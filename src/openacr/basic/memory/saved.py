@@ -19,7 +19,7 @@ from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import attach, buffer, filters, maintenance, settings, sources, time_base
 from openacr.motion.card import SLAVES, Card
-from openacr.motion.rows import axis_ints, master_parameter, master_reals, master_word2
+from openacr.motion.row_index import axis_ints, master_parameter, master_reals, master_word2
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
