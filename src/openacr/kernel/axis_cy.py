@@ -10,7 +10,7 @@ that differs from what was last shown has been written by somebody and replaces 
 from openacr.cmath import fabs
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.rows import axes, followers, kernel, masters, tables
-from openacr.map.words import af1, af5
+from openacr.map.words import af5
 from openacr.views import F32, F64, I32
 
 __all__ = [
@@ -28,11 +28,6 @@ NOT_BARRED = 0
 HARD_BARRED = 1
 SOFT_BARRED = 2
 ROUNDING_CNT = 1e-6  # of sums of offsets and points of curves; far below one pulse
-
-
-def axis_word(n: int) -> int:
-    """Parameter number of the flag word of axis n."""
-    return af1.word[n]
 
 
 def axis_scale(S: F32, n: int) -> float:

@@ -19,7 +19,7 @@ An array that no longer exists switches its user off.
 """
 
 from openacr.cmath import fabs, floor
-from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.source_cy import (
     CAM_ON,
     CAPTURED,
@@ -31,7 +31,6 @@ from openacr.kernel.source_cy import (
     USE_CAM,
     USES,
     WAITING,
-    axis_word2,
     source_shown,
     trigger_step,
 )
@@ -178,15 +177,15 @@ def cam_start(F: F64, I: I32, S: F32, n: int, index: float) -> None:
     I[cams.window_count[n]] = 0
     I[cams.window_index[n]] = 0
     I[tables.running[n]] = 1
-    I[axis_word(n)] |= af1.CAM_ACTIVATE
+    I[af1.word[n]] |= af1.CAM_ACTIVATE
 
 
 def cam_stop(F: F64, I: I32, n: int) -> None:
     """Disengage the cam of axis n; its offset stays."""
     I[tables.running[n]] = 0
     I[cams.poff[n]] = 0
-    I[axis_word(n)] &= ~af1.CAM_ACTIVATE
-    I[axis_word2(n)] &= ~(af2.CAM_TRIGGER_MODE | af2.CAM_TRIGGER_STARTED)
+    I[af1.word[n]] &= ~af1.CAM_ACTIVATE
+    I[af2.word[n]] &= ~(af2.CAM_TRIGGER_MODE | af2.CAM_TRIGGER_STARTED)
     F[axes.cam_smoothing_cps[n]] = 0.0
 
 
@@ -238,10 +237,10 @@ def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
         if state == WAITING:
             return
         if state == EXPIRED:
-            I[axis_word2(n)] &= ~af2.CAM_TRIGGER_MODE
+            I[af2.word[n]] &= ~af2.CAM_TRIGGER_MODE
             return
         if captures:
-            I[axis_word2(n)] |= af2.CAM_TRIGGER_STARTED
+            I[af2.word[n]] |= af2.CAM_TRIGGER_STARTED
         cam_start(F, I, S, n, 0.0)
         cam_run(F, I, S, n, F[triggers.over_cnt[t]], rate_hz)
         return
@@ -256,7 +255,7 @@ def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
 def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """The cam of axis n in one tick."""
     running: int = I[tables.running[n]]
-    wanted: int = I[axis_word(n)] & af1.CAM_ACTIVATE
+    wanted: int = I[af1.word[n]] & af1.CAM_ACTIVATE
     armed: int = I[triggers.kind[n * TRIGGERS + CAM_ON]] | I[cams.pon[n]]
     if not running and not wanted and not armed:
         return
@@ -281,13 +280,13 @@ def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
 def ballscrew_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> None:
     """The ballscrew offset of axis n at a primary setpoint."""
     b: int = BALLSCREW_TABLES + n
-    if not I[axis_word(n)] & af1.BALLSCREW_ACTIVATE:
+    if not I[af1.word[n]] & af1.BALLSCREW_ACTIVATE:
         if I[tables.running[b]]:
             I[tables.running[b]] = 0
             F[axes.ballscrew_cnt[n]] = 0.0
         return
     if not table_ready(F, I, b):
-        I[axis_word(n)] &= ~af1.BALLSCREW_ACTIVATE
+        I[af1.word[n]] &= ~af1.BALLSCREW_ACTIVATE
         I[tables.running[b]] = 0
         F[axes.ballscrew_cnt[n]] = 0.0
         return
@@ -306,5 +305,5 @@ def ballscrew_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> None:
 
 def ballscrew_halt(I: I32, n: int) -> None:
     """Stop a table for a kill: its offset stays, so that the setpoint does not step."""
-    I[axis_word(n)] &= ~af1.BALLSCREW_ACTIVATE
+    I[af1.word[n]] &= ~af1.BALLSCREW_ACTIVATE
     I[tables.running[BALLSCREW_TABLES + n]] = 0

@@ -12,7 +12,6 @@ of axis n are inputs 24, 16, 8 and 0 plus n mod 8.
 """
 
 from openacr.cmath import floor, rint
-from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import store_long
@@ -41,7 +40,7 @@ def capture_arm(F: F64, I: I32, n: int, mode: int) -> None:
     I[axes.capture_mode[n]] = mode
     I[axes.capture_copy[n]] = 0
     if mode >= 0:
-        I[axis_word(n)] &= ~af1.CAPTURE_COMPLETE
+        I[af1.word[n]] &= ~af1.CAPTURE_COMPLETE
         F[axes.capture_cnt[n]] = 0.0
 
 
@@ -74,7 +73,7 @@ def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
     if FLAG_WORD_BASE <= copy <= FLAG_LAST:
         store_long(I, copy, position_cnt)
     I[axes.capture_mode[n]] = -1
-    I[axis_word(n)] |= af1.CAPTURE_COMPLETE
+    I[af1.word[n]] |= af1.CAPTURE_COMPLETE
 
 
 def external_input(n: int, order: int) -> int:

@@ -21,7 +21,6 @@ enabled the actual position is the secondary setpoint of the previous tick.
 """
 
 from openacr.cmath import fabs, floor, rint
-from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import store_long
@@ -210,7 +209,7 @@ def encoder_links_step(I: I32, rate_hz: float) -> None:
 
 def ideal_follows(I: I32, S: F32, n: int) -> bool:
     """Whether an axis without a modelled motor follows its setpoint."""
-    if I[axis_word(n)] & (af1.OPEN_SERVO_LOOP | af1.CLAMP_OUTPUT_SIGNAL):
+    if I[af1.word[n]] & (af1.OPEN_SERVO_LOOP | af1.CLAMP_OUTPUT_SIGNAL):
         return False
     if not drive_driven(I, n):
         return False

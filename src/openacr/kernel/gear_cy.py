@@ -13,7 +13,7 @@ A trigger splits its tick at the event: the gear counts only what the source doe
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.source_cy import (
     CAPTURED,
     DISARMED,
@@ -26,7 +26,6 @@ from openacr.kernel.source_cy import (
     USE_GEAR,
     USES,
     WAITING,
-    axis_word2,
     trigger_step,
 )
 from openacr.map.rows import axes, gears, sources, triggers
@@ -82,7 +81,7 @@ def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
 
 def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
     """Move the gear offset of axis n, never farther beyond GEAR MAX and MIN."""
-    word: int = axis_word2(n)
+    word: int = af2.word[n]
     flags: int = I[word] & ~(af2.GEAR_MAX | af2.GEAR_MIN)
     if not fabs(moved_cnt) < LARGEST_DELTA:
         return
@@ -104,7 +103,7 @@ def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
 
 def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
     """Let the gear of axis n follow `delta` source pulses that came within `dt`."""
-    word: int = axis_word(n)
+    word: int = af1.word[n]
     on: bool = I[word] & af1.GEAR_ACTIVATE != 0
     goal: float = F[gears.ratio[n]] if on else 0.0
     mean: float = gear_ramp(F, n, goal, dt, I[word] & af1.GEAR_LOCK != 0)
@@ -118,14 +117,14 @@ def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
 
 def gear_show(F: F64, I: I32, n: int) -> None:
     """Flags of the gear of axis n."""
-    word: int = axis_word(n)
+    word: int = af1.word[n]
     flags: int = I[word] & ~RATIO_STATE
     if flags & af1.GEAR_ACTIVATE:
         flags |= af1.GEAR_ACTIVE
         if F[gears.ratio_now[n]] == F[gears.ratio[n]]:
             flags |= af1.GEAR_AT_SPEED
     else:
-        I[axis_word2(n)] &= ~af2.GEAR_TRIGGER_STARTED
+        I[af2.word[n]] &= ~af2.GEAR_TRIGGER_STARTED
         if F[gears.ratio_now[n]] != 0.0:
             flags |= af1.GEAR_ACTIVE | af1.GEAR_STOPPING
     I[word] = flags
@@ -144,13 +143,13 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> 
     state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
     if state == WAITING:
         return False
-    word: int = axis_word2(n)
+    word: int = af2.word[n]
     I[word] &= ~ON_FLAGS
     if state == EXPIRED:
         return False
     if captures:
         I[word] |= af2.GEAR_TRIGGER_STARTED
-    I[axis_word(n)] |= af1.GEAR_ACTIVATE
+    I[af1.word[n]] |= af1.GEAR_ACTIVATE
     over: float = F[triggers.over_cnt[t]]
     gear_run(F, I, S, n, over, dt * gear_behind(F, t, delta))
     return True
@@ -162,21 +161,21 @@ def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) ->
     offset: float = I[axes.gear_trigger_off_offset[n]]
     state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
     if state != WAITING:
-        I[axis_word2(n)] &= ~OFF_FLAGS
+        I[af2.word[n]] &= ~OFF_FLAGS
     if state != FIRED:
         return False
     over: float = F[triggers.over_cnt[t]]
     behind: float = gear_behind(F, t, delta)
     gear_run(F, I, S, n, delta - over, dt * (1.0 - behind))
-    I[axis_word(n)] &= ~af1.GEAR_ACTIVATE
+    I[af1.word[n]] &= ~af1.GEAR_ACTIVATE
     gear_run(F, I, S, n, over, dt * behind)
     return True
 
 
 def gear_halt(F: F64, I: I32, n: int) -> None:
     """Let go of the source at once and disarm: a kill or a limit."""
-    I[axis_word(n)] &= ~(af1.GEAR_ACTIVATE | RATIO_STATE)
-    I[axis_word2(n)] &= ~(ON_FLAGS | OFF_FLAGS | af2.GEAR_TRIGGER_STARTED)
+    I[af1.word[n]] &= ~(af1.GEAR_ACTIVATE | RATIO_STATE)
+    I[af2.word[n]] &= ~(ON_FLAGS | OFF_FLAGS | af2.GEAR_TRIGGER_STARTED)
     I[triggers.kind[n * TRIGGERS + GEAR_ON]] = DISARMED
     I[triggers.kind[n * TRIGGERS + GEAR_OFF]] = DISARMED
     F[gears.ratio_now[n]] = 0.0
@@ -190,7 +189,7 @@ def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     delta: float = F[sources.delta[n * USES + USE_GEAR]]
     on: int = I[triggers.kind[n * TRIGGERS + GEAR_ON]]
     off: int = I[triggers.kind[n * TRIGGERS + GEAR_OFF]]
-    running: int = I[axis_word(n)] & (af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE)
+    running: int = I[af1.word[n]] & (af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE)
     if not running and on == DISARMED and off == DISARMED:
         return
     done: bool = False

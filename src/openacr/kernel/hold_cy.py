@@ -10,7 +10,6 @@ from openacr.kernel.path_cy import (
     FAR_U,
     MARK_INTERRUPT_LENT,
     SLAVE_COUNT,
-    master_word,
     move_record,
 )
 from openacr.kernel.plan_cy import master_plan
@@ -58,7 +57,7 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     profile_reset(F, I, m, 0.0, 0.0)
     F[profiles.target_velocity[m]] = 0.0
     master_settle(F, I, S, m)
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     I[word] &= ~(
         mf1.IN_MOTION
         | mf1.MOVE_BUFFERED
@@ -78,7 +77,7 @@ def move_over(F: F64, I: I32, m: int, length_u: float) -> None:
     Interrupt On Move clears if the move itself has set it.
     """
     if I[moves.marks[move_record(I, m)]] & MARK_INTERRUPT_LENT:
-        I[master_word(m)] &= ~mf1.INTERRUPT_ON_MOVE
+        I[mf1.word[m]] &= ~mf1.INTERRUPT_ON_MOVE
     gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
     F[masters.travel_u[m]] += max(min(gone_u, length_u), 0.0)
 
@@ -105,7 +104,7 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     at which the path stops anyway, the move simply ends at its target.
     """
     I[masters.hold[m]] = FEEDHOLDING
-    I[master_word(m)] |= mf1.FEEDHOLDING
+    I[mf1.word[m]] |= mf1.FEEDHOLDING
     if not I[masters.moving[m]]:
         return
     record: int = move_record(I, m)
@@ -136,7 +135,7 @@ def master_release(F: F64, I: I32, S: F32, m: int) -> None:
     path_unfold(F, I, m)
     I[masters.hold[m]] = NOT_HELD
     I[masters.drop_at_rest[m]] = 0
-    I[master_word(m)] &= ~(mf1.FEEDHOLDING | mf1.IN_FEEDHOLD)
+    I[mf1.word[m]] &= ~(mf1.FEEDHOLDING | mf1.IN_FEEDHOLD)
     if not I[masters.moving[m]] or master_stopping(I, m):
         return
     if ends_early(I, m):
@@ -169,7 +168,7 @@ def master_stopping(I: I32, m: int) -> bool:
 
 def master_at_rest(F: F64, I: I32, S: F32, m: int) -> None:
     """A feedhold has come to rest: note it, and finish what it was the first step of."""
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     I[masters.hold[m]] = IN_FEEDHOLD
     I[word] |= mf1.IN_FEEDHOLD
     if I[word] & mf1.STOP_ALL_MOVES_REQUEST:

@@ -9,7 +9,7 @@ Captures are measured along the move from its start.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_offsets, axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_offsets, axis_scale
 from openacr.kernel.capture_cy import capture_arm
 from openacr.kernel.interrupt_cy import flag_state, master_cut, response_period
 from openacr.kernel.path_cy import move_geometry, move_record, move_stop_rate
@@ -31,7 +31,7 @@ def hsint_begin(F: F64, I: I32, m: int) -> None:
     """The move begins: clear its flags and arm the capture."""
     record: int = move_record(I, m)
     axis: int = I[moves.hsint_axis[record]] - 1
-    I[axis_word(axis)] &= ~(af1.HSINT_REGISTERED | af1.HSINT_ABORTED)
+    I[af1.word[axis]] &= ~(af1.HSINT_REGISTERED | af1.HSINT_ABORTED)
     capture_arm(F, I, axis, I[moves.hsint_mode[record]])
     I[masters.hsint_phase[m]] = HSINT_SEARCHING
 
@@ -45,10 +45,10 @@ def hsint_step(F: F64, I: I32, S: F32, m: int) -> None:
         abort: int = I[moves.hsint_abort[record]]
         if abort and flag_state(I, abort):
             capture_arm(F, I, axis, -1)
-            I[axis_word(axis)] |= af1.HSINT_ABORTED
+            I[af1.word[axis]] |= af1.HSINT_ABORTED
             I[masters.hsint_phase[m]] = HSINT_LAST
             master_cut(F, I, S, m)
-        elif I[axis_word(axis)] & af1.CAPTURE_COMPLETE:
+        elif I[af1.word[axis]] & af1.CAPTURE_COMPLETE:
             hsint_captured(F, I, m, record, axis)
     elif phase == HSINT_CAPTURED:
         I[masters.response[m]] -= 1
@@ -69,7 +69,7 @@ def hsint_captured(F: F64, I: I32, m: int, record: int, axis: int) -> None:
     if window > 0.0 and not start <= travel <= start + window:
         capture_arm(F, I, axis, I[moves.hsint_mode[record]])
         return
-    I[axis_word(axis)] |= af1.HSINT_REGISTERED
+    I[af1.word[axis]] |= af1.HSINT_REGISTERED
     I[masters.response[m]] = response_period(I, m)
     I[masters.hsint_phase[m]] = HSINT_LAST if I[masters.response[m]] < 0 else HSINT_CAPTURED
 

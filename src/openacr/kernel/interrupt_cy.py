@@ -1,7 +1,6 @@
 """Flags and captures that start a move (TRG) or end it early (INT)."""
 
-from openacr.kernel.axis_cy import axis_word
-from openacr.kernel.path_cy import SLAVE_COUNT, master_word, move_record, move_stop_rate
+from openacr.kernel.path_cy import SLAVE_COUNT, move_record, move_stop_rate
 from openacr.kernel.profile_cy import STOPPING, profile_stop
 from openacr.map.numbers import FLAG_LAST, FLAG_WORD_BASE
 from openacr.map.rows import axes, masters, moves, profiles
@@ -79,7 +78,7 @@ def interrupt_step(F: F64, I: I32, S: F32, m: int) -> None:
 
 def move_barred(I: I32, m: int) -> bool:
     """Whether the move at the head may not begin yet; a trigger that has come is used up."""
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     flags: int = I[word]
     if flags & mf1.START_MOVE_INHIBIT and not I[masters.step_go[m]]:
         return True
@@ -90,7 +89,7 @@ def move_barred(I: I32, m: int) -> bool:
     axis: int = I[moves.trigger_axis[record]] - 1
     if bit == 0 and axis < 0:  # the trigger is meant for a later move
         return False
-    came: bool = flag_state(I, bit) if bit else I[axis_word(axis)] & af1.CAPTURE_COMPLETE != 0
+    came: bool = flag_state(I, bit) if bit else I[af1.word[axis]] & af1.CAPTURE_COMPLETE != 0
     if came:
         I[moves.trigger[record]] = 0
         I[moves.trigger_axis[record]] = 0

@@ -9,7 +9,7 @@ command velocity) and runs the homing sequence.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_scale, axis_sense, axis_word, limit_bars
+from openacr.kernel.axis_cy import axis_scale, axis_sense, limit_bars
 from openacr.kernel.homing_cy import home_abort, home_arrived, home_begin, home_step
 from openacr.kernel.jogplan_cy import (
     FAR_CNT,
@@ -50,7 +50,7 @@ def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
         distance = F[axes.jog_target_cnt[n]] - F[axes.jog_cnt[n]]
         sign = 1 if distance >= 0.0 else -1
         distance = fabs(distance)
-    elif I[axis_word(n)] & af1.JOG_LIMIT_CHECK:
+    elif I[af1.word[n]] & af1.JOG_LIMIT_CHECK:
         distance = max(jog_room(F, S, n, want), 0.0)
     I[axes.jog_turning[n]] = 0 if jog_run(F, I, S, n, sign, distance, speed) else 1
 
@@ -80,7 +80,7 @@ def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
     if I[axes.jog_mode[n]] == JOG_HOMING:
         home_abort(I, n)
     velocity: float = F[axes.psp_velocity_cps[n]]
-    I[axis_word(n)] &= ~JOG_WANTED
+    I[af1.word[n]] &= ~JOG_WANTED
     I[axes.jog_sign[n]] = -1 if velocity < 0.0 else 1
     I[axes.jog_turning[n]] = 0
     I[axes.jog_replan[n]] = 0
@@ -107,7 +107,7 @@ def home_barred(I: I32, n: int) -> bool:
     m: int = I[axes.master[n]]
     if m >= 0 and I[masters.queued[m]]:
         return True
-    if I[axis_word(n)] & HOME_BARS or I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
+    if I[af1.word[n]] & HOME_BARS or I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
         return True
     if I[axes.jog_mode[n]] != JOG_IDLE:
         return True
@@ -118,7 +118,7 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
     """Follow the jog flags, which commands, programs and hosts set and clear alike."""
     if I[af6.word[n]] & af6.JOG_HOME_REQUEST:
         jog_home_request(I, n)
-    flags: int = I[axis_word(n)]
+    flags: int = I[af1.word[n]]
     mode: int = I[axes.jog_mode[n]]
     if mode == JOG_HOMING:
         return
@@ -126,13 +126,13 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
     if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST and flags & JOG_WANTED:
         # Not left for later: lifting the kill must not start anything.
         flags &= ~JOG_WANTED
-        I[axis_word(n)] = flags
+        I[af1.word[n]] = flags
     if flags & af1.JOG_FORWARD:
         want += 1
     if flags & af1.JOG_REVERSE:
         want -= 1
     if want != 0 and limit_bars(F, I, S, n, want):
-        I[axis_word(n)] = flags & ~JOG_WANTED
+        I[af1.word[n]] = flags & ~JOG_WANTED
         want = 0
     if want != 0:
         if mode == JOG_IDLE and flags & af1.JOG_LOCKOUT:
@@ -149,7 +149,7 @@ def jog_requests(F: F64, I: I32, S: F32, n: int) -> None:
 
 def jog_stop_request(F: F64, I: I32, S: F32, n: int) -> None:
     """Jog Stopping, set from outside while nothing stops: the jog ends as by JOG OFF."""
-    if not I[axis_word(n)] & af1.JOG_STOPPING:
+    if not I[af1.word[n]] & af1.JOG_STOPPING:
         return
     if I[profiles.kind[JOG_PROFILE + n]] == STOPPING:
         return
@@ -157,7 +157,7 @@ def jog_stop_request(F: F64, I: I32, S: F32, n: int) -> None:
     if mode == JOG_HOMING:
         home_abort(I, n)
     if mode == JOG_HOMING or mode == JOG_CONTINUOUS or mode == JOG_TO_TARGET:
-        I[axis_word(n)] &= ~JOG_WANTED
+        I[af1.word[n]] &= ~JOG_WANTED
         jog_brake(F, I, S, n)
 
 
@@ -233,7 +233,7 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     units: float = 1.0 / axis_scale(S, n)
     S[axes.current_jog_veloc[n]] = velocity * units
     S[axes.current_jog_accel[n]] = sign * F[profiles.accel[JOG_PROFILE + n]] * units
-    word: int = axis_word(n)
+    word: int = af1.word[n]
     flags: int = I[word] & ~JOG_STATES
     if I[axes.jog_mode[n]] != JOG_IDLE:
         flags |= af1.JOG_ACTIVE
@@ -257,7 +257,7 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     if mode != JOG_KILLED and mode != JOG_HOMING:
         jog_requests(F, I, S, n)
         if I[axes.jog_mode[n]] == JOG_IDLE:
-            I[axis_word(n)] &= ~JOG_STATES  # a command may have been ahead of a refusal
+            I[af1.word[n]] &= ~JOG_STATES  # a command may have been ahead of a refusal
             return
         jog_follow(F, I, S, n)
     if I[axes.jog_mode[n]] == JOG_HOMING and home_step(F, I, S, n):

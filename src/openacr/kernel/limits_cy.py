@@ -7,13 +7,12 @@ only on motion into it, so that an axis can always be driven off a switch; it ba
 direction while it is active (`limit_bars`). That it was met is recorded in a flag.
 """
 
-from openacr.kernel.axis_cy import axis_scale, axis_word, hard_limit_active, soft_limit_crossed
+from openacr.kernel.axis_cy import axis_scale, hard_limit_active, soft_limit_crossed
 from openacr.kernel.drive_cy import drive_disable
 from openacr.kernel.hold_cy import master_drop
 from openacr.kernel.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
 from openacr.kernel.jog_cy import JOG_HOMING, JOG_KILLED, jog_take_over
 from openacr.kernel.offset_cy import followers_halt, lock_leader
-from openacr.kernel.path_cy import master_word
 from openacr.map.numbers import FLAG_WORD_BASE
 from openacr.map.rows import axes, filters, masters
 from openacr.map.words import af1, af4, af5, mf1
@@ -77,7 +76,7 @@ def axis_kill(F: F64, I: I32, S: F32, n: int) -> None:
         other: int = I[masters.slave_axis[m] + s]
         if other >= 0:
             axis_kill_one(F, I, S, other)
-    I[master_word(m)] |= mf1.KILL_ALL_MOVES_REQUEST
+    I[mf1.word[m]] |= mf1.KILL_ALL_MOVES_REQUEST
     master_drop(F, I, S, m)
 
 
@@ -150,7 +149,7 @@ def followed(I: I32, n: int) -> bool:
     m: int = I[axes.master[n]]
     if m >= 0 and I[masters.moving[m]]:
         return True
-    return I[axis_word(n)] & FOLLOWING != 0 or I[filters.on[n]] != 0
+    return I[af1.word[n]] & FOLLOWING != 0 or I[filters.on[n]] != 0
 
 
 def soft_stop(F: F64, I: I32, S: F32, n: int) -> None:
@@ -166,7 +165,7 @@ def soft_stop(F: F64, I: I32, S: F32, n: int) -> None:
         other: int = I[masters.slave_axis[m] + s]
         if other >= 0:
             axis_halt(F, I, S, other, F[axes.sldec_ups2[other]])
-    I[master_word(m)] |= mf1.KILL_ALL_MOVES_REQUEST
+    I[mf1.word[m]] |= mf1.KILL_ALL_MOVES_REQUEST
     master_drop(F, I, S, m)
 
 

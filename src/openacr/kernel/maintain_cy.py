@@ -6,7 +6,7 @@ ramps of their own. The setpoint and its parts know nothing of it.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis_cy import axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_scale
 from openacr.kernel.profile_cy import profile_advance, profile_plan, profile_reset
 from openacr.map.rows import axes, profiles
 from openacr.map.words import af1, af4, mf1
@@ -22,7 +22,7 @@ def maintain_rests(F: F64, I: I32, n: int) -> bool:
     m: int = I[axes.master[n]]
     if m >= 0 and I[mf1.word[m]] & mf1.IN_MOTION:
         return False
-    if I[axis_word(n)] & af1.JOG_ACTIVE or F[axes.ssp_velocity_cps[n]]:
+    if I[af1.word[n]] & af1.JOG_ACTIVE or F[axes.ssp_velocity_cps[n]]:
         return False
     return I[axes.position_source[n]] == FROM_ENCODER
 

@@ -1,8 +1,26 @@
 """Coordinated moves: a master takes its moves one after the other.
 
-A master owns a ring of moves. The move at the head is the present one; those behind it
-wait. Time left over at the end of a move goes into the next one, so a chain of moves loses
-nothing to the tick grid.
+A master owns a ring of moves. The move at the head is the present one; those after it wait. The
+profile of the master gives the distance s(t) along the path, the geometry of the present move the
+positions of its slaves: with the vector length L of the move and s0, the distance at which it
+begins (`origin_u`),
+
+    position = target - delta * r,    r = 1 - (s - s0) / L,    r = 1 at its start, 0 at its end.
+
+A plan ends with the present move, before it (at a hold, or between the line and the rounded
+corner of a move), or some moves after it (look-ahead: `stretch` moves). One servo period is dt of
+path time, or what a source and TOV make of it. It is used up plan by plan:
+
+    left := dt
+    repeat
+        no move is moving:  enter the one at the head, or wait        move_enter
+        left := what is left after the end of the plan, s := s(t)     path_advance
+        moves that s has passed are over                              moves_pass
+        slaves go where the path is                                   master_place
+        nothing is left: end
+        the plan is over:  another one, the next move, or rest        plan_over
+
+so that a chain of moves loses nothing to the tick grid.
 
 The slow side writes records and counts (motion/moves.py); everything else happens here,
 in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), seek_cy
@@ -38,8 +56,6 @@ from openacr.kernel.path_cy import (
     MARK_TURN,
     master_limit,
     master_place,
-    master_word,
-    master_word2,
     move_geometry,
     move_place,
     move_record,
@@ -62,6 +78,10 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["master_step"]
 
+# What `move_enter` has done.
+ENTERED = 0
+SKIPPED = 1
+WAITS = 2
 BARS = mf1.START_MOVE_INHIBIT | mf1.TRG_PENDING
 ROUNDING = 1e-9
 PIECES_PER_TICK = 51  # of a full ring of moves shorter than a tick, and a seek that turns back
@@ -70,8 +90,8 @@ PIECES_PER_TICK = 51  # of a full ring of moves shorter than a tick, and a seek 
 def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> None:
     """Make the record at the head the present move, entered with the given speed."""
     record: int = move_record(I, m)
-    word: int = master_word(m)
-    word2: int = master_word2(m)
+    word: int = mf1.word[m]
+    word2: int = mf2.word[m]
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
     turn: float = F[moves.turn_deg[record]]
@@ -127,8 +147,8 @@ def starts_anew(I: I32, m: int, record: int) -> bool:
 
 def move_flags(I: I32, S: F32, m: int, record: int) -> None:
     """What the start of a move does to flags: pending to active, move counter."""
-    word: int = master_word(m)
-    word2: int = master_word2(m)
+    word: int = mf1.word[m]
+    word2: int = mf2.word[m]
     flags: int = I[word] & ~(mf1.FVEL_ZERO_ACTIVE | mf1.FOV_ROV_LOCK_ACTIVE)
     marks: int = I[moves.marks[record]]
     if flags & mf1.FVEL_ZERO_PENDING or marks & MARK_FINAL_ZERO:
@@ -163,7 +183,7 @@ def move_count(flags: int, marks: int) -> int:
 
 def move_skipped(I: I32, m: int) -> bool:
     """Block skip: with Check and Input set the next move is dropped; Check clears."""
-    word2: int = master_word2(m)
+    word2: int = mf2.word[m]
     flags: int = I[word2]
     if I[moves.marks[move_record(I, m)]] & MARK_BLOCK_SKIP:
         flags |= mf2.BLOCK_SKIP_CHECK
@@ -233,7 +253,7 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     S[masters.velocity_squared[m]] = velocity * velocity
     S[masters.fraction_into_move[m]] = distance / length if length > 0.0 else 1.0
     kind: int = I[profiles.kind[m]]
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     flags: int = I[word] & ~(
         mf1.ACCELERATING | mf1.DECELERATING | mf1.STOPPING | mf1.JERKING | mf1.MOVE_BUFFERED
     )
@@ -268,7 +288,7 @@ def master_busy(I: I32, m: int) -> bool:
         | I[masters.hold[m]]
         | I[masters.paced[m]]
         | I[curve_points.live[m]]
-        | (I[master_word(m)] & mf1.KILL_ALL_MOVES_REQUEST)
+        | (I[mf1.word[m]] & mf1.KILL_ALL_MOVES_REQUEST)
     ) != 0
 
 
@@ -280,22 +300,11 @@ def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
 
 
 def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
-    """Take the path of a master on, through as many of its moves as fit."""
-    word: int = master_word(m)
-    left: float = dt
+    """Take the path of a master on by one servo period, through as many of its moves as fit."""
+    left_s: float = dt
     if I[masters.paced[m]]:
-        left = path_time(F, I, S, m, dt)
-    if I[word] & mf1.KILL_ALL_MOVES_REQUEST:
-        if I[masters.queued[m]] or I[masters.hold[m]]:
-            master_drop(F, I, S, m)
-        if I[master_word2(m)] & mf2.ENABLE_CLEAR_REQUEST:
-            I[word] &= ~mf1.KILL_ALL_MOVES_REQUEST
-        return
-    if not I[masters.queued[m]]:
-        if I[masters.hold[m]] == FEEDHOLDING:
-            master_at_rest(F, I, S, m)
-        return
-    if I[masters.hold[m]] == IN_FEEDHOLD:
+        left_s = path_time(F, I, S, m, dt)
+    if not path_runs(F, I, S, m):
         return
     velocity: float = 0.0
     accel: float = 0.0
@@ -306,60 +315,99 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         F[masters.entry_ups2[m]] = 0.0
     for _ in range(PIECES_PER_TICK):
         if not I[masters.moving[m]]:
-            if I[masters.hold[m]] == FEEDHOLDING and velocity <= 0.0:
-                master_at_rest(F, I, S, m)
+            entered: int = move_enter(F, I, S, m, velocity, accel)
+            if entered == WAITS:
                 break
-            if sync_bars(I, m) or (I[word] & BARS and move_barred(I, m)):
-                profile_reset(F, I, m, 0.0, 0.0)
-                break
-            if move_skipped(I, m):
-                move_pop(I, m)
-                if not I[masters.queued[m]]:
-                    break
+            if entered == SKIPPED:
                 continue
-            move_begin(F, I, S, m, velocity, accel)
-            if I[masters.hold[m]] == FEEDHOLDING:
-                master_hold(F, I, S, m)
         elif I[masters.hold[m]] == NOT_HELD:
             master_follow(F, I, S, m)
-        left = path_advance(F, I, m, left)
+        left_s = path_advance(F, I, m, left_s)
         if I[masters.stretch[m]] > 1:
             moves_pass(F, I, S, m)
         master_place(F, I, m)
-        if left < 0.0:
+        if left_s < 0.0:
             break
         velocity = F[profiles.velocity[m]]
         accel = F[profiles.accel[m]]
-        if master_short_of_target(F, I, m):
-            master_at_rest(F, I, S, m)
+        if not plan_over(F, I, S, m):
             break
-        if I[masters.piece[m]]:
-            if I[masters.hold[m]] == FEEDHOLDING and velocity <= 0.0:
-                master_at_rest(F, I, S, m)
-                break
-            master_plan(F, I, S, m)
-            if I[masters.hold[m]] == FEEDHOLDING:
-                master_hold(F, I, S, m)
-            continue
-        if I[masters.seek_phase[m]] != SEEK_NONE and seek_end(F, I, S, m):
-            continue
-        if I[masters.hsint_phase[m]] != HSINT_NONE and hsint_end(F, I, S, m):
-            continue
-        if I[masters.cut[m]]:
-            cut_end(F, I, m)
-            while I[masters.stretch[m]] > 1:  # what the path was planned through goes with it
-                move_end(F, I, S, m)
-                F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
-                I[masters.stretch[m]] -= 1
-        move_end(F, I, S, m)
-        if not I[masters.queued[m]]:
-            break
+    if I[masters.queued[m]]:
+        master_show(F, I, S, m)
+        return
+    if I[masters.hold[m]] == FEEDHOLDING:
+        master_at_rest(F, I, S, m)
+    master_idle(F, I, S, m)
+
+
+def path_runs(F: F64, I: I32, S: F32, m: int) -> bool:
+    """Whether the path may go on in this tick: it has moves, and no kill or feedhold stops it."""
+    word: int = mf1.word[m]
+    if I[word] & mf1.KILL_ALL_MOVES_REQUEST:
+        if I[masters.queued[m]] or I[masters.hold[m]]:
+            master_drop(F, I, S, m)
+        if I[mf2.word[m]] & mf2.ENABLE_CLEAR_REQUEST:
+            I[word] &= ~mf1.KILL_ALL_MOVES_REQUEST
+        return False
     if not I[masters.queued[m]]:
         if I[masters.hold[m]] == FEEDHOLDING:
             master_at_rest(F, I, S, m)
-        master_idle(F, I, S, m)
-    else:
-        master_show(F, I, S, m)
+        return False
+    return I[masters.hold[m]] != IN_FEEDHOLD
+
+
+def move_enter(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> int:
+    """Begin the move at the head with this speed: ENTERED, SKIPPED, or the path WAITS."""
+    if I[masters.hold[m]] == FEEDHOLDING and velocity <= 0.0:
+        master_at_rest(F, I, S, m)
+        return WAITS
+    if sync_bars(I, m) or (I[mf1.word[m]] & BARS and move_barred(I, m)):
+        profile_reset(F, I, m, 0.0, 0.0)
+        return WAITS
+    if move_skipped(I, m):
+        move_pop(I, m)
+        return SKIPPED if I[masters.queued[m]] else WAITS
+    move_begin(F, I, S, m, velocity, accel)
+    if I[masters.hold[m]] == FEEDHOLDING:
+        master_hold(F, I, S, m)
+    return ENTERED
+
+
+def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
+    """The plan has ended within the tick: decide what follows; False where the path rests.
+
+    A hold, or a piece of a move, ends before the move does; a seek or an HSINT may have more to
+    do at its end. Otherwise the move is over, and with INT so is what was planned beyond it.
+    """
+    if master_short_of_target(F, I, m):
+        master_at_rest(F, I, S, m)
+        return False
+    if I[masters.piece[m]]:
+        return piece_over(F, I, S, m)
+    if I[masters.seek_phase[m]] != SEEK_NONE and seek_end(F, I, S, m):
+        return True
+    if I[masters.hsint_phase[m]] != HSINT_NONE and hsint_end(F, I, S, m):
+        return True
+    if I[masters.cut[m]]:
+        cut_end(F, I, m)
+        while I[masters.stretch[m]] > 1:  # what the path was planned through goes with it
+            move_end(F, I, S, m)
+            F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
+            I[masters.stretch[m]] -= 1
+    move_end(F, I, S, m)
+    return I[masters.queued[m]] != 0
+
+
+def piece_over(F: F64, I: I32, S: F32, m: int) -> bool:
+    """Plan the next piece of the present move; False where a hold has ended in rest."""
+    held: bool = I[masters.hold[m]] == FEEDHOLDING
+    if held and F[profiles.velocity[m]] <= 0.0:
+        master_at_rest(F, I, S, m)
+        return False
+    master_plan(F, I, S, m)
+    if held:
+        master_hold(F, I, S, m)
+    return True
 
 
 def master_short_of_target(F: F64, I: I32, m: int) -> bool:
@@ -379,7 +427,7 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         hsint_step(F, I, S, m)
     if I[moves.interrupt[move_record(I, m)]]:
         interrupt_step(F, I, S, m)
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     dirty: bool = I[masters.look_dirty[m]] != 0
     if dirty and not I[masters.cut[m]]:
         look_refresh(F, I, S, m)
@@ -392,7 +440,7 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
 
 def master_idle(F: F64, I: I32, S: F32, m: int) -> None:
     """All moves have arrived: motion flags clear in the tick of the final positions."""
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     moving: int = 0
     if I[curve_points.open[m]]:  # a curve waits for its next points
         moving = I[word] & mf1.IN_MOTION

@@ -13,7 +13,7 @@ unit for unit; the difference of the two following errors drives the outputs tog
 """
 
 from openacr.cmath import fabs, trunc
-from openacr.kernel.axis_cy import axis_scale, axis_target_changed, axis_word, limit_bars
+from openacr.kernel.axis_cy import axis_scale, axis_target_changed, limit_bars
 from openacr.kernel.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
 from openacr.kernel.feedback_cy import FROM_ENCODER
 from openacr.kernel.gear_cy import gear_halt, gear_step
@@ -27,7 +27,6 @@ from openacr.kernel.source_cy import (
     USE_JOG,
     USE_WHEEL,
     USES,
-    axis_word2,
 )
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import kind_of, store_long
@@ -115,7 +114,7 @@ def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
 
 def wheel_barred(F: F64, I: I32, S: F32, n: int, side: int) -> bool:
     """Whether a kill, the lockout or an active limit bars the hand wheel on a side."""
-    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or I[axis_word(n)] & af1.JOG_LOCKOUT:
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or I[af1.word[n]] & af1.JOG_LOCKOUT:
         return True
     return limit_bars(F, I, S, n, side) != 0
 
@@ -134,7 +133,7 @@ def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
     F[axes.jog_target_cnt[n]] += way_u * axis_scale(S, n)
     I[axes.jog_mode[n]] = JOG_TO_TARGET
     I[axes.jog_replan[n]] = 1
-    I[axis_word(n)] |= af1.JOG_ACTIVE
+    I[af1.word[n]] |= af1.JOG_ACTIVE
 
 
 def jog_time(F: F64, I: I32, n: int, period_s: float) -> float:
@@ -194,7 +193,7 @@ def lock_step(F: F64, I: I32, S: F32, n: int) -> None:
 
     Flags that would move it on its own are taken back, as commands are refused.
     """
-    I[axis_word(n)] &= ~OWN_MOTION
+    I[af1.word[n]] &= ~OWN_MOTION
     I[af6.word[n]] &= ~af6.JOG_HOME_REQUEST
     leader: int = I[followers.leader[n]] - 1
     now: float = F[axes.psp_cnt[leader]]
@@ -239,7 +238,7 @@ def lock_leader(I: I32, n: int) -> int:
 
 def direction_step(F: F64, I: I32, S: F32, n: int) -> None:
     """Directional limits: motion in a barred direction trips a feedhold of the master."""
-    word: int = axis_word2(n)
+    word: int = af2.word[n]
     flags: int = I[word]
     velocity: float = F[axes.psp_velocity_cps[n]] * axis_scale(S, n)
     if flags & af2.DIR_LIMIT_TRIPPED:
@@ -275,7 +274,7 @@ def followers_used(I: I32, n: int) -> int:
         I[followers.live[n]]
         | I[axes.backlash_setting[n]]
         | I[axes.rpm_factor[n]]
-        | (I[axis_word2(n)] & af2.DIR_LIMIT_ACTIVATE)
+        | (I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE)
     )
 
 
@@ -292,7 +291,7 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) ->
         psp = psp + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
         backlash_step(F, S, n, psp, dt)
         ballscrew_step(F, I, S, n, psp)
-    if I[axis_word2(n)] & af2.DIR_LIMIT_ACTIVATE:
+    if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)
     if S[axes.rpm_factor[n]] > 0.0:
         rpm_step(F, I, S, n)

@@ -46,16 +46,6 @@ BESIDE = 1e-3
 FAR_U = 1e30
 
 
-def master_word(m: int) -> int:
-    """Parameter number of the flag word of master m."""
-    return mf1.word[m]
-
-
-def master_word2(m: int) -> int:
-    """Parameter number of the secondary flag word of master m."""
-    return mf2.word[m]
-
-
 def move_record(I: I32, m: int) -> int:
     """Index of the record of the present move of master m."""
     return I[masters.first[m]] + I[masters.head[m]]
@@ -75,7 +65,7 @@ def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
 
 def move_override(I: I32, S: F32, m: int, record: int) -> float:
     """FOV, or ROV of a rapid move; 1 while they are locked."""
-    if I[master_word(m)] & mf1.FOV_ROV_LOCK_ACTIVE:
+    if I[mf1.word[m]] & mf1.FOV_ROV_LOCK_ACTIVE:
         return 1.0
     if I[moves.marks[record]] & MARK_OVERRIDE_LOCKED:
         return 1.0
@@ -107,7 +97,7 @@ def move_stop_rate(F: F64, record: int) -> float:
 
 def move_final_ups(F: F64, I: I32, m: int, record: int) -> float:
     """Final velocity of a move [units/s]: FVEL, or 0 while FVEL Zero is active or comes with it."""
-    if I[master_word(m)] & mf1.FVEL_ZERO_ACTIVE:
+    if I[mf1.word[m]] & mf1.FVEL_ZERO_ACTIVE:
         return 0.0
     marks: int = I[moves.marks[record]]
     if record != move_record(I, m) and marks & MARK_FINAL_ZERO:
@@ -173,7 +163,7 @@ def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> No
             length = longest
     F[moves.length_u[record]] = length
     F[moves.maxvel_ups[record]] = 0.0
-    if I[master_word2(m)] & mf2.SLAVEMAXVEL:
+    if I[mf2.word[m]] & mf2.SLAVEMAXVEL:
         move_maxvel(F, I, S, m, record)
 
 

@@ -6,7 +6,7 @@ from openacr.kernel.lookahead_cy import (
     look_scan,
     look_through,
 )
-from openacr.kernel.path_cy import master_limit, master_word, move_final_ups, move_record
+from openacr.kernel.path_cy import master_limit, move_final_ups, move_record
 from openacr.kernel.profile_cy import profile_plan
 from openacr.kernel.round_cy import round_decelerate, round_plan, round_through
 from openacr.map.rows import masters, moves, profiles
@@ -19,7 +19,7 @@ __all__ = ["master_plan"]
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the present move of master m from where it is."""
     record: int = move_record(I, m)
-    I[masters.final_zero[m]] = I[master_word(m)] & mf1.FVEL_ZERO_ACTIVE
+    I[masters.final_zero[m]] = I[mf1.word[m]] & mf1.FVEL_ZERO_ACTIVE
     if round_through(F, I, m, record):
         round_plan(F, I, S, m)
         return

@@ -38,6 +38,13 @@ def round_join2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     return law * law
 
 
+def round_cap2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
+    """Highest speed squared at the corner between moves a and b, rounded or not."""
+    if F[moves.corner_u[a]] > 0.0:
+        return F[moves.corner_ups[a]] * F[moves.corner_ups[a]]
+    return round_join2(F, I, S, m, a, b)
+
+
 def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -> float:
     """Backward pass from move `far` of up to `last` to the end of a piece of the present one.
 
@@ -81,14 +88,10 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
             capped = True
         if k == 0:
             break
-        corner: float = F[moves.corner_ups[a]]
+        corner: float = round_cap2(F, I, S, m, a, r)
         if before > 0.0:
-            w = min(w, corner * corner)
             turn: float = F[moves.corner_turn[a]]
-            w = round_ramp2(turn, before, round_accel(F, r), jerk, w)
-            corner = corner * corner
-        else:
-            corner = round_join2(F, I, S, m, a, r)
+            w = round_ramp2(turn, before, round_accel(F, r), jerk, min(w, corner))
         if w >= corner:
             w = corner
             capped = True

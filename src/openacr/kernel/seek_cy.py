@@ -3,7 +3,7 @@
 The captured position becomes 0.
 """
 
-from openacr.kernel.axis_cy import axis_offsets, axis_preload, axis_word
+from openacr.kernel.axis_cy import axis_offsets, axis_preload
 from openacr.kernel.capture_cy import capture_arm, encoder_shift
 from openacr.kernel.path_cy import move_geometry, move_record, move_stop_rate
 from openacr.kernel.plan_cy import master_plan
@@ -22,7 +22,7 @@ def seek_step(F: F64, I: I32, S: F32, m: int) -> None:
     """MSEEK in search: at the capture, slow down with STP (DEC if that is 0)."""
     record: int = move_record(I, m)
     axis: int = I[moves.seek_axis[record]] - 1
-    if I[axis_word(axis)] & af1.CAPTURE_COMPLETE:
+    if I[af1.word[axis]] & af1.CAPTURE_COMPLETE:
         rate: float = move_stop_rate(F, record)
         I[masters.seek_phase[m]] = SEEK_STOPPING
         jerk: float = F[moves.jrk_ups3[record]]

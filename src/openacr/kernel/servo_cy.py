@@ -14,7 +14,6 @@ The output goes to a converter, to a commutator or, as the setpoint, to a steppe
 """
 
 from openacr.cmath import fabs, rint
-from openacr.kernel.axis_cy import axis_word
 from openacr.kernel.commutator_cy import commutator_step, dac_put
 from openacr.kernel.drive_cy import drive_driven
 from openacr.kernel.feedback_cy import ENCODER_COUNT, FROM_ENCODER
@@ -197,7 +196,7 @@ def servo_closed(I: I32, n: int) -> bool:
     """Whether the loop of axis n produces an output: axis on, loop closed, drive enabled."""
     if not I[axes.on[n]]:
         return False
-    if I[axis_word(n)] & (af1.OPEN_SERVO_LOOP | af1.CLAMP_OUTPUT_SIGNAL):
+    if I[af1.word[n]] & (af1.OPEN_SERVO_LOOP | af1.CLAMP_OUTPUT_SIGNAL):
         return False
     return drive_driven(I, n)
 
@@ -219,7 +218,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
     if servo_closed(I, n):
         total: float = servo_sum(F, I, S, n, error, period_s, rate_hz)
         S[axes.summation_point[n]] = total
-        if I[axis_word(n)] & af1.BIQUAD_FILTER_ACTIVATE:
+        if I[af1.word[n]] & af1.BIQUAD_FILTER_ACTIVATE:
             total = biquad(F, S, axes.filter_state[n], axes.filter0_b2[n], total)
             total = biquad(F, S, axes.filter_state[n] + 2, axes.filter1_b2[n], total)
         S[axes.filter_output_signal[n]] = total

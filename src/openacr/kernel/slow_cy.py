@@ -1,6 +1,6 @@
 """The slow flag scan, every 50 ms: limit bands and the request flags of masters and axes."""
 
-from openacr.kernel.axis_cy import axis_renew, axis_scale, axis_word
+from openacr.kernel.axis_cy import axis_renew, axis_scale
 from openacr.kernel.drive_cy import drive_disable, drive_driven
 from openacr.kernel.hold_cy import (
     IN_FEEDHOLD,
@@ -9,7 +9,6 @@ from openacr.kernel.hold_cy import (
     master_hold,
     master_release,
 )
-from openacr.kernel.path_cy import master_word
 from openacr.map.rows import axes, masters, motors
 from openacr.map.words import af1, af4, mf1
 from openacr.views import F32, F64, I32
@@ -47,7 +46,7 @@ def inside(S: F32, plus: int, minus: int, value: float) -> bool:
 def axis_bands(F: F64, I: I32, S: F32, n: int, chosen: int) -> None:
     """Refresh the chosen ones of the limit flags of axis n, and answer an excess error."""
     flags: int = band_flags(F, I, S, n) & chosen
-    I[axis_word(n)] = (I[axis_word(n)] & ~chosen) | flags
+    I[af1.word[n]] = (I[af1.word[n]] & ~chosen) | flags
     if chosen & af1.NOT_EXCESS_ERROR and not flags & af1.NOT_EXCESS_ERROR:
         excess_response(I, n)
 
@@ -96,7 +95,7 @@ def excess_response(I: I32, n: int) -> None:
 def axis_marker(I: I32, n: int) -> None:
     """Not Marker: set while the marker of the attached encoder is absent."""
     k: int = I[axes.position_index[n]]
-    word: int = axis_word(n)
+    word: int = af1.word[n]
     absent: bool = True
     if 0 <= k < 16 and I[motors.kind[k]]:
         absent = I[motors.marker[k]] == 0
@@ -115,9 +114,9 @@ def master_bands(I: I32, m: int) -> None:
         axis: int = I[masters.slave_axis[m] + s]
         if axis >= 0:
             attached = True
-            some |= I[axis_word(axis)] & ANY_OF
-            every &= I[axis_word(axis)]
-    word: int = master_word(m)
+            some |= I[af1.word[axis]] & ANY_OF
+            every &= I[af1.word[axis]]
+    word: int = mf1.word[m]
     if attached:
         I[word] = (I[word] & ~MASTER_BANDS) | ((some | every) << MASTER_SHIFT)
     else:
@@ -126,7 +125,7 @@ def master_bands(I: I32, m: int) -> None:
 
 def master_requests(F: F64, I: I32, S: F32, m: int) -> None:
     """Serve feedhold, stop, cycle start and REN requests of master m; they clear themselves."""
-    word: int = master_word(m)
+    word: int = mf1.word[m]
     flags: int = I[word]
     hold: int = I[masters.hold[m]]
     if flags & (mf1.FEEDHOLD_REQUEST | mf1.STOP_ALL_MOVES_REQUEST) and hold == NOT_HELD:
@@ -145,18 +144,18 @@ def master_requests(F: F64, I: I32, S: F32, m: int) -> None:
         for s in range(SLAVE_COUNT):
             axis: int = I[masters.slave_axis[m] + s]
             if axis >= 0:
-                I[axis_word(axis)] |= af1.REN_REQUEST_FLAG
+                I[af1.word[axis]] |= af1.REN_REQUEST_FLAG
                 axis_request(F, I, axis)
 
 
 def axis_request(F: F64, I: I32, n: int) -> None:
     """Serve the REN request of axis n; in motion, where REN is refused, it waits for rest."""
     m: int = I[axes.master[n]]
-    if I[axis_word(n)] & OFFSETS_MOVING:
+    if I[af1.word[n]] & OFFSETS_MOVING:
         return
-    if m >= 0 and I[master_word(m)] & mf1.IN_MOTION:
+    if m >= 0 and I[mf1.word[m]] & mf1.IN_MOTION:
         return
-    I[axis_word(n)] &= ~af1.REN_REQUEST_FLAG
+    I[af1.word[n]] &= ~af1.REN_REQUEST_FLAG
     axis_renew(F, I, n)
 
 
@@ -165,7 +164,7 @@ def slow_scan(F: F64, I: I32, S: F32, axis_count: int, master_count: int) -> Non
     for n in range(axis_count):
         axis_bands(F, I, S, n, AXIS_BANDS)
         axis_marker(I, n)
-        if I[axis_word(n)] & af1.REN_REQUEST_FLAG:
+        if I[af1.word[n]] & af1.REN_REQUEST_FLAG:
             axis_request(F, I, n)
     for m in range(master_count):
         master_bands(I, m)

@@ -56,7 +56,6 @@ from openacr.map.rows import (
     system,
     triggers,
 )
-from openacr.map.words import af2
 from openacr.views import F32, F64, I32
 
 __all__ = ["parameter_value", "source_follow", "source_prime", "source_reading", "trigger_step"]
@@ -104,11 +103,6 @@ WAITING = 0
 FIRED = 1
 EXPIRED = 2
 NO_EDGE = -1.0
-
-
-def axis_word2(n: int) -> int:
-    """Parameter number of the secondary flag word of axis n."""
-    return af2.word[n]
 
 
 def parameter_value(F: F64, I: I32, S: F32, number: int) -> float:

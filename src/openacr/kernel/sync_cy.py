@@ -9,8 +9,6 @@ from openacr.kernel.hold_cy import NOT_HELD, master_drop
 from openacr.kernel.interrupt_cy import move_barred
 from openacr.kernel.path_cy import (
     SLAVE_COUNT,
-    master_word,
-    master_word2,
     move_geometry,
     move_limit,
     move_record,
@@ -24,7 +22,7 @@ from openacr.views import F32, F64, I32
 
 def sync_member(I: I32, m: int) -> bool:
     """Whether master m is synchronised."""
-    return I[master_word2(m)] & mf2.SYNC_MODE != 0
+    return I[mf2.word[m]] & mf2.SYNC_MODE != 0
 
 
 def sync_bars(I: I32, m: int) -> bool:
@@ -41,7 +39,7 @@ def sync_loaded(I: I32, m: int) -> bool:
 
 def sync_killed(I: I32, m: int) -> bool:
     """Whether a kill stands against master m or one of its axes."""
-    if I[master_word(m)] & mf1.KILL_ALL_MOVES_REQUEST:
+    if I[mf1.word[m]] & mf1.KILL_ALL_MOVES_REQUEST:
         return True
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
@@ -93,7 +91,7 @@ def sync_step(F: F64, I: I32, S: F32, master_count: int) -> None:
     for m in range(master_count):
         if sync_member(I, m):
             loaded: bool = sync_loaded(I, m)
-            word2: int = master_word2(m)
+            word2: int = mf2.word[m]
             ready = ready and loaded
             killed = killed or sync_killed(I, m)
             manual = manual or I[word2] & mf2.SYNC_MANUAL != 0

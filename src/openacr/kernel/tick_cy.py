@@ -5,7 +5,7 @@ outputs computed here act on it during the next one.
 """
 
 from openacr.kernel.analog_cy import analog_step
-from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written, axis_word
+from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written
 from openacr.kernel.capture_cy import capture_step
 from openacr.kernel.clock_cy import clock_step
 from openacr.kernel.drive_cy import drive_step, motion_enable_step
@@ -31,7 +31,6 @@ from openacr.kernel.offset_cy import (
     locks_couple,
     wheel_step,
 )
-from openacr.kernel.path_cy import master_word
 from openacr.kernel.sample_cy import sample_step
 from openacr.kernel.servo_cy import servo_step
 from openacr.kernel.slow_cy import slow_scan
@@ -64,9 +63,9 @@ def axis_changing(I: I32, n: int) -> bool:
     Parts can cancel each other out; at rest a refresh with every slow scan is enough.
     """
     m: int = I[axes.master[n]]
-    if I[axis_word(n)] & OFFSETS_ACTIVE or I[system.slow_phase] == 0:
+    if I[af1.word[n]] & OFFSETS_ACTIVE or I[system.slow_phase] == 0:
         return True
-    return m >= 0 and I[master_word(m)] & mf1.IN_MOTION != 0
+    return m >= 0 and I[mf1.word[m]] & mf1.IN_MOTION != 0
 
 
 def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
@@ -114,8 +113,17 @@ def tick(F: F64, I: I32, S: F32) -> None:
     """Everything the card does in one servo period."""
     period_s: float = F[system.period_s]
     rate_hz: float = 1.0 / period_s
-    axis_count: int = I[kernel.axes]
-    master_count: int = I[kernel.masters]
+    inputs_read(F, I, S, period_s, rate_hz)
+    sources_read(F, I, S, period_s)
+    axes_guard(F, I, S, period_s)
+    masters_advance(F, I, S, period_s)
+    axes_advance(F, I, S, period_s, rate_hz)
+    outputs_write(F, I, S, period_s, rate_hz)
+    flags_show(F, I, S)
+
+
+def inputs_read(F: F64, I: I32, S: F32, period_s: float, rate_hz: float) -> None:
+    """Encoders and analog inputs, then the actual positions of the axes."""
     if I[kernel.filtered_encoders]:
         encoder_filters_step(F, I, period_s)
     for e in range(MODELLED):
@@ -127,40 +135,60 @@ def tick(F: F64, I: I32, S: F32) -> None:
         missing_inputs_step(I, S)
     if I[kernel.linked_encoders]:
         encoder_links_step(I, rate_hz)
-    for n in range(axis_count):
+    for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
             written: bool = axis_take_written(F, I, n)
             feedback_step(F, I, S, n, written, rate_hz)
-    for n in range(axis_count):
+
+
+def sources_read(F: F64, I: I32, S: F32, period_s: float) -> None:
+    """Captures and clocks, then what gears, cams and objects take their pulses from."""
+    for n in range(I[kernel.axes]):
         if I[followers.live[n]]:
             triggers_watch(F, I, S, n)
     capture_step(F, I)
     clock_step(F, I, period_s)
     if I[objects.live]:
         object_sources_step(F, I, S, period_s)
-    for n in range(axis_count):
+    for n in range(I[kernel.axes]):
         if I[followers.live[n]]:
             sources_follow(F, I, S, n)
-    motion_enable_step(I, axis_count)
-    for n in range(axis_count):
+
+
+def axes_guard(F: F64, I: I32, S: F32, period_s: float) -> None:
+    """Drives and limits: what kills motion does so before anything moves."""
+    motion_enable_step(I, I[kernel.axes])
+    for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
             drive_step(I, n, period_s)
             limits_step(F, I, S, n)
+
+
+def masters_advance(F: F64, I: I32, S: F32, period_s: float) -> None:
+    """Coordinated moves; with INVK the joints stay where their program has put them."""
     if I[kernel.synced]:
-        sync_step(F, I, S, master_count)
+        sync_step(F, I, S, I[kernel.masters])
     if I[kernel.kinematics]:
-        joints_keep(F, I, axis_count)
-    for m in range(master_count):
+        joints_keep(F, I, I[kernel.axes])
+    for m in range(I[kernel.masters]):
         if master_busy(I, m):
             master_step(F, I, S, m, period_s)
     if I[kernel.kinematics]:
-        joints_stay(F, I, axis_count)
-    for n in range(axis_count):
+        joints_stay(F, I, I[kernel.axes])
+
+
+def axes_advance(F: F64, I: I32, S: F32, period_s: float, rate_hz: float) -> None:
+    """Jogs, gears, cams and the setpoint sums; locked axes after those that lead them."""
+    for n in range(I[kernel.axes]):
         if I[axes.on[n]] and lock_leader(I, n) < 0:
             axis_advance(F, I, S, n, period_s, rate_hz)
     if I[objects.locked]:
-        locked_advance(F, I, S, axis_count, period_s, rate_hz)
-    for n in range(axis_count):
+        locked_advance(F, I, S, I[kernel.axes], period_s, rate_hz)
+
+
+def outputs_write(F: F64, I: I32, S: F32, period_s: float, rate_hz: float) -> None:
+    """Servo loops, then output objects, samples and status, which see what they have put out."""
+    for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
             servo_step(F, I, S, n, period_s, rate_hz)
     if I[objects.live]:
@@ -171,10 +199,14 @@ def tick(F: F64, I: I32, S: F32) -> None:
         fast_status_step(F, I, S, period_s)
     if I[kernel.missing_dacs]:
         missing_outputs_step(I, S)
+
+
+def flags_show(F: F64, I: I32, S: F32) -> None:
+    """Limit flags: the fast ones in each tick, all of them every 50 ms."""
     if I[W_MISC_CONTROL_1] & mc1.ENABLE_FAST_FLAGS_UPDATE_MODE:
-        fast_flags_step(F, I, S, axis_count)
+        fast_flags_step(F, I, S, I[kernel.axes])
     slow: int = I[system.slow_phase] + 1
     if slow >= I[kernel.slow_ticks]:
         slow = 0
-        slow_scan(F, I, S, axis_count, master_count)
+        slow_scan(F, I, S, I[kernel.axes], I[kernel.masters])
     I[system.slow_phase] = slow

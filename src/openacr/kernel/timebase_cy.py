@@ -5,7 +5,6 @@ multiplies that. Speed scales with the pace, acceleration with its square, the p
 A source that runs backwards takes the path back, to the start of the present plan.
 """
 
-from openacr.kernel.path_cy import master_word2
 from openacr.kernel.profile_cy import profile_advance
 from openacr.kernel.source_cy import FROM_CLOCK, PULSES_PER_S, TIME_TAPS, source_follow
 from openacr.map.rows import masters, profiles, sources
@@ -18,7 +17,7 @@ FASTEST = 2.0
 def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
     """TOV Internal, on its way to the value wanted with TOV Rate."""
     wanted: float = 1.0
-    if I[master_word2(m)] & mf2.MASTER_TOV:
+    if I[mf2.word[m]] & mf2.MASTER_TOV:
         wanted = S[masters.time_over_velocity[m]]
         wanted = wanted if wanted > 0.0 else 0.0
         wanted = wanted if wanted < FASTEST else FASTEST
@@ -42,7 +41,7 @@ def path_time(F: F64, I: I32, S: F32, m: int, dt: float) -> float:
         time = F[sources.delta[tap]] / PULSES_PER_S
     factor: float = tov_factor(I, S, m, dt)
     if by_clock and factor == 1.0:
-        I[masters.paced[m]] = I[master_word2(m)] & mf2.MASTER_TOV
+        I[masters.paced[m]] = I[mf2.word[m]] & mf2.MASTER_TOV
     time = time * factor
     F[masters.pace[m]] = time / dt
     return time

@@ -6,7 +6,7 @@ on plans, whose time falls as their cruising speed rises.
 """
 
 from openacr.cmath import sqrt
-from openacr.kernel.path_cy import master_word2, move_final_ups, move_limit, move_record
+from openacr.kernel.path_cy import move_final_ups, move_limit, move_record
 from openacr.kernel.profile_cy import profile_plan
 from openacr.map.rows import masters, moves, profiles
 from openacr.map.words import mf2
@@ -65,7 +65,7 @@ def move_timed(F: F64, I: I32, S: F32, m: int) -> None:
     bound: float = move_limit(F, I, S, m, record, 1.0)
     if not bound > 0.0 or F[moves.length_u[record]] <= 0.0:
         return
-    word2: int = master_word2(m)
+    word2: int = mf2.word[m]
     if plan_seconds(F, I, m, bound) > time * (1.0 + SLACK):
         I[word2] |= mf2.MASTER_SHORT_TIME
         return

@@ -11,7 +11,7 @@ from openacr.basic.vm.opcodes_cy import VM_END, VM_SLICE, VM_WAIT
 from openacr.basic.vm.vm_cy import vm_run
 from openacr.basic.vm.waits_cy import wait_is_over
 from openacr.kernel.axis_cy import axis_scale
-from openacr.kernel.path_cy import SLAVE_COUNT, master_word
+from openacr.kernel.path_cy import SLAVE_COUNT
 from openacr.map.numbers import (
     AX_BASE,
     AX_INVK_INPUT,
@@ -38,6 +38,7 @@ from openacr.map.numbers import (
     THI_STATE,
     THI_STRIDE,
 )
+from openacr.map.words import mf1
 from openacr.views import F32, F64, I32
 
 FIRST_THREAD = 32
@@ -58,7 +59,7 @@ def slave_axis(I: I32, m: int, s: int) -> int:
 def tool_moved(F: F64, I: I32, m: int) -> bool:
     """Whether the joints have to be computed anew; at rest positions may be written freely."""
     i: int = MSI_BASE + m * MSI_STRIDE
-    moving: int = I[master_word(m)] & MF1_IN_MOTION
+    moving: int = I[mf1.word[m]] & MF1_IN_MOTION
     due: bool = moving != 0 or I[i + MSI_INVK_MOVING] != 0
     I[i + MSI_INVK_MOVING] = moving
     moved: bool = False
