@@ -109,6 +109,26 @@ def test_every_integer_is_widened_before_anything_is_computed_of_it(
     ]
 
 
+def test_every_compiled_source_is_joined_after_those_it_imports() -> None:
+    files = unity.source_files()
+    names = [path.name for path in unity.joining_order(files)]
+    assert sorted(names) == sorted(path.name for path in files)
+    assert names.index("words_cy.py") < names.index("arith_cy.py") < names.index("vm_cy.py")
+    assert names.index("vm_cy.py") < names.index("scheduler_cy.py") < names.index("loop_cy.py")
+
+
+def test_sources_that_import_each_other_cannot_be_joined(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "openacr").mkdir()
+    monkeypatch.setattr(unity, "PACKAGE", tmp_path / "openacr")
+    for name, other in (("one", "two"), ("two", "one")):
+        text = f"from openacr.{other}_cy import LIMIT\n"
+        (tmp_path / "openacr" / f"{name}_cy.py").write_text(text)
+    with pytest.raises(UnityError, match=r"import each other: .*one_cy -> two_cy"):
+        unity.joining_order(unity.source_files())
+
+
 MESSAGE = (
     "from openacr import messages\n"
     "def f(n: int) -> int:\n    return -messages.MATH_ERROR.number if n else n.real\n"

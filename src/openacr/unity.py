@@ -21,7 +21,10 @@ imports other than those of the core itself.
 import ast
 import functools
 import hashlib
+import os
 import re
+from collections.abc import Iterator, Sequence
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from runpy import run_path
 
@@ -39,86 +42,38 @@ from openacr.unity_c import (
 )
 
 PACKAGE = Path(__file__).parent
-ORDER = (
-    "map/kinds_cy.py",
-    "map/flags_cy.py",
-    "kernel/words_cy.py",
-    "kernel/profile_cy.py",
-    "kernel/axis_cy.py",
-    "kernel/feedback_cy.py",
-    "kernel/modules_cy.py",
-    "kernel/analog_cy.py",
-    "kernel/capture_cy.py",
-    "kernel/source_cy.py",
-    "kernel/gear_cy.py",
-    "kernel/cam_cy.py",
-    "kernel/object_cy.py",
-    "kernel/sample_cy.py",
-    "kernel/jogplan_cy.py",
-    "kernel/homing_cy.py",
-    "kernel/jog_cy.py",
-    "kernel/bezier_cy.py",
-    "kernel/curve_cy.py",
-    "kernel/tangent_cy.py",
-    "kernel/corner_cy.py",
-    "kernel/path_cy.py",
-    "kernel/lookahead_cy.py",
-    "kernel/round_law_cy.py",
-    "kernel/round_pass_cy.py",
-    "kernel/round_cy.py",
-    "kernel/plan_cy.py",
-    "kernel/seek_cy.py",
-    "kernel/interrupt_cy.py",
-    "kernel/hsint_cy.py",
-    "kernel/curveflags_cy.py",
-    "kernel/hold_cy.py",
-    "kernel/timebase_cy.py",
-    "kernel/timed_cy.py",
-    "kernel/sync_cy.py",
-    "kernel/master_cy.py",
-    "kernel/offset_cy.py",
-    "kernel/limits_cy.py",
-    "kernel/drive_cy.py",
-    "kernel/commutator_cy.py",
-    "kernel/maintain_cy.py",
-    "kernel/servo_cy.py",
-    "kernel/clock_cy.py",
-    "kernel/fast_status_cy.py",
-    "kernel/slow_cy.py",
-    "kernel/fast_flags_cy.py",
-    "kernel/tick_cy.py",
-    "basic/vm/arith_cy.py",
-    "basic/vm/functions_cy.py",
-    "basic/vm/opcodes_cy.py",
-    "basic/vm/values_cy.py",
-    "basic/vm/flow_cy.py",
-    "basic/vm/waits_cy.py",
-    "basic/vm/vm_cy.py",
-    "basic/vm/kinematics_cy.py",
-    "basic/vm/scheduler_cy.py",
-    "plant/drive_cy.py",
-    "plant/phases_cy.py",
-    "plant/stepper_cy.py",
-    "plant/exact_cy.py",
-    "plant/analog_cy.py",
-    "plant/wiring_cy.py",
-    "plant/step_cy.py",
-    "plc/scan_cy.py",
-    "network/wake_cy.py",
-    "cnc/compensation/curve_cy.py",
-    "cnc/compensation/join_cy.py",
-    "engine/trace_cy.py",
-    "engine/watch_cy.py",
-    "engine/loop_cy.py",
-    "cnc/scan_cy.py",
-)
 CONSTANT_MODULES = ("openacr.map.numbers",)
 ROW_PACKAGES = ("openacr.map.rows", "openacr.map.words")  # generated, as the numbers are
 
 
 def source_files() -> list[Path]:
-    """The compiled sources in the order in which they are joined."""
-    return [PACKAGE / name for name in ORDER]
+    """The compiled sources: every `*_cy.py` of the package, by name."""
+    found = []
+    for folder, inner, names in os.walk(PACKAGE):
+        inner[:] = [name for name in inner if name != "__pycache__"]
+        found += [Path(folder, name) for name in names if name.endswith("_cy.py")]
+    return sorted(found)
+
+
+def joining_order(files: Sequence[Path]) -> list[Path]:
+    """The files so that each comes after those it imports; UnityError for a circle."""
+    wanted = set(files)
+    imports = {path: [each for each in _imported(path) if each in wanted] for path in files}
+    try:
+        return list(TopologicalSorter(imports).static_order())
+    except CycleError as error:
+        names = " -> ".join(path.stem for path in error.args[1])
+        raise UnityError(f"compiled sources import each other: {names}") from None
+
+
+def _imported(path: Path) -> Iterator[Path]:
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.endswith("_cy"):
+            yield _source_of(node.module)
+
+
+def _source_of(module: str) -> Path:
+    return PACKAGE.parent.joinpath(*module.split(".")).with_suffix(".py")
 
 
 def source_hash() -> str:
@@ -148,7 +103,7 @@ def unity_source(*, checked: bool = False) -> str:
     math_names: set[str] = set()
     functions: dict[str, ast.FunctionDef] = {}
     exported: list[str] = []
-    for path in source_files():
+    for path in joining_order(source_files()):
         _collect(path, math_names, functions, exported)
     blocks = [
         "import cython",
