@@ -24,11 +24,17 @@ INTERRUPTED = 130
 
 
 class Entry(NamedTuple):
-    """Where a sub-command is, and the first line of its help."""
+    """Where a sub-command is."""
 
     module: str
     function: str
-    summary: str
+
+    @property
+    def summary(self) -> str:
+        """The first line of its docstring, read from the source: a list imports no sub-command."""
+        path = Path(__file__).parent.joinpath(*self.module.split(".")).with_suffix(".py")
+        definition = path.read_text("utf-8").partition(f"\ndef {self.function}(")[2]
+        return definition.partition('"""')[2].partition("\n")[0].removesuffix('"""')
 
 
 class Family(NamedTuple):
@@ -39,193 +45,68 @@ class Family(NamedTuple):
 
 
 COMMANDS: dict[str, Entry | Family] = {
-    "run": Entry("run", "run", "Run a project: as fast as possible, or paced by the wall clock."),
-    "serve": Entry(
-        "serve",
-        "serve",
-        "Run a card in real time and let hosts talk to it over TCP and serial lines.",
-    ),
-    "replay": Entry(
-        "replay", "replay", "Replay a journal: the same inputs at the same ticks, the same states."
-    ),
-    "term": Entry(
-        "term",
-        "term",
-        "Talk to a card: interactively, or line by line when standard input is piped.",
-    ),
-    "download": Entry(
-        "download", "download", "Send a controller file, or all files of a project, to a card."
-    ),
-    "upload": Entry(
-        "upload", "upload", "Read a program or PLC of a card, or all of them into a folder."
-    ),
-    "monitor": Entry("monitor", "monitor", "Show parameters, flags and axes of a card, live."),
-    "status": Entry(
-        "status", "status", "Show lights, drives, encoders and limit switches of a card."
-    ),
-    "loop": Entry(
-        "loop", "loop", "Show offsets, setpoints, gains and outputs of the servo loops of a card."
-    ),
-    "ip": Entry(
-        "ip", "explain_address", "Explain an address of the network: class, network, host, reach."
-    ),
-    "backup": Entry(
-        "backup",
-        "backup",
-        "Store settings, attachments, variables and programs of a card in a folder.",
-    ),
-    "restore": Entry("backup", "restore", "Stop a card, clear it and put a backup back."),
-    "configure": Entry(
-        "configure", "configure", "Make the configuration code of a machine from answers in a file."
-    ),
-    "list": Entry("check", "list_file", "Print a controller file as the card lists it."),
-    "check": Entry("check", "check_file", "Find every error in a controller file."),
-    "schema": Entry(
-        "schema",
-        "show_schema",
-        "Print the JSON schema of machine.toml, scenario.toml or configure.toml.",
-    ),
-    "packet": Entry(
-        "packet", "explain_packet", "Take binary packets apart: every field with its meaning."
-    ),
-    "param": Entry(
-        "lookup",
-        "show_parameter",
-        "Explain a parameter: meaning, type, access, packet address.",
-    ),
-    "flag": Entry(
-        "lookup",
-        "show_flag",
-        "Explain a flag: meaning, access, update speed, parameter that holds it.",
-    ),
+    "run": Entry("run", "run"),
+    "serve": Entry("serve", "serve"),
+    "replay": Entry("replay", "replay"),
+    "term": Entry("term", "term"),
+    "download": Entry("download", "download"),
+    "upload": Entry("upload", "upload"),
+    "monitor": Entry("monitor", "monitor"),
+    "status": Entry("status", "status"),
+    "loop": Entry("loop", "loop"),
+    "ip": Entry("ip", "explain_address"),
+    "backup": Entry("backup", "backup"),
+    "restore": Entry("backup", "restore"),
+    "configure": Entry("configure", "configure"),
+    "list": Entry("check", "list_file"),
+    "check": Entry("check", "check_file"),
+    "schema": Entry("schema", "show_schema"),
+    "packet": Entry("packet", "explain_packet"),
+    "param": Entry("lookup", "show_parameter"),
+    "flag": Entry("lookup", "show_flag"),
     "mill": Family(
         "Part programs (RS-274): the CNC side.",
         {
-            "check": Entry(
-                "mill", "check_program", "Find every error of a part program, and say what it does."
-            ),
-            "dialect": Entry(
-                "mill_dialect",
-                "show_dialect",
-                "Say in which dialect a part program would be read, and what points to it.",
-            ),
-            "time": Entry(
-                "mill",
-                "time_program",
-                "Predict how long a part program runs, from the plan of its moves.",
-            ),
-            "list": Entry(
-                "mill_list",
-                "list_program",
-                "List a part program; lines with <ins> are moves inserted at corners.",
-            ),
-            "plot": Entry(
-                "mill_plot",
-                "plot_program",
-                "Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom.",
-            ),
-            "run": Entry(
-                "mill_run",
-                "run_program",
-                "Run a part program on the virtual machine, or on a card.",
-            ),
-            "batch": Entry(
-                "mill_run", "run_batch", "Run the programs of a batch file one after the other."
-            ),
-            "drip": Entry(
-                "mill_drip",
-                "drip_program",
-                "Run a part program while it arrives over a serial line.",
-            ),
-            "receive": Entry(
-                "mill_drip",
-                "receive_program",
-                "LINK: receive a part program over a serial line and store it as a file.",
-            ),
-            "teach": Entry(
-                "mill_teach",
-                "teach_system",
-                "TEACH: where the machine stands becomes the zero of a work system.",
-            ),
-            "jog": Entry("mill_hand", "jog_axes", "Move axes of a card by hand: X0.5 Y-1."),
-            "mdi": Entry(
-                "mill_hand",
-                "run_blocks",
-                "MDI: run single blocks on the virtual machine, or on a card.",
-            ),
+            "check": Entry("mill", "check_program"),
+            "dialect": Entry("mill_dialect", "show_dialect"),
+            "time": Entry("mill", "time_program"),
+            "list": Entry("mill_list", "list_program"),
+            "plot": Entry("mill_plot", "plot_program"),
+            "run": Entry("mill_run", "run_program"),
+            "batch": Entry("mill_run", "run_batch"),
+            "drip": Entry("mill_drip", "drip_program"),
+            "receive": Entry("mill_drip", "receive_program"),
+            "teach": Entry("mill_teach", "teach_system"),
+            "jog": Entry("mill_hand", "jog_axes"),
+            "mdi": Entry("mill_hand", "run_blocks"),
             "zero": Family(
                 "The floating zero of a card: SET ZERO, CLR ZERO, GOTO ZERO.",
                 {
-                    "set": Entry(
-                        "mill_zero",
-                        "set_floating_zero",
-                        "SET ZERO: axes of a card read 0 where they are; nothing moves.",
-                    ),
-                    "clear": Entry(
-                        "mill_zero",
-                        "clear_floating_zero",
-                        "CLR ZERO: no axis has a floating zero any more; nothing moves.",
-                    ),
-                    "goto": Entry(
-                        "mill_zero",
-                        "go_to_zero",
-                        "GOTO ZERO: rapids to the floating zero; Z first where that is upward,"
-                        " else last.",
-                    ),
+                    "set": Entry("mill_zero", "set_floating_zero"),
+                    "clear": Entry("mill_zero", "clear_floating_zero"),
+                    "goto": Entry("mill_zero", "go_to_zero"),
                 },
             ),
-            "home": Entry("mill_hand", "home_axes", "Find the reference points of axes on a card."),
-            "stop": Entry(
-                "mill_stop",
-                "stop_machine",
-                "Stop a machine and switch everything off, whichever program drives it.",
-            ),
-            "acknowledge": Entry(
-                "mill_hand",
-                "acknowledge_alarms",
-                "Acknowledge the alarms of a card: what is over is cleared, kills are taken back.",
-            ),
-            "import": Entry(
-                "mill_import",
-                "import_drawing",
-                "Make a part program of a DXF drawing: a path, or holes to drill.",
-            ),
-            "part": Entry(
-                "mill_part",
-                "make_part",
-                "List the parts of the library, or make the program of one of them.",
-            ),
-            "param": Entry(
-                "mill_param",
-                "operate_parameters",
-                "Show and change P0 to P99 of a card and P100 to P199 of the store.",
-            ),
+            "home": Entry("mill_hand", "home_axes"),
+            "stop": Entry("mill_stop", "stop_machine"),
+            "acknowledge": Entry("mill_hand", "acknowledge_alarms"),
+            "import": Entry("mill_import", "import_drawing"),
+            "part": Entry("mill_part", "make_part"),
+            "param": Entry("mill_param", "operate_parameters"),
             "message": Family(
                 "Texts that are shown while an input, output or flag has a state.",
                 {
-                    "list": Entry("mill_message", "list_messages", "List the messages."),
-                    "set": Entry("mill_message", "set_message", "Define a message, or change it."),
-                    "remove": Entry("mill_message", "remove_message", "Forget a message."),
+                    "list": Entry("mill_message", "list_messages"),
+                    "set": Entry("mill_message", "set_message"),
+                    "remove": Entry("mill_message", "remove_message"),
                 },
             ),
             "ballscrew": Family(
                 "Tables that compensate what the screws of a machine get wrong.",
                 {
-                    "import": Entry(
-                        "mill_ballscrew",
-                        "import_table",
-                        "Check the table of an axis, keep it beside the store and switch it on.",
-                    ),
-                    "export": Entry(
-                        "mill_ballscrew",
-                        "export_table",
-                        "Write the table of an axis, which the store names, to a file.",
-                    ),
-                    "from-measurements": Entry(
-                        "mill_ballscrew",
-                        "make_table",
-                        "Make the table of an axis from measurements of its positions.",
-                    ),
+                    "import": Entry("mill_ballscrew", "import_table"),
+                    "export": Entry("mill_ballscrew", "export_table"),
+                    "from-measurements": Entry("mill_ballscrew", "make_table"),
                 },
             ),
         },
@@ -233,28 +114,12 @@ COMMANDS: dict[str, Entry | Family] = {
     "sysvar": Family(
         "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
         {
-            "get": Entry("sysvar", "get", "Show parameters with value, unit, default and range."),
-            "set": Entry(
-                "sysvar_change",
-                "set_values",
-                "Change parameters: all of them, or none when one is refused.",
-            ),
-            "list": Entry(
-                "sysvar", "list_values", "List what was changed, or all parameters of a tab."
-            ),
-            "export": Entry(
-                "sysvar_change", "export_values", "Write the settings that were changed as TOML."
-            ),
-            "import": Entry(
-                "sysvar_change",
-                "import_values",
-                "Read settings from TOML: all of them, or none when one is refused.",
-            ),
-            "password": Entry(
-                "sysvar_change",
-                "change_password",
-                "Guard the system parameters with a password, or guard them no more.",
-            ),
+            "get": Entry("sysvar", "get"),
+            "set": Entry("sysvar_change", "set_values"),
+            "list": Entry("sysvar", "list_values"),
+            "export": Entry("sysvar_change", "export_values"),
+            "import": Entry("sysvar_change", "import_values"),
+            "password": Entry("sysvar_change", "change_password"),
         },
     ),
 }
