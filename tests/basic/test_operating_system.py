@@ -135,6 +135,43 @@ def test_help_lists_every_command_word(bench: Bench) -> None:
     assert all(len(line.split()) == 8 for line in lines[:-2])
 
 
+@pytest.mark.parametrize(
+    ("asked", "shown"),
+    [
+        ("VER", "VER: Print model and firmware version.|"),
+        ("ver", "VER: Print model and firmware version.|"),
+        ("SQRT", "SQRT(number): Square root.|"),
+        ("ENC0 WIDTH", f"ENC # WIDTH: {registry.find('ENC # WIDTH').summary}|"),
+        ("ENC # WIDTH", f"ENC # WIDTH: {registry.find('ENC # WIDTH').summary}|"),
+        ("#DEFINE", f"#DEFINE: {registry.find('#DEFINE').summary}|"),
+        ("PASSWORD ON", "PASSWORD ON: Protect the text of programs from LIST.|"),
+        ("ELSE IF", "ELSEIF: Another condition, tested if all before it were false.|"),
+        ("VERY", "Unknown command|"),
+        ("VER PASSWORD", "Unknown command|"),
+        ("0", "Unknown command|"),
+        ("#", "Unknown command|"),
+        ("? 5", f"PRINT: {registry.find('PRINT').summary}|"),
+        ("CHR$", f"CHR$(number): {registry.find_function('CHR$').summary}|"),
+    ],
+)
+def test_help_says_what_a_command_does(bench: Bench, asked: str, shown: str) -> None:
+    assert bench.type(f"HELP {asked}") == f"{shown}SYS>"
+
+
+def test_help_with_the_first_word_shows_all_commands_that_begin_so(bench: Bench) -> None:
+    lines = bench.type("HELP PASSWORD").removesuffix("SYS>").split("|")[:-1]
+    assert [line.partition(":")[0] for line in lines] == [
+        "PASSWORD",
+        "PASSWORD OFF",
+        "PASSWORD ON",
+    ]
+
+
+def test_no_help_contains_a_prompt_character() -> None:
+    assert all(">" not in row.summary for row in registry.commands())
+    assert all(">" not in row.summary for row in registry.functions.values())
+
+
 def test_period_is_shown_and_set_within_limits(bench: Bench) -> None:
     assert bench.type("PERIOD") == "0.0005|SYS>"
     assert bench.type("PERIOD 0.001", "PERIOD") == "SYS>0.001|SYS>"

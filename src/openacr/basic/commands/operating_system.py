@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING
 
 from openacr.basic.language import registry
 from openacr.basic.language.aliases import Aliases, read_target
-from openacr.basic.language.grammar import Form, Int, Num, Str
+from openacr.basic.language.grammar import Form, Int, Num, Rest, Str
 from openacr.basic.language.lister import Lister
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.number_format import double_text
 from openacr.basic.language.registry import ANY, IMMEDIATE, SYS, Level, command
+from openacr.basic.language.written import call
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
+from openacr.lang.lexer import Kind, Token
 from openacr.messages import (
     INVALID_ARGUMENT,
     NOT_VALID_WHILE_IN_MOTION,
+    UNKNOWN_COMMAND,
 )
 from openacr.motion import filters
 from openacr.motion.permits import axis_moving
@@ -149,14 +152,46 @@ def def_clear(run: Run) -> None:
 # the card
 
 
-@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
-def help_(run: Run) -> None:
-    """List all command words."""
+@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Rest(),), ref=REF)
+def help_(run: Run, asked: tuple[Token, ...] | None) -> None:
+    """List all command words, or say what the commands do that begin with these words."""
+    if asked:
+        for line in help_about(asked):
+            run.print(line)
+        return
     words = help_words()
     width = max(map(len, words)) + 1
     for start in range(0, len(words), HELP_COLUMNS):
         columns = words[start : start + HELP_COLUMNS]
         run.print("".join(word.ljust(width) for word in columns).rstrip())
+
+
+def help_about(asked: tuple[Token, ...]) -> list[str]:
+    """One line for every command that begins with these words, and for a function of that name.
+
+    Real cards take no words after HELP. Numbers of objects may stand among the words, as in
+    ENC0 RES; `Unknown command` if nothing begins so.
+    """
+    words = tuple(str(token.value) for token in asked if token.kind is not Kind.NUMBER)
+    if words[:1] == ("#",):
+        words = ("#" + "".join(words[1:2]), *words[2:])
+    words = tuple(word for word in words if word != registry.INDEX)
+    found = [
+        f"{row.name}: {row.summary}"
+        for row in registry.commands()
+        if any(_plain(written)[: len(words)] == words for written in (row.words, *row.synonyms))
+    ]
+    if len(words) == 1 and words[0] in registry.functions:
+        found.append(
+            f"{call(registry.functions[words[0]])}: {registry.functions[words[0]].summary}"
+        )
+    if not words or not found:
+        raise CardError(UNKNOWN_COMMAND)
+    return found
+
+
+def _plain(words: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(word for word in words if word != registry.INDEX)
 
 
 def help_words() -> list[str]:
