@@ -6,12 +6,15 @@ from pathlib import Path
 import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
+from openacr.client import Card
 from openacr.cnc import canonical as c
 from openacr.cnc.findings import BlockError, Finding
 from openacr.controller import Controller
 from openacr.errors import StoreError
+from openacr.mill import alarms
 from openacr.mill.alarms import AlarmError
 from openacr.mill.states import State
+from openacr.mill.stopping import stop_all
 from openacr.mill.workshop import Workshop
 from openacr.sysvar import Store
 
@@ -346,3 +349,27 @@ def test_a_machine_that_did_not_rest_is_known_to_the_next_program() -> None:
     assert [alarm.kind.code for alarm in again.runner.alarms.active] == [15]
     assert again.runner.acknowledge() == []
     again.close()
+
+
+@pytest.mark.parametrize("is_released", [True, False])
+def test_a_stop_from_another_terminal_calls_an_emergency_stop_by_its_name(
+    is_released: bool,
+) -> None:
+    controller, store = Controller(), Store()
+    shop = real(controller, [], store)
+    shop.step()
+    with Card.open(controller) as other:
+        assert stop_all(other, shop.runner.settings).cause is None
+        shop.step()
+        shop.runner.acknowledge()
+        controller.set_input(5, True)
+        shop.step()
+        controller.set_input(5, not is_released)
+        cause = stop_all(other, shop.runner.settings).cause
+        assert cause is alarms.EMERGENCY_STOP
+        controller.set_input(5, False)
+        shop.step()
+        assert shop.runner.acknowledge() == []
+        controller.p[97] = 10  # left by a program whose kill was cleared elsewhere
+        assert stop_all(other, shop.runner.settings).cause is None
+    shop.close()

@@ -5,7 +5,7 @@ import pytest
 from openacr.errors import MapError
 from openacr.sysvar import SettingError, Store, find
 from openacr.sysvar.lookup import one
-from openacr.sysvar.values import parsed, shown, unit_of
+from openacr.sysvar.values import checked, parsed, shown, unit_of
 
 
 @pytest.mark.req("MILL-SYS-RANGE")
@@ -90,10 +90,31 @@ def test_ranges_of_rotary_axes_are_those_of_degrees() -> None:
         ("cut speed", " 12.5 ", 12.5),
         ("pulses/unit x", "100mm", 2540.0),
         ("machine type", "MILL 2", "MILL 2"),
+        ("handwheel src x", "Axis4", 4.0),
+        ("handwheel src x", " axis10 ", 10.0),
+        ("handwheel src x", "4", 4.0),
+        ("handwheel src x", "None", -1.0),
     ],
 )
 def test_users_write_words_and_units(name: str, text: str, value: float | str) -> None:
     assert parsed(one(name), text) == value
+
+
+@pytest.mark.parametrize("text", ["Axis", "Axis-1", "Axis4.5", "Axis 4", "DAC4", "Axis\u00b2"])
+def test_other_words_are_no_source_of_a_handwheel(text: str) -> None:
+    with pytest.raises(SettingError, match=r"from -1 to 23; -1 = None; Axis4 = 4"):
+        parsed(one("handwheel src x"), text)
+
+
+def test_the_dacs_of_a_spindle_are_those_the_guide_prints() -> None:
+    assert checked(one("spindle dac"), 7.0) == 7.0
+    assert checked(one("handwheel src x"), parsed(one("handwheel src x"), "Axis23")) == 23.0
+    for name, value, words in (
+        ("spindle dac", 8.0, r"cannot be 8: a whole number from -1 to 7; -1 = none"),
+        ("handwheel src x", 24.0, r"cannot be 24: a whole number from -1 to 23"),
+    ):
+        with pytest.raises(SettingError, match=words):
+            checked(one(name), value)
 
 
 def test_lengths_are_converted_into_a_metric_store() -> None:
@@ -105,6 +126,8 @@ def test_values_are_shown_with_their_words_and_units() -> None:
     assert shown(one("P250003"), 2.0) == "2 (absolute)"
     assert shown(one("P250101"), 0.002) == "0.002"
     assert shown(one("P200011"), 4.0) == "4"
+    assert shown(one("P200009"), 4.0) == "4 (Axis4)"
+    assert shown(one("P200009"), -1.0) == "-1 (None)"
     assert unit_of(one("P650000"), is_metric=True) == "mm/min"
     assert unit_of(one("P203000"), is_metric=True, letter="A") == "deg"
     assert unit_of(one("P200006"), is_metric=False) == "pulse/in"

@@ -29,7 +29,7 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
         timeout_s = settings.link_timeout_s
         try:
             with deaf(), Card.open(host, Options(timeout_s=timeout_s, reconnect_s=0.0)) as card:
-                found, rests = stop_all(card, settings)
+                stopped = stop_all(card, settings)
                 counts = machine_of(card, settings).axis_values(AX_CURRENT_POSITION)
         except LINK_ERRORS as lost:
             raise UserError(f"the card cannot be reached: {lost}") from None
@@ -37,9 +37,11 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
         for axis, count in zip(settings.axes, counts, strict=True):
             place[axis.index] = count / axis.pulses_per_unit
         where = Readout(cells).line([axis.index for axis in settings.axes], tuple(place))
-    for text in found:
+    if stopped.cause is not None:
+        typer.echo(f"alarm {stopped.cause.code}: {stopped.cause.text}")
+    for text in stopped.found:
         typer.echo(f"switched off: {text}")
-    if not rests:
+    if not stopped.rests:
         typer.echo("the machine did not come to rest: all drives are switched off", err=True)
         raise typer.Exit(FAILED)
     typer.echo(f"the machine is at rest at {where}; `openacr mill acknowledge` lets it move again")

@@ -8,8 +8,16 @@ from openacr.cnc.occupied import KILL_CAUSE
 from openacr.mill import alarms
 from openacr.mill.alarms import Kind
 from openacr.mill.machine import Look, Machine
+from openacr.mill.panel import Panel
 
 KEPT = {kind.code: kind for kind in (alarms.EMERGENCY_STOP, alarms.NO_REST)}
+
+
+def cause_of(panel: Panel, look: Look) -> Kind | None:
+    """Why all motion is killed, or may not begin, to any program; None if it is not known."""
+    if panel.is_in(look, panel.settings.wiring.emergency_stop):
+        return alarms.EMERGENCY_STOP
+    return KEPT.get(int(panel.machine.read(KILL_CAUSE))) if look.is_killed else None
 
 
 class Killed:

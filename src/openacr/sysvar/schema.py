@@ -62,6 +62,7 @@ class Row:
     high: float = ANY
     is_low_open: bool = False  # the lowest value itself is refused
     words: Mapping[int, str] = field(default_factory=dict)  # values with a name
+    noun: str = ""  # numbers are written and shown with it, too: Axis4
     doc: str = ""
     count: int = 1
     step: int = 1

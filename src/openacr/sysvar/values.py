@@ -107,6 +107,8 @@ def accepted(parameter: Parameter, is_metric: bool = False, letter: str = "") ->
     reach = span(parameter, is_metric, letter)
     unit = f" [{unit_of(parameter, is_metric, letter)}]" if row.unit else ""
     names = "".join(f"; {value} = {word}" for value, word in row.words.items())
+    if row.noun:
+        names += f"; {row.noun}4 = 4"
     return f"a {kind} {reach}{unit}{names}" if reach else f"any {kind}{unit}{names}"
 
 
@@ -159,6 +161,9 @@ def _word(parameter: Parameter, text: str) -> float | None:
     for value, word in parameter.row.words.items():
         if word.lower() == text:
             return float(value)
+    noun = parameter.row.noun.lower()
+    if noun and text.startswith(noun) and text.removeprefix(noun).isdecimal():
+        return float(text.removeprefix(noun))
     if parameter.kind is Kind.BOOLEAN:
         return _TRUTHS.get(text)
     return -1.0 if text in ("disable", "none") and -1 in parameter.row.words else None
@@ -177,6 +182,8 @@ def shown(parameter: Parameter, value: Value) -> str:
         return value
     number = plain(rounded(value, SHOWN_DIGITS))
     word = parameter.row.words.get(int(value)) if value.is_integer() else None
+    if word is None and parameter.row.noun:
+        word = parameter.row.noun + number
     return number if word is None or word == number else f"{number} ({word})"
 
 

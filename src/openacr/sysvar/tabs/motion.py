@@ -50,10 +50,11 @@ AXES_TAB.integer(
     9,
     "Handwheel Src",
     -1,
-    typical="4",
+    typical="Axis4",
     low=-1,
     high=23,
-    words={-1: "none"},
+    words={-1: "None"},
+    noun="Axis",
     doc="Encoder of the handwheel.",
 )
 AXES_TAB.real(

@@ -64,7 +64,7 @@ SPINDLE.integer(
     -1,
     typical="3",
     low=-1,
-    high=15,
+    high=7,
     words={-1: "none"},
     doc="Analog output of the spindle.",
 )

@@ -1,0 +1,41 @@
+"""`openacr mill stop`: what it says of a machine it brings to rest."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from openacr.cli.main import app
+from openacr.client import Card
+from openacr.controller import Controller
+from openacr.sysvar import Store
+
+ESTOP_INPUT = 4
+AT_REST = "the machine is at rest at X   0.0000 Y   0.0000 Z   0.0000"
+
+
+@pytest.fixture
+def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
+    """A card behind --host, whatever is named there, with an emergency stop."""
+    path = tmp_path / "sysvar.db"
+    monkeypatch.setenv("OPENACR_STORE", str(path))
+    with Store(path) as store:
+        store.write(400_004, ESTOP_INPUT)
+    controller, opened = Controller(), Card.open
+    monkeypatch.setattr(Card, "open", lambda _host, *rest: opened(controller, *rest))
+    return controller
+
+
+def stopped() -> tuple[int, list[str]]:
+    result: Any = CliRunner().invoke(app, ["mill", "stop", "--host", "card"])
+    return result.exit_code, result.output.splitlines()
+
+
+def test_an_emergency_stop_is_called_by_its_name_by_mill_stop(card: Controller) -> None:
+    code, lines = stopped()
+    assert (code, [line.startswith(AT_REST) for line in lines]) == (0, [True])
+    card.set_input(ESTOP_INPUT, True)
+    code, lines = stopped()
+    assert (code, lines[0]) == (0, "alarm 10: Emergency stop")
+    assert lines[1].startswith(AT_REST)
