@@ -61,7 +61,9 @@ def test_a_program_runs_to_its_end_and_is_reported(box: Path) -> None:
     assert summary["axes"]["0"]["actual"] == pytest.approx(0.0, abs=0.05)
     assert summary["axes"]["0"]["peak_velocity"] == pytest.approx(50.0, rel=0.01)
     assert summary["axes"]["0"]["peak_following_error"] > 0.0
-    assert summary["programs"]["0"] == {"state": "idle", "line": 120, "error": None}
+    assert summary["programs"]["0"] == {
+        "state": "idle", "line": 120, "error": None, "file": None, "file_line": None,
+    }  # fmt: skip
     assert summary["ticks"] == round(summary["time_s"] / 0.0005)
 
 
@@ -104,7 +106,9 @@ def test_a_program_that_fails_gives_exit_code_1(tmp_path: Path) -> None:
     result = run(path, "--json")
     assert result.exit_code == 1
     summary = json.loads(result.stdout)
-    assert summary["programs"]["2"] == {"state": "error", "line": 40, "error": "Divide by zero"}
+    assert summary["programs"]["2"] == {
+        "state": "error", "line": 40, "error": "Divide by zero", "file": str(path), "file_line": 6,
+    }  # fmt: skip
 
 
 def test_lines_the_card_refuses_are_shown_with_file_and_line(tmp_path: Path) -> None:
@@ -281,9 +285,11 @@ def test_an_error_names_program_line_and_text(
     tmp_path: Path, line: str, number: int, message: str
 ) -> None:
     text = f'DIM P(10)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\nPROGRAM\n{line}\nENDP\n'
-    result = run(stored(tmp_path, text), "--for", "0.1", "--quiet")
+    path = stored(tmp_path, text)
+    result = run(path, "--for", "0.1", "--quiet")
     assert result.exit_code == 1
-    assert result.stderr == f"error: PROG0 line {number}: {message}\n    {line}\n"
+    place = f"{path}:6: PROG0 line {number}"
+    assert result.stderr == f"error: {place}: {message}\n    {line}\n"
 
 
 def test_a_program_started_again_has_no_error_any_more(tmp_path: Path) -> None:
