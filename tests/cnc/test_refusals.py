@@ -125,6 +125,11 @@ def test_a_word_of_an_active_motion_is_refused_with_its_reason() -> None:
     assert error.hint == ""
 
 
+def test_r_of_the_tool_table_is_a_radius() -> None:
+    done = run("G10 L1 P1 Z2 R.25", dialect="rs274ngc")
+    assert (done.cells.read(1001), done.cells.read(2001)) == (0.25, 2.0)
+
+
 def test_turns_of_the_spindle_per_minute_are_all_there_is() -> None:
     done = run("G97 S500 M3\nG0 X1", dialect="rs274ngc")
     assert done.story == ["M3 S500", "R X1", "end"]

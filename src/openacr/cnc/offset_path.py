@@ -59,7 +59,7 @@ class OffsetPath:
         run = self._run
         if code == OFF and run.modal.compensation == OFF:
             return
-        begins = code != OFF and run.modal.compensation == OFF
+        begins = run.modal.compensation == OFF
         if self._is_arc(b) and not (begins and run.dialect.has_entry_arcs):
             raise b.fault("E313")
         run.modal.compensation = code

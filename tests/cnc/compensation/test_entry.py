@@ -120,6 +120,9 @@ def test_height_changes_over_the_arc_and_the_plane_may_be_another() -> None:
     ("text", "code"),
     [
         ("G41.1 D3 F10|G3 X1 Y1 I0 J1", "E313"),  # nearer than the radius
+        ("G42.1 D3 F10|G3 X1 Y1 I0 J1", "E313"),
+        ("G41.1 D2 F10|G3 X1 Y1 I0 J1", "E313"),  # it would have to arrive sideways
+        ("G41.1 D3.8 F10|G3 X1 Y1 I0 J1", "E313"),
         ("G41.1 D.5 F10|G1 X1|X2|G40 G3 X3 Y1 I0 J1", "E313"),  # and not as way out
         ("G41.1 D.5 F10|G1 X1|X2|G40|G3 X3 Y1 I1 J0", "E313"),
         ("G41.1 D.5 F10|G1 X1|X2|G42.1 D.5 G3 X3 Y1 I0 J1", "E313"),

@@ -16,14 +16,14 @@ def entry_arc(element: Element, away: float, start: tuple[float, float]) -> Elem
     `start` is where the tool is, `away` the signed radius, left positive. What is returned is
     the contour of the tool's arc: the tool touches it all the way, and its end is that of
     `element`. There is none for a tool that does not come to the end from the side of the
-    arc, and none nearer to the end than the radius.
+    arc, or that is nearer to the end than its radius.
     """
     if element.centre is None:
         return None
     first, second = element.plane.first, element.plane.second
     x1, y1 = element.end[first], element.end[second]
     radius = dist((x1, y1), element.centre)
-    if radius == 0.0 or dist((x1, y1), start) <= abs(away):
+    if radius == 0.0:
         return None
     turn = copysign(1.0, element.sweep_rad)
     ux, uy = (element.centre[0] - x1) / radius, (element.centre[1] - y1) / radius
