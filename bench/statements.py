@@ -18,7 +18,7 @@ PROGRAMS = {
 def _per_s(lines: tuple[str, ...]) -> float:
     card = Controller()
     type_lines(card, "DIM P(10)", "PROG0", "PROGRAM", *lines, "ENDP", "RUN")
-    memory, space = card.memory, card.executor.space
+    memory, space = card.memory, card.executor.threads.space
     views = memory.F, memory.I, memory.S, space.code, space.nums
 
     def run() -> None:

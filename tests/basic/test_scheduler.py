@@ -301,7 +301,7 @@ def test_both_builds_of_the_vm_give_the_same_bits() -> None:
         rig = Rig()
         rig.executor._step = choose(scheduler_cy.scheduler_step)
         rig.executor._advance = choose(scheduler_cy.advance)
-        rig.executor._vm_run = choose(vm_cy.vm_run)
+        rig.executor.computing._vm_run = choose(vm_cy.vm_run)
         start(rig, 0, *lines)
         rig.pass_ticks(1000)
         assert (rig.value("P1"), rig.is_running()) == ("40", False)

@@ -42,7 +42,7 @@ def test_battery_backed_memory_survives_a_restart() -> None:
     card.type("LV2 = 7", "P38912 = 9", "ECHO 3", "SET 128", "ATTACH MASTER0", "10 DWL 1")
     card.type('OPEN "COM2:" AS #1')
     before = card.type("MEM PROG1")
-    card.executor.reset()
+    card.executor.threads.reset()
     card.system.restart()
     card.connect("COM1")
     assert card.type("?Count;P38912;BIT128", "PROG 1") == "5.590|SYS>P01>"

@@ -163,7 +163,7 @@ class ControlledMachine:
         stored = system.programs.texts[program].get(line)
         text = Lister(system.aliases.nodes).line(stored.tokens) if stored else ""
         file, file_line = self._controller.origin(program, line) or (None, None)
-        error = self._controller.executor.failures.get(program, "error")
+        error = self._controller.executor.threads.failures.get(program, "error")
         return Failure(error, readable(text), file and shown(file), file_line)
 
     def set_input(self, bit: int, on: bool) -> None:

@@ -144,9 +144,9 @@ class Machine:
         self._lived_before_tk += self.tick
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
-        self.executor.reset()
+        self.executor.threads.reset()
         self.system.restart(keeps_memory=self.nonvolatile.battery.is_on)
-        self.executor.space.rebuild()  # the rows that say whose code lies where are gone
+        self.executor.threads.space.rebuild()  # the rows that say whose code lies where are gone
         self._apply_world()
         apply.put_state(self.memory, outside)
         give_orders(self.memory, orders)

@@ -124,7 +124,7 @@ class Running(Machine):
 
     def _run(self) -> int:
         """Run the engine to the end of its ticks or until what was awaited; why it ended."""
-        memory, space = self.memory, self.executor.space
+        memory, space = self.memory, self.executor.threads.space
         while True:
             reason = _engine_run(
                 memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view

@@ -4,34 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from openacr.basic.execute.evaluate import Operands
+from openacr.basic.execute.performing import perform
 from openacr.basic.execute.threads import Threads
-from openacr.basic.language.nodes import Expr, is_text, resolved
+from openacr.basic.language.nodes import Expr, Statement, is_text, resolved
 from openacr.basic.vm import opcodes_cy as vm
 from openacr.basic.vm.compiler import Emitter
+from openacr.basic.vm.run import Run, Wait
 from openacr.basic.vm.vm_cy import vm_run
 from openacr.compiled import pick
 from openacr.map import numbers as at
 
-if TYPE_CHECKING:
-    from openacr.basic.execute.system import System
-
 WHOLE_LINE = 255  # no line holds more statements
 
 
-class Computing(Threads):
-    """Computes and stores with the variables of a thread."""
+class Computing:
+    """Computes and stores with the variables of a thread, for handlers of commands."""
 
-    def __init__(self, system: System) -> None:
-        super().__init__(system)
+    def __init__(self, threads: Threads) -> None:
+        self.threads = threads
         self.operands = Operands(self)
         self._vm_run = pick(vm_run)
 
     def value(self, thread: int, node: Expr) -> float:
         """The number of an expression, computed by the VM with the variables of the thread."""
-        chunk = self.space.chunks[thread]
+        chunk = self.threads.space.chunks[thread]
         known = chunk.computed.get(id(node))
         if known is None:
             known = node, self._append(thread, lambda e: e.expression(node))
@@ -41,6 +39,10 @@ class Computing(Threads):
     def text(self, thread: int, node: Expr) -> str:
         """The string of an expression."""
         return self.operands.text(thread, node)
+
+    def execute(self, run: Run, statement: Statement) -> Wait | None:
+        """Execute one command for a handler that contains it."""
+        return perform(run, statement)
 
     def assign(self, thread: int, target: Expr, value: float | str) -> None:
         """Store into a variable, parameter, flag or array element."""
@@ -52,7 +54,7 @@ class Computing(Threads):
             e.store(target, lambda: e.push(value))
             e.push(0)
 
-        chunk = self.space.chunks[thread]
+        chunk = self.threads.space.chunks[thread]
         code, nums = len(chunk.code), len(chunk.nums)
         start = self._append(thread, store)
         try:
@@ -64,41 +66,42 @@ class Computing(Threads):
 
     def _append(self, thread: int, build: Callable[[Emitter], None]) -> int:
         """Compile something more into the chunk of a thread; where it begins."""
-        chunk = self.space.chunks[thread]
+        chunk = self.threads.space.chunks[thread]
         code, nums = len(chunk.code), len(chunk.nums)
         emitter = Emitter(chunk)
         build(emitter)
         emitter.op(vm.DO_RESULT)
-        self.space.refresh(thread, code, nums)
+        self.threads.space.refresh(thread, code, nums)
         return code
 
     def _compute(self, thread: int, start: int) -> float:
         with self._aside(thread):
-            self.set_row(thread, at.THI_PC, start)
+            self.threads.set_row(thread, at.THI_PC, start)
             event = vm.VM_CALL
             while event == vm.VM_CALL:
-                event = self._vm_run(*self._views(), thread, WHOLE_LINE, self.tick)
+                event = self._vm_run(*self.threads.views(), thread, WHOLE_LINE, self.threads.tick)
                 if event == vm.VM_CALL:
-                    self._push_operand(thread)
+                    self.push_operand(thread)
             if event == vm.VM_ERROR:
-                raise self._error(thread)
-        return self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_RESULT]
+                raise self.threads.error(thread)
+        return self.threads.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_RESULT]
 
     @contextmanager
     def _aside(self, thread: int) -> Iterator[None]:
         """Let the VM compute something in the middle of a statement."""
         rows = at.THI_PC, at.THI_SP, at.THI_BUDGET, at.THI_TRAP
-        kept = [self._row(thread, row) for row in rows]
+        kept = [self.threads.row(thread, row) for row in rows]
         try:
             yield
         finally:
             for row, value in zip(rows, kept, strict=True):
-                self.set_row(thread, row, value)
+                self.threads.set_row(thread, row, value)
 
-    def _push_operand(self, thread: int) -> None:
-        node = self.space.chunks[thread].operands[self._row(thread, at.THI_TRAP)]
+    def push_operand(self, thread: int) -> None:
+        """Compute the operand the VM has stopped at, and go on after it."""
+        node = self.threads.space.chunks[thread].operands[self.threads.row(thread, at.THI_TRAP)]
         value = self.operands.number(thread, node)
-        depth = self._row(thread, at.THI_SP)
-        self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_STACK + depth] = value
-        self.set_row(thread, at.THI_SP, depth + 1)
-        self.set_row(thread, at.THI_PC, self._row(thread, at.THI_PC) + 2)
+        depth = self.threads.row(thread, at.THI_SP)
+        self.threads.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_STACK + depth] = value
+        self.threads.set_row(thread, at.THI_SP, depth + 1)
+        self.threads.set_row(thread, at.THI_PC, self.threads.row(thread, at.THI_PC) + 2)

@@ -50,8 +50,8 @@ class Blocked(Exception):  # noqa: N818 - no error, the statement is tried again
 class Operands:
     """Computes what contains strings, for one thread at a time."""
 
-    def __init__(self, executor: Computing) -> None:
-        self._executor = executor
+    def __init__(self, computing: Computing) -> None:
+        self._computing, self._threads = computing, computing.threads
 
     def text(self, thread: int, node: Expr) -> str:
         """The value of a string expression."""
@@ -100,20 +100,20 @@ class Operands:
         if function.apply is None:
             raise CardError(TYPE_MISMATCH)
         if function.takes == "p":
-            return function.apply(printed(self._executor.run_of(thread), *node.arguments))
+            return function.apply(printed(self._threads.run_of(thread), *node.arguments))
         arguments = [
             self.text(thread, argument) if is_text(argument) else self._value(thread, argument)
             for argument in node.arguments
         ]
         if function.wants_run:
-            result = function.apply(self._executor.run_of(thread), *arguments)
+            result = function.apply(self._threads.run_of(thread), *arguments)
             if isinstance(result, Wait):
                 raise Blocked(result)
             return result
         return function.apply(*arguments)
 
     def _value(self, thread: int, node: Expr) -> float:
-        return node.value if isinstance(node, Number) else self._executor.value(thread, node)
+        return node.value if isinstance(node, Number) else self._computing.value(thread, node)
 
     def _index(self, thread: int, node: Expr) -> int:
         value = self._value(thread, node)
@@ -122,8 +122,8 @@ class Operands:
         return int(value)
 
     def _strings(self, thread: int) -> ProgramStrings:
-        memory = self._executor.memory
+        memory = self._threads.memory
         program = memory.I[at.THI_BASE + thread * at.THI_STRIDE + at.THI_LOCALS]
         if program < 0:
             raise CardError(NOT_VALID_AT_THIS_LEVEL)
-        return self._executor.system.storage.locals.strings[program]
+        return self._threads.system.storage.locals.strings[program]

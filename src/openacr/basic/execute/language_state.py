@@ -45,14 +45,14 @@ def take(system: System, executor: Executor) -> Language:
     """The present state."""
     collector = Collector()
     index = collector.index
-    config = system.setup.config
+    config, threads = system.setup.config, executor.threads
     return Language(
         table=collector.table,
         aliases=collector.names(system.aliases.nodes),
         programs=[list(map(index, system.programs.lines(owner))) for owner in system.owners()],
         password=system.programs.password,
-        threads={thread: list(map(index, lines)) for thread, lines in executor.sources.items()},
-        failures=dict(executor.failures),
+        threads={thread: list(map(index, lines)) for thread, lines in threads.sources.items()},
+        failures=dict(threads.failures),
         attachments=system.card.attachments.state(),
         strings=system.storage.locals.strings_state(),
         devices=system.devices.state(),

@@ -11,10 +11,13 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import StoredLine
 from openacr.basic.vm import scheduler_cy as scheduler
 from openacr.basic.vm.code import Chunk, CodeSpace
+from openacr.basic.vm.flow_cy import FLOW_GOSUB
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import LABEL_NOT_FOUND, MESSAGES
+from openacr.motion import kinematics
+from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
@@ -56,11 +59,13 @@ class Threads:
         """The present tick."""
         return self.system.card.tick
 
-    def _views(self) -> tuple[Any, Any, Any, Any, Any]:
+    def views(self) -> tuple[Any, Any, Any, Any, Any]:
+        """What the sources of the core get: the memory and the code."""
         memory, space = self.memory, self.space
         return memory.F, memory.I, memory.S, space.code, space.nums
 
-    def _row(self, thread: int, row: int) -> int:
+    def row(self, thread: int, row: int) -> int:
+        """One int32 row of a thread."""
         return self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row]
 
     def set_row(self, thread: int, row: int, value: int) -> None:
@@ -74,7 +79,8 @@ class Threads:
             raise LookupError(f"thread {thread} executes nothing")
         return run
 
-    def _start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
+    def start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
+        """Let a thread begin at a place of its code; the scheduler goes on with it."""
         self.space.put(thread, chunk)
         self._runs[thread] = run
         self.failures.pop(thread, None)
@@ -93,46 +99,93 @@ class Threads:
         mask = self.memory.I[at.SCHI_BASE + row]
         self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
 
-    def _is_marked(self, thread: int) -> bool:
+    def is_marked(self, thread: int) -> bool:
         """Whether the scheduler attends to a program or channel."""
         row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
         return bool(self.memory.I[at.SCHI_BASE + row] >> thread % PROGRAMS & 1)
 
-    def _forget(self, thread: int) -> None:
+    def forget(self, thread: int) -> None:
+        """Let a thread execute nothing more; no host gets a report."""
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
         self.set_row(thread, at.THI_DEPTH, 0)
         self._mark(thread, active=False)
         self._runs[thread] = None
         self.sources.pop(thread, None)
 
-    def _end(self, thread: int, error: CardError | None) -> None:
-        """A thread is done, or stopped by an error: tell who wants to know."""
+    def end(self, thread: int, error: CardError | None) -> None:
+        """A thread is done, or stopped by an error: report it to its channel or listeners."""
+        if thread >= KINEMATICS:
+            self._end_kinematics(thread, error)
+            return
         session = self.run_of(thread).channel
-        self._forget(thread)
+        self.forget(thread)
         if session is not None:
             session.finished(error)
             return
         self.memory.I[at.PF_WORD + thread] &= ~ENDS_WITH_PROGRAM
         if error is not None:
-            self._fail(thread, self._row(thread, at.THI_LINE), error)
+            self.fail(thread, self.row(thread, at.THI_LINE), error)
         self.system.listeners.ended(thread)
 
-    def _fail(self, program: int, line: int, error: CardError) -> None:
+    def _end_kinematics(self, thread: int, error: CardError | None) -> None:
+        """Kinematics that end or fail kill the moves of their master."""
+        program, line = self.row(thread, at.THI_LOCALS), self.row(thread, at.THI_LINE)
+        master = thread - KINEMATICS
+        kinematics.switch_off(self.system.card, master)
+        self.forget(thread)
+        self.memory.I[master_word(master)] |= at.MF1_KILL_ALL_MOVES_REQUEST
+        if error is not None:
+            self.system.listeners.error(program, line, error.text)
+
+    def fail(self, program: int, line: int, error: CardError) -> None:
         """Note and report the error that has ended a program."""
         self.set_row(program, at.THI_ERROR, error.message.number)
         self.failures[program] = error.text
         self.system.listeners.error(program, line, error.text)
 
-    def _error(self, thread: int) -> CardError:
+    def error(self, thread: int) -> CardError:
         """The error the VM has stopped with."""
-        message = MESSAGES[self._row(thread, at.THI_ERROR)]
+        message = MESSAGES[self.row(thread, at.THI_ERROR)]
         detail = int(self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_ERROR_DETAIL])
         if message is LABEL_NOT_FOUND:
             return CardError(message, self.space.chunks[thread].names[detail])
         return CardError(message, detail)
 
+    # snapshot
+
+    def put_back(
+        self, thread: int, lines: tuple[StoredLine, ...], chunk: Chunk, run: Run | None
+    ) -> None:
+        """Take over what a thread executes; where it stands lies in the memory."""
+        if run is not None:
+            self.sources[thread] = lines
+        self.space.chunks[thread], self._runs[thread] = chunk, run
+
+    def check(self, thread: int) -> None:
+        """LookupError unless a thread stands between two operations of what it executes."""
+        state = self.row(thread, at.THI_STATE)
+        is_marked = thread < KINEMATICS and self.is_marked(thread)
+        if thread not in self.sources:
+            if state != scheduler.THREAD_IDLE or is_marked:
+                raise LookupError(f"thread {thread} executes nothing")
+            return
+        chunk = self.space.chunks[thread]
+        code = set(chunk.begins) - set(range(chunk.lines_at, len(chunk.code)))
+        stops = [
+            self.row(thread, at.THI_FLOW_BACK + level)
+            for level in range(self.row(thread, at.THI_DEPTH))
+            if self.row(thread, at.THI_FLOW_KIND + level) == FLOW_GOSUB
+        ]
+        if thread < KINEMATICS or state != scheduler.THREAD_IDLE:
+            stops.append(self.row(thread, at.THI_PC))
+            if self.row(thread, at.THI_SP):
+                raise LookupError(f"thread {thread} is in the middle of an expression")
+        if not code.issuperset(stops):
+            raise LookupError(f"thread {thread} is in the middle of an operation")
+        self.space.show_lines(thread)
+
     def reset(self) -> None:
         """Forget what all threads execute (REBOOT)."""
         self.failures.clear()
         for thread in range(at.TH_COUNT):
-            self._forget(thread)
+            self.forget(thread)
