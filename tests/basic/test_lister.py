@@ -14,7 +14,7 @@ from openacr.basic.language.loader import file_lines
 from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope
 from openacr.basic.memory.program_store import StoredLine
-from openacr.lang.lexer import Kind, tokens
+from openacr.lang.lexer import TokenKind, tokens
 
 STORED = Scope(Level.PROG, stored=True)
 ALIASES = ("Time", "hours", "XFault", "Enable")
@@ -90,8 +90,8 @@ def test_lines_are_written_in_one_spelling(typed: str, shown: str) -> None:
     assert listed(typed) == shown
 
 
-def meaning(text: str) -> list[tuple[Kind, object]]:
-    return [(token.kind, token.value) for token in tokens(text) if token.kind is not Kind.END]
+def meaning(text: str) -> list[tuple[TokenKind, object]]:
+    return [(token.kind, token.value) for token in tokens(text) if token.kind is not TokenKind.END]
 
 
 @pytest.mark.parametrize("typed", [typed for typed, _ in LINES])

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openacr.basic.language.number_format import (
-    Kind,
+    NumberKind,
     UsingFormat,
     bit_text,
     double_text,
@@ -82,7 +82,7 @@ def test_fp32_values_print_with_seven_digits(value: float, text: str) -> None:
 def test_flags_and_longs_print_as_whole_numbers() -> None:
     assert (bit_text(True), bit_text(False)) == ("-1", "0")
     assert long_text(-2147483648) == "-2147483648"
-    assert [number_text(1.0, kind) for kind in Kind] == ["1", "1", "1", "-1"]
+    assert [number_text(1.0, kind) for kind in NumberKind] == ["1", "1", "1", "-1"]
 
 
 def digits_of(text: str) -> str:

@@ -13,7 +13,7 @@ from openacr.basic.language.nodes import (
     Binary,
     Expr,
     Flag,
-    Line,
+    LineTree,
     Local,
     LocalKind,
     Move,
@@ -37,7 +37,7 @@ STORED = Scope(Level.PROG, stored=True, axes=AXES, aliases=ALIASES)
 SYS = Scope(Level.SYS)
 
 
-def parsed(text: str, scope: Scope = PROMPT) -> Line:
+def parsed(text: str, scope: Scope = PROMPT) -> LineTree:
     return parse_line(text, scope)
 
 

@@ -7,7 +7,7 @@ import pytest
 from openacr.compiled import is_compiled, pick
 from openacr.controller import Controller
 from openacr.engine import watch_cy
-from openacr.engine.watches import WATCHES, Place, Watch, set_watches
+from openacr.engine.watches import WATCHES, Watch, Watched, set_watches
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.views import F32, F64, I32
@@ -28,14 +28,14 @@ def fired(request: pytest.FixtureRequest) -> Fired:
     ("watch", "row", "values", "seen"),
     [
         (
-            Watch(Place.WORD, 4097, 1 << 2),
+            Watch(Watched.WORD, 4097, 1 << 2),
             4097,
             [3, 4, 5, 12, 8],
             [False, True, False, False, True],
         ),
-        (Watch(Place.WORD, 4097, -(1 << 31)), 4097, [1, -1, 0], [False, True, True]),
-        (Watch(Place.LONG, 12290, bound=9.5), 12290, [9, 10, 11, 9], [False, True, False, True]),
-        (Watch(Place.LONG, 12290, bound=-1.0, is_above=False), 12290, [-1, -2], [False, True]),
+        (Watch(Watched.WORD, 4097, -(1 << 31)), 4097, [1, -1, 0], [False, True, True]),
+        (Watch(Watched.LONG, 12290, bound=9.5), 12290, [9, 10, 11, 9], [False, True, False, True]),
+        (Watch(Watched.LONG, 12290, bound=-1.0, is_above=False), 12290, [-1, -2], [False, True]),
     ],
 )
 def test_it_fires_in_the_tick_of_a_change(
@@ -54,9 +54,9 @@ def test_real_numbers_and_positions_in_units_are_compared(fired: Fired) -> None:
     memory = Memory()
     memory.S[at.AX_BASE + at.AX_PPU] = 1000.0
     limits = [
-        Watch(Place.FP32, 8192, bound=0.5),
-        Watch(Place.FP64, at.USER_BASE + 7, bound=2.0),
-        Watch(Place.AXIS, at.AX_BASE, bound=1.5),
+        Watch(Watched.FP32, 8192, bound=0.5),
+        Watch(Watched.FP64, at.USER_BASE + 7, bound=2.0),
+        Watch(Watched.AXIS, at.AX_BASE, bound=1.5),
     ]
     found = []
     for watch in limits:
@@ -74,7 +74,7 @@ def test_real_numbers_and_positions_in_units_are_compared(fired: Fired) -> None:
 def test_a_run_ends_behind_the_tick_of_the_change_and_goes_on_from_there() -> None:
     card = Controller()
     card.send("PROG0\rPROGRAM\rDWL 0.1\rSET 33\rDWL 0.1\rCLR 33\rENDP\rRUN\r")
-    card.watch([Watch(Place.WORD, 4097, 1 << 1)])
+    card.watch([Watch(Watched.WORD, 4097, 1 << 1)])
     ticks = []
     for _ in range(3):
         card.advance(1000)
@@ -88,7 +88,7 @@ def test_a_run_ends_behind_the_tick_of_the_change_and_goes_on_from_there() -> No
 def test_what_is_watched_and_recorded_is_no_part_of_the_state() -> None:
     card, other = Controller(), Controller()
     card.record(7, keep_peaks=True)
-    card.watch([Watch(Place.LONG, 12290, bound=3.0)] * WATCHES, lambda: False)
+    card.watch([Watch(Watched.LONG, 12290, bound=3.0)] * WATCHES, lambda: False)
     for each in (card, other):
         each.send("PROG0\rPROGRAM\rPRINT 1\rENDP\rRUN\r")
         each.advance(500)
@@ -99,7 +99,7 @@ def test_recording_and_watching_go_on_behind_a_restart_and_a_snapshot() -> None:
     card = Controller()
     before = card.snapshot()
     card.record(1)
-    card.watch([Watch(Place.WORD, 4097, 1 << 1)])
+    card.watch([Watch(Watched.WORD, 4097, 1 << 1)])
     card.send("SYS\rREBOOT\r")
     card.advance(50)
     card.restore(before)

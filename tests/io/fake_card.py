@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from openacr.channels import Attention, StreamKind
 from openacr.errors import NoFreeStreamError
 from openacr.protocol.data import DataRequest
-from openacr.protocol.events import NEED_DATA, Control, Escape, Event, Line, Received
+from openacr.protocol.events import NEED_DATA, Control, Escape, Event, Received, ReceivedLine
 from openacr.protocol.status import FastStatus
 from openacr.protocol.terminal import Terminal
 
@@ -79,7 +79,7 @@ class FakeCard:
     def _act(self, stream: Stream, event: Event) -> None:
         terminal = stream.terminal
         match event:
-            case Line(text):
+            case ReceivedLine(text):
                 self._line(stream, text)
             case Control(code):
                 self.controls.append(code.name)

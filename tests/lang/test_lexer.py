@@ -4,13 +4,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openacr.lang.lexer import Kind, LexError, tokens
+from openacr.lang.lexer import LexError, TokenKind, tokens
 from openacr.lang.source import Span
 from openacr.messages import LINE_TOO_LONG, MATH_ERROR, SYNTAX_ERROR
 
 
 def values(line: str | bytes) -> list[object]:
-    return [token.value for token in tokens(line) if token.kind is not Kind.END]
+    return [token.value for token in tokens(line) if token.kind is not TokenKind.END]
 
 
 def kinds(line: str | bytes) -> str:
@@ -132,7 +132,7 @@ def test_every_line_is_read_or_refused_and_typography_vanishes_outside_strings(l
         found = tokens(data)
     except LexError:
         return
-    assert found[-1].kind is Kind.END
-    outside = [token for token in found if token.kind not in (Kind.STRING, Kind.REMARK)]
+    assert found[-1].kind is TokenKind.END
+    outside = [token for token in found if token.kind not in (TokenKind.STRING, TokenKind.REMARK)]
     assert all(token.text.isascii() for token in outside)
     assert [token.column for token in found] == sorted(token.column for token in found)

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from openacr.lang.lexer import Kind, LexError, tokens
+from openacr.lang.lexer import LexError, TokenKind, tokens
 from openacr.lang.shape import shape, shapes
 
 PIECES = st.sampled_from(
@@ -18,13 +18,13 @@ LINES = st.lists(st.tuples(PIECES, st.sampled_from(["", " "]))).map(
 )
 
 
-def kinds(line: str) -> list[tuple[Kind, object]] | str:
+def kinds(line: str) -> list[tuple[TokenKind, object]] | str:
     """What the parser sees but for values."""
     try:
         found = tokens(line)
     except LexError as error:
         return error.text
-    plain = (Kind.WORD, Kind.OPERATOR)
+    plain = (TokenKind.WORD, TokenKind.OPERATOR)
     return [
         (token.kind, token.text if token.kind in plain else type(token.value)) for token in found
     ]

@@ -7,7 +7,7 @@ import pytest
 
 from openacr.channels import BinaryMode, StreamKind
 from openacr.protocol.escape import encode_packet
-from openacr.protocol.events import NEED_DATA, Event, Line, Received
+from openacr.protocol.events import NEED_DATA, Event, Received, ReceivedLine
 from openacr.protocol.override import (
     FeedrateOverride,
     RapidOverride,
@@ -125,7 +125,7 @@ def test_whatever_packet_follows_a_six_byte_override_is_no_value(group: int) -> 
 @pytest.mark.parametrize("line", [b"?P0\r", b"X10\r", b"SYS\r"])
 def test_a_line_behind_a_six_byte_override_is_whole(line: bytes) -> None:
     terminal = Terminal(StreamKind.TERMINAL, timeout_tk=100)
-    assert list(events(SHORT + line, 1000, terminal)) == [Line(line[:-1].decode())]
+    assert list(events(SHORT + line, 1000, terminal)) == [ReceivedLine(line[:-1].decode())]
 
 
 def test_a_negative_override_of_eight_bytes_is_dropped_whole() -> None:

@@ -15,9 +15,9 @@ from openacr.protocol.events import (
     ControlKey,
     Escape,
     Event,
-    Line,
     LineTooLong,
     Received,
+    ReceivedLine,
     Typed,
 )
 from openacr.protocol.move import Move
@@ -49,7 +49,7 @@ def answers(stream: Terminal, data: bytes, chunk: int = 10_000) -> tuple[list[Ev
         stream.receive_data(data[at : at + chunk], 0)
         for event in events(stream):
             seen.append(event)
-            if isinstance(event, Line):
+            if isinstance(event, ReceivedLine):
                 stream.send_bytes(f"{len(event.text)}\r\nSYS>".encode())
             if isinstance(event, Received):
                 stream.send_packet(b"\x00#")
@@ -61,31 +61,39 @@ def sent(stream: Terminal) -> bytes:
 
 
 SCRIPTS: dict[str, tuple[bytes, list[Event]]] = {
-    "lines": (b"?P12288\rPROG0\r", [Line("?P12288"), Line("PROG0")]),
-    "every line end": (b"A\rB\nC\r\nD\n\nE\r\r\n", [*map(Line, ["A", "B", "C", "D", "", "E", ""])]),
-    "backspace": (b"\x08PX\x08\x7f\x7fQ\r", [Line("Q")]),
+    "lines": (b"?P12288\rPROG0\r", [ReceivedLine("?P12288"), ReceivedLine("PROG0")]),
+    "every line end": (
+        b"A\rB\nC\r\nD\n\nE\r\r\n",
+        [*map(ReceivedLine, ["A", "B", "C", "D", "", "E", ""])],
+    ),
+    "backspace": (b"\x08PX\x08\x7f\x7fQ\r", [ReceivedLine("Q")]),
     "control keys": (
         b"AB\x18C\x19\x1a\r",
-        [*map(Control, ControlKey), Line("ABC")],
+        [*map(Control, ControlKey), ReceivedLine("ABC")],
     ),
-    "escape": (b"rubbish\x1bX1\r", [Line("X1")]),
+    "escape": (b"rubbish\x1bX1\r", [ReceivedLine("X1")]),
     "packet in a line": (
         b"?P1" + GET + b"2288\r",
-        [Received(DataRequest(0x30, 2, 0x2C)), Line("?P12288")],
+        [Received(DataRequest(0x30, 2, 0x2C)), ReceivedLine("?P12288")],
     ),
     "packet before the LF": (
         b"A\r" + GET + b"\n\x1c\x08\x02B\r",
-        [Line("A"), Received(DataRequest(0x30, 2, 0x2C)), Received(SetBit(520)), Line("B")],
+        [
+            ReceivedLine("A"),
+            Received(DataRequest(0x30, 2, 0x2C)),
+            Received(SetBit(520)),
+            ReceivedLine("B"),
+        ],
     ),
     "set long": (
         bytes.fromhex("0089003010111200") + b"x\r",
-        [Received(SetLong(12288, 0x121110)), Line("x")],
+        [Received(SetLong(12288, 0x121110)), ReceivedLine("x")],
     ),
-    "typographic": ("PRINT “é”\r".encode(), [Line("PRINT “é”")]),
-    "windows": (b"PRINT \x93\xe9 \x94\xff\r", [Line("PRINT \udc93\udce9 \udc94\udcff")]),
-    "other controls": (b"\x01A\x03\tB\r", [Line("A\tB")]),
-    "long": (b"Z" * 256 + b"\rA\r", [LineTooLong(), Line("A")]),
-    "long but erased": (b"Z" * 257 + b"\x08\x08\r", [Line("Z" * 255)]),
+    "typographic": ("PRINT “é”\r".encode(), [ReceivedLine("PRINT “é”")]),
+    "windows": (b"PRINT \x93\xe9 \x94\xff\r", [ReceivedLine("PRINT \udc93\udce9 \udc94\udcff")]),
+    "other controls": (b"\x01A\x03\tB\r", [ReceivedLine("A\tB")]),
+    "long": (b"Z" * 256 + b"\rA\r", [LineTooLong(), ReceivedLine("A")]),
+    "long but erased": (b"Z" * 257 + b"\x08\x08\r", [ReceivedLine("Z" * 255)]),
 }
 
 
@@ -129,9 +137,9 @@ def test_the_answer_to_a_line_stands_before_the_echo_of_the_next() -> None:
 
 def test_a_late_line_feed_behind_cr_does_nothing() -> None:
     stream = terminal()
-    assert answers(stream, b"A\r")[0] == [Line("A")]
+    assert answers(stream, b"A\r")[0] == [ReceivedLine("A")]
     assert answers(stream, b"\n") == ([], b"")
-    assert answers(stream, b"\n")[0] == [Line("")]
+    assert answers(stream, b"\n")[0] == [ReceivedLine("")]
 
 
 def test_erasing_moves_the_cursor_back_and_stops_at_the_start() -> None:
@@ -152,9 +160,9 @@ def test_without_echo_nothing_typed_comes_back() -> None:
 def test_a_changed_echo_mode_counts_for_the_rest_of_the_same_segment() -> None:
     stream = terminal()
     stream.receive_data(b"ECHO 4\rA\r", 0)
-    assert stream.next_event() == Line("ECHO 4")
+    assert stream.next_event() == ReceivedLine("ECHO 4")
     stream.echo = EchoMode.NO_PROMPT
-    assert stream.next_event() == Line("A")
+    assert stream.next_event() == ReceivedLine("A")
     assert sent(stream) == b"ECHO 4\r\n"
 
 
@@ -184,7 +192,7 @@ def test_while_a_line_is_busy_only_lines_wait() -> None:
     ]
     assert stream.waiting_lines == 3
     stream.busy = False
-    assert list(events(stream)) == [Line("A"), Line("B"), Line("CD")]
+    assert list(events(stream)) == [ReceivedLine("A"), ReceivedLine("B"), ReceivedLine("CD")]
     assert stream.waiting_characters == 0
 
 
@@ -247,7 +255,7 @@ def test_a_gap_beyond_the_timeout_discards_the_started_packet() -> None:
     stream.receive_data(GET[2:3], TIMEOUT_TK)
     assert list(events(stream)) == []
     stream.receive_data(b",C\r", 2 * TIMEOUT_TK + 1)
-    assert list(events(stream)) == [Line("AB,C")]
+    assert list(events(stream)) == [ReceivedLine("AB,C")]
 
 
 def test_the_timeout_follows_the_setting_of_the_channel() -> None:
@@ -279,7 +287,7 @@ def test_on_the_dpcb_set_and_clr_always_have_four_bytes() -> None:
     assert list(events(stream)) == [
         Received(SetBit(520)),
         Received(ClearBit(32)),
-        Line("A"),
+        ReceivedLine("A"),
     ]
 
 
@@ -301,7 +309,7 @@ def test_both_forms_of_a_short_move_are_understood() -> None:
     stream.receive_data(wire, 0)
     stream.receive_data(wire[:5] + bytes(3) + wire[5:], 0)
     stream.receive_data(b"A\r", 0)
-    assert list(events(stream)) == [Received(documented), Received(documented), Line("A")]
+    assert list(events(stream)) == [Received(documented), Received(documented), ReceivedLine("A")]
 
 
 @pytest.mark.req("BIN-001", "BIN-026")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.sysvar import Kind, Store, parameter
+from openacr.sysvar import CellKind, Store, parameter
 from openacr.sysvar.lookup import parameters
 from openacr.sysvar.values import checked
 
@@ -200,7 +200,7 @@ def test_every_parameter_explains_itself() -> None:
     for found in parameters():
         assert found.name
         assert found.row.doc.endswith("."), found
-        if found.kind is Kind.CHOICE:
+        if found.kind is CellKind.CHOICE:
             assert len(found.row.words) >= 2
 
 

@@ -20,7 +20,7 @@ from openacr.basic.language import registry
 from openacr.basic.language.expressions import BINARY, NOT_LEVEL, SIGN_LEVEL
 from openacr.basic.language.lister import Lister
 from openacr.basic.language.loader import file_lines
-from openacr.basic.language.nodes import Block, Line, Statement
+from openacr.basic.language.nodes import Block, LineTree, Statement
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.registry import INDEX, Command, Level
 from openacr.basic.language.scope import Scope
@@ -201,7 +201,7 @@ def _statements(text: str) -> Iterator[tuple[str, str]]:
         yield statements[0].command.name, _listed(found, line)
 
 
-def _all(line: Line) -> list[Statement]:
+def _all(line: LineTree) -> list[Statement]:
     return [statement for block in line.blocks for statement in _of(block)]
 
 
@@ -210,7 +210,7 @@ def _of(block: Block) -> Iterator[Statement]:
         yield from (item,) if isinstance(item, Statement) else item.parts
 
 
-def _listed(found: list[Token], line: Line) -> str:
+def _listed(found: list[Token], line: LineTree) -> str:
     shown = [token for token in found if line.remark is None or token.text.upper() != "REM"]
     return Lister().line(shown).strip(" :")
 

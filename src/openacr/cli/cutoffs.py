@@ -7,7 +7,7 @@ from openacr.basic.language.grammar.axes import AxisItem
 from openacr.basic.language.loader import FileLine
 from openacr.basic.language.nodes import Block, Number, Statement
 from openacr.cli.texts import Finding
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.motion.card import DEFAULT_PERIOD_S
 
@@ -33,7 +33,7 @@ class Cutoffs:
 
     def note(self, line: FileLine, found: Iterable[Token], blocks: Iterable[Block]) -> None:
         """Take note of the LOPASS and PERIOD commands of a line, those behind THEN included."""
-        numbers = [token for token in found if token.kind is Kind.NUMBER]
+        numbers = [token for token in found if token.kind is TokenKind.NUMBER]
         for statement in statements(blocks):
             words, arguments = statement.command.words, statement.arguments
             if words == ("LOPASS",) and arguments:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from openacr.cli import card_view
 from openacr.cli.machine import Failure
-from openacr.engine.watches import Place, Watch
+from openacr.engine.watches import Watch, Watched
 from openacr.map import flag
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -77,7 +77,7 @@ class EventLog:
         words += [(row, mask) for row, mask, m in self._masters if m in masters.values()]
         stored = (p for p in card_view.PROGRAMS if card_view.has_program(memory, p))
         words += [(self._errors[program], -1) for program in stored]
-        return [Watch(Place.WORD, row, mask) for row, mask in words]
+        return [Watch(Watched.WORD, row, mask) for row, mask in words]
 
     def poll(self, time_s: float) -> list[Event]:
         """What has happened since the last call."""

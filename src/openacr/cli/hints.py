@@ -7,7 +7,7 @@ from openacr.basic.language import registry
 from openacr.basic.language.registry import Level
 from openacr.basic.language.written import call, command_before, function_at, syntax
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.source import Span
 from openacr.messages import (
     SYNTAX_ERROR,
@@ -69,7 +69,7 @@ def _usage(text: str, span: Span, names: Collection[str]) -> str:
 
 
 def _begins_with_axis(found: list[Token], names: Collection[str]) -> bool:
-    start = 1 if found[0].kind is Kind.NUMBER else 0
+    start = 1 if found[0].kind is TokenKind.NUMBER else 0
     return found[start].text.upper() in names
 
 

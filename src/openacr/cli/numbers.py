@@ -21,7 +21,7 @@ from openacr.basic.language.nodes import (
 from openacr.basic.language.registry import Command, Function
 from openacr.cli.cutoffs import statements
 from openacr.cli.texts import Finding
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.map.memory import kind_table
 from openacr.map.numbers import FLAG_LAST, KIND_NONE, USER_COUNT
@@ -77,7 +77,7 @@ def _nodes(item: object) -> Iterator[object]:
 
 def _place(found: list[Token], statement: Statement, number: int) -> Span:
     """Where the number is written in its statement or, as a prefix, before it."""
-    places = [token for token in found if token.kind is Kind.NUMBER and token.value == number]
+    places = [token for token in found if token.kind is TokenKind.NUMBER and token.value == number]
     behind = [token for token in places if token.column > statement.column]
     token = next(iter(behind or places[-1:]), None)
     if token is None:

@@ -22,7 +22,7 @@ from openacr.basic.language.nodes import (
 )
 from openacr.basic.vm.outline import STORED_KINDS
 from openacr.cli.texts import Finding, Text, TextLine
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.map.numbers import USER_COUNT
 from openacr.messages import UNDEFINED_VARIABLE
 
@@ -126,13 +126,13 @@ def _variables(
 ) -> Iterator[tuple[Token, str, int]]:
     """Variables written with a literal number, or by an alias."""
     for token, behind in pairwise(found):
-        if token.kind is not Kind.WORD:
+        if token.kind is not TokenKind.WORD:
             continue
         if token.text in names:
             yield token, *names[token.text]
         elif token.value in STORED_KINDS:
-            number = behind.value if behind.kind is Kind.NUMBER else 0
-            is_system = token.value == GLOBAL and behind.kind is not Kind.NUMBER
+            number = behind.value if behind.kind is TokenKind.NUMBER else 0
+            is_system = token.value == GLOBAL and behind.kind is not TokenKind.NUMBER
             if isinstance(number, int) and not is_system and not _is_parameter(token, number):
                 yield token, str(token.value), number
 

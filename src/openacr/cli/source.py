@@ -31,7 +31,7 @@ from openacr.cli.sizes import Sizes, undimensioned, variable
 from openacr.cli.structure import Structure
 from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.source import Span
 from openacr.messages import UNKNOWN_COMMAND
 from openacr.plc.compile import PlcCompileError, compile_plc
@@ -129,7 +129,7 @@ class Reader:
             self._store(line, found)
             if word == "ENDP":
                 self.is_capturing, self._known = False, {}
-        elif found[0].kind is Kind.NUMBER:
+        elif found[0].kind is TokenKind.NUMBER:
             self._store(line, found)
         elif (behind := opens_capture(line.text)) is not None:
             self._open(line, behind)
@@ -163,10 +163,10 @@ class Reader:
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
         number, start = text.next_number(), 0
-        if found[0].kind is Kind.NUMBER:
+        if found[0].kind is TokenKind.NUMBER:
             number, start = line_number(found[0]), found[0].column + len(found[0].text) - 1
             found = found[1:]
-        if found[0].kind is Kind.END:
+        if found[0].kind is TokenKind.END:
             text.lines.pop(number, None)
             return
         if self.level is Level.PLC:

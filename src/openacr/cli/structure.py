@@ -6,11 +6,11 @@ from typing import NamedTuple
 from openacr.basic.language.expressions import StatementError
 from openacr.basic.vm import flow_cy as flow
 from openacr.basic.vm.levels import CompileError, Level, Levels, unclosed
-from openacr.basic.vm.outline import KINDS, Event, OpenLevel, follow
+from openacr.basic.vm.outline import KINDS, FlowEvent, OpenLevel, follow
 from openacr.cli.hints import lines_near, names_like
 from openacr.cli.texts import Finding, Text, TextLine, label_of
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.messages import DUPLICATE_LABEL, LABEL_NOT_FOUND, LINE_NOT_FOUND
 
 _JUMPS = frozenset(("GOTO", "GOSUB"))
@@ -74,7 +74,7 @@ class Structure:
             found = _jumps(line.tokens)
             self._jumps += [_Jump(word, target, line, level) for word, target in found]
 
-    def _follow(self, line: TextLine, event: Event) -> None:
+    def _follow(self, line: TextLine, event: FlowEvent) -> None:
         """Let a word act on the levels; one that lacks its end is left out of the way."""
         try:
             follow(self._levels, event, line.number)
@@ -104,7 +104,7 @@ class Structure:
 
     def _check_jump(self, jump: _Jump) -> None:
         target = jump.target
-        is_label = target.kind is Kind.LABEL
+        is_label = target.kind is TokenKind.LABEL
         lost = f"_{target.value}".upper() if is_label else str(target.value)
         known = self._places if is_label else self.text.lines
         if target.value not in known and lost not in self.text.lost:
@@ -139,7 +139,7 @@ class Structure:
 def _jumps(found: tuple[Token, ...]) -> Iterator[tuple[str, Token]]:
     """Find what stands behind GOTO and GOSUB, computed jumps left out."""
     for word, target, behind in zip(found, found[1:], (*found[2:], found[-1]), strict=False):
-        if word.kind is Kind.WORD and word.value in _JUMPS:
-            is_whole = behind.kind in (Kind.END, Kind.REMARK) or behind.value == ":"
-            if target.kind is Kind.LABEL or (target.kind is Kind.NUMBER and is_whole):
+        if word.kind is TokenKind.WORD and word.value in _JUMPS:
+            is_whole = behind.kind in (TokenKind.END, TokenKind.REMARK) or behind.value == ":"
+            if target.kind is TokenKind.LABEL or (target.kind is TokenKind.NUMBER and is_whole):
                 yield str(word.value), target

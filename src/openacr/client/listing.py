@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, tokens
+from openacr.lang.lexer import TokenKind, tokens
 
 HIDDEN_STEP = 10
 
@@ -78,13 +78,15 @@ def meaning(text: str) -> Meaning:
         found = tokens(text.strip())
     except CardError:
         return (text.strip(),)
-    return tuple(_token(token.kind, token.value) for token in found if token.kind is not Kind.END)
+    return tuple(
+        _token(token.kind, token.value) for token in found if token.kind is not TokenKind.END
+    )
 
 
-def _token(kind: Kind, value: str | int | float) -> tuple[Kind, object]:
-    if kind is Kind.REMARK:
+def _token(kind: TokenKind, value: str | int | float) -> tuple[TokenKind, object]:
+    if kind is TokenKind.REMARK:
         return kind, str(value).strip()
-    return (kind, float(value)) if kind is Kind.NUMBER else (kind, value)
+    return (kind, float(value)) if kind is TokenKind.NUMBER else (kind, value)
 
 
 def _parts(text: str) -> list[str]:

@@ -43,7 +43,7 @@ from openacr.plc.reader import PlcLine, read_line
 from openacr.protocol.events import ControlKey
 
 
-class Machine:
+class CardParts:
     """The parts of a virtual card."""
 
     def __init__(

@@ -11,7 +11,7 @@ import numpy as np
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import pick
-from openacr.controller.machine import Machine
+from openacr.controller.machine import CardParts
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.engine import loop_cy
 from openacr.engine.samples import Sample, set_samples
@@ -48,7 +48,7 @@ _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
 _NO_TRACE = memoryview(bytearray(8)).cast("d")
 
 
-class Running(Machine):
+class Running(CardParts):
     """Lets time pass, and records the axes meanwhile."""
 
     def __init__(

@@ -19,9 +19,9 @@ from openacr.protocol.events import (
     ControlKey,
     Escape,
     Event,
-    Line,
     LineTooLong,
     Received,
+    ReceivedLine,
     Typed,
 )
 from openacr.protocol.execute import execute
@@ -260,7 +260,7 @@ class Streams:
             self._press(event.code)
         elif session is None:
             return
-        elif isinstance(event, Line):
+        elif isinstance(event, ReceivedLine):
             session.feed_line(event.text)
         elif isinstance(event, LineTooLong):
             session.line_too_long()
@@ -292,7 +292,7 @@ class Streams:
 
 def _work(event: Event) -> int:
     """What an event may cost; keys cost nothing."""
-    if isinstance(event, Line):
+    if isinstance(event, ReceivedLine):
         return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Received):
         packet = event.packet

@@ -29,11 +29,11 @@ def _needs_finite(what: str, value: float) -> None:
         raise UserError(f"{what}: {value} is not a finite number")
 
 
-def _fault_kind(word: str) -> faults.Kind:
+def _fault_kind(word: str) -> faults.MachineFault:
     try:
-        return faults.Kind(word)
+        return faults.MachineFault(word)
     except ValueError:
-        raise UserError(f"fault {word!r}: known are {', '.join(faults.Kind)}") from None
+        raise UserError(f"fault {word!r}: known are {', '.join(faults.MachineFault)}") from None
 
 
 class Surroundings(Running):

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from openacr.engine.watches import Place, parameter_place
+from openacr.engine.watches import Watched, parameter_place
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
 
@@ -14,7 +14,7 @@ SAMPLES = at.SMV_COUNT
 class Sample:
     """A number of the map, or whether masked bits of a word are set (1.0 or 0.0)."""
 
-    place: Place
+    place: Watched
     row: int
     mask: int = -1
 
@@ -22,7 +22,7 @@ class Sample:
 def sample_of_flag(number: int) -> Sample:
     """What records a flag."""
     row, mask = flag_place(number)
-    return Sample(Place.WORD, row, mask)
+    return Sample(Watched.WORD, row, mask)
 
 
 def sample_of_parameter(memory: Memory, number: int) -> Sample | None:

@@ -23,7 +23,7 @@ _IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
 _watch_fired = pick(watch_cy.watch_fired)
 
 
-class Place(Enum):
+class Watched(Enum):
     """Where a watched value is, and of what kind it is."""
 
     WORD = watch_cy.WATCH_WORD
@@ -33,22 +33,22 @@ class Place(Enum):
     AXIS = watch_cy.WATCH_AXIS
 
 
-_PLACES = {at.KIND_LONG: Place.LONG, at.KIND_FP32: Place.FP32, at.KIND_FP64: Place.FP64}
+_PLACES = {at.KIND_LONG: Watched.LONG, at.KIND_FP32: Watched.FP32, at.KIND_FP64: Watched.FP64}
 
 
-def parameter_place(memory: Memory, number: int) -> tuple[Place, int] | None:
+def parameter_place(memory: Memory, number: int) -> tuple[Watched, int] | None:
     """Where a parameter is; None where the card has no such number."""
     place = _PLACES.get(kind_of(memory.I, number))
     if place is None:
         return None
-    return place, number + at.USER_BASE if place is Place.FP64 else number
+    return place, number + at.USER_BASE if place is Watched.FP64 else number
 
 
 @dataclass(frozen=True, slots=True)
 class Watch:
     """The masked bits of a word, or whether a number is above or below a bound."""
 
-    place: Place
+    place: Watched
     row: int
     mask: int = -1
     bound: float = 0.0

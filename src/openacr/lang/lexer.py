@@ -18,7 +18,7 @@ LINE_LIMIT = 255
 LONG_LIMIT = 2147483647
 
 
-class Kind(IntEnum):
+class TokenKind(IntEnum):
     """What a token is."""
 
     WORD = 1
@@ -38,7 +38,7 @@ class Token(NamedTuple):
     for a word it is the upper-case form.
     """
 
-    kind: Kind
+    kind: TokenKind
     text: str
     value: str | int | float
     line: int
@@ -81,7 +81,11 @@ _TOKEN = re.compile(
 _REMARK, _JUMP, _TARGET, _WORD, _NUMBER, _OPERATOR, _LABEL, _BASED, _STRING, _COMMENT, _END = range(
     1, 12
 )
-_A_WORD, _A_NUMBER, _A_OPERATOR = Kind.WORD, Kind.NUMBER, Kind.OPERATOR  # cheaper in the loop
+_A_WORD, _A_NUMBER, _A_OPERATOR = (
+    TokenKind.WORD,
+    TokenKind.NUMBER,
+    TokenKind.OPERATOR,
+)  # cheaper in the loop
 _words: dict[str, str] = {}  # upper-case forms: the words of a program are few
 _numbers: dict[str, int] = {str(value): value for value in range(1, 1000)}
 _KNOWN_WORDS = 4096
@@ -109,23 +113,20 @@ def tokens(line: str | bytes, number: int = 1) -> list[Token]:
         elif group == _OPERATOR:
             add(new(Token, (_A_OPERATOR, part, part, number, start)))
         elif group == _STRING:
-            add(Token(Kind.STRING, part, _content(part), number, start))
+            add(Token(TokenKind.STRING, part, _content(part), number, start))
         elif group == _JUMP or group == _TARGET:
-            add(
-                Token(
-                    Kind.WORD, match["jump"], match["jump"].upper(), number, match.start(_JUMP) + 1
-                )
-            )
+            word = match["jump"]
+            add(Token(TokenKind.WORD, word, word.upper(), number, match.start(_JUMP) + 1))
             if group == _TARGET:
-                add(Token(Kind.LABEL, part, part, number, start))
+                add(Token(TokenKind.LABEL, part, part, number, start))
         elif group == _LABEL:
-            add(Token(Kind.LABEL, part, part[1:].strip(), number, start))
+            add(Token(TokenKind.LABEL, part, part[1:].strip(), number, start))
         elif group == _BASED:
-            add(Token(Kind.NUMBER, part, _based(part), number, start))
+            add(Token(TokenKind.NUMBER, part, _based(part), number, start))
         elif group == _REMARK:
-            add(Token(Kind.REMARK, part[:3], part[3:].rstrip(), number, start))
+            add(Token(TokenKind.REMARK, part[:3], part[3:].rstrip(), number, start))
         elif group == _COMMENT or group == _END:
-            add(Token(Kind.END, "", "", number, start))
+            add(Token(TokenKind.END, "", "", number, start))
             break
         else:
             raise LexError(SYNTAX_ERROR, Span(number, start))
@@ -139,7 +140,7 @@ def spelled(found: Iterable[Token]) -> str:
     """
     text = ""
     for token in found:
-        part = token.text + str(token.value) if token.kind is Kind.REMARK else token.text
+        part = token.text + str(token.value) if token.kind is TokenKind.REMARK else token.text
         text = text.ljust(token.column - 1) + part
     return text.rstrip()
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from openacr.controller import Controller
 from openacr.engine.samples import Sample
-from openacr.engine.watches import Place
+from openacr.engine.watches import Watched
 from openacr.errors import UserError
 from openacr.mill.runner import Runner
 
@@ -39,7 +39,7 @@ class RunTrace:
                 f"a row every {every_s:g} s: the servo period is {card.period_s:g} s, "
                 "no trace has more rows than that"
             )
-        card.record(every_tk, samples=(Sample(Place.LONG, runner.machine.counter),))
+        card.record(every_tk, samples=(Sample(Watched.LONG, runner.machine.counter),))
         self._counts: list[int] = []  # of the packets, ascending
         self._lines: list[int] = []  # of their moves
 

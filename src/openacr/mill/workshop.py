@@ -26,7 +26,7 @@ from openacr.cnc.mdi import Mdi
 from openacr.cnc.program import Program
 from openacr.cnc.replay import Replay, start_at
 from openacr.cnc.shadow import Shadow
-from openacr.engine.watches import Place, Watch
+from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill import alarms, barrier, homed
@@ -110,7 +110,7 @@ class Workshop:
         axes = [axis.index for axis in settings.axes]
         self.machine = Machine(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
-        self._motion = Watch(Place.WORD, n.MF1_WORD + self.machine.master, MOTION)
+        self._motion = Watch(Watched.WORD, n.MF1_WORD + self.machine.master, MOTION)
         self.runner = Runner(
             self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
             compensated=tables,

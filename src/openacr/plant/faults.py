@@ -18,7 +18,7 @@ from openacr.plant.schema import LOADLESS, Axis, Contact, World
 from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
 
 
-class Kind(StrEnum):
+class MachineFault(StrEnum):
     """What can go wrong with an axis of the machine."""
 
     ENCODER_LOST = "encoder-lost"
@@ -31,7 +31,7 @@ class Kind(StrEnum):
 
 
 # What the number of a fault says; the others have none.
-QUANTITIES = {Kind.OBSTACLE: "at", Kind.FRICTION: "torque_nm"}
+QUANTITIES = {MachineFault.OBSTACLE: "at", MachineFault.FRICTION: "torque_nm"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class _Place:
         self.memory.I[self.ints + row] = value
 
 
-def inject(world: World, memory: Memory, axis: int, kind: Kind, value: float) -> None:
+def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: float) -> None:
     """Let something go wrong with an axis; UserError where it makes no sense.
 
     `value` is the position of an obstacle in units of the axis, or the torque of friction in Nm
@@ -63,10 +63,10 @@ def inject(world: World, memory: Memory, axis: int, kind: Kind, value: float) ->
     _START[kind](_place(world, memory, axis), value)
 
 
-def mend(world: World, memory: Memory, axis: int, kind: Kind | None = None) -> None:
+def mend(world: World, memory: Memory, axis: int, kind: MachineFault | None = None) -> None:
     """Take one kind of fault of an axis back, or all."""
     place = _place(world, memory, axis)
-    for one in Kind if kind is None else (kind,):
+    for one in MachineFault if kind is None else (kind,):
         _END[one](place)
 
 
@@ -163,21 +163,21 @@ def _smooth(place: _Place) -> None:
         place.put(row, accel)
 
 
-_START: dict[Kind, Callable[[_Place, float], None]] = {
-    Kind.ENCODER_LOST: _lose_signals,
-    Kind.ENCODER_NOISE: _disturb_signals,
-    Kind.DRIVE: _report_drive,
-    Kind.MOTOR_CABLE: _cut_cable,
-    Kind.JAM: _jam,
-    Kind.OBSTACLE: _block,
-    Kind.FRICTION: _rub,
+_START: dict[MachineFault, Callable[[_Place, float], None]] = {
+    MachineFault.ENCODER_LOST: _lose_signals,
+    MachineFault.ENCODER_NOISE: _disturb_signals,
+    MachineFault.DRIVE: _report_drive,
+    MachineFault.MOTOR_CABLE: _cut_cable,
+    MachineFault.JAM: _jam,
+    MachineFault.OBSTACLE: _block,
+    MachineFault.FRICTION: _rub,
 }
-_END: dict[Kind, Callable[[_Place], None]] = {
-    Kind.ENCODER_LOST: _repair(SIGNALS_LOST),
-    Kind.ENCODER_NOISE: _repair(EDGES_LOST),
-    Kind.DRIVE: _end_drive,
-    Kind.MOTOR_CABLE: _join_cable,
-    Kind.JAM: _free,
-    Kind.OBSTACLE: _free,
-    Kind.FRICTION: _smooth,
+_END: dict[MachineFault, Callable[[_Place], None]] = {
+    MachineFault.ENCODER_LOST: _repair(SIGNALS_LOST),
+    MachineFault.ENCODER_NOISE: _repair(EDGES_LOST),
+    MachineFault.DRIVE: _end_drive,
+    MachineFault.MOTOR_CABLE: _join_cable,
+    MachineFault.JAM: _free,
+    MachineFault.OBSTACLE: _free,
+    MachineFault.FRICTION: _smooth,
 }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.messages import (
     INVALID_ARGUMENT,
@@ -100,7 +100,7 @@ class _Reader:
 
     def accept(self, text: str) -> bool:
         """Take the operator `text` if it stands here."""
-        if self.token.kind is not Kind.OPERATOR or self.token.value != text:
+        if self.token.kind is not TokenKind.OPERATOR or self.token.value != text:
             return False
         self.position += 1
         return True
@@ -108,8 +108,8 @@ class _Reader:
     def line(self) -> PlcLine | None:
         steps: list[Step] = []
         parts: list[str] = []
-        while self.token.kind is not Kind.END:
-            if self.token.kind is Kind.REMARK:
+        while self.token.kind is not TokenKind.END:
+            if self.token.kind is TokenKind.REMARK:
                 parts.append(f"REM{self.take().value}")
             elif self.accept(":"):
                 parts.append(":")
@@ -131,10 +131,10 @@ class _Reader:
 
     def instruction(self) -> Instruction:
         """The longest sequence of words that is an instruction."""
-        if self.token.kind is not Kind.WORD:
+        if self.token.kind is not TokenKind.WORD:
             raise self.error(SYNTAX_ERROR)
         ahead = self.tokens[self.position : self.position + LONGEST]
-        words = tuple(str(token.value) for token in ahead if token.kind is Kind.WORD)
+        words = tuple(str(token.value) for token in ahead if token.kind is TokenKind.WORD)
         for count in range(len(words), 0, -1):
             row = BY_WORDS.get(words[:count])
             if row is not None:
@@ -146,16 +146,16 @@ class _Reader:
     def flag(self) -> tuple[int, str]:
         """A flag by number, as BITn, by alias, or the output of a timer, counter or latch."""
         token = self.token
-        if token.kind is Kind.WORD and token.value == "BIT":
+        if token.kind is TokenKind.WORD and token.value == "BIT":
             self.take()
             number = self.bracketed(INVALID_BIT)
             return self.checked(number, HIGHEST_FLAG, INVALID_BIT, token), f"BIT {number}"
-        if token.kind is Kind.WORD and token.value in OBJECT_WORDS:
+        if token.kind is TokenKind.WORD and token.value in OBJECT_WORDS:
             operand = OBJECT_WORDS[str(self.take().value)]
             number = self.object_number()
             return output_flag(operand, number), f"{operand.value}{number}"
         number = self.number(INVALID_BIT)
-        written = token.text if token.kind is Kind.WORD else str(number)
+        written = token.text if token.kind is TokenKind.WORD else str(number)
         return self.checked(number, HIGHEST_FLAG, INVALID_BIT, token), written
 
     def object_number(self) -> int:
@@ -163,7 +163,7 @@ class _Reader:
         return self.checked(self.number(INVALID_ARGUMENT), OBJECTS - 1, INVALID_ARGUMENT, token)
 
     def preload(self) -> int | None:
-        return self.number(INVALID_ARGUMENT) if self.token.kind is Kind.NUMBER else None
+        return self.number(INVALID_ARGUMENT) if self.token.kind is TokenKind.NUMBER else None
 
     def bracketed(self, message: Message) -> int:
         """A number, with or without parentheses."""
@@ -178,11 +178,11 @@ class _Reader:
         """A whole number, written or by alias; `message` refuses any other value."""
         token = self.token
         value: object = token.value
-        if token.kind is Kind.WORD:
+        if token.kind is TokenKind.WORD:
             value = self.names.number(token.text)
             if value is None:
                 raise self.error(UNDEFINED_SYMBOL)
-        elif token.kind is not Kind.NUMBER:
+        elif token.kind is not TokenKind.NUMBER:
             raise self.error(SYNTAX_ERROR)
         if not isinstance(value, int) or value < 0:
             raise self.error(message)

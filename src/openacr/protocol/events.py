@@ -16,7 +16,7 @@ class ControlKey(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class ReceivedLine:
     """A complete line for the command interpreter, without its end."""
 
     text: str
@@ -60,4 +60,4 @@ class NeedData(Enum):
 
 
 NEED_DATA: Final = NeedData.NEED_DATA
-Event: TypeAlias = Line | LineTooLong | Typed | Control | Escape | Received
+Event: TypeAlias = ReceivedLine | LineTooLong | Typed | Control | Escape | Received

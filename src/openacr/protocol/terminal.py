@@ -36,10 +36,10 @@ from openacr.protocol.events import (
     ControlKey,
     Escape,
     Event,
-    Line,
     LineTooLong,
     NeedData,
     Received,
+    ReceivedLine,
     Typed,
 )
 from openacr.protocol.framing import PacketReader, ReaderState
@@ -94,7 +94,7 @@ class Terminal:
         self.timeout_tk = timeout_tk
         self.output = Output()
         self._segments: deque[Segment] = deque()
-        self._lines: deque[Line | LineTooLong] = deque()
+        self._lines: deque[ReceivedLine | LineTooLong] = deque()
         self._backlog = 0
         self._is_full = False
         self._typing = TypedLine()
@@ -130,7 +130,7 @@ class Terminal:
             return self._dequeue()
         while self._segments:
             event = self._scan()
-            if isinstance(event, Line | LineTooLong) and (self.busy or self._lines):
+            if isinstance(event, ReceivedLine | LineTooLong) and (self.busy or self._lines):
                 self._enqueue(event)
             elif event is not None:
                 return event
@@ -164,11 +164,11 @@ class Terminal:
         self._segments = deque(each for each in self._segments if not each.is_scanned)
         return keys
 
-    def _enqueue(self, line: Line | LineTooLong) -> None:
+    def _enqueue(self, line: ReceivedLine | LineTooLong) -> None:
         self._lines.append(line)
         self._backlog += _size(line)
 
-    def _dequeue(self) -> Line | LineTooLong:
+    def _dequeue(self) -> ReceivedLine | LineTooLong:
         line = self._lines.popleft()
         self._backlog -= _size(line)
         return line
@@ -371,7 +371,10 @@ class Terminal:
             timeout_tk=self.timeout_tk,
             output=self.output.state(),
             segments=[(segment.rest, segment.tick, segment.at == 0) for segment in self._segments],
-            lines=[bytes_of(line.text) if isinstance(line, Line) else None for line in self._lines],
+            lines=[
+                bytes_of(line.text) if isinstance(line, ReceivedLine) else None
+                for line in self._lines
+            ],
             is_full=self._is_full,
             typed=bytes(self._typing.kept),
             typed_excess=self._typing.excess,
@@ -387,7 +390,7 @@ class Terminal:
         self.output.restore(state.output)
         self._segments = deque(_segment(*each) for each in state.segments if each[0])
         self._lines = deque(
-            LineTooLong() if line is None else Line(text_of(line)) for line in state.lines
+            LineTooLong() if line is None else ReceivedLine(text_of(line)) for line in state.lines
         )
         self._backlog = sum(len(segment.rest) for segment in self._segments)
         self._backlog += sum(map(_size, self._lines))
@@ -405,5 +408,5 @@ def _is_control(byte: int) -> bool:
     return ControlKey.CTRL_X <= byte <= ControlKey.CTRL_Z
 
 
-def _size(line: Line | LineTooLong) -> int:
-    return len(line.text) + 1 if isinstance(line, Line) else 1
+def _size(line: ReceivedLine | LineTooLong) -> int:
+    return len(line.text) + 1 if isinstance(line, ReceivedLine) else 1

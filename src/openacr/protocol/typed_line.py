@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from openacr.lang.lexer import LINE_LIMIT
-from openacr.protocol.events import Line, LineTooLong
+from openacr.protocol.events import LineTooLong, ReceivedLine
 
 
 @dataclass(slots=True)
@@ -30,9 +30,9 @@ class TypedLine:
             return False
         return True
 
-    def finish(self) -> Line | LineTooLong:
+    def finish(self) -> ReceivedLine | LineTooLong:
         """End the line, and begin an empty one."""
-        event = LineTooLong() if self.excess else Line(text_of(self.kept))
+        event = LineTooLong() if self.excess else ReceivedLine(text_of(self.kept))
         self.clear()
         return event
 

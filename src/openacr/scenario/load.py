@@ -5,7 +5,7 @@ from pathlib import Path
 
 from openacr.errors import SourceError
 from openacr.plant import toml_file
-from openacr.plant.faults import Kind
+from openacr.plant.faults import MachineFault
 from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
 
@@ -49,7 +49,7 @@ def _wrong(message: str, text: str, path: str) -> SourceError:
 
 
 def _choices(name: str) -> str:
-    kinds: dict[str, type[Enum]] = {"key": Key, "state": State, "kind": Kind}
+    kinds: dict[str, type[Enum]] = {"key": Key, "state": State, "kind": MachineFault}
     if name in kinds:
         return "allowed: " + ", ".join(member.value for member in kinds[name])
     if name in STRUCT_OF_KEY:

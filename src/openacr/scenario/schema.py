@@ -11,7 +11,7 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from openacr.plant.faults import Kind
+from openacr.plant.faults import MachineFault
 
 Seconds = Annotated[float, Meta(ge=0.0)]
 Bit = Annotated[int, Meta(ge=0, le=32767)]
@@ -73,7 +73,7 @@ class Fault(Struct, frozen=True, forbid_unknown_fields=True):
     """Let something go wrong with an axis of the machine, by its number in machine.toml."""
 
     axis: Sixteenth
-    kind: Kind
+    kind: MachineFault
     at: float | None = None
     torque_nm: Annotated[float, Meta(ge=0.0)] | None = None
 
@@ -87,7 +87,7 @@ class Mend(Struct, frozen=True, forbid_unknown_fields=True):
     """End one kind of fault of an axis, or all."""
 
     axis: Sixteenth
-    kind: Kind | None = None
+    kind: MachineFault | None = None
 
 
 class Analog(Struct, frozen=True, forbid_unknown_fields=True):

@@ -6,7 +6,7 @@ by whoever looks (`Play.step`). A condition that cannot change needs no watch.
 
 from collections.abc import Iterator
 
-from openacr.engine.watches import Place, Watch, parameter_place
+from openacr.engine.watches import Watch, Watched, parameter_place
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
 from openacr.scenario.schema import Condition
@@ -23,12 +23,12 @@ _STATES = (
 def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
     """List what decides whether a condition holds; printed texts are heard, not watched."""
     if condition.bit is not None:
-        yield Watch(Place.WORD, *flag_place(condition.bit))
+        yield Watch(Watched.WORD, *flag_place(condition.bit))
     elif condition.program is not None:
-        yield Watch(Place.WORD, at.PF_WORD + condition.program, _STATES)
-        yield Watch(Place.WORD, at.THI_BASE + condition.program * at.THI_STRIDE + at.THI_ERROR)
+        yield Watch(Watched.WORD, at.PF_WORD + condition.program, _STATES)
+        yield Watch(Watched.WORD, at.THI_BASE + condition.program * at.THI_STRIDE + at.THI_ERROR)
     elif condition.axis is not None:
-        yield from _bounds(condition, Place.AXIS, at.AX_BASE + condition.axis * at.AX_STRIDE)
+        yield from _bounds(condition, Watched.AXIS, at.AX_BASE + condition.axis * at.AX_STRIDE)
     elif condition.parameter is not None:
         yield from _parameter(condition, condition.parameter, memory)
 
@@ -38,13 +38,13 @@ def _parameter(condition: Condition, number: int, memory: Memory) -> Iterator[Wa
     if found is None:
         return
     place, row = found
-    if place is Place.FP64:
+    if place is Watched.FP64:
         # A user variable exists as soon as enough of them are dimensioned.
-        yield Watch(Place.WORD, at.SYSI_BASE + at.SYSI_P_COUNT)
+        yield Watch(Watched.WORD, at.SYSI_BASE + at.SYSI_P_COUNT)
     yield from _bounds(condition, place, row)
 
 
-def _bounds(condition: Condition, place: Place, row: int) -> Iterator[Watch]:
+def _bounds(condition: Condition, place: Watched, row: int) -> Iterator[Watch]:
     if condition.above is not None:
         yield Watch(place, row, bound=condition.above)
     if condition.below is not None:

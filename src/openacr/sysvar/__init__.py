@@ -2,16 +2,16 @@
 
 from openacr.sysvar.homes import Home, Host, Writer, home_of
 from openacr.sysvar.lookup import find, parameter
-from openacr.sysvar.schema import Kind, Parameter
+from openacr.sysvar.schema import CellKind, Parameter
 from openacr.sysvar.store import AT_START, Changes, Store
 from openacr.sysvar.values import SettingError
 
 __all__ = [
     "AT_START",
+    "CellKind",
     "Changes",
     "Home",
     "Host",
-    "Kind",
     "Parameter",
     "SettingError",
     "Store",

@@ -17,7 +17,7 @@ from typing import Any
 from openacr.errors import MapError, UserError
 from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
-from openacr.sysvar.schema import Kind, Parameter
+from openacr.sysvar.schema import CellKind, Parameter
 from openacr.sysvar.store import AT_START, Store
 from openacr.sysvar.values import SettingError, Value
 from openacr.units import MM_PER_INCH
@@ -64,9 +64,9 @@ def _line(store: Store, parameter: Parameter) -> str:
 def _literal(parameter: Parameter, value: Value) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)  # a TOML string of printable characters
-    if parameter.kind is Kind.BOOLEAN:
+    if parameter.kind is CellKind.BOOLEAN:
         return "true" if value else "false"
-    return values.plain(value) if parameter.kind is not Kind.REAL else repr(value)
+    return values.plain(value) if parameter.kind is not CellKind.REAL else repr(value)
 
 
 def _key(name: str) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from openacr.sysvar.homes import HOMES, Host, Writer
 from openacr.sysvar.lookup import known
-from openacr.sysvar.schema import AXIS_CELLS, Kind, Parameter, Row, Tab
+from openacr.sysvar.schema import AXIS_CELLS, CellKind, Parameter, Row, Tab
 from openacr.sysvar.store import Store
 from openacr.sysvar.tabs import CELLS, TABS
 from openacr.sysvar.values import shown, span
@@ -14,11 +14,11 @@ from openacr.sysvar.values import shown, span
 MADE_BY = "Written by `make docs` from the tables of `openacr.sysvar`; do not edit."
 UNITS = "Units: u is the default unit (inch or mm), u/m per minute, u/s and u/s2 per second."
 KINDS = {
-    Kind.REAL: "number",
-    Kind.INTEGER: "whole number",
-    Kind.BOOLEAN: "true, false",
-    Kind.CHOICE: "choice",
-    Kind.TEXT: "text",
+    CellKind.REAL: "number",
+    CellKind.INTEGER: "whole number",
+    CellKind.BOOLEAN: "true, false",
+    CellKind.CHOICE: "choice",
+    CellKind.TEXT: "text",
 }
 WRITERS = {
     Writer.PROGRAM: "yes",
@@ -105,9 +105,9 @@ def _takes(found: Parameter) -> str:
     row = found.row
     if row.is_fixed:
         return "fixed"
-    if row.kind is Kind.CHOICE:
+    if row.kind is CellKind.CHOICE:
         return ", ".join(_choice(value, word) for value, word in row.words.items())
-    return "" if row.kind in (Kind.BOOLEAN, Kind.TEXT) else span(found)
+    return "" if row.kind in (CellKind.BOOLEAN, CellKind.TEXT) else span(found)
 
 
 def _choice(value: int, word: str) -> str:

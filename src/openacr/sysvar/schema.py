@@ -19,7 +19,7 @@ AXIS_CELLS = 1_000
 ANY = math.inf
 
 
-class Kind(Enum):
+class CellKind(Enum):
     """What a cell holds."""
 
     REAL = "R"
@@ -54,7 +54,7 @@ class Row:
 
     k: int
     name: str  # with {} where the number in the series stands
-    kind: Kind
+    kind: CellKind
     unit: str = ""  # u = default unit, u/m, u/s, u/s2 ... as the reference writes them
     default: Default = 0.0
     typical: str = ""
@@ -96,14 +96,14 @@ class Parameter:
         return self.row.name.format(self.index) if self.row.is_series else self.row.name
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> CellKind:
         """What the cell holds."""
         return self.row.kind
 
     @property
     def is_text(self) -> bool:
         """Whether the cell holds words instead of a number."""
-        return self.row.kind is Kind.TEXT
+        return self.row.kind is CellKind.TEXT
 
     @property
     def is_length(self) -> bool:
@@ -142,27 +142,29 @@ class Tab:
 
     def real(self, k: int, name: str, unit: str, default: Default = 0.0, **more: object) -> None:
         """A number."""
-        self._row(k, name, Kind.REAL, unit=unit, default=default, **more)
+        self._row(k, name, CellKind.REAL, unit=unit, default=default, **more)
 
     def integer(self, k: int, name: str, default: Default = 0, **more: object) -> None:
         """A whole number."""
-        self._row(k, name, Kind.INTEGER, default=default, **more)
+        self._row(k, name, CellKind.INTEGER, default=default, **more)
 
     def boolean(self, k: int, name: str, default: Default = 0, **more: object) -> None:
         """False or true."""
-        self._row(k, name, Kind.BOOLEAN, default=default, words=FALSE_TRUE, low=0, high=1, **more)
+        self._row(
+            k, name, CellKind.BOOLEAN, default=default, words=FALSE_TRUE, low=0, high=1, **more
+        )
 
     def choice(
         self, k: int, name: str, words: Mapping[int, str], default: Default = 0, **more: object
     ) -> None:
         """One of some values, each with a word for it."""
-        self._row(k, name, Kind.CHOICE, words=words, default=default, **more)
+        self._row(k, name, CellKind.CHOICE, words=words, default=default, **more)
 
     def text(self, k: int, name: str, default: Default = "", **more: object) -> None:
         """Words."""
-        self._row(k, name, Kind.TEXT, default=default, **more)
+        self._row(k, name, CellKind.TEXT, default=default, **more)
 
-    def _row(self, k: int, name: str, kind: Kind, **more: object) -> None:
+    def _row(self, k: int, name: str, kind: CellKind, **more: object) -> None:
         marks = {"is_motion": self._is_motion, "is_per_axis": self.is_per_axis}
         self.add(Row(k, name, kind, **{**marks, **more}))  # type: ignore[arg-type]
 

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 
 from openacr.errors import UserError
-from openacr.sysvar.schema import ANY, Kind, Parameter
+from openacr.sysvar.schema import ANY, CellKind, Parameter
 from openacr.units import MM_PER_INCH
 
 DIGITS = 15  # kept when lengths are converted: 0.002 inch is 0.0508 mm, not 0.05079999999999999
@@ -79,9 +79,9 @@ def _text(parameter: Parameter, value: Value) -> str:
 
 def _fits(parameter: Parameter, number: float, is_metric: bool, letter: str) -> bool:
     row = parameter.row
-    if row.kind is not Kind.REAL and not number.is_integer():
+    if row.kind is not CellKind.REAL and not number.is_integer():
         return False
-    if row.kind is Kind.CHOICE:
+    if row.kind is CellKind.CHOICE:
         return int(number) in row.words
     if parameter.is_per_length and number == 0:
         return False
@@ -99,11 +99,11 @@ def _limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, 
 def accepted(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str:
     """The values a cell accepts, in words."""
     row = parameter.row
-    if row.kind is Kind.TEXT:
+    if row.kind is CellKind.TEXT:
         return "text"
-    if row.kind in (Kind.CHOICE, Kind.BOOLEAN):
+    if row.kind in (CellKind.CHOICE, CellKind.BOOLEAN):
         return "one of " + ", ".join(_choice(value, word) for value, word in row.words.items())
-    kind = "whole number" if row.kind is Kind.INTEGER else "number"
+    kind = "whole number" if row.kind is CellKind.INTEGER else "number"
     reach = span(parameter, is_metric, letter)
     unit = f" [{unit_of(parameter, is_metric, letter)}]" if row.unit else ""
     names = "".join(f"; {value} = {word}" for value, word in row.words.items())
@@ -164,7 +164,7 @@ def _word(parameter: Parameter, text: str) -> float | None:
     noun = parameter.row.noun.lower()
     if noun and text.startswith(noun) and text.removeprefix(noun).isdecimal():
         return float(text.removeprefix(noun))
-    if parameter.kind is Kind.BOOLEAN:
+    if parameter.kind is CellKind.BOOLEAN:
         return _TRUTHS.get(text)
     return -1.0 if text in ("disable", "none") and -1 in parameter.row.words else None
 

@@ -10,7 +10,7 @@ from openacr.basic.language.registry import Level
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import StoredLine, line_number, opens_capture
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, plain, tokens
+from openacr.lang.lexer import Token, TokenKind, plain, tokens
 from openacr.lang.shape import shape
 from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
 
@@ -35,7 +35,7 @@ class Entry:
         if owner is not None:
             return self._captured(owner, text)
         found = tokens(text)
-        if found[0].kind is Kind.NUMBER:
+        if found[0].kind is TokenKind.NUMBER:
             self._numbered(self._level_owner(), found, text)
         elif (behind := opens_capture(text)) is not None:
             self._open(self._level_owner(), behind)
@@ -52,7 +52,7 @@ class Entry:
     def _numbered(self, owner: int, found: list[Token], text: str) -> None:
         """A number in front: store the rest under it, or delete the line."""
         number = line_number(found[0])
-        if found[1].kind is Kind.END:
+        if found[1].kind is TokenKind.END:
             self.store.delete(owner, number)
         else:
             begin = found[0].column - 1 + len(found[0].text)
@@ -78,16 +78,16 @@ class Entry:
             return None
         found = tokens(text)
         first = next((token for token in found if token.value != ":"), found[-1])
-        word = first.value if first.kind is Kind.WORD else ""
+        word = first.value if first.kind is TokenKind.WORD else ""
         if word in LEVEL_WORDS:
             self.session.capture = None
             self._append(owner, "ENDP")
             return found
         if word == "ENDP":
             self.session.capture = None  # also where no room is left to store it
-        if found[0].kind is Kind.NUMBER:
+        if found[0].kind is TokenKind.NUMBER:
             self._numbered(owner, found, text)
-        elif found[0].kind is not Kind.END and self._append(owner, text, found):
+        elif found[0].kind is not TokenKind.END and self._append(owner, text, found):
             self._learn(owner, kind, found, word)
         return None
 
@@ -103,7 +103,7 @@ class Entry:
 
     def _learn(self, owner: int, kind: str, found: list[Token], word: object) -> None:
         """Remember a shape; labels are left out, their length is limited."""
-        if owner < PROGRAMS and word != "ENDP" and found[0].kind is not Kind.LABEL:
+        if owner < PROGRAMS and word != "ENDP" and found[0].kind is not TokenKind.LABEL:
             scope = self.system.scope(Level.PROG, owner, stored=True)
             self.system.known_lines.learn(scope, kind, found)
 
@@ -129,11 +129,11 @@ def split_at_level(found: list[Token]) -> tuple[list[Token], list[Token]]:
     for place, token in enumerate(found):
         if token.value == "THEN":
             break
-        if begins_block and token.kind is Kind.WORD and token.value in LEVEL_WORDS:
+        if begins_block and token.kind is TokenKind.WORD and token.value in LEVEL_WORDS:
             behind = _behind_level(found, place)
-            if found[behind].kind is not Kind.END:
+            if found[behind].kind is not TokenKind.END:
                 return [*found[:behind], found[-1]], found[behind:]
-        begins_block = token.kind is Kind.OPERATOR and token.value == ":"
+        begins_block = token.kind is TokenKind.OPERATOR and token.value == ":"
     return found, []
 
 
@@ -143,7 +143,7 @@ def _behind_level(found: list[Token], place: int) -> int:
     if found[place].value == "SYS":
         return behind
     depth = 0
-    while found[behind].kind is not Kind.END:
+    while found[behind].kind is not TokenKind.END:
         depth += (found[behind].value == "(") - (found[behind].value == ")")
         behind += 1
         if depth <= 0:

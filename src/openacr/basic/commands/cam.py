@@ -24,7 +24,7 @@ from openacr.basic.language.grammar import (
     Num,
     ObjectRef,
 )
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.source_cy import USE_CAM
@@ -209,7 +209,7 @@ def set_shifts(run: Run, axes: tuple[AxisValue, ...], table: Callable[[int], int
     for item in axes:
         axis = item.axis.number
         if item.is_query:
-            run.print(number_text(cam.shift(run.card, axis, table(axis)), Kind.DOUBLE))
+            run.print(number_text(cam.shift(run.card, axis, table(axis)), NumberKind.DOUBLE))
         else:
             cam.set_shift(run.card, axis, table(axis), item.value)
 

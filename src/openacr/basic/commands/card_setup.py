@@ -9,7 +9,7 @@ from openacr.basic.language.registry import ANY, IMMEDIATE, command
 from openacr.basic.memory.setup import DEFAULT_CONFIG, Setup
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
 from openacr.motion.card import Card
@@ -38,7 +38,7 @@ class Modules(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a word stands here."""
-        return p.token.kind is Kind.WORD
+        return p.token.kind is TokenKind.WORD
 
     def parse(self, p: Parser) -> tuple[str, ...]:
         """Read them; CLEAR stands alone."""
@@ -49,7 +49,7 @@ class Modules(Form):
             if not self.starts(p):
                 raise p.error(SYNTAX_ERROR)
             word = str(p.advance().value)
-            has_number = p.token.kind is Kind.NUMBER
+            has_number = p.token.kind is TokenKind.NUMBER
             found.append(word + (p.advance().text if has_number else ""))
         return tuple(found)
 

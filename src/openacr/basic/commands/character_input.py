@@ -18,7 +18,7 @@ from openacr.basic.language.nodes import Expr, is_text
 from openacr.basic.language.registry import PROG, PROGRAM, command, function
 from openacr.basic.vm.run import LINE_END, Run, Show, Wait, WaitKind
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.map import numbers as at
 from openacr.messages import INVALID_DEVICE
 
@@ -48,7 +48,7 @@ class InputList(Form):
         keeps_line = p.accept(";")
         device = read_device(p) if p.is_operator("#") else 0
         prompt = None
-        if p.token.kind is Kind.STRING:
+        if p.token.kind is TokenKind.STRING:
             prompt = p.expression()
             if at_separator(p):
                 p.advance()

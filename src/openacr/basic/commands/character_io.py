@@ -27,7 +27,7 @@ from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command, funct
 from openacr.basic.vm.printed import printed
 from openacr.basic.vm.run import LINE_END, Run, Wait, WaitKind
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import INVALID_DEVICE, SYNTAX_ERROR, UNDEFINED_SYMBOL
 
 if TYPE_CHECKING:
@@ -91,11 +91,11 @@ class PrintList(Form):
     @staticmethod
     def _at_item(p: Parser) -> bool:
         token = p.token
-        if token.kind is Kind.WORD:
+        if token.kind is TokenKind.WORD:
             named = token.value in functions and not p.begins_command(token)
             called = token.value in functions and p.ahead(1).value == "("
             return p.at_variable or p.is_word("USING", "NOT") or named or called
-        return token.kind in (Kind.NUMBER, Kind.STRING) or token.value in ("(", "-", "+")
+        return token.kind in (TokenKind.NUMBER, TokenKind.STRING) or token.value in ("(", "-", "+")
 
 
 def at_separator(p: Parser) -> bool:
@@ -107,7 +107,7 @@ def read_device(p: Parser) -> int:
     """`#d` with the separator behind it."""
     p.expect("#")
     token = p.advance()
-    if token.kind is not Kind.NUMBER or token.value not in range(DEVICES + 1):
+    if token.kind is not TokenKind.NUMBER or token.value not in range(DEVICES + 1):
         raise p.error(SYNTAX_ERROR)
     if at_separator(p):
         p.advance()

@@ -10,12 +10,12 @@ from openacr.basic.commands.global_objects import adcs, dacs, encoder_count
 from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
 from openacr.basic.language.grammar import Form, Group, Int
 from openacr.basic.language.nodes import Expr
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind as TokenKind
+from openacr.lang.lexer import TokenKind
 from openacr.map import block
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
@@ -156,7 +156,7 @@ def cmt_offset(run: Run, number: int, offsets: tuple[float, float] | None) -> No
     """Set what is added to the signal of each phase."""
     check_number(number, at.CMT_COUNT)
     if offsets is None:
-        run.print(",".join(number_text(v, Kind.SINGLE) for v in _offsets(run.card, number)))
+        run.print(",".join(number_text(v, NumberKind.SINGLE) for v in _offsets(run.card, number)))
     else:
         _set_offsets(run.card, number, offsets)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from openacr.basic.commands.value_commands import check_number
 from openacr.basic.language.grammar import Group, Int
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
@@ -95,7 +95,7 @@ def _copies(run: Run, number: int) -> list[str]:
     row, memory = at.FSBI_BASE + number * at.FSBI_STRIDE, run.card.memory
     words = range(row + at.FSBI_WORDS, row + at.FSBI_WORDS + FIELDS)
     if memory.I[row + at.FSBI_TYPE] == FP32:
-        return [number_text(memory.S[word], Kind.SINGLE) for word in words]
+        return [number_text(memory.S[word], NumberKind.SINGLE) for word in words]
     return [str(memory.I[word]) for word in words]
 
 

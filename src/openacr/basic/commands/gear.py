@@ -14,7 +14,7 @@ from openacr.basic.commands.follower_forms import (
 )
 from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.kernel.source_cy import USE_GEAR
@@ -170,7 +170,7 @@ def gear_offset(run: Run, axes: tuple[AxisValue, ...]) -> None:
 def offset_text(run: Run, axis: int, part: int) -> str:
     """One part of the setpoint of an axis in units."""
     cnt = run.card.memory.F[axis_reals(axis) + part]
-    return number_text(cnt / scale_of(run.card, axis), Kind.DOUBLE)
+    return number_text(cnt / scale_of(run.card, axis), NumberKind.DOUBLE)
 
 
 @command("GEAR RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")

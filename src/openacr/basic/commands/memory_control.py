@@ -15,7 +15,7 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.storage import Storage
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, PROGRAM_IN_MEMORY, SYNTAX_ERROR
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class DimensionForm(Form):
         if word not in _ARRAYS:
             return Dimension(word, None, self._sizes(p, 1))
         first = self._sizes(p, 1)
-        if not p.is_operator("(") and p.token.kind is not Kind.NUMBER:
+        if not p.is_operator("(") and p.token.kind is not TokenKind.NUMBER:
             return Dimension(word, None, first)
         return Dimension(word, first[0], self._sizes(p, 2 if word == "$A" else 1))
 

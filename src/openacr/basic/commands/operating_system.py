@@ -15,7 +15,7 @@ from openacr.basic.language.registry import ANY, IMMEDIATE, SYS, Level, command
 from openacr.basic.language.written import call
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.messages import (
     INVALID_ARGUMENT,
     NOT_VALID_WHILE_IN_MOTION,
@@ -172,7 +172,7 @@ def help_about(asked: tuple[Token, ...]) -> list[str]:
     Real cards take no words after HELP. Numbers of objects may stand among the words, as in
     ENC0 RES; `Unknown command` if nothing begins so.
     """
-    words = tuple(str(token.value) for token in asked if token.kind is not Kind.NUMBER)
+    words = tuple(str(token.value) for token in asked if token.kind is not TokenKind.NUMBER)
     if words[:1] == ("#",):
         words = ("#" + "".join(words[1:2]), *words[2:])
     words = tuple(word for word in words if word != registry.INDEX)

@@ -16,7 +16,7 @@ from openacr.basic.language.grammar import (
     SignedParameter,
     Source,
 )
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
@@ -124,7 +124,7 @@ def limit_report(run: Run, number: int) -> None:
 
 def _print_row(run: Run, number: int, first: int, stride: int) -> None:
     check_number(number, at.RT_COUNT)
-    run.print(number_text(run.card.memory.F[first + number * stride], Kind.DOUBLE))
+    run.print(number_text(run.card.memory.F[first + number * stride], NumberKind.DOUBLE))
 
 
 # programmable limit switches
@@ -267,7 +267,7 @@ def oop_report(run: Run, number: int) -> None:
     on = "ON" if memory.I[row + at.OOI_ON] else "OFF"
     source = sources.text(run.card, OUTPUT_TAPS + number)
     window = ",".join(
-        number_text(memory.F[reals + place], Kind.DOUBLE)
+        number_text(memory.F[reals + place], NumberKind.DOUBLE)
         for place in (at.OOF_FROM_CNT, at.OOF_TO_CNT)
     )
     windows = _windows_text(memory.F, reals, memory.I[row + at.OOI_WINDOWS])
@@ -280,5 +280,5 @@ def _windows_text(reals: F64, row: int, count: int) -> str:
     if not reals[row + at.OOF_PITCH_CNT]:
         return ""
     places = (at.OOF_START_CNT, at.OOF_PITCH_CNT, at.OOF_WIDTH_CNT)
-    texts = [number_text(reals[row + place], Kind.DOUBLE) for place in places]
+    texts = [number_text(reals[row + place], NumberKind.DOUBLE) for place in places]
     return f" INC ({','.join([*texts, str(count)] if count else texts)})"

@@ -21,7 +21,7 @@ from openacr.basic.language.registry import (
 from openacr.basic.memory.program_store import HIGHEST_LINE_NUMBER, OWNERS, StoredLine
 from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import PROGRAM_IS_RUNNING
 
 if TYPE_CHECKING:
@@ -171,14 +171,14 @@ class LineRange(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a number or a dash stands here."""
-        return p.token.kind is Kind.NUMBER or p.is_operator("-")
+        return p.token.kind is TokenKind.NUMBER or p.is_operator("-")
 
     def parse(self, p: Parser) -> Range:
         """Read the range."""
-        first = p.object_index() if p.token.kind is Kind.NUMBER else None
+        first = p.object_index() if p.token.kind is TokenKind.NUMBER else None
         if not p.accept("-") and not p.accept(","):
             return Range(first, first)
-        return Range(first, p.object_index() if p.token.kind is Kind.NUMBER else None)
+        return Range(first, p.object_index() if p.token.kind is TokenKind.NUMBER else None)
 
 
 @command(

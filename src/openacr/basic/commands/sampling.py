@@ -12,7 +12,7 @@ from openacr.basic.language.grammar import (
     ParameterName,
     SignedParameter,
 )
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -73,7 +73,7 @@ def samp_period(run: Run, period_s: float | None) -> None:
     """Set the time from sample to sample; 0 is every servo period."""
     if period_s is None:
         every_s = run.card.memory.I[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S
-        run.print(number_text(every_s, Kind.DOUBLE))
+        run.print(number_text(every_s, NumberKind.DOUBLE))
     elif not 0.0 <= period_s <= LONGEST_S:
         raise CardError(INVALID_ARGUMENT)
     else:
@@ -100,7 +100,7 @@ def samp_report(run: Run) -> None:
     if trigger >= 0:
         sign = "-" if rows[at.SAI_BASE + at.SAI_TRIGGER_CLEAR] else ""
         run.print(f"SAMP TRG {sign}BIT{trigger}")
-    every_s = number_text(rows[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S, Kind.DOUBLE)
+    every_s = number_text(rows[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S, NumberKind.DOUBLE)
     run.print(f"SAMP PERIOD {every_s}")
     for channel in range(CHANNELS):
         source = rows[at.SAI_BASE + at.SAI_SOURCE + channel] - 1

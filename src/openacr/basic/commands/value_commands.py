@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from openacr.basic.language.grammar import Axis, AxisPairs, AxisValue, AxisValues, Num
-from openacr.basic.language.number_format import Kind, number_text
+from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, BY_OBJECT, Level, command
 from openacr.basic.memory.saving import keep
 from openacr.basic.vm.run import Run
@@ -84,7 +84,7 @@ class ObjectValue:
 
 def value_text(setting: Setting, value: float) -> str:
     """The text of a value as its kind is printed."""
-    return number_text(value, Kind(setting.kind.value))
+    return number_text(value, NumberKind(setting.kind.value))
 
 
 def put(

@@ -24,7 +24,7 @@ from openacr.basic.language.nodes import (
     is_text,
 )
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.messages import SYNTAX_ERROR, TYPE_MISMATCH, UNDEFINED_SYMBOL, Message
 
@@ -75,26 +75,26 @@ class ExpressionParser:
     def advance(self) -> Token:
         """Take the token at the cursor."""
         token = self.tokens[self.position]
-        if token.kind is not Kind.END:
+        if token.kind is not TokenKind.END:
             self.position += 1
         return token
 
     @property
     def at_block_end(self) -> bool:
         """Whether the block ends here."""
-        return self.token.kind in (Kind.END, Kind.REMARK) or self.is_operator(":")
+        return self.token.kind in (TokenKind.END, TokenKind.REMARK) or self.is_operator(":")
 
     def is_operator(self, text: str) -> bool:
         """Whether this operator stands here."""
-        return self.token.kind is Kind.OPERATOR and self.token.value == text
+        return self.token.kind is TokenKind.OPERATOR and self.token.value == text
 
     def is_word(self, *words: str) -> bool:
         """Whether one of these words (upper case) stands here."""
-        return self.token.kind is Kind.WORD and self.token.value in words
+        return self.token.kind is TokenKind.WORD and self.token.value in words
 
     def accept(self, text: str) -> bool:
         """Take this operator or word if it stands here."""
-        if self.token.kind in (Kind.OPERATOR, Kind.WORD) and self.token.value == text:
+        if self.token.kind in (TokenKind.OPERATOR, TokenKind.WORD) and self.token.value == text:
             self.position += 1
             return True
         return False
@@ -148,7 +148,7 @@ class ExpressionParser:
 
     def _level_here(self) -> int:
         token = self.token
-        if token.kind not in (Kind.OPERATOR, Kind.WORD):
+        if token.kind not in (TokenKind.OPERATOR, TokenKind.WORD):
             return 0
         return BINARY.get(str(token.value), 0)
 
@@ -189,17 +189,17 @@ class ExpressionParser:
 
     def _primary(self) -> Expr:
         token = self.token
-        if token.kind is Kind.NUMBER:
+        if token.kind is TokenKind.NUMBER:
             self.position += 1
             return Number(token.value)  # type: ignore[arg-type]
-        if token.kind is Kind.STRING:
+        if token.kind is TokenKind.STRING:
             self.position += 1
             return String(str(token.value))
         if self.accept("("):
             inner = self.expression()
             self.expect(")")
             return inner
-        if token.kind is Kind.WORD:
+        if token.kind is TokenKind.WORD:
             return self._named()
         raise self.error(SYNTAX_ERROR)
 
@@ -233,7 +233,7 @@ class ExpressionParser:
     def at_variable(self) -> bool:
         """Whether a variable, parameter, flag or alias begins here."""
         token = self.token
-        return token.kind is Kind.WORD and (
+        return token.kind is TokenKind.WORD and (
             token.text in self.aliases or token.value in registry.VARIABLES
         )
 
@@ -263,12 +263,12 @@ class ExpressionParser:
     @property
     def at_object_index(self) -> bool:
         """Whether the number of an object, a literal or `(expr)`, begins here."""
-        return self.token.kind is Kind.NUMBER or self.is_operator("(")
+        return self.token.kind is TokenKind.NUMBER or self.is_operator("(")
 
     def object_index(self) -> Expr:
         """The number of an object or variable: a whole literal or `(expr)`."""
         token = self.token
-        if token.kind is Kind.NUMBER and isinstance(token.value, int):
+        if token.kind is TokenKind.NUMBER and isinstance(token.value, int):
             self.position += 1
             return Number(token.value)
         return self._subscript()
@@ -278,13 +278,15 @@ class ExpressionParser:
     @property
     def at_value(self) -> bool:
         """Whether a number, a signed number, a variable or `(expr)` begins here."""
-        if self.token.kind is Kind.OPERATOR and self.token.value in ("-", "+"):
+        if self.token.kind is TokenKind.OPERATOR and self.token.value in ("-", "+"):
             behind = self.ahead(1)
-            return behind.kind is Kind.NUMBER or behind.value == "(" or self._names_number(behind)
+            return (
+                behind.kind is TokenKind.NUMBER or behind.value == "(" or self._names_number(behind)
+            )
         return self.at_object_index or self._names_number(self.token)
 
     def _names_number(self, token: Token) -> bool:
-        if token.kind is not Kind.WORD:
+        if token.kind is not TokenKind.WORD:
             return False
         if token.text in self.aliases:
             return not is_text(self.aliases[token.text])
@@ -298,7 +300,7 @@ class ExpressionParser:
                 if isinstance(operand, Number):
                     return Number(-operand.value if sign is Op.MINUS else operand.value)
                 return Unary(sign, operand)
-        if self.token.kind is Kind.NUMBER:
+        if self.token.kind is TokenKind.NUMBER:
             return Number(self.advance().value)  # type: ignore[arg-type]
         if self.accept("("):
             node = self.numeric()

@@ -9,7 +9,7 @@ from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form
 from openacr.basic.language.nodes import Block, Expr, Statement
 from openacr.basic.language.registry import Level
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import (
     NOT_VALID_AT_THIS_LEVEL,
     SYNTAX_ERROR,
@@ -47,12 +47,12 @@ class Then(Form):
     def parse(self, p: Parser) -> Conditional:
         """Read the statements."""
         p.advance()
-        if p.token.kind is Kind.NUMBER and p.scope.stored:
+        if p.token.kind is TokenKind.NUMBER and p.scope.stored:
             column = p.token.column
             goto_line = Statement(registry.find("GOTO"), (Destination().parse(p),), column=column)
             first, *others = p.rest_of_line()
             return Conditional(((goto_line, *first), *others))
-        if p.at_block_end and p.token.kind is not Kind.REMARK:
+        if p.at_block_end and p.token.kind is not TokenKind.REMARK:
             raise p.error(SYNTAX_ERROR)
         return Conditional(p.rest_of_line())
 
@@ -62,11 +62,11 @@ class Destination(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether one of them stands here."""
-        return p.token.kind in (Kind.LABEL, Kind.NUMBER) or p.is_operator("(")
+        return p.token.kind in (TokenKind.LABEL, TokenKind.NUMBER) or p.is_operator("(")
 
     def parse(self, p: Parser) -> str | Expr:
         """Read it."""
-        if p.token.kind is Kind.LABEL:
+        if p.token.kind is TokenKind.LABEL:
             return str(p.advance().value)
         return p.object_index()
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form, Mark, Object, Word
 from openacr.basic.language.parser import PREFIXES
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 
 if TYPE_CHECKING:
     from openacr.basic.memory.program_store import StoredLine
@@ -76,7 +76,7 @@ class Lister:
         older: Token | None = None
         is_naming = False  # in the name that #DEFINE gives, which ends at the first blank
         for token in tokens:
-            if token.kind is Kind.END:
+            if token.kind is TokenKind.END:
                 break
             if is_naming and before is not None and _touches(before, token):
                 text += token.text
@@ -88,16 +88,16 @@ class Lister:
         return text
 
     def _spelling(self, token: Token, before: Token | None) -> str:
-        if token.kind is Kind.WORD:
+        if token.kind is TokenKind.WORD:
             return self._word(token, before)
-        if token.kind is Kind.NUMBER:
+        if token.kind is TokenKind.NUMBER:
             return literal(token.value)
-        if token.kind is Kind.STRING:
+        if token.kind is TokenKind.STRING:
             return '"{}"'.format(str(token.value).replace('"', '""'))
-        if token.kind is Kind.LABEL:
+        if token.kind is TokenKind.LABEL:
             is_target = before is not None and before.value in ("GOTO", "GOSUB")
             return f"{'' if is_target else '_'}{token.value}"
-        if token.kind is Kind.REMARK:
+        if token.kind is TokenKind.REMARK:
             return f"REM{token.value}"
         return str(token.value)
 
@@ -109,18 +109,18 @@ class Lister:
 
     def _is_apart(self, older: Token | None, before: Token, token: Token) -> bool:
         """Whether a blank stands between two tokens."""
-        if ":" in (before.value, token.value) or token.kind is Kind.REMARK:
+        if ":" in (before.value, token.value) or token.kind is TokenKind.REMARK:
             return True
         if _is_operator(token, _SPACED) or _is_operator(before, _SPACED):
             return True
-        if before.kind is Kind.OPERATOR and before.value != ")":
+        if before.kind is TokenKind.OPERATOR and before.value != ")":
             return False
         if _is_operator(token, {",", ";", ")"}):
             return False
-        if before.text in self.aliases and token.kind is Kind.NUMBER:
+        if before.text in self.aliases and token.kind is TokenKind.NUMBER:
             return True  # it would become part of the name
-        if before.kind is Kind.WORD:
-            return self._is_keyword(before) or token.kind in (Kind.WORD, Kind.STRING)
+        if before.kind is TokenKind.WORD:
+            return self._is_keyword(before) or token.kind in (TokenKind.WORD, TokenKind.STRING)
         if _is_operator(token, {"("}):
             return not self._is_index(older, before)
         return not _is_operator(token, _TIGHT) or token.value in ("#", "?")
@@ -136,7 +136,7 @@ class Lister:
 
     def _is_index(self, older: Token | None, before: Token) -> bool:
         """Whether the number before belongs to a variable or object: `LA0(1)`, `PROG0(8192)`."""
-        if older is None or older.kind is not Kind.WORD or before.kind is not Kind.NUMBER:
+        if older is None or older.kind is not TokenKind.WORD or before.kind is not TokenKind.NUMBER:
             return False
         return older.value in registry.VARIABLES or older.value in self.objects
 
@@ -154,7 +154,7 @@ def depth_after(line: StoredLine, depth: int) -> int:
 
 
 def _first_word(line: StoredLine) -> str:
-    return next((str(token.value) for token in line.tokens if token.kind is Kind.WORD), "")
+    return next((str(token.value) for token in line.tokens if token.kind is TokenKind.WORD), "")
 
 
 def literal(value: str | int | float) -> str:
@@ -173,12 +173,14 @@ def _touches(before: Token, token: Token) -> bool:
 
 
 def _is_operator(token: Token, texts: Collection[str]) -> bool:
-    return token.kind is Kind.OPERATOR and token.value in texts
+    return token.kind is TokenKind.OPERATOR and token.value in texts
 
 
 def _depth_change(tokens: Iterable[Token]) -> int:
     """Blocks a line opens, less those it closes; a one-line IF opens none."""
-    words = [str(token.value) for token in tokens if token.kind is Kind.WORD or token.value == ":"]
+    words = [
+        str(token.value) for token in tokens if token.kind is TokenKind.WORD or token.value == ":"
+    ]
     if "THEN" in words:
         words = words[: words.index("IF")] if "IF" in words else []
     opened = sum(word in _OPENING for word in words)

@@ -228,7 +228,7 @@ Block: TypeAlias = tuple["Statement | Move", ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class LineTree:
     """One line: its label if it has one, and the blocks between colons."""
 
     label: str | None = None

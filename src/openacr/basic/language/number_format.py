@@ -26,7 +26,7 @@ _SINGLE = struct.Struct("<f")
 _USING = re.compile(r"(?P<sign>\+?)(?P<whole>0?#*)(?P<point>\.?)(?P<fraction>#*)")
 
 
-class Kind(Enum):
+class NumberKind(Enum):
     """How the value is stored, which decides the digits that are shown."""
 
     LONG = "LONG"
@@ -35,13 +35,13 @@ class Kind(Enum):
     BIT = "BIT"
 
 
-def number_text(value: float, kind: Kind = Kind.DOUBLE) -> str:
+def number_text(value: float, kind: NumberKind = NumberKind.DOUBLE) -> str:
     """The text PRINT shows for a value of the given kind, without blanks around it."""
-    if kind is Kind.BIT:
+    if kind is NumberKind.BIT:
         return bit_text(value != 0)
-    if kind is Kind.SINGLE:
+    if kind is NumberKind.SINGLE:
         return single_text(value)
-    return long_text(int(value)) if kind is Kind.LONG else double_text(value)
+    return long_text(int(value)) if kind is NumberKind.LONG else double_text(value)
 
 
 def long_text(value: int) -> str:

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from openacr.basic.language import registry
 from openacr.basic.language.expressions import ExpressionParser, StatementError
-from openacr.basic.language.nodes import AxisRef, Block, Expr, Line, Move, Prefix, Statement
+from openacr.basic.language.nodes import AxisRef, Block, Expr, LineTree, Move, Prefix, Statement
 from openacr.basic.language.registry import Command, Level, Use
 from openacr.basic.language.scope import Scope, join_names
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.messages import (
     NOT_VALID_AT_THIS_LEVEL,
@@ -45,21 +45,21 @@ class Parser(ExpressionParser):
 
     # lines and blocks
 
-    def line(self) -> Line:
+    def line(self) -> LineTree:
         """The whole line, without the number in front of a stored one."""
         label = self._label()
         blocks = self.rest_of_line()
         remark = self.remark_here
         if remark is not None:
             self.advance()
-        if self.token.kind is not Kind.END:
+        if self.token.kind is not TokenKind.END:
             raise self.error(SYNTAX_ERROR)
-        return Line(label, blocks, remark)
+        return LineTree(label, blocks, remark)
 
     @property
     def remark_here(self) -> str | None:
         """The text of the remark at the cursor, if there is one."""
-        return str(self.token.value) if self.token.kind is Kind.REMARK else None
+        return str(self.token.value) if self.token.kind is TokenKind.REMARK else None
 
     def rest_of_line(self) -> tuple[Block, ...]:
         """All blocks up to the end of the line or the remark there."""
@@ -70,7 +70,7 @@ class Parser(ExpressionParser):
 
     def _label(self) -> str | None:
         """A label stands alone or before a colon."""
-        if self.token.kind is not Kind.LABEL:
+        if self.token.kind is not TokenKind.LABEL:
             return None
         if not self.scope.stored:
             at_sys = self.scope.level is Level.SYS
@@ -101,11 +101,11 @@ class Parser(ExpressionParser):
     def statement(self) -> Statement:
         """One command with its arguments, an assignment, or the targets of a move."""
         token = self.token
-        if token.kind is Kind.WORD and token.text in self.aliases:
+        if token.kind is TokenKind.WORD and token.text in self.aliases:
             return self._implied("LET")
         if (key := self._command_word()) is not None:
             return self._command(key)
-        if token.kind is not Kind.WORD:
+        if token.kind is not TokenKind.WORD:
             raise self.error(SYNTAX_ERROR)
         if token.value in registry.VARIABLES:
             return self._implied("LET")
@@ -121,9 +121,9 @@ class Parser(ExpressionParser):
         """The key of the word tree at the cursor, if a command begins there."""
         token = self.token
         key = str(token.value)
-        if token.kind is Kind.OPERATOR and key == "#":
+        if token.kind is TokenKind.OPERATOR and key == "#":
             key = f"#{self.ahead(1).value}"
-        elif token.kind not in (Kind.WORD, Kind.OPERATOR):
+        elif token.kind not in (TokenKind.WORD, TokenKind.OPERATOR):
             return None
         return key if key in registry.root.children else None
 
@@ -178,7 +178,9 @@ class Parser(ExpressionParser):
             if self.is_operator("#") and node is registry.root:
                 self.advance()
                 key = f"#{self.token.value}"
-            is_key = self.token.kind in (Kind.WORD, Kind.OPERATOR) and key != registry.INDEX
+            is_key = (
+                self.token.kind in (TokenKind.WORD, TokenKind.OPERATOR) and key != registry.INDEX
+            )
             if is_key and key in node.children:
                 self.advance()
                 node = node.children[key]
@@ -246,10 +248,10 @@ class Parser(ExpressionParser):
     def at_axis(self) -> bool:
         """Whether an axis is named here."""
         token = self.token
-        if token.kind is not Kind.WORD or token.text in self.aliases:
+        if token.kind is not TokenKind.WORD or token.text in self.aliases:
             return False
         if token.value == "AXIS":
-            return self.ahead(1).kind is Kind.NUMBER or self.ahead(1).text == "("
+            return self.ahead(1).kind is TokenKind.NUMBER or self.ahead(1).text == "("
         return token.value in self.scope.axes and token.value not in registry.root.children
 
     @property
@@ -257,7 +259,7 @@ class Parser(ExpressionParser):
         """Whether a word stands here that means nothing at all."""
         token = self.token
         return (
-            token.kind is Kind.WORD
+            token.kind is TokenKind.WORD
             and token.text not in self.aliases
             and token.value not in registry.root.children
             and token.value not in self.scope.axes

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.registry import Level
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 
-_NAME_PARTS = frozenset((Kind.WORD, Kind.NUMBER))
+_NAME_PARTS = frozenset((TokenKind.WORD, TokenKind.NUMBER))
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Scope:
 def join_names(found: list[Token], names: frozenset[str]) -> None:
     """Make one word of the words and numbers that spell one of these names without a gap."""
     for at, first in enumerate(found):
-        if first.kind is not Kind.WORD:
+        if first.kind is not TokenKind.WORD:
             continue
         run, name, behind = "", "", at
         for end in range(at, len(found)):
@@ -39,4 +39,4 @@ def join_names(found: list[Token], names: frozenset[str]) -> None:
             if run in names:  # the longest counts
                 name, behind = run, end + 1
         if name:
-            found[at:behind] = [Token(Kind.WORD, name, name.upper(), first.line, first.column)]
+            found[at:behind] = [Token(TokenKind.WORD, name, name.upper(), first.line, first.column)]

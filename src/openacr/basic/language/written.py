@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from openacr.basic.language import grammar as forms
 from openacr.basic.language.registry import INDEX, Command, Function, Use, functions, root
 from openacr.basic.language.registry import Level as At
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 
 _TAKES = {"n": "number", "s": "string", "e": "value", "p": "number"}
 _CODE = re.compile(r"`([^`]+)`")
@@ -48,14 +48,14 @@ def function_at(found: Iterable[Token], column: int) -> Function | None:
     for token in found:
         if token.column > column:
             break
-        named = functions.get(str(token.value)) if token.kind is Kind.WORD else None
+        named = functions.get(str(token.value)) if token.kind is TokenKind.WORD else None
         if named is not None and token.column == column:
             return named
         if token.column == column and token.value != "(":
             break
-        if token.value == "(" and token.kind is Kind.OPERATOR:
+        if token.value == "(" and token.kind is TokenKind.OPERATOR:
             open_calls.append(last)
-        elif token.value == ")" and token.kind is Kind.OPERATOR and open_calls:
+        elif token.value == ")" and token.kind is TokenKind.OPERATOR and open_calls:
             open_calls.pop()
         last = named
     return last or next((each for each in reversed(open_calls) if each), None)
@@ -65,8 +65,8 @@ def _command_at(found: list[Token]) -> Command | None:
     """The command with the longest sequence of words that begins here."""
     node, best = root, None
     for token in found:
-        word = INDEX if token.kind is Kind.NUMBER else str(token.value)
-        if token.kind not in (Kind.WORD, Kind.NUMBER) or word not in node.children:
+        word = INDEX if token.kind is TokenKind.NUMBER else str(token.value)
+        if token.kind not in (TokenKind.WORD, TokenKind.NUMBER) or word not in node.children:
             break
         node = node.children[word]
         best = node.command or best

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 from openacr.basic.language.scope import Scope
 from openacr.basic.memory.memory_cost import line_bytes, string_bytes
-from openacr.lang.lexer import Kind, Token, tokens
+from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.shape import remark
 
 MOST_SHAPES = 4096
-_OF_VARYING_COST = frozenset((Kind.STRING, Kind.LABEL))
+_OF_VARYING_COST = frozenset((TokenKind.STRING, TokenKind.LABEL))
 
 
 class _Cost(NamedTuple):
@@ -49,7 +49,7 @@ class KnownLines:
         varies = any(
             token.kind in _OF_VARYING_COST or isinstance(token.value, float) for token in found
         )
-        said = [token for token in found if token.kind is not Kind.REMARK]
+        said = [token for token in found if token.kind is not TokenKind.REMARK]
         self._costs[shape] = _Cost(line_bytes(said), len(said) < len(found), varies)
 
     def _is_same(self, scope: Scope) -> bool:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 
 SYSTEM_BYTES = 1048576
 AUTOMATIC_SHARE_BYTES = 65536
@@ -56,13 +56,13 @@ def line_bytes(tokens: list[Token]) -> int:
 
 
 def _token_bytes(token: Token) -> int:
-    if token.kind is Kind.WORD:
+    if token.kind is TokenKind.WORD:
         return COMMAND.each
-    if token.kind is Kind.NUMBER:
+    if token.kind is TokenKind.NUMBER:
         return _constant_bytes(token.value)
-    if token.kind is Kind.OPERATOR:
+    if token.kind is TokenKind.OPERATOR:
         return 0 if token.text in _FREE_OPERATORS else OPERATOR.each
-    if token.kind is Kind.END:
+    if token.kind is TokenKind.END:
         return 0
     return string_bytes(len(str(token.value)))
 

@@ -14,7 +14,7 @@ from openacr.basic.memory.memory_cost import line_bytes
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind, Token, spelled, tokens
+from openacr.lang.lexer import Token, TokenKind, spelled, tokens
 from openacr.map import numbers as at
 from openacr.messages import (
     INVALID_PASSWORD,
@@ -104,7 +104,7 @@ class StoredLine:
         """The word the line begins with, in upper case."""
         for token in self.tokens:
             if token.value != ":":
-                return str(token.value) if token.kind is Kind.WORD else ""
+                return str(token.value) if token.kind is TokenKind.WORD else ""
         return ""
 
 

@@ -17,7 +17,7 @@ from openacr.basic.language.scope import Scope
 from openacr.basic.memory.program_store import StoredLine
 from openacr.basic.memory.ranges import Index, IndexOrNone, LineNumber
 from openacr.errors import StoreError
-from openacr.lang.lexer import Kind, tokens
+from openacr.lang.lexer import TokenKind, tokens
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
@@ -154,7 +154,7 @@ class Sources:
         names = Names({name: node for name, (node, _) in found.items()}, written.uses)
         p = Parser(tokens(definition.text.encode("latin-1")), _scope_of(self._aliases, names))
         node = read_target(p)
-        if p.token.kind is not Kind.END:
+        if p.token.kind is not TokenKind.END:
             raise StoreError(f"an alias cannot stand for {definition.text!r}")
         return node, written
 

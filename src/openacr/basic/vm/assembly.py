@@ -14,14 +14,14 @@ DEEPEST_EXPRESSION = 90
 
 
 @dataclass(slots=True)
-class Place:
+class CodePlace:
     """A place in the code that operations may refer to before it is known."""
 
     at: int = -1
     users: list[int] = field(default_factory=list)
 
 
-Word: TypeAlias = int | Place
+Word: TypeAlias = int | CodePlace
 
 
 class Assembler:
@@ -40,21 +40,21 @@ class Assembler:
         """Append an operation with its operands."""
         self.chunk.begins.append(len(self.chunk.code))
         for word in words:
-            if isinstance(word, Place):
+            if isinstance(word, CodePlace):
                 word.users.append(len(self.chunk.code))
                 self.chunk.code.append(word.at)
             else:
                 self.chunk.code.append(word)
 
-    def put(self, place: Place) -> None:
+    def put(self, place: CodePlace) -> None:
         """Fix a place: it is here."""
         place.at = len(self.chunk.code)
         for user in place.users:
             self.chunk.code[user] = place.at
 
-    def place(self) -> Place:
+    def place(self) -> CodePlace:
         """A place that is not known yet."""
-        return Place()
+        return CodePlace()
 
     def fail(self, message: Message) -> None:
         """An error that is raised when execution gets here."""

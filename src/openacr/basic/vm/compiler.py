@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 from openacr.basic.language.nodes import (
     Block,
     Expr,
-    Line,
+    LineTree,
     Move,
     Statement,
 )
 from openacr.basic.vm import opcodes_cy as vm
-from openacr.basic.vm.assembly import Place
+from openacr.basic.vm.assembly import CodePlace
 from openacr.basic.vm.code import Chunk
 from openacr.basic.vm.expression_code import ExpressionEmitter
 from openacr.basic.vm.levels import Level, Levels, unclosed
@@ -34,13 +34,13 @@ from openacr.messages import (
 class CodeLevel(Level):
     """A level with the places of its code."""
 
-    start: Place = field(default_factory=Place)
-    stop: Place = field(default_factory=Place)
-    next_branch: Place | None = None
+    start: CodePlace = field(default_factory=CodePlace)
+    stop: CodePlace = field(default_factory=CodePlace)
+    next_branch: CodePlace | None = None
     data: Expr | None = None  # the variable of a FOR
 
 
-def compile_program(lines: Iterable[tuple[int, Line]]) -> Chunk:
+def compile_program(lines: Iterable[tuple[int, LineTree]]) -> Chunk:
     """The code of a whole program; CompileError if its structure is wrong."""
     emitter = Emitter()
     for number, line in lines:
@@ -48,7 +48,7 @@ def compile_program(lines: Iterable[tuple[int, Line]]) -> Chunk:
     return emitter.finish()
 
 
-def compile_line(line: Line) -> Chunk:
+def compile_line(line: LineTree) -> Chunk:
     """The code of a line typed at a prompt."""
     emitter = Emitter()
     emitter.blocks(line.blocks)
@@ -61,20 +61,20 @@ class Emitter(ExpressionEmitter):
     def __init__(self, chunk: Chunk | None = None) -> None:
         super().__init__(chunk)
         self.levels = Levels[CodeLevel]()
-        self._labels: dict[str, Place] = {}
-        self._lines: dict[int, Place] = {}
+        self._labels: dict[str, CodePlace] = {}
+        self._lines: dict[int, CodePlace] = {}
         self._is_first = True
 
     # lines and statements
 
-    def line(self, number: int, line: Line) -> None:
+    def line(self, number: int, line: LineTree) -> None:
         """One stored line."""
         self.line_number = number
         self._is_first = True
-        self.put(self._lines.setdefault(number, Place()))
+        self.put(self._lines.setdefault(number, CodePlace()))
         self.chunk.starts[number] = len(self.chunk.code)
         if line.label is not None:
-            place = self._labels.setdefault(line.label, Place())
+            place = self._labels.setdefault(line.label, CodePlace())
             if place.at >= 0:
                 raise self.error(DUPLICATE_LABEL, line.label)
             self.put(place)
@@ -119,7 +119,7 @@ class Emitter(ExpressionEmitter):
         self._write_line_table()
         return self.chunk
 
-    def _fail_at(self, place: Place, message: Message, detail: int) -> None:
+    def _fail_at(self, place: CodePlace, message: Message, detail: int) -> None:
         self.put(place)
         self.op(vm.DO_FAIL, message.number, detail)
 
@@ -137,10 +137,10 @@ class Emitter(ExpressionEmitter):
         self.levels.enter(level)
         return level
 
-    def label(self, name: str) -> Place:
+    def label(self, name: str) -> CodePlace:
         """The place of a label."""
-        return self._labels.setdefault(name, Place())
+        return self._labels.setdefault(name, CodePlace())
 
-    def numbered(self, line: int) -> Place:
+    def numbered(self, line: int) -> CodePlace:
         """The place of a line."""
-        return self._lines.setdefault(line, Place())
+        return self._lines.setdefault(line, CodePlace())

@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from openacr.basic.language.flow_forms import Conditional
-from openacr.basic.language.nodes import Block, Line, Statement
+from openacr.basic.language.nodes import Block, LineTree, Statement
 from openacr.basic.vm import flow_cy as flow
 from openacr.basic.vm.compiler import Emitter
 from openacr.basic.vm.levels import STRUCTURE, CompileError, Level, Levels
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 
 KINDS = {
     "IF": flow.FLOW_IF, "ENDIF": flow.FLOW_IF,
@@ -30,7 +30,7 @@ STORED_KINDS = frozenset(("P", "LV", "SV", "DV", "LA", "SA", "DA", "$V", "$A"))
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
+class FlowEvent:
     """A word that opens, divides, leaves or closes a level, and which token it is."""
 
     word: str
@@ -48,7 +48,7 @@ class OpenLevel(Level):
 class Outline:
     """The outline of a line; `fault` is what the compiler says about its expressions."""
 
-    events: tuple[Event, ...] = ()
+    events: tuple[FlowEvent, ...] = ()
     is_empty: bool = False
     has_label: bool = False
     jumps: bool = False
@@ -63,9 +63,9 @@ class Outline:
         return bool(self.events) or self.has_label or self.jumps
 
 
-def outline(found: list[Token], line: Line, aliases: Mapping[str, str]) -> Outline:
+def outline(found: list[Token], line: LineTree, aliases: Mapping[str, str]) -> Outline:
     """The outline of a line that was read; `aliases` says of which kind named variables are."""
-    words = {token.value for token in found if token.kind is Kind.WORD}
+    words = {token.value for token in found if token.kind is TokenKind.WORD}
     named = {aliases[token.text] for token in found if token.text in aliases}
     return Outline(
         tuple(_events(line.blocks, {token.column: place for place, token in enumerate(found)})),
@@ -79,7 +79,7 @@ def outline(found: list[Token], line: Line, aliases: Mapping[str, str]) -> Outli
     )
 
 
-def follow(levels: Levels[OpenLevel], event: Event, line: int) -> None:
+def follow(levels: Levels[OpenLevel], event: FlowEvent, line: int) -> None:
     """What a word does to the levels; CompileError if it fits nowhere."""
     if event.word in _OPENING:
         levels.enter(OpenLevel(KINDS[event.word], line, token=event.token))
@@ -91,7 +91,7 @@ def follow(levels: Levels[OpenLevel], event: Event, line: int) -> None:
         levels.loop(line)
 
 
-def _events(blocks: tuple[Block, ...], places: dict[int, int]) -> Iterator[Event]:
+def _events(blocks: tuple[Block, ...], places: dict[int, int]) -> Iterator[FlowEvent]:
     for block in blocks:
         for statement in block:
             if isinstance(statement, Statement) and statement.command.name in _FLOW:
@@ -99,10 +99,10 @@ def _events(blocks: tuple[Block, ...], places: dict[int, int]) -> Iterator[Event
                 if isinstance(then, Conditional):
                     yield from _events(then.blocks, places)
                 else:
-                    yield Event(statement.command.name, places[statement.column])
+                    yield FlowEvent(statement.command.name, places[statement.column])
 
 
-def _fault(line: Line) -> CompileError | None:
+def _fault(line: LineTree) -> CompileError | None:
     """What is wrong with the line whatever stands around it."""
     for block in line.blocks:
         for statement in block:

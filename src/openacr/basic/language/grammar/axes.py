@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from openacr.basic.language.grammar.forms import Form, Group, Num, Pair
 from openacr.basic.language.grammar.values import AxisTarget, AxisValue
 from openacr.basic.language.nodes import AxisRef, Expr
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import SYNTAX_ERROR, UNDEFINED_SYMBOL, Message
 
 if TYPE_CHECKING:
@@ -61,8 +61,8 @@ class AxisList(Form):
         behind = p.ahead(2)
         return (
             p.is_word("AXIS")
-            and p.ahead(1).kind is Kind.NUMBER
-            and behind.kind is Kind.WORD
+            and p.ahead(1).kind is TokenKind.NUMBER
+            and behind.kind is TokenKind.WORD
             and behind.value != "AXIS"
             and p.begins_command(behind)
         )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from openacr.basic.language.grammar.forms import Form
 from openacr.basic.language.nodes import Statement
-from openacr.lang.lexer import Kind, Token
+from openacr.lang.lexer import Token, TokenKind
 from openacr.messages import SYNTAX_ERROR
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ class Command(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a command word stands here."""
-        return p.token.kind is Kind.WORD and p.begins_command(p.token)
+        return p.token.kind is TokenKind.WORD and p.begins_command(p.token)
 
     def parse(self, p: Parser) -> Statement:
         """Read the command."""

@@ -10,7 +10,7 @@ from openacr.basic.language.grammar.values import BitState, SignedParameter
 from openacr.basic.language.nodes import Expr, resolved
 from openacr.basic.language.nodes import Flag as FlagNode
 from openacr.basic.language.nodes import Parameter as ParameterNode
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import SYNTAX_ERROR
 
 if TYPE_CHECKING:
@@ -93,7 +93,7 @@ class ParameterName(Form):
         """Whether a parameter begins here."""
         has_sign = p.is_operator("+") or (self.signed and p.is_operator("-"))
         token = p.ahead(1) if has_sign else p.token
-        return token.kind is Kind.WORD and (
+        return token.kind is TokenKind.WORD and (
             isinstance(p.aliases.get(token.text), ParameterNode) or token.value == "P"
         )
 

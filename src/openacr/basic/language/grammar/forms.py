@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from openacr.basic.language.nodes import Apply, Expr, Number, Unary, is_text, resolved
 from openacr.errors import CardError
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 from openacr.messages import INVALID_ARGUMENT, SYNTAX_ERROR, Message
 
 if TYPE_CHECKING:
@@ -92,10 +92,11 @@ class Str(Form):
     def starts(self, p: Parser) -> bool:
         """Whether a string begins here."""
         token = p.token
-        if token.kind is Kind.WORD and token.text in p.aliases:
+        if token.kind is TokenKind.WORD and token.text in p.aliases:
             return is_text(p.aliases[token.text])
-        return token.kind is Kind.STRING or (
-            token.kind is Kind.WORD and (token.text.startswith("$") or token.text.endswith("$"))
+        return token.kind is TokenKind.STRING or (
+            token.kind is TokenKind.WORD
+            and (token.text.startswith("$") or token.text.endswith("$"))
         )
 
     def parse(self, p: Parser) -> Expr:

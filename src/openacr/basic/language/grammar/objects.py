@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from openacr.basic.language.grammar.forms import Form
 from openacr.basic.language.grammar.values import ObjectRef
 from openacr.basic.language.nodes import Expr, Number
-from openacr.lang.lexer import Kind
+from openacr.lang.lexer import TokenKind
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
@@ -33,7 +33,7 @@ class Object(Form):
         if p.is_word(*self.singles) or (self.bare and p.at_object_index):
             return True
         return p.is_word(*self.words) and (
-            p.ahead(1).kind is Kind.NUMBER or p.ahead(1).value == "("
+            p.ahead(1).kind is TokenKind.NUMBER or p.ahead(1).value == "("
         )
 
     def parse(self, p: Parser) -> tuple[str, Expr]:
