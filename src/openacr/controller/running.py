@@ -5,51 +5,37 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import cast
-
-import numpy as np
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import pick
 from openacr.controller.machine import CardParts
-from openacr.controller.trace import Reals, Trace, build_trace
+from openacr.controller.recording import Recording
+from openacr.controller.trace import Trace
 from openacr.engine import loop_cy
-from openacr.engine.samples import Sample, set_samples
-from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
+from openacr.engine.samples import Sample
 from openacr.engine.watches import Watch, set_watches
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
 from openacr.map.numbers import (
     ENGI_BASE,
-    ENGI_SAMPLE_COUNT,
     ENGI_STOP,
     ENGI_TICKS_LEFT,
-    ENGI_TRACE_EVERY,
-    ENGI_TRACE_PEAKS,
-    ENGI_TRACE_ROW,
-    ENGI_TRACE_ROWS,
-    ENGI_TRACE_WAIT,
     ENGI_UNTIL_MASK,
     ENGI_UNTIL_STATE,
     ENGI_UNTIL_WORD,
     ENGI_WATCH_COUNT,
 )
 from openacr.models import DEFAULT_MODEL, Model
-from openacr.motion.permits import scale_of
 from openacr.plant import schema
-from openacr.views import F64
 
-TRACE_CHUNK_ROWS = 65536
 LONGEST_RUN_TK = 2**31 - 1  # of one run of the engine, which counts down in 32 bits
 
 _engine_run = pick(loop_cy.engine_run)
-_SAMPLE_COUNT = ENGI_BASE + ENGI_SAMPLE_COUNT
 _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
-_NO_TRACE = memoryview(bytearray(8)).cast("d")
 
 
 class Running(CardParts):
-    """Lets time pass, and records the axes meanwhile."""
+    """Lets time pass."""
 
     def __init__(
         self,
@@ -60,9 +46,7 @@ class Running(CardParts):
     ) -> None:
         super().__init__(model, world=world, data=data)
         self._look: Callable[[], bool] | None = None
-        self._trace_parts: list[Reals] = []
-        self._trace_buffer: Reals | None = None
-        self._trace_view = _NO_TRACE
+        self._recording = Recording(self.card)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Let the card live for `ticks` ticks and `seconds`, or until a watch ends it.
@@ -127,7 +111,7 @@ class Running(CardParts):
         memory, space = self.memory, self.executor.threads.space
         while True:
             reason = _engine_run(
-                memory.F, memory.I, memory.S, space.code, space.nums, self._trace_view
+                memory.F, memory.I, memory.S, space.code, space.nums, self._recording.view
             )
             if reason in _TICK_ENDS and self.streams.is_overdue:
                 self._take_turns()
@@ -137,7 +121,7 @@ class Running(CardParts):
                 if self._look is not None and self._look():
                     return reason
             elif reason == loop_cy.TRACE_FULL:
-                self._next_trace_part()
+                self._recording.go_on()
             else:
                 self._attend(reason)
                 if self._wants_reboot:
@@ -184,46 +168,12 @@ class Running(CardParts):
         """
         if every_tk < 1:
             raise UserError(f"record every {every_tk} ticks: 1 is the least")
-        self._trace_parts = []
-        set_samples(self.memory, samples)
-        self._set_engine(ENGI_TRACE_PEAKS, int(keep_peaks))
-        self._set_engine(ENGI_TRACE_EVERY, every_tk)
-        self._set_engine(ENGI_TRACE_WAIT, 1)
-        self._new_trace_buffer()
+        self._recording.start(every_tk, keep_peaks=keep_peaks, samples=samples)
 
     def trace(self) -> Trace:
         """What has been recorded so far."""
-        return self._traced()
+        return self._recording.trace()
 
     def take_trace(self) -> Trace:
         """What has been recorded since the last call; the rows are dropped."""
-        found = self._traced()
-        self._trace_parts = []
-        if self._trace_buffer is not None:
-            self._new_trace_buffer()
-        return found
-
-    def _traced(self) -> Trace:
-        columns = self._trace_columns
-        parts = [part.reshape(-1, columns) for part in self._trace_parts]
-        if self._trace_buffer is not None:
-            used = self.memory.I[ENGI_BASE + ENGI_TRACE_ROW]
-            parts.append(self._trace_buffer.reshape(-1, columns)[:used])
-        samples = np.concatenate(parts) if parts else np.empty((0, columns))
-        scales = [scale_of(self.card, axis) for axis in range(self.model.axes)]
-        return build_trace(samples, scales)
-
-    @property
-    def _trace_columns(self) -> int:
-        return TRACE_HEAD + TRACE_AXIS * self.model.axes + self.memory.I[_SAMPLE_COUNT]
-
-    def _new_trace_buffer(self) -> None:
-        self._trace_buffer = np.zeros(TRACE_CHUNK_ROWS * self._trace_columns)
-        self._trace_view = cast(F64, self._trace_buffer.data)
-        self._set_engine(ENGI_TRACE_ROW, 0)
-        self._set_engine(ENGI_TRACE_ROWS, TRACE_CHUNK_ROWS)
-
-    def _next_trace_part(self) -> None:
-        if self._trace_buffer is not None:
-            self._trace_parts.append(self._trace_buffer)
-        self._new_trace_buffer()
+        return self._recording.take()

@@ -1,0 +1,82 @@
+"""The samples of all axes that the compiled loop leaves, in buffers of one size."""
+
+from collections.abc import Sequence
+from typing import cast
+
+import numpy as np
+
+from openacr.controller.trace import Reals, Trace, build_trace
+from openacr.engine.samples import Sample, set_samples
+from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
+from openacr.map.numbers import (
+    ENGI_BASE,
+    ENGI_SAMPLE_COUNT,
+    ENGI_TRACE_EVERY,
+    ENGI_TRACE_PEAKS,
+    ENGI_TRACE_ROW,
+    ENGI_TRACE_ROWS,
+    ENGI_TRACE_WAIT,
+)
+from openacr.motion.card import Card
+from openacr.motion.permits import scale_of
+from openacr.views import F64
+
+CHUNK_ROWS = 65536
+
+
+class Recording:
+    """What is recorded of a card; `view` is the buffer the loop writes to."""
+
+    def __init__(self, card: Card) -> None:
+        self._card = card
+        self._full: list[Reals] = []
+        self._present: Reals | None = None
+        self.view: F64 = memoryview(bytearray(8)).cast("d")
+
+    def start(self, every_tk: int, *, keep_peaks: bool, samples: Sequence[Sample]) -> None:
+        """Record once in `every_tk` ticks from now; what was recorded before is dropped."""
+        self._full = []
+        set_samples(self._card.memory, samples)
+        self._set(ENGI_TRACE_PEAKS, int(keep_peaks))
+        self._set(ENGI_TRACE_EVERY, every_tk)
+        self._set(ENGI_TRACE_WAIT, 1)
+        self._begin_buffer()
+
+    def go_on(self) -> None:
+        """The buffer is full: keep it, and go on with another one."""
+        if self._present is not None:
+            self._full.append(self._present)
+        self._begin_buffer()
+
+    def trace(self) -> Trace:
+        """What has been recorded so far."""
+        columns = self._columns
+        parts = [part.reshape(-1, columns) for part in self._full]
+        if self._present is not None:
+            used = self._card.memory.I[ENGI_BASE + ENGI_TRACE_ROW]
+            parts.append(self._present.reshape(-1, columns)[:used])
+        samples = np.concatenate(parts) if parts else np.empty((0, columns))
+        scales = [scale_of(self._card, axis) for axis in range(self._card.model.axes)]
+        return build_trace(samples, scales)
+
+    def take(self) -> Trace:
+        """What has been recorded since the last call; the rows are dropped."""
+        found = self.trace()
+        self._full = []
+        if self._present is not None:
+            self._begin_buffer()
+        return found
+
+    @property
+    def _columns(self) -> int:
+        chosen: int = self._card.memory.I[ENGI_BASE + ENGI_SAMPLE_COUNT]
+        return TRACE_HEAD + TRACE_AXIS * self._card.model.axes + chosen
+
+    def _begin_buffer(self) -> None:
+        self._present = np.zeros(CHUNK_ROWS * self._columns)
+        self.view = cast(F64, self._present.data)
+        self._set(ENGI_TRACE_ROW, 0)
+        self._set(ENGI_TRACE_ROWS, CHUNK_ROWS)
+
+    def _set(self, row: int, value: int) -> None:
+        self._card.memory.I[ENGI_BASE + row] = value
