@@ -98,7 +98,7 @@ lowest:
 	$(LOWEST)/bin/python setup.py --quiet build_ext --inplace
 	$(LOWEST)/bin/python -m pytest -n $(WORKERS) -m "not soak" $(TESTS)
 
-# Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/limits_cy.py protocol".
+# Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/status/limits_cy.py protocol".
 mutate: $(BUILT)
 	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
 

@@ -16,7 +16,7 @@ from bench.cards import many_axes, type_lines
 from bench.figures import at_least, at_most, best_s, value_only
 from openacr.compiled import pick
 from openacr.controller import Controller
-from openacr.kernel import plan_cy
+from openacr.kernel.path import plan_cy
 from openacr.map import numbers as at
 from openacr.motion import moves
 from openacr.motion.orders import Target

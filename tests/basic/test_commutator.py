@@ -7,7 +7,7 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.compiled import pick
-from openacr.kernel import commutator_cy
+from openacr.kernel.axis import commutator_cy
 from openacr.map import numbers as at
 
 _step = pick(commutator_cy.commutator_step)

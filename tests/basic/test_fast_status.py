@@ -4,7 +4,7 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.compiled import pick
-from openacr.kernel import fast_status_cy
+from openacr.kernel.status import fast_status_cy
 from openacr.map import numbers as at
 from openacr.map import packet_groups
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
 from openacr.compiled import pick
-from openacr.kernel import feedback_cy
+from openacr.kernel.axis import feedback_cy
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 

@@ -6,7 +6,7 @@ import random
 import pytest
 
 from openacr.compiled import is_compiled, pick
-from openacr.kernel.source_cy import USES
+from openacr.kernel.sources.source_cy import USES
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.memory import Memory

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openacr.compiled import pick
-from openacr.kernel import gear_cy
+from openacr.kernel.followers import gear_cy
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 

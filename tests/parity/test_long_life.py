@@ -16,7 +16,7 @@ from openacr.controller import Controller, running
 from openacr.controller.journal import read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
-from openacr.kernel import clock_cy
+from openacr.kernel.sources import clock_cy
 from openacr.map import numbers as at
 
 ROOT = Path(__file__).parents[2]

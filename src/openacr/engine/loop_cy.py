@@ -9,7 +9,7 @@ the same place of the same tick.
 from openacr.basic.vm.scheduler_cy import scheduler_step
 from openacr.engine.trace_cy import trace_tick
 from openacr.engine.watch_cy import watch_fired
-from openacr.kernel.modules_cy import missing_outputs_step
+from openacr.kernel.axis.modules_cy import missing_outputs_step
 from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     ENGI_BASE,

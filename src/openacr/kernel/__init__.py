@@ -1,5 +1,12 @@
 """The servo tick: everything the card does in one servo period.
 
+Rooms, from the tick down; those further down know nothing of those above:
+
+    tick_cy     the order of the card                 path       coordinated moves
+    status      limits, flags, samples                sources    pulses and time for others
+    followers   gears, cams, offsets, objects         axis       inputs, setpoints, servo, drive
+    jog         jogs and homing                       profile_cy, words_cy
+
 The functions get the state of the card as views of its one buffer:
 
     F   64-bit floats: hidden rows of positions, speeds, times, user variables P0 to P4095

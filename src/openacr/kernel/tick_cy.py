@@ -4,25 +4,20 @@ The world outside has moved during the period before; its new state is read firs
 outputs computed here act on it during the next one.
 """
 
-from openacr.kernel.analog_cy import analog_step
-from openacr.kernel.axis_cy import axis_setpoints, axis_show, axis_take_written
-from openacr.kernel.capture_cy import capture_step
-from openacr.kernel.clock_cy import clock_step
-from openacr.kernel.drive_cy import drive_step, motion_enable_step
-from openacr.kernel.fast_flags_cy import fast_flags_step
-from openacr.kernel.fast_status_cy import fast_status_step
-from openacr.kernel.feedback_cy import (
+from openacr.kernel.axis.analog_cy import analog_step
+from openacr.kernel.axis.axis_cy import axis_setpoints, axis_show, axis_take_written
+from openacr.kernel.axis.capture_cy import capture_step
+from openacr.kernel.axis.drive_cy import drive_step, motion_enable_step
+from openacr.kernel.axis.feedback_cy import (
     encoder_filters_step,
     encoder_links_step,
     encoder_step,
     feedback_step,
 )
-from openacr.kernel.jog_cy import jog_step
-from openacr.kernel.limits_cy import limits_step
-from openacr.kernel.master_cy import master_busy, master_step
-from openacr.kernel.modules_cy import missing_inputs_step, missing_outputs_step
-from openacr.kernel.object_cy import object_outputs_step, object_sources_step
-from openacr.kernel.offset_cy import (
+from openacr.kernel.axis.modules_cy import missing_inputs_step, missing_outputs_step
+from openacr.kernel.axis.servo_cy import servo_step
+from openacr.kernel.followers.object_cy import object_outputs_step, object_sources_step
+from openacr.kernel.followers.offset_cy import (
     followers_step,
     followers_used,
     jog_time,
@@ -31,11 +26,16 @@ from openacr.kernel.offset_cy import (
     locks_couple,
     wheel_step,
 )
-from openacr.kernel.sample_cy import sample_step
-from openacr.kernel.servo_cy import servo_step
-from openacr.kernel.slow_cy import slow_scan
-from openacr.kernel.source_cy import sources_follow, triggers_watch
-from openacr.kernel.sync_cy import sync_step
+from openacr.kernel.jog.jog_cy import jog_step
+from openacr.kernel.path.master_cy import master_busy, master_step
+from openacr.kernel.path.sync_cy import sync_step
+from openacr.kernel.sources.clock_cy import clock_step
+from openacr.kernel.sources.source_cy import sources_follow, triggers_watch
+from openacr.kernel.status.fast_flags_cy import fast_flags_step
+from openacr.kernel.status.fast_status_cy import fast_status_step
+from openacr.kernel.status.limits_cy import limits_step
+from openacr.kernel.status.sample_cy import sample_step
+from openacr.kernel.status.slow_cy import slow_scan
 from openacr.map.numbers import W_FSTAT, W_MISC_CONTROL_1, W_MISC_OUTPUTS
 from openacr.map.rows import (
     axes,

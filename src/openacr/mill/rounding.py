@@ -1,7 +1,7 @@
 """Corners that the card rounds within a path tolerance, as the planner and the prediction see them.
 
-The card plans such corners itself (kernel/round_law_cy.py); what it will do is computed here by
-the same functions: a corner is entered and left within `reach_u` of the programmed one, its
+The card plans such corners itself (kernel/path/round_law_cy.py); what it will do is computed here
+by the same functions: a corner is entered and left within `reach_u` of the programmed one, its
 two halves are passed at a constant acceleration each.
 """
 
@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from openacr.compiled import pick
-from openacr.kernel import round_law_cy
+from openacr.kernel.path import round_law_cy
 
 Direction = tuple[float, ...]
 NO_JERK = 0.0

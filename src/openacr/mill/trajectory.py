@@ -6,7 +6,7 @@ of one that takes T seconds from speed v0 to v1 the tool has gone
     s = v0 t + (v1 - v0) t^2 / (2 T)
 
 Where that is, the shape of the move says; beside a rounded corner the path leaves the programmed
-one towards the other move, by the law of the card (kernel/corner_cy.py).
+one towards the other move, by the law of the card (kernel/path/corner_cy.py).
 """
 
 import math
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from openacr.cnc.canonical import AXES, Arc, Point
-from openacr.kernel.corner_cy import corner_lift
+from openacr.kernel.path.corner_cy import corner_lift
 from openacr.mill.encoding import Job, along
 from openacr.mill.geometry import linear_axes
 from openacr.mill.predicting import Phases, seconds_of

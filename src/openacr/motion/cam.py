@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import cam_cy
-from openacr.kernel.cam_cy import BALLSCREW_TABLES, LONGS
-from openacr.kernel.source_cy import CAM_ON, TRIGGERS
+from openacr.kernel.followers import cam_cy
+from openacr.kernel.followers.cam_cy import BALLSCREW_TABLES, LONGS
+from openacr.kernel.sources.source_cy import CAM_ON, TRIGGERS
 from openacr.map.rows import axes, cams, tables
 from openacr.map.words import af1, af2
 from openacr.messages import (

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from openacr.compiled import pick
-from openacr.kernel import axis_cy, slow_cy
+from openacr.kernel.axis import axis_cy
+from openacr.kernel.status import slow_cy
 from openacr.map.hidden.motion import MOVES_PER_MASTER
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, encoders, kernel, masters, system

@@ -5,7 +5,7 @@ from math import radians
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import bezier_cy, curve_cy
+from openacr.kernel.path import bezier_cy, curve_cy
 from openacr.map.hidden.motion import SLAVES
 from openacr.map.rows import curves, moves
 from openacr.map.words import af1

@@ -1,7 +1,7 @@
 """DRIVE ON, OFF and RES, and the control keys that kill and release motion."""
 
 from openacr.compiled import pick
-from openacr.kernel import drive_cy
+from openacr.kernel.axis import drive_cy
 from openacr.map.rows import axes
 from openacr.map.words import af4, af5, mf1
 from openacr.motion import registers

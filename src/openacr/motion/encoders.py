@@ -2,7 +2,7 @@
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import feedback_cy
+from openacr.kernel.axis import feedback_cy
 from openacr.map.rows import encoders, kernel
 from openacr.map.words import ef
 from openacr.messages import INVALID_ARGUMENT

@@ -1,6 +1,6 @@
 """What gears, cams, tables and objects are set to at power-up."""
 
-from openacr.kernel.source_cy import (
+from openacr.kernel.sources.source_cy import (
     FROM_CLOCK,
     FROM_COUNTER,
     FROM_SELF,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from openacr.kernel.source_cy import GEAR_OFF, GEAR_ON, TRIGGERS
+from openacr.kernel.sources.source_cy import GEAR_OFF, GEAR_ON, TRIGGERS
 from openacr.map.rows import axes, gears
 from openacr.map.words import af1, af2
 from openacr.motion import registers, sources

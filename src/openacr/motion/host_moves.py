@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from openacr.errors import CardError
-from openacr.kernel.path_cy import (
+from openacr.kernel.path.path_cy import (
     MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
     MARK_COUNT_UP,

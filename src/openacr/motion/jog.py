@@ -2,16 +2,17 @@
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import axis_cy, homing_cy
-from openacr.kernel.jog_cy import (
+from openacr.kernel.axis import axis_cy
+from openacr.kernel.jog import homing_cy
+from openacr.kernel.jog.jog_cy import (
     JOG_CONTINUOUS,
     JOG_HOMING,
     JOG_IDLE,
     JOG_KILLED,
     JOG_TO_TARGET,
 )
-from openacr.kernel.jogplan_cy import FAR_CNT
-from openacr.kernel.source_cy import FROM_CLOCK, USE_JOG, USES
+from openacr.kernel.jog.jogplan_cy import FAR_CNT
+from openacr.kernel.sources.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.rows import axes, masters, sources
 from openacr.map.words import af1, mf1
 from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE, NOT_VALID_WHILE_IN_MOTION

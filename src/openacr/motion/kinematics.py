@@ -1,13 +1,13 @@
 """INVK: masters whose path is that of a tool, and whose axes are joints.
 
 The coordinated positions of the slaves are those of the tool; what the joints are off is a
-part of its own of the setpoints (kernel/axis_cy.py). The program that computes the joints
+part of its own of the setpoints (kernel/axis/axis_cy.py). The program that computes the joints
 is the language's business (basic/vm/kinematics_cy.py).
 """
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import axis_cy
+from openacr.kernel.axis import axis_cy
 from openacr.map.rows import axes, kernel, masters
 from openacr.map.words import mf4
 from openacr.messages import NOT_VALID_WHILE_IN_MOTION

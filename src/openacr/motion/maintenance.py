@@ -1,4 +1,4 @@
-"""PM: position maintenance of stepper axes (kernel/maintain_cy.py)."""
+"""PM: position maintenance of stepper axes (kernel/axis/maintain_cy.py)."""
 
 from openacr.map.rows import axes
 from openacr.motion.card import Card

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import hold_cy
+from openacr.kernel.path import hold_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED

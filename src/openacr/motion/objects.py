@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import offset_cy
+from openacr.kernel.followers import offset_cy
 from openacr.map.rows import (
     axes,
     filters,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
 
-from openacr.kernel import curve_cy
+from openacr.kernel.path import curve_cy
 
 
 class Direction(IntEnum):

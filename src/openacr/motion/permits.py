@@ -4,7 +4,7 @@ from math import isfinite
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import axis_cy
+from openacr.kernel.axis import axis_cy
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import followers, masters
 from openacr.map.words import af1, af4, mf1

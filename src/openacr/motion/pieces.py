@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from openacr.compiled import pick
-from openacr.kernel import bezier_cy
-from openacr.kernel.path_cy import MARK_CURVE_BEGIN, MARK_NURB
+from openacr.kernel.path import bezier_cy
+from openacr.kernel.path.path_cy import MARK_CURVE_BEGIN, MARK_NURB
 from openacr.map.hidden.motion import SLAVES
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves

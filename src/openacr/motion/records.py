@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import path_cy, round_law_cy
+from openacr.kernel.path import path_cy, round_law_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1, mf2
 from openacr.messages import INVALID_ARC

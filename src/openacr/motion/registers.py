@@ -1,7 +1,7 @@
 """RES, REN and position capture: commands on the position registers of an axis."""
 
 from openacr.compiled import pick
-from openacr.kernel import axis_cy, capture_cy, feedback_cy
+from openacr.kernel.axis import axis_cy, capture_cy, feedback_cy
 from openacr.kernel.words_cy import round32
 from openacr.map.rows import axes
 from openacr.motion.card import Card

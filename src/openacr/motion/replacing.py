@@ -1,7 +1,8 @@
 """TRJ: let a new move take the place of all that a master has."""
 
 from openacr.compiled import pick
-from openacr.kernel import axis_cy, hold_cy, interrupt_cy, path_cy
+from openacr.kernel.axis import axis_cy
+from openacr.kernel.path import hold_cy, interrupt_cy, path_cy
 from openacr.map.rows import masters, moves, profiles
 from openacr.motion.card import Card
 from openacr.motion.permits import axes_of, scale_of

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel import source_cy
-from openacr.kernel.source_cy import (
+from openacr.kernel.sources import source_cy
+from openacr.kernel.sources.source_cy import (
     FROM_ANALOG,
     FROM_AXIS,
     FROM_CLOCK,

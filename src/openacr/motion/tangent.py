@@ -2,15 +2,15 @@
 
 Where a move is to begin in another direction the axis turns there, the short way, in a move
 of its own; less than TANG Turn Limit it makes up on the way. Along curves it turns with
-the tangent (kernel/tangent_cy.py). It does not count for the length of the path.
+the tangent (kernel/path/tangent_cy.py). It does not count for the length of the path.
 """
 
 from collections.abc import Sequence
 from itertools import pairwise
 
 from openacr.compiled import pick
-from openacr.kernel import tangent_cy
-from openacr.kernel.path_cy import MARK_TURN
+from openacr.kernel.path import tangent_cy
+from openacr.kernel.path.path_cy import MARK_TURN
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves
 from openacr.map.words import af3, mf2

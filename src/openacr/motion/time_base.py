@@ -1,7 +1,7 @@
 """What paces a master: time of moves (TMOV), factor (TOV) and source (SRC) of its time base."""
 
 from openacr.errors import CardError
-from openacr.kernel import source_cy
+from openacr.kernel.sources import source_cy
 from openacr.map.rows import masters
 from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT

@@ -14,8 +14,8 @@ from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
-from openacr.kernel.cam_cy import BALLSCREW_TABLES
-from openacr.kernel.source_cy import FROM_SELF, USE_BALLSCREW
+from openacr.kernel.followers.cam_cy import BALLSCREW_TABLES
+from openacr.kernel.sources.source_cy import FROM_SELF, USE_BALLSCREW
 from openacr.map.numbers import TBF_FLZ_CNT, TBF_OFFSET_U, TBF_SCALE
 from openacr.motion import cam, sources
 from openacr.motion.follower_defaults import set_source

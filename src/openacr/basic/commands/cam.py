@@ -27,7 +27,7 @@ from openacr.basic.language.grammar import (
 from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
-from openacr.kernel.source_cy import USE_CAM
+from openacr.kernel.sources.source_cy import USE_CAM
 from openacr.map import block
 from openacr.map.numbers import (
     AF2_CAM_TRIGGER_MODE,

@@ -17,7 +17,7 @@ from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, Axis
 from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
-from openacr.kernel.source_cy import USE_GEAR
+from openacr.kernel.sources.source_cy import USE_GEAR
 from openacr.map import block
 from openacr.map.numbers import (
     AF2_GEAR_OFF_ARMED,

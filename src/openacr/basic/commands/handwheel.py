@@ -7,7 +7,7 @@ from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.basic.language.grammar import Axes, Axis, ObjectRef
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
-from openacr.kernel.source_cy import USE_JOG, USE_WHEEL
+from openacr.kernel.sources.source_cy import USE_JOG, USE_WHEEL
 from openacr.map import block
 from openacr.map.numbers import (
     HWF_ACC_UPS2,

@@ -20,8 +20,8 @@ from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
-from openacr.kernel.cam_cy import LONGS
-from openacr.kernel.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
+from openacr.kernel.followers.cam_cy import LONGS
+from openacr.kernel.sources.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
 from openacr.map import block
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of

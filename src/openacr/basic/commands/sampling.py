@@ -16,8 +16,8 @@ from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.kernel.cam_cy import DOUBLES, LONGS, SINGLES
-from openacr.kernel.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
+from openacr.kernel.followers.cam_cy import DOUBLES, LONGS, SINGLES
+from openacr.kernel.status.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT, INVALID_BIT
 from openacr.motion import cam

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from openacr.basic.memory.saved_flags import saved_beside_commands
 from openacr.basic.memory.saving import Saved, each, kept
 from openacr.errors import CardError
-from openacr.kernel import source_cy
+from openacr.kernel.sources import source_cy
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import attach, buffer, filters, maintenance, settings, sources, time_base

@@ -10,8 +10,8 @@ than STATEMENTS in a tick, the joints stay; at rest nothing is computed.
 from openacr.basic.vm.opcodes_cy import VM_END, VM_SLICE, VM_WAIT
 from openacr.basic.vm.vm_cy import vm_run
 from openacr.basic.vm.waits_cy import wait_is_over
-from openacr.kernel.axis_cy import axis_scale
-from openacr.kernel.path_cy import SLAVE_COUNT
+from openacr.kernel.axis.axis_cy import axis_scale
+from openacr.kernel.path.path_cy import SLAVE_COUNT
 from openacr.map.numbers import (
     AX_BASE,
     AX_INVK_INPUT,

@@ -84,7 +84,7 @@ MOVE = HiddenBlock(
         ("target_cnt", SLAVES),
         ("delta_cnt", SLAVES),
         ("weight", SLAVES),
-        ("tang", 5),  # see kernel/tangent_cy.py
+        ("tang", 5),  # see kernel/path/tangent_cy.py
     ),
     ints=(
         "slaves",  # mask of the slaves that take part
@@ -92,10 +92,10 @@ MOVE = HiddenBlock(
         "rapid",
         "seek_axis",  # MSEEK: axis + 1
         "seek_mode",
-        "curved",  # mask of the slaves that follow a curve, see kernel/curve_cy.py
+        "curved",  # mask of the slaves that follow a curve, see kernel/path/curve_cy.py
         "half_wave",  # of those, the ones in Sinusoidal Mode
         "curve",  # 0 none but SINE, 1 CIRCW, 2 CIRCCW, 3 TARC, 4 and 5 SPLINE and NURB
-        "degree",  # of SPLINE and NURB (kernel/bezier_cy.py)
+        "degree",  # of SPLINE and NURB (kernel/path/bezier_cy.py)
         ("plane", 3),  # slaves of CIRCW, CIRCCW and TARC
         "interrupt",  # INT: flag + 1 that ends it, negative: by being clear
         "trigger",  # TRG: flag + 1 that starts it, negative: by being clear
@@ -125,8 +125,8 @@ MOVE = HiddenBlock(
     },
 )
 
-# The curves of those moves: per slave a wave on a straight base (kernel/curve_cy.py). SPLINE
-# and NURB keep up to six poles per slave in the first six rows (kernel/bezier_cy.py).
+# The curves of those moves: per slave a wave on a straight base (kernel/path/curve_cy.py). SPLINE
+# and NURB keep up to six poles per slave in the first six rows (kernel/path/bezier_cy.py).
 CURVE = HiddenBlock(
     prefix="MW",
     family="curves",
@@ -175,7 +175,7 @@ MASTER = HiddenBlock(
         "corner_in_ups",
         "corner_out_turn",
         "corner_out_ups",
-        "corner_in_u",  # the rounded corner behind the path, see kernel/corner_cy.py
+        "corner_in_u",  # the rounded corner behind the path, see kernel/path/corner_cy.py
         ("corner_in_cnt", SLAVES),
         "corner_out_u",  # the one it is coming to
         ("corner_out_cnt", SLAVES),
@@ -193,10 +193,10 @@ MASTER = HiddenBlock(
         "moving",  # the move at the head has begun
         "hold",  # 0 none, 1 feedholding, 2 in feedhold
         "drop_at_rest",  # HALT: drop all moves once the path has stopped
-        "seek_phase",  # of MSEEK, see kernel/seek_cy.py
+        "seek_phase",  # of MSEEK, see kernel/path/seek_cy.py
         "cut",  # the present move ends where it comes to rest
         "response",  # ticks until INT looks at its flag again
-        "hsint_phase",  # see kernel/hsint_cy.py
+        "hsint_phase",  # see kernel/path/hsint_cy.py
         "stretch",  # moves the present plan runs through, the present one included
         "look_dirty",  # the buffer has changed: look ahead again
         "trigger",  # TRG for the next move to be issued, as in the move
@@ -207,7 +207,7 @@ MASTER = HiddenBlock(
         "tang_axis",  # TANG: axis + 1
         "invk_program",  # INVK: program + 1 that computes the joints
         "invk_moving",  # In Motion when the joints were last looked at
-        "rounding",  # some corners are rounded: plans end within moves (kernel/round_cy.py)
+        "rounding",  # some corners are rounded: plans end within moves (kernel/path/round_cy.py)
         "piece",  # the present plan ends within the present move
         "corner_next",  # record + 1 that leaves the corner just passed
         "corner_smooth_in",  # the corners are rounded for a jerk limit
@@ -316,7 +316,7 @@ AXIS = HiddenBlock(
         "flz_u",
         "scale",
         "scale_center_u",
-        "pm_band_u",  # PM, see kernel/maintain_cy.py
+        "pm_band_u",  # PM, see kernel/axis/maintain_cy.py
         "pm_vel_ups",
         "pm_acc_ups2",
         "pm_time_s",
@@ -328,7 +328,7 @@ AXIS = HiddenBlock(
         "on",
         "master",  # -1 none
         "slave",
-        "position_source",  # see kernel/feedback_cy.py
+        "position_source",  # see kernel/axis/feedback_cy.py
         "position_index",
         "position_offset",  # of an ADC, set by RES
         "signal_source",
@@ -336,7 +336,7 @@ AXIS = HiddenBlock(
         "velocity_source",
         "velocity_index",
         "hlbit",
-        "jog_mode",  # see kernel/jog_cy.py
+        "jog_mode",  # see kernel/jog/jog_cy.py
         "jog_sign",  # direction in which the jog profile counts
         "jog_want",  # direction of a continuous jog
         "jog_replan",
@@ -345,7 +345,7 @@ AXIS = HiddenBlock(
         "pm_sign",  # direction of the correction under way
         "kamr_old",
         "soft_old",
-        "home_state",  # see kernel/homing_cy.py
+        "home_state",  # see kernel/jog/homing_cy.py
         "home_search",  # direction of the search
         "home_moving",  # direction of the present motion
         "home_reversed",  # a limit has turned the search round
@@ -456,7 +456,7 @@ KERNEL = HiddenBlock(
     ints=(
         "inputs_old",
         "slow_ticks",
-        "fast_group",  # group of limit flags refreshed last (kernel/fast_flags_cy.py)
+        "fast_group",  # group of limit flags refreshed last (kernel/status/fast_flags_cy.py)
         "axes",
         "masters",
         "adc_mode",

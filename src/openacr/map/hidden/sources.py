@@ -2,8 +2,8 @@
 
 from openacr.map.hidden.block import HiddenBlock
 
-# One tap per user of a source (kernel/source_cy.py): six per axis, then one for each ratchet,
-# limiter, limit switch and output object.
+# One tap per user of a source (kernel/sources/source_cy.py): six per axis, then one for each
+# ratchet, limiter, limit switch and output object.
 SOURCE = HiddenBlock(
     prefix="SR",
     family="sources",

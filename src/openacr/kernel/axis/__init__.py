@@ -1,0 +1,1 @@
+"""One axis: its inputs, its setpoint, its servo loop and its drive."""

@@ -1,0 +1,1 @@
+"""What follows a source or a setpoint: gears, cams, offsets, objects."""

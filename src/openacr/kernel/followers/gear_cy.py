@@ -1,0 +1,202 @@
+"""Electronic gearing: the gear offset follows a source.
+
+    gear offset += delta / GEAR PPU * ratio * PPU        [pulses]
+
+The internal ratio r ramps linearly in time to RATIO with GEAR ACC and to 0 with GEAR DEC
+(ratio units per second, 0 at once), through 0 where the sign changes. Within a tick the
+mean of r over the tick counts, so a source of constant speed v gives exactly
+v * ACC * t^2 / 2 during a ramp, at any tick length. What a ramp up has lost against the
+full ratio is the gear slip.
+
+A trigger splits its tick at the event: the gear counts only what the source does behind it
+(GEAR ON) or before it (GEAR OFF).
+"""
+
+from openacr.cmath import fabs
+from openacr.kernel.axis.axis_cy import axis_scale
+from openacr.kernel.sources.source_cy import (
+    CAPTURED,
+    DISARMED,
+    EXPIRED,
+    FIRED,
+    GEAR_OFF,
+    GEAR_ON,
+    LARGEST_DELTA,
+    TRIGGERS,
+    USE_GEAR,
+    USES,
+    WAITING,
+    trigger_step,
+)
+from openacr.map.rows import axes, gears, sources, triggers
+from openacr.map.words import af1, af2, af4
+from openacr.views import F32, F64, I32
+
+__all__ = ["gear_ramp", "gear_step"]
+
+ON_FLAGS = af2.GEAR_ON_TRIG_ARMED | af2.GEAR_ON_POSITION
+OFF_FLAGS = af2.GEAR_OFF_ARMED | af2.GEAR_OFF_POSITION
+EPS = 1e-9
+RATIO_STATE = af1.GEAR_ACTIVE | af1.GEAR_AT_SPEED | af1.GEAR_STOPPING
+
+
+def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
+    """Ramp the internal ratio of axis n towards `goal` for `dt`; return its mean."""
+    ratio: float = F[gears.ratio_now[n]]
+    if at_once:
+        ratio = goal
+    if ratio == goal or dt <= 0.0:
+        F[gears.ratio_now[n]] = ratio
+        return ratio
+    area: float = 0.0
+    left: float = dt
+    for _ in range(2):  # down to 0, then up on the other side
+        stage: float = 0.0 if ratio * goal < 0.0 else goal
+        rate: float = F[gears.dec_rps[n]] if fabs(stage) < fabs(ratio) else F[gears.acc_rps[n]]
+        if rate > 0.0:
+            needed: float = fabs(stage - ratio) / rate
+            if needed > left * (1.0 + EPS):
+                rate = rate if stage > ratio else -rate
+                area += left * (ratio + rate * left / 2.0)
+                ratio += rate * left
+                left = 0.0
+                break
+            area += needed * (ratio + stage) / 2.0
+            left = max(left - needed, 0.0)
+        ratio = stage
+        if ratio == goal:
+            break
+    F[gears.ratio_now[n]] = ratio
+    return (area + left * ratio) / dt
+
+
+def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
+    """Add to Gear Slip, which anybody may write."""
+    if S[axes.gear_slip[n]] != F[gears.slip_shown_cnt[n]]:
+        F[gears.slip_cnt[n]] = S[axes.gear_slip[n]]
+    F[gears.slip_cnt[n]] += lost_cnt
+    S[axes.gear_slip[n]] = F[gears.slip_cnt[n]]
+    F[gears.slip_shown_cnt[n]] = S[axes.gear_slip[n]]
+
+
+def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
+    """Move the gear offset of axis n, never farther beyond GEAR MAX and MIN."""
+    word: int = af2.word[n]
+    flags: int = I[word] & ~(af2.GEAR_MAX | af2.GEAR_MIN)
+    if not fabs(moved_cnt) < LARGEST_DELTA:
+        return
+    if F[gears.max_u[n]] > F[gears.min_u[n]]:
+        scale: float = axis_scale(S, n)
+        old: float = F[axes.gear_cnt[n]] / scale
+        new: float = old + moved_cnt / scale
+        if new >= F[gears.max_u[n]]:
+            flags |= af2.GEAR_MAX
+            new = min(new, max(old, F[gears.max_u[n]]))
+            moved_cnt = (new - old) * scale
+        elif new <= F[gears.min_u[n]]:
+            flags |= af2.GEAR_MIN
+            new = max(new, min(old, F[gears.min_u[n]]))
+            moved_cnt = (new - old) * scale
+    I[word] = flags
+    F[axes.gear_cnt[n]] += moved_cnt
+
+
+def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
+    """Let the gear of axis n follow `delta` source pulses that came within `dt`."""
+    word: int = af1.word[n]
+    on: bool = I[word] & af1.GEAR_ACTIVATE != 0
+    goal: float = F[gears.ratio[n]] if on else 0.0
+    mean: float = gear_ramp(F, n, goal, dt, I[word] & af1.GEAR_LOCK != 0)
+    step: float = 0.0
+    if F[gears.ppu[n]] != 0.0:
+        step = delta / F[gears.ppu[n]] * axis_scale(S, n)
+    if on and mean != goal and step != 0.0:
+        gear_slip(F, S, n, (goal - mean) * step)
+    gear_place(F, I, S, n, step * mean)
+
+
+def gear_show(F: F64, I: I32, n: int) -> None:
+    """Flags of the gear of axis n."""
+    word: int = af1.word[n]
+    flags: int = I[word] & ~RATIO_STATE
+    if flags & af1.GEAR_ACTIVATE:
+        flags |= af1.GEAR_ACTIVE
+        if F[gears.ratio_now[n]] == F[gears.ratio[n]]:
+            flags |= af1.GEAR_AT_SPEED
+    else:
+        I[af2.word[n]] &= ~af2.GEAR_TRIGGER_STARTED
+        if F[gears.ratio_now[n]] != 0.0:
+            flags |= af1.GEAR_ACTIVE | af1.GEAR_STOPPING
+    I[word] = flags
+
+
+def gear_behind(F: F64, t: int, delta: float) -> float:
+    """Part of the tick behind the event of trigger t."""
+    return F[triggers.over_cnt[t]] / delta if delta != 0.0 else 0.0
+
+
+def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
+    """Advance what GEAR ON waits for; True if the gear has started in this tick."""
+    t: int = n * TRIGGERS + GEAR_ON
+    captures: bool = I[triggers.kind[t]] >= CAPTURED
+    offset: float = I[axes.gear_trigger_on_offset[n]]
+    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
+    if state == WAITING:
+        return False
+    word: int = af2.word[n]
+    I[word] &= ~ON_FLAGS
+    if state == EXPIRED:
+        return False
+    if captures:
+        I[word] |= af2.GEAR_TRIGGER_STARTED
+    I[af1.word[n]] |= af1.GEAR_ACTIVATE
+    over: float = F[triggers.over_cnt[t]]
+    gear_run(F, I, S, n, over, dt * gear_behind(F, t, delta))
+    return True
+
+
+def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
+    """Advance what GEAR OFF waits for; True if it has come in this tick."""
+    t: int = n * TRIGGERS + GEAR_OFF
+    offset: float = I[axes.gear_trigger_off_offset[n]]
+    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
+    if state != WAITING:
+        I[af2.word[n]] &= ~OFF_FLAGS
+    if state != FIRED:
+        return False
+    over: float = F[triggers.over_cnt[t]]
+    behind: float = gear_behind(F, t, delta)
+    gear_run(F, I, S, n, delta - over, dt * (1.0 - behind))
+    I[af1.word[n]] &= ~af1.GEAR_ACTIVATE
+    gear_run(F, I, S, n, over, dt * behind)
+    return True
+
+
+def gear_halt(F: F64, I: I32, n: int) -> None:
+    """Let go of the source at once and disarm: a kill or a limit."""
+    I[af1.word[n]] &= ~(af1.GEAR_ACTIVATE | RATIO_STATE)
+    I[af2.word[n]] &= ~(ON_FLAGS | OFF_FLAGS | af2.GEAR_TRIGGER_STARTED)
+    I[triggers.kind[n * TRIGGERS + GEAR_ON]] = DISARMED
+    I[triggers.kind[n * TRIGGERS + GEAR_OFF]] = DISARMED
+    F[gears.ratio_now[n]] = 0.0
+
+
+def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
+    """The gear of axis n in one tick of `dt` seconds."""
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
+        gear_halt(F, I, n)
+        return
+    delta: float = F[sources.delta[n * USES + USE_GEAR]]
+    on: int = I[triggers.kind[n * TRIGGERS + GEAR_ON]]
+    off: int = I[triggers.kind[n * TRIGGERS + GEAR_OFF]]
+    running: int = I[af1.word[n]] & (af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE)
+    if not running and on == DISARMED and off == DISARMED:
+        return
+    done: bool = False
+    if on != DISARMED:
+        done = gear_on_trigger(F, I, S, n, delta, dt)
+    if off != DISARMED and not done:
+        done = gear_off_trigger(F, I, S, n, delta, dt)
+    if not done:
+        gear_run(F, I, S, n, delta, dt)
+    gear_show(F, I, n)

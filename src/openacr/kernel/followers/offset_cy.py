@@ -1,0 +1,306 @@
+"""What moves or corrects an axis beside its profilers, and the order in which it happens.
+
+Filtered following: the mean of the last n source deltas is added to the gear offset (or to
+a parameter), so every delta arrives in n equal parts.
+
+Hand wheel: source counts move the target of the jog profiler, which chases it.
+
+Backlash: while the primary setpoint is positive the offset is +BKL, else 0; the step is
+spread evenly over 10 ms. BACKLASH_BY_DIRECTION = 1 takes the direction of travel instead.
+
+Lock: the coordinated position of a locked axis follows the primary setpoint of its leader,
+unit for unit; the difference of the two following errors drives the outputs together.
+"""
+
+from openacr.cmath import fabs, trunc
+from openacr.kernel.axis.axis_cy import axis_scale, axis_target_changed, limit_bars
+from openacr.kernel.axis.feedback_cy import FROM_ENCODER
+from openacr.kernel.followers.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
+from openacr.kernel.followers.gear_cy import gear_halt, gear_step
+from openacr.kernel.jog.jog_cy import JOG_HOMING, JOG_IDLE, JOG_KILLED, JOG_TO_TARGET
+from openacr.kernel.path.hold_cy import NOT_HELD, master_hold
+from openacr.kernel.sources.source_cy import (
+    FROM_CLOCK,
+    LARGEST_DELTA,
+    PULSES_PER_S,
+    USE_FILTER,
+    USE_JOG,
+    USE_WHEEL,
+    USES,
+)
+from openacr.kernel.words_cy import wrap32
+from openacr.map.kinds_cy import kind_of, store_long
+from openacr.map.numbers import KIND_FP32, KIND_FP64, KIND_LONG, USER_BASE
+from openacr.map.rows import (
+    axes,
+    encoders,
+    filters,
+    followers,
+    hand_wheels,
+    masters,
+    objects,
+    sources,
+)
+from openacr.map.words import af1, af2, af3, af4, af6
+from openacr.views import F32, F64, I32
+
+__all__ = ["backlash_step", "filter_clear", "filter_halt", "followers_step"]
+
+BACKLASH_BY_DIRECTION = 0
+BACKLASH_SPREAD_S = 0.01
+AXES = 16
+ENCODERS = 24
+OWN_MOTION = af1.JOG_FORWARD | af1.JOG_REVERSE | af1.GEAR_ACTIVATE | af1.CAM_ACTIVATE
+
+
+def source_delta(F: F64, n: int, use: int) -> float:
+    """What a source of axis n has moved in this tick."""
+    return F[sources.delta[n * USES + use]]
+
+
+# filtered following
+
+
+def filter_clear(F: F64, I: I32, n: int) -> None:
+    """Forget the deltas of the window."""
+    for place in range(filters.WINDOW_CNT_SIZE):
+        F[filters.window_cnt[n] + place] = 0.0
+    F[filters.sum_cnt[n]] = 0.0
+    F[filters.carry_cnt[n]] = 0.0
+    I[filters.index[n]] = 0
+
+
+def filter_halt(F: F64, I: I32, n: int) -> None:
+    """Stop filtered following."""
+    I[filters.on[n]] = 0
+    I[af3.word[n]] &= ~af3.FILTER_MOVED
+    filter_clear(F, I, n)
+
+
+def filter_put(F: F64, I: I32, S: F32, n: int, moved: float) -> None:
+    """Add to the parameter of FLT OUT; a LONG one gets whole pulses, the rest is carried."""
+    number: int = I[filters.out[n]]
+    kind: int = kind_of(I, number)
+    if kind == KIND_LONG:
+        total: float = F[filters.carry_cnt[n]] + moved
+        whole: float = trunc(total)
+        F[filters.carry_cnt[n]] = total - whole
+        store_long(I, number, wrap32(I[number] + int(whole)))
+    elif kind == KIND_FP32:
+        S[number] = S[number] + moved
+    elif kind == KIND_FP64:
+        F[USER_BASE + number] += moved
+
+
+def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """Filtered following of axis n."""
+    size: int = max(1, min(I[filters.size[n]], filters.WINDOW_CNT_SIZE))
+    place: int = I[filters.index[n]]
+    if not 0 <= place < size:
+        place = 0
+    delta: float = source_delta(F, n, USE_FILTER)
+    F[filters.sum_cnt[n]] += delta - F[filters.window_cnt[n] + place]
+    F[filters.window_cnt[n] + place] = delta
+    I[filters.index[n]] = 0 if place + 1 >= size else place + 1
+    mean: float = F[filters.sum_cnt[n]] / size
+    if I[filters.out[n]] >= 0:
+        filter_put(F, I, S, n, mean)
+    else:
+        F[axes.gear_cnt[n]] += mean
+
+
+# hand wheel and time base of jogs
+
+
+def wheel_barred(F: F64, I: I32, S: F32, n: int, side: int) -> bool:
+    """Whether a kill, the lockout or an active limit bars the hand wheel on a side."""
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or I[af1.word[n]] & af1.JOG_LOCKOUT:
+        return True
+    return limit_bars(F, I, S, n, side) != 0
+
+
+def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """Hand wheel of axis n: its counts move the target of the jog profiler."""
+    delta: float = source_delta(F, n, USE_WHEEL)
+    mode: int = I[axes.jog_mode[n]]
+    if delta == 0.0 or F[hand_wheels.ppu[n]] == 0.0 or (mode != JOG_IDLE and mode != JOG_TO_TARGET):
+        return
+    way_u: float = delta / F[hand_wheels.ppu[n]] * F[hand_wheels.ratio[n]]
+    if way_u == 0.0 or wheel_barred(F, I, S, n, 1 if way_u > 0.0 else -1):
+        return
+    if mode == JOG_IDLE:
+        F[axes.jog_target_cnt[n]] = F[axes.jog_cnt[n]]
+    F[axes.jog_target_cnt[n]] += way_u * axis_scale(S, n)
+    I[axes.jog_mode[n]] = JOG_TO_TARGET
+    I[axes.jog_replan[n]] = 1
+    I[af1.word[n]] |= af1.JOG_ACTIVE
+
+
+def jog_time(F: F64, I: I32, n: int, period_s: float) -> float:
+    """Time the jog of axis n advances in this tick: 1000 source pulses are one second.
+
+    A source that runs back holds the jog until it has come forward again. Kills and homing
+    go by the clock.
+    """
+    tap: int = n * USES + USE_JOG
+    mode: int = I[axes.jog_mode[n]]
+    if I[sources.kind[tap]] == FROM_CLOCK or mode == JOG_KILLED or mode == JOG_HOMING:
+        return period_s
+    due: float = F[followers.jog_debt_s[n]] + source_delta(F, n, USE_JOG) / PULSES_PER_S
+    F[followers.jog_debt_s[n]] = min(due, 0.0)
+    return max(due, 0.0)
+
+
+# backlash
+
+
+def backlash_wanted(F: F64, S: F32, n: int, psp_cnt: float) -> float:
+    """The backlash offset that belongs to a primary setpoint."""
+    full: float = S[axes.backlash_setting[n]] * axis_scale(S, n)
+    if not fabs(full) < LARGEST_DELTA:
+        full = 0.0
+    if BACKLASH_BY_DIRECTION:
+        moved: float = psp_cnt - F[followers.backlash_old_cnt[n]]
+        F[followers.backlash_old_cnt[n]] = psp_cnt
+        if moved == 0.0:
+            return F[followers.backlash_wanted_cnt[n]]
+        return full if moved > 0.0 else 0.0
+    return full if psp_cnt > 0.0 else 0.0
+
+
+def backlash_step(F: F64, S: F32, n: int, psp_cnt: float, dt: float) -> None:
+    """Bring the backlash offset of axis n to what it should be, a step taking 10 ms."""
+    wanted: float = backlash_wanted(F, S, n, psp_cnt)
+    offset: float = F[axes.backlash_cnt[n]]
+    if wanted != F[followers.backlash_wanted_cnt[n]]:
+        F[followers.backlash_wanted_cnt[n]] = wanted
+        F[followers.backlash_step_cnt[n]] = fabs(wanted - offset) / BACKLASH_SPREAD_S
+    if offset == wanted:
+        return
+    step: float = F[followers.backlash_step_cnt[n]] * dt
+    left: float = wanted - offset
+    if fabs(left) <= step * (1.0 + 1e-9):
+        F[axes.backlash_cnt[n]] = wanted
+    else:
+        F[axes.backlash_cnt[n]] = offset + (step if left > 0.0 else -step)
+
+
+# locked pairs
+
+
+def lock_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """Let the locked axis n follow its leader; runs behind the setpoints of the leader.
+
+    Flags that would move it on its own are taken back, as commands are refused.
+    """
+    I[af1.word[n]] &= ~OWN_MOTION
+    I[af6.word[n]] &= ~af6.JOG_HOME_REQUEST
+    leader: int = I[followers.leader[n]] - 1
+    now: float = F[axes.psp_cnt[leader]]
+    moved: float = now - F[followers.lock_old_cnt[n]]
+    F[followers.lock_old_cnt[n]] = now
+    if moved != 0.0:
+        F[axes.position_cnt[n]] += moved / axis_scale(S, leader) * axis_scale(S, n)
+        F[axes.target_cnt[n]] = F[axes.position_cnt[n]]
+        axis_target_changed(F, I, n)
+
+
+def lock_error(F: F64, I: I32, n: int) -> float:
+    """Following error of axis n, unrounded."""
+    actual: int = I[axes.actual_position[n]]
+    return F[axes.ssp_cnt[n]] - actual
+
+
+def locks_couple(F: F64, I: I32, S: F32) -> None:
+    """Coupling voltages: Lock Feedback Gain of the leader times the difference of errors."""
+    for n in range(AXES):
+        F[followers.lock_v[n]] = 0.0
+    for n in range(AXES):
+        leader: int = I[followers.leader[n]] - 1
+        if 0 <= leader < AXES and I[axes.on[n]]:
+            gain: float = S[axes.lock_feedback_gain[leader]]
+            other: float = lock_error(F, I, n) * axis_scale(S, leader) / axis_scale(S, n)
+            volts: float = gain * (lock_error(F, I, leader) - other)
+            F[followers.lock_v[leader]] += volts
+            F[followers.lock_v[n]] -= volts
+
+
+def lock_leader(I: I32, n: int) -> int:
+    """The axis that leads axis n, -1 if it is not locked."""
+    if not I[objects.locked]:
+        return -1
+    leader: int = I[followers.leader[n]] - 1
+    return leader if 0 <= leader < AXES and leader != n else -1
+
+
+# directional limits and speed in revolutions
+
+
+def direction_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """Directional limits: motion in a barred direction trips a feedhold of the master."""
+    word: int = af2.word[n]
+    flags: int = I[word]
+    velocity: float = F[axes.psp_velocity_cps[n]] * axis_scale(S, n)
+    if flags & af2.DIR_LIMIT_TRIPPED:
+        return
+    if (velocity > 0.0 and flags & af2.POSITIVE_DIR_LIMIT) or (
+        velocity < 0.0 and flags & af2.NEGATIVE_DIR_LIMIT
+    ):
+        I[word] = flags | af2.DIR_LIMIT_TRIPPED
+        m: int = I[axes.master[n]]
+        if m >= 0:
+            if I[masters.queued[m]] and I[masters.hold[m]] == NOT_HELD:
+                master_hold(F, I, S, m)
+
+
+def rpm_step(F: F64, I: I32, S: F32, n: int) -> None:
+    """RPM = RPM Factor * pulses moved in this tick."""
+    moved: float = F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]
+    k: int = I[axes.position_index[n]]
+    if I[axes.position_source[n]] == FROM_ENCODER and 0 <= k < ENCODERS:
+        moved = F[encoders.step_cnt[k]]
+    S[axes.rpm[n]] = S[axes.rpm_factor[n]] * moved
+
+
+# the order of things
+
+
+def followers_used(I: I32, n: int) -> int:
+    """Not 0 if anything of this module concerns axis n.
+
+    The settings are 32-bit floats; any that is not 0 has bits set.
+    """
+    return (
+        I[followers.live[n]]
+        | I[axes.backlash_setting[n]]
+        | I[axes.rpm_factor[n]]
+        | (I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE)
+    )
+
+
+def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) -> None:
+    """Gear, filter and cam of axis n, then the offsets that depend on the primary setpoint."""
+    if I[axes.backlash_setting[n]]:
+        I[followers.live[n]] = 1  # so that a later 0 is noticed
+    if I[followers.live[n]]:
+        gear_step(F, I, S, n, dt)
+        cam_step(F, I, S, n, rate_hz)
+        if I[filters.on[n]]:
+            filter_step(F, I, S, n)
+        psp: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
+        psp = psp + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
+        backlash_step(F, S, n, psp, dt)
+        ballscrew_step(F, I, S, n, psp)
+    if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
+        direction_step(F, I, S, n)
+    if S[axes.rpm_factor[n]] > 0.0:
+        rpm_step(F, I, S, n)
+
+
+def followers_halt(F: F64, I: I32, n: int) -> None:
+    """A kill or limit lets axis n go of everything it follows."""
+    gear_halt(F, I, n)
+    cam_halt(F, I, n)
+    ballscrew_halt(I, n)
+    if I[filters.on[n]]:
+        filter_halt(F, I, n)

@@ -1,0 +1,1 @@
+"""Coordinated moves: masters, their moves and the paths these describe."""

@@ -1,0 +1,236 @@
+"""Look-ahead: how fast the path may be at the junctions of the moves that wait.
+
+At a junction with turn angle q the speed is bounded by the law
+
+    q <= a1          both moves' own speed (no slow-down)
+    q >= a2          Look Ahead Min Vel
+    between          linear from the one to the other
+
+A plan runs through a *stretch*: the present move and those behind it up to the first
+junction that slows the path down, a change of speed or ramps, or the end of the buffer.
+Inside a stretch a ramp takes no notice of junctions, so that short moves lose nothing, with
+jerk or without. With jerk, junctions that slow down little do not end a stretch either:
+it runs at the lowest of their speeds throughout, instead of dipping at each.
+
+    speed  ___________
+          /           \\____            The backward pass: from the last move on, what a
+         /                 \\__ c2      ramp over each stretch can still slow down from
+    ____/                     \\        bounds the junction in front of it.
+        | move | move | move | m |     The first stretch is planned to the smaller of
+        '-- stretch --'               that and of its law.
+
+Moves with a time, a capture or a trigger of their own are entered and left at rest.
+"""
+
+from openacr.cmath import sqrt
+from openacr.kernel.path.bezier_cy import is_bezier, is_timed
+from openacr.kernel.path.path_cy import (
+    MARK_CURVE_BEGIN,
+    MARK_TURN,
+    move_final_ups,
+    move_limit,
+    move_override,
+)
+from openacr.map.rows import masters, moves
+from openacr.map.words import mf4
+from openacr.views import F32, F64, I32
+
+__all__ = ["ramp_start"]
+
+FREE = 1.0 - 1e-6  # of the speed: what rounding makes of a straight junction
+SLIGHT = 0.8  # of the speed: with jerk, slow-downs down to here do not end a stretch
+BISECTIONS = 50
+ENDLESS_UPS = 1e30
+
+
+def look_active(I: I32, m: int) -> bool:
+    """Whether master m looks ahead."""
+    flags: int = I[mf4.word[m]]
+    return flags & mf4.LOOK_AHEAD_MODE != 0 and not flags & mf4.LOOK_AHEAD_NEGLECT
+
+
+def look_beyond(I: I32, m: int, record: int) -> bool:
+    """Whether plans may run beyond a move: of its master, or because it brings a tolerance."""
+    return look_active(I, m) or I[moves.ahead[record]] != 0
+
+
+def look_through(F: F64, I: I32, m: int, record: int) -> bool:
+    """Whether plans may run beyond a move: with look-ahead, and along SPLINE and NURB always."""
+    return look_plain(F, I, record) and (look_active(I, m) or is_bezier(I, record))
+
+
+def same_curve(I: I32, a: int, b: int) -> bool:
+    """Whether both of two moves that follow each other are pieces of one curve."""
+    marks: int = I[moves.marks[b]]
+    return is_bezier(I, a) and is_bezier(I, b) and not marks & MARK_CURVE_BEGIN
+
+
+def look_record(I: I32, m: int, k: int) -> int:
+    """Record of the move `k` places behind the present one."""
+    place: int = I[masters.head[m]] + k
+    if place >= I[masters.size[m]]:
+        place -= I[masters.size[m]]
+    return I[masters.first[m]] + place
+
+
+def look_plain(F: F64, I: I32, record: int) -> bool:
+    """Whether a move may merge: it has no time, flag, capture or trigger of its own."""
+    special: int = (
+        I[moves.seek_axis[record]] | I[moves.hsint_axis[record]] | I[moves.interrupt[record]]
+    )
+    special = special | I[moves.trigger[record]] | I[moves.trigger_axis[record]]
+    special = special | (I[moves.marks[record]] & MARK_TURN)
+    return special == 0 and F[moves.tmov_s[record]] <= 0.0
+
+
+def look_speed(F: F64, I: I32, S: F32, m: int, record: int) -> float:
+    """Speed of a move the junctions are laid out for; overrides below 1 come on top."""
+    override: float = move_override(I, S, m, record)
+    return move_limit(F, I, S, m, record, override if override > 1.0 else 1.0)
+
+
+def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
+    """Speed the law allows between two moves."""
+    if not (look_plain(F, I, a) and look_plain(F, I, b)):
+        return 0.0
+    velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+    rounded: bool = F[moves.corner_u[a]] > 0.0
+    if rounded and look_beyond(I, m, a):  # see round_law_cy
+        return min(velocity, F[moves.corner_ups[a]])
+    if same_curve(I, a, b) or is_timed(I, a):
+        return velocity
+    if is_timed(I, b):
+        return 0.0
+    if not look_active(I, m):  # beside a curve moves merge as they do without look-ahead
+        return min(velocity, look_final(F, I, S, m, a))
+    turn: float = F[moves.turn_deg[a]]
+    begin: float = F[masters.look_from_deg[m]]
+    end: float = F[masters.look_to_deg[m]]
+    lowest: float = S[masters.look_ahead_min_vel[m]]
+    lowest = lowest if lowest > 0.0 else 0.0
+    lowest = min(lowest, velocity)
+    if turn <= begin:
+        return velocity
+    if turn >= end:
+        return lowest
+    return velocity - (velocity - lowest) * (turn - begin) / (end - begin)
+
+
+def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -> bool:
+    """Whether one plan may run through the junction of two moves."""
+    velocity: float = look_speed(F, I, S, m, a)
+    if velocity != look_speed(F, I, S, m, b) or not velocity > 0.0:
+        return False
+    if F[moves.acc_ups2[a]] != F[moves.acc_ups2[b]] or F[moves.dec_ups2[a]] != F[moves.dec_ups2[b]]:
+        return False
+    if F[moves.jrk_ups3[a]] != F[moves.jrk_ups3[b]]:
+        return False
+    if F[moves.corner_u[a]] > 0.0 or F[moves.corner_u[b]] > 0.0:
+        return False
+    rapid: int = I[moves.rapid[a]]
+    if rapid != I[moves.rapid[b]]:
+        return False
+    return corner >= velocity * (SLIGHT if F[moves.jrk_ups3[a]] > 0.0 else FREE)
+
+
+def ramp_start(length: float, end: float, rate: float, jerk: float) -> float:
+    """The highest speed from which a ramp down to `end` fits into `length`.
+
+    Its length is (v + e)/2 times its time. With h = rate^2/(2 J) a ramp that reaches its
+    rate takes (v - e)/rate + rate/J, so (v + h)^2 = (e - h)^2 + 2 rate length; one that
+    does not takes 2 sqrt((v - e)/J), found by bisection.
+    """
+    if rate <= 0.0:
+        return ENDLESS_UPS
+    if jerk <= 0.0:
+        return sqrt(end * end + 2.0 * rate * length)
+    half: float = rate * rate / (2.0 * jerk)
+    start: float = sqrt((end - half) * (end - half) + 2.0 * rate * length) - half
+    if start - end >= 2.0 * half:
+        return start
+    low: float = 0.0
+    high: float = 2.0 * half
+    for _ in range(BISECTIONS):
+        middle: float = (low + high) / 2.0
+        if (2.0 * end + middle) * sqrt(middle / jerk) > length:
+            high = middle
+        else:
+            low = middle
+    return end + low
+
+
+def look_final(F: F64, I: I32, S: F32, m: int, record: int) -> float:
+    """Speed at which the last move of the buffer ends."""
+    if F[moves.stp_ups2[record]] <= 0.0:
+        return look_speed(F, I, S, m, record)
+    return move_final_ups(F, I, m, record)
+
+
+def look_rate(F: F64, record: int) -> float:
+    """The ramp for slowing down inside a path: DEC, or STP if that is 0."""
+    return (
+        F[moves.dec_ups2[record]] if F[moves.dec_ups2[record]] > 0.0 else F[moves.stp_ups2[record]]
+    )
+
+
+def look_jerk(F: F64, record: int) -> float:
+    """The jerk of a move."""
+    return F[moves.jrk_ups3[record]]
+
+
+def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
+    """Backward pass: the speed at which the move `first` places behind may be entered."""
+    k: int = I[masters.queued[m]] - 1
+    b: int = look_record(I, m, k)
+    end: float = look_final(F, I, S, m, b)
+    rate: float = F[moves.stp_ups2[b]]
+    length: float = F[moves.length_u[b]]
+    cap: float = look_speed(F, I, S, m, b)
+    while k > first:
+        a: int = look_record(I, m, k - 1)
+        corner: float = look_corner(F, I, S, m, a, b)
+        if look_merges(F, I, S, m, a, b, corner):
+            length += F[moves.length_u[a]]
+            cap = min(cap, corner)
+        else:
+            length -= F[moves.corner_u[a]]
+            jerk: float = F[moves.jrk_ups3[b]]
+            entry: float = ramp_start(max(length, 0.0), end, rate, jerk)
+            end = min(corner, min(entry, cap))
+            rate = look_rate(F, a)
+            length = F[moves.length_u[a]]
+            length -= F[moves.corner_u[a]]
+            cap = look_speed(F, I, S, m, a)
+        b = a
+        k -= 1
+    return min(cap, ramp_start(length, end, rate, look_jerk(F, b)))
+
+
+def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
+    """Find the stretch of the present move: its end, its cap and the speed at its end."""
+    queued: int = I[masters.queued[m]]
+    a: int = look_record(I, m, 0)
+    end: float = F[masters.origin_u[m]] + F[moves.length_u[a]]
+    cap: float = 0.0
+    velocity: float = look_speed(F, I, S, m, a)
+    k: int = 1
+    corner: float = 0.0
+    while k < queued:
+        b: int = look_record(I, m, k)
+        corner = look_corner(F, I, S, m, a, b)
+        if not look_merges(F, I, S, m, a, b, corner):
+            break
+        if corner < velocity * FREE and (cap <= 0.0 or corner < cap):
+            cap = corner
+        end += F[moves.length_u[b]]
+        a = b
+        k += 1
+    exit_speed: float = 0.0
+    if k < queued:
+        exit_speed = min(corner, look_entry(F, I, S, m, k))
+    else:
+        exit_speed = look_final(F, I, S, m, a)
+    I[masters.stretch[m]] = k
+    F[masters.stretch_u[m]] = end
+    F[masters.look_cap_ups[m]] = cap
+    F[masters.look_exit_ups[m]] = exit_speed

@@ -1,0 +1,270 @@
+"""The present move of a master: its vector, its speed, and where its slaves stand.
+
+The profile of a master advances along the vector of the present move; every slave that
+takes part stands at
+
+    target - delta * (1 - s/L),
+
+which is exactly the target at s = L; those on a curve where curve_cy says.
+"""
+
+from openacr.cmath import atan2, fabs, sqrt
+from openacr.kernel.axis.axis_cy import axis_scale
+from openacr.kernel.path.bezier_cy import is_bezier, is_timed
+from openacr.kernel.path.corner_cy import corner_enter, corner_place
+from openacr.kernel.path.curve_cy import (
+    DEGREES,
+    curve_longest_deg,
+    curve_position,
+    curve_rest,
+    curve_shape,
+    curve_slope,
+    curve_steepest,
+)
+from openacr.kernel.path.tangent_cy import tangent_place
+from openacr.map.rows import axes, masters, moves, profiles
+from openacr.map.words import mf1, mf2
+from openacr.views import F32, F64, I32
+
+__all__ = ["move_directions", "move_shape", "path_slope", "path_turn_deg"]
+
+SLAVE_COUNT = 16
+# What a binary move brings along for its own time (row marks).
+MARK_OVERRIDE_LOCKED = 1
+MARK_COUNT_UP = 2
+MARK_COUNT_DOWN = 4
+MARK_INTERRUPT = 8
+MARK_BLOCK_SKIP = 16
+# What a piece of a curve brings along.
+MARK_CURVE_BEGIN = 32
+MARK_NURB = 64
+MARK_TURN = 128  # a turn of the tangential axis between two moves
+MARK_ROUNDS = 256  # a binary move brings its path tolerance along
+MARK_FINAL_ZERO = 512  # its final velocity is 0 (FVEL lockout)
+MARK_INTERRUPT_LENT = 1024  # it has set Interrupt On Move, for itself alone
+BESIDE = 1e-3
+FAR_U = 1e30
+
+
+def move_record(I: I32, m: int) -> int:
+    """Index of the record of the present move of master m."""
+    return I[masters.first[m]] + I[masters.head[m]]
+
+
+def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
+    """Cruising speed wanted now [units/s]: the move's own under override and limits."""
+    record: int = move_record(I, m)
+    velocity: float = F[moves.vel_ups[record]]
+    if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
+        velocity = S[masters.user_velocity[m]]
+        F[moves.vel_ups[record]] = velocity
+    velocity = move_limit(F, I, S, m, record, move_override(I, S, m, record))
+    cap: float = F[masters.look_cap_ups[m]]
+    return min(velocity, cap) if cap > 0.0 else velocity
+
+
+def move_override(I: I32, S: F32, m: int, record: int) -> float:
+    """FOV, or ROV of a rapid move; 1 while they are locked."""
+    if I[mf1.word[m]] & mf1.FOV_ROV_LOCK_ACTIVE:
+        return 1.0
+    if I[moves.marks[record]] & MARK_OVERRIDE_LOCKED:
+        return 1.0
+    if I[moves.rapid[record]]:
+        return S[masters.rapid_feedrate_override[m]]
+    return S[masters.feedrate_override[m]]
+
+
+def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> float:
+    """Cruising speed of a move [units/s] with an override.
+
+    The comparisons are written so that what is no number counts as 0 or as no limit.
+    """
+    velocity: float = F[moves.vel_ups[record]] * override
+    limit: float = S[masters.vel_limit[m]]
+    if limit > 0.0 and not is_timed(I, record):
+        velocity = min(velocity, limit)
+    if F[moves.maxvel_ups[record]] > 0.0:
+        velocity = min(velocity, F[moves.maxvel_ups[record]])
+    return velocity if velocity > 0.0 else 0.0
+
+
+def move_stop_rate(F: F64, record: int) -> float:
+    """Rate at which a move is ended early: STP, DEC where that is 0."""
+    return (
+        F[moves.stp_ups2[record]] if F[moves.stp_ups2[record]] > 0.0 else F[moves.dec_ups2[record]]
+    )
+
+
+def move_final_ups(F: F64, I: I32, m: int, record: int) -> float:
+    """Final velocity of a move [units/s]: FVEL, or 0 while FVEL Zero is active or comes with it."""
+    if I[mf1.word[m]] & mf1.FVEL_ZERO_ACTIVE:
+        return 0.0
+    marks: int = I[moves.marks[record]]
+    if record != move_record(I, m) and marks & MARK_FINAL_ZERO:
+        return 0.0
+    return F[moves.fvel_ups[record]]
+
+
+def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
+    """Lay the present move out from where the axes are; its path begins anew."""
+    record: int = move_record(I, m)
+    if I[masters.rounding[m]]:
+        corner_enter(F, I, m, record)
+    I[masters.piece[m]] = 0
+    move_shape(F, I, S, m, record, False)
+    F[masters.origin_u[m]] = 0.0
+    length: float = F[moves.length_u[record]]
+    F[masters.stretch_u[m]] = length
+    F[masters.look_cap_ups[m]] = 0.0
+    I[masters.stretch[m]] = 1
+
+
+def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> None:
+    """Displacements, vector length and axis limits of a move.
+
+    It starts where the axes are or, while it is only `planned`, where the move before it
+    ends. L = sqrt(arc^2 + sum (w d)^2) over the slaves on straight lines; sines alone are
+    as long as their sweep in degrees. Without any weight L is the manual vector, without
+    that the longest single displacement, so that no displacement is a jump.
+    """
+    slaves: int = I[moves.slaves[record]]
+    relative: int = I[moves.relative[record]]
+    curved: int = I[moves.curved[record]]
+    square: float = 0.0
+    longest: float = 0.0
+    for s in range(SLAVE_COUNT):
+        axis: int = I[masters.slave_axis[m] + s]
+        if slaves & (1 << s) and axis >= 0:
+            position: float = F[axes.position_cnt[axis]]
+            if planned:
+                position = F[masters.target_cnt[m] + s]
+            if relative & (1 << s):
+                F[moves.target_cnt[record] + s] = position + F[moves.delta_cnt[record] + s]
+            else:
+                F[moves.delta_cnt[record] + s] = F[moves.target_cnt[record] + s] - position
+            if not planned:
+                F[axes.target_cnt[axis]] = F[moves.target_cnt[record] + s]
+            if not curved & (1 << s):
+                travel: float = fabs(F[moves.delta_cnt[record] + s]) / fabs(axis_scale(S, axis))
+                square += (
+                    F[moves.weight[record] + s] * F[moves.weight[record] + s] * travel * travel
+                )
+                longest = max(longest, travel)
+    if curved:
+        arc: float = curve_shape(F, I, S, m, record, not planned)
+        square += arc * arc
+        longest = max(longest, arc)
+    length: float = sqrt(square)
+    if curved == slaves and I[moves.curve[record]] == 0:
+        length = curve_longest_deg(F, I, record)
+    if length <= 0.0 and longest > 0.0:
+        length = S[masters.manual_vector[m]]
+        if not 0.0 < length < FAR_U:
+            length = longest
+    F[moves.length_u[record]] = length
+    F[moves.maxvel_ups[record]] = 0.0
+    if I[mf2.word[m]] & mf2.SLAVEMAXVEL:
+        move_maxvel(F, I, S, m, record)
+
+
+def move_maxvel(F: F64, I: I32, S: F32, m: int, record: int) -> None:
+    """Bound of the path speed by MAXVEL of the axes: the least v_i L/|dp_i/df|."""
+    slaves: int = I[moves.slaves[record]]
+    curved: int = I[moves.curved[record]]
+    bound: float = 0.0
+    for s in range(SLAVE_COUNT):
+        axis: int = I[masters.slave_axis[m] + s]
+        if slaves & (1 << s) and axis >= 0:
+            limit: float = S[axes.max_velocity_limit[axis]]
+            travel: float = fabs(F[moves.delta_cnt[record] + s])
+            if curved & (1 << s):
+                travel = curve_steepest(F, I, record, s)
+            travel = travel / fabs(axis_scale(S, axis))
+            if limit > 0.0 and travel > 0.0:
+                speed: float = limit * F[moves.length_u[record]] / travel
+                if bound <= 0.0 or speed < bound:
+                    bound = speed
+    F[moves.maxvel_ups[record]] = bound
+
+
+def path_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
+    """Change of the position of slave s [pulses] with the part of a move."""
+    if not I[moves.slaves[record]] & (1 << s):
+        return 0.0
+    if I[moves.curved[record]] & (1 << s):
+        return curve_slope(F, I, record, s, part)
+    return F[moves.delta_cnt[record] + s]
+
+
+def move_directions(F: F64, I: I32, S: F32, m: int, record: int) -> None:
+    """Note where the path of a move heads at its beginning and end, as unit vectors."""
+    path_direction(F, I, S, m, record, 0.0, moves.enter[record])
+    path_direction(F, I, S, m, record, 1.0, moves.leave[record])
+
+
+def path_direction(F: F64, I: I32, S: F32, m: int, record: int, part: float, place: int) -> None:
+    """Write the direction of the first three slaves at a part of a move; 0 without any."""
+    square: float = 0.0
+    if is_bezier(I, record):  # at its very ends it may stand still
+        part = part + (0.5 - part) * BESIDE
+    for s in range(3):
+        axis: int = I[masters.slave_axis[m] + s]
+        slope: float = 0.0
+        if axis >= 0:
+            slope = path_slope(F, I, record, s, part) / axis_scale(S, axis)
+        F[place + s] = slope
+        square += slope * slope
+    if square > 0.0:
+        for s in range(3):
+            F[place + s] = F[place + s] / sqrt(square)
+
+
+def path_turn_deg(F: F64, before: int, after: int) -> float:
+    """Angle between the end of one move and the beginning of the next."""
+    a: int = moves.leave[before]
+    b: int = moves.enter[after]
+    x: float = F[a + 1] * F[b + 2] - F[a + 2] * F[b + 1]
+    y: float = F[a + 2] * F[b] - F[a] * F[b + 2]
+    z: float = F[a] * F[b + 1] - F[a + 1] * F[b]
+    along: float = F[a] * F[b] + F[a + 1] * F[b + 1] + F[a + 2] * F[b + 2]
+    return atan2(sqrt(x * x + y * y + z * z), along) * DEGREES
+
+
+def master_place(F: F64, I: I32, m: int) -> None:
+    """Put the slaves of the present move where the path is."""
+    record: int = move_record(I, m)
+    length: float = F[moves.length_u[record]]
+    rest: float = 0.0
+    gone: float = F[profiles.distance[m]]
+    origin: float = F[masters.origin_u[m]]
+    piece: bool = I[masters.piece[m]] != 0
+    if piece or gone < F[masters.stretch_u[m]]:
+        rest = 1.0 - (gone - origin) / length
+    move_place(F, I, m, record, rest)
+    if I[masters.rounding[m]]:
+        slaves: int = I[moves.slaves[record]]
+        corner_place(F, I, m, slaves, gone - origin, length * rest)
+
+
+def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
+    """Put the slaves of a move where they are when `rest` of it (1 to 0) is still to go."""
+    slaves: int = I[moves.slaves[record]]
+    curved: int = I[moves.curved[record]]
+    along: float = rest
+    if curved:
+        along = curve_rest(F, I, record, rest)
+    s: int = 0
+    while slaves:
+        if slaves & 1:
+            axis: int = I[masters.slave_axis[m] + s]
+            if 0 <= axis < axes.COUNT:
+                position: float = (
+                    F[moves.target_cnt[record] + s] - F[moves.delta_cnt[record] + s] * rest
+                )
+                if curved & (1 << s):
+                    position = curve_position(F, I, record, s, along)
+                F[axes.position_cnt[axis]] = position
+        slaves = slaves >> 1
+        s += 1
+    if I[moves.tang_slave[record]]:
+        tangent_place(F, I, m, record, rest, along)

@@ -1,0 +1,121 @@
+"""Backward pass through the rounded corners and lines of all moves that wait.
+
+It begins with rest a few moves ahead; if no corner and no feed has capped it on its way
+here, those few were not enough, and it begins farther ahead.
+
+A binary move with a tolerance of its own is planned through the corner at its end though LOOK
+is off; the chain of such moves ends with the first other one, as that one ends without LOOK.
+"""
+
+from openacr.kernel.path.lookahead_cy import (
+    look_beyond,
+    look_corner,
+    look_final,
+    look_rate,
+    look_record,
+    look_speed,
+)
+from openacr.kernel.path.round_law_cy import STRAIGHT, line_start2, round_accel, round_ramp2
+from openacr.map.rows import masters, moves
+from openacr.views import F32, F64, I32
+
+__all__ = ["round_exit2"]
+
+BEHIND = 0  # pieces of a move
+LINE = 1
+AHEAD = 2
+FEW = 16  # moves the backward pass looks at first
+
+
+def round_join2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
+    """Speed squared at a corner that is not rounded."""
+    if I[moves.ahead[a]]:  # straight on
+        speed: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+        return speed * speed
+    if F[moves.tolerance_u[a]] > 0.0 and F[moves.corner_turn[a]] > STRAIGHT:
+        return 0.0  # the next move has come too late
+    law: float = look_corner(F, I, S, m, a, b)
+    return law * law
+
+
+def round_cap2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
+    """Highest speed squared at the corner between moves a and b, rounded or not."""
+    if F[moves.corner_u[a]] > 0.0:
+        return F[moves.corner_ups[a]] * F[moves.corner_ups[a]]
+    return round_join2(F, I, S, m, a, b)
+
+
+def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -> float:
+    """Backward pass from move `far` of up to `last` to the end of a piece of the present one.
+
+    Not capped on the way, the result is negative if moves beyond `far` might change it.
+    """
+    k: int = far
+    r: int = look_record(I, m, k)
+    w: float = 0.0
+    rate: float = look_rate(F, r)
+    capped: bool = far >= last
+    if far >= last:
+        w = look_final(F, I, S, m, r)
+        w = w * w
+        rate = F[moves.stp_ups2[r]]
+    while True:
+        speed: float = look_speed(F, I, S, m, r)
+        top: float = speed * speed
+        jerk: float = F[moves.jrk_ups3[r]]
+        reach: float = F[moves.corner_u[r]] if k < last else 0.0
+        before: float = F[masters.corner_in_u[m]]
+        a: int = r
+        if k > 0:
+            a = look_record(I, m, k - 1)
+            before = F[moves.corner_u[a]]
+        if w >= top:
+            w = top
+            capped = True
+        if k == 0 and part == AHEAD:
+            break
+        if reach > 0.0:
+            w = round_ramp2(F[moves.corner_turn[r]], reach, round_accel(F, r), jerk, w)
+            cap: float = min(F[moves.corner_ups[r]] * F[moves.corner_ups[r]], top)
+            if w >= cap:
+                w = cap
+                capped = True
+        if k == 0 and part == LINE:
+            break
+        w = line_start2(F[moves.length_u[r]] - reach - before, w, rate, jerk)
+        if w >= top:
+            w = top
+            capped = True
+        if k == 0:
+            break
+        corner: float = round_cap2(F, I, S, m, a, r)
+        if before > 0.0:
+            turn: float = F[moves.corner_turn[a]]
+            w = round_ramp2(turn, before, round_accel(F, r), jerk, min(w, corner))
+        if w >= corner:
+            w = corner
+            capped = True
+        rate = look_rate(F, a)
+        r = a
+        k -= 1
+    return w if capped else -1.0
+
+
+def round_last(I: I32, m: int) -> int:
+    """How far behind the present move the last one is that plans may run through."""
+    last: int = I[masters.queued[m]] - 1
+    k: int = 0
+    while k < last and look_beyond(I, m, look_record(I, m, k)):
+        k += 1
+    return k
+
+
+def round_exit2(F: F64, I: I32, S: F32, m: int, part: int) -> float:
+    """Highest speed squared at the end of a piece of the present move."""
+    last: int = round_last(I, m)
+    far: int = min(FEW, last)
+    w: float = round_pass(F, I, S, m, part, far, last)
+    while w < 0.0 and far < last:
+        far = min(2 * far, last)
+        w = round_pass(F, I, S, m, part, far, last)
+    return max(w, 0.0)

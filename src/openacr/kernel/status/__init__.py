@@ -1,0 +1,1 @@
+"""What the card watches and shows: limits, flags, samples."""
