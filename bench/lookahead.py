@@ -18,8 +18,8 @@ from openacr.compiled import pick
 from openacr.controller import Controller
 from openacr.kernel.path import plan_cy
 from openacr.map import numbers as at
-from openacr.motion import moves
-from openacr.motion.orders import Target
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 
 FEED_UPS, ACCEL_UPS2, JERK_UPS3 = 100.0, 1000.0, 20_000.0
 TOLERANCE_U = 0.01

@@ -11,7 +11,7 @@ from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.models import DEFAULT_MODEL, Model
-from openacr.motion import attach
+from openacr.motion.axis import attach
 from openacr.motion.card import Card
 
 PERIOD_S = 0.0005

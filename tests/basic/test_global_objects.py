@@ -5,8 +5,8 @@ from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
-from openacr.motion import attach
-from openacr.motion.attach import Feedback, Signal
+from openacr.motion.axis import attach
+from openacr.motion.axis.attach import Feedback, Signal
 
 LEVELS = [Level.SYS, Level.PROG, Level.PLC]
 

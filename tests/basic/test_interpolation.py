@@ -4,7 +4,7 @@ import pytest
 from tests.basic.motion_bench import Bench, ticks
 
 from openacr.basic.language.registry import Level
-from openacr.motion import settings
+from openacr.motion.axis import settings
 
 IN_MOTION, BUFFERED = 516, 517
 MOVE_PENDING = 1027

@@ -12,8 +12,8 @@ from tests.basic.motion_bench import Bench, ticks
 
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
-from openacr.motion import moves
-from openacr.motion.orders import Target
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 
 IN_MOTION, BUFFERED, MOVE_PENDING = 516, 517, 1027
 MBUF_MODE, LOOK_MODE, USER_RAM, NEGLECT, SLOWDOWN = (5888 + n for n in (4, 5, 10, 11, 1))

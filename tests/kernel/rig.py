@@ -11,9 +11,11 @@ from openacr import compiled
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.models import ACR8020
-from openacr.motion import attach, moves, row_index
+from openacr.motion import row_index
+from openacr.motion.axis import attach
 from openacr.motion.card import Card
-from openacr.motion.orders import Target
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 from openacr.plant.apply import apply_world
 from openacr.plant.load import parse_world
 from openacr.plant.step_cy import plant_step

@@ -4,7 +4,7 @@ import pytest
 from tests.kernel.rig import Rig
 
 from openacr.map import numbers as at
-from openacr.motion import registers
+from openacr.motion.axis import registers
 
 CLOCK = at.P_GLOBAL_SYSTEM_CLOCK
 

@@ -13,9 +13,9 @@ from tests.kernel.rig import Reals, Rig, T, examples
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import corners, host_moves, moves
-from openacr.motion.host_moves import HostMove
-from openacr.motion.orders import Target
+from openacr.motion.path import corners, host_moves, moves
+from openacr.motion.path.host_moves import HostMove
+from openacr.motion.path.move_request import Target
 
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")

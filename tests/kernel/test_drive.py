@@ -6,8 +6,9 @@ import pytest
 from tests.kernel.rig import Rig
 
 from openacr.map import numbers as at
-from openacr.motion import attach, drive, jog
-from openacr.motion.attach import Feedback, Signal
+from openacr.motion.axis import attach, drive
+from openacr.motion.axis.attach import Feedback, Signal
+from openacr.motion.jog import jog
 
 FAULT_INPUT, INVERT = 8448, 8453
 ENABLED, RESET_REQUEST, KAMR, IO, EXC_RESPONSE = 8465, 8466, 8467, 8468, 8469

@@ -14,8 +14,8 @@ from scipy.linalg import expm
 from tests.kernel.rig import Rig, T
 
 from openacr.map import numbers as at
-from openacr.motion import attach
-from openacr.motion.attach import Feedback, Signal
+from openacr.motion.axis import attach
+from openacr.motion.axis.attach import Feedback, Signal
 
 Matrix = NDArray[np.float64]
 MOTOR, LOAD = 4, 0  # encoders

@@ -5,7 +5,9 @@ from tests.kernel.rig import Rig
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import jog, moves, registers
+from openacr.motion.axis import registers
+from openacr.motion.jog import jog
+from openacr.motion.path import moves
 from openacr.plant.counts import count_of
 from openacr.plant.load import parse_world
 from openacr.plant.schema import World

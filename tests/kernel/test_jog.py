@@ -9,7 +9,9 @@ from tests.kernel.rig import Reals, Rig, T, acceleration, examples, velocity
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import drive, jog, moves
+from openacr.motion.axis import drive
+from openacr.motion.jog import jog
+from openacr.motion.path import moves
 
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")

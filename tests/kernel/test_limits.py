@@ -5,8 +5,10 @@ from tests.kernel.rig import Rig, T
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import attach, drive, jog, moves
-from openacr.motion.orders import Target
+from openacr.motion.axis import attach, drive
+from openacr.motion.jog import jog
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 
 ACTIVE, KAMR, KILL_ALL_MOVES, IN_MOTION = 792, 8467, 522, 516
 POSITIVE_INPUT, HARD_POSITIVE, SOFT_POSITIVE = 0, 16148, 16150

@@ -7,7 +7,9 @@ from tests.kernel.rig import Rig
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import drive, host_moves, jog
+from openacr.motion.axis import drive
+from openacr.motion.jog import jog
+from openacr.motion.path import host_moves
 
 ACTIVE, HOMING, FAILED, KAMR, KILL_ALL_MOVES, IN_MOTION = 792, 16131, 16135, 8467, 522, 516
 FORWARD, REVERSE = 796, 797

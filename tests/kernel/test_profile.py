@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from tests.kernel import oracle
 from tests.kernel.rig import Reals, Rig, T, acceleration, examples, jerk, noise, velocity
 
-from openacr.motion import moves
+from openacr.motion.path import moves
 
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")

@@ -2,8 +2,8 @@
 
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
-from openacr.motion import jog
 from openacr.motion.card import Card
+from openacr.motion.jog import jog
 
 REN_REQUEST, JOG_ACTIVE, OPEN_LOOP = 787, 792, 785
 SCAN_TK = 100

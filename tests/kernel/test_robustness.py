@@ -16,8 +16,9 @@ from openacr.errors import CardError
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.image import KINDS
-from openacr.motion import jog, moves
-from openacr.motion.orders import Target
+from openacr.motion.jog import jog
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 from openacr.plant.step_cy import plant_step
 
 WORLD = """

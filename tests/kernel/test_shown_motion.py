@@ -4,8 +4,10 @@ import pytest
 from tests.kernel.rig import Rig
 
 from openacr.map import numbers as at
-from openacr.motion import drive, jog, moves
-from openacr.motion.orders import FlagState, Target
+from openacr.motion.axis import drive
+from openacr.motion.jog import jog
+from openacr.motion.path import moves
+from openacr.motion.path.move_request import FlagState, Target
 
 IN_MOTION, MOVE_BUFFERED, FEEDHOLDING, IN_FEEDHOLD, KILL_ALL_MOVES, KAMR = (
     516,

@@ -4,9 +4,9 @@ import pytest
 from scipy import signal
 
 from openacr.map import numbers as at
-from openacr.motion import filters
+from openacr.motion.axis import filters
+from openacr.motion.axis.filters import BYPASS, Biquad
 from openacr.motion.card import Card
-from openacr.motion.filters import BYPASS, Biquad
 
 ACTIVE = 786
 

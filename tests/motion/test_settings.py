@@ -4,9 +4,8 @@ import pytest
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion import attach, settings
-from openacr.motion.card import Card
-from openacr.motion.settings import (
+from openacr.motion.axis import attach, settings
+from openacr.motion.axis.settings import (
     not_negative,
     not_zero,
     of_axis,
@@ -16,6 +15,7 @@ from openacr.motion.settings import (
     of_master,
     of_master_real,
 )
+from openacr.motion.card import Card
 
 AXIS, MASTER, DZU = 3, 2, 12288 + 3 * 256 + 115
 SLAVE_MAX_VEL = 2076

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from openacr.configure.answers import Answers
 from openacr.errors import SourceError
-from openacr.motion.attach import RESERVED_NAMES
+from openacr.motion.axis.attach import RESERVED_NAMES
 from openacr.plant import toml_file
 from openacr.plant.locate import Path as Steps
 

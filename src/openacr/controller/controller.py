@@ -31,7 +31,7 @@ from openacr.map.numbers import (
     FSBI_WORDS,
 )
 from openacr.models import DEFAULT_MODEL, Model
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
 from openacr.motion.row_index import axis_reals
 from openacr.plant import load, schema
 from openacr.project import Project, find_project

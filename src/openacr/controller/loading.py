@@ -10,7 +10,7 @@ from openacr.basic.language.loader import file_lines, long_lived_objects
 from openacr.basic.language.registry import Level
 from openacr.basic.memory.program_store import ProgramStore, StoredLine
 from openacr.errors import CardError, SourceError
-from openacr.motion import modules
+from openacr.motion.axis import modules
 from openacr.project import Place, Project, SourceFile
 
 PATIENCE_S = 60.0  # a line of a set-up file that waits longer than this hangs

@@ -34,7 +34,7 @@ from openacr.map.numbers import (
     PLC_COUNT,
 )
 from openacr.models import DEFAULT_MODEL, MODELS, Model
-from openacr.motion import drive
+from openacr.motion.axis import drive
 from openacr.motion.card import Card
 from openacr.network.networks import Networks
 from openacr.plant import apply, schema

@@ -14,12 +14,12 @@ from collections.abc import Iterator
 
 from openacr.errors import CardError
 from openacr.map.numbers import KRI_BASE, KRI_MOVES_WAITING, MSI_ROOM_BELOW
-from openacr.motion import host_moves, moves, pieces
 from openacr.motion.card import Card
-from openacr.motion.curve_modes import Family
-from openacr.motion.host_moves import Arc, HostMove, HostPoint
-from openacr.motion.orders import Direction
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
+from openacr.motion.path import curve_moves, host_moves, moves
+from openacr.motion.path.curve_modes import Family
+from openacr.motion.path.host_moves import Arc, HostMove, HostPoint
+from openacr.motion.path.move_request import Direction
 from openacr.motion.row_index import master_ints
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code1, Curve
@@ -85,7 +85,7 @@ class MoveQueue:
     def _room(self, move: Move) -> tuple[int, int]:
         """Row in I and value it must stay below for a move to find room."""
         if move.curve in _FAMILIES:
-            return pieces.room_row(self._card, move.master, pieces.MOST)
+            return curve_moves.room_row(self._card, move.master, curve_moves.MOST)
         return moves.room_row(self._card, move.master)
 
     def _note(self) -> None:

@@ -26,7 +26,7 @@ from openacr.controller.battery import BATTERY, Battery
 from openacr.controller.shelf import UNREADABLE, Shelf
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
-from openacr.motion import modules
+from openacr.motion.axis import modules
 
 CARD, FLASH, PARAMETERS, STREAM_MODES, BACKUP = "card", "flash", "parameters", "streams", "firmware"
 NO_BATTERY = "no battery"  # in snapshots: BRESET was given

@@ -24,7 +24,7 @@ from openacr.errors import StoreError
 from openacr.map.memory import Memory
 from openacr.map.numbers import MEMORY_BYTES
 from openacr.map.valid import check_rows
-from openacr.motion.buffer import check_rings
+from openacr.motion.path.buffer import check_rings
 from openacr.plant.places import check_places
 
 MAGIC = b"openacr snapshot 1\n"

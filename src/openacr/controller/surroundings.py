@@ -15,8 +15,8 @@ from openacr.map.numbers import (
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
 )
-from openacr.motion.attach import Feedback
-from openacr.motion.permits import scale_of
+from openacr.motion.axis.attach import Feedback
+from openacr.motion.interlocks import scale_of
 from openacr.motion.row_index import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
 

@@ -11,7 +11,7 @@ from openacr.map.numbers import (
     AXF_SSP_CNT,
 )
 from openacr.motion.card import Card
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
 from openacr.motion.row_index import axis_parameter, axis_reals
 
 

@@ -8,7 +8,7 @@ from openacr.basic.language.registry import ANY, PROG, SYS, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL
-from openacr.motion import attach as attachment
+from openacr.motion.axis import attach as attachment
 
 REF = "PG Attachments"
 _FEEDBACK = ("ENC", "ADC", "STEPPER")

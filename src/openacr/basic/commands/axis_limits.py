@@ -38,8 +38,14 @@ from openacr.map.numbers import (
     AXI_HLBIT,
     FLAG_LAST,
 )
-from openacr.motion import settings
-from openacr.motion.settings import LimitEnables, not_negative, of_axis, of_axis_int, of_axis_real
+from openacr.motion.axis import settings
+from openacr.motion.axis.settings import (
+    LimitEnables,
+    not_negative,
+    of_axis,
+    of_axis_int,
+    of_axis_real,
+)
 
 GROUP = "Axis Limits"
 REF = "PG Axis Limits"

@@ -2,7 +2,7 @@
 
 from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.map.numbers import AX_BACKLASH_SETTING
-from openacr.motion.settings import of_axis
+from openacr.motion.axis.settings import of_axis
 
 axis_values(
     (

@@ -17,8 +17,9 @@ from openacr.basic.vm.run import Run
 from openacr.kernel.followers.cam_cy import BALLSCREW_TABLES
 from openacr.kernel.sources.source_cy import FROM_SELF, USE_BALLSCREW
 from openacr.map.numbers import TBF_FLZ_CNT, TBF_OFFSET_U, TBF_SCALE
-from openacr.motion import cam, sources
 from openacr.motion.follower_defaults import set_source
+from openacr.motion.followers import cam
+from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

@@ -38,9 +38,11 @@ from openacr.map.numbers import (
     TBF_SCALE,
     TBF_STRIDE,
 )
-from openacr.motion import cam, gear, jog, sources
+from openacr.motion.axis.settings import Setting, not_negative, of_axis_long
+from openacr.motion.followers import cam, gear
+from openacr.motion.jog import jog
 from openacr.motion.row_index import axis_word2
-from openacr.motion.settings import Setting, not_negative, of_axis_long
+from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

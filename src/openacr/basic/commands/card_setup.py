@@ -12,8 +12,8 @@ from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind
 from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
+from openacr.motion.axis.modules import is_fitted
 from openacr.motion.card import Card
-from openacr.motion.modules import is_fitted
 from openacr.motion.row_index import axis_ints
 
 if TYPE_CHECKING:

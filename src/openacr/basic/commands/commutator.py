@@ -19,8 +19,8 @@ from openacr.lang.lexer import TokenKind
 from openacr.map import block
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
+from openacr.motion.axis.settings import Setting, not_negative
 from openacr.motion.card import Card
-from openacr.motion.settings import Setting, not_negative
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ from openacr.basic.language.registry import PROG, command
 from openacr.basic.vm.run import Run
 from openacr.map.numbers import MF2_TARC_MODE
 from openacr.messages import SYNTAX_ERROR
-from openacr.motion.orders import Circle, Direction, Sine, SpaceArc
+from openacr.motion.path.move_request import Circle, Direction, Sine, SpaceArc
 from openacr.motion.row_index import master_word2
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from openacr.basic.language.registry import BY_OBJECT, SYS, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import SYNTAX_ERROR
-from openacr.motion import drive, permits
+from openacr.motion import interlocks
+from openacr.motion.axis import drive
 
 GROUP = "Drive Control"
 REF = "PG Drive Control"
@@ -31,7 +32,7 @@ def drive_off(run: Run, axes: tuple[Axis, ...]) -> None:
 
 def _need_rest(run: Run, axes: tuple[Axis, ...]) -> None:
     for axis in axes:
-        permits.needs_rest(run.card, axis.number)
+        interlocks.needs_rest(run.card, axis.number)
 
 
 @command("DRIVE RES", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)

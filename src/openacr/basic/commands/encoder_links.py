@@ -12,7 +12,7 @@ from openacr.errors import CardError
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import KIND_LONG
 from openacr.messages import INVALID_PARAMETER
-from openacr.motion import encoders
+from openacr.motion.axis import encoders
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"

@@ -27,8 +27,10 @@ from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.map.numbers import AX_PPU, AXF_ROTARY_U
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import moves, permits, registers, settings
-from openacr.motion.settings import not_negative, not_zero, of_axis, of_axis_real
+from openacr.motion import interlocks
+from openacr.motion.axis import registers, settings
+from openacr.motion.axis.settings import not_negative, not_zero, of_axis, of_axis_real
+from openacr.motion.path import moves
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
@@ -91,7 +93,7 @@ def norm(run: Run, axes: tuple[Axis, ...]) -> None:
 
 def _need_rest(run: Run, axes: Iterable[Axis]) -> None:
     for axis in axes:
-        permits.needs_rest(run.card, axis.number)
+        interlocks.needs_rest(run.card, axis.number)
 
 
 # capture

@@ -17,7 +17,7 @@ from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_FILTER
 from openacr.map.numbers import FLF_WINDOW_CNT_SIZE, FLI_BASE, FLI_SIZE, FLI_STRIDE
-from openacr.motion import gear, objects
+from openacr.motion.followers import gear, objects
 
 GROUP = "Servo Control"
 REF = "PG Servo Control"

@@ -22,7 +22,7 @@ from openacr.lang.lexer import LONG_LIMIT
 from openacr.map.kinds_cy import kind_of
 from openacr.map.numbers import KIND_LONG, KIND_NONE
 from openacr.messages import INVALID_ARGUMENT, INVALID_PARAMETER
-from openacr.motion import sources
+from openacr.motion.sources import sources
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser

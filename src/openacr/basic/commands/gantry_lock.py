@@ -7,7 +7,7 @@ from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import SYNTAX_ERROR
-from openacr.motion import objects
+from openacr.motion.followers import objects
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

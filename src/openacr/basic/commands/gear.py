@@ -34,10 +34,12 @@ from openacr.map.numbers import (
     GRF_RATIO,
     GRF_STRIDE,
 )
-from openacr.motion import gear, jog, sources
-from openacr.motion.permits import scale_of
+from openacr.motion.axis.settings import Setting, anything, not_negative, not_zero
+from openacr.motion.followers import gear
+from openacr.motion.interlocks import scale_of
+from openacr.motion.jog import jog
 from openacr.motion.row_index import axis_reals, axis_word2
-from openacr.motion.settings import Setting, anything, not_negative, not_zero
+from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

@@ -34,9 +34,9 @@ from openacr.map.numbers import (
     STPR_STEPPER_COUNT,
     STPR_STRIDE,
 )
-from openacr.motion import encoders, settings
+from openacr.motion.axis import encoders, settings
+from openacr.motion.axis.settings import Setting
 from openacr.motion.card import Card
-from openacr.motion.settings import Setting
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"

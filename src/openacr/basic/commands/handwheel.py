@@ -20,8 +20,8 @@ from openacr.map.numbers import (
     HWI_ON,
     HWI_STRIDE,
 )
-from openacr.motion import gear, objects
-from openacr.motion.settings import Setting, not_negative, not_zero
+from openacr.motion.axis.settings import Setting, not_negative, not_zero
+from openacr.motion.followers import gear, objects
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

@@ -11,8 +11,8 @@ from openacr.basic.language.registry import PROG, command
 from openacr.basic.vm.run import Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT, NOT_VALID_AT_THIS_LEVEL
-from openacr.motion import curve_modes, curve_points, moves, pieces, tangent, transform
-from openacr.motion.orders import Circle, FlagState, Part, Sine, SpaceArc, Target
+from openacr.motion.path import curve_modes, curve_moves, curve_points, moves, tangent, transform
+from openacr.motion.path.move_request import Circle, FlagState, Part, Sine, SpaceArc, Target
 
 GROUP = "Interpolation"
 REF = "PG Interpolation"
@@ -86,7 +86,7 @@ def _point(run: Run, master: int, manner: Manner, given: tuple[Given, ...]) -> W
     is_other = manner.family not in (None, curve_modes.family(run.card, master))
     if manner.interrupt or manner.replace or is_other:
         raise CardError(INVALID_ARGUMENT)
-    if not pieces.has_room(run.card, master, pieces.MOST):
+    if not curve_moves.has_room(run.card, master, curve_moves.MOST):
         return room_for_pieces(run, master)
     programmed = [_part(item) for item in given if not isinstance(item, Manner)]
     parts = transform.apply(run.card, program, programmed)
@@ -99,7 +99,7 @@ def _point(run: Run, master: int, manner: Manner, given: tuple[Given, ...]) -> W
 
 def room_for_pieces(run: Run, master: int) -> Wait:
     """Wait until the pieces of a curve find room, then try again."""
-    row, limit = pieces.room_row(run.card, master, pieces.MOST)
+    row, limit = curve_moves.room_row(run.card, master, curve_moves.MOST)
     return Wait(WaitKind.ROW_BELOW, row, limit, retry=True, show=Show.MOVE_PENDING)
 
 

@@ -8,7 +8,7 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import kinematics
+from openacr.motion.path import kinematics
 
 
 @command("INVK", group=GROUP, levels=BY_OBJECT, ref=REF)

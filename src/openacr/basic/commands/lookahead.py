@@ -14,9 +14,9 @@ from openacr.map.numbers import (
     MSI_QUEUED,
     STI_MBUF_COUNT,
 )
-from openacr.motion import buffer, corners
+from openacr.motion.axis.settings import of_master, of_master_real
+from openacr.motion.path import buffer, corners
 from openacr.motion.row_index import master_ints
-from openacr.motion.settings import of_master, of_master_real
 
 
 @command(

@@ -12,7 +12,7 @@ from openacr.basic.memory import user_memory
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import NOT_SUPPORTED, PROGRAMS_RUNNING
-from openacr.motion.permits import axis_moving
+from openacr.motion.interlocks import axis_moving
 
 GROUP = "Non-Volatile"
 REF = "PG Non-Volatile"

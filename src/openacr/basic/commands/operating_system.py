@@ -21,8 +21,8 @@ from openacr.messages import (
     NOT_VALID_WHILE_IN_MOTION,
     UNKNOWN_COMMAND,
 )
-from openacr.motion import filters
-from openacr.motion.permits import axis_moving
+from openacr.motion.axis import filters
+from openacr.motion.interlocks import axis_moving
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser

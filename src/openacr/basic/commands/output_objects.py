@@ -26,9 +26,10 @@ from openacr.map import block
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
 from openacr.messages import INVALID_BIT, INVALID_PARAMETER
-from openacr.motion import cam, objects, sources
+from openacr.motion.axis.settings import Setting, anything, not_negative, not_zero
 from openacr.motion.card import Card
-from openacr.motion.settings import Setting, anything, not_negative, not_zero
+from openacr.motion.followers import cam, objects
+from openacr.motion.sources import sources
 from openacr.views import F64
 
 GROUP = "Global Objects"

@@ -8,8 +8,8 @@ from openacr.basic.language.grammar import Axes, Axis
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run
 from openacr.map.numbers import AXF_PM_ACC_UPS2, AXF_PM_BAND_U, AXF_PM_TIME_S, AXF_PM_VEL_UPS
-from openacr.motion import maintenance
-from openacr.motion.settings import not_negative, of_axis_real
+from openacr.motion.axis import maintenance
+from openacr.motion.axis.settings import not_negative, of_axis_real
 
 
 @command("PM", group=GROUP, levels=PROG, ref=REF)

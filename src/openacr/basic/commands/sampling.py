@@ -20,7 +20,7 @@ from openacr.kernel.followers.cam_cy import DOUBLES, LONGS, SINGLES
 from openacr.kernel.status.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT, INVALID_BIT
-from openacr.motion import cam
+from openacr.motion.followers import cam
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"

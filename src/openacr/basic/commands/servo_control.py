@@ -31,15 +31,15 @@ from openacr.map.numbers import (
     AXF_LOPASS_HZ,
 )
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import filters
-from openacr.motion.card import Card
-from openacr.motion.settings import (
+from openacr.motion.axis import filters
+from openacr.motion.axis.settings import (
     activate_derivative_smoothing,
     not_negative,
     of_axis,
     of_axis_long,
     of_axis_real,
 )
+from openacr.motion.card import Card
 
 GROUP = "Servo Control"
 REF = "PG Servo Control"

@@ -15,8 +15,8 @@ from openacr.map.numbers import (
     AXF_HOMVF_UPS,
 )
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import jog
-from openacr.motion.settings import not_negative, of_axis, of_axis_real
+from openacr.motion.axis.settings import not_negative, of_axis, of_axis_real
+from openacr.motion.jog import jog
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"

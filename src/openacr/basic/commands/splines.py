@@ -12,8 +12,8 @@ from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run, Wait
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import curve_modes, curve_points, pieces
-from openacr.motion.curve_modes import Family
+from openacr.motion.path import curve_modes, curve_moves, curve_points
+from openacr.motion.path.curve_modes import Family
 
 HIGHEST_RANK = 6
 
@@ -119,7 +119,7 @@ def _report(run: Run, family: Family) -> None:
 
 def _end(run: Run, family: Family) -> Wait | None:
     master = run.master()
-    if not pieces.has_room(run.card, master, pieces.MOST):
+    if not curve_moves.has_room(run.card, master, curve_moves.MOST):
         return room_for_pieces(run, master)
     curve_modes.end(run.card, run.needed_program(), master, family)
     return None

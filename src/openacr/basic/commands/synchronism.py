@@ -6,7 +6,7 @@ from openacr.basic.commands.velocity_profile import GROUP, REF
 from openacr.basic.language.grammar import Object, ObjectRef, Repeat
 from openacr.basic.language.registry import PROG, command
 from openacr.basic.vm.run import Run
-from openacr.motion import synchronism
+from openacr.motion.path import synchronism
 
 MASTERS = Repeat(Object("MASTER"))
 

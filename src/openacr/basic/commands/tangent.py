@@ -10,8 +10,8 @@ from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import MSF_TANG_DEG
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import tangent
-from openacr.motion.settings import anything, of_master_real
+from openacr.motion.axis.settings import anything, of_master_real
+from openacr.motion.path import tangent
 
 
 @command("TANG", group=GROUP, levels=PROG, ref=REF)

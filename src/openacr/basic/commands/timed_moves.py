@@ -8,8 +8,8 @@ from openacr.basic.language.grammar import Either, Num, ObjectRef, Source, Word
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.map.numbers import MA_MOVE_TIME, MA_TIME_OVER_VELOCITY
-from openacr.motion import time_base
-from openacr.motion.settings import of_master
+from openacr.motion.axis.settings import of_master
+from openacr.motion.sources import time_base
 
 TIME = of_master(MA_MOVE_TIME)
 FACTOR = of_master(MA_TIME_OVER_VELOCITY)

@@ -9,8 +9,8 @@ from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import AXF_FLZ_U, AXF_OFFSET_U, AXF_SCALE, AXF_SCALE_CENTER_U
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import transform
-from openacr.motion.settings import not_zero, of_axis_real
+from openacr.motion.axis.settings import not_zero, of_axis_real
+from openacr.motion.path import transform
 
 GROUP = "Transformation"
 REF = "PG Transformation"

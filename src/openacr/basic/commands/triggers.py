@@ -17,8 +17,8 @@ from openacr.basic.language.registry import PROG, command
 from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import moves, triggers
-from openacr.motion.orders import Target
+from openacr.motion.path import moves, triggers
+from openacr.motion.path.move_request import Target
 
 NO_FLAG = -1
 

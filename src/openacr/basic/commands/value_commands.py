@@ -18,8 +18,8 @@ from openacr.basic.memory.saving import keep
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
+from openacr.motion.axis.settings import Setting
 from openacr.motion.card import Card
-from openacr.motion.settings import Setting
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,8 @@ from openacr.map.numbers import (
     MSF_JRK_UPS3,
     MSF_STP_UPS2,
 )
-from openacr.motion import settings
-from openacr.motion.settings import of_master, of_master_real
+from openacr.motion.axis import settings
+from openacr.motion.axis.settings import of_master, of_master_real
 
 GROUP = "Velocity Profile"
 REF = "PG Velocity Profile"

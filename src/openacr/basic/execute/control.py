@@ -15,8 +15,8 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import NOT_SUPPORTED
-from openacr.motion import moves
-from openacr.motion.permits import master_moving
+from openacr.motion.interlocks import master_moving
+from openacr.motion.path import moves
 from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:

@@ -17,13 +17,15 @@ from openacr.errors import CardError
 from openacr.kernel.sources import source_cy
 from openacr.map import numbers as at
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import attach, buffer, filters, maintenance, settings, sources, time_base
+from openacr.motion.axis import attach, filters, maintenance, settings
 from openacr.motion.card import SLAVES, Card
+from openacr.motion.path import buffer
 from openacr.motion.row_index import axis_ints, master_parameter, master_reals, master_word2
+from openacr.motion.sources import sources, time_base
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
-    from openacr.motion.settings import LimitEnables
+    from openacr.motion.axis.settings import LimitEnables
 
 STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)
 _NETWORK = range(at.CAN_BASE, at.CAN_BASE + at.CAN_NUMBER_OF_ANALOG_OUTPUTS + 1)

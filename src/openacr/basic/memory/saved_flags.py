@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from openacr.basic.memory.saving import Saved, each
 from openacr.map import numbers as at
 from openacr.map.block import Kind
-from openacr.motion import settings
+from openacr.motion.axis import settings
+from openacr.motion.axis.settings import Setting
 from openacr.motion.card import Card
-from openacr.motion.settings import Setting
 
 _DRIVE = (
     at.AF4_DRIVE_FAULT_LEVEL_INVERT

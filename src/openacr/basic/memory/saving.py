@@ -10,7 +10,7 @@ from openacr.motion.card import Card
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
-    from openacr.motion.settings import Setting
+    from openacr.motion.axis.settings import Setting
 
 # Commands that show the same value under another name or in another unit.
 SAME_VALUE = {"MULT": "ENC # MULT", "F": "VEL", "AXIS # OFF": "AXIS # ON"}

@@ -22,7 +22,7 @@ path time, or what a source and TOV make of it. It is used up plan by plan:
 
 so that a chain of moves loses nothing to the tick grid.
 
-The slow side writes records and counts (motion/moves.py); everything else happens here,
+The slow side writes records and counts (motion/path/moves.py); everything else happens here,
 in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), seek_cy
 (MSEEK), hsint_cy (HSINT), timed_cy (TMOV) and timebase_cy (SRC, TOV).
 """

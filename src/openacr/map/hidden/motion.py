@@ -170,7 +170,7 @@ MASTER = HiddenBlock(
         "look_exit_ups",  # speed at its end
         "pace",  # path time per time in the last tick
         "tang_deg",  # TANG ANG
-        "tolerance_u",  # path tolerance of the moves to come (motion/corners.py)
+        "tolerance_u",  # path tolerance of the moves to come (motion/path/corners.py)
         "corner_in_turn",
         "corner_in_ups",
         "corner_out_turn",
@@ -179,7 +179,7 @@ MASTER = HiddenBlock(
         ("corner_in_cnt", SLAVES),
         "corner_out_u",  # the one it is coming to
         ("corner_out_cnt", SLAVES),
-        "rotate_deg",  # ROTATE of programmed paths (motion/transform.py)
+        "rotate_deg",  # ROTATE of programmed paths (motion/path/transform.py)
         ("rotate_center_u", 2),
     ),
     ints=(
@@ -235,7 +235,7 @@ MASTER = HiddenBlock(
     },
 )
 
-# What SPLINE and NURB have been given and cannot follow yet (motion/splines.py).
+# What SPLINE and NURB have been given and cannot follow yet (motion/path/splines.py).
 CURVE_POINTS = HiddenBlock(
     prefix="CP",
     family="curve_points",
@@ -312,7 +312,7 @@ AXIS = HiddenBlock(
         "velocity_sum_cnt",
         ("velocity_window_cnt", 64),
         "cam_smoothing_cps",  # smoothed minus actual speed of the cam, for the feed-forward
-        "offset_u",  # OFFSET, FLZ and SCALE of programmed paths (motion/transform.py)
+        "offset_u",  # OFFSET, FLZ and SCALE of programmed paths (motion/path/transform.py)
         "flz_u",
         "scale",
         "scale_center_u",

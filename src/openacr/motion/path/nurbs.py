@@ -11,11 +11,11 @@ from openacr.errors import CardError
 from openacr.map.rows import masters
 from openacr.map.words import mf3
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import bezier, curve_points, pieces
-from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
-from openacr.motion.curve_points import CurvePoints
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
+from openacr.motion.path import bezier, curve_moves, curve_points
+from openacr.motion.path.bezier import Bezier
+from openacr.motion.path.curve_points import CurvePoints
 
 STEP = 1.0  # between knots that are not given
 FASTEST = 1e6
@@ -80,7 +80,7 @@ def _add_point(
 ) -> None:
     if not weight > 0.0 or len(curve.knots) > len(curve.points):
         raise CardError(INVALID_ARGUMENT)
-    point = list(curve.points[-1]) if curve.points else pieces.base_point(card, master)
+    point = list(curve.points[-1]) if curve.points else curve_moves.base_point(card, master)
     for slave, value in values_cnt.items():
         point[slave] = value
         curve.slaves |= 1 << slave
@@ -120,18 +120,20 @@ def _send(
     for part in parts:
         pace = _pace(card, master, curve, part, ends=ends and part is parts[-1])
         size = span / len(parts)
-        pieces.hand_over(card, program, master, curve.numbers, part, size, pace)
+        curve_moves.hand_over(card, program, master, curve.numbers, part, size, pace)
         curve.is_open = True
     card.memory.I[mf3.word[master]] |= mf3.NURB_LOADED
 
 
-def _pace(card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bool) -> pieces.Pace:
+def _pace(
+    card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bool
+) -> curve_moves.Pace:
     flags = card.memory.I[mf3.word[master]]
     begins = not curve.is_open
     if flags & mf3.NURB_TIME:
         factor = card.memory.S[masters.nurb_time_factor[master]]
         start_s = card.memory.S[masters.nurb_start_time[master]]
-        return pieces.Pace(
+        return curve_moves.Pace(
             rate=1.0 / factor if factor > 1.0 / FASTEST else FASTEST,
             start_s=start_s if start_s > 0.0 else 0.0,
             is_nurb=True,
@@ -139,7 +141,7 @@ def _pace(card: Card, master: int, curve: CurvePoints, part: Bezier, *, ends: bo
             ends=ends,
         )
     most = _bend_speed(card, master, curve, part) if flags & mf3.NURB_SMOOTH else 0.0
-    return pieces.Pace(most_ups=most, is_nurb=True, begins=begins, ends=ends)
+    return curve_moves.Pace(most_ups=most, is_nurb=True, begins=begins, ends=ends)
 
 
 def _bend_speed(card: Card, master: int, curve: CurvePoints, part: Bezier) -> float:

@@ -5,7 +5,7 @@ from openacr.kernel.axis import axis_cy, capture_cy, feedback_cy
 from openacr.kernel.words_cy import round32
 from openacr.map.rows import axes
 from openacr.motion.card import Card
-from openacr.motion.permits import needs_rest, scale_of
+from openacr.motion.interlocks import needs_rest, scale_of
 
 _axis_preload = pick(axis_cy.axis_preload)
 _axis_renew = pick(axis_cy.axis_renew)

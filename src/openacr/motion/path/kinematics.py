@@ -12,7 +12,7 @@ from openacr.map.rows import axes, kernel, masters
 from openacr.map.words import mf4
 from openacr.messages import NOT_VALID_WHILE_IN_MOTION
 from openacr.motion.card import Card
-from openacr.motion.permits import axes_of, master_moving
+from openacr.motion.interlocks import axes_of, master_moving
 
 _MASK = kernel.kinematics
 _axis_settled = pick(axis_cy.axis_settled)

@@ -15,10 +15,10 @@ from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves
 from openacr.map.words import af3, mf2
 from openacr.motion.card import Card
-from openacr.motion.curves import slave_of
-from openacr.motion.orders import Shape, Target
-from openacr.motion.permits import needs_on, scale_of
-from openacr.motion.records import Way, append
+from openacr.motion.interlocks import needs_on, scale_of
+from openacr.motion.path.curves import slave_of
+from openacr.motion.path.move_request import Shape, Target
+from openacr.motion.path.records import Way, append
 
 SAMPLES = 32
 LEAST_CNT = 0.5

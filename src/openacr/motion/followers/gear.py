@@ -5,11 +5,12 @@ from __future__ import annotations
 from openacr.kernel.sources.source_cy import GEAR_OFF, GEAR_ON, TRIGGERS
 from openacr.map.rows import axes, gears
 from openacr.map.words import af1, af2
-from openacr.motion import registers, sources
+from openacr.motion.axis import registers
 from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_gear_defaults
-from openacr.motion.jog import needs_no_moves
-from openacr.motion.permits import needs_no_kill, needs_on, scale_of
+from openacr.motion.interlocks import needs_no_kill, needs_on, scale_of
+from openacr.motion.jog.jog import needs_no_moves
+from openacr.motion.sources import sources
 
 
 def permit(card: Card, axis: int) -> None:

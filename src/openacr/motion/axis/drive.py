@@ -4,9 +4,9 @@ from openacr.compiled import pick
 from openacr.kernel.axis import drive_cy
 from openacr.map.rows import axes
 from openacr.map.words import af4, af5, mf1
-from openacr.motion import registers
+from openacr.motion.axis import registers
 from openacr.motion.card import Card
-from openacr.motion.permits import axes_of, master_of, needs_rest
+from openacr.motion.interlocks import axes_of, master_of, needs_rest
 
 _drive_disable = pick(drive_cy.drive_disable)
 _drive_driven = pick(drive_cy.drive_driven)

@@ -17,10 +17,11 @@ from openacr.messages import (
     SUBSCRIPT_OUT_OF_RANGE,
     UNDEFINED_VARIABLE,
 )
-from openacr.motion import gear, sources
 from openacr.motion.card import Card
 from openacr.motion.follower_defaults import set_table_defaults
-from openacr.motion.permits import scale_of
+from openacr.motion.followers import gear
+from openacr.motion.interlocks import scale_of
+from openacr.motion.sources import sources
 
 MOST_SEGMENTS = tables.ARRAY_SIZE
 _header = pick(cam_cy.array_header)

@@ -2,9 +2,9 @@
 
 from openacr.map.rows import masters, moves
 from openacr.map.words import mf1
-from openacr.motion import registers
+from openacr.motion.axis import registers
 from openacr.motion.card import Card
-from openacr.motion.orders import FlagState
+from openacr.motion.path.move_request import FlagState
 
 
 def on_flag(card: Card, master: int, flag: FlagState) -> None:

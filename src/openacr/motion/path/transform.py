@@ -21,11 +21,11 @@ from openacr.errors import CardError
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters
 from openacr.messages import INVALID_ARC, INVALID_ARGUMENT
-from openacr.motion import moves
 from openacr.motion.card import Card
-from openacr.motion.curves import slave_of
-from openacr.motion.orders import Circle, Direction, Part, Sine, SpaceArc, Target
-from openacr.motion.permits import master_moving, scale_of
+from openacr.motion.interlocks import master_moving, scale_of
+from openacr.motion.path import moves
+from openacr.motion.path.curves import slave_of
+from openacr.motion.path.move_request import Circle, Direction, Part, Sine, SpaceArc, Target
 
 
 def apply(card: Card, program: int, parts: Sequence[Part]) -> list[Part]:

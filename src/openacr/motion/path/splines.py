@@ -14,10 +14,10 @@ velocity is 0. It begins where the axes are; a first point there is no further o
 
 from openacr.map.rows import masters
 from openacr.map.words import mf3
-from openacr.motion import bezier, curve_points, pieces
-from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
-from openacr.motion.curve_points import CurvePoints
+from openacr.motion.path import bezier, curve_moves, curve_points
+from openacr.motion.path.bezier import Bezier
+from openacr.motion.path.curve_points import CurvePoints
 
 SHORTEST, LONGEST = 2, 5
 
@@ -28,7 +28,9 @@ def take(
     """Take a point, reached in a time from the one before, and go as far as is known."""
     curve = curve_points.load(card, master)
     if not curve.points:
-        curve = CurvePoints(points=[pieces.base_point(card, master)], weights=[1.0], knots=[0.0])
+        curve = CurvePoints(
+            points=[curve_moves.base_point(card, master)], weights=[1.0], knots=[0.0]
+        )
     point = list(curve.points[-1])
     for slave, value in values_cnt.items():
         point[slave] = value
@@ -130,7 +132,7 @@ def _send(
     is_timed = bool(card.memory.I[mf3.word[master]] & mf3.SPLINE_TIME_MODE)
     if not is_timed and way.is_point:
         return
-    pace = pieces.Pace(rate=float(is_timed), begins=not curve.is_open, ends=ends)
-    pieces.hand_over(card, program, master, curve.numbers, way, time_s, pace)
+    pace = curve_moves.Pace(rate=float(is_timed), begins=not curve.is_open, ends=ends)
+    curve_moves.hand_over(card, program, master, curve.numbers, way, time_s, pace)
     curve.is_open = True
     card.memory.I[mf3.word[master]] |= mf3.SPLINE_LOADED

@@ -17,9 +17,9 @@ from openacr.map.rows import (
 )
 from openacr.map.words import af3
 from openacr.messages import AXIS_IS_LOCKED, INVALID_ARGUMENT
-from openacr.motion import sources
 from openacr.motion.card import Card
-from openacr.motion.permits import needs_on, needs_rest
+from openacr.motion.interlocks import needs_on, needs_rest
+from openacr.motion.sources import sources
 
 _filter_clear = pick(offset_cy.filter_clear)
 _filter_halt = pick(offset_cy.filter_halt)

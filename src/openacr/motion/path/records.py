@@ -9,9 +9,10 @@ from openacr.kernel.path import path_cy, round_law_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1, mf2
 from openacr.messages import INVALID_ARC
-from openacr.motion import curves, settings
+from openacr.motion.axis import settings
 from openacr.motion.card import Card
-from openacr.motion.orders import Shape
+from openacr.motion.path import curves
+from openacr.motion.path.move_request import Shape
 
 _COPIED = (
     (masters.acc_ups2, moves.acc_ups2),

@@ -31,9 +31,9 @@ from openacr.map.numbers import (
 from openacr.map.rows import axes, dacs, masters
 from openacr.map.words import af5, mf2
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
-from openacr.motion.attach import Feedback, Signal
+from openacr.motion.axis.attach import Feedback, Signal
 from openacr.motion.card import Card
-from openacr.motion.permits import axes_of, master_of, needs_rest
+from openacr.motion.interlocks import axes_of, master_of, needs_rest
 
 LONG_MAX = 2**31 - 1
 FP32_MAX = 3.4028234663852886e38

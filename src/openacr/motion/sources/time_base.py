@@ -5,8 +5,8 @@ from openacr.kernel.sources import source_cy
 from openacr.map.rows import masters
 from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import sources
 from openacr.motion.card import Card
+from openacr.motion.sources import sources
 
 FASTEST = 2.0
 _OBJECTS = frozenset(("RATCH", "LIMIT"))

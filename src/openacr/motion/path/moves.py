@@ -8,18 +8,18 @@ from openacr.kernel.path import hold_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
-from openacr.motion import corners, curve_modes, curve_points, replacing, tangent
 from openacr.motion.card import Card
-from openacr.motion.curves import slave_of
-from openacr.motion.orders import FlagState, Part, Target, end_points
-from openacr.motion.permits import (
+from openacr.motion.interlocks import (
     master_moving,
     needs_free_way,
     needs_moves,
     needs_on,
     scale_of,
 )
-from openacr.motion.records import Way, append
+from openacr.motion.path import corners, curve_modes, curve_points, replacing, tangent
+from openacr.motion.path.curves import slave_of
+from openacr.motion.path.move_request import FlagState, Part, Target, end_points
+from openacr.motion.path.records import Way, append
 
 FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
 

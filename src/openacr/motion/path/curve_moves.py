@@ -14,12 +14,12 @@ from openacr.kernel.path.path_cy import MARK_CURVE_BEGIN, MARK_NURB
 from openacr.map.hidden.motion import SLAVES
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves
-from openacr.motion import tangent
-from openacr.motion.bezier import Bezier
 from openacr.motion.card import Card
-from openacr.motion.orders import Piece, Target
-from openacr.motion.permits import scale_of
-from openacr.motion.records import Way
+from openacr.motion.interlocks import scale_of
+from openacr.motion.path import tangent
+from openacr.motion.path.bezier import Bezier
+from openacr.motion.path.move_request import Piece, Target
+from openacr.motion.path.records import Way
 
 MOST = 12  # records that one statement can make, the way to the first one included
 NEAR_CNT = 0.01

@@ -6,9 +6,9 @@ from openacr.errors import CardError
 from openacr.map.rows import masters
 from openacr.map.words import mf3
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion import curve_points, nurbs, splines
 from openacr.motion.card import Card
-from openacr.motion.curve_points import CurvePoints
+from openacr.motion.path import curve_points, nurbs, splines
+from openacr.motion.path.curve_points import CurvePoints
 
 
 class Family(IntEnum):

@@ -15,7 +15,7 @@ from openacr.messages import (
 )
 from openacr.motion.attachments import Slave
 from openacr.motion.card import Card
-from openacr.motion.permits import master_moving, needs_rest
+from openacr.motion.interlocks import master_moving, needs_rest
 
 NAME_LENGTH = 4
 RESERVED_NAMES = frozenset({"P", "F"})

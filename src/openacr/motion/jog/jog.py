@@ -16,9 +16,9 @@ from openacr.kernel.sources.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.rows import axes, masters, sources
 from openacr.map.words import af1, mf1
 from openacr.messages import INVALID_ARGUMENT, INVALID_SOURCE, NOT_VALID_WHILE_IN_MOTION
-from openacr.motion import registers
+from openacr.motion.axis import registers
 from openacr.motion.card import Card
-from openacr.motion.permits import (
+from openacr.motion.interlocks import (
     master_moving,
     master_of,
     needs_free_way,

@@ -6,8 +6,8 @@ from openacr.kernel.axis import feedback_cy
 from openacr.map.rows import encoders, kernel
 from openacr.map.words import ef
 from openacr.messages import INVALID_ARGUMENT
+from openacr.motion.axis.settings import LONG_MAX
 from openacr.motion.card import Card
-from openacr.motion.settings import LONG_MAX
 
 _encoder_set = pick(feedback_cy.encoder_set)
 _encoder_roll = pick(feedback_cy.encoder_roll)

@@ -5,8 +5,8 @@ from openacr.kernel.axis import axis_cy
 from openacr.kernel.path import hold_cy, interrupt_cy, path_cy
 from openacr.map.rows import masters, moves, profiles
 from openacr.motion.card import Card
-from openacr.motion.permits import axes_of, scale_of
-from openacr.motion.records import Way
+from openacr.motion.interlocks import axes_of, scale_of
+from openacr.motion.path.records import Way
 
 _axis_target_changed = pick(axis_cy.axis_target_changed)
 _master_cut = pick(interrupt_cy.master_cut)

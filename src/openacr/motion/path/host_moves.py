@@ -21,16 +21,16 @@ from openacr.kernel.path.path_cy import (
 from openacr.map.rows import masters, moves
 from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
-from openacr.motion import corners, curve_modes
 from openacr.motion.card import Card
-from openacr.motion.moves import permit_ways, start_cnt
-from openacr.motion.orders import Circle, Direction, Part
-from openacr.motion.permits import (
+from openacr.motion.interlocks import (
     master_moving,
     needs_moves,
     scale_of,
 )
-from openacr.motion.records import Way, append
+from openacr.motion.path import corners, curve_modes
+from openacr.motion.path.move_request import Circle, Direction, Part
+from openacr.motion.path.moves import permit_ways, start_cnt
+from openacr.motion.path.records import Way, append
 
 LONGEST_COUNT = 2**31 - 1
 

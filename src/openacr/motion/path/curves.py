@@ -11,8 +11,8 @@ from openacr.map.rows import curves, moves
 from openacr.map.words import af1
 from openacr.messages import INVALID_ARC, UNDEFINED_SYMBOL
 from openacr.motion.card import Card
-from openacr.motion.orders import Circle, Piece, Shape, Sine, SpaceArc, Target
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
+from openacr.motion.path.move_request import Circle, Piece, Shape, Sine, SpaceArc, Target
 
 
 def write(card: Card, program: int, record: int, parts: Sequence[Shape]) -> None:

@@ -1,0 +1,1 @@
+"""One axis: attachments, feedback, settings, filters, drive."""

@@ -1,0 +1,1 @@
+"""What follows a source: gears, cams, hand wheels, objects."""

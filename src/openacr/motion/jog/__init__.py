@@ -1,0 +1,1 @@
+"""Jogs and homing of an axis."""

@@ -1,0 +1,1 @@
+"""What followers and masters take their pulses and their time from."""
