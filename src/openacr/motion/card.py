@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from openacr.compiled import pick
 from openacr.kernel.axis import axis_cy
 from openacr.kernel.status import slow_cy
-from openacr.map.hidden.motion import MOVES_PER_MASTER
+from openacr.map.hidden.path import MOVES_PER_MASTER
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, encoders, kernel, masters, system
 from openacr.models import DEFAULT_MODEL, Model

@@ -16,7 +16,7 @@ from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import LABEL_NOT_FOUND, MESSAGES
-from openacr.motion import kinematics
+from openacr.motion.path import kinematics
 from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:

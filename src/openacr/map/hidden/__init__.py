@@ -1,16 +1,17 @@
 """State of the card that has no parameter number, one module per topic."""
 
 from openacr.map.hidden import (
-    cam,
+    axis,
     devices,
     engine,
-    gear,
-    motion,
+    followers,
+    kernel,
     network,
-    objects,
+    path,
     plant,
     plc,
     sources,
+    status,
     storage,
     system,
     threads,
@@ -20,16 +21,17 @@ from openacr.map.hidden.block import HiddenBlock
 TOPICS = (
     system,
     storage,
-    motion,
+    path,
+    axis,
+    kernel,
     plant,
     threads,
     devices,
     engine,
     plc,
     sources,
-    gear,
-    cam,
-    objects,
+    followers,
+    status,
     network,
 )
 

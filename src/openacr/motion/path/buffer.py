@@ -1,7 +1,7 @@
 """MBUF and LOOK: how many moves a master holds, and how it looks ahead over them."""
 
 from openacr.errors import CardError, StoreError
-from openacr.map.hidden.motion import MOVES, MOVES_PER_MASTER
+from openacr.map.hidden.path import MOVES, MOVES_PER_MASTER
 from openacr.map.memory import Memory
 from openacr.map.rows import masters, moves
 from openacr.map.words import mf4

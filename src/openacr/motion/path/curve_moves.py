@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from openacr.compiled import pick
 from openacr.kernel.path import bezier_cy
 from openacr.kernel.path.path_cy import MARK_CURVE_BEGIN, MARK_NURB
-from openacr.map.hidden.motion import SLAVES
+from openacr.map.hidden.path import SLAVES
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves
 from openacr.motion.card import Card

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from openacr.map.hidden.motion import KNOTS, POINTS, SLAVES
+from openacr.map.hidden.path import KNOTS, POINTS, SLAVES
 from openacr.map.memory import Memory
 from openacr.map.rows import curve_points
 from openacr.map.words import mf3

@@ -6,7 +6,7 @@ from math import radians
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel.path import bezier_cy, curve_cy
-from openacr.map.hidden.motion import SLAVES
+from openacr.map.hidden.path import SLAVES
 from openacr.map.rows import curves, moves
 from openacr.map.words import af1
 from openacr.messages import INVALID_ARC, UNDEFINED_SYMBOL
