@@ -29,7 +29,16 @@ Indices have the same letters everywhere:
     record   move, 0 to 767              b   table of a cam or ballscrew
     c   commutator, channel              k   anything else that is counted
 
-Suffixes give units: _u programming units, _cnt pulses (counts), _ups _ups2 _ups3 units per second,
-/s2 and /s3, _cps _cps2 pulses per second and /s2, _s seconds, _tk ticks, _hz, _deg, _rad, _v volts.
-A profile (profile_cy) has the unit of its owner: programming units for masters, pulses for axes.
+Suffixes give the units of rows and of what is computed from them:
+
+    _u     programming units            _cnt               pulses (counts)
+    _ups   units per second             _cps               pulses per second
+    _ups2  units per second squared     _cps2              pulses per second squared
+    _ups3  units per second cubed       _cps3              pulses per second cubed
+    _v2    squared velocity             _s _tk _hz         seconds, ticks, per second
+    _deg _rad                           _v _a              volts, amperes
+
+Numbers without a unit have no suffix: parts of a path (`part`, `rest`), factors, signs. Neither
+have those of profile_cy, whose unit of length is that of the owner of a profile: programming units
+for masters, pulses for axes.
 """

@@ -83,14 +83,14 @@ def soft_limit_crossed(F: F64, S: F32, n: int, flags: int, side: int) -> bool:
 
 def axis_sum(F: F64, n: int) -> None:
     """Form primary and secondary setpoint from their parts."""
-    psp: float = (
+    psp_cnt: float = (
         (F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]])
         + F[axes.gear_cnt[n]]
         + F[axes.jog_cnt[n]]
         + F[axes.cam_cnt[n]]
     )
-    F[axes.psp_cnt[n]] = psp
-    F[axes.ssp_cnt[n]] = psp + F[axes.ballscrew_cnt[n]] + F[axes.backlash_cnt[n]]
+    F[axes.psp_cnt[n]] = psp_cnt
+    F[axes.ssp_cnt[n]] = psp_cnt + F[axes.ballscrew_cnt[n]] + F[axes.backlash_cnt[n]]
 
 
 def axis_offsets(F: F64, n: int) -> float:
@@ -114,23 +114,23 @@ def axis_jog_set(F: F64, I: I32, n: int, offset_cnt: float) -> None:
 
 def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
     """Setpoint sums of this tick and their differences; True if the primary one has moved."""
-    psp_old: float = F[axes.psp_cnt[n]]
+    psp_old_cnt: float = F[axes.psp_cnt[n]]
     F[axes.ssp_old_cnt[n]] = F[axes.ssp_cnt[n]]
     axis_sum(F, n)
-    moved: float = F[axes.psp_cnt[n]] - psp_old
-    velocity: float = moved * rate_hz
-    S[axes.velocity[n]] = velocity
-    S[axes.acceleration[n]] = (velocity - F[axes.psp_velocity_cps[n]]) * rate_hz
-    F[axes.psp_velocity_cps[n]] = velocity
-    velocity = (F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]) * rate_hz
-    velocity += F[axes.cam_smoothing_cps[n]]
-    F[axes.ssp_accel_cps2[n]] = (velocity - F[axes.ssp_velocity_cps[n]]) * rate_hz
-    F[axes.ssp_velocity_cps[n]] = velocity
-    F[axes.travel_cnt[n]] += fabs(moved)
+    moved_cnt: float = F[axes.psp_cnt[n]] - psp_old_cnt
+    velocity_cps: float = moved_cnt * rate_hz
+    S[axes.velocity[n]] = velocity_cps
+    S[axes.acceleration[n]] = (velocity_cps - F[axes.psp_velocity_cps[n]]) * rate_hz
+    F[axes.psp_velocity_cps[n]] = velocity_cps
+    velocity_cps = (F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]) * rate_hz
+    velocity_cps += F[axes.cam_smoothing_cps[n]]
+    F[axes.ssp_accel_cps2[n]] = (velocity_cps - F[axes.ssp_velocity_cps[n]]) * rate_hz
+    F[axes.ssp_velocity_cps[n]] = velocity_cps
+    F[axes.travel_cnt[n]] += fabs(moved_cnt)
     F[axes.peak_velocity_cps[n]] = max(
         F[axes.peak_velocity_cps[n]], fabs(F[axes.psp_velocity_cps[n]])
     )
-    return moved != 0.0
+    return moved_cnt != 0.0
 
 
 def axis_settled(F: F64, I: I32, n: int) -> None:
@@ -166,10 +166,12 @@ def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
 
 def axis_renew(F: F64, I: I32, n: int) -> None:
     """REN: take the actual position as setpoint, so that the following error is 0."""
-    actual: float = I[axes.actual_position[n]]
-    psp: float = actual - F[axes.ballscrew_cnt[n]] - F[axes.backlash_cnt[n]]
-    psp -= F[axes.kinematics_cnt[n]]
-    F[axes.position_cnt[n]] = psp - F[axes.gear_cnt[n]] - F[axes.jog_cnt[n]] - F[axes.cam_cnt[n]]
+    actual_cnt: float = I[axes.actual_position[n]]
+    psp_cnt: float = actual_cnt - F[axes.ballscrew_cnt[n]] - F[axes.backlash_cnt[n]]
+    psp_cnt -= F[axes.kinematics_cnt[n]]
+    F[axes.position_cnt[n]] = (
+        psp_cnt - F[axes.gear_cnt[n]] - F[axes.jog_cnt[n]] - F[axes.cam_cnt[n]]
+    )
     F[axes.error_old_cnt[n]] = 0.0
     axis_settled(F, I, n)
 
@@ -213,16 +215,16 @@ def axis_take_written(F: F64, I: I32, n: int) -> bool:
     The encoder itself belongs to the feedback step, which sets it to a written actual
     position.
     """
-    joint: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
+    joint_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
     if I[axes.current_position[n]] != I[axes.shown_current[n]]:
         F[axes.position_cnt[n]] = I[axes.current_position[n]]
         F[axes.target_cnt[n]] = F[axes.position_cnt[n]]
-        axis_keep_joint(F, I, n, joint)
+        axis_keep_joint(F, I, n, joint_cnt)
         axis_target_changed(F, I, n)
     elif I[axes.target_position[n]] != I[axes.shown_target[n]]:
         F[axes.target_cnt[n]] = I[axes.target_position[n]]
         F[axes.position_cnt[n]] = F[axes.target_cnt[n]]
-        axis_keep_joint(F, I, n, joint)
+        axis_keep_joint(F, I, n, joint_cnt)
         axis_target_changed(F, I, n)
     if I[axes.gear_offset[n]] != I[axes.shown_gear[n]]:
         F[axes.gear_cnt[n]] = I[axes.gear_offset[n]]

@@ -114,11 +114,11 @@ def position_at_fraction(F: F64, I: I32, n: int, fraction: float) -> int:
     if I[axes.position_source[n]] != FROM_ENCODER or not 0 <= e < ENCODER_COUNT:
         return now
     if e < MODELLED and I[motors.kind[e]]:
-        travel: float = F[motors.position_cnt[e]] - F[motors.previous_cnt[e]]
-        raw: float = floor(F[motors.previous_cnt[e]] + fraction * travel)
-        return position_before(F, I, n, e, F[motors.raw_count[e]] - raw)
-    step: float = F[encoders.step_cnt[e]]
-    return wrap32(now - int(rint((1.0 - fraction) * step)))
+        travel_cnt: float = F[motors.position_cnt[e]] - F[motors.previous_cnt[e]]
+        raw_cnt: float = floor(F[motors.previous_cnt[e]] + fraction * travel_cnt)
+        return position_before(F, I, n, e, F[motors.raw_count[e]] - raw_cnt)
+    step_cnt: float = F[encoders.step_cnt[e]]
+    return wrap32(now - int(rint((1.0 - fraction) * step_cnt)))
 
 
 def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
@@ -126,20 +126,20 @@ def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
 
     MULT below 4 counts only some of them: the present fraction tells which.
     """
-    scaled: float = since_cnt * I[encoders.mult[e]] * 0.25
-    behind: float = floor(F[encoders.partial_cnt[e]] - scaled)
+    scaled_cnt: float = since_cnt * I[encoders.mult[e]] * 0.25
+    behind_cnt: float = floor(F[encoders.partial_cnt[e]] - scaled_cnt)
     if I[encoders.limit_hz[e]] > 0:  # counts lost in the filter are no way
-        step: float = F[encoders.step_cnt[e]]
-        behind = max(min(0.0, -step), min(max(0.0, -step), behind))
-    return wrap32(I[axes.actual_position[n]] + int(behind))
+        step_cnt: float = F[encoders.step_cnt[e]]
+        behind_cnt = max(min(0.0, -step_cnt), min(max(0.0, -step_cnt), behind_cnt))
+    return wrap32(I[axes.actual_position[n]] + int(behind_cnt))
 
 
 def position_at_marker(F: F64, I: I32, n: int, encoder: int, falling: bool) -> int:
     """Actual position of axis n at the marker edge of its own encoder."""
-    raw: float = (
+    raw_cnt: float = (
         F[motors.marker_fall_cnt[encoder]] if falling else F[motors.marker_rise_cnt[encoder]]
     )
-    return position_before(F, I, n, encoder, F[motors.raw_count[encoder]] - raw)
+    return position_before(F, I, n, encoder, F[motors.raw_count[encoder]] - raw_cnt)
 
 
 def capture_input_position(F: F64, I: I32, n: int, number: int, falling: bool) -> float:

@@ -39,10 +39,10 @@ def phase_shape(angle_deg: float, sinusoidal: int) -> float:
     """Sine of an angle, or the step of its sector of 60 degrees."""
     if sinusoidal:
         return sin(angle_deg * DEGREE)
-    turned: float = fmod(angle_deg, TURN)
-    if turned < 0.0:
-        turned += TURN
-    sector: int = int(floor(turned / SECTOR))
+    turned_deg: float = fmod(angle_deg, TURN)
+    if turned_deg < 0.0:
+        turned_deg += TURN
+    sector: int = int(floor(turned_deg / SECTOR))
     if sector == 2 or sector >= 5:
         return 0.0
     return 1.0 if sector < 2 else -1.0
@@ -63,8 +63,8 @@ def commutator_guard(I: I32, S: F32, n: int, c: int, e: int, rpm: float) -> None
     broken: int = I[ef.word[e]] & (ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST)
     if broken and not I[word] & cmf.CMT_ENCCHECK_DISABLE:
         found = found | cmf.CMT_ENCODER_FAULT
-    error: float = fabs(1.0 * I[axes.following_error[n]])
-    if I[commutators.maxfollowingerr[c]] > 0 and error > I[commutators.maxfollowingerr[c]]:
+    error_cnt: float = fabs(1.0 * I[axes.following_error[n]])
+    if I[commutators.maxfollowingerr[c]] > 0 and error_cnt > I[commutators.maxfollowingerr[c]]:
         found = found | cmf.CMT_FOLLOWING_ERROR
     if found:
         I[word] = (I[word] | found) & ~cmf.CMT_COMMUTATOR_ON
@@ -73,10 +73,10 @@ def commutator_guard(I: I32, S: F32, n: int, c: int, e: int, rpm: float) -> None
 def commutator_signal(S: F32, c: int, volts: float) -> float:
     """What the phases get of the command: no more than the highest current allows."""
     scale: float = S[commutators.commandcurrentscale[c]]
-    most: float = S[commutators.maxmotorcurrent[c]]
+    most_a: float = S[commutators.maxmotorcurrent[c]]
     if scale > 0.0:
-        if most > 0.0:
-            volts = max(-most / scale, min(most / scale, volts))
+        if most_a > 0.0:
+            volts = max(-most_a / scale, min(most_a / scale, volts))
         S[commutators.commandcurrent[c]] = volts * scale
     return volts
 
@@ -85,30 +85,34 @@ def commutator_step(I: I32, S: F32, n: int, c: int, volts: float) -> None:
     """Put the output of axis n out through commutator c."""
     word: int = cmf.word[c]
     e: int = I[commutators.feedbackencoder[c]]
-    first: float = 0.0
-    second: float = 0.0
+    first_v: float = 0.0
+    second_v: float = 0.0
     S[commutators.commandsignal[c]] = volts
     if 0 <= e < ENCODER_COUNT - 8 and I[word] & cmf.CMT_COMMUTATOR_ON:
-        turn: float = counts_per_turn(I, c, e)
-        position: float = encoder_shaft(I, e)
-        rpm: float = SECTOR * I[encoders.encoder_velocity[e]] / turn
-        I[commutators.encodershaftposition[c]] = int(fmod(position, turn))
+        turn_cnt: float = counts_per_turn(I, c, e)
+        position_cnt: float = encoder_shaft(I, e)
+        rpm: float = SECTOR * I[encoders.encoder_velocity[e]] / turn_cnt
+        I[commutators.encodershaftposition[c]] = int(fmod(position_cnt, turn_cnt))
         S[commutators.averagevelocity[c]] = rpm
         commutator_guard(I, S, n, c, e, rpm)
         if I[word] & cmf.CMT_COMMUTATOR_ON:
-            shift: float = I[commutators.phasemarkeroffset[c]]
-            share: float = (position + shift) * I[commutators.elecrevpermechrev[c]] / turn
-            angle: float = TURN * (share - floor(share))
+            shift_cnt: float = I[commutators.phasemarkeroffset[c]]
+            share: float = (
+                (position_cnt + shift_cnt) * I[commutators.elecrevpermechrev[c]] / turn_cnt
+            )
+            angle_deg: float = TURN * (share - floor(share))
             kind: int = I[word] & cmf.CMT_SINUSOIDAL_ON
-            other: float = angle + I[commutators.anglebetweenphases[c]]
-            S[commutators.lookedupphaseasine[c]] = phase_shape(angle, kind)
-            S[commutators.lookedupphasebsine[c]] = phase_shape(other, kind)
-            signal: float = commutator_signal(S, c, volts)
-            first = signal * S[commutators.lookedupphaseasine[c]] * S[commutators.phaseagain[c]]
-            second = signal * S[commutators.lookedupphasebsine[c]] * S[commutators.phasebgain[c]]
-            first += S[commutators.phaseaoffset[c]]
-            second += S[commutators.phaseboffset[c]]
-    S[commutators.phaseasignal[c]] = first
-    S[commutators.phasebsignal[c]] = second
-    dac_put(S, I[commutators.phaseadacchannel[c]], first)
-    dac_put(S, I[commutators.phasebdacchannel[c]], second)
+            other_deg: float = angle_deg + I[commutators.anglebetweenphases[c]]
+            S[commutators.lookedupphaseasine[c]] = phase_shape(angle_deg, kind)
+            S[commutators.lookedupphasebsine[c]] = phase_shape(other_deg, kind)
+            signal_v: float = commutator_signal(S, c, volts)
+            first_v = signal_v * S[commutators.lookedupphaseasine[c]] * S[commutators.phaseagain[c]]
+            second_v = (
+                signal_v * S[commutators.lookedupphasebsine[c]] * S[commutators.phasebgain[c]]
+            )
+            first_v += S[commutators.phaseaoffset[c]]
+            second_v += S[commutators.phaseboffset[c]]
+    S[commutators.phaseasignal[c]] = first_v
+    S[commutators.phasebsignal[c]] = second_v
+    dac_put(S, I[commutators.phaseadacchannel[c]], first_v)
+    dac_put(S, I[commutators.phasebdacchannel[c]], second_v)

@@ -108,55 +108,55 @@ def encoder_set(F: F64, I: I32, e: int, position: int) -> None:
 
 def encoder_limit(F: F64, I: I32, e: int, hz: int) -> None:
     """Count no edges quicker than `hz`, or all (0), from where encoder e is."""
-    raw: float = F[motors.raw_count[e]] if e < MODELLED else 0.0
+    raw_cnt: float = F[motors.raw_count[e]] if e < MODELLED else 0.0
     I[encoders.limit_hz[e]] = hz
-    F[encoders.filter_old_cnt[e]] = raw
-    F[encoders.filter_level_cnt[e]] = raw
+    F[encoders.filter_old_cnt[e]] = raw_cnt
+    F[encoders.filter_level_cnt[e]] = raw_cnt
     F[encoders.filter_since_s[e]] = 0.0
 
 
 def encoder_pass(F: F64, e: int, level_cnt: float) -> None:
     """The signals of a raw count have passed the filter: count on to their state."""
-    step: float = level_cnt - F[encoders.filter_level_cnt[e]]
-    step -= floor(step * 0.25) * 4.0
+    step_cnt: float = level_cnt - F[encoders.filter_level_cnt[e]]
+    step_cnt -= floor(step_cnt * 0.25) * 4.0
     F[encoders.filter_level_cnt[e]] = level_cnt
-    if step == 1.0:
+    if step_cnt == 1.0:
         F[encoders.passed_cnt[e]] += 1.0
-    elif step == 3.0:
+    elif step_cnt == 3.0:
         F[encoders.passed_cnt[e]] -= 1.0
 
 
-def encoder_filter(F: F64, I: I32, e: int, raw: float, period_s: float) -> None:
+def encoder_filter(F: F64, I: I32, e: int, raw_cnt: float, period_s: float) -> None:
     """Edges of encoder e that pass its filter in this tick, in which they are spread evenly."""
     hold_s: float = 1.0 / I[encoders.limit_hz[e]]
-    old: float = F[encoders.filter_old_cnt[e]]
-    edges: float = fabs(raw - old)
+    old_cnt: float = F[encoders.filter_old_cnt[e]]
+    edges: float = fabs(raw_cnt - old_cnt)
     F[encoders.passed_cnt[e]] = 0.0
     if edges == 0.0:
         F[encoders.filter_since_s[e]] += period_s
     else:
-        way: float = 1.0 if raw > old else -1.0
+        way: float = 1.0 if raw_cnt > old_cnt else -1.0
         gap_s: float = period_s / edges
         if F[encoders.filter_since_s[e]] + 0.5 * gap_s >= hold_s:
-            encoder_pass(F, e, old)
+            encoder_pass(F, e, old_cnt)
         if edges > 1.0 and gap_s >= hold_s:
-            encoder_pass(F, e, old + way)
+            encoder_pass(F, e, old_cnt + way)
             F[encoders.passed_cnt[e]] += way * (edges - 2.0)
-            F[encoders.filter_level_cnt[e]] = raw - way
+            F[encoders.filter_level_cnt[e]] = raw_cnt - way
         F[encoders.filter_since_s[e]] = 0.5 * gap_s
-        F[encoders.filter_old_cnt[e]] = raw
+        F[encoders.filter_old_cnt[e]] = raw_cnt
     if F[encoders.filter_since_s[e]] >= hold_s:
-        encoder_pass(F, e, raw)
+        encoder_pass(F, e, raw_cnt)
 
 
 def encoder_filters_step(F: F64, I: I32, period_s: float) -> None:
     """Let encoders with a LIMIT see only the edges that pass: those lost were seen before."""
     for e in range(MODELLED):
         if I[encoders.limit_hz[e]] > 0:
-            raw: float = F[motors.raw_count[e]]
-            encoder_filter(F, I, e, raw, period_s)
-            passed: float = F[encoders.passed_cnt[e]]
-            F[encoders.raw_old_cnt[e]] = raw - passed
+            raw_cnt: float = F[motors.raw_count[e]]
+            encoder_filter(F, I, e, raw_cnt, period_s)
+            passed_cnt: float = F[encoders.passed_cnt[e]]
+            F[encoders.raw_old_cnt[e]] = raw_cnt - passed_cnt
 
 
 def encoder_broken(F: F64, I: I32, e: int, fault: int) -> None:
@@ -165,13 +165,13 @@ def encoder_broken(F: F64, I: I32, e: int, fault: int) -> None:
     Without signals it sees none. With disturbed ones two change at once in every period in which
     it turns: one edge, that towards which it turns, is lost.
     """
-    raw: float = F[motors.raw_count[e]]
+    raw_cnt: float = F[motors.raw_count[e]]
     I[ef.word[e]] |= fault & (ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST)
     if fault != ef.ENCODER_SIGNAL_FAULT:
-        F[encoders.raw_old_cnt[e]] = raw
-    elif raw > F[encoders.raw_old_cnt[e]]:
+        F[encoders.raw_old_cnt[e]] = raw_cnt
+    elif raw_cnt > F[encoders.raw_old_cnt[e]]:
         F[encoders.raw_old_cnt[e]] += 1.0
-    elif raw < F[encoders.raw_old_cnt[e]]:
+    elif raw_cnt < F[encoders.raw_old_cnt[e]]:
         F[encoders.raw_old_cnt[e]] -= 1.0
 
 
@@ -180,15 +180,15 @@ def encoder_step(F: F64, I: I32, e: int, rate_hz: float) -> None:
     fault: int = I[motors.encoder_fault[e]]
     if fault:
         encoder_broken(F, I, e, fault)
-    raw: float = F[motors.raw_count[e]]
-    scaled: float = (raw - F[encoders.raw_old_cnt[e]]) * I[encoders.mult[e]] * 0.25
-    F[encoders.raw_old_cnt[e]] = raw
-    scaled += F[encoders.partial_cnt[e]]
-    whole: float = floor(scaled)
-    F[encoders.partial_cnt[e]] = scaled - whole
-    F[encoders.step_cnt[e]] = whole
-    I[encoders.encoder_position[e]] = wrap32(I[encoders.encoder_position[e]] + int(whole))
-    I[encoders.encoder_velocity[e]] = round32(whole * rate_hz)
+    raw_cnt: float = F[motors.raw_count[e]]
+    scaled_cnt: float = (raw_cnt - F[encoders.raw_old_cnt[e]]) * I[encoders.mult[e]] * 0.25
+    F[encoders.raw_old_cnt[e]] = raw_cnt
+    scaled_cnt += F[encoders.partial_cnt[e]]
+    whole_cnt: float = floor(scaled_cnt)
+    F[encoders.partial_cnt[e]] = scaled_cnt - whole_cnt
+    F[encoders.step_cnt[e]] = whole_cnt
+    I[encoders.encoder_position[e]] = wrap32(I[encoders.encoder_position[e]] + int(whole_cnt))
+    I[encoders.encoder_velocity[e]] = round32(whole_cnt * rate_hz)
 
 
 def encoder_links_step(I: I32, rate_hz: float) -> None:

@@ -35,8 +35,8 @@ def maintain_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
         F[axes.pm_off_s[n]] = 0.0
     elif sign:
         ended: bool = profile_advance(F, I, PROFILE + n, period_s) >= 0.0
-        gone: float = F[profiles.distance[PROFILE + n]]
-        F[axes.pm_cnt[n]] = F[axes.pm_from_cnt[n]] + sign * gone
+        gone_cnt: float = F[profiles.distance[PROFILE + n]]
+        F[axes.pm_cnt[n]] = F[axes.pm_from_cnt[n]] + sign * gone_cnt
         if ended:
             I[axes.pm_sign[n]] = 0
             F[axes.pm_off_s[n]] = 0.0
@@ -46,30 +46,32 @@ def maintain_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
 
 def maintain_watch(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     """Begin a correction once the axis has been off for long enough."""
-    error: float = F[axes.ssp_cnt[n]] - I[axes.actual_position[n]]
-    band: float = F[axes.pm_band_u[n]] * fabs(axis_scale(S, n))
-    if fabs(error) <= band or not maintain_rests(F, I, n):
+    error_cnt: float = F[axes.ssp_cnt[n]] - I[axes.actual_position[n]]
+    band_cnt: float = F[axes.pm_band_u[n]] * fabs(axis_scale(S, n))
+    if fabs(error_cnt) <= band_cnt or not maintain_rests(F, I, n):
         F[axes.pm_off_s[n]] = 0.0
         return
     F[axes.pm_off_s[n]] += period_s
     if F[axes.pm_off_s[n]] >= F[axes.pm_time_s[n]] * (1.0 - JUST):
-        maintain_begin(F, I, S, n, error)
+        maintain_begin(F, I, S, n, error_cnt)
 
 
-def maintain_begin(F: F64, I: I32, S: F32, n: int, error: float) -> None:
+def maintain_begin(F: F64, I: I32, S: F32, n: int, error_cnt: float) -> None:
     """Plan the correction of an error in pulses; without a speed there is none."""
     scale: float = fabs(axis_scale(S, n))
-    speed: float = F[axes.pm_vel_ups[n]]
-    if speed <= 0.0:
-        speed = S[axes.jog_veloc_setting[n]]
-    rate: float = F[axes.pm_acc_ups2[n]]
-    if rate <= 0.0:
-        rate = S[axes.jog_accel_setting[n]]
-    if not speed > 0.0:
+    speed_ups: float = F[axes.pm_vel_ups[n]]
+    if speed_ups <= 0.0:
+        speed_ups = S[axes.jog_veloc_setting[n]]
+    rate_ups2: float = F[axes.pm_acc_ups2[n]]
+    if rate_ups2 <= 0.0:
+        rate_ups2 = S[axes.jog_accel_setting[n]]
+    if not speed_ups > 0.0:
         return
-    speed = speed * scale
-    rate = rate * scale
-    I[axes.pm_sign[n]] = 1 if error > 0.0 else -1
+    speed_ups = speed_ups * scale
+    rate_ups2 = rate_ups2 * scale
+    I[axes.pm_sign[n]] = 1 if error_cnt > 0.0 else -1
     F[axes.pm_from_cnt[n]] = F[axes.pm_cnt[n]]
     profile_reset(F, I, PROFILE + n, 0.0, 0.0)
-    profile_plan(F, I, PROFILE + n, fabs(error), speed, 0.0, rate, rate, rate, 0.0)
+    profile_plan(
+        F, I, PROFILE + n, fabs(error_cnt), speed_ups, 0.0, rate_ups2, rate_ups2, rate_ups2, 0.0
+    )

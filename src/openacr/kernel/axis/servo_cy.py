@@ -57,55 +57,55 @@ def feedback_velocity(F: F64, I: I32, S: F32, n: int) -> float:
         size = int(min(samples, 64.0))
     if size == 1:
         return I[encoders.encoder_velocity[k]]
-    now: float = I[encoders.encoder_velocity[k]]
+    now_cps: float = I[encoders.encoder_velocity[k]]
     index: int = I[axes.window_index[n]]
     if size != I[axes.window_count[n]]:
         I[axes.window_count[n]] = size
         index = 0
         for j in range(size):
-            F[axes.velocity_window_cnt[n] + j] = now
-        F[axes.velocity_sum_cnt[n]] = now * size
-    F[axes.velocity_sum_cnt[n]] += now - F[axes.velocity_window_cnt[n] + index]
-    F[axes.velocity_window_cnt[n] + index] = now
+            F[axes.velocity_window_cnt[n] + j] = now_cps
+        F[axes.velocity_sum_cnt[n]] = now_cps * size
+    F[axes.velocity_sum_cnt[n]] += now_cps - F[axes.velocity_window_cnt[n] + index]
+    F[axes.velocity_window_cnt[n] + index] = now_cps
     index += 1
     I[axes.window_index[n]] = 0 if index >= size else index
     return F[axes.velocity_sum_cnt[n]] / size
 
 
-def dead_band(F: F64, I: I32, S: F32, n: int, error: float) -> bool:
+def dead_band(F: F64, I: I32, S: F32, n: int, error_cnt: float) -> bool:
     """Dead zone of axis n: enter below DZL at rest, leave above DZU."""
     word: int = af3.word[n]
     if I[axes.dzu[n]] <= 0:
         I[word] &= ~af3.IN_DEAD_BAND
         return False
     if I[word] & af3.IN_DEAD_BAND:
-        if fabs(error) > I[axes.dzu[n]]:
+        if fabs(error_cnt) > I[axes.dzu[n]]:
             I[word] &= ~af3.IN_DEAD_BAND
-            F[axes.integral_v[n]] = S[axes.dip[n]] if error > 0.0 else S[axes.din[n]]
-    elif fabs(error) < I[axes.dzl[n]] and F[axes.ssp_velocity_cps[n]] == 0.0:
+            F[axes.integral_v[n]] = S[axes.dip[n]] if error_cnt > 0.0 else S[axes.din[n]]
+    elif fabs(error_cnt) < I[axes.dzl[n]] and F[axes.ssp_velocity_cps[n]] == 0.0:
         I[word] |= af3.IN_DEAD_BAND
     return I[word] & af3.IN_DEAD_BAND != 0
 
 
 def integrate(F: F64, S: F32, n: int, value: float, rate: float, period_s: float) -> float:
     """Integral of `rate * value`, held for IDELAY after motion, clamped to ILIMIT [V]."""
-    delay: float = S[axes.integral_delay[n]]
-    limit: float = S[axes.integral_limit[n]]
-    total: float = F[axes.integral_v[n]]
-    if delay <= 0.0 or F[axes.idle_s[n]] >= delay:
-        total += rate * value * period_s
-    return integral_keep(F, n, max(-limit, min(limit, total)))
+    delay_s: float = S[axes.integral_delay[n]]
+    limit_v: float = S[axes.integral_limit[n]]
+    total_v: float = F[axes.integral_v[n]]
+    if delay_s <= 0.0 or F[axes.idle_s[n]] >= delay_s:
+        total_v += rate * value * period_s
+    return integral_keep(F, n, max(-limit_v, min(limit_v, total_v)))
 
 
-def integral_keep(F: F64, n: int, total: float) -> float:
+def integral_keep(F: F64, n: int, total_v: float) -> float:
     """Store the integral; what is no number must not stay in it."""
-    if total - total != 0.0:
-        total = 0.0
-    F[axes.integral_v[n]] = total
-    return total
+    if total_v - total_v != 0.0:
+        total_v = 0.0
+    F[axes.integral_v[n]] = total_v
+    return total_v
 
 
-def derivative(F: F64, I: I32, S: F32, n: int, error: float, rate_hz: float) -> float:
+def derivative(F: F64, I: I32, S: F32, n: int, error_cnt: float, rate_hz: float) -> float:
     """Derivative term [V], sampled every DWIDTH."""
     ticks: int = 1
     if S[axes.derivative_width[n]] > 0.0:
@@ -113,22 +113,22 @@ def derivative(F: F64, I: I32, S: F32, n: int, error: float, rate_hz: float) -> 
     I[axes.derivative_ticks[n]] += 1
     if I[axes.derivative_ticks[n]] >= ticks:
         I[axes.derivative_ticks[n]] = 0
-        slope: float = (error - F[axes.error_old_cnt[n]]) * rate_hz
+        slope_cps: float = (error_cnt - F[axes.error_old_cnt[n]]) * rate_hz
         if ticks > 1:
-            slope = slope / ticks
-        F[axes.error_old_cnt[n]] = error
-        F[axes.derivative_v[n]] = derivative_smoothed(F, I, n, slope)
+            slope_cps = slope_cps / ticks
+        F[axes.error_old_cnt[n]] = error_cnt
+        F[axes.derivative_v[n]] = derivative_smoothed(F, I, n, slope_cps)
     return S[axes.derivative_gain[n]] * F[axes.derivative_v[n]]
 
 
-def derivative_smoothed(F: F64, I: I32, n: int, slope: float) -> float:
+def derivative_smoothed(F: F64, I: I32, n: int, slope_cps: float) -> float:
     """Average over the last 2^n slopes (DGain Smooth, as activated by DGAIN)."""
     size: int = I[axes.derivative_smooth[n]]
     if size <= 1:
-        return slope
+        return slope_cps
     index: int = I[axes.derivative_index[n]]
-    F[axes.derivative_sum[n]] += slope - F[axes.derivative_history[n] + index]
-    F[axes.derivative_history[n] + index] = slope
+    F[axes.derivative_sum[n]] += slope_cps - F[axes.derivative_history[n] + index]
+    F[axes.derivative_history[n] + index] = slope_cps
     index += 1
     I[axes.derivative_index[n]] = 0 if index >= size else index
     return F[axes.derivative_sum[n]] / size
@@ -148,48 +148,48 @@ def biquad(F: F64, S: F32, state: int, first: int, x: float) -> float:
 
 
 def servo_sum(
-    F: F64, I: I32, S: F32, n: int, error: float, period_s: float, rate_hz: float
+    F: F64, I: I32, S: F32, n: int, error_cnt: float, period_s: float, rate_hz: float
 ) -> float:
     """The summation point of axis n [V]; the terms are shown in their parameters."""
-    command: float = F[axes.ssp_velocity_cps[n]]
-    banded: bool = dead_band(F, I, S, n, error)
-    used: float = 0.0 if banded else error
-    feed: float = S[axes.feedforward_velocity[n]] * command
-    if fabs(command) < I[axes.ffvc[n]]:
-        feed = 0.0
-    surge: float = S[axes.feedforward_accel[n]] * F[axes.ssp_accel_cps2[n]]
+    command_cps: float = F[axes.ssp_velocity_cps[n]]
+    banded: bool = dead_band(F, I, S, n, error_cnt)
+    used_cnt: float = 0.0 if banded else error_cnt
+    feed_v: float = S[axes.feedforward_velocity[n]] * command_cps
+    if fabs(command_cps) < I[axes.ffvc[n]]:
+        feed_v = 0.0
+    surge_v: float = S[axes.feedforward_accel[n]] * F[axes.ssp_accel_cps2[n]]
     tacho: float = 0.0
     if S[axes.fbvel_gain_setting[n]] != 0.0:
         tacho = S[axes.fbvel_gain_setting[n]] * feedback_velocity(F, I, S, n)
-    proportional: float = S[axes.proportional_gain[n]] * used
-    slope: float = derivative(F, I, S, n, used, rate_hz)
-    integral: float = F[axes.integral_v[n]]
-    total: float = 0.0
+    proportional_v: float = S[axes.proportional_gain[n]] * used_cnt
+    slope_cps: float = derivative(F, I, S, n, used_cnt, rate_hz)
+    integral_v: float = F[axes.integral_v[n]]
+    total_v: float = 0.0
     if S[axes.kvp[n]] > 0.0:
-        wanted: float = proportional + S[axes.kvf[n]] * command - tacho
+        wanted: float = proportional_v + S[axes.kvf[n]] * command_cps - tacho
         if not banded:
-            integral = velocity_integral(F, S, n, wanted, period_s)
-        total = S[axes.kvp[n]] * wanted + integral + surge
+            integral_v = velocity_integral(F, S, n, wanted, period_s)
+        total_v = S[axes.kvp[n]] * wanted + integral_v + surge_v
     else:
         if not banded:
-            integral = integrate(F, S, n, error, S[axes.integral_gain[n]], period_s)
-        total = proportional + integral + slope + feed + surge - tacho
-    total += F[followers.lock_v[n]]
-    S[axes.proportional_term[n]] = proportional
-    S[axes.integral_term[n]] = integral
-    S[axes.derivative_term[n]] = slope
-    S[axes.ffvel_term[n]] = feed
-    S[axes.ffacc_term[n]] = surge
+            integral_v = integrate(F, S, n, error_cnt, S[axes.integral_gain[n]], period_s)
+        total_v = proportional_v + integral_v + slope_cps + feed_v + surge_v - tacho
+    total_v += F[followers.lock_v[n]]
+    S[axes.proportional_term[n]] = proportional_v
+    S[axes.integral_term[n]] = integral_v
+    S[axes.derivative_term[n]] = slope_cps
+    S[axes.ffvel_term[n]] = feed_v
+    S[axes.ffacc_term[n]] = surge_v
     S[axes.fbvel_term[n]] = tacho
-    return total
+    return total_v
 
 
 def velocity_integral(F: F64, S: F32, n: int, value: float, period_s: float) -> float:
     """Integral of the velocity loop; ILIMIT clamps it only where it is set."""
     if S[axes.integral_limit[n]] > 0.0:
         return integrate(F, S, n, value, S[axes.kvi[n]], period_s)
-    total: float = F[axes.integral_v[n]]
-    return integral_keep(F, n, total + S[axes.kvi[n]] * value * period_s)
+    total_v: float = F[axes.integral_v[n]]
+    return integral_keep(F, n, total_v + S[axes.kvi[n]] * value * period_s)
 
 
 def servo_closed(I: I32, n: int) -> bool:
@@ -206,35 +206,35 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
     if I[axes.signal_source[n]] == TO_STEPPER:
         stepper_step(F, I, S, n, period_s)
         return
-    error: float = F[axes.ssp_cnt[n]] - I[axes.actual_position[n]]
-    I[axes.following_error[n]] = round32(error)
-    F[axes.peak_error_cnt[n]] = max(F[axes.peak_error_cnt[n]], fabs(error))
+    error_cnt: float = F[axes.ssp_cnt[n]] - I[axes.actual_position[n]]
+    I[axes.following_error[n]] = round32(error_cnt)
+    F[axes.peak_error_cnt[n]] = max(F[axes.peak_error_cnt[n]], fabs(error_cnt))
     if F[axes.ssp_velocity_cps[n]] != 0.0:
         F[axes.idle_s[n]] = 0.0
     else:
         F[axes.idle_s[n]] += period_s
-    output: float = 0.0
+    output_v: float = 0.0
     I[axes.clipped[n]] = 0
     if servo_closed(I, n):
-        total: float = servo_sum(F, I, S, n, error, period_s, rate_hz)
-        S[axes.summation_point[n]] = total
+        total_v: float = servo_sum(F, I, S, n, error_cnt, period_s, rate_hz)
+        S[axes.summation_point[n]] = total_v
         if I[af1.word[n]] & af1.BIQUAD_FILTER_ACTIVATE:
-            total = biquad(F, S, axes.filter_state[n], axes.filter0_b2[n], total)
-            total = biquad(F, S, axes.filter_state[n] + 2, axes.filter1_b2[n], total)
-        S[axes.filter_output_signal[n]] = total
-        output = min(total, S[axes.plus_torque_limit[n]])
-        output = max(output, S[axes.minus_torque_limit[n]])
-        I[axes.clipped[n]] = 1 if output != total else 0
+            total_v = biquad(F, S, axes.filter_state[n], axes.filter0_b2[n], total_v)
+            total_v = biquad(F, S, axes.filter_state[n] + 2, axes.filter1_b2[n], total_v)
+        S[axes.filter_output_signal[n]] = total_v
+        output_v = min(total_v, S[axes.plus_torque_limit[n]])
+        output_v = max(output_v, S[axes.minus_torque_limit[n]])
+        I[axes.clipped[n]] = 1 if output_v != total_v else 0
     else:
-        F[axes.error_old_cnt[n]] = error
-    if output - output != 0.0:  # a gain or limit that is no number
-        output = 0.0
-    S[axes.output_signal[n]] = output
+        F[axes.error_old_cnt[n]] = error_cnt
+    if output_v - output_v != 0.0:  # a gain or limit that is no number
+        output_v = 0.0
+    S[axes.output_signal[n]] = output_v
     k: int = I[axes.signal_index[n]]
     if I[axes.signal_source[n]] == TO_DAC:
-        dac_put(S, k, output)
+        dac_put(S, k, output_v)
     elif I[axes.signal_source[n]] == TO_COMMUTATOR and 0 <= k < commutators.COUNT:
-        commutator_step(I, S, n, k, output)
+        commutator_step(I, S, n, k, output_v)
 
 
 def pulses_put(F: F64, I: I32, n: int, k: int, count: int) -> None:
@@ -269,10 +269,10 @@ def stepper_step(F: F64, I: I32, S: F32, n: int, period_s: float) -> None:
     elif 0 <= k < 16 and not I[kernel.missing_steppers] >> k & 1:
         if I[axes.pm_on[n]]:
             maintain_step(F, I, S, n, period_s)
-        setpoint: float = F[axes.ssp_cnt[n]]
-        setpoint += F[axes.pm_cnt[n]]
-        pulses_put(F, I, n, k, round32(setpoint))
-        I[steppers.stepper_count[k]] = round32(setpoint)
+        setpoint_cnt: float = F[axes.ssp_cnt[n]]
+        setpoint_cnt += F[axes.pm_cnt[n]]
+        pulses_put(F, I, n, k, round32(setpoint_cnt))
+        I[steppers.stepper_count[k]] = round32(setpoint_cnt)
         S[steppers.stepper_signal[k]] = F[axes.ssp_velocity_cps[n]]
         if I[axes.position_source[n]] == OWN_STEPS and I[axes.position_index[n]] == k:
             I[axes.actual_position[n]] = I[steppers.stepper_count[k]]

@@ -88,7 +88,7 @@ def segment_header(I: I32, b: int, k: int) -> int:
 def table_ready(F: F64, I: I32, b: int) -> bool:
     """Whether table b is complete; finds its length, first and last value."""
     segments: int = min(I[tables.segments[b]], tables.ARRAY_SIZE)
-    total: float = 0.0
+    total_cnt: float = 0.0
     for k in range(segments):
         header: int = segment_header(I, b, k)
         if header == 0 or I[header] < 2 or F[tables.length_cnt[b] + k] <= 0.0:
@@ -96,21 +96,21 @@ def table_ready(F: F64, I: I32, b: int) -> bool:
         if k == 0:
             F[tables.first_cnt[b]] = I[header + 1]
         F[tables.last_cnt[b]] = I[header + I[header]]
-        total += F[tables.length_cnt[b] + k]
-    F[tables.total_cnt[b]] = total
-    return total > 0.0
+        total_cnt += F[tables.length_cnt[b] + k]
+    F[tables.total_cnt[b]] = total_cnt
+    return total_cnt > 0.0
 
 
-def table_value(F: F64, I: I32, b: int, u: float) -> float:
+def table_value(F: F64, I: I32, b: int, u_cnt: float) -> float:
     """Table b, which is ready, at u source pulses from its begin; held beyond its ends."""
     last: int = min(I[tables.segments[b]], tables.ARRAY_SIZE) - 1
     k: int = 0
-    while k < last and u >= F[tables.length_cnt[b] + k]:
-        u -= F[tables.length_cnt[b] + k]
+    while k < last and u_cnt >= F[tables.length_cnt[b] + k]:
+        u_cnt -= F[tables.length_cnt[b] + k]
         k += 1
     header: int = segment_header(I, b, k)
     intervals: int = I[header] - 1
-    place: float = u * intervals / F[tables.length_cnt[b] + k]
+    place: float = u_cnt * intervals / F[tables.length_cnt[b] + k]
     place = max(0.0, min(place, float(intervals)))
     point: int = int(place)
     if point >= intervals:
@@ -125,29 +125,29 @@ def table_value(F: F64, I: I32, b: int, u: float) -> float:
 
 def cam_place(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """Put the cam offset of axis n where the index is; count the cycles that were passed."""
-    total: float = F[tables.total_cnt[n]]
-    index: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
-    cycle: float = floor(index / total)
+    total_cnt: float = F[tables.total_cnt[n]]
+    index_cnt: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
+    cycle: float = floor(index_cnt / total_cnt)
     if cycle != F[cams.cycle[n]]:
-        gain: float = (F[tables.last_cnt[n]] - F[tables.first_cnt[n]]) * F[tables.scale[n]]
-        F[tables.shift_cnt[n]] += (cycle - F[cams.cycle[n]]) * gain
+        gain_cnt: float = (F[tables.last_cnt[n]] - F[tables.first_cnt[n]]) * F[tables.scale[n]]
+        F[tables.shift_cnt[n]] += (cycle - F[cams.cycle[n]]) * gain_cnt
         F[cams.cycle[n]] = cycle
-    old: float = F[axes.cam_cnt[n]]
-    if old != F[tables.shown_cnt[n]]:
-        F[cams.base_cnt[n]] += old - F[tables.shown_cnt[n]]
-    offset: float = F[cams.base_cnt[n]] + cam_formula(F, I, S, n, index - cycle * total)
-    F[axes.cam_cnt[n]] = offset
-    F[tables.shown_cnt[n]] = offset
-    cam_smooth(F, I, n, offset - old, rate_hz)
+    old_cnt: float = F[axes.cam_cnt[n]]
+    if old_cnt != F[tables.shown_cnt[n]]:
+        F[cams.base_cnt[n]] += old_cnt - F[tables.shown_cnt[n]]
+    offset_cnt: float = F[cams.base_cnt[n]] + cam_formula(F, I, S, n, index_cnt - cycle * total_cnt)
+    F[axes.cam_cnt[n]] = offset_cnt
+    F[tables.shown_cnt[n]] = offset_cnt
+    cam_smooth(F, I, n, offset_cnt - old_cnt, rate_hz)
 
 
-def cam_formula(F: F64, I: I32, S: F32, n: int, u: float) -> float:
+def cam_formula(F: F64, I: I32, S: F32, n: int, u_cnt: float) -> float:
     """What the table of axis n puts out at u, without base."""
-    value: float = table_value(F, I, n, u) * F[tables.scale[n]]
-    return value + F[tables.offset_u[n]] * axis_scale(S, n) + F[tables.shift_cnt[n]]
+    value_cnt: float = table_value(F, I, n, u_cnt) * F[tables.scale[n]]
+    return value_cnt + F[tables.offset_u[n]] * axis_scale(S, n) + F[tables.shift_cnt[n]]
 
 
-def cam_smooth(F: F64, I: I32, n: int, moved: float, rate_hz: float) -> None:
+def cam_smooth(F: F64, I: I32, n: int, moved_cnt: float, rate_hz: float) -> None:
     """The feed-forward sees the cam's speed averaged over CAM Velocity Smooth samples."""
     size: int = I[cams.window_size[n]]
     place: int = I[cams.window_index[n]]
@@ -155,21 +155,21 @@ def cam_smooth(F: F64, I: I32, n: int, moved: float, rate_hz: float) -> None:
         I[cams.window_count[n]] += 1
     else:
         F[cams.sum_cnt[n]] -= F[cams.window_cnt[n] + place]
-    F[cams.sum_cnt[n]] += moved
-    F[cams.window_cnt[n] + place] = moved
+    F[cams.sum_cnt[n]] += moved_cnt
+    F[cams.window_cnt[n] + place] = moved_cnt
     I[cams.window_index[n]] = 0 if place + 1 >= size else place + 1
-    mean: float = F[cams.sum_cnt[n]] / I[cams.window_count[n]]
-    F[axes.cam_smoothing_cps[n]] = (mean - moved) * rate_hz
+    mean_cnt: float = F[cams.sum_cnt[n]] / I[cams.window_count[n]]
+    F[axes.cam_smoothing_cps[n]] = (mean_cnt - moved_cnt) * rate_hz
 
 
-def cam_start(F: F64, I: I32, S: F32, n: int, index: float) -> None:
+def cam_start(F: F64, I: I32, S: F32, n: int, index_cnt: float) -> None:
     """Engage the cam of axis n at an index, without a jump."""
-    total: float = F[tables.total_cnt[n]]
-    place: float = index + F[tables.flz_cnt[n]]
-    F[cams.index_cnt[n]] = index
-    F[cams.cycle[n]] = floor(place / total)
-    u: float = place - F[cams.cycle[n]] * total
-    F[cams.base_cnt[n]] = F[axes.cam_cnt[n]] - cam_formula(F, I, S, n, u)
+    total_cnt: float = F[tables.total_cnt[n]]
+    place_cnt: float = index_cnt + F[tables.flz_cnt[n]]
+    F[cams.index_cnt[n]] = index_cnt
+    F[cams.cycle[n]] = floor(place_cnt / total_cnt)
+    u_cnt: float = place_cnt - F[cams.cycle[n]] * total_cnt
+    F[cams.base_cnt[n]] = F[axes.cam_cnt[n]] - cam_formula(F, I, S, n, u_cnt)
     F[tables.shown_cnt[n]] = F[axes.cam_cnt[n]]
     F[cams.sum_cnt[n]] = 0.0
     size: int = I[axes.cam_velocity_smooth[n]]
@@ -196,31 +196,31 @@ def cam_halt(F: F64, I: I32, n: int) -> None:
     I[triggers.kind[n * TRIGGERS + CAM_ON]] = DISARMED
 
 
-def cam_passed(old: float, delta: float, position: float, total: float) -> float:
-    """How far within `delta` from `old` the cam passes `position`, NOT_PASSED if it does not."""
-    way: float = position - old
-    way -= floor(way / total) * total
-    if delta < 0.0:
-        way -= total
-    if way == 0.0:
+def cam_passed(old_cnt: float, delta_cnt: float, position_cnt: float, total_cnt: float) -> float:
+    """How far on the cam passes `position_cnt` within `delta_cnt` of `old_cnt`, or NOT_PASSED."""
+    way_cnt: float = position_cnt - old_cnt
+    way_cnt -= floor(way_cnt / total_cnt) * total_cnt
+    if delta_cnt < 0.0:
+        way_cnt -= total_cnt
+    if way_cnt == 0.0:
         return NOT_PASSED
-    return way if fabs(way) <= fabs(delta) else NOT_PASSED
+    return way_cnt if fabs(way_cnt) <= fabs(delta_cnt) else NOT_PASSED
 
 
-def cam_run(F: F64, I: I32, S: F32, n: int, delta: float, rate_hz: float) -> None:
-    """Follow `delta` source pulses; end at CAM CYCLES or where POFF says."""
-    total: float = F[tables.total_cnt[n]]
+def cam_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, rate_hz: float) -> None:
+    """Follow `delta_cnt` source pulses; end at CAM CYCLES or where POFF says."""
+    total_cnt: float = F[tables.total_cnt[n]]
     ends: bool = False
     if I[cams.poff[n]]:
-        old: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
-        way: float = cam_passed(old, delta, F[cams.poff_cnt[n]], total)
-        if way != NOT_PASSED:
-            delta = way
+        old_cnt: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
+        way_cnt: float = cam_passed(old_cnt, delta_cnt, F[cams.poff_cnt[n]], total_cnt)
+        if way_cnt != NOT_PASSED:
+            delta_cnt = way_cnt
             ends = True
-    F[cams.index_cnt[n]] += delta
-    limit: float = I[axes.cam_cycles[n]] * total
-    if limit > 0.0 and fabs(F[cams.index_cnt[n]]) >= limit - EPS_CNT:
-        F[cams.index_cnt[n]] = limit if F[cams.index_cnt[n]] > 0.0 else -limit
+    F[cams.index_cnt[n]] += delta_cnt
+    limit_cnt: float = I[axes.cam_cycles[n]] * total_cnt
+    if limit_cnt > 0.0 and fabs(F[cams.index_cnt[n]]) >= limit_cnt - EPS_CNT:
+        F[cams.index_cnt[n]] = limit_cnt if F[cams.index_cnt[n]] > 0.0 else -limit_cnt
         ends = True
     cam_place(F, I, S, n, rate_hz)
     if ends:
@@ -230,7 +230,7 @@ def cam_run(F: F64, I: I32, S: F32, n: int, delta: float, rate_hz: float) -> Non
 def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """A cam that is off: see whether its trigger or the position of PON has come."""
     t: int = n * TRIGGERS + CAM_ON
-    delta: float = F[sources.delta[n * USES + USE_CAM]]
+    delta_cnt: float = F[sources.delta[n * USES + USE_CAM]]
     if I[triggers.kind[t]] != DISARMED:
         captures: bool = I[triggers.kind[t]] >= CAPTURED
         state: int = trigger_step(F, I, S, t, n * USES + USE_CAM, 0.0)
@@ -244,12 +244,12 @@ def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
         cam_start(F, I, S, n, 0.0)
         cam_run(F, I, S, n, F[triggers.over_cnt[t]], rate_hz)
         return
-    index: float = F[sources.old[n * USES + USE_CAM]] - delta + F[tables.flz_cnt[n]]
-    way: float = cam_passed(index, delta, F[cams.pon_cnt[n]], F[tables.total_cnt[n]])
-    if way != NOT_PASSED:
+    index_cnt: float = F[sources.old[n * USES + USE_CAM]] - delta_cnt + F[tables.flz_cnt[n]]
+    way_cnt: float = cam_passed(index_cnt, delta_cnt, F[cams.pon_cnt[n]], F[tables.total_cnt[n]])
+    if way_cnt != NOT_PASSED:
         I[cams.pon[n]] = 0
         cam_start(F, I, S, n, F[cams.pon_cnt[n]] - F[tables.flz_cnt[n]])
-        cam_run(F, I, S, n, delta - way, rate_hz)
+        cam_run(F, I, S, n, delta_cnt - way_cnt, rate_hz)
 
 
 def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
@@ -270,8 +270,8 @@ def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
         return
     if not running:
         cam_start(F, I, S, n, 0.0)
-    delta: float = F[sources.delta[n * USES + USE_CAM]]
-    cam_run(F, I, S, n, delta, rate_hz)
+    delta_cnt: float = F[sources.delta[n * USES + USE_CAM]]
+    cam_run(F, I, S, n, delta_cnt, rate_hz)
 
 
 # ballscrews
@@ -293,13 +293,13 @@ def ballscrew_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> None:
     if I[tables.running[b]] and F[axes.ballscrew_cnt[n]] != F[tables.shown_cnt[b]]:
         F[tables.shift_cnt[b]] += F[axes.ballscrew_cnt[n]] - F[tables.shown_cnt[b]]
     tap: int = n * USES + USE_BALLSCREW
-    index: float = psp_cnt
+    index_cnt: float = psp_cnt
     if I[sources.kind[tap]] != FROM_SELF:
-        index = source_shown(I, tap, F[sources.old[tap]])
-    value: float = table_value(F, I, b, index + F[tables.flz_cnt[b]]) * F[tables.scale[b]]
-    value += F[tables.offset_u[b]] * axis_scale(S, n) + F[tables.shift_cnt[b]]
-    F[axes.ballscrew_cnt[n]] = value
-    F[tables.shown_cnt[b]] = value
+        index_cnt = source_shown(I, tap, F[sources.old[tap]])
+    value_cnt: float = table_value(F, I, b, index_cnt + F[tables.flz_cnt[b]]) * F[tables.scale[b]]
+    value_cnt += F[tables.offset_u[b]] * axis_scale(S, n) + F[tables.shift_cnt[b]]
+    F[axes.ballscrew_cnt[n]] = value_cnt
+    F[tables.shown_cnt[b]] = value_cnt
     I[tables.running[b]] = 1
 
 

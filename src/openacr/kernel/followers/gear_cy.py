@@ -48,26 +48,26 @@ def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
     if ratio == goal or dt <= 0.0:
         F[gears.ratio_now[n]] = ratio
         return ratio
-    area: float = 0.0
-    left: float = dt
+    area_s: float = 0.0
+    left_s: float = dt
     for _ in range(2):  # down to 0, then up on the other side
         stage: float = 0.0 if ratio * goal < 0.0 else goal
-        rate: float = F[gears.dec_rps[n]] if fabs(stage) < fabs(ratio) else F[gears.acc_rps[n]]
-        if rate > 0.0:
-            needed: float = fabs(stage - ratio) / rate
-            if needed > left * (1.0 + EPS):
-                rate = rate if stage > ratio else -rate
-                area += left * (ratio + rate * left / 2.0)
-                ratio += rate * left
-                left = 0.0
+        rate_rps: float = F[gears.dec_rps[n]] if fabs(stage) < fabs(ratio) else F[gears.acc_rps[n]]
+        if rate_rps > 0.0:
+            needed_s: float = fabs(stage - ratio) / rate_rps
+            if needed_s > left_s * (1.0 + EPS):
+                rate_rps = rate_rps if stage > ratio else -rate_rps
+                area_s += left_s * (ratio + rate_rps * left_s / 2.0)
+                ratio += rate_rps * left_s
+                left_s = 0.0
                 break
-            area += needed * (ratio + stage) / 2.0
-            left = max(left - needed, 0.0)
+            area_s += needed_s * (ratio + stage) / 2.0
+            left_s = max(left_s - needed_s, 0.0)
         ratio = stage
         if ratio == goal:
             break
     F[gears.ratio_now[n]] = ratio
-    return (area + left * ratio) / dt
+    return (area_s + left_s * ratio) / dt
 
 
 def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
@@ -87,32 +87,32 @@ def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
         return
     if F[gears.max_u[n]] > F[gears.min_u[n]]:
         scale: float = axis_scale(S, n)
-        old: float = F[axes.gear_cnt[n]] / scale
-        new: float = old + moved_cnt / scale
-        if new >= F[gears.max_u[n]]:
+        old_u: float = F[axes.gear_cnt[n]] / scale
+        new_u: float = old_u + moved_cnt / scale
+        if new_u >= F[gears.max_u[n]]:
             flags |= af2.GEAR_MAX
-            new = min(new, max(old, F[gears.max_u[n]]))
-            moved_cnt = (new - old) * scale
-        elif new <= F[gears.min_u[n]]:
+            new_u = min(new_u, max(old_u, F[gears.max_u[n]]))
+            moved_cnt = (new_u - old_u) * scale
+        elif new_u <= F[gears.min_u[n]]:
             flags |= af2.GEAR_MIN
-            new = max(new, min(old, F[gears.min_u[n]]))
-            moved_cnt = (new - old) * scale
+            new_u = max(new_u, min(old_u, F[gears.min_u[n]]))
+            moved_cnt = (new_u - old_u) * scale
     I[word] = flags
     F[axes.gear_cnt[n]] += moved_cnt
 
 
-def gear_run(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> None:
-    """Let the gear of axis n follow `delta` source pulses that came within `dt`."""
+def gear_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> None:
+    """Let the gear of axis n follow `delta_cnt` source pulses that came within `dt`."""
     word: int = af1.word[n]
     on: bool = I[word] & af1.GEAR_ACTIVATE != 0
     goal: float = F[gears.ratio[n]] if on else 0.0
     mean: float = gear_ramp(F, n, goal, dt, I[word] & af1.GEAR_LOCK != 0)
-    step: float = 0.0
+    step_cnt: float = 0.0
     if F[gears.ppu[n]] != 0.0:
-        step = delta / F[gears.ppu[n]] * axis_scale(S, n)
-    if on and mean != goal and step != 0.0:
-        gear_slip(F, S, n, (goal - mean) * step)
-    gear_place(F, I, S, n, step * mean)
+        step_cnt = delta_cnt / F[gears.ppu[n]] * axis_scale(S, n)
+    if on and mean != goal and step_cnt != 0.0:
+        gear_slip(F, S, n, (goal - mean) * step_cnt)
+    gear_place(F, I, S, n, step_cnt * mean)
 
 
 def gear_show(F: F64, I: I32, n: int) -> None:
@@ -130,17 +130,17 @@ def gear_show(F: F64, I: I32, n: int) -> None:
     I[word] = flags
 
 
-def gear_behind(F: F64, t: int, delta: float) -> float:
+def gear_behind(F: F64, t: int, delta_cnt: float) -> float:
     """Part of the tick behind the event of trigger t."""
-    return F[triggers.over_cnt[t]] / delta if delta != 0.0 else 0.0
+    return F[triggers.over_cnt[t]] / delta_cnt if delta_cnt != 0.0 else 0.0
 
 
-def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
+def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> bool:
     """Advance what GEAR ON waits for; True if the gear has started in this tick."""
     t: int = n * TRIGGERS + GEAR_ON
     captures: bool = I[triggers.kind[t]] >= CAPTURED
-    offset: float = I[axes.gear_trigger_on_offset[n]]
-    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
+    offset_cnt: float = I[axes.gear_trigger_on_offset[n]]
+    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset_cnt)
     if state == WAITING:
         return False
     word: int = af2.word[n]
@@ -150,25 +150,25 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> 
     if captures:
         I[word] |= af2.GEAR_TRIGGER_STARTED
     I[af1.word[n]] |= af1.GEAR_ACTIVATE
-    over: float = F[triggers.over_cnt[t]]
-    gear_run(F, I, S, n, over, dt * gear_behind(F, t, delta))
+    over_cnt: float = F[triggers.over_cnt[t]]
+    gear_run(F, I, S, n, over_cnt, dt * gear_behind(F, t, delta_cnt))
     return True
 
 
-def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta: float, dt: float) -> bool:
+def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> bool:
     """Advance what GEAR OFF waits for; True if it has come in this tick."""
     t: int = n * TRIGGERS + GEAR_OFF
-    offset: float = I[axes.gear_trigger_off_offset[n]]
-    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset)
+    offset_cnt: float = I[axes.gear_trigger_off_offset[n]]
+    state: int = trigger_step(F, I, S, t, n * USES + USE_GEAR, offset_cnt)
     if state != WAITING:
         I[af2.word[n]] &= ~OFF_FLAGS
     if state != FIRED:
         return False
-    over: float = F[triggers.over_cnt[t]]
-    behind: float = gear_behind(F, t, delta)
-    gear_run(F, I, S, n, delta - over, dt * (1.0 - behind))
+    over_cnt: float = F[triggers.over_cnt[t]]
+    behind: float = gear_behind(F, t, delta_cnt)
+    gear_run(F, I, S, n, delta_cnt - over_cnt, dt * (1.0 - behind))
     I[af1.word[n]] &= ~af1.GEAR_ACTIVATE
-    gear_run(F, I, S, n, over, dt * behind)
+    gear_run(F, I, S, n, over_cnt, dt * behind)
     return True
 
 
@@ -186,7 +186,7 @@ def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
         gear_halt(F, I, n)
         return
-    delta: float = F[sources.delta[n * USES + USE_GEAR]]
+    delta_cnt: float = F[sources.delta[n * USES + USE_GEAR]]
     on: int = I[triggers.kind[n * TRIGGERS + GEAR_ON]]
     off: int = I[triggers.kind[n * TRIGGERS + GEAR_OFF]]
     running: int = I[af1.word[n]] & (af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE)
@@ -194,9 +194,9 @@ def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
         return
     done: bool = False
     if on != DISARMED:
-        done = gear_on_trigger(F, I, S, n, delta, dt)
+        done = gear_on_trigger(F, I, S, n, delta_cnt, dt)
     if off != DISARMED and not done:
-        done = gear_off_trigger(F, I, S, n, delta, dt)
+        done = gear_off_trigger(F, I, S, n, delta_cnt, dt)
     if not done:
-        gear_run(F, I, S, n, delta, dt)
+        gear_run(F, I, S, n, delta_cnt, dt)
     gear_show(F, I, n)

@@ -36,35 +36,35 @@ TURNED = 2
 BUFFERED = 3
 
 
-def ratchet_follow(F: F64, I: I32, k: int, delta: float) -> None:
+def ratchet_follow(F: F64, I: I32, k: int, delta_cnt: float) -> None:
     """Ratchet k gets a source delta."""
     mode: int = I[ratchets.mode[k]]
-    backlog: float = F[ratchets.backlog_cnt[k]]
-    if backlog * delta < 0.0:
-        if fabs(delta) <= fabs(backlog):
-            F[ratchets.backlog_cnt[k]] = backlog + delta
+    backlog_cnt: float = F[ratchets.backlog_cnt[k]]
+    if backlog_cnt * delta_cnt < 0.0:
+        if fabs(delta_cnt) <= fabs(backlog_cnt):
+            F[ratchets.backlog_cnt[k]] = backlog_cnt + delta_cnt
             return
-        delta += backlog
+        delta_cnt += backlog_cnt
         F[ratchets.backlog_cnt[k]] = 0.0
-    treatment: int = mode >> 2 if delta > 0.0 else mode
+    treatment: int = mode >> 2 if delta_cnt > 0.0 else mode
     treatment = treatment & 3
     if treatment == PASSED:
-        F[ratchets.output_cnt[k]] += delta
+        F[ratchets.output_cnt[k]] += delta_cnt
     elif treatment == TURNED:
-        F[ratchets.output_cnt[k]] -= delta
+        F[ratchets.output_cnt[k]] -= delta_cnt
     elif treatment == BUFFERED:
-        F[ratchets.backlog_cnt[k]] += delta
+        F[ratchets.backlog_cnt[k]] += delta_cnt
 
 
-def limiter_follow(F: F64, k: int, delta: float, period_s: float) -> None:
+def limiter_follow(F: F64, k: int, delta_cnt: float, period_s: float) -> None:
     """Limiter k gets a source delta."""
-    due: float = F[limiters.backlog_cnt[k]] + F[limiters.mult[k]] * delta
-    step: float = due
+    due_cnt: float = F[limiters.backlog_cnt[k]] + F[limiters.mult[k]] * delta_cnt
+    step_cnt: float = due_cnt
     if F[limiters.freq_hz[k]] > 0.0:
-        most: float = F[limiters.freq_hz[k]] * period_s
-        step = max(-most, min(most, due))
-    F[limiters.backlog_cnt[k]] = due - step
-    F[limiters.output_cnt[k]] += step
+        most_cnt: float = F[limiters.freq_hz[k]] * period_s
+        step_cnt = max(-most_cnt, min(most_cnt, due_cnt))
+    F[limiters.backlog_cnt[k]] = due_cnt - step_cnt
+    F[limiters.output_cnt[k]] += step_cnt
 
 
 def object_sources_step(F: F64, I: I32, S: F32, period_s: float) -> None:
@@ -74,8 +74,8 @@ def object_sources_step(F: F64, I: I32, S: F32, period_s: float) -> None:
         ratchet_follow(F, I, k, F[sources.delta[RATCHET_TAPS + k]])
     for j in range(OBJECTS):
         source_follow(F, I, S, LIMITER_TAPS + j)
-        delta: float = F[sources.delta[LIMITER_TAPS + j]]
-        limiter_follow(F, j, delta, period_s)
+        delta_cnt: float = F[sources.delta[LIMITER_TAPS + j]]
+        limiter_follow(F, j, delta_cnt, period_s)
 
 
 def tap_value(F: F64, I: I32, S: F32, t: int) -> float:
@@ -96,9 +96,9 @@ def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
     if header == 0 or kind_of(I, I[limit_switches.destination[k]]) != KIND_LONG:
         I[W_MISC_OUTPUTS] &= ~(mo.PLS0_ON << k)
         return
-    source: float = tap_value(F, I, S, SWITCH_TAPS + k)
+    source_cnt: float = tap_value(F, I, S, SWITCH_TAPS + k)
     index: float = floor(
-        (source - F[limit_switches.base_cnt[k]] + F[limit_switches.flz_cnt[k]])
+        (source_cnt - F[limit_switches.base_cnt[k]] + F[limit_switches.flz_cnt[k]])
         * F[limit_switches.ratio[k]]
     )
     if F[limit_switches.rotary[k]] > 0.0:
@@ -109,19 +109,19 @@ def switch_step(F: F64, I: I32, S: F32, k: int) -> None:
         store_long(I, row, (I[row] & ~mask) | (I[header + 1 + int(index)] & mask))
 
 
-def output_inside(F: F64, I: I32, k: int, source: float) -> bool:
+def output_inside(F: F64, I: I32, k: int, source_cnt: float) -> bool:
     """Whether a source value lies in the window of POS or one of those of INC."""
-    if F[output_objects.from_cnt[k]] <= source < F[output_objects.to_cnt[k]]:
+    if F[output_objects.from_cnt[k]] <= source_cnt < F[output_objects.to_cnt[k]]:
         return True
-    pitch: float = F[output_objects.pitch_cnt[k]]
-    if pitch <= 0.0:
+    pitch_cnt: float = F[output_objects.pitch_cnt[k]]
+    if pitch_cnt <= 0.0:
         return False
-    way: float = source - F[output_objects.start_cnt[k]]
-    window: float = floor(way / pitch)
+    way_cnt: float = source_cnt - F[output_objects.start_cnt[k]]
+    window: float = floor(way_cnt / pitch_cnt)
     windows: int = I[output_objects.windows[k]]
     if window < 0.0 or (windows > 0 and window >= windows):
         return False
-    return way - window * pitch < F[output_objects.width_cnt[k]]
+    return way_cnt - window * pitch_cnt < F[output_objects.width_cnt[k]]
 
 
 def output_step(F: F64, I: I32, S: F32, k: int) -> None:

@@ -77,19 +77,19 @@ def filter_halt(F: F64, I: I32, n: int) -> None:
     filter_clear(F, I, n)
 
 
-def filter_put(F: F64, I: I32, S: F32, n: int, moved: float) -> None:
+def filter_put(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
     """Add to the parameter of FLT OUT; a LONG one gets whole pulses, the rest is carried."""
     number: int = I[filters.out[n]]
     kind: int = kind_of(I, number)
     if kind == KIND_LONG:
-        total: float = F[filters.carry_cnt[n]] + moved
-        whole: float = trunc(total)
-        F[filters.carry_cnt[n]] = total - whole
-        store_long(I, number, wrap32(I[number] + int(whole)))
+        total_cnt: float = F[filters.carry_cnt[n]] + moved_cnt
+        whole_cnt: float = trunc(total_cnt)
+        F[filters.carry_cnt[n]] = total_cnt - whole_cnt
+        store_long(I, number, wrap32(I[number] + int(whole_cnt)))
     elif kind == KIND_FP32:
-        S[number] = S[number] + moved
+        S[number] = S[number] + moved_cnt
     elif kind == KIND_FP64:
-        F[USER_BASE + number] += moved
+        F[USER_BASE + number] += moved_cnt
 
 
 def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
@@ -98,15 +98,15 @@ def filter_step(F: F64, I: I32, S: F32, n: int) -> None:
     place: int = I[filters.index[n]]
     if not 0 <= place < size:
         place = 0
-    delta: float = source_delta(F, n, USE_FILTER)
-    F[filters.sum_cnt[n]] += delta - F[filters.window_cnt[n] + place]
-    F[filters.window_cnt[n] + place] = delta
+    delta_cnt: float = source_delta(F, n, USE_FILTER)
+    F[filters.sum_cnt[n]] += delta_cnt - F[filters.window_cnt[n] + place]
+    F[filters.window_cnt[n] + place] = delta_cnt
     I[filters.index[n]] = 0 if place + 1 >= size else place + 1
-    mean: float = F[filters.sum_cnt[n]] / size
+    mean_cnt: float = F[filters.sum_cnt[n]] / size
     if I[filters.out[n]] >= 0:
-        filter_put(F, I, S, n, mean)
+        filter_put(F, I, S, n, mean_cnt)
     else:
-        F[axes.gear_cnt[n]] += mean
+        F[axes.gear_cnt[n]] += mean_cnt
 
 
 # hand wheel and time base of jogs
@@ -121,11 +121,15 @@ def wheel_barred(F: F64, I: I32, S: F32, n: int, side: int) -> bool:
 
 def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
     """Hand wheel of axis n: its counts move the target of the jog profiler."""
-    delta: float = source_delta(F, n, USE_WHEEL)
+    delta_cnt: float = source_delta(F, n, USE_WHEEL)
     mode: int = I[axes.jog_mode[n]]
-    if delta == 0.0 or F[hand_wheels.ppu[n]] == 0.0 or (mode != JOG_IDLE and mode != JOG_TO_TARGET):
+    if (
+        delta_cnt == 0.0
+        or F[hand_wheels.ppu[n]] == 0.0
+        or (mode != JOG_IDLE and mode != JOG_TO_TARGET)
+    ):
         return
-    way_u: float = delta / F[hand_wheels.ppu[n]] * F[hand_wheels.ratio[n]]
+    way_u: float = delta_cnt / F[hand_wheels.ppu[n]] * F[hand_wheels.ratio[n]]
     if way_u == 0.0 or wheel_barred(F, I, S, n, 1 if way_u > 0.0 else -1):
         return
     if mode == JOG_IDLE:
@@ -146,9 +150,9 @@ def jog_time(F: F64, I: I32, n: int, period_s: float) -> float:
     mode: int = I[axes.jog_mode[n]]
     if I[sources.kind[tap]] == FROM_CLOCK or mode == JOG_KILLED or mode == JOG_HOMING:
         return period_s
-    due: float = F[followers.jog_debt_s[n]] + source_delta(F, n, USE_JOG) / PULSES_PER_S
-    F[followers.jog_debt_s[n]] = min(due, 0.0)
-    return max(due, 0.0)
+    due_s: float = F[followers.jog_debt_s[n]] + source_delta(F, n, USE_JOG) / PULSES_PER_S
+    F[followers.jog_debt_s[n]] = min(due_s, 0.0)
+    return max(due_s, 0.0)
 
 
 # backlash
@@ -156,33 +160,33 @@ def jog_time(F: F64, I: I32, n: int, period_s: float) -> float:
 
 def backlash_wanted(F: F64, S: F32, n: int, psp_cnt: float) -> float:
     """The backlash offset that belongs to a primary setpoint."""
-    full: float = S[axes.backlash_setting[n]] * axis_scale(S, n)
-    if not fabs(full) < LARGEST_DELTA:
-        full = 0.0
+    full_cnt: float = S[axes.backlash_setting[n]] * axis_scale(S, n)
+    if not fabs(full_cnt) < LARGEST_DELTA:
+        full_cnt = 0.0
     if BACKLASH_BY_DIRECTION:
-        moved: float = psp_cnt - F[followers.backlash_old_cnt[n]]
+        moved_cnt: float = psp_cnt - F[followers.backlash_old_cnt[n]]
         F[followers.backlash_old_cnt[n]] = psp_cnt
-        if moved == 0.0:
+        if moved_cnt == 0.0:
             return F[followers.backlash_wanted_cnt[n]]
-        return full if moved > 0.0 else 0.0
-    return full if psp_cnt > 0.0 else 0.0
+        return full_cnt if moved_cnt > 0.0 else 0.0
+    return full_cnt if psp_cnt > 0.0 else 0.0
 
 
 def backlash_step(F: F64, S: F32, n: int, psp_cnt: float, dt: float) -> None:
     """Bring the backlash offset of axis n to what it should be, a step taking 10 ms."""
-    wanted: float = backlash_wanted(F, S, n, psp_cnt)
-    offset: float = F[axes.backlash_cnt[n]]
-    if wanted != F[followers.backlash_wanted_cnt[n]]:
-        F[followers.backlash_wanted_cnt[n]] = wanted
-        F[followers.backlash_step_cnt[n]] = fabs(wanted - offset) / BACKLASH_SPREAD_S
-    if offset == wanted:
+    wanted_cnt: float = backlash_wanted(F, S, n, psp_cnt)
+    offset_cnt: float = F[axes.backlash_cnt[n]]
+    if wanted_cnt != F[followers.backlash_wanted_cnt[n]]:
+        F[followers.backlash_wanted_cnt[n]] = wanted_cnt
+        F[followers.backlash_step_cnt[n]] = fabs(wanted_cnt - offset_cnt) / BACKLASH_SPREAD_S
+    if offset_cnt == wanted_cnt:
         return
-    step: float = F[followers.backlash_step_cnt[n]] * dt
-    left: float = wanted - offset
-    if fabs(left) <= step * (1.0 + 1e-9):
-        F[axes.backlash_cnt[n]] = wanted
+    step_cnt: float = F[followers.backlash_step_cnt[n]] * dt
+    left_cnt: float = wanted_cnt - offset_cnt
+    if fabs(left_cnt) <= step_cnt * (1.0 + 1e-9):
+        F[axes.backlash_cnt[n]] = wanted_cnt
     else:
-        F[axes.backlash_cnt[n]] = offset + (step if left > 0.0 else -step)
+        F[axes.backlash_cnt[n]] = offset_cnt + (step_cnt if left_cnt > 0.0 else -step_cnt)
 
 
 # locked pairs
@@ -196,11 +200,11 @@ def lock_step(F: F64, I: I32, S: F32, n: int) -> None:
     I[af1.word[n]] &= ~OWN_MOTION
     I[af6.word[n]] &= ~af6.JOG_HOME_REQUEST
     leader: int = I[followers.leader[n]] - 1
-    now: float = F[axes.psp_cnt[leader]]
-    moved: float = now - F[followers.lock_old_cnt[n]]
-    F[followers.lock_old_cnt[n]] = now
-    if moved != 0.0:
-        F[axes.position_cnt[n]] += moved / axis_scale(S, leader) * axis_scale(S, n)
+    now_cnt: float = F[axes.psp_cnt[leader]]
+    moved_cnt: float = now_cnt - F[followers.lock_old_cnt[n]]
+    F[followers.lock_old_cnt[n]] = now_cnt
+    if moved_cnt != 0.0:
+        F[axes.position_cnt[n]] += moved_cnt / axis_scale(S, leader) * axis_scale(S, n)
         F[axes.target_cnt[n]] = F[axes.position_cnt[n]]
         axis_target_changed(F, I, n)
 
@@ -219,8 +223,8 @@ def locks_couple(F: F64, I: I32, S: F32) -> None:
         leader: int = I[followers.leader[n]] - 1
         if 0 <= leader < AXES and I[axes.on[n]]:
             gain: float = S[axes.lock_feedback_gain[leader]]
-            other: float = lock_error(F, I, n) * axis_scale(S, leader) / axis_scale(S, n)
-            volts: float = gain * (lock_error(F, I, leader) - other)
+            other_cnt: float = lock_error(F, I, n) * axis_scale(S, leader) / axis_scale(S, n)
+            volts: float = gain * (lock_error(F, I, leader) - other_cnt)
             F[followers.lock_v[leader]] += volts
             F[followers.lock_v[n]] -= volts
 
@@ -255,11 +259,11 @@ def direction_step(F: F64, I: I32, S: F32, n: int) -> None:
 
 def rpm_step(F: F64, I: I32, S: F32, n: int) -> None:
     """RPM = RPM Factor * pulses moved in this tick."""
-    moved: float = F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]
+    moved_cnt: float = F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]
     k: int = I[axes.position_index[n]]
     if I[axes.position_source[n]] == FROM_ENCODER and 0 <= k < ENCODERS:
-        moved = F[encoders.step_cnt[k]]
-    S[axes.rpm[n]] = S[axes.rpm_factor[n]] * moved
+        moved_cnt = F[encoders.step_cnt[k]]
+    S[axes.rpm[n]] = S[axes.rpm_factor[n]] * moved_cnt
 
 
 # the order of things
@@ -287,10 +291,10 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) ->
         cam_step(F, I, S, n, rate_hz)
         if I[filters.on[n]]:
             filter_step(F, I, S, n)
-        psp: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
-        psp = psp + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
-        backlash_step(F, S, n, psp, dt)
-        ballscrew_step(F, I, S, n, psp)
+        psp_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
+        psp_cnt = psp_cnt + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
+        backlash_step(F, S, n, psp_cnt, dt)
+        ballscrew_step(F, I, S, n, psp_cnt)
     if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)
     if S[axes.rpm_factor[n]] > 0.0:

@@ -51,27 +51,27 @@ def home_final(I: I32, n: int) -> int:
     return -1 if I[af5.word[n]] & af5.HOME_NEGATIVE_FINAL_DIRECTION else 1
 
 
-def home_run(F: F64, I: I32, S: F32, n: int, state: int, sign: int, speed: float) -> None:
+def home_run(F: F64, I: I32, S: F32, n: int, state: int, sign: int, speed_cps: float) -> None:
     """Enter `state` and move in direction `sign` of the units, without a target."""
     I[axes.home_state[n]] = state
     I[axes.home_moving[n]] = sign
-    jog_run(F, I, S, n, sign * axis_sense(S, n), FAR_CNT, speed)
+    jog_run(F, I, S, n, sign * axis_sense(S, n), FAR_CNT, speed_cps)
 
 
 def home_brake(F: F64, I: I32, S: F32, n: int, state: int) -> None:
     """Enter `state` and ramp down with JOG DEC and JRK."""
     I[axes.home_state[n]] = state
-    dec: float = jog_setting(S, n, axes.jog_decel_setting[n])
-    jog_ramp_down(F, I, n, dec, jog_setting(S, n, axes.jog_jerk_setting[n]), DECELERATING)
+    dec_cps2: float = jog_setting(S, n, axes.jog_decel_setting[n])
+    jog_ramp_down(F, I, n, dec_cps2, jog_setting(S, n, axes.jog_jerk_setting[n]), DECELERATING)
 
 
 def home_approach(F: F64, I: I32, S: F32, n: int, sign: int) -> None:
     """Approach the edge slowly in direction `sign`."""
     scale: float = fabs(axis_scale(S, n))
-    speed: float = F[axes.homvf_ups[n]] * scale
-    if speed <= 0.0:
-        speed = SLOW_SHARE * jog_setting(S, n, axes.jog_veloc_setting[n])
-    home_run(F, I, S, n, HOME_APPROACH, sign, speed)
+    speed_cps: float = F[axes.homvf_ups[n]] * scale
+    if speed_cps <= 0.0:
+        speed_cps = SLOW_SHARE * jog_setting(S, n, axes.jog_veloc_setting[n])
+    home_run(F, I, S, n, HOME_APPROACH, sign, speed_cps)
 
 
 def home_end(I: I32, n: int, result: int) -> None:
@@ -86,9 +86,9 @@ def home_abort(I: I32, n: int) -> None:
         home_end(I, n, af5.HOME_FAILED)
 
 
-def home_zero(F: F64, I: I32, S: F32, n: int, origin: float) -> None:
-    """Make the actual position `origin` the new 0; the axis is commanded to stand there."""
-    encoder_shift(F, I, S, n, int(origin))
+def home_zero(F: F64, I: I32, S: F32, n: int, origin_cnt: float) -> None:
+    """Make the actual position `origin_cnt` the new 0; the axis is commanded to stand there."""
+    encoder_shift(F, I, S, n, int(origin_cnt))
     axis_preload(F, I, n, 0.0)
 
 
@@ -109,8 +109,8 @@ def home_limit(F: F64, I: I32, S: F32, n: int) -> None:
         return
     I[axes.home_reversed[n]] = 1
     I[axes.home_state[n]] = HOME_REVERSE
-    rate: float = F[axes.sldec_ups2[n]] if hit == SOFT_LIMIT_HIT else F[axes.hldec_ups2[n]]
-    jog_ramp_down(F, I, n, rate * fabs(axis_scale(S, n)), 0.0, DECELERATING)
+    rate_cps2: float = F[axes.sldec_ups2[n]] if hit == SOFT_LIMIT_HIT else F[axes.hldec_ups2[n]]
+    jog_ramp_down(F, I, n, rate_cps2 * fabs(axis_scale(S, n)), 0.0, DECELERATING)
 
 
 def home_begin(I: I32, n: int, direction: int) -> None:
@@ -178,9 +178,9 @@ def home_step(F: F64, I: I32, S: F32, n: int) -> bool:
 
 def home_pace(F: F64, I: I32, S: F32, n: int) -> None:
     """Follow a JOG VEL changed during the search."""
-    speed: float = jog_setting(S, n, axes.jog_veloc_setting[n])
-    if speed != F[profiles.target_velocity[JOG_PROFILE + n]]:
-        home_run(F, I, S, n, HOME_SEARCH, I[axes.home_moving[n]], speed)
+    speed_cps: float = jog_setting(S, n, axes.jog_veloc_setting[n])
+    if speed_cps != F[profiles.target_velocity[JOG_PROFILE + n]]:
+        home_run(F, I, S, n, HOME_SEARCH, I[axes.home_moving[n]], speed_cps)
 
 
 def home_passed(I: I32, n: int) -> bool:
@@ -209,9 +209,9 @@ def home_stop_dead(F: F64, I: I32, S: F32, n: int) -> None:
 def home_arrived(F: F64, I: I32, S: F32, n: int) -> bool:
     """A ramp of the sequence has come to rest; True when homing is over."""
     state: int = I[axes.home_state[n]]
-    speed: float = jog_setting(S, n, axes.jog_veloc_setting[n])
+    speed_cps: float = jog_setting(S, n, axes.jog_veloc_setting[n])
     if state == HOME_REVERSE:
-        home_run(F, I, S, n, HOME_SEARCH, -I[axes.home_moving[n]], speed)
+        home_run(F, I, S, n, HOME_SEARCH, -I[axes.home_moving[n]], speed_cps)
     elif state == HOME_STOP1:
         home_approach(F, I, S, n, -I[axes.home_moving[n]])
     elif state == HOME_STOP2:

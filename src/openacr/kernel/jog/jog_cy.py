@@ -41,25 +41,25 @@ JOG_STATES = af1.JOG_ACTIVE | af1.JOG_DIRECTION | af1.JOG_AT_SPEED | af1.JOG_STO
 
 def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
     """Plan the jog of axis n from its present motion towards what is wanted."""
-    speed: float = jog_speed(F, I, S, n)
+    speed_cps: float = jog_speed(F, I, S, n)
     I[axes.jog_replan[n]] = 0
     want: int = I[axes.jog_want[n]]
     sign: int = want * axis_sense(S, n)
-    distance: float = FAR_CNT
+    distance_cnt: float = FAR_CNT
     if I[axes.jog_mode[n]] == JOG_TO_TARGET:
-        distance = F[axes.jog_target_cnt[n]] - F[axes.jog_cnt[n]]
-        sign = 1 if distance >= 0.0 else -1
-        distance = fabs(distance)
+        distance_cnt = F[axes.jog_target_cnt[n]] - F[axes.jog_cnt[n]]
+        sign = 1 if distance_cnt >= 0.0 else -1
+        distance_cnt = fabs(distance_cnt)
     elif I[af1.word[n]] & af1.JOG_LIMIT_CHECK:
-        distance = max(jog_room(F, S, n, want), 0.0)
-    I[axes.jog_turning[n]] = 0 if jog_run(F, I, S, n, sign, distance, speed) else 1
+        distance_cnt = max(jog_room(F, S, n, want), 0.0)
+    I[axes.jog_turning[n]] = 0 if jog_run(F, I, S, n, sign, distance_cnt, speed_cps) else 1
 
 
 def jog_room(F: F64, S: F32, n: int, want: int) -> float:
     """Pulses from the present jog offset to the jog limit (JLM) in direction `want`."""
-    limit: float = S[axes.plus_jog_limit[n]] if want > 0 else S[axes.minus_jog_limit[n]]
-    way: float = limit * axis_scale(S, n) - F[axes.jog_cnt[n]]
-    return want * axis_sense(S, n) * way
+    limit_u: float = S[axes.plus_jog_limit[n]] if want > 0 else S[axes.minus_jog_limit[n]]
+    way_cnt: float = limit_u * axis_scale(S, n) - F[axes.jog_cnt[n]]
+    return want * axis_sense(S, n) * way_cnt
 
 
 def jog_brake(F: F64, I: I32, S: F32, n: int) -> None:
@@ -67,9 +67,9 @@ def jog_brake(F: F64, I: I32, S: F32, n: int) -> None:
     I[axes.jog_mode[n]] = JOG_STOPPING
     I[axes.jog_turning[n]] = 0
     I[axes.jog_replan[n]] = 0
-    dec: float = jog_setting(S, n, axes.jog_decel_setting[n])
-    jerk: float = jog_setting(S, n, axes.jog_jerk_setting[n])
-    jog_ramp_down(F, I, n, dec, jerk, STOPPING)
+    dec_cps2: float = jog_setting(S, n, axes.jog_decel_setting[n])
+    jerk_cps3: float = jog_setting(S, n, axes.jog_jerk_setting[n])
+    jog_ramp_down(F, I, n, dec_cps2, jerk_cps3, STOPPING)
 
 
 def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
@@ -79,16 +79,16 @@ def jog_take_over(F: F64, I: I32, S: F32, n: int, rate_ups2: float) -> None:
     """
     if I[axes.jog_mode[n]] == JOG_HOMING:
         home_abort(I, n)
-    velocity: float = F[axes.psp_velocity_cps[n]]
+    velocity_cps: float = F[axes.psp_velocity_cps[n]]
     I[af1.word[n]] &= ~JOG_WANTED
-    I[axes.jog_sign[n]] = -1 if velocity < 0.0 else 1
+    I[axes.jog_sign[n]] = -1 if velocity_cps < 0.0 else 1
     I[axes.jog_turning[n]] = 0
     I[axes.jog_replan[n]] = 0
     F[axes.jog_origin_cnt[n]] = F[axes.jog_cnt[n]]
-    profile_reset(F, I, JOG_PROFILE + n, fabs(velocity), 0.0)
+    profile_reset(F, I, JOG_PROFILE + n, fabs(velocity_cps), 0.0)
     I[axes.jog_mode[n]] = JOG_KILLED
-    rate: float = rate_ups2 * fabs(axis_scale(S, n))
-    profile_stop(F, I, JOG_PROFILE + n, FAR_CNT, rate, 0.0, STOPPING)
+    rate_cps2: float = rate_ups2 * fabs(axis_scale(S, n))
+    profile_stop(F, I, JOG_PROFILE + n, FAR_CNT, rate_cps2, 0.0, STOPPING)
 
 
 def jog_home_request(I: I32, n: int) -> None:
@@ -171,17 +171,17 @@ def jog_follow(F: F64, I: I32, S: F32, n: int) -> None:
             return
         if I[profiles.kind[JOG_PROFILE + n]] == STOPPING:
             return
-        planned: float = F[profiles.target_velocity[JOG_PROFILE + n]]
-        if jog_speed(F, I, S, n) == planned:
+        planned_cps: float = F[profiles.target_velocity[JOG_PROFILE + n]]
+        if jog_speed(F, I, S, n) == planned_cps:
             return
     jog_plan(F, I, S, n)
 
 
 def jog_place(F: F64, I: I32, n: int) -> None:
     """Put the jog offset where the profile is."""
-    distance: float = F[profiles.distance[JOG_PROFILE + n]]
+    distance_cnt: float = F[profiles.distance[JOG_PROFILE + n]]
     sign: int = I[axes.jog_sign[n]]
-    F[axes.jog_cnt[n]] = F[axes.jog_origin_cnt[n]] + sign * distance
+    F[axes.jog_cnt[n]] = F[axes.jog_origin_cnt[n]] + sign * distance_cnt
 
 
 def jog_rest(F: F64, I: I32, n: int) -> None:
@@ -196,8 +196,8 @@ def jog_waits(I: I32, n: int) -> bool:
     return I[axes.jog_mode[n]] == JOG_KILLED and I[axes.jog_replan[n]] != 0
 
 
-def jog_arrived(F: F64, I: I32, S: F32, n: int, left: float) -> None:
-    """The plan of axis n has ended with `left` seconds of the tick to go."""
+def jog_arrived(F: F64, I: I32, S: F32, n: int, left_s: float) -> None:
+    """The plan of axis n has ended with `left_s` seconds of the tick to go."""
     mode: int = I[axes.jog_mode[n]]
     if mode == JOG_HOMING:
         if home_arrived(F, I, S, n):
@@ -207,7 +207,7 @@ def jog_arrived(F: F64, I: I32, S: F32, n: int, left: float) -> None:
             I[axes.jog_mode[n]] = JOG_TO_TARGET
         profile_reset(F, I, JOG_PROFILE + n, 0.0, 0.0)
         jog_plan(F, I, S, n)
-        if profile_advance(F, I, JOG_PROFILE + n, left) >= 0.0:
+        if profile_advance(F, I, JOG_PROFILE + n, left_s) >= 0.0:
             jog_finish_target(F, I, n)
         else:
             jog_place(F, I, n)
@@ -229,20 +229,20 @@ def jog_finish_target(F: F64, I: I32, n: int) -> None:
 def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     """Publish speed, acceleration and flags of the jog profiler."""
     sign: int = I[axes.jog_sign[n]]
-    velocity: float = sign * F[profiles.velocity[JOG_PROFILE + n]]
+    velocity_cps: float = sign * F[profiles.velocity[JOG_PROFILE + n]]
     units: float = 1.0 / axis_scale(S, n)
-    S[axes.current_jog_veloc[n]] = velocity * units
+    S[axes.current_jog_veloc[n]] = velocity_cps * units
     S[axes.current_jog_accel[n]] = sign * F[profiles.accel[JOG_PROFILE + n]] * units
     word: int = af1.word[n]
     flags: int = I[word] & ~JOG_STATES
     if I[axes.jog_mode[n]] != JOG_IDLE:
         flags |= af1.JOG_ACTIVE
-        if velocity * units < 0.0:
+        if velocity_cps * units < 0.0:
             flags |= af1.JOG_DIRECTION
         if I[profiles.kind[JOG_PROFILE + n]] == STOPPING:
             flags |= af1.JOG_STOPPING
         elif (
-            velocity != 0.0
+            velocity_cps != 0.0
             and F[profiles.accel[JOG_PROFILE + n]] == 0.0
             and not I[axes.jog_turning[n]]
         ):
@@ -263,8 +263,8 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     if I[axes.jog_mode[n]] == JOG_HOMING and home_step(F, I, S, n):
         jog_rest(F, I, n)
     if I[axes.jog_mode[n]] != JOG_IDLE:
-        left: float = profile_advance(F, I, JOG_PROFILE + n, dt)
+        left_s: float = profile_advance(F, I, JOG_PROFILE + n, dt)
         jog_place(F, I, n)
-        if left >= 0.0:
-            jog_arrived(F, I, S, n, left)
+        if left_s >= 0.0:
+            jog_arrived(F, I, S, n, left_s)
     jog_show(F, I, S, n)

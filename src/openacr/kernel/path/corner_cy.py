@@ -22,17 +22,17 @@ from openacr.views import F64, I32
 SLAVE_COUNT = 16
 
 
-def corner_lift(x: float, reach: float, smooth: int) -> float:
-    """How far the path is lifted off at distance x from a corner rounded from `reach`."""
-    left: float = reach - x
-    if left <= 0.0 or reach <= 0.0:
+def corner_lift(x_u: float, reach_u: float, smooth: int) -> float:
+    """How far the path is lifted off at distance x from a corner rounded from `reach_u`."""
+    left_u: float = reach_u - x_u
+    if left_u <= 0.0 or reach_u <= 0.0:
         return 0.0
     if smooth:
-        return left * left * left / (6.0 * reach * reach)
-    return left * left / (4.0 * reach)
+        return left_u * left_u * left_u / (6.0 * reach_u * reach_u)
+    return left_u * left_u / (4.0 * reach_u)
 
 
-def corner_open(F: F64, I: I32, m: int, a: int, b: int, reach: float, smooth: int) -> None:
+def corner_open(F: F64, I: I32, m: int, a: int, b: int, reach_u: float, smooth: int) -> None:
     """The path comes to the rounded corner between records a and b: note its two directions."""
     first: int = I[moves.slaves[a]]
     second: int = I[moves.slaves[b]]
@@ -43,7 +43,7 @@ def corner_open(F: F64, I: I32, m: int, a: int, b: int, reach: float, smooth: in
         if first & (1 << s) and F[moves.length_u[a]] > 0.0:
             turn -= F[moves.delta_cnt[a] + s] / F[moves.length_u[a]]
         F[masters.corner_out_cnt[m] + s] = turn
-    F[masters.corner_out_u[m]] = reach
+    F[masters.corner_out_u[m]] = reach_u
     I[masters.corner_smooth_out[m]] = smooth
 
 
@@ -82,15 +82,15 @@ def corner_drop(F: F64, I: I32, m: int) -> None:
     I[masters.corner_next[m]] = 0
 
 
-def corner_place(F: F64, I: I32, m: int, slaves: int, gone: float, left: float) -> None:
+def corner_place(F: F64, I: I32, m: int, slaves: int, gone_u: float, left_u: float) -> None:
     """Lift the slaves off the corners in front of and behind the path.
 
     Those of `slaves` stand where the present move puts them, the others at their targets.
     """
     if F[masters.corner_in_u[m]] <= 0.0 and F[masters.corner_out_u[m]] <= 0.0:
         return
-    behind: float = corner_lift(gone, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
-    ahead: float = corner_lift(left, F[masters.corner_out_u[m]], I[masters.corner_smooth_out[m]])
+    behind: float = corner_lift(gone_u, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
+    ahead: float = corner_lift(left_u, F[masters.corner_out_u[m]], I[masters.corner_smooth_out[m]])
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
         turn: float = 0.0

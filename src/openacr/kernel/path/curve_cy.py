@@ -71,13 +71,13 @@ def curve_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
     """Change of the position of slave s with the part of the move."""
     if is_bezier(I, record):
         return bezier_slope(F, I, record, s, bezier_u(F, I, record, part))
-    angle: float = F[curves.phase_rad[record] + s] + F[curves.sweep_rad[record] + s] * part
-    growth: float = F[curves.growth_cnt[record] + s]
-    size: float = F[curves.amplitude_cnt[record] + s] + growth * part
+    angle_rad: float = F[curves.phase_rad[record] + s] + F[curves.sweep_rad[record] + s] * part
+    growth_cnt: float = F[curves.growth_cnt[record] + s]
+    size_cnt: float = F[curves.amplitude_cnt[record] + s] + growth_cnt * part
     return (
         F[curves.slope_cnt[record] + s]
-        + growth * sin(angle)
-        + size * F[curves.sweep_rad[record] + s] * cos(angle)
+        + growth_cnt * sin(angle_rad)
+        + size_cnt * F[curves.sweep_rad[record] + s] * cos(angle_rad)
     )
 
 
@@ -85,34 +85,34 @@ def curve_steepest(F: F64, I: I32, record: int, s: int) -> float:
     """A bound of the size of `curve_slope` over the whole move."""
     if is_bezier(I, record):
         return bezier_steepest(F, I, record, s)
-    size: float = F[curves.amplitude_cnt[record] + s]
-    growth: float = F[curves.growth_cnt[record] + s]
-    largest: float = max(fabs(size), fabs(size + growth))
-    sweep: float = fabs(F[curves.sweep_rad[record] + s])
-    return fabs(F[curves.slope_cnt[record] + s]) + fabs(growth) + largest * sweep
+    size_cnt: float = F[curves.amplitude_cnt[record] + s]
+    growth_cnt: float = F[curves.growth_cnt[record] + s]
+    largest_cnt: float = max(fabs(size_cnt), fabs(size_cnt + growth_cnt))
+    sweep_rad: float = fabs(F[curves.sweep_rad[record] + s])
+    return fabs(F[curves.slope_cnt[record] + s]) + fabs(growth_cnt) + largest_cnt * sweep_rad
 
 
 def curve_set(
     F: F64,
     record: int,
     s: int,
-    amplitude: float,
-    growth: float,
-    phase: float,
-    sweep: float,
+    amplitude_cnt: float,
+    growth_cnt: float,
+    phase_rad: float,
+    sweep_rad: float,
     closed: bool,
 ) -> None:
     """Give slave s its wave; a closed one lies on it, else the slope makes up the way."""
-    F[curves.amplitude_cnt[record] + s] = amplitude
-    F[curves.growth_cnt[record] + s] = growth
-    F[curves.phase_rad[record] + s] = phase
-    F[curves.sweep_rad[record] + s] = sweep
+    F[curves.amplitude_cnt[record] + s] = amplitude_cnt
+    F[curves.growth_cnt[record] + s] = growth_cnt
+    F[curves.phase_rad[record] + s] = phase_rad
+    F[curves.sweep_rad[record] + s] = sweep_rad
     F[curves.end_cnt[record] + s] = curve_wave(F, record, s, 1.0)
-    slope: float = 0.0
+    slope_cnt: float = 0.0
     if not closed:
-        delta: float = F[moves.delta_cnt[record] + s]
-        slope = delta - (F[curves.end_cnt[record] + s] - curve_wave(F, record, s, 0.0))
-    F[curves.slope_cnt[record] + s] = slope
+        delta_cnt: float = F[moves.delta_cnt[record] + s]
+        slope_cnt = delta_cnt - (F[curves.end_cnt[record] + s] - curve_wave(F, record, s, 0.0))
+    F[curves.slope_cnt[record] + s] = slope_cnt
 
 
 def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> float:
@@ -121,38 +121,40 @@ def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> flo
     `shown` publishes the radii of a circle in the parameters of its axes.
     """
     kind: int = I[moves.curve[record]]
-    arc: float = 0.0
+    arc_u: float = 0.0
     if is_bezier(I, record):
         return F[curves.span[record]]
     curve_sines(F, I, record)
     if kind == CURVE_CW or kind == CURVE_CCW:
         spiral: bool = I[mf2.word[m]] & mf2.SPIRAL_MODE != 0
-        arc = curve_circle(F, I, S, m, record, spiral, shown)
+        arc_u = curve_circle(F, I, S, m, record, spiral, shown)
     elif kind == CURVE_SPACE:
-        arc = curve_space(F, I, S, m, record)
-    return arc * F[moves.weight[record] + I[moves.plane[record]]]
+        arc_u = curve_space(F, I, S, m, record)
+    return arc_u * F[moves.weight[record] + I[moves.plane[record]]]
 
 
 def curve_sines(F: F64, I: I32, record: int) -> None:
     """SINE as given; Sinusoidal Mode is half a wave over the whole way."""
     for s in range(SLAVES):
         if I[moves.half_wave[record]] & (1 << s):
-            half: float = F[moves.delta_cnt[record] + s] / 2.0
-            curve_set(F, record, s, half, 0.0, -PI / 2.0, PI, False)
+            half_cnt: float = F[moves.delta_cnt[record] + s] / 2.0
+            curve_set(F, record, s, half_cnt, 0.0, -PI / 2.0, PI, False)
         elif I[moves.curved[record]] & (1 << s):
-            phase: float = F[curves.phase_rad[record] + s]
-            sweep: float = F[curves.sweep_rad[record] + s]
-            curve_set(F, record, s, F[curves.amplitude_cnt[record] + s], 0.0, phase, sweep, False)
+            phase_rad: float = F[curves.phase_rad[record] + s]
+            sweep_rad: float = F[curves.sweep_rad[record] + s]
+            curve_set(
+                F, record, s, F[curves.amplitude_cnt[record] + s], 0.0, phase_rad, sweep_rad, False
+            )
 
 
 def curve_longest_deg(F: F64, I: I32, record: int) -> float:
     """The largest sweep of the waves of a move in degrees."""
-    longest: float = 0.0
+    longest_deg: float = 0.0
     for s in range(SLAVES):
         if I[moves.curved[record]] & (1 << s):
-            sweep: float = F[curves.sweep_rad[record] + s]
-            longest = max(longest, fabs(sweep) * DEGREES)
-    return longest
+            sweep_rad: float = F[curves.sweep_rad[record] + s]
+            longest_deg = max(longest_deg, fabs(sweep_rad) * DEGREES)
+    return longest_deg
 
 
 def curve_scale(F: F64, I: I32, S: F32, m: int, record: int, place: int) -> float:
@@ -166,8 +168,8 @@ def curve_scale(F: F64, I: I32, S: F32, m: int, record: int, place: int) -> floa
 def curve_start(F: F64, I: I32, record: int, place: int) -> float:
     """Start of axis `place` of the plane relative to the given point, in pulses."""
     s: int = I[moves.plane[record] + place]
-    start: float = F[moves.target_cnt[record] + s] - F[moves.delta_cnt[record] + s]
-    return start - F[curves.point_cnt[record] + place]
+    start_cnt: float = F[moves.target_cnt[record] + s] - F[moves.delta_cnt[record] + s]
+    return start_cnt - F[curves.point_cnt[record] + place]
 
 
 def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, shown: bool) -> float:
@@ -183,33 +185,35 @@ def curve_circle(F: F64, I: I32, S: F32, m: int, record: int, spiral: bool, show
     y0: float = curve_start(F, I, record, 1) / scale_b
     x1: float = x0 + F[moves.delta_cnt[record] + a] / scale_a
     y1: float = y0 + F[moves.delta_cnt[record] + b] / scale_b
-    first: float = sqrt(x0 * x0 + y0 * y0)
-    last: float = sqrt(x1 * x1 + y1 * y1)
-    phase: float = atan2(y0, x0)
-    sweep: float = atan2(y1, x1) - phase
+    first_u: float = sqrt(x0 * x0 + y0 * y0)
+    last_u: float = sqrt(x1 * x1 + y1 * y1)
+    phase_rad: float = atan2(y0, x0)
+    sweep_rad: float = atan2(y1, x1) - phase_rad
     clockwise: bool = I[moves.curve[record]] == CURVE_CW
     if clockwise:
-        sweep = -sweep
-    if sweep < -FULL_TURN_RAD:
-        sweep += 2.0 * PI
-    if sweep < FULL_TURN_RAD:
-        sweep = 2.0 * PI
-    mean: float = (first + last) / 2.0 if spiral else last
-    arc: float = mean * sweep
+        sweep_rad = -sweep_rad
+    if sweep_rad < -FULL_TURN_RAD:
+        sweep_rad += 2.0 * PI
+    if sweep_rad < FULL_TURN_RAD:
+        sweep_rad = 2.0 * PI
+    mean_u: float = (first_u + last_u) / 2.0 if spiral else last_u
+    arc_u: float = mean_u * sweep_rad
     if shown:
         for place in range(2):
             axis: int = I[masters.slave_axis[m] + I[moves.plane[record] + place]]
-            S[axes.start_radius[axis]] = first
-            S[axes.end_radius[axis]] = last
+            S[axes.start_radius[axis]] = first_u
+            S[axes.end_radius[axis]] = last_u
     if clockwise:
-        sweep = -sweep
-    growth: float = 0.0
+        sweep_rad = -sweep_rad
+    growth_u: float = 0.0
     if spiral:
-        growth = last - first
-        last = first
-    curve_set(F, record, a, last * scale_a, growth * scale_a, phase + PI / 2.0, sweep, True)
-    curve_set(F, record, b, last * scale_b, growth * scale_b, phase, sweep, True)
-    return arc
+        growth_u = last_u - first_u
+        last_u = first_u
+    curve_set(
+        F, record, a, last_u * scale_a, growth_u * scale_a, phase_rad + PI / 2.0, sweep_rad, True
+    )
+    curve_set(F, record, b, last_u * scale_b, growth_u * scale_b, phase_rad, sweep_rad, True)
+    return arc_u
 
 
 def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
@@ -245,18 +249,20 @@ def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     vy: float = (nz * ux - nx * uz) / normal
     vz: float = (nx * uy - ny * ux) / normal
     # From the centre the target lies at u + b.
-    radius: float = sqrt(ux * ux + uy * uy + uz * uz)
-    along: float = radius * radius + bx * ux + by * uy + bz * uz
-    sweep: float = atan2(bx * vx + by * vy + bz * vz, along)
-    if sweep <= 0.0:
-        sweep += 2.0 * PI
-    curve_turn(F, I, record, 0, ux * scale_x, vx * scale_x, sweep)
-    curve_turn(F, I, record, 1, uy * scale_y, vy * scale_y, sweep)
-    curve_turn(F, I, record, 2, uz * scale_z, vz * scale_z, sweep)
-    return radius * sweep
+    radius_u: float = sqrt(ux * ux + uy * uy + uz * uz)
+    along: float = radius_u * radius_u + bx * ux + by * uy + bz * uz
+    sweep_rad: float = atan2(bx * vx + by * vy + bz * vz, along)
+    if sweep_rad <= 0.0:
+        sweep_rad += 2.0 * PI
+    curve_turn(F, I, record, 0, ux * scale_x, vx * scale_x, sweep_rad)
+    curve_turn(F, I, record, 1, uy * scale_y, vy * scale_y, sweep_rad)
+    curve_turn(F, I, record, 2, uz * scale_z, vz * scale_z, sweep_rad)
+    return radius_u * sweep_rad
 
 
-def curve_turn(F: F64, I: I32, record: int, place: int, u: float, v: float, sweep: float) -> None:
+def curve_turn(
+    F: F64, I: I32, record: int, place: int, u: float, v: float, sweep_rad: float
+) -> None:
     """Write u cos(t) + v sin(t) as one wave."""
     s: int = I[moves.plane[record] + place]
-    curve_set(F, record, s, sqrt(u * u + v * v), 0.0, atan2(u, v), sweep, True)
+    curve_set(F, record, s, sqrt(u * u + v * v), 0.0, atan2(u, v), sweep_rad, True)

@@ -108,26 +108,26 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     if not I[masters.moving[m]]:
         return
     record: int = move_record(I, m)
-    rate: float = F[moves.dec_ups2[record]]
-    if rate <= 0.0:
-        rate = F[moves.stp_ups2[record]]
-    if master_stopping(I, m) and (rate <= F[moves.stp_ups2[record]] or ends_early(I, m)):
+    rate_ups2: float = F[moves.dec_ups2[record]]
+    if rate_ups2 <= 0.0:
+        rate_ups2 = F[moves.stp_ups2[record]]
+    if master_stopping(I, m) and (rate_ups2 <= F[moves.stp_ups2[record]] or ends_early(I, m)):
         return
-    if round_holds(F, I, S, m, rate):
+    if round_holds(F, I, S, m, rate_ups2):
         return
-    end: float = F[masters.stretch_u[m]]
-    jerk: float = F[moves.jrk_ups3[record]]
+    end_u: float = F[masters.stretch_u[m]]
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
     flows: bool = F[moves.stp_ups2[record]] <= 0.0 or look_beyond(I, m, move_record(I, m))
     flows = flows or is_bezier(I, move_record(I, m))
     merged: bool = flows and I[masters.queued[m]] > I[masters.stretch[m]]
     merged = merged or I[masters.piece[m]] != 0
-    rate = round_hold_rate(F, I, m, rate)
-    if not profile_stop(F, I, m, end, rate, jerk, DECELERATING) and not merged:
-        stp: float = F[moves.stp_ups2[record]]
-        if stp <= 0.0:
-            stp = rate
-        limit: float = F[profiles.velocity[m]]
-        profile_plan(F, I, m, end, limit, 0.0, rate, rate, stp, jerk)
+    rate_ups2 = round_hold_rate(F, I, m, rate_ups2)
+    if not profile_stop(F, I, m, end_u, rate_ups2, jerk_ups3, DECELERATING) and not merged:
+        stp_ups2: float = F[moves.stp_ups2[record]]
+        if stp_ups2 <= 0.0:
+            stp_ups2 = rate_ups2
+        limit_ups: float = F[profiles.velocity[m]]
+        profile_plan(F, I, m, end_u, limit_ups, 0.0, rate_ups2, rate_ups2, stp_ups2, jerk_ups3)
 
 
 def master_release(F: F64, I: I32, S: F32, m: int) -> None:

@@ -59,14 +59,16 @@ def hsint_step(F: F64, I: I32, S: F32, m: int) -> None:
 def hsint_captured(F: F64, I: I32, m: int, record: int, axis: int) -> None:
     """A capture: take it if it lies in the window, else wait for the next."""
     s: int = I[axes.slave[axis]]
-    delta: float = F[moves.delta_cnt[record] + s]
-    captured: float = F[axes.capture_cnt[axis]]
-    travel: float = captured - axis_offsets(F, axis) - (F[moves.target_cnt[record] + s] - delta)
-    if delta < 0.0:
-        travel = -travel
-    window: float = F[moves.hsint_window_cnt[record]]
-    start: float = F[moves.hsint_start_cnt[record]]
-    if window > 0.0 and not start <= travel <= start + window:
+    delta_cnt: float = F[moves.delta_cnt[record] + s]
+    captured_cnt: float = F[axes.capture_cnt[axis]]
+    travel_cnt: float = (
+        captured_cnt - axis_offsets(F, axis) - (F[moves.target_cnt[record] + s] - delta_cnt)
+    )
+    if delta_cnt < 0.0:
+        travel_cnt = -travel_cnt
+    window_cnt: float = F[moves.hsint_window_cnt[record]]
+    start_cnt: float = F[moves.hsint_start_cnt[record]]
+    if window_cnt > 0.0 and not start_cnt <= travel_cnt <= start_cnt + window_cnt:
         capture_arm(F, I, axis, I[moves.hsint_mode[record]])
         return
     I[af1.word[axis]] |= af1.HSINT_REGISTERED
@@ -77,29 +79,29 @@ def hsint_captured(F: F64, I: I32, m: int, record: int, axis: int) -> None:
 def hsint_turn(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:
     """Lead the move to its new end with the speed it has, or stop behind it first."""
     s: int = I[axes.slave[axis]]
-    rate: float = move_stop_rate(F, record)
-    position: float = F[axes.position_cnt[axis]]
-    way: float = (hsint_end_cnt(F, record, axis) - position) / axis_scale(S, axis)
-    travel: float = F[moves.delta_cnt[record] + s] / axis_scale(S, axis)
-    if travel < 0.0:
-        way = -way
-    if travel != 0.0:
-        way = way * F[moves.length_u[record]] / fabs(travel)
-    velocity: float = F[profiles.velocity[m]]
-    accel: float = F[profiles.accel[m]]
-    profile_stop(F, I, m, ENDLESS_U, rate, F[moves.jrk_ups3[record]], STOPPING)
-    if F[profiles.end_distance[m]] - F[profiles.distance[m]] > way * (1.0 + 1e-9):
+    rate_ups2: float = move_stop_rate(F, record)
+    position_cnt: float = F[axes.position_cnt[axis]]
+    way_u: float = (hsint_end_cnt(F, record, axis) - position_cnt) / axis_scale(S, axis)
+    travel_u: float = F[moves.delta_cnt[record] + s] / axis_scale(S, axis)
+    if travel_u < 0.0:
+        way_u = -way_u
+    if travel_u != 0.0:
+        way_u = way_u * F[moves.length_u[record]] / fabs(travel_u)
+    velocity_ups: float = F[profiles.velocity[m]]
+    accel_ups2: float = F[profiles.accel[m]]
+    profile_stop(F, I, m, ENDLESS_U, rate_ups2, F[moves.jrk_ups3[record]], STOPPING)
+    if F[profiles.end_distance[m]] - F[profiles.distance[m]] > way_u * (1.0 + 1e-9):
         I[masters.hsint_phase[m]] = HSINT_PASSING
         return
     hsint_lead(F, I, S, m, record, axis)
-    profile_reset(F, I, m, velocity, accel)
+    profile_reset(F, I, m, velocity_ups, accel_ups2)
     master_plan(F, I, S, m)
 
 
 def hsint_end_cnt(F: F64, record: int, axis: int) -> float:
     """The new end in coordinated pulses: offsets take part in the captured position."""
-    captured: float = F[axes.capture_cnt[axis]] - axis_offsets(F, axis)
-    return captured + F[moves.hsint_way_cnt[record]]
+    captured_cnt: float = F[axes.capture_cnt[axis]] - axis_offsets(F, axis)
+    return captured_cnt + F[moves.hsint_way_cnt[record]]
 
 
 def hsint_lead(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:

@@ -93,33 +93,33 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     """Speed the law allows between two moves."""
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
-    velocity: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+    velocity_ups: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
     rounded: bool = F[moves.corner_u[a]] > 0.0
     if rounded and look_beyond(I, m, a):  # see round_law_cy
-        return min(velocity, F[moves.corner_ups[a]])
+        return min(velocity_ups, F[moves.corner_ups[a]])
     if same_curve(I, a, b) or is_timed(I, a):
-        return velocity
+        return velocity_ups
     if is_timed(I, b):
         return 0.0
     if not look_active(I, m):  # beside a curve moves merge as they do without look-ahead
-        return min(velocity, look_final(F, I, S, m, a))
-    turn: float = F[moves.turn_deg[a]]
-    begin: float = F[masters.look_from_deg[m]]
-    end: float = F[masters.look_to_deg[m]]
-    lowest: float = S[masters.look_ahead_min_vel[m]]
-    lowest = lowest if lowest > 0.0 else 0.0
-    lowest = min(lowest, velocity)
-    if turn <= begin:
-        return velocity
-    if turn >= end:
-        return lowest
-    return velocity - (velocity - lowest) * (turn - begin) / (end - begin)
+        return min(velocity_ups, look_final(F, I, S, m, a))
+    turn_deg: float = F[moves.turn_deg[a]]
+    from_deg: float = F[masters.look_from_deg[m]]
+    to_deg: float = F[masters.look_to_deg[m]]
+    lowest_ups: float = S[masters.look_ahead_min_vel[m]]
+    lowest_ups = lowest_ups if lowest_ups > 0.0 else 0.0
+    lowest_ups = min(lowest_ups, velocity_ups)
+    if turn_deg <= from_deg:
+        return velocity_ups
+    if turn_deg >= to_deg:
+        return lowest_ups
+    return velocity_ups - (velocity_ups - lowest_ups) * (turn_deg - from_deg) / (to_deg - from_deg)
 
 
-def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -> bool:
+def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner_ups: float) -> bool:
     """Whether one plan may run through the junction of two moves."""
-    velocity: float = look_speed(F, I, S, m, a)
-    if velocity != look_speed(F, I, S, m, b) or not velocity > 0.0:
+    velocity_ups: float = look_speed(F, I, S, m, a)
+    if velocity_ups != look_speed(F, I, S, m, b) or not velocity_ups > 0.0:
         return False
     if F[moves.acc_ups2[a]] != F[moves.acc_ups2[b]] or F[moves.dec_ups2[a]] != F[moves.dec_ups2[b]]:
         return False
@@ -130,33 +130,35 @@ def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner: float) -
     rapid: int = I[moves.rapid[a]]
     if rapid != I[moves.rapid[b]]:
         return False
-    return corner >= velocity * (SLIGHT if F[moves.jrk_ups3[a]] > 0.0 else FREE)
+    return corner_ups >= velocity_ups * (SLIGHT if F[moves.jrk_ups3[a]] > 0.0 else FREE)
 
 
-def ramp_start(length: float, end: float, rate: float, jerk: float) -> float:
-    """The highest speed from which a ramp down to `end` fits into `length`.
+def ramp_start(length_u: float, end_ups: float, rate_ups2: float, jerk_ups3: float) -> float:
+    """The highest speed from which a ramp down to `end_ups` fits into `length_u`.
 
     Its length is (v + e)/2 times its time. With h = rate^2/(2 J) a ramp that reaches its
     rate takes (v - e)/rate + rate/J, so (v + h)^2 = (e - h)^2 + 2 rate length; one that
     does not takes 2 sqrt((v - e)/J), found by bisection.
     """
-    if rate <= 0.0:
+    if rate_ups2 <= 0.0:
         return ENDLESS_UPS
-    if jerk <= 0.0:
-        return sqrt(end * end + 2.0 * rate * length)
-    half: float = rate * rate / (2.0 * jerk)
-    start: float = sqrt((end - half) * (end - half) + 2.0 * rate * length) - half
-    if start - end >= 2.0 * half:
-        return start
-    low: float = 0.0
-    high: float = 2.0 * half
+    if jerk_ups3 <= 0.0:
+        return sqrt(end_ups * end_ups + 2.0 * rate_ups2 * length_u)
+    half_ups: float = rate_ups2 * rate_ups2 / (2.0 * jerk_ups3)
+    start_ups: float = (
+        sqrt((end_ups - half_ups) * (end_ups - half_ups) + 2.0 * rate_ups2 * length_u) - half_ups
+    )
+    if start_ups - end_ups >= 2.0 * half_ups:
+        return start_ups
+    low_ups: float = 0.0
+    high_ups: float = 2.0 * half_ups
     for _ in range(BISECTIONS):
-        middle: float = (low + high) / 2.0
-        if (2.0 * end + middle) * sqrt(middle / jerk) > length:
-            high = middle
+        middle_ups: float = (low_ups + high_ups) / 2.0
+        if (2.0 * end_ups + middle_ups) * sqrt(middle_ups / jerk_ups3) > length_u:
+            high_ups = middle_ups
         else:
-            low = middle
-    return end + low
+            low_ups = middle_ups
+    return end_ups + low_ups
 
 
 def look_final(F: F64, I: I32, S: F32, m: int, record: int) -> float:
@@ -182,55 +184,55 @@ def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
     """Backward pass: the speed at which the move `first` places behind may be entered."""
     k: int = I[masters.queued[m]] - 1
     b: int = look_record(I, m, k)
-    end: float = look_final(F, I, S, m, b)
-    rate: float = F[moves.stp_ups2[b]]
-    length: float = F[moves.length_u[b]]
-    cap: float = look_speed(F, I, S, m, b)
+    end_ups: float = look_final(F, I, S, m, b)
+    rate_ups2: float = F[moves.stp_ups2[b]]
+    length_u: float = F[moves.length_u[b]]
+    cap_ups: float = look_speed(F, I, S, m, b)
     while k > first:
         a: int = look_record(I, m, k - 1)
-        corner: float = look_corner(F, I, S, m, a, b)
-        if look_merges(F, I, S, m, a, b, corner):
-            length += F[moves.length_u[a]]
-            cap = min(cap, corner)
+        corner_ups: float = look_corner(F, I, S, m, a, b)
+        if look_merges(F, I, S, m, a, b, corner_ups):
+            length_u += F[moves.length_u[a]]
+            cap_ups = min(cap_ups, corner_ups)
         else:
-            length -= F[moves.corner_u[a]]
-            jerk: float = F[moves.jrk_ups3[b]]
-            entry: float = ramp_start(max(length, 0.0), end, rate, jerk)
-            end = min(corner, min(entry, cap))
-            rate = look_rate(F, a)
-            length = F[moves.length_u[a]]
-            length -= F[moves.corner_u[a]]
-            cap = look_speed(F, I, S, m, a)
+            length_u -= F[moves.corner_u[a]]
+            jerk_ups3: float = F[moves.jrk_ups3[b]]
+            entry_ups: float = ramp_start(max(length_u, 0.0), end_ups, rate_ups2, jerk_ups3)
+            end_ups = min(corner_ups, min(entry_ups, cap_ups))
+            rate_ups2 = look_rate(F, a)
+            length_u = F[moves.length_u[a]]
+            length_u -= F[moves.corner_u[a]]
+            cap_ups = look_speed(F, I, S, m, a)
         b = a
         k -= 1
-    return min(cap, ramp_start(length, end, rate, look_jerk(F, b)))
+    return min(cap_ups, ramp_start(length_u, end_ups, rate_ups2, look_jerk(F, b)))
 
 
 def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
     """Find the stretch of the present move: its end, its cap and the speed at its end."""
     queued: int = I[masters.queued[m]]
     a: int = look_record(I, m, 0)
-    end: float = F[masters.origin_u[m]] + F[moves.length_u[a]]
-    cap: float = 0.0
-    velocity: float = look_speed(F, I, S, m, a)
+    end_u: float = F[masters.origin_u[m]] + F[moves.length_u[a]]
+    cap_ups: float = 0.0
+    velocity_ups: float = look_speed(F, I, S, m, a)
     k: int = 1
-    corner: float = 0.0
+    corner_ups: float = 0.0
     while k < queued:
         b: int = look_record(I, m, k)
-        corner = look_corner(F, I, S, m, a, b)
-        if not look_merges(F, I, S, m, a, b, corner):
+        corner_ups = look_corner(F, I, S, m, a, b)
+        if not look_merges(F, I, S, m, a, b, corner_ups):
             break
-        if corner < velocity * FREE and (cap <= 0.0 or corner < cap):
-            cap = corner
-        end += F[moves.length_u[b]]
+        if corner_ups < velocity_ups * FREE and (cap_ups <= 0.0 or corner_ups < cap_ups):
+            cap_ups = corner_ups
+        end_u += F[moves.length_u[b]]
         a = b
         k += 1
-    exit_speed: float = 0.0
+    exit_ups: float = 0.0
     if k < queued:
-        exit_speed = min(corner, look_entry(F, I, S, m, k))
+        exit_ups = min(corner_ups, look_entry(F, I, S, m, k))
     else:
-        exit_speed = look_final(F, I, S, m, a)
+        exit_ups = look_final(F, I, S, m, a)
     I[masters.stretch[m]] = k
-    F[masters.stretch_u[m]] = end
-    F[masters.look_cap_ups[m]] = cap
-    F[masters.look_exit_ups[m]] = exit_speed
+    F[masters.stretch_u[m]] = end_u
+    F[masters.look_cap_ups[m]] = cap_ups
+    F[masters.look_exit_ups[m]] = exit_ups

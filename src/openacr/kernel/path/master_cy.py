@@ -93,18 +93,18 @@ ROUNDING = 1e-9
 PIECES_PER_TICK = 51  # of a full ring of moves shorter than a tick, and a seek that turns back
 
 
-def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> None:
+def move_begin(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: float) -> None:
     """Make the record at the head the present move, entered with the given speed."""
     record: int = move_record(I, m)
     word: int = mf1.word[m]
     word2: int = mf2.word[m]
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
-    turn: float = F[moves.turn_deg[record]]
-    S[masters.look_ahead_vector_angle[m]] = turn
+    turn_deg: float = F[moves.turn_deg[record]]
+    S[masters.look_ahead_vector_angle[m]] = turn_deg
     if starts_anew(I, m, record):
-        velocity = 0.0
-        accel = 0.0
+        velocity_ups = 0.0
+        accel_ups2 = 0.0
     I[masters.moving[m]] = 1
     I[masters.sync_go[m]] = 0
     I[masters.step_go[m]] = 0
@@ -126,10 +126,10 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
         I[word2] |= mf2.RAPID_ACTIVE
     else:
         I[word2] &= ~mf2.RAPID_ACTIVE
-    if velocity <= 0.0:  # from rest: the initial velocity is a step, never above the target
-        velocity = min(F[moves.ivel_ups[record]], master_limit(F, I, S, m))
+    if velocity_ups <= 0.0:  # from rest: the initial velocity is a step, never above the target
+        velocity_ups = min(F[moves.ivel_ups[record]], master_limit(F, I, S, m))
     I[word] |= mf1.IN_MOTION
-    profile_reset(F, I, m, velocity, accel)
+    profile_reset(F, I, m, velocity_ups, accel_ups2)
     if F[moves.tmov_s[record]] > 0.0:
         move_timed(F, I, S, m)
     master_plan(F, I, S, m)
@@ -209,9 +209,9 @@ def move_pop(I: I32, m: int) -> None:
 
 def move_end(F: F64, I: I32, S: F32, m: int) -> None:
     """The present move has arrived: count its length into the totals and remove it."""
-    length: float = F[moves.length_u[move_record(I, m)]]
-    move_over(F, I, m, length)
-    S[masters.total_distance[m]] = S[masters.total_distance[m]] + length
+    length_u: float = F[moves.length_u[move_record(I, m)]]
+    move_over(F, I, m, length_u)
+    S[masters.total_distance[m]] = S[masters.total_distance[m]] + length_u
     move_pop(I, m)
     if I[masters.rounding[m]]:
         corner_pass(F, I, m, move_record(I, m))
@@ -221,58 +221,58 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
     """The plan runs on into the next moves: remove those that are behind."""
     while I[masters.stretch[m]] > 1:
         record: int = move_record(I, m)
-        length: float = F[moves.length_u[record]]
-        if F[profiles.distance[m]] < F[masters.origin_u[m]] + length:
+        length_u: float = F[moves.length_u[record]]
+        if F[profiles.distance[m]] < F[masters.origin_u[m]] + length_u:
             return
         move_place(F, I, m, record, 0.0)
         move_end(F, I, S, m)
         I[masters.moving[m]] = 1
         I[masters.stretch[m]] -= 1
-        F[masters.origin_u[m]] += length
+        F[masters.origin_u[m]] += length_u
         record = move_record(I, m)
         move_flags(I, S, m, record)
-        length = F[moves.length_u[record]]
+        length_u = F[moves.length_u[record]]
         move_shape(F, I, S, m, record, False)
-        if F[moves.length_u[record]] != length:
+        if F[moves.length_u[record]] != length_u:
             I[masters.look_dirty[m]] = 1  # somebody has moved its start
-        turn: float = F[moves.turn_deg[record]]
-        S[masters.look_ahead_vector_angle[m]] = turn
+        turn_deg: float = F[moves.turn_deg[record]]
+        S[masters.look_ahead_vector_angle[m]] = turn_deg
 
 
 def master_show(F: F64, I: I32, S: F32, m: int) -> None:
     """Publish the state of the path in the parameters and flags of the master."""
     record: int = move_record(I, m)
-    length: float = F[moves.length_u[record]]
-    distance: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    length_u: float = F[moves.length_u[record]]
+    distance_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
     pace: float = 1.0
     if I[masters.paced[m]]:
         pace = F[masters.pace[m]]
-    velocity: float = F[profiles.velocity[m]] * pace
-    S[masters.distance_into_move[m]] = distance
-    S[masters.distance_into_path[m]] = F[masters.travel_u[m]] + distance
-    S[masters.vector_velocity[m]] = velocity
+    velocity_ups: float = F[profiles.velocity[m]] * pace
+    S[masters.distance_into_move[m]] = distance_u
+    S[masters.distance_into_path[m]] = F[masters.travel_u[m]] + distance_u
+    S[masters.vector_velocity[m]] = velocity_ups
     S[masters.vector_acceleration[m]] = F[profiles.accel[m]] * pace * pace
     S[masters.vector_jerk[m]] = F[profiles.jerk[m]] * pace * pace * pace
-    S[masters.vector_length[m]] = length
+    S[masters.vector_length[m]] = length_u
     S[masters.target_velocity[m]] = F[profiles.target_velocity[m]]
-    S[masters.distance_to_go[m]] = length - distance
-    S[masters.velocity_squared[m]] = velocity * velocity
-    S[masters.fraction_into_move[m]] = distance / length if length > 0.0 else 1.0
+    S[masters.distance_to_go[m]] = length_u - distance_u
+    S[masters.velocity_squared[m]] = velocity_ups * velocity_ups
+    S[masters.fraction_into_move[m]] = distance_u / length_u if length_u > 0.0 else 1.0
     kind: int = I[profiles.kind[m]]
     word: int = mf1.word[m]
     flags: int = I[word] & ~(
         mf1.ACCELERATING | mf1.DECELERATING | mf1.STOPPING | mf1.JERKING | mf1.MOVE_BUFFERED
     )
-    target: float = F[moves.acc_ups2[record]]
+    target_ups2: float = F[moves.acc_ups2[record]]
     if kind == ACCELERATING:
         flags |= mf1.ACCELERATING
     elif kind == DECELERATING:
         flags |= mf1.DECELERATING
-        target = F[moves.dec_ups2[record]]
+        target_ups2 = F[moves.dec_ups2[record]]
     elif kind == STOPPING:
         flags |= mf1.STOPPING
-        target = F[moves.stp_ups2[record]]
-    S[masters.target_acceleration[m]] = target
+        target_ups2 = F[moves.stp_ups2[record]]
+    S[masters.target_acceleration[m]] = target_ups2
     if F[profiles.jerk[m]] != 0.0:
         flags |= mf1.JERKING
     waiting: int = I[masters.queued[m]] - 1
@@ -280,8 +280,8 @@ def master_show(F: F64, I: I32, S: F32, m: int) -> None:
         flags |= mf1.MOVE_BUFFERED
     I[masters.mbuf_filled[m]] = max(waiting, 0)
     I[word] = flags
-    limit: float = S[masters.vel_limit[m]]
-    if limit > 0.0 and velocity >= limit * (1.0 - ROUNDING):
+    limit_ups: float = S[masters.vel_limit[m]]
+    if limit_ups > 0.0 and velocity_ups >= limit_ups * (1.0 - ROUNDING):
         I[mf4.word[m]] |= mf4.VEL_LIMIT
     else:
         I[mf4.word[m]] &= ~mf4.VEL_LIMIT
@@ -312,16 +312,16 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         left_s = path_time(F, I, S, m, dt)
     if not path_runs(F, I, S, m):
         return
-    velocity: float = 0.0
-    accel: float = 0.0
+    velocity_ups: float = 0.0
+    accel_ups2: float = 0.0
     if not I[masters.moving[m]]:
-        velocity = F[masters.entry_ups[m]]
-        accel = F[masters.entry_ups2[m]]
+        velocity_ups = F[masters.entry_ups[m]]
+        accel_ups2 = F[masters.entry_ups2[m]]
         F[masters.entry_ups[m]] = 0.0
         F[masters.entry_ups2[m]] = 0.0
     for _ in range(PIECES_PER_TICK):
         if not I[masters.moving[m]]:
-            entered: int = move_enter(F, I, S, m, velocity, accel)
+            entered: int = move_enter(F, I, S, m, velocity_ups, accel_ups2)
             if entered == WAITS:
                 break
             if entered == SKIPPED:
@@ -334,8 +334,8 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         master_place(F, I, m)
         if left_s < 0.0:
             break
-        velocity = F[profiles.velocity[m]]
-        accel = F[profiles.accel[m]]
+        velocity_ups = F[profiles.velocity[m]]
+        accel_ups2 = F[profiles.accel[m]]
         if not plan_over(F, I, S, m):
             break
     if I[masters.queued[m]]:
@@ -362,9 +362,9 @@ def path_runs(F: F64, I: I32, S: F32, m: int) -> bool:
     return I[masters.hold[m]] != IN_FEEDHOLD
 
 
-def move_enter(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) -> int:
+def move_enter(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: float) -> int:
     """Begin the move at the head with this speed: ENTERED, SKIPPED, or the path WAITS."""
-    if I[masters.hold[m]] == FEEDHOLDING and velocity <= 0.0:
+    if I[masters.hold[m]] == FEEDHOLDING and velocity_ups <= 0.0:
         master_at_rest(F, I, S, m)
         return WAITS
     if sync_bars(I, m) or (I[mf1.word[m]] & BARS and move_barred(I, m)):
@@ -373,7 +373,7 @@ def move_enter(F: F64, I: I32, S: F32, m: int, velocity: float, accel: float) ->
     if move_skipped(I, m):
         move_pop(I, m)
         return SKIPPED if I[masters.queued[m]] else WAITS
-    move_begin(F, I, S, m, velocity, accel)
+    move_begin(F, I, S, m, velocity_ups, accel_ups2)
     if I[masters.hold[m]] == FEEDHOLDING:
         master_hold(F, I, S, m)
     return ENTERED

@@ -54,13 +54,13 @@ def move_record(I: I32, m: int) -> int:
 def master_limit(F: F64, I: I32, S: F32, m: int) -> float:
     """Cruising speed wanted now [units/s]: the move's own under override and limits."""
     record: int = move_record(I, m)
-    velocity: float = F[moves.vel_ups[record]]
-    if not velocity > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
-        velocity = S[masters.user_velocity[m]]
-        F[moves.vel_ups[record]] = velocity
-    velocity = move_limit(F, I, S, m, record, move_override(I, S, m, record))
-    cap: float = F[masters.look_cap_ups[m]]
-    return min(velocity, cap) if cap > 0.0 else velocity
+    velocity_ups: float = F[moves.vel_ups[record]]
+    if not velocity_ups > 0.0:  # accepted while VEL was 0: takes over the first VEL above it
+        velocity_ups = S[masters.user_velocity[m]]
+        F[moves.vel_ups[record]] = velocity_ups
+    velocity_ups = move_limit(F, I, S, m, record, move_override(I, S, m, record))
+    cap_ups: float = F[masters.look_cap_ups[m]]
+    return min(velocity_ups, cap_ups) if cap_ups > 0.0 else velocity_ups
 
 
 def move_override(I: I32, S: F32, m: int, record: int) -> float:
@@ -79,13 +79,13 @@ def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> 
 
     The comparisons are written so that what is no number counts as 0 or as no limit.
     """
-    velocity: float = F[moves.vel_ups[record]] * override
-    limit: float = S[masters.vel_limit[m]]
-    if limit > 0.0 and not is_timed(I, record):
-        velocity = min(velocity, limit)
+    velocity_ups: float = F[moves.vel_ups[record]] * override
+    limit_ups: float = S[masters.vel_limit[m]]
+    if limit_ups > 0.0 and not is_timed(I, record):
+        velocity_ups = min(velocity_ups, limit_ups)
     if F[moves.maxvel_ups[record]] > 0.0:
-        velocity = min(velocity, F[moves.maxvel_ups[record]])
-    return velocity if velocity > 0.0 else 0.0
+        velocity_ups = min(velocity_ups, F[moves.maxvel_ups[record]])
+    return velocity_ups if velocity_ups > 0.0 else 0.0
 
 
 def move_stop_rate(F: F64, record: int) -> float:
@@ -113,8 +113,8 @@ def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     I[masters.piece[m]] = 0
     move_shape(F, I, S, m, record, False)
     F[masters.origin_u[m]] = 0.0
-    length: float = F[moves.length_u[record]]
-    F[masters.stretch_u[m]] = length
+    length_u: float = F[moves.length_u[record]]
+    F[masters.stretch_u[m]] = length_u
     F[masters.look_cap_ups[m]] = 0.0
     I[masters.stretch[m]] = 1
 
@@ -130,38 +130,38 @@ def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> No
     slaves: int = I[moves.slaves[record]]
     relative: int = I[moves.relative[record]]
     curved: int = I[moves.curved[record]]
-    square: float = 0.0
-    longest: float = 0.0
+    square_u2: float = 0.0
+    longest_u: float = 0.0
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
         if slaves & (1 << s) and axis >= 0:
-            position: float = F[axes.position_cnt[axis]]
+            position_cnt: float = F[axes.position_cnt[axis]]
             if planned:
-                position = F[masters.target_cnt[m] + s]
+                position_cnt = F[masters.target_cnt[m] + s]
             if relative & (1 << s):
-                F[moves.target_cnt[record] + s] = position + F[moves.delta_cnt[record] + s]
+                F[moves.target_cnt[record] + s] = position_cnt + F[moves.delta_cnt[record] + s]
             else:
-                F[moves.delta_cnt[record] + s] = F[moves.target_cnt[record] + s] - position
+                F[moves.delta_cnt[record] + s] = F[moves.target_cnt[record] + s] - position_cnt
             if not planned:
                 F[axes.target_cnt[axis]] = F[moves.target_cnt[record] + s]
             if not curved & (1 << s):
-                travel: float = fabs(F[moves.delta_cnt[record] + s]) / fabs(axis_scale(S, axis))
-                square += (
-                    F[moves.weight[record] + s] * F[moves.weight[record] + s] * travel * travel
+                travel_u: float = fabs(F[moves.delta_cnt[record] + s]) / fabs(axis_scale(S, axis))
+                square_u2 += (
+                    F[moves.weight[record] + s] * F[moves.weight[record] + s] * travel_u * travel_u
                 )
-                longest = max(longest, travel)
+                longest_u = max(longest_u, travel_u)
     if curved:
-        arc: float = curve_shape(F, I, S, m, record, not planned)
-        square += arc * arc
-        longest = max(longest, arc)
-    length: float = sqrt(square)
+        arc_u: float = curve_shape(F, I, S, m, record, not planned)
+        square_u2 += arc_u * arc_u
+        longest_u = max(longest_u, arc_u)
+    length_u: float = sqrt(square_u2)
     if curved == slaves and I[moves.curve[record]] == 0:
-        length = curve_longest_deg(F, I, record)
-    if length <= 0.0 and longest > 0.0:
-        length = S[masters.manual_vector[m]]
-        if not 0.0 < length < FAR_U:
-            length = longest
-    F[moves.length_u[record]] = length
+        length_u = curve_longest_deg(F, I, record)
+    if length_u <= 0.0 and longest_u > 0.0:
+        length_u = S[masters.manual_vector[m]]
+        if not 0.0 < length_u < FAR_U:
+            length_u = longest_u
+    F[moves.length_u[record]] = length_u
     F[moves.maxvel_ups[record]] = 0.0
     if I[mf2.word[m]] & mf2.SLAVEMAXVEL:
         move_maxvel(F, I, S, m, record)
@@ -171,20 +171,20 @@ def move_maxvel(F: F64, I: I32, S: F32, m: int, record: int) -> None:
     """Bound of the path speed by MAXVEL of the axes: the least v_i L/|dp_i/df|."""
     slaves: int = I[moves.slaves[record]]
     curved: int = I[moves.curved[record]]
-    bound: float = 0.0
+    bound_ups: float = 0.0
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
         if slaves & (1 << s) and axis >= 0:
-            limit: float = S[axes.max_velocity_limit[axis]]
-            travel: float = fabs(F[moves.delta_cnt[record] + s])
+            limit_ups: float = S[axes.max_velocity_limit[axis]]
+            travel_u: float = fabs(F[moves.delta_cnt[record] + s])
             if curved & (1 << s):
-                travel = curve_steepest(F, I, record, s)
-            travel = travel / fabs(axis_scale(S, axis))
-            if limit > 0.0 and travel > 0.0:
-                speed: float = limit * F[moves.length_u[record]] / travel
-                if bound <= 0.0 or speed < bound:
-                    bound = speed
-    F[moves.maxvel_ups[record]] = bound
+                travel_u = curve_steepest(F, I, record, s)
+            travel_u = travel_u / fabs(axis_scale(S, axis))
+            if limit_ups > 0.0 and travel_u > 0.0:
+                speed_ups: float = limit_ups * F[moves.length_u[record]] / travel_u
+                if bound_ups <= 0.0 or speed_ups < bound_ups:
+                    bound_ups = speed_ups
+    F[moves.maxvel_ups[record]] = bound_ups
 
 
 def path_slope(F: F64, I: I32, record: int, s: int, part: float) -> float:
@@ -204,19 +204,19 @@ def move_directions(F: F64, I: I32, S: F32, m: int, record: int) -> None:
 
 def path_direction(F: F64, I: I32, S: F32, m: int, record: int, part: float, place: int) -> None:
     """Write the direction of the first three slaves at a part of a move; 0 without any."""
-    square: float = 0.0
+    square_u2: float = 0.0
     if is_bezier(I, record):  # at its very ends it may stand still
         part = part + (0.5 - part) * BESIDE
     for s in range(3):
         axis: int = I[masters.slave_axis[m] + s]
-        slope: float = 0.0
+        slope_u: float = 0.0
         if axis >= 0:
-            slope = path_slope(F, I, record, s, part) / axis_scale(S, axis)
-        F[place + s] = slope
-        square += slope * slope
-    if square > 0.0:
+            slope_u = path_slope(F, I, record, s, part) / axis_scale(S, axis)
+        F[place + s] = slope_u
+        square_u2 += slope_u * slope_u
+    if square_u2 > 0.0:
         for s in range(3):
-            F[place + s] = F[place + s] / sqrt(square)
+            F[place + s] = F[place + s] / sqrt(square_u2)
 
 
 def path_turn_deg(F: F64, before: int, after: int) -> float:
@@ -233,17 +233,17 @@ def path_turn_deg(F: F64, before: int, after: int) -> float:
 def master_place(F: F64, I: I32, m: int) -> None:
     """Put the slaves of the present move where the path is."""
     record: int = move_record(I, m)
-    length: float = F[moves.length_u[record]]
+    length_u: float = F[moves.length_u[record]]
     rest: float = 0.0
-    gone: float = F[profiles.distance[m]]
-    origin: float = F[masters.origin_u[m]]
+    gone_u: float = F[profiles.distance[m]]
+    origin_u: float = F[masters.origin_u[m]]
     piece: bool = I[masters.piece[m]] != 0
-    if piece or gone < F[masters.stretch_u[m]]:
-        rest = 1.0 - (gone - origin) / length
+    if piece or gone_u < F[masters.stretch_u[m]]:
+        rest = 1.0 - (gone_u - origin_u) / length_u
     move_place(F, I, m, record, rest)
     if I[masters.rounding[m]]:
         slaves: int = I[moves.slaves[record]]
-        corner_place(F, I, m, slaves, gone - origin, length * rest)
+        corner_place(F, I, m, slaves, gone_u - origin_u, length_u * rest)
 
 
 def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
@@ -258,12 +258,12 @@ def move_place(F: F64, I: I32, m: int, record: int, rest: float) -> None:
         if slaves & 1:
             axis: int = I[masters.slave_axis[m] + s]
             if 0 <= axis < axes.COUNT:
-                position: float = (
+                position_cnt: float = (
                     F[moves.target_cnt[record] + s] - F[moves.delta_cnt[record] + s] * rest
                 )
                 if curved & (1 << s):
-                    position = curve_position(F, I, record, s, along)
-                F[axes.position_cnt[axis]] = position
+                    position_cnt = curve_position(F, I, record, s, along)
+                F[axes.position_cnt[axis]] = position_cnt
         slaves = slaves >> 1
         s += 1
     if I[moves.tang_slave[record]]:

@@ -47,9 +47,9 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
 
 def look_rebase(F: F64, m: int) -> None:
     """Count the path from the beginning of the present move again."""
-    origin: float = F[masters.origin_u[m]]
-    F[profiles.distance[m]] -= origin
-    F[masters.stretch_u[m]] -= origin
+    origin_u: float = F[masters.origin_u[m]]
+    F[profiles.distance[m]] -= origin_u
+    F[masters.stretch_u[m]] -= origin_u
     F[masters.origin_u[m]] = 0.0
 
 
@@ -61,25 +61,25 @@ def look_plan(F: F64, I: I32, S: F32, m: int) -> None:
     stretch: int = I[masters.stretch[m]]
     last: int = look_record(I, m, stretch - 1)
     record: int = move_record(I, m)
-    limit: float = master_limit(F, I, S, m)
-    leaving: float = F[masters.look_exit_ups[m]]
-    rate: float = F[moves.stp_ups2[last]]
+    limit_ups: float = master_limit(F, I, S, m)
+    leaving_ups: float = F[masters.look_exit_ups[m]]
+    rate_ups2: float = F[moves.stp_ups2[last]]
     ends: bool = stretch >= I[masters.queued[m]]
     if not ends:
-        rate = look_rate(F, last) if leaving < limit else 0.0
+        rate_ups2 = look_rate(F, last) if leaving_ups < limit_ups else 0.0
     I[mf4.word[m]] &= ~mf4.LOOK_AHEAD_SLOWDOWN
-    if not ends and leaving < limit:
+    if not ends and leaving_ups < limit_ups:
         I[mf4.word[m]] |= mf4.LOOK_AHEAD_SLOWDOWN
     profile_plan(
         F,
         I,
         m,
         F[masters.stretch_u[m]],
-        limit,
-        leaving,
+        limit_ups,
+        leaving_ups,
         F[moves.acc_ups2[record]],
         F[moves.dec_ups2[record]],
-        rate,
+        rate_ups2,
         F[moves.jrk_ups3[record]],
     )
     if not ends:
@@ -94,14 +94,14 @@ def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:
         return
     if not look_through(F, I, m, move_record(I, m)):
         return
-    end: float = F[masters.stretch_u[m]]
-    cap: float = F[masters.look_cap_ups[m]]
-    leaving: float = F[masters.look_exit_ups[m]]
+    end_u: float = F[masters.stretch_u[m]]
+    cap_ups: float = F[masters.look_cap_ups[m]]
+    leaving_ups: float = F[masters.look_exit_ups[m]]
     look_scan(F, I, S, m)
     if (
-        end != F[masters.stretch_u[m]]
-        or cap != F[masters.look_cap_ups[m]]
-        or leaving != F[masters.look_exit_ups[m]]
+        end_u != F[masters.stretch_u[m]]
+        or cap_ups != F[masters.look_cap_ups[m]]
+        or leaving_ups != F[masters.look_exit_ups[m]]
     ):
         look_rebase(F, m)
         look_plan(F, I, S, m)

@@ -48,23 +48,23 @@ def round_through(F: F64, I: I32, m: int, record: int) -> bool:
     if F[moves.jrk_ups3[record]] <= 0.0:
         return True
     # With jerk moves between corners that are not rounded merge, as LOOK has it.
-    behind: float = F[masters.corner_in_u[m]]
-    return behind > 0.0 or round_reach(F, I, m, record) > 0.0
+    behind_u: float = F[masters.corner_in_u[m]]
+    return behind_u > 0.0 or round_reach(F, I, m, record) > 0.0
 
 
 def round_part(F: F64, I: I32, m: int) -> int:
     """The piece of the present move in which the path is; open the corner ahead."""
     record: int = move_record(I, m)
-    length: float = F[moves.length_u[record]]
-    gone: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
-    if gone < F[masters.corner_in_u[m]] - SLACK * length:
+    length_u: float = F[moves.length_u[record]]
+    gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    if gone_u < F[masters.corner_in_u[m]] - SLACK * length_u:
         return BEHIND
-    reach: float = round_reach(F, I, m, record)
-    if reach <= 0.0 or gone < length - reach - SLACK * length:
+    reach_u: float = round_reach(F, I, m, record)
+    if reach_u <= 0.0 or gone_u < length_u - reach_u - SLACK * length_u:
         return LINE
     if F[masters.corner_out_u[m]] <= 0.0 and I[masters.queued[m]] > 1:
         smooth: int = 1 if F[moves.jrk_ups3[record]] > 0.0 else 0
-        corner_open(F, I, m, record, look_record(I, m, 1), reach, smooth)
+        corner_open(F, I, m, record, look_record(I, m, 1), reach_u, smooth)
         F[masters.corner_out_turn[m]] = F[moves.corner_turn[record]]
         F[masters.corner_out_ups[m]] = F[moves.corner_ups[record]]
     return AHEAD
@@ -83,115 +83,143 @@ def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the piece of the present move in which the path is."""
     record: int = move_record(I, m)
     part: int = round_part(F, I, m)
-    reach: float = round_reach(F, I, m, record)
-    end: float = F[moves.length_u[record]]
+    reach_u: float = round_reach(F, I, m, record)
+    end_u: float = F[moves.length_u[record]]
     I[masters.piece[m]] = 0
     if part == BEHIND:
-        end = F[masters.corner_in_u[m]]
+        end_u = F[masters.corner_in_u[m]]
         I[masters.piece[m]] = 1
-    elif part == LINE and reach > 0.0:
-        end = end - reach
+    elif part == LINE and reach_u > 0.0:
+        end_u = end_u - reach_u
         I[masters.piece[m]] = 1
-    F[masters.stretch_u[m]] = F[masters.origin_u[m]] + end
+    F[masters.stretch_u[m]] = F[masters.origin_u[m]] + end_u
     F[masters.look_cap_ups[m]] = 0.0
     I[masters.stretch[m]] = 1
-    w: float = round_exit2(F, I, S, m, part)
-    F[masters.look_exit_ups[m]] = sqrt(w)
-    limit: float = master_limit(F, I, S, m)
+    w_v2: float = round_exit2(F, I, S, m, part)
+    F[masters.look_exit_ups[m]] = sqrt(w_v2)
+    limit_ups: float = master_limit(F, I, S, m)
     if part == LINE:
-        round_line(F, I, m, record, limit, sqrt(w))
+        round_line(F, I, m, record, limit_ups, sqrt(w_v2))
     elif part == BEHIND:
-        cap: float = F[masters.corner_in_ups[m]]
+        cap_ups: float = F[masters.corner_in_ups[m]]
         round_corner(
-            F, I, m, record, limit, w, F[masters.corner_in_turn[m]], F[masters.corner_in_u[m]], cap
+            F,
+            I,
+            m,
+            record,
+            limit_ups,
+            w_v2,
+            F[masters.corner_in_turn[m]],
+            F[masters.corner_in_u[m]],
+            cap_ups,
         )
     else:
-        cap = F[masters.corner_out_ups[m]]
-        round_corner(F, I, m, record, limit, w, F[masters.corner_out_turn[m]], reach, cap)
-    F[profiles.target_velocity[m]] = limit
+        cap_ups = F[masters.corner_out_ups[m]]
+        round_corner(
+            F, I, m, record, limit_ups, w_v2, F[masters.corner_out_turn[m]], reach_u, cap_ups
+        )
+    F[profiles.target_velocity[m]] = limit_ups
 
 
-def round_line(F: F64, I: I32, m: int, record: int, limit: float, leaving: float) -> None:
+def round_line(F: F64, I: I32, m: int, record: int, limit_ups: float, leaving_ups: float) -> None:
     """Plan the line of the present move, to the corner ahead or the end of the path."""
-    acc: float = F[moves.acc_ups2[record]]
-    dec: float = F[moves.dec_ups2[record]]
-    jerk: float = F[moves.jrk_ups3[record]]
-    end: float = F[masters.stretch_u[m]]
+    acc_ups2: float = F[moves.acc_ups2[record]]
+    dec_ups2: float = F[moves.dec_ups2[record]]
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    end_u: float = F[masters.stretch_u[m]]
     ends: bool = round_last(I, m) == 0
-    rate: float = F[moves.stp_ups2[record]]
+    rate_ups2: float = F[moves.stp_ups2[record]]
     if not ends:
-        rate = look_rate(F, record)
-        if jerk > 0.0 and acc > 0.0:  # corners are entered without acceleration
-            reached: float = round_reached(F, m, end - F[profiles.distance[m]], limit, acc, jerk)
-            leaving = min(leaving, reached * (1.0 - SLACK))
-        if jerk > 0.0 and rate > 0.0:
-            wanted: float = min(leaving, limit)
-            reached = round_settle(F, m, end - F[profiles.distance[m]], wanted, rate, jerk)
-            if reached < 0.0 and round_planned(F, I, m, end):
+        rate_ups2 = look_rate(F, record)
+        if jerk_ups3 > 0.0 and acc_ups2 > 0.0:  # corners are entered without acceleration
+            reached_ups: float = round_reached(
+                F, m, end_u - F[profiles.distance[m]], limit_ups, acc_ups2, jerk_ups3
+            )
+            leaving_ups = min(leaving_ups, reached_ups * (1.0 - SLACK))
+        if jerk_ups3 > 0.0 and rate_ups2 > 0.0:
+            wanted_ups: float = min(leaving_ups, limit_ups)
+            reached_ups = round_settle(
+                F, m, end_u - F[profiles.distance[m]], wanted_ups, rate_ups2, jerk_ups3
+            )
+            if reached_ups < 0.0 and round_planned(F, I, m, end_u):
                 return
-            if reached > wanted:
-                if limit <= 0.0 and I[masters.piece[m]]:
-                    reached = max(reached, LINGER * leaving)
-                round_even(F, I, m, end, reached, acc, rate, jerk)
+            if reached_ups > wanted_ups:
+                if limit_ups <= 0.0 and I[masters.piece[m]]:
+                    reached_ups = max(reached_ups, LINGER * leaving_ups)
+                round_even(F, I, m, end_u, reached_ups, acc_ups2, rate_ups2, jerk_ups3)
                 return
-        if leaving >= limit:
-            rate = 0.0
-    profile_plan(F, I, m, end, limit, leaving, acc, dec, rate, jerk)
+        if leaving_ups >= limit_ups:
+            rate_ups2 = 0.0
+    profile_plan(F, I, m, end_u, limit_ups, leaving_ups, acc_ups2, dec_ups2, rate_ups2, jerk_ups3)
     if not ends:
         round_decelerate(I, m)
 
 
-def round_reached(F: F64, m: int, way: float, limit: float, rate: float, jerk: float) -> float:
-    """The highest speed up to `limit` that is reached, without acceleration, within a way."""
-    velocity: float = F[profiles.velocity[m]]
-    accel: float = F[profiles.accel[m]]
-    low: float = max(rest_speed(velocity, accel, jerk), 0.0)
-    high: float = limit
-    if high <= low or ramp_way(velocity, accel, high, rate, jerk) <= way:
-        return max(high, low)
+def round_reached(
+    F: F64, m: int, way_u: float, limit_ups: float, rate_ups2: float, jerk_ups3: float
+) -> float:
+    """The highest speed up to `limit_ups` that is reached, without acceleration, within a way."""
+    velocity_ups: float = F[profiles.velocity[m]]
+    accel_ups2: float = F[profiles.accel[m]]
+    low_ups: float = max(rest_speed(velocity_ups, accel_ups2, jerk_ups3), 0.0)
+    high_ups: float = limit_ups
+    if (
+        high_ups <= low_ups
+        or ramp_way(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) <= way_u
+    ):
+        return max(high_ups, low_ups)
     for _ in range(BISECTIONS):
-        middle: float = (low + high) / 2.0
-        if ramp_way(velocity, accel, middle, rate, jerk) > way:
-            high = middle
+        middle_ups: float = (low_ups + high_ups) / 2.0
+        if ramp_way(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > way_u:
+            high_ups = middle_ups
         else:
-            low = middle
-    return low
+            low_ups = middle_ups
+    return low_ups
 
 
-def round_settle(F: F64, m: int, way: float, wanted: float, rate: float, jerk: float) -> float:
-    """The lowest speed from `wanted` up that is reached, without acceleration, within a way.
+def round_settle(
+    F: F64, m: int, way_u: float, wanted_ups: float, rate_ups2: float, jerk_ups3: float
+) -> float:
+    """The lowest speed from `wanted_ups` up that is reached, without acceleration, within a way.
 
     -1 if there is not even room to let go of the present acceleration.
     """
-    velocity: float = F[profiles.velocity[m]]
-    accel: float = F[profiles.accel[m]]
-    high: float = max(rest_speed(velocity, accel, jerk), 0.0)
-    if wanted >= high:
-        return wanted
-    if ramp_way(velocity, accel, wanted, rate, jerk) <= way:
-        return wanted
-    if ramp_way(velocity, accel, high, rate, jerk) > way:
+    velocity_ups: float = F[profiles.velocity[m]]
+    accel_ups2: float = F[profiles.accel[m]]
+    high_ups: float = max(rest_speed(velocity_ups, accel_ups2, jerk_ups3), 0.0)
+    if wanted_ups >= high_ups:
+        return wanted_ups
+    if ramp_way(velocity_ups, accel_ups2, wanted_ups, rate_ups2, jerk_ups3) <= way_u:
+        return wanted_ups
+    if ramp_way(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) > way_u:
         return -1.0
-    low: float = wanted
+    low_ups: float = wanted_ups
     for _ in range(BISECTIONS):
-        middle: float = (low + high) / 2.0
-        if ramp_way(velocity, accel, middle, rate, jerk) > way:
-            low = middle
+        middle_ups: float = (low_ups + high_ups) / 2.0
+        if ramp_way(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > way_u:
+            low_ups = middle_ups
         else:
-            high = middle
-    return high
+            high_ups = middle_ups
+    return high_ups
 
 
-def round_planned(F: F64, I: I32, m: int, end: float) -> bool:
-    """Whether the plan under way leads to `end`."""
-    return I[profiles.seg_count[m]] > 0 and F[profiles.end_distance[m]] == end
+def round_planned(F: F64, I: I32, m: int, end_u: float) -> bool:
+    """Whether the plan under way leads to `end_u`."""
+    return I[profiles.seg_count[m]] > 0 and F[profiles.end_distance[m]] == end_u
 
 
 def round_even(
-    F: F64, I: I32, m: int, end: float, goal: float, acc: float, rate: float, jerk: float
+    F: F64,
+    I: I32,
+    m: int,
+    end_u: float,
+    goal_ups: float,
+    acc_ups2: float,
+    rate_ups2: float,
+    jerk_ups3: float,
 ) -> None:
-    """Plan to a corner that is passed at speed `goal`."""
-    profile_plan(F, I, m, end, goal, goal, acc, rate, 0.0, jerk)
+    """Plan to a corner that is passed at speed `goal_ups`."""
+    profile_plan(F, I, m, end_u, goal_ups, goal_ups, acc_ups2, rate_ups2, 0.0, jerk_ups3)
 
 
 def round_decelerate(I: I32, m: int) -> None:
@@ -206,88 +234,111 @@ def round_corner(
     I: I32,
     m: int,
     record: int,
-    limit: float,
-    w: float,
+    limit_ups: float,
+    w_v2: float,
     turn: float,
-    reach: float,
-    cap: float,
+    reach_u: float,
+    cap_ups: float,
 ) -> None:
     """Plan the rest of a corner: one constant acceleration, or constant speed under jerk."""
-    end: float = F[masters.stretch_u[m]]
-    left: float = end - F[profiles.distance[m]]
-    velocity: float = F[profiles.velocity[m]]
-    now: float = velocity * velocity
-    jerk: float = F[moves.jrk_ups3[record]]
-    accel: float = round_accel(F, record)
-    leaving: float = min(sqrt(w), min(limit, cap))
-    if jerk > 0.0:
-        if velocity <= LINGER * leaving or F[profiles.accel[m]] != 0.0:
-            soft: float = SOFT * accel
-            profile_plan(F, I, m, end, min(limit, 0.5 * cap), 0.0, soft, soft, 0.0, SOFT * jerk)
+    end_u: float = F[masters.stretch_u[m]]
+    left_u: float = end_u - F[profiles.distance[m]]
+    velocity_ups: float = F[profiles.velocity[m]]
+    now_v2: float = velocity_ups * velocity_ups
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    accel_ups2: float = round_accel(F, record)
+    leaving_ups: float = min(sqrt(w_v2), min(limit_ups, cap_ups))
+    if jerk_ups3 > 0.0:
+        if velocity_ups <= LINGER * leaving_ups or F[profiles.accel[m]] != 0.0:
+            soft_ups2: float = SOFT * accel_ups2
+            profile_plan(
+                F,
+                I,
+                m,
+                end_u,
+                min(limit_ups, 0.5 * cap_ups),
+                0.0,
+                soft_ups2,
+                soft_ups2,
+                0.0,
+                SOFT * jerk_ups3,
+            )
         else:
-            profile_plan(F, I, m, end, velocity, velocity, accel, accel, 0.0, jerk)
-    elif accel <= 0.0 or left <= 0.0 or fabs(leaving - velocity) <= SLACK * leaving:
-        profile_plan(F, I, m, end, leaving, leaving, accel, accel, 0.0, 0.0)
-    elif leaving >= velocity:
+            profile_plan(
+                F, I, m, end_u, velocity_ups, velocity_ups, accel_ups2, accel_ups2, 0.0, jerk_ups3
+            )
+    elif (
+        accel_ups2 <= 0.0
+        or left_u <= 0.0
+        or fabs(leaving_ups - velocity_ups) <= SLACK * leaving_ups
+    ):
+        profile_plan(F, I, m, end_u, leaving_ups, leaving_ups, accel_ups2, accel_ups2, 0.0, 0.0)
+    elif leaving_ups >= velocity_ups:
         # From within a corner the way left is shorter than the whole: still a safe choice.
-        top: float = min(leaving * leaving, round_ramp2(turn, reach, accel, 0.0, now))
-        rate: float = max((top - now) / (2.0 * left), 0.0)
-        rate = min(rate, round_brake(turn, reach, accel, top))
-        profile_plan(F, I, m, end, leaving, leaving, rate, rate, 0.0, 0.0)
+        top_v2: float = min(
+            leaving_ups * leaving_ups, round_ramp2(turn, reach_u, accel_ups2, 0.0, now_v2)
+        )
+        rate_ups2: float = max((top_v2 - now_v2) / (2.0 * left_u), 0.0)
+        rate_ups2 = min(rate_ups2, round_brake(turn, reach_u, accel_ups2, top_v2))
+        profile_plan(F, I, m, end_u, leaving_ups, leaving_ups, rate_ups2, rate_ups2, 0.0, 0.0)
     else:
-        brake: float = round_brake(turn, reach, accel, now)
-        needed: float = (now - w) / (2.0 * left)
-        if limit <= 0.0:
-            profile_plan(F, I, m, end, 0.0, 0.0, accel, max(brake, needed), 0.0, 0.0)
+        brake_ups2: float = round_brake(turn, reach_u, accel_ups2, now_v2)
+        needed_ups2: float = (now_v2 - w_v2) / (2.0 * left_u)
+        if limit_ups <= 0.0:
+            profile_plan(
+                F, I, m, end_u, 0.0, 0.0, accel_ups2, max(brake_ups2, needed_ups2), 0.0, 0.0
+            )
             return
-        lowest: float = max(now - 2.0 * brake * left, 0.0)
-        goal: float = min(max(leaving * leaving, lowest), max(w, 0.0))
-        rate = (now - goal) / (2.0 * left)
-        profile_plan(F, I, m, end, velocity, sqrt(goal), rate, rate, rate, 0.0)
+        lowest_v2: float = max(now_v2 - 2.0 * brake_ups2 * left_u, 0.0)
+        goal_v2: float = min(max(leaving_ups * leaving_ups, lowest_v2), max(w_v2, 0.0))
+        rate_ups2 = (now_v2 - goal_v2) / (2.0 * left_u)
+        profile_plan(
+            F, I, m, end_u, velocity_ups, sqrt(goal_v2), rate_ups2, rate_ups2, rate_ups2, 0.0
+        )
         round_decelerate(I, m)
 
 
-def round_holds(F: F64, I: I32, S: F32, m: int, rate: float) -> bool:
+def round_holds(F: F64, I: I32, S: F32, m: int, rate_ups2: float) -> bool:
     """A feedhold under a jerk limit: True if it has to wait until a corner is behind.
 
     In front of a corner it slows the path as far as that can be done without acceleration in
     the corner, where the path neither stops nor lingers.
     """
     record: int = move_record(I, m)
-    jerk: float = F[moves.jrk_ups3[record]]
-    if jerk <= 0.0 or not round_through(F, I, m, record):
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    if jerk_ups3 <= 0.0 or not round_through(F, I, m, record):
         return False
     if round_part(F, I, m) != LINE:
         return True
     if not I[masters.piece[m]]:
         return False
-    end: float = F[masters.stretch_u[m]]
-    way: float = end - F[profiles.distance[m]]
-    reached: float = round_settle(F, m, way, 0.0, rate, jerk)
-    if reached == 0.0:
+    end_u: float = F[masters.stretch_u[m]]
+    way_u: float = end_u - F[profiles.distance[m]]
+    reached_ups: float = round_settle(F, m, way_u, 0.0, rate_ups2, jerk_ups3)
+    if reached_ups == 0.0:
         return False
-    cap: float = F[moves.corner_ups[record]]
-    wanted: float = LINGER * min(cap, F[masters.look_exit_ups[m]])
-    if wanted > reached:
-        reached = round_settle(F, m, way, wanted, rate, jerk)
-    speed: float = rest_speed(F[profiles.velocity[m]], F[profiles.accel[m]], jerk)
-    if 0.0 < reached < speed:
-        round_even(F, I, m, end, reached, rate, rate, jerk)
+    cap_ups: float = F[moves.corner_ups[record]]
+    wanted_ups: float = LINGER * min(cap_ups, F[masters.look_exit_ups[m]])
+    if wanted_ups > reached_ups:
+        reached_ups = round_settle(F, m, way_u, wanted_ups, rate_ups2, jerk_ups3)
+    speed_ups: float = rest_speed(F[profiles.velocity[m]], F[profiles.accel[m]], jerk_ups3)
+    if 0.0 < reached_ups < speed_ups:
+        round_even(F, I, m, end_u, reached_ups, rate_ups2, rate_ups2, jerk_ups3)
     return True
 
 
-def round_hold_rate(F: F64, I: I32, m: int, rate: float) -> float:
+def round_hold_rate(F: F64, I: I32, m: int, rate_ups2: float) -> float:
     """The rate of a feedhold: less in a corner."""
     if not round_through(F, I, m, move_record(I, m)):
-        return rate
+        return rate_ups2
     part: int = round_part(F, I, m)
-    accel: float = round_accel(F, move_record(I, m))
-    velocity: float = F[profiles.velocity[m]]
+    accel_ups2: float = round_accel(F, move_record(I, m))
+    velocity_ups: float = F[profiles.velocity[m]]
     turn: float = F[masters.corner_in_turn[m]]
-    reach: float = F[masters.corner_in_u[m]]
+    reach_u: float = F[masters.corner_in_u[m]]
     if part == AHEAD:
         turn = F[masters.corner_out_turn[m]]
-        reach = F[masters.corner_out_u[m]]
-    if part == LINE or reach <= 0.0 or accel <= 0.0:
-        return rate
-    return min(rate, round_brake(turn, reach, accel, velocity * velocity))
+        reach_u = F[masters.corner_out_u[m]]
+    if part == LINE or reach_u <= 0.0 or accel_ups2 <= 0.0:
+        return rate_ups2
+    return min(rate_ups2, round_brake(turn, reach_u, accel_ups2, velocity_ups * velocity_ups))

@@ -29,11 +29,11 @@ ENDLESS = 1e30
 
 def round_accel(F: F64, record: int) -> float:
     """The acceleration limit of a move: the lower of ACC and DEC, 0 none."""
-    acc: float = F[moves.acc_ups2[record]]
-    dec: float = F[moves.dec_ups2[record]]
-    if acc <= 0.0:
-        return max(dec, 0.0)
-    return min(acc, dec) if dec > 0.0 else acc
+    acc_ups2: float = F[moves.acc_ups2[record]]
+    dec_ups2: float = F[moves.dec_ups2[record]]
+    if acc_ups2 <= 0.0:
+        return max(dec_ups2, 0.0)
+    return min(acc_ups2, dec_ups2) if dec_ups2 > 0.0 else acc_ups2
 
 
 def round_straight(F: F64, I: I32, record: int) -> bool:
@@ -72,8 +72,8 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     F[moves.corner_turn[a]] = 0.0
     ahead: int = moves.ahead[a]
     I[ahead] = 0
-    tolerance: float = F[moves.tolerance_u[a]]
-    if not tolerance > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
+    tolerance_u: float = F[moves.tolerance_u[a]]
+    if not tolerance_u > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
         return
     own: int = 1 if I[moves.marks[a]] & MARK_ROUNDS else 0
     turn: float = round_turn(F, I, S, m, a, b)
@@ -81,112 +81,124 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
         I[ahead] = own
         return
     F[moves.corner_turn[a]] = turn
-    jerk: float = F[moves.jrk_ups3[a]]
-    reach: float = (6.0 if jerk > 0.0 else 4.0) * tolerance / turn
-    reach = min(reach, 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]))
-    limit: float = round_accel(F, a)
-    other: float = round_accel(F, b)
-    if limit <= 0.0 or 0.0 < other < limit:
-        limit = other
-    F[moves.corner_ups[a]] = round_cap(turn, reach, limit, jerk)
-    if jerk > 0.0 and not round_pays(F, a, b, reach, limit, jerk):
+    jerk_ups3: float = F[moves.jrk_ups3[a]]
+    reach_u: float = (6.0 if jerk_ups3 > 0.0 else 4.0) * tolerance_u / turn
+    reach_u = min(reach_u, 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]))
+    limit_ups2: float = round_accel(F, a)
+    other_ups2: float = round_accel(F, b)
+    if limit_ups2 <= 0.0 or 0.0 < other_ups2 < limit_ups2:
+        limit_ups2 = other_ups2
+    F[moves.corner_ups[a]] = round_cap(turn, reach_u, limit_ups2, jerk_ups3)
+    if jerk_ups3 > 0.0 and not round_pays(F, a, b, reach_u, limit_ups2, jerk_ups3):
         F[moves.corner_turn[a]] = 0.0
         return
     if I[masters.queued[m]] == 1 and I[masters.moving[m]]:
-        if not round_in_time(F, m, a, reach, F[moves.corner_ups[a]]):
+        if not round_in_time(F, m, a, reach_u, F[moves.corner_ups[a]]):
             return
-    F[moves.corner_u[a]] = reach
+    F[moves.corner_u[a]] = reach_u
     I[ahead] = own
 
 
-def round_cap(turn: float, reach: float, limit: float, jerk: float) -> float:
+def round_cap(turn: float, reach_u: float, limit_ups2: float, jerk_ups3: float) -> float:
     """The highest constant speed in a corner, by acceleration and jerk."""
-    cap: float = ENDLESS
-    if jerk > 0.0:
-        if limit > 0.0:
-            cap = sqrt(limit * reach / turn)
-        return min(cap, exp(log(jerk * reach * reach / turn) / 3.0)) * SHARE
-    if limit > 0.0:
-        cap = sqrt(SHARE * limit * 2.0 * reach / turn)
-    return cap
+    cap_ups: float = ENDLESS
+    if jerk_ups3 > 0.0:
+        if limit_ups2 > 0.0:
+            cap_ups = sqrt(limit_ups2 * reach_u / turn)
+        return min(cap_ups, exp(log(jerk_ups3 * reach_u * reach_u / turn) / 3.0)) * SHARE
+    if limit_ups2 > 0.0:
+        cap_ups = sqrt(SHARE * limit_ups2 * 2.0 * reach_u / turn)
+    return cap_ups
 
 
-def round_pays(F: F64, a: int, b: int, reach: float, limit: float, jerk: float) -> bool:
+def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_ups3: float) -> bool:
     """Whether going round a corner at constant speed is quicker than what jerk does without.
 
     Compared is the time lost on each side against the feed: by the ramp to the speed in the
     corner and the way at that speed, or by the ramp to rest. Lines too short to speed up on
     are left to the merging of LOOK.
     """
-    feed: float = min(F[moves.vel_ups[a]], F[moves.vel_ups[b]])
-    cap: float = F[moves.corner_ups[a]]
-    room: float = 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]) - reach
-    if limit <= 0.0 or cap <= 0.0 or room <= 0.0:
+    feed_ups: float = min(F[moves.vel_ups[a]], F[moves.vel_ups[b]])
+    cap_ups: float = F[moves.corner_ups[a]]
+    room_u: float = 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]) - reach_u
+    if limit_ups2 <= 0.0 or cap_ups <= 0.0 or room_u <= 0.0:
         return False
-    feed = min(feed, ramp_start(room, 0.0, limit, jerk))
-    if cap >= feed:
+    feed_ups = min(feed_ups, ramp_start(room_u, 0.0, limit_ups2, jerk_ups3))
+    if cap_ups >= feed_ups:
         return False
-    slow: float = reach / cap - reach / feed
-    return ramp_loss(cap, feed, limit, jerk) + slow < ramp_loss(0.0, feed, limit, jerk)
+    slow_s: float = reach_u / cap_ups - reach_u / feed_ups
+    return ramp_loss(cap_ups, feed_ups, limit_ups2, jerk_ups3) + slow_s < ramp_loss(
+        0.0, feed_ups, limit_ups2, jerk_ups3
+    )
 
 
-def ramp_loss(low: float, high: float, rate: float, jerk: float) -> float:
+def ramp_loss(low_ups: float, high_ups: float, rate_ups2: float, jerk_ups3: float) -> float:
     """Time a ramp between two speeds loses against its way at the higher one."""
-    rise: float = high - low
-    time: float = rise / rate + rate / jerk
-    if rise * jerk < rate * rate:
-        time = 2.0 * sqrt(rise / jerk)
-    return time - 0.5 * (low + high) * time / high
+    rise_ups: float = high_ups - low_ups
+    time_s: float = rise_ups / rate_ups2 + rate_ups2 / jerk_ups3
+    if rise_ups * jerk_ups3 < rate_ups2 * rate_ups2:
+        time_s = 2.0 * sqrt(rise_ups / jerk_ups3)
+    return time_s - 0.5 * (low_ups + high_ups) * time_s / high_ups
 
 
-def round_in_time(F: F64, m: int, record: int, reach: float, cap: float) -> bool:
+def round_in_time(F: F64, m: int, record: int, reach_u: float, cap_ups: float) -> bool:
     """Whether the move under way can still slow down in front of its corner."""
-    gone: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
-    left: float = F[moves.length_u[record]] - reach - gone
-    if left <= 0.0:
+    gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    left_u: float = F[moves.length_u[record]] - reach_u - gone_u
+    if left_u <= 0.0:
         return False
-    velocity: float = F[profiles.velocity[m]]
-    jerk: float = F[moves.jrk_ups3[record]]
-    if jerk > 0.0:
-        accel: float = F[profiles.accel[m]]
-        slow: bool = rest_speed(velocity, accel, jerk) <= cap
-        rate: float = look_rate(F, record)
-        return slow or ramp_way(velocity, accel, cap, rate, jerk) <= left * SHARE
-    return velocity * velocity <= cap * cap + 2.0 * look_rate(F, record) * left * SHARE
+    velocity_ups: float = F[profiles.velocity[m]]
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    if jerk_ups3 > 0.0:
+        accel_ups2: float = F[profiles.accel[m]]
+        slow: bool = rest_speed(velocity_ups, accel_ups2, jerk_ups3) <= cap_ups
+        rate_ups2: float = look_rate(F, record)
+        return (
+            slow
+            or ramp_way(velocity_ups, accel_ups2, cap_ups, rate_ups2, jerk_ups3) <= left_u * SHARE
+        )
+    return (
+        velocity_ups * velocity_ups
+        <= cap_ups * cap_ups + 2.0 * look_rate(F, record) * left_u * SHARE
+    )
 
 
-def round_ramp2(turn: float, reach: float, limit: float, jerk: float, w: float) -> float:
-    """Highest speed squared at the other end of a corner that has `w` at this one."""
-    if jerk > 0.0:
-        return w
-    if limit <= 0.0:
+def round_ramp2(
+    turn: float, reach_u: float, limit_ups2: float, jerk_ups3: float, w_v2: float
+) -> float:
+    """Highest speed squared at the other end of a corner that has `w_v2` at this one."""
+    if jerk_ups3 > 0.0:
+        return w_v2
+    if limit_ups2 <= 0.0:
         return ENDLESS
     half: float = 0.5 * turn
-    bend: float = turn / (2.0 * reach)
-    inverse: float = 0.5 / reach  # a = (w' - w) / 2T, over half a corner
-    along: float = inverse + bend * half
-    square: float = along * along + bend * bend * max(1.0 - half * half, 0.0)
-    b: float = along * w * inverse
-    c: float = w * w * inverse * inverse - limit * limit
+    bend_per_u: float = turn / (2.0 * reach_u)
+    inverse_per_u: float = 0.5 / reach_u  # a = (w' - w) / 2T, over half a corner
+    along_per_u: float = inverse_per_u + bend_per_u * half
+    square: float = along_per_u * along_per_u + bend_per_u * bend_per_u * max(
+        1.0 - half * half, 0.0
+    )
+    b: float = along_per_u * w_v2 * inverse_per_u
+    c: float = w_v2 * w_v2 * inverse_per_u * inverse_per_u - limit_ups2 * limit_ups2
     root: float = b * b - square * c
     if root <= 0.0:
-        return w
-    return max(w, (b + sqrt(root)) / square)
+        return w_v2
+    return max(w_v2, (b + sqrt(root)) / square)
 
 
-def round_brake(turn: float, reach: float, limit: float, w: float) -> float:
-    """How strongly speed may change in a corner at speed squared `w`."""
+def round_brake(turn: float, reach_u: float, limit_ups2: float, w_v2: float) -> float:
+    """How strongly speed may change in a corner at speed squared `w_v2`."""
     half: float = 0.5 * turn
-    side: float = w * turn / (2.0 * reach)
-    rest: float = limit * limit - side * side * (1.0 - half * half)
-    return max(sqrt(max(rest, 0.0)) - side * half, 0.01 * limit)
+    side_ups2: float = w_v2 * turn / (2.0 * reach_u)
+    rest: float = limit_ups2 * limit_ups2 - side_ups2 * side_ups2 * (1.0 - half * half)
+    return max(sqrt(max(rest, 0.0)) - side_ups2 * half, 0.01 * limit_ups2)
 
 
-def line_start2(length: float, w: float, rate: float, jerk: float) -> float:
-    """Highest speed squared from which a ramp on a line of this length ends with `w`."""
-    if rate <= 0.0:
+def line_start2(length_u: float, w_v2: float, rate_ups2: float, jerk_ups3: float) -> float:
+    """Highest speed squared from which a ramp on a line of this length ends with `w_v2`."""
+    if rate_ups2 <= 0.0:
         return ENDLESS
-    if jerk <= 0.0:
-        return w + 2.0 * rate * max(length, 0.0)
-    start: float = ramp_start(max(length, 0.0), sqrt(w), rate, jerk)
-    return start * start
+    if jerk_ups3 <= 0.0:
+        return w_v2 + 2.0 * rate_ups2 * max(length_u, 0.0)
+    start_ups: float = ramp_start(max(length_u, 0.0), sqrt(w_v2), rate_ups2, jerk_ups3)
+    return start_ups * start_ups

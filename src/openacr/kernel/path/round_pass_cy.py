@@ -30,12 +30,12 @@ FEW = 16  # moves the backward pass looks at first
 def round_join2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     """Speed squared at a corner that is not rounded."""
     if I[moves.ahead[a]]:  # straight on
-        speed: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
-        return speed * speed
+        speed_ups: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
+        return speed_ups * speed_ups
     if F[moves.tolerance_u[a]] > 0.0 and F[moves.corner_turn[a]] > STRAIGHT:
         return 0.0  # the next move has come too late
-    law: float = look_corner(F, I, S, m, a, b)
-    return law * law
+    law_ups: float = look_corner(F, I, S, m, a, b)
+    return law_ups * law_ups
 
 
 def round_cap2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
@@ -52,53 +52,53 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
     """
     k: int = far
     r: int = look_record(I, m, k)
-    w: float = 0.0
-    rate: float = look_rate(F, r)
+    w_v2: float = 0.0
+    rate_ups2: float = look_rate(F, r)
     capped: bool = far >= last
     if far >= last:
-        w = look_final(F, I, S, m, r)
-        w = w * w
-        rate = F[moves.stp_ups2[r]]
+        w_v2 = look_final(F, I, S, m, r)
+        w_v2 = w_v2 * w_v2
+        rate_ups2 = F[moves.stp_ups2[r]]
     while True:
-        speed: float = look_speed(F, I, S, m, r)
-        top: float = speed * speed
-        jerk: float = F[moves.jrk_ups3[r]]
-        reach: float = F[moves.corner_u[r]] if k < last else 0.0
-        before: float = F[masters.corner_in_u[m]]
+        speed_ups: float = look_speed(F, I, S, m, r)
+        top_v2: float = speed_ups * speed_ups
+        jerk_ups3: float = F[moves.jrk_ups3[r]]
+        reach_u: float = F[moves.corner_u[r]] if k < last else 0.0
+        before_u: float = F[masters.corner_in_u[m]]
         a: int = r
         if k > 0:
             a = look_record(I, m, k - 1)
-            before = F[moves.corner_u[a]]
-        if w >= top:
-            w = top
+            before_u = F[moves.corner_u[a]]
+        if w_v2 >= top_v2:
+            w_v2 = top_v2
             capped = True
         if k == 0 and part == AHEAD:
             break
-        if reach > 0.0:
-            w = round_ramp2(F[moves.corner_turn[r]], reach, round_accel(F, r), jerk, w)
-            cap: float = min(F[moves.corner_ups[r]] * F[moves.corner_ups[r]], top)
-            if w >= cap:
-                w = cap
+        if reach_u > 0.0:
+            w_v2 = round_ramp2(F[moves.corner_turn[r]], reach_u, round_accel(F, r), jerk_ups3, w_v2)
+            cap_v2: float = min(F[moves.corner_ups[r]] * F[moves.corner_ups[r]], top_v2)
+            if w_v2 >= cap_v2:
+                w_v2 = cap_v2
                 capped = True
         if k == 0 and part == LINE:
             break
-        w = line_start2(F[moves.length_u[r]] - reach - before, w, rate, jerk)
-        if w >= top:
-            w = top
+        w_v2 = line_start2(F[moves.length_u[r]] - reach_u - before_u, w_v2, rate_ups2, jerk_ups3)
+        if w_v2 >= top_v2:
+            w_v2 = top_v2
             capped = True
         if k == 0:
             break
-        corner: float = round_cap2(F, I, S, m, a, r)
-        if before > 0.0:
+        corner_v2: float = round_cap2(F, I, S, m, a, r)
+        if before_u > 0.0:
             turn: float = F[moves.corner_turn[a]]
-            w = round_ramp2(turn, before, round_accel(F, r), jerk, min(w, corner))
-        if w >= corner:
-            w = corner
+            w_v2 = round_ramp2(turn, before_u, round_accel(F, r), jerk_ups3, min(w_v2, corner_v2))
+        if w_v2 >= corner_v2:
+            w_v2 = corner_v2
             capped = True
-        rate = look_rate(F, a)
+        rate_ups2 = look_rate(F, a)
         r = a
         k -= 1
-    return w if capped else -1.0
+    return w_v2 if capped else -1.0
 
 
 def round_last(I: I32, m: int) -> int:
@@ -114,8 +114,8 @@ def round_exit2(F: F64, I: I32, S: F32, m: int, part: int) -> float:
     """Highest speed squared at the end of a piece of the present move."""
     last: int = round_last(I, m)
     far: int = min(FEW, last)
-    w: float = round_pass(F, I, S, m, part, far, last)
-    while w < 0.0 and far < last:
+    w_v2: float = round_pass(F, I, S, m, part, far, last)
+    while w_v2 < 0.0 and far < last:
         far = min(2 * far, last)
-        w = round_pass(F, I, S, m, part, far, last)
-    return max(w, 0.0)
+        w_v2 = round_pass(F, I, S, m, part, far, last)
+    return max(w_v2, 0.0)

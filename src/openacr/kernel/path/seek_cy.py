@@ -23,10 +23,10 @@ def seek_step(F: F64, I: I32, S: F32, m: int) -> None:
     record: int = move_record(I, m)
     axis: int = I[moves.seek_axis[record]] - 1
     if I[af1.word[axis]] & af1.CAPTURE_COMPLETE:
-        rate: float = move_stop_rate(F, record)
+        rate_ups2: float = move_stop_rate(F, record)
         I[masters.seek_phase[m]] = SEEK_STOPPING
-        jerk: float = F[moves.jrk_ups3[record]]
-        profile_stop(F, I, m, F[moves.length_u[record]], rate, jerk, STOPPING)
+        jerk_ups3: float = F[moves.jrk_ups3[record]]
+        profile_stop(F, I, m, F[moves.length_u[record]], rate_ups2, jerk_ups3, STOPPING)
 
 
 def seek_end(F: F64, I: I32, S: F32, m: int) -> bool:

@@ -52,12 +52,12 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
     """The least time the waiting move of master m takes."""
     move_geometry(F, I, S, m)
     record: int = move_record(I, m)
-    time: float = F[moves.tmov_s[record]]
-    bound: float = move_limit(F, I, S, m, record, 1.0)
-    if not bound > 0.0 or F[moves.length_u[record]] <= 0.0:
-        return time
+    time_s: float = F[moves.tmov_s[record]]
+    bound_ups: float = move_limit(F, I, S, m, record, 1.0)
+    if not bound_ups > 0.0 or F[moves.length_u[record]] <= 0.0:
+        return time_s
     profile_reset(F, I, m, 0.0, 0.0)
-    return max(time, plan_seconds(F, I, m, bound))
+    return max(time_s, plan_seconds(F, I, m, bound_ups))
 
 
 def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
@@ -70,14 +70,14 @@ def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
 
 def sync_release(F: F64, I: I32, S: F32, master_count: int) -> None:
     """Let the waiting moves of all members begin, with the time of the slowest."""
-    time: float = 0.0
+    time_s: float = 0.0
     for m in range(master_count):
         if sync_member(I, m):
-            time = max(time, sync_seconds(F, I, S, m))
+            time_s = max(time_s, sync_seconds(F, I, S, m))
     for m in range(master_count):
         if sync_member(I, m):
-            F[moves.tmov_s[move_record(I, m)]] = time
-            S[masters.delta_tmov_time[m]] = time
+            F[moves.tmov_s[move_record(I, m)]] = time_s
+            S[masters.delta_tmov_time[m]] = time_s
             I[masters.sync_go[m]] = 1
             I[masters.sync_start[m]] = 0
 

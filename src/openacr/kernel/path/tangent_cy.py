@@ -50,11 +50,11 @@ def tangent_place(F: F64, I: I32, m: int, record: int, rest: float, along: float
     t: int = moves.tang[record]
     s: int = I[moves.tang_slave[record]] - 1
     axis: int = I[masters.slave_axis[m] + s]
-    angle: float = tangent_deg(F, I, record, F[t + UNITS_0], F[t + UNITS_1], 1.0 - along)
-    if axis < 0 or angle < -999.0:
+    angle_deg: float = tangent_deg(F, I, record, F[t + UNITS_0], F[t + UNITS_1], 1.0 - along)
+    if axis < 0 or angle_deg < -999.0:
         return
     a: int = axes.position_cnt[axis]
-    now: float = F[a] / F[t + SCALE]
-    turn: float = angle + F[t + OFFSET_DEG] - now
-    turn -= 360.0 * rint(turn / 360.0)
-    F[a] = (now + turn - F[t + LAG_DEG] * rest) * F[t + SCALE]
+    now_deg: float = F[a] / F[t + SCALE]
+    turn_deg: float = angle_deg + F[t + OFFSET_DEG] - now_deg
+    turn_deg -= 360.0 * rint(turn_deg / 360.0)
+    F[a] = (now_deg + turn_deg - F[t + LAG_DEG] * rest) * F[t + SCALE]

@@ -35,27 +35,27 @@ def path_time(F: F64, I: I32, S: F32, m: int, dt: float) -> float:
     """Path time of a paced master m in a servo period of `dt` seconds; also while it rests."""
     tap: int = TIME_TAPS + m
     by_clock: bool = I[sources.kind[tap]] == FROM_CLOCK
-    time: float = dt
+    time_s: float = dt
     if not by_clock:
         source_follow(F, I, S, tap)
-        time = F[sources.delta[tap]] / PULSES_PER_S
+        time_s = F[sources.delta[tap]] / PULSES_PER_S
     factor: float = tov_factor(I, S, m, dt)
     if by_clock and factor == 1.0:
         I[masters.paced[m]] = I[mf2.word[m]] & mf2.MASTER_TOV
-    time = time * factor
-    F[masters.pace[m]] = time / dt
-    return time
+    time_s = time_s * factor
+    F[masters.pace[m]] = time_s / dt
+    return time_s
 
 
-def path_advance(F: F64, I: I32, m: int, time: float) -> float:
+def path_advance(F: F64, I: I32, m: int, time_s: float) -> float:
     """Advance the path, backwards for negative times; as `profile_advance`."""
-    if time < 0.0:
+    if time_s < 0.0:
         k: int = I[profiles.seg_index[m]]
-        t: float = F[profiles.time_s[m]] + time
-        while t < 0.0 and k > 0:
+        t_s: float = F[profiles.time_s[m]] + time_s
+        while t_s < 0.0 and k > 0:
             k -= 1
-            t += F[profiles.seg_time_s[m] + k]
-        F[profiles.time_s[m]] = t if t > 0.0 else 0.0
+            t_s += F[profiles.seg_time_s[m] + k]
+        F[profiles.time_s[m]] = t_s if t_s > 0.0 else 0.0
         I[profiles.seg_index[m]] = k
-        time = 0.0
-    return profile_advance(F, I, m, time)
+        time_s = 0.0
+    return profile_advance(F, I, m, time_s)

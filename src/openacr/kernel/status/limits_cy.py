@@ -92,30 +92,30 @@ def axis_kill_one(F: F64, I: I32, S: F32, n: int) -> None:
         drive_disable(I, n)
 
 
-def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity: float) -> None:
+def hard_limits(F: F64, I: I32, S: F32, n: int, flags: int, velocity_cps: float) -> None:
     """Trip an enabled hardware limit that is active while the axis moves into it."""
-    if velocity == 0.0 or not hard_limit_active(flags, 1 if velocity > 0.0 else -1):
+    if velocity_cps == 0.0 or not hard_limit_active(flags, 1 if velocity_cps > 0.0 else -1):
         return
     hit: int = af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
-    if velocity < 0.0:
+    if velocity_cps < 0.0:
         hit = af5.NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
     if I[axes.jog_mode[n]] == JOG_HOMING:
-        home_limit_hit(I, n, HARD_LIMIT_HIT, velocity)
+        home_limit_hit(I, n, HARD_LIMIT_HIT, velocity_cps)
     else:
         I[af5.word[n]] |= hit
         axis_kill(F, I, S, n)
 
 
-def home_limit_hit(I: I32, n: int, kind: int, velocity: float) -> None:
+def home_limit_hit(I: I32, n: int, kind: int, velocity_cps: float) -> None:
     """Tell the homing sequence of axis n about a limit.
 
     In the tick in which a search turns round the axis has still moved into the limit.
     """
-    if velocity * I[axes.home_moving[n]] > 0.0:
+    if velocity_cps * I[axes.home_moving[n]] > 0.0:
         I[axes.home_limit_hit[n]] = kind
 
 
-def soft_limit(F: F64, I: I32, S: F32, n: int, flags: int, side: int, velocity: float) -> None:
+def soft_limit(F: F64, I: I32, S: F32, n: int, flags: int, side: int, velocity_cps: float) -> None:
     """One software limit: stop the axes of the master at its crossing, record it while beyond.
 
     What the axis follows is stopped again if it leads farther out. A stop that is under way
@@ -128,10 +128,10 @@ def soft_limit(F: F64, I: I32, S: F32, n: int, flags: int, side: int, velocity: 
         latch = af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
     if not soft_limit_crossed(F, S, n, flags, side):
         I[word] &= ~latch
-    elif not side * velocity > 0.0:
+    elif not side * velocity_cps > 0.0:
         return
     elif I[axes.jog_mode[n]] == JOG_HOMING:
-        home_limit_hit(I, n, SOFT_LIMIT_HIT, velocity)
+        home_limit_hit(I, n, SOFT_LIMIT_HIT, velocity_cps)
     else:
         leads: int = lock_leader(I, n)  # a locked axis is moved and stopped by its leader
         if leads < 0:
@@ -179,10 +179,10 @@ def limits_step(F: F64, I: I32, S: F32, n: int) -> None:
         I[axes.kamr_old[n]] = 0
     if not flags & WATCHED:
         return
-    velocity: float = F[axes.psp_velocity_cps[n]]
+    velocity_cps: float = F[axes.psp_velocity_cps[n]]
     if axis_scale(S, n) < 0.0:
-        velocity = -velocity
+        velocity_cps = -velocity_cps
     if not I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
-        hard_limits(F, I, S, n, flags, velocity)
-    soft_limit(F, I, S, n, flags, 1, velocity)
-    soft_limit(F, I, S, n, flags, -1, velocity)
+        hard_limits(F, I, S, n, flags, velocity_cps)
+    soft_limit(F, I, S, n, flags, 1, velocity_cps)
+    soft_limit(F, I, S, n, flags, -1, velocity_cps)

@@ -54,22 +54,22 @@ def axis_bands(F: F64, I: I32, S: F32, n: int, chosen: int) -> None:
 def band_flags(F: F64, I: I32, S: F32, n: int) -> int:
     """Limit flags of axis n: bands of following error, command position and output."""
     scale: float = axis_scale(S, n)
-    setpoint: float = F[axes.ssp_cnt[n]]
-    error: float = (setpoint - I[axes.actual_position[n]]) / scale
-    position: float = setpoint / scale
-    output: float = S[axes.output_signal[n]]
+    setpoint_cnt: float = F[axes.ssp_cnt[n]]
+    error_u: float = (setpoint_cnt - I[axes.actual_position[n]]) / scale
+    position_u: float = setpoint_cnt / scale
+    output_v: float = S[axes.output_signal[n]]
     flags: int = 0
-    if not inside(S, axes.plus_in_position[n], axes.minus_in_position[n], error):
+    if not inside(S, axes.plus_in_position[n], axes.minus_in_position[n], error_u):
         flags |= af1.NOT_IN_POSITION
-    if inside(S, axes.plus_excess_error[n], axes.minus_excess_error[n], error):
+    if inside(S, axes.plus_excess_error[n], axes.minus_excess_error[n], error_u):
         flags |= af1.NOT_EXCESS_ERROR
-    if inside(S, axes.plus_a_limit[n], axes.minus_a_limit[n], position):
+    if inside(S, axes.plus_a_limit[n], axes.minus_a_limit[n], position_u):
         flags |= af1.WITHIN_A_LIMIT
-    if not inside(S, axes.plus_b_limit[n], axes.minus_b_limit[n], position):
+    if not inside(S, axes.plus_b_limit[n], axes.minus_b_limit[n], position_u):
         flags |= af1.NOT_WITHIN_B_LIMIT
     if not I[axes.clipped[n]]:
         flags |= af1.NOT_TORQUE_LIMIT
-    if not inside(S, axes.plus_torque_band[n], axes.minus_torque_band[n], output):
+    if not inside(S, axes.plus_torque_band[n], axes.minus_torque_band[n], output_v):
         flags |= af1.NOT_IN_TORQUE_BAND
     return flags
 
