@@ -18,7 +18,7 @@ from openacr.map.numbers import (
     ENGI_TRACE_WAIT,
 )
 from openacr.motion.card import Card
-from openacr.motion.permits import scale_of
+from openacr.motion.interlocks import scale_of
 from openacr.views import F64
 
 CHUNK_ROWS = 65536
