@@ -88,7 +88,7 @@ def needs_on(card: Card, axis: int) -> None:
         raise CardError(AXIS_IS_LOCKED)
 
 
-def needs_free_way(card: Card, axis: int, direction: float) -> None:
+def needs_free_direction(card: Card, axis: int, direction: float) -> None:
     """Refuse motion that starts now towards a limit that is active (its sign is the side)."""
     if not direction:
         return

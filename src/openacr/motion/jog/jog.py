@@ -21,7 +21,7 @@ from openacr.motion.card import Card
 from openacr.motion.interlocks import (
     master_moving,
     master_of,
-    needs_free_way,
+    needs_free_direction,
     needs_no_kill,
     needs_on,
     needs_rest,
@@ -37,7 +37,7 @@ def permit(card: Card, axis: int, direction: float) -> None:
     """Refuse a jog in `direction` (its sign) that a kill, the axis or a limit bars."""
     needs_no_kill(card, axis)
     needs_on(card, axis)
-    needs_free_way(card, axis, direction)
+    needs_free_direction(card, axis, direction)
 
 
 def continuous(card: Card, axis: int, direction: int) -> None:

@@ -19,7 +19,7 @@ from openacr.motion.interlocks import scale_of
 from openacr.motion.path import tangent
 from openacr.motion.path.bezier import Bezier
 from openacr.motion.path.move_request import Piece, Target
-from openacr.motion.path.records import Way
+from openacr.motion.path.records import SlaveMove
 
 MOST = 12  # records that one statement can make, the way to the first one included
 NEAR_CNT = 0.01
@@ -66,8 +66,8 @@ def hand_over(
         pace = replace(pace, begins=True)
     time_s = span if pace.rate else 0.0
     piece = Piece(tuple(axes), tuple(axes.values()), curve.poles, curve.weights, time_s)
-    ways = _ways(axes, curve.poles[0], curve.poles[-1])
-    record = tangent.add(card, program, master, ways, [piece])
+    slave_moves = _slave_moves(axes, curve.poles[0], curve.poles[-1])
+    record = tangent.add(card, program, master, slave_moves, [piece])
     marks = (MARK_CURVE_BEGIN if pace.begins else 0) | (MARK_NURB if pace.is_nurb else 0)
     card.memory.I[moves.marks[record]] = marks
     if pace.rate:
@@ -76,9 +76,11 @@ def hand_over(
         _write_path(card, record, pace)
 
 
-def _ways(axes: dict[int, int], starts: Sequence[float], ends: Sequence[float]) -> list[Way]:
+def _slave_moves(
+    axes: dict[int, int], starts: Sequence[float], ends: Sequence[float]
+) -> list[SlaveMove]:
     return [
-        Way(s, axis, first, last, last - first, relative=False)
+        SlaveMove(s, axis, first, last, last - first, relative=False)
         for (s, axis), first, last in zip(axes.items(), starts, ends, strict=True)
     ]
 
@@ -90,9 +92,9 @@ def _lead_up(
     here = [_end(card, master, s, axis) for s, axis in axes.items()]
     if all(abs(a - b) <= NEAR_CNT for a, b in zip(here, start, strict=True)):
         return False
-    ways = _ways(axes, here, start)
-    targets = [Target(way.axis, way.target_cnt / scale_of(card, way.axis)) for way in ways]
-    tangent.add(card, program, master, ways, targets)
+    slave_moves = _slave_moves(axes, here, start)
+    targets = [Target(one.axis, one.target_cnt / scale_of(card, one.axis)) for one in slave_moves]
+    tangent.add(card, program, master, slave_moves, targets)
     return True
 
 

@@ -29,8 +29,8 @@ from openacr.motion.interlocks import (
 )
 from openacr.motion.path import corners, curve_modes
 from openacr.motion.path.move_request import Circle, Direction, Part
-from openacr.motion.path.moves import permit_ways, start_cnt
-from openacr.motion.path.records import Way, append
+from openacr.motion.path.moves import permit_slave_moves, start_cnt
+from openacr.motion.path.records import SlaveMove, append
 
 LONGEST_COUNT = 2**31 - 1
 
@@ -122,15 +122,15 @@ def issue(card: Card, move: HostMove) -> None:
     needs_moves(card, move.master)
     if move.tolerance_u is not None and not corners.is_tolerance(move.tolerance_u):
         raise CardError(INVALID_ARGUMENT)
-    ways = _ways(card, move)
-    permit_ways(card, ways, here=not master_moving(card, move.master))
+    slave_moves = _slave_moves(card, move)
+    permit_slave_moves(card, slave_moves, here=not master_moving(card, move.master))
     _take_profile(card, move)
-    if move.arc is None and not any(way.delta_cnt for way in ways):
+    if move.arc is None and not any(one.delta_cnt for one in slave_moves):
         if not master_moving(card, move.master):
             _count_at_once(card, move)
             return
-    parts: list[Part] = [_circle(card, move, ways)] if move.arc else []
-    record = append(card, program, move.master, ways, parts)
+    parts: list[Part] = [_circle(card, move, slave_moves)] if move.arc else []
+    record = append(card, program, move.master, slave_moves, parts)
     ramp = card.memory.F[moves.dec_ups2[record]]
     card.memory.F[moves.stp_ups2[record]] = ramp if move.stop_ramp else 0.0
     card.memory.I[moves.rapid[record]] = int(move.rapid)
@@ -144,14 +144,16 @@ def take_point(card: Card, point: HostPoint) -> None:
     program = _program(card, point.master)
     needs_moves(card, point.master)
     here = not master_moving(card, point.master)
-    ways = _straight(card, point.master, point.targets_cnt, here=here, relative=point.relative)
-    permit_ways(card, ways, here=here)
-    if not ways and point.family is curve_modes.Family.SPLINE:
+    slave_moves = _straight(
+        card, point.master, point.targets_cnt, here=here, relative=point.relative
+    )
+    permit_slave_moves(card, slave_moves, here=here)
+    if not slave_moves and point.family is curve_modes.Family.SPLINE:
         raise CardError(INVALID_ARGUMENT)
     if curve_modes.family(card, point.master) is not point.family:
         curve_modes.begin(card, point.master, point.family, 0)
     _take_profile(card, point)
-    values = {way.slave: way.target_cnt for way in ways}
+    values = {one.slave: one.target_cnt for one in slave_moves}
     curve_modes.take(card, program, point.master, values, point.knot, point.weight)
 
 
@@ -177,7 +179,7 @@ def _take_profile(card: Card, move: HostMove | HostPoint) -> None:
         card.memory.F[masters.fvel_ups[move.master]] = move.fvel_ups
 
 
-def _ways(card: Card, move: HostMove) -> list[Way]:
+def _slave_moves(card: Card, move: HostMove) -> list[SlaveMove]:
     here = not master_moving(card, move.master)
     targets = dict(move.targets_cnt)
     for slave in move.arc.slaves if move.arc else ():
@@ -190,26 +192,26 @@ def _ways(card: Card, move: HostMove) -> list[Way]:
 
 def _straight(
     card: Card, master: int, targets: Mapping[int, float], *, here: bool, relative: bool
-) -> list[Way]:
+) -> list[SlaveMove]:
     found = []
     for slave, value in sorted(targets.items()):
         axis = slave_axis(card, master, slave)
         start = start_cnt(card, master, slave, axis, here=here)
         delta = value if relative else value - start
-        found.append(Way(slave, axis, start, start + delta, delta, relative=relative))
+        found.append(SlaveMove(slave, axis, start, start + delta, delta, relative=relative))
     return found
 
 
-def _circle(card: Card, move: HostMove, ways: list[Way]) -> Circle:
+def _circle(card: Card, move: HostMove, slave_moves: list[SlaveMove]) -> Circle:
     arc = move.arc
     if arc is None:
         raise TypeError(move)
-    by_slave = {way.slave: way for way in ways}
+    by_slave = {one.slave: one for one in slave_moves}
     pair = [by_slave[slave] for slave in arc.slaves]
-    scales = [scale_of(card, way.axis) for way in pair]
+    scales = [scale_of(card, one.axis) for one in pair]
     center = [
-        (value + (way.start_cnt if arc.relative_center else 0.0)) / scale
-        for way, value, scale in zip(pair, arc.center_cnt, scales, strict=True)
+        (value + (one.start_cnt if arc.relative_center else 0.0)) / scale
+        for one, value, scale in zip(pair, arc.center_cnt, scales, strict=True)
     ]
     return Circle(
         (pair[0].axis, pair[1].axis),

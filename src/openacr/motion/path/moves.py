@@ -11,7 +11,7 @@ from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
 from openacr.motion.card import Card
 from openacr.motion.interlocks import (
     master_moving,
-    needs_free_way,
+    needs_free_direction,
     needs_moves,
     needs_on,
     scale_of,
@@ -19,7 +19,7 @@ from openacr.motion.interlocks import (
 from openacr.motion.path import corners, curve_modes, curve_points, replacing, tangent
 from openacr.motion.path.curves import slave_of
 from openacr.motion.path.move_request import FlagState, Part, Target, end_points
-from openacr.motion.path.records import Way, append
+from openacr.motion.path.records import SlaveMove, append
 
 FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
 
@@ -70,13 +70,15 @@ def issue(
     master = needed_master(card, program)
     needs_moves(card, master)
     here = replace or not master_moving(card, master)
-    ways = [_way(card, program, master, target, here=here) for target in end_points(parts)]
-    permit_ways(card, ways, here=here)
-    if here and not replace and _is_nothing(ways, parts):
+    slave_moves = [
+        _slave_move(card, program, master, target, here=here) for target in end_points(parts)
+    ]
+    permit_slave_moves(card, slave_moves, here=here)
+    if here and not replace and _is_nothing(slave_moves, parts):
         return
     if replace:
-        replacing.clear_the_way(card, master, ways)
-    record = tangent.add(card, program, master, ways, parts)
+        replacing.clear_the_way(card, master, slave_moves)
+    record = tangent.add(card, program, master, slave_moves, parts)
     if tolerance_u is not None:
         corners.set_of_move(card, master, record, tolerance_u)
     card.memory.I[moves.rapid[record]] = int(rapid)
@@ -90,27 +92,27 @@ def point(
     master = needed_master(card, program)
     needs_moves(card, master)
     here = not master_moving(card, master)
-    ways = [_way(card, program, master, target, here=here) for target in targets]
-    permit_ways(card, ways, here=here)
-    values = {way.slave: way.target_cnt for way in ways}
+    slave_moves = [_slave_move(card, program, master, target, here=here) for target in targets]
+    permit_slave_moves(card, slave_moves, here=here)
+    values = {one.slave: one.target_cnt for one in slave_moves}
     curve_modes.take(card, program, master, values, knot, weight)
 
 
-def permit_ways(card: Card, ways: Sequence[Way], *, here: bool) -> None:
+def permit_slave_moves(card: Card, slave_moves: Sequence[SlaveMove], *, here: bool) -> None:
     """Refuse a move of axes that are off or, if it starts `here` and now, barred by a limit.
 
     Where a buffered move will start is not known yet: the limits watch it when it runs.
     """
-    for way in ways:
-        needs_on(card, way.axis)
+    for one in slave_moves:
+        needs_on(card, one.axis)
         if here:
-            needs_free_way(card, way.axis, way.delta_cnt / scale_of(card, way.axis))
+            needs_free_direction(card, one.axis, one.delta_cnt / scale_of(card, one.axis))
 
 
-def _is_nothing(ways: list[Way], parts: Sequence[Part]) -> bool:
+def _is_nothing(slave_moves: list[SlaveMove], parts: Sequence[Part]) -> bool:
     """Whether a move that starts from rest leads nowhere; curves may return to their start."""
     straight = all(isinstance(part, Target) for part in parts)
-    return straight and all(way.delta_cnt == 0.0 for way in ways)
+    return straight and all(one.delta_cnt == 0.0 for one in slave_moves)
 
 
 def seek(card: Card, program: int, axis: int, distance_u: float, mode: int) -> None:
@@ -148,12 +150,12 @@ def _single(card: Card, program: int, target: Target) -> int | None:
     master = needed_master(card, program)
     needs_moves(card, master)
     here = not master_moving(card, master)
-    way = _way(card, program, master, target, here=here)
-    permit_ways(card, [way], here=here)
-    return append(card, program, master, [way], [target]) if way.delta_cnt else None
+    one = _slave_move(card, program, master, target, here=here)
+    permit_slave_moves(card, [one], here=here)
+    return append(card, program, master, [one], [target]) if one.delta_cnt else None
 
 
-def _way(card: Card, program: int, master: int, target: Target, *, here: bool) -> Way:
+def _slave_move(card: Card, program: int, master: int, target: Target, *, here: bool) -> SlaveMove:
     """The displacement of an axis from where it is or, else, from its last planned end."""
     slave = slave_of(card, program, target.axis)
     if not abs(target.value_u) < FARTHEST_U:
@@ -162,13 +164,13 @@ def _way(card: Card, program: int, master: int, target: Target, *, here: bool) -
     start = start_cnt(card, master, slave, target.axis, here=here)
     if target.incremental:
         delta = target.value_u * scale
-        return Way(slave, target.axis, start, start + delta, delta, relative=True)
+        return SlaveMove(slave, target.axis, start, start + delta, delta, relative=True)
     length = card.memory.F[axes.rotary_u[target.axis]] * scale
     delta = target.value_u * scale - start
     if length:
         delta = shortest_way(delta, abs(length))
-        return Way(slave, target.axis, start, start + delta, delta, relative=True)
-    return Way(slave, target.axis, start, target.value_u * scale, delta, relative=False)
+        return SlaveMove(slave, target.axis, start, start + delta, delta, relative=True)
+    return SlaveMove(slave, target.axis, start, target.value_u * scale, delta, relative=False)
 
 
 def shortest_way(delta: float, length: float) -> float:

@@ -39,7 +39,7 @@ _round_between = pick(round_law_cy.round_between)
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class SlaveMove:
     """The displacement of one slave; a relative one keeps it wherever the move begins.
 
     A weightless one does not count for the length of the path.
@@ -54,7 +54,9 @@ class Way:
     weightless: bool = False
 
 
-def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequence[Shape]) -> int:
+def append(
+    card: Card, program: int, master: int, slave_moves: list[SlaveMove], parts: Sequence[Shape]
+) -> int:
     """Write the next record of the ring and set the motion flags at once; its index."""
     settings.refresh_max_velocity(card, master)
     memory = card.memory
@@ -62,16 +64,16 @@ def append(card: Card, program: int, master: int, ways: list[Way], parts: Sequen
     ring = (memory.I[masters.head[master]] + queued) % memory.I[masters.size[master]]
     record = memory.I[masters.first[master]] + ring
     _write_profile(card, master, record)
-    _write_ways(card, master, record, ways)
+    _write_slave_moves(card, master, record, slave_moves)
     curves.write(card, program, record, parts)
-    _lay_out(card, master, record, ways)
+    _lay_out(card, master, record, slave_moves)
     _take_trigger(card, master, record)
     _look_back(card, master, record, queued)
-    for way in ways:
-        memory.F[masters.target_cnt[master] + way.slave] = way.target_cnt
+    for one in slave_moves:
+        memory.F[masters.target_cnt[master] + one.slave] = one.target_cnt
         if not queued:
-            memory.F[axes.target_cnt[way.axis]] = way.target_cnt
-        card.show(way.axis)
+            memory.F[axes.target_cnt[one.axis]] = one.target_cnt
+        card.show(one.axis)
     length_u = memory.F[moves.length_u[record]]
     memory.S[masters.distance_squared[master]] = length_u * length_u
     memory.I[masters.queued[master]] = queued + 1
@@ -90,27 +92,27 @@ def _write_profile(card: Card, master: int, record: int) -> None:
     reals[moves.vel_ups[record]] = card.memory.S[masters.user_velocity[master]]
 
 
-def _write_ways(card: Card, master: int, record: int, ways: list[Way]) -> None:
+def _write_slave_moves(card: Card, master: int, record: int, slave_moves: list[SlaveMove]) -> None:
     memory = card.memory
     slaves = relative = 0
-    for way in ways:
-        slaves |= 1 << way.slave
-        relative |= int(way.relative) << way.slave
-        memory.F[moves.target_cnt[record] + way.slave] = way.target_cnt
-        memory.F[moves.delta_cnt[record] + way.slave] = way.delta_cnt
-        weight = 0.0 if way.weightless else memory.F[masters.vecdef[master] + way.slave]
-        memory.F[moves.weight[record] + way.slave] = weight
+    for one in slave_moves:
+        slaves |= 1 << one.slave
+        relative |= int(one.relative) << one.slave
+        memory.F[moves.target_cnt[record] + one.slave] = one.target_cnt
+        memory.F[moves.delta_cnt[record] + one.slave] = one.delta_cnt
+        weight = 0.0 if one.weightless else memory.F[masters.vecdef[master] + one.slave]
+        memory.F[moves.weight[record] + one.slave] = weight
     memory.I[moves.slaves[record]] = slaves
     memory.I[moves.relative[record]] = relative
     for row in _CLEARED:
         memory.I[row[record]] = 0
 
 
-def _lay_out(card: Card, master: int, record: int, ways: list[Way]) -> None:
+def _lay_out(card: Card, master: int, record: int, slave_moves: list[SlaveMove]) -> None:
     """Lay the move out from its planned start; `Invalid arc` for a curve that is none."""
     memory = card.memory
-    for way in ways:
-        memory.F[masters.target_cnt[master] + way.slave] = way.start_cnt
+    for one in slave_moves:
+        memory.F[masters.target_cnt[master] + one.slave] = one.start_cnt
     _move_shape(memory.F, memory.I, memory.S, master, record, True)
     if memory.I[moves.curve[record]]:
         if not 0.0 < memory.F[moves.length_u[record]]:

@@ -6,7 +6,7 @@ from openacr.kernel.path import hold_cy, interrupt_cy, path_cy
 from openacr.map.rows import masters, moves, profiles
 from openacr.motion.card import Card
 from openacr.motion.interlocks import axes_of, scale_of
-from openacr.motion.path.records import Way
+from openacr.motion.path.records import SlaveMove
 
 _axis_target_changed = pick(axis_cy.axis_target_changed)
 _master_cut = pick(interrupt_cy.master_cut)
@@ -17,7 +17,7 @@ _path_slope = pick(path_cy.path_slope)
 FARTHEST_U = 1e30  # no bound on what is counted of a move
 
 
-def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
+def clear_the_way(card: Card, master: int, slave_moves: list[SlaveMove]) -> None:
     """Drop all moves; the speed is kept unless the new direction turns back too far.
 
     Beyond 90 degrees the present move comes to rest first, and the new one follows it.
@@ -25,7 +25,7 @@ def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
     memory = card.memory
     if not memory.I[masters.queued[master]]:
         return
-    if memory.I[masters.moving[master]] and _turns_back(card, master, ways):
+    if memory.I[masters.moving[master]] and _turns_back(card, master, slave_moves):
         # it may stop in the next
         memory.I[masters.queued[master]] = memory.I[masters.stretch[master]]
         _master_cut(memory.F, memory.I, memory.S, master)
@@ -41,7 +41,7 @@ def clear_the_way(card: Card, master: int, ways: list[Way]) -> None:
         card.show(axis)
 
 
-def _turns_back(card: Card, master: int, ways: list[Way]) -> bool:
+def _turns_back(card: Card, master: int, slave_moves: list[SlaveMove]) -> bool:
     """Whether the new direction is more than 90 degrees off the present one."""
     memory = card.memory
     record = memory.I[masters.first[master]] + memory.I[masters.head[master]]
@@ -50,7 +50,7 @@ def _turns_back(card: Card, master: int, ways: list[Way]) -> bool:
     gone -= memory.F[masters.origin_u[master]]
     part = gone / length if length > 0.0 else 1.0
     product = 0.0
-    for way in ways:
-        slope = _path_slope(memory.F, memory.I, record, way.slave, part)
-        product += slope * way.delta_cnt / scale_of(card, way.axis) ** 2
+    for one in slave_moves:
+        slope = _path_slope(memory.F, memory.I, record, one.slave, part)
+        product += slope * one.delta_cnt / scale_of(card, one.axis) ** 2
     return product < 0.0

@@ -18,7 +18,7 @@ from openacr.motion.card import Card
 from openacr.motion.interlocks import needs_on, scale_of
 from openacr.motion.path.curves import slave_of
 from openacr.motion.path.move_request import Shape, Target
-from openacr.motion.path.records import Way, append
+from openacr.motion.path.records import SlaveMove, append
 
 SAMPLES = 32
 LEAST_CNT = 0.5
@@ -58,23 +58,25 @@ def moves_of(card: Card, master: int) -> int:
     return 1 if axis_of(card, master) is None else 2
 
 
-def add(card: Card, program: int, master: int, ways: list[Way], shapes: Sequence[Shape]) -> int:
+def add(
+    card: Card, program: int, master: int, slave_moves: list[SlaveMove], shapes: Sequence[Shape]
+) -> int:
     """Append a move with the turns it needs; the record of the move itself."""
     axis = axis_of(card, master)
-    if axis is None or any(way.axis == axis for way in ways):
-        return append(card, program, master, ways, shapes)
-    course = _course(card, program, master, ways, shapes)
+    if axis is None or any(one.axis == axis for one in slave_moves):
+        return append(card, program, master, slave_moves, shapes)
+    course = _course(card, program, master, slave_moves, shapes)
     if course is None:
-        return append(card, program, master, ways, shapes)
+        return append(card, program, master, slave_moves, shapes)
     needs_on(card, axis)
-    return _turned(card, program, master, ways, shapes, axis, course)
+    return _turned(card, program, master, slave_moves, shapes, axis, course)
 
 
 def _turned(
     card: Card,
     program: int,
     master: int,
-    ways: list[Way],
+    slave_moves: list[SlaveMove],
     shapes: Sequence[Shape],
     axis: int,
     course: tuple[float, float],
@@ -85,13 +87,13 @@ def _turned(
     lag = (course[0] + offset - start / scale + 180.0) % 360.0 - 180.0
     limit = card.memory.S[masters.tang_turn_limit[master]]
     if abs(lag) > limit and abs(lag * scale) > LEAST_CNT:
-        turn = Way(slave, axis, start, start + lag * scale, lag * scale, relative=True)
+        turn = SlaveMove(slave, axis, start, start + lag * scale, lag * scale, relative=True)
         record = append(card, program, master, [turn], [Target(axis, lag, incremental=True)])
         card.memory.I[moves.marks[record]] = MARK_TURN
         start, lag = start + lag * scale, 0.0
     delta = (lag + course[1]) * scale
-    way = Way(slave, axis, start, start + delta, delta, relative=True, weightless=True)
-    record = append(card, program, master, [*ways, way], shapes)
+    turn = SlaveMove(slave, axis, start, start + delta, delta, relative=True, weightless=True)
+    record = append(card, program, master, [*slave_moves, turn], shapes)
     _note(card, master, record, slave, scale, offset, lag)
     return record
 
@@ -110,7 +112,7 @@ def _units(card: Card, master: int) -> tuple[float, float]:
 
 
 def _course(
-    card: Card, program: int, master: int, ways: list[Way], shapes: Sequence[Shape]
+    card: Card, program: int, master: int, slave_moves: list[SlaveMove], shapes: Sequence[Shape]
 ) -> tuple[float, float] | None:
     """Direction at the beginning, and turn to the end, of a move; None if it has none.
 
@@ -121,7 +123,7 @@ def _course(
     reals = masters.reals[master]
     kept_ints = bytes(memory.I[ints : ints + masters.INTS_SIZE])
     kept_reals = bytes(memory.F[reals : reals + masters.REALS_SIZE])
-    record = append(card, program, master, ways, shapes)
+    record = append(card, program, master, slave_moves, shapes)
     x, y = _units(card, master)
     angles = [
         _tangent_deg(memory.F, memory.I, record, x, y, n / SAMPLES) for n in range(SAMPLES + 1)
