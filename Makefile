@@ -106,6 +106,7 @@ docs: $(BUILT)
 	$(PY) -m openacr.basic.reference docs/reference examples
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
+	$(PY) -m openacr.mill.run.lifecycle_page docs/run-life-cycle.md
 
 clean:
 	rm -rf $(VENV) $(LOWEST) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \

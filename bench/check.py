@@ -10,12 +10,12 @@ from pathlib import Path
 
 from bench.cards import ROOT
 from bench.figures import at_least, best_s, value_only
-from openacr.cli.source import Reader
 from openacr.controller import Controller
 from openacr.controller.loading import Loader
 from openacr.controller.streams import CONSOLE
 from openacr.lang.shape import shape
 from openacr.project import Place, Project, SourceFile
+from openacr.source_check.source import Reader
 
 LINES = 60_000
 STORED = 12_000

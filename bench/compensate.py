@@ -7,7 +7,7 @@ from bench.figures import at_least, best_s, value_only
 from bench.interpret import interpreted
 from openacr.cnc.canonical import Pace, Plane, Source
 from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 SEGMENTS = 50_000
 LINES = 10_000

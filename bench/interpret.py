@@ -9,10 +9,10 @@ from pathlib import Path
 
 from bench.figures import at_least, best_s, value_only
 from openacr.cnc.canonical import Entry
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
 from openacr.sysvar import Store
 
 LINES = 200_000

@@ -5,8 +5,8 @@ import time
 from collections.abc import Iterator
 
 from bench.figures import at_least
-from openacr.cnc.load import load
-from openacr.mill.workshop import Start, Workshop
+from openacr.cnc.loading.load import load
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 
 MOVES, FEED_UPM = 8000, 6000.0
@@ -28,7 +28,7 @@ def main() -> None:
     store = Store()
     store.write(MAX_MACHINE_SPEED, 2.0 * FEED_UPM)
     store.write(FEED_ACC, 1000.0)
-    shop = Workshop.virtual(store, say=lambda _text: None)
+    shop = MillSession.virtual(store, say=lambda _text: None)
     program = load("\n".join(surface()), shop.cells)
     began = time.process_time()
     shop.start(program, Start())

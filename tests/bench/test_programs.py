@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from bench import busy, check
-from openacr.cli.source import Reader
 from openacr.project import Place, SourceFile
+from openacr.source_check.source import Reader
 
 
 def test_the_program_of_the_check_figure_has_no_errors() -> None:

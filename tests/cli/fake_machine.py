@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from openacr.cli.events import Event
-from openacr.cli.machine import Failure
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
-from openacr.cli.report import AxisReport
-from openacr.cli.watched import Watched
+from openacr.cli.run.events import Event
+from openacr.cli.run.machine import Failure
+from openacr.cli.run.report import AxisReport
+from openacr.cli.run.watched import Watched
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.scenario import Condition

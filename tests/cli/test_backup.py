@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from openacr.cli import backup as cli
+from openacr.cli.live import backup as cli
 from openacr.cli.main import app
 from openacr.client import Card, ConnectionLostError, RestoreError
 from openacr.controller import Controller

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from openacr.cli.controlled import ControlledMachine
-from openacr.cli.events import EventLog
-from openacr.cli.machine import Failure
 from openacr.cli.main import app
+from openacr.cli.run.controlled import ControlledMachine
+from openacr.cli.run.events import EventLog
+from openacr.cli.run.machine import Failure
 from openacr.controller import Controller
 from openacr.map.memory import Memory
 

@@ -146,7 +146,7 @@ def test_a_mistake_of_the_user_is_one_line_without_a_trace(tmp_path: Path) -> No
 def test_an_interrupt_ends_quietly_with_130(tmp_path: Path) -> None:
     (tmp_path / "a.8k").write_text("REM")
     code = (
-        "import openacr.cli.main as m, openacr.cli.run as r\n"
+        "import openacr.cli.main as m, openacr.cli.run.command as r\n"
         "def stop(text): raise KeyboardInterrupt\n"
         "r.parse_until = stop\n"
         f"m.main(['run', {str(tmp_path / 'a.8k')!r}])\n"

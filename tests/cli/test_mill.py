@@ -43,7 +43,7 @@ def as_json(*words: str) -> Any:
 
 
 def test_numbers_of_a_difference_are_short() -> None:
-    from openacr.cli.mill_run import _numbers
+    from openacr.cli.mill.run import _numbers
 
     assert _numbers((0.0, -0.7874015748031497, 12.0)) == "0 -0.7874 12"
     assert _numbers(3000.0) == "3000"

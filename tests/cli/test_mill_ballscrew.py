@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.mill.workshop import Workshop
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 TABLE = "X0E.00325\nX1E.00175\nX2E-.00250\n"
@@ -42,7 +42,7 @@ def test_an_imported_table_acts_on_the_machine_and_is_exported_again(
     assert ballscrew("export", "X", tmp_path / "copy.txt")[0] == 0
     assert (tmp_path / "copy.txt").read_text() == TABLE
     with Store(own_store) as store:
-        shop = Workshop.virtual(store, lambda _text: None)
+        shop = MillSession.virtual(store, lambda _text: None)
         for _ in range(5):
             shop.step()
         assert shop.card.read(12295) - shop.card.read(12294) in (32, 33)

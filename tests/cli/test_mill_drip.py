@@ -14,10 +14,10 @@ from tests.mill.shop import Shop
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.mill_console import COMMANDS, Console, command
-from openacr.mill.overrides import Override
-from openacr.mill.states import State
-from openacr.mill.workshop import Workshop
+from openacr.cli.mill.console import COMMANDS, Console, command
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 
 PROGRAM = b"G90 F6000\nG1 X1\nY1\nX0\nM2\n"
 
@@ -149,7 +149,7 @@ def test_the_console_traces_back_and_forward_and_resumes() -> None:
     reading, writing = os.pipe()
     with os.fdopen(reading) as source, os.fdopen(writing, "w", buffering=1) as keys:
         console = Console(source)
-        place = cast(Workshop, SimpleNamespace(runner=shop.runner, is_virtual=False))
+        place = cast(MillSession, SimpleNamespace(runner=shop.runner, is_virtual=False))
 
         def after(line: str, seconds: float) -> tuple[float, float, float]:
             keys.write(line + "\n")

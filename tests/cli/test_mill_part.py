@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
-from openacr.cli.mill_part import complete_part
+from openacr.cli.mill.part import complete_part
 from openacr.sysvar import Store
 
 

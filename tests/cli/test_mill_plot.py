@@ -10,13 +10,13 @@ import pytest
 from matplotlib.lines import Line2D
 from typer.testing import CliRunner
 
-from openacr.cli import mill_plot
 from openacr.cli.main import app
-from openacr.cli.mill import loaded, opened_store
+from openacr.cli.mill import plot
+from openacr.cli.mill.check import loaded, opened_store
 from openacr.cli.plots.toolpath import RAPID, Scene, shade
 from openacr.cli.plots.toolpath_image import build_figure
-from openacr.mill import plot
-from openacr.mill.view import COLORS
+from openacr.mill.config.view import COLORS
+from openacr.mill.plan import tool_path
 
 pytest.importorskip("matplotlib")
 
@@ -60,7 +60,7 @@ def scene_of(part: Path, **settings: float) -> Scene:
         for name, value in settings.items():
             cells.write(int(name.removeprefix("P")), value)
         program, name = loaded(part, cells, None)
-        return mill_plot.scene_of(program, cells, name)[0]
+        return plot.scene_of(program, cells, name)[0]
 
 
 def lines_of(scene: Scene) -> list[Line2D]:
@@ -260,7 +260,7 @@ def test_no_name_of_a_file_can_spoil_the_picture(tmp_path: Path, name: str, suff
 def test_a_picture_of_too_many_moves_is_cut_and_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(plot, "MOST_POINTS", 100)
+    monkeypatch.setattr(tool_path, "MOST_POINTS", 100)
     part = tmp_path / "long.nc"
     part.write_text("F10\nP200=0\nN10 P200=P200+1\nG1 X(P200)\nIF P200<500 THEN GOTO 10\n")
     code, text = plotted(part, tmp_path / "long.svg")

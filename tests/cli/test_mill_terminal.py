@@ -10,12 +10,12 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.mill_terminal import Attendant, require_yes
-from openacr.cnc.load import load
+from openacr.cli.mill.terminal import Attendant, require_yes
+from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.states import State
-from openacr.mill.workshop import Start, Workshop
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 
 ESTOP, LUBRICATION = 400_004, 400_012
@@ -47,7 +47,7 @@ class Bench:
         for number, value in (cells or {}).items():
             store.write(number, value)
         self.controller = Controller()
-        self.shop = Workshop.real(self.controller, store, lambda _text: None)
+        self.shop = MillSession.real(self.controller, store, lambda _text: None)
         self.shop.card.command("DRIVE ON X Y Z", program=0)
         self.keys = keys
         self.attend = Attendant(terminal)
@@ -158,8 +158,8 @@ def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -
 def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
     """A card behind --host, whatever is named there."""
     monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-    controller, real = Controller(), Workshop.real
-    monkeypatch.setattr(Workshop, "real", lambda _host, *rest: real(controller, *rest))
+    controller, real = Controller(), MillSession.real
+    monkeypatch.setattr(MillSession, "real", lambda _host, *rest: real(controller, *rest))
     return controller
 
 
@@ -201,7 +201,7 @@ def part(tmp_path: Path, card: Controller) -> str:
         store.write(FLOOD, 41)
     file = tmp_path / "CUT.NC"
     file.write_text(CUT)
-    shop = Workshop.real("card", Store())
+    shop = MillSession.real("card", Store())
     shop.card.command("DRIVE ON X Y Z", program=0)
     shop.card.command("RES X4 Z-1", program=0)
     shop.close()
@@ -211,14 +211,14 @@ def part(tmp_path: Path, card: Controller) -> str:
 def states(card: Controller, monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, ...]]:
     """X and Z in inches, spindle and flood, at every look of a run."""
     seen: list[tuple[float, ...]] = []
-    real = Workshop.step
+    real = MillSession.step
 
-    def step(shop: Workshop) -> None:
+    def step(shop: MillSession) -> None:
         real(shop)
         x, z = card.p[12288] / 1e4, card.p[12288 + 512] / 1e4
         seen.append((x, z, float(card.bit[40]), float(card.bit[41])))
 
-    monkeypatch.setattr(Workshop, "step", step)
+    monkeypatch.setattr(MillSession, "step", step)
     return seen
 
 

@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 from openacr.cli.main import app
 from openacr.client import Card
 from openacr.controller import Controller
-from openacr.mill.workshop import Workshop
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 
@@ -20,9 +20,9 @@ def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
     with Store(path) as store:
         for axis in range(3):
             store.write(200_007 + 1000 * axis, 0)
-    controller, real = Controller(), Workshop.real
+    controller, real = Controller(), MillSession.real
 
-    monkeypatch.setattr(Workshop, "real", lambda _host, *rest: real(controller, *rest))
+    monkeypatch.setattr(MillSession, "real", lambda _host, *rest: real(controller, *rest))
     mill("zero", "clear")  # the axes are set up
     with Card.open(controller) as host:
         host.command("DRIVE ON X Y Z", program=0)

@@ -15,8 +15,8 @@ from tests.cli.fake_machine import FakeMachine
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
-from openacr.cli.report import AxisReport
-from openacr.cli.run import MOST_S, limit_s
+from openacr.cli.run.command import MOST_S, limit_s
+from openacr.cli.run.report import AxisReport
 from openacr.errors import SourceError
 from openacr.map import numbers as at
 from openacr.messages import DIVIDE_BY_ZERO
@@ -39,7 +39,7 @@ def machine() -> FakeMachine:
 
 @pytest.fixture
 def run(machine: FakeMachine, project: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    monkeypatch.setattr("openacr.cli.controlled.load", lambda project: (machine, []))
+    monkeypatch.setattr("openacr.cli.run.controlled.load", lambda project: (machine, []))
 
     def invoke(*options: object) -> Result:
         return CliRunner().invoke(app, ["run", str(project), *(str(word) for word in options)])
@@ -217,7 +217,7 @@ def test_lines_the_card_refuses_are_all_shown_and_nothing_runs(
     run: Run, machine: FakeMachine, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     refused = [SourceError("Unknown command", path="a.8k", line=line) for line in (3, 7)]
-    monkeypatch.setattr("openacr.cli.controlled.load", lambda project: (machine, refused))
+    monkeypatch.setattr("openacr.cli.run.controlled.load", lambda project: (machine, refused))
     result = run("--for", "0.1")
     assert result.exit_code == 2
     assert result.stderr.startswith("error: a.8k:3: Unknown command\nerror: a.8k:7: Unknown")
@@ -231,7 +231,7 @@ def test_lines_the_card_refuses_are_all_shown_and_nothing_runs(
 def test_a_parquet_trace_without_its_library_says_what_to_install(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("openacr.cli.output.find_spec", lambda name: None)
+    monkeypatch.setattr("openacr.cli.run.output.find_spec", lambda name: None)
     result = run("--trace", tmp_path / "a.parquet")
     assert result.exit_code == 2
     assert "pip install pyarrow" in result.stderr
@@ -297,7 +297,7 @@ def test_a_button_of_a_scenario_reaches_the_card(
 
 def test_real_time_takes_its_time(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     slept: list[float] = []
-    monkeypatch.setattr("openacr.cli.session.time.sleep", slept.append)
+    monkeypatch.setattr("openacr.cli.run.session.time.sleep", slept.append)
     assert run("--for", "1", "--realtime").exit_code == 0
     assert max(slept) > 0.5
 
@@ -314,7 +314,7 @@ def test_a_bar_shows_the_running_programs_below_what_they_print(tmp_path: Path) 
 import time
 from pathlib import Path
 from tests.cli.fake_machine import FakeMachine
-from openacr.cli.session import Options, Session
+from openacr.cli.run.session import Options, Session
 
 def world(card):
     card.set_running(7, True)

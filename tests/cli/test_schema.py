@@ -10,8 +10,8 @@ import pytest
 from jsonschema import Draft202012Validator
 from typer.testing import CliRunner
 
+from openacr.cli.explain.schema import Kind, schema_of
 from openacr.cli.main import app
-from openacr.cli.schema import Kind, schema_of
 from openacr.configure.load import parse_answers
 from openacr.errors import SourceError
 from openacr.plant.load import parse_world

@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
-from openacr.cli.sysvar import complete_name
+from openacr.cli.sysvar.read import complete_name
 from openacr.sysvar import Store
 
 

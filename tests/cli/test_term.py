@@ -12,7 +12,11 @@ import pytest
 from tests.io.fake_card import FakeCard
 from tests.io.threaded import served
 
-COMMAND = [sys.executable, "-c", "import typer; from openacr.cli.term import term; typer.run(term)"]
+COMMAND = [
+    sys.executable,
+    "-c",
+    "import typer; from openacr.cli.live.term import term; typer.run(term)",
+]
 
 
 def test_piped_lines_are_answered_and_the_end_of_input_ends_it() -> None:

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.watched import watched
+from openacr.cli.run.watched import watched
 from openacr.errors import UserError
 
 ROOT = Path(__file__).parents[2]

@@ -6,7 +6,7 @@ import pytest
 from tests.io.served import LOOPBACK, serving
 from typer.testing import CliRunner
 
-from openacr.cli.loop import GAINS, OUTPUT, PATH, Loop, lines_of, read_loop
+from openacr.cli.live.loop import GAINS, OUTPUT, PATH, Loop, lines_of, read_loop
 from openacr.cli.main import app
 from openacr.client import Card
 from openacr.client.links import ProcessLink

@@ -9,9 +9,9 @@ from tests.client.cards import EXAMPLES, wrapped
 from tests.io.served import LOOPBACK, Served, serving
 from typer.testing import CliRunner
 
-from openacr.cli.loop import read_loop
+from openacr.cli.live.loop import read_loop
+from openacr.cli.live.status import AxisStatus, Status, _lines, read_status
 from openacr.cli.main import app
-from openacr.cli.status import AxisStatus, Status, _lines, read_status
 from openacr.client import Card, ConnectionLostError
 from openacr.client.lights import Light, axis_light, bus_light, power_light
 from openacr.client.links import DEFAULT_BAUD, ProcessLink, SerialLink, TcpLink

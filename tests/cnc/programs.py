@@ -27,11 +27,11 @@ from openacr.cnc.canonical import (
     Transfer,
     WaitBit,
 )
-from openacr.cnc.findings import BlockError, Finding
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter, Options
-from openacr.cnc.load import Folders, load
-from openacr.cnc.shadow import Shadow
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
+from openacr.cnc.loading.load import Folders, load
+from openacr.cnc.reading.findings import BlockError, Finding
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
 from openacr.sysvar import Store
 
 STORE = Store()

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from openacr.cnc.batch import BatchError, read_batch
+from openacr.cnc.loading.batch import BatchError, read_batch
 from openacr.errors import UserError
 
 

@@ -6,10 +6,10 @@ import pytest
 from tests.cnc.programs import STORE, Run, errors, run
 
 from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Rapid, Sync
-from openacr.cnc.interpreter import Options
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.cnc.survey import Survey, survey
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.interpreter.survey import Survey, survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.shadow import Shadow
 
 RADIUS = {1001: 0.25}
 

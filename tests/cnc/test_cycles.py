@@ -6,9 +6,9 @@ import pytest
 from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, made, run
 
 from openacr.cnc.canonical import Dwell, Line, Orient, Probe, Rapid, Spindle
-from openacr.cnc.gcodes.work import clear_zero, preset_zero
-from openacr.cnc.interpreter import Options
-from openacr.cnc.load import load
+from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.loading.load import load
 
 Z2 = (0.0, 0.0, 2.0)
 

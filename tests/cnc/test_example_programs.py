@@ -8,16 +8,16 @@ import pytest
 from shapely.geometry import LineString, Point, Polygon, box
 from tests.cnc.programs import unrolled
 
-from openacr.cnc.batch import read_batch
 from openacr.cnc.canonical import Arc, Entry, Line, Probe, Rapid, Say
 from openacr.cnc.canonical import Point as Place
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.cnc.survey import survey
-from openacr.mill.dialects import dialect_of
-from openacr.mill.workshop import Start, Workshop
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.survey import survey
+from openacr.cnc.loading.batch import read_batch
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
+from openacr.mill.config.dialects import dialect_of
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.exchange import imported
 
@@ -219,11 +219,11 @@ def test_it_runs_on_the_virtual_machine_to_where_it_ends(name: str) -> None:
         store.write(cell, value)
     dialect = dialect_of(PARTS / name, store, None)
     program = load(PARTS / name, store, dialect)
-    shop = Workshop.virtual(store, lambda _text: None)
+    shop = MillSession.virtual(store, lambda _text: None)
     shop.start(program, Start(dialect=dialect, is_dry=True, is_repeated=False))
     while shop.runner.is_busy:
         shop.step()
         shop.carry_on()
     assert shop.runner.alarms.active == []
     wanted = survey(program, store, dialect).end
-    assert shop.runner.course.host.position()[:4] == pytest.approx(wanted[:4], abs=2e-4)
+    assert shop.runner.stream.host.position()[:4] == pytest.approx(wanted[:4], abs=2e-4)

@@ -24,10 +24,10 @@ from openacr.cnc.canonical import (
     Stop,
     Tool,
 )  # fmt: skip
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.cnc.survey import survey
-from openacr.mill.dialects import choose
+from openacr.cnc.interpreter.survey import survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.shadow import Shadow
+from openacr.mill.config.dialects import choose
 from openacr.sysvar import Store
 
 EVENTS = (Tool, Spindle, Coolant, Dwell, Output, Stop, End)

@@ -5,7 +5,7 @@ import math
 import pytest
 from tests.cnc.programs import errors, run
 
-from openacr.cnc.formulas import HOT
+from openacr.cnc.reading.formulas import HOT
 
 
 def value(expression: str, cells: dict[int, float] | None = None) -> float:

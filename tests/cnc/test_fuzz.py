@@ -7,9 +7,9 @@ import pytest
 from tests.cnc.programs import Bench, made, shown, unrolled
 
 from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Motion, Polyline, Probe, Rapid, Sync
-from openacr.cnc.findings import TEXTS, BlockError, Finding
-from openacr.cnc.interpreter import Options
-from openacr.cnc.mdi import Mdi
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.interpreter.mdi import Mdi
+from openacr.cnc.reading.findings import TEXTS, BlockError, Finding
 
 MOVES = (Rapid, Line, Arc, Polyline, Probe)
 ACROMILL = """\

@@ -427,7 +427,7 @@ def test_a_tool_change_at_the_reference() -> None:
 def test_an_unknown_code_is_named(code: str) -> None:
     from tests.cnc.programs import STORE
 
-    from openacr.cnc.load import load
+    from openacr.cnc.loading.load import load
 
     (error,) = load(f"X1 F10\n{code} X1", STORE).errors
     assert error.code == "E203"

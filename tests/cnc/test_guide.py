@@ -9,7 +9,7 @@ import pytest
 from tests.cnc.programs import CYCLES, Bench, errors, made, run
 
 from openacr.cnc.canonical import Dwell
-from openacr.cnc.mdi import Mdi
+from openacr.cnc.interpreter.mdi import Mdi
 
 Z2 = (0.0, 0.0, 2.0)
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from openacr.cnc.library import FOLDER, names, part_named, prepared
-from openacr.cnc.load import load
-from openacr.cnc.part import Part, PartError, read_part
-from openacr.cnc.survey import survey
+from openacr.cnc.interpreter.survey import survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.parts.library import FOLDER, names, part_named, prepared
+from openacr.cnc.parts.part import Part, PartError, read_part
 from openacr.errors import UserError
 from openacr.sysvar import Store
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.cnc.likely import likely
+from openacr.cnc.loading.likely import likely
 
 NGC, ACR = "rs274ngc", "acromill"
 

@@ -3,11 +3,11 @@
 import pytest
 from tests.cnc.programs import STORE, made
 
-from openacr.cnc import loops
 from openacr.cnc.canonical import Line
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.cnc.survey import Survey, survey
+from openacr.cnc.interpreter import loops
+from openacr.cnc.interpreter.survey import Survey, survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.shadow import Shadow
 
 SAME = "endless loop: the same moves again and again"
 HINT = "it does not end by itself; a machine runs it until it is ended"

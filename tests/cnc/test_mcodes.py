@@ -6,8 +6,8 @@ import pytest
 from tests.cnc.programs import STORE, errors, run
 
 from openacr.cnc.canonical import End, Rapid, WaitBit
-from openacr.cnc.interpreter import Options
-from openacr.cnc.load import Folders, load
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.loading.load import Folders, load
 
 DRY = Options(is_dry=True)
 

@@ -6,11 +6,11 @@ import pytest
 from tests.cnc.programs import CYCLES, made, shown
 
 from openacr.cnc.canonical import Line, Pace, Sync
-from openacr.cnc.findings import BlockError
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import Folders, load_blank
-from openacr.cnc.mdi import Mdi
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.mdi import Mdi
+from openacr.cnc.loading.load import Folders, load_blank
+from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.state.hosts import VirtualMachine
 from openacr.sysvar import Store
 
 

@@ -12,11 +12,11 @@ from tests.cnc.part_models import MODELS, Model
 from tests.cnc.programs import unrolled
 
 from openacr.cnc.canonical import Arc, End, Entry, Line, Point, Rapid
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter, Options
-from openacr.cnc.library import FOLDER, Ready, names, part_named, prepared
-from openacr.cnc.load import Folders, load
-from openacr.cnc.part import read_part
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
+from openacr.cnc.loading.load import Folders, load
+from openacr.cnc.parts.library import FOLDER, Ready, names, part_named, prepared
+from openacr.cnc.parts.part import read_part
+from openacr.cnc.state.hosts import VirtualMachine
 from openacr.sysvar import Store
 
 Spot = tuple[float, float]

@@ -7,10 +7,10 @@ import pytest
 from tests.cnc.programs import errors, made, run
 
 from openacr.cnc.canonical import Arc, Line, PathMode, Stop
-from openacr.cnc.findings import BlockError
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load
+from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.state.hosts import VirtualMachine
 from openacr.sysvar import Store
 
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from tests.cnc.programs import run
 
-from openacr.cnc.findings import Finding
+from openacr.cnc.reading.findings import Finding
 
 DEFAULT_UNIT, SPIRALS = 250_001, 250_131
 NO_FIT = "the end is not on the circle about this centre"

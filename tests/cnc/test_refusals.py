@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from tests.cnc.programs import errors, made, run
 
-from openacr.cnc.codes import DIALECTS
-from openacr.cnc.findings import BlockError, Finding
-from openacr.cnc.refusals import Refusal
+from openacr.cnc.codes.table import DIALECTS
+from openacr.cnc.reading.findings import BlockError, Finding
+from openacr.cnc.reading.refusals import Refusal
 
 PAGE = Path(__file__).parents[2] / "docs" / "part-program-codes.md"
 CASES = [

@@ -4,7 +4,7 @@ import pytest
 from tests.cnc.programs import CYCLES, Bench, made, shown
 
 from openacr.cnc.canonical import Line, Point
-from openacr.cnc.replay import Difference, Replay, StartError, start_at
+from openacr.cnc.interpreter.replay import Difference, Replay, StartError, start_at
 
 TEXT = "G0 Z1\nG1 X1 F10\nM3 S100\nG10 L2 P1 X5\nX2\nP150=7\nX3\nX4\nM2"
 

@@ -7,8 +7,8 @@ import pytest
 from tests.cnc.programs import Bench, Run, errors, run, shown
 
 from openacr.cnc.canonical import Arc, Line, PathMode, Probe
-from openacr.cnc.cells import SPIRALS
-from openacr.cnc.load import Folders
+from openacr.cnc.loading.load import Folders
+from openacr.cnc.state.cells import SPIRALS
 
 
 def ngc(text: str | Path, cells: dict[int, float] | None = None, **more: object) -> Run:

@@ -8,12 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.cnc.programs import Bench, Run, made, unrolled
 
-from openacr.cnc import scan_cy as scan
 from openacr.cnc.canonical import Entry, Line, Polyline, Rapid
-from openacr.cnc.findings import BlockError
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.cnc.scanning import Scanner, Tables
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.scanning import Scanner
+from openacr.cnc.loading.load import load
+from openacr.cnc.loading.skimming import Tables
+from openacr.cnc.reading import scan_cy as scan
+from openacr.cnc.reading.findings import BlockError
 from openacr.compiled import pick
 
 
@@ -138,7 +139,7 @@ def test_where_more_depends_on_a_line_each_is_read_by_itself(change: str) -> Non
     text += "\nM2\nN5 P200=P200+1\nRET"
     dialect = "rs274ngc" if change == "G93" else "acromill"
     if dialect == "rs274ngc":
-        pytest.importorskip("openacr.cnc.dialects.rs274ngc")
+        pytest.importorskip("openacr.cnc.codes.dialects.rs274ngc")
         text = text.split("\nN5")[0].replace("\nX", "\nF60 X")
     done = made(text, {1001: 0.1, 250_112: 3}, axes=4, dialect=dialect)
     entries = list(done.interpreter.entries())

@@ -5,9 +5,9 @@ import math
 import pytest
 from tests.cnc.programs import STORE
 
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.cnc.survey import Survey, survey
+from openacr.cnc.interpreter.survey import Survey, survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.shadow import Shadow
 
 
 def of(text: str, cells: dict[int, float] | None = None) -> Survey:

@@ -6,10 +6,10 @@ import pytest
 from tests.cnc.programs import CYCLES, STORE, Bench, errors, made, run
 
 from openacr.cnc.canonical import Line, Sync
-from openacr.cnc.findings import BlockError
-from openacr.cnc.interpreter import Options
-from openacr.cnc.load import load
-from openacr.cnc.text import Text
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.loading.load import load
+from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.reading.text import Text
 
 AXIS_IDS = (
     "MILL-WORD-X", "MILL-WORD-Y", "MILL-WORD-Z", "MILL-WORD-A",
@@ -30,7 +30,7 @@ def test_an_axis_that_is_not_configured_is_refused() -> None:
 
 
 def test_there_are_at_most_a_million_labels(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("openacr.cnc.targets.MOST_LABELS", 3)
+    monkeypatch.setattr("openacr.cnc.loading.targets.MOST_LABELS", 3)
     assert errors("F10\nN1 X1\nN2 X2\nN3 X3") == []
     assert errors("F10\nN1 (a) X1\nN2 (b) X2\nN3 (c) X3\nN4 (d) X4") == ["E270"]
     plain = "F10\n" + "".join(f"N{n} X{n}\n" for n in range(1, 40))
@@ -364,7 +364,7 @@ def test_a_line_longer_than_a_window_is_an_error_not_a_crash() -> None:
 
 def test_windows_cut_behind_whole_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     for size in range(1, 12):
-        monkeypatch.setattr("openacr.cnc.text.WINDOW", size)
+        monkeypatch.setattr("openacr.cnc.reading.text.WINDOW", size)
         text = Text.of(b"X1\r\nY2\rZ3\n\nA4\r\n\rB5")
         offset, lines = text.begin, []
         while (taken := text.line(offset)) is not None:

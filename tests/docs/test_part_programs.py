@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cnc.codes import DIALECTS
+from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.reference import page
 
 ROOT = Path(__file__).parents[2]

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from openacr.cli.controlled import ControlledMachine
-from openacr.cli.machine import MachineWorld
+from openacr.cli.run.controlled import ControlledMachine
+from openacr.cli.run.machine import MachineWorld
 from openacr.controller import Controller
 from openacr.project import find_project
 from openacr.scenario import Play, Verdict, load_scenario

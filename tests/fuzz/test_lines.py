@@ -19,10 +19,10 @@ from openacr.basic.language.scope import Scope
 from openacr.basic.vm.compiler import compile_program
 from openacr.basic.vm.levels import CompileError
 from openacr.channels import StreamKind
-from openacr.cli.source import Reader
 from openacr.controller import Controller
 from openacr.errors import CardError
 from openacr.project import Place, SourceFile, read_source
+from openacr.source_check.source import Reader
 
 SET_UP = (
     "SYS", "DIM PROG1(8000)", "DIM PROG2(8000)", "DIM P(100)", "DIM DEF(10)", "#DEFINE count P3",

@@ -144,4 +144,4 @@ def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
         for path in source.rglob("*.py")
         if dated.search(path.read_text(encoding="utf-8"))
     }
-    assert found == {"cli/journals.py", "mill/alarms.py"}
+    assert found == {"cli/run/journals.py", "mill/card/alarms.py"}

@@ -5,17 +5,17 @@ from typing import Any
 
 from openacr.client import Card
 from openacr.cnc import canonical as c
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.interpreter import Options as Reading
-from openacr.cnc.load import load
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.interpreter import Options as Reading
+from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.map.numbers import AX_BASE, AX_CURRENT_POSITION, AX_STRIDE
-from openacr.mill.host import RunHost
-from openacr.mill.machine import Machine
-from openacr.mill.runner import Runner
-from openacr.mill.settings import Settings
-from openacr.mill.setup import prepare
-from openacr.mill.states import Options, State
+from openacr.mill.card.driver import MachineDriver
+from openacr.mill.card.setup import prepare
+from openacr.mill.config.settings import Settings
+from openacr.mill.run.lifecycle import Options, State
+from openacr.mill.run.run_host import RunHost
+from openacr.mill.run.runner import Runner
 from openacr.sysvar import Store
 
 FILE = "TEST.TXT"
@@ -70,7 +70,7 @@ class Shop:
         depth = prepare(self.card, settings)
         self.card.command("DRIVE ON X Y Z", program=0)
         axes = [axis.index for axis in settings.axes]
-        machine = Machine(self.card, axes, settings.master, rounds_corners=True)
+        machine = MachineDriver(self.card, axes, settings.master, rounds_corners=True)
         self.said: list[str] = []
         self.runner = Runner(machine, self.store, depth, self.said.append)
         self.path: list[tuple[float, float, float]] = []
@@ -87,7 +87,7 @@ class Shop:
         assert program.errors == [], program.errors
         options = options or Options()
         reading = Reading(is_dry=options.is_dry, has_block_ends=True)
-        host = self.runner.course.host
+        host = self.runner.stream.host
         run = Interpreter(program, self.store, host, options=reading)
         self.runner.run(lambda _host: run.entries(), options)
 

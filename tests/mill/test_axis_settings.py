@@ -5,7 +5,7 @@ from tests.mill.shop import Shop, at, end, line
 from tests.mill.test_spindle_settings import begin
 
 from openacr.map import numbers as n
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 AXES, SERVO, HOMED = 200_000, 150_000, 271
 PLUS, MINUS, IS_OFF, IN_POSITION, EXCESS = range(5)

@@ -8,10 +8,10 @@ from tests.mill.shop import Shop, at, end, line
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map.numbers import AX_BALLSCREW_OFFSET
-from openacr.mill.ballscrew import Table, errors, install, measured, parse, read, wrapped
-from openacr.mill.settings import Settings
-from openacr.mill.setup import prepare
-from openacr.mill.workshop import Workshop
+from openacr.mill.card.ballscrew import Table, errors, install, measured, parse, read, wrapped
+from openacr.mill.card.setup import prepare
+from openacr.mill.config.settings import Settings
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 PSP, SSP, PER_AXIS = 12294, 12295, 256
@@ -236,7 +236,7 @@ def test_a_table_acts_again_when_a_kill_is_taken_back(tmp_path: Path) -> None:
         store.write(950_010, 1)
         store.write(200_007, 0)
         controller = Controller()
-        shop = Workshop.real(controller, store, lambda _text: None)
+        shop = MillSession.real(controller, store, lambda _text: None)
         shop.runner.settings.mark_homed(0, homed=True)
         controller.bit[KILL_X] = True
         for _ in range(5):
@@ -253,7 +253,7 @@ def test_a_card_that_lost_its_position_gets_its_table_only_behind_homing(tmp_pat
         store.write_text(950_020, "X.BSC")
         store.write(950_010, 1)
         store.write(271, 7)  # homed, says the store; the card has just been switched on
-        shop = Workshop.real(Controller(), store, lambda _text: None)
+        shop = MillSession.real(Controller(), store, lambda _text: None)
         assert shop.card.command("BSC X", program=0) == ["OFF"]
         assert store.read(271) == 0
 

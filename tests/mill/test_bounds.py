@@ -5,10 +5,10 @@ from tests.mill.shop import PULSES, Shop
 
 from openacr.controller import Controller
 from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK
-from openacr.mill.jogging import LEASH_S
-from openacr.mill.settings import HOMED
-from openacr.mill.states import State
-from openacr.mill.workshop import Workshop
+from openacr.mill.config.settings import HOMED
+from openacr.mill.manual.jogging import LEASH_S
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
 
@@ -28,8 +28,8 @@ def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
     most = 0
     for _ in range(40):
         shop.pass_time(0.2)
-        most = max(most, shop.runner.course.tracker.waiting)
-        assert shop.runner.course.tracker.waiting_s <= 5.0
+        most = max(most, shop.runner.stream.tracker.waiting)
+        assert shop.runner.stream.tracker.waiting_s <= 5.0
     assert most == 4
 
 
@@ -66,7 +66,7 @@ def test_moves_the_card_does_not_begin_end_the_program(
             shop.pass_time(0.005)
     else:
         monkeypatch.setattr(shop.runner.machine, "send", lambda _moves: None)
-        while shop.runner.course.tracker.sent < 2:
+        while shop.runner.stream.tracker.sent < 2:
             shop.pass_time(0.005)
     shop.pass_time(2.98)
     assert codes(shop) == []
@@ -101,7 +101,7 @@ def test_a_long_move_has_none_but_one_behind_it() -> None:
     shop = Shop()
     shop.load("F60\nG1 X20\nX0\nX20\nX0\nM2\n")
     shop.pass_time(1.0)
-    assert (shop.runner.course.tracker.waiting, shop.runner.course.moves) == (1, 2)
+    assert (shop.runner.stream.tracker.waiting, shop.runner.stream.moves) == (1, 2)
 
 
 def test_moves_typed_by_another_host_are_noticed_at_the_end() -> None:
@@ -192,7 +192,7 @@ def test_a_card_that_was_reset_ends_the_program_and_its_axes_are_not_homed() -> 
 def test_axes_that_lost_their_reference_points_are_named() -> None:
     store, said = Store(), list[str]()
     store.write(HOMED, 5)
-    shop = Workshop.real(Controller(), store, said.append)
+    shop = MillSession.real(Controller(), store, said.append)
     shop.close()
     assert said == [
         "axis X Z is not homed any more: the card was switched off or reset, and positions"

@@ -3,7 +3,7 @@
 import pytest
 from tests.mill.shop import STEP_S, Shop
 
-from openacr.mill.states import Options, State
+from openacr.mill.run.lifecycle import Options, State
 
 PLASMA, SENSING = 50, 51
 

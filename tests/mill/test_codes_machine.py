@@ -4,7 +4,7 @@ import pytest
 from tests.mill.shop import PULSES, Shop
 
 from openacr.map import numbers as n
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 from openacr.sysvar import Store
 from openacr.sysvar.values import SettingError
 

@@ -7,8 +7,8 @@ import pytest
 from tests.mill.shop import STEP_S, Shop
 
 from openacr.map import numbers as n
-from openacr.mill.overrides import Override
-from openacr.mill.states import State
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import State
 
 HALF, FULL = 5, 10  # clicks of the feed override: 50 and 100 percent
 MAX_SPEED, RAPID_RAMP, FEED_RAMP, CORNER = "P650_000", "P650_007", "P650_008", "P650_003"

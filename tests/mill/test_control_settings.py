@@ -8,11 +8,11 @@ from tests.mill.shop import STEP_S, Shop
 from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.cnc.canonical import Arc
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.states import Options, State
+from openacr.mill.run.lifecycle import Options, State
 
 VECTOR_VELOCITY = 8193
 CORNERED = "G90 F{feed} G62\nG1 X2\nX{x:.6f} Y{y:.6f}\nM2\n"
@@ -67,7 +67,7 @@ def test_ends_closer_than_epsilon_are_joined(epsilon: float, moves: int) -> None
     """Round a corner of 2 degrees the ends of the two offset lines are 0.0087 apart."""
     shop = Shop(P250_101=epsilon, P1001=0.25)
     shop.run_text("G90 F300\nG1 X0 Y-1\nG42 D1 X0 Y0\nX2\nX4 Y.07\nG40 X5 Y1\nM2\n")
-    assert shop.runner.course.moves == moves
+    assert shop.runner.stream.moves == moves
 
 
 @pytest.mark.req("MILL-SYS-CTL-SWEEPEPS")
@@ -77,7 +77,7 @@ def test_an_arc_with_a_smaller_sweep_is_a_line(epsilon: float, arcs: int) -> Non
     x, y = 10 * math.sin(0.05), 10 - 10 * math.cos(0.05)
     text = f"G90 F300\nG41 D1 G1 X-1 Y0\nX0\nG3 X{x:.6f} Y{y:.6f} I0 J10\nG1 X3 Y3\nG40 X4 Y4\nM2\n"
     program = load(text, shop.store)
-    run = Interpreter(program, shop.store, shop.runner.course.host)
+    run = Interpreter(program, shop.store, shop.runner.stream.host)
     found = [entry for entry in run.entries() if isinstance(entry, Arc) and not entry.is_inserted]
     assert len(found) == arcs
 
@@ -114,7 +114,7 @@ def test_as_many_blocks_are_kept_ahead_during_motion(ahead: int) -> None:
     kept = []
     while shop.pulses()[0] < 40_000:
         shop.pass_time(STEP_S)
-        kept.append(counter[0] - shop.runner.course.tracker.sent)
+        kept.append(counter[0] - shop.runner.stream.tracker.sent)
     assert min(kept) >= ahead
     assert ahead > 1 or min(kept) < 150
 
@@ -196,8 +196,8 @@ def test_expansion_modules_add_inputs_and_outputs(modules: int, is_there: bool) 
         with pytest.raises(UserError, match="P400001 Optional Stop"):
             Shop(P250_124=modules, P400_001=325)
         shop = Shop(P250_124=modules)
-    assert (325 in shop.runner.panel.inputs) == (360 in shop.runner.panel.outputs) == is_there
-    assert len(shop.runner.panel.inputs) == 32 * (1 + modules)
+    assert (325 in shop.runner.io.inputs) == (360 in shop.runner.io.outputs) == is_there
+    assert len(shop.runner.io.inputs) == 32 * (1 + modules)
     shop.controller.bit[325] = True
     shop.load("F600\nM12\nG1 X1\nM1\nX2\nM2\n")
     assert shop.until(State.HOLD, State.IDLE) is (State.HOLD if is_there else State.IDLE)

@@ -10,9 +10,9 @@ import pytest
 from tests.mill.shop import STEP_S, Shop
 
 from openacr.errors import UserError
-from openacr.mill.communications import Line, receive
-from openacr.mill.dripping import FULL, XOFF, XON, Drip
-from openacr.mill.states import State
+from openacr.mill.config.communications import Line, receive
+from openacr.mill.run.dripping import FULL, XOFF, XON, Drip
+from openacr.mill.run.lifecycle import State
 
 END = b"\x1a"
 
@@ -96,7 +96,7 @@ def test_a_sender_who_stalls_stops_the_machine_on_its_path(sender: Sender) -> No
         speeds.append(float(shop.controller.axis(0).velocity_ups))
     assert x_of(shop) == 30_000  # all but the line that may go on
     assert shop.runner.state is State.RUN
-    assert shop.runner.course.is_starved
+    assert shop.runner.stream.is_starved
     assert max(abs(b - a) for a, b in pairwise(speeds)) < 100 * STEP_S * 1.1
     sender.send("G1 Y1\n" + lines(32, 60) + "M2\n")
     shop.until(State.IDLE)

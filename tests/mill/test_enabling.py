@@ -7,8 +7,8 @@ from tests.mill.shop import Shop, at, end, line
 
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.states import State
-from openacr.mill.workshop import Workshop
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.sysvar import SettingError, Store
 
 FLOOD, INVERTED = 800_010, 252_000
@@ -77,20 +77,20 @@ def test_an_axis_turned_by_hand_stays_where_it_is_when_its_drive_is_enabled() ->
     assert "REN X" not in typed  # it is on
 
 
-def real(controller: Controller, cells: dict[int, float]) -> Workshop:
+def real(controller: Controller, cells: dict[int, float]) -> MillSession:
     store = Store()
     for axis in range(3):
         store.write(200_007 + 1000 * axis, 0)
     for number, value in cells.items():
         store.write(number, value)
-    return Workshop.real(controller, store, say=lambda _text: None)
+    return MillSession.real(controller, store, say=lambda _text: None)
 
 
 def test_inverted_outputs_are_put_to_rest_once_after_the_card_came_on() -> None:
     controller, cells = Controller(), {FLOOD: 41, INVERTED + 41: 1.0}
     shop = real(controller, cells)
     assert [controller.bit[number] for number in (40, 41, 42)] == [False, True, False]
-    shop.runner.doing.coolant.set(mist=False, flood=True)
+    shop.runner.entry_actions.coolant.set(mist=False, flood=True)
     assert not controller.bit[41]
     shop.close()
     again = real(controller, cells)
@@ -106,4 +106,4 @@ def test_a_machine_with_two_purposes_of_one_output_is_not_run(
         Store, "read", lambda store, n: 41.0 if n in (800_009, FLOOD) else read(store, n)
     )
     with pytest.raises(SettingError, match="output 41 is that of"):
-        Workshop.real(Controller(), Store(), say=print)
+        MillSession.real(Controller(), Store(), say=print)

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from tests.mill.shop import PULSES, at, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.encoding import Encoder, Job
-from openacr.mill.planning import CornerRules, Planner
-from openacr.mill.settings import AXIS, Settings, cell
+from openacr.mill.config.settings import AXIS, Settings, cell
+from openacr.mill.plan.encoding import Encoder, Job
+from openacr.mill.plan.planning import CornerRules, Planner
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
 

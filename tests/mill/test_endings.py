@@ -5,8 +5,8 @@ from tests.mill.shop import Shop
 
 from openacr.client import Card
 from openacr.errors import UserError
-from openacr.mill import alarms
-from openacr.mill.states import State
+from openacr.mill.card import alarms
+from openacr.mill.run.lifecycle import State
 
 SPINDLE = {"P800_005": 40, "P800_007": 43, "P800_010": 41, "P800_002": 3, "P800_001": 0.01}
 BEAM = {"P650_017": 44, "P250_014": 45}

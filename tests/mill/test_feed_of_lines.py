@@ -2,8 +2,8 @@
 
 from tests.mill.shop import Shop
 
-from openacr.mill import alarms
-from openacr.mill.states import Options, State
+from openacr.mill.card import alarms
+from openacr.mill.run.lifecycle import Options, State
 
 STAIRS = "G90 G1 F6000\n" + "".join(f"X{0.1 * n:.1f}\n" for n in range(1, 41)) + "M2\n"
 

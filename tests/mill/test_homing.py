@@ -7,7 +7,7 @@ import pytest
 from tests.mill.shop import Shop, at, end, line
 
 from openacr.controller import Controller
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 MACHINE = Path(__file__).parents[2] / "examples" / "homing_xyz" / "machine.toml"
 HOME = 300_000
@@ -49,7 +49,7 @@ def test_an_axis_finds_its_switch_and_then_its_marker(world: Controller) -> None
     shop = homing_shop(world)
     shop.runner.home([0])
     seen = []
-    while shop.runner.state is State.WAIT:
+    while shop.runner.state is State.HOMING:
         shop.pass_time(0.02)
         seen.append(shop.runner.reason)
     assert [text for text in dict.fromkeys(seen) if text] == ["homing X"]

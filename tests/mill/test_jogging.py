@@ -5,8 +5,8 @@ from tests.mill.shop import Shop, at, end, line, src
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill.alarms import AlarmError
-from openacr.mill.states import State
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.run.lifecycle import State
 
 
 def shop_for_jogs(**cells: float) -> Shop:

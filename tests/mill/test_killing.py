@@ -8,9 +8,9 @@ from tests.mill.shop import PULSES, Shop
 from openacr.client.errors import RefusedError
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.alarms import AlarmError
-from openacr.mill.states import State
-from openacr.mill.workshop import Workshop
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 ESTOP, SPINDLE_CW = "P400_004", "P800_005"
@@ -135,4 +135,4 @@ def test_a_machine_that_is_jogged_by_another_program_is_not_set_up() -> None:
     other.runner.jog(lambda jog: jog.move(0, 5.0))
     other.pass_time(0.1)
     with pytest.raises(UserError, match="another program runs it"):
-        Workshop.real(controller, Store())
+        MillSession.real(controller, Store())

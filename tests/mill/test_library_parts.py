@@ -3,8 +3,8 @@
 import pytest
 from tests.mill.shop import Shop
 
-from openacr.cnc.library import part_named, prepared
-from openacr.mill.states import Options, State
+from openacr.cnc.parts.library import part_named, prepared
+from openacr.mill.run.lifecycle import Options, State
 
 
 def triangle(shop: Shop) -> str:

@@ -8,9 +8,9 @@ from tests.mill.shop import Shop, at, end, line, src
 from openacr.client.errors import ConnectionLostError, NoReplyError
 from openacr.cnc import canonical as c
 from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
-from openacr.mill.machine import StepLostError
-from openacr.mill.overrides import Override
-from openacr.mill.states import State
+from openacr.mill.card.driver import StepLostError
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import State
 from openacr.protocol.move import Move
 
 SPINDLE_CW = "P800_005"
@@ -34,7 +34,7 @@ LOST = ConnectionLostError("gone")
 
 
 @pytest.mark.parametrize(
-    ("lost", "method"), [(LOST, "hold"), (NoReplyError("card", "P1", 2.0), "look")]
+    ("lost", "method"), [(LOST, "hold"), (NoReplyError("card", "P1", 2.0), "poll")]
 )
 def test_a_card_that_is_back_is_brought_to_rest(
     monkeypatch: pytest.MonkeyPatch, lost: Exception, method: str
@@ -66,15 +66,15 @@ def test_a_connection_that_is_back_within_the_link_timeout_goes_on(
     shop = Shop(**{SPINDLE_CW: 40})
     shop.load("M3 S500\nG1 F600 X5\nM2\n")
     shop.pass_time(0.5)
-    look, failures = shop.runner.machine.look, iter([LOST] * 3)
+    sample, failures = shop.runner.machine.poll, iter([LOST] * 3)
 
     def sometimes() -> object:
         if (failure := next(failures, None)) is not None:
             shop.card.pause(0.4)
             raise failure
-        return look()
+        return sample()
 
-    monkeypatch.setattr(shop.runner.machine, "look", sometimes)
+    monkeypatch.setattr(shop.runner.machine, "poll", sometimes)
     shop.until(State.IDLE)
     assert (shop.pulses(), codes(shop)) == ((50_000, 0, 0), [])
 
@@ -168,7 +168,7 @@ def test_a_card_that_stays_away_is_not_waited_for(monkeypatch: pytest.MonkeyPatc
     )  # fmt: skip
     before = shop.card.now_s()
     with pytest.raises(ConnectionLostError, match="it does not answer"):
-        shop.runner.course.host.position()
+        shop.runner.stream.host.position()
     assert shop.card.now_s() == before
 
 
@@ -257,7 +257,7 @@ def test_moves_that_may_be_lost_when_a_pause_begins_are_sent_again_at_resume(
     assert (shop.pulses(), codes(shop)) == ((0, 0, 0), [])
     corners = {(1.0, 1.0), (0.0, 1.0)}
     assert {(round(x, 2), round(y, 2)) for x, y, _ in shop.path} >= corners
-    assert not shop.runner.course.may_lack_moves  # the next pause just goes on
+    assert not shop.runner.stream.may_lack_moves  # the next pause just goes on
 
 
 def test_a_trace_whose_moves_may_be_lost_ends_the_program_at_rest() -> None:
@@ -280,21 +280,21 @@ def test_a_trace_whose_moves_may_be_lost_ends_the_program_at_rest() -> None:
 def test_moves_are_never_sent_on_a_newer_connection_than_that_of_the_last_look() -> None:
     shop = Shop()
     machine = shop.runner.machine
-    machine.look()
+    machine.poll()
     shop.card._talk.connections += 1
     with pytest.raises(ConnectionLostError, match="connected again since the last look"):
         machine.send([])
-    machine.look()
+    machine.poll()
     machine.send([])
     with pytest.raises(StepLostError, match="gone"), machine.repeating():
         raise LOST
-    assert machine.look().may_have_lost
+    assert machine.poll().may_have_lost
     with pytest.raises(ConnectionLostError):
         machine.send([])
-    assert machine.look().may_have_lost  # until it is sent again
+    assert machine.poll().may_have_lost  # until it is sent again
     machine.forget_losses()
     machine.send([])
-    assert not machine.look().may_have_lost
+    assert not machine.poll().may_have_lost
 
 
 def test_a_spindle_override_that_was_not_answered_is_written_again(

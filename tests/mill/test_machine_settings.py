@@ -8,11 +8,11 @@ from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.client import Card
 from openacr.controller import Controller
-from openacr.mill import alarms
-from openacr.mill.settings import Settings
-from openacr.mill.setup import prepare
-from openacr.mill.states import State
-from openacr.mill.workshop import Workshop
+from openacr.mill.card import alarms
+from openacr.mill.card.setup import prepare
+from openacr.mill.config.settings import Settings
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 
@@ -73,7 +73,7 @@ def test_the_lead_in_radius_is_that_of_the_way_back_to_a_path(radius: float) -> 
 @pytest.mark.req("MILL-HOME-SELECT")
 def test_single_axes_can_be_chosen_for_homing() -> None:
     with Store() as store:
-        shop = Workshop.virtual(store, say=lambda _text: None)
+        shop = MillSession.virtual(store, say=lambda _text: None)
         chosen: list[list[int]] = []
         shop.runner.home = lambda axes: chosen.append(list(axes))  # type: ignore[method-assign]
         shop.home("XZ", lambda _shop: None)
@@ -128,7 +128,7 @@ def test_alarms_are_written_to_a_file_unless_that_is_disabled(
     with Store(tmp_path / "sysvar.db") as store:
         store.write(250_118, is_disabled)
         card = Card.open(Controller())
-        shop = Workshop(card, store, print, is_virtual=False, folder=tmp_path)
+        shop = MillSession(card, store, print, is_virtual=False, folder=tmp_path)
         shop.runner.alarms.give(alarms.LUBRICATION, "", 0.0)
         shop.close()
     log = tmp_path / "MILL.LOG"

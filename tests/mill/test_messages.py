@@ -6,7 +6,7 @@ import pytest
 from tests.mill.shop import Shop, at, line
 
 from openacr.errors import UserError
-from openacr.mill.messages import (
+from openacr.mill.card.messages import (
     Message,
     Messages,
     define,
@@ -15,7 +15,7 @@ from openacr.mill.messages import (
     record,
     remove,
 )
-from openacr.mill.pparm import OperatorParameters
+from openacr.mill.config.pparm import OperatorParameters
 from openacr.sysvar import Store
 from openacr.sysvar.values import SettingError
 
@@ -28,8 +28,8 @@ class Watched:
         for message in messages:
             define(self.shop.store, message)
         self.seen: list[tuple[int, bool]] = []
-        panel = self.shop.runner.panel
-        self.messages = Messages(panel, list(definitions(self.shop.store)), self.note)
+        io = self.shop.runner.io
+        self.messages = Messages(io, list(definitions(self.shop.store)), self.note)
 
     def note(self, message: Message, is_on: bool) -> None:
         self.seen.append((message.number, is_on))
@@ -53,7 +53,7 @@ def test_a_message_is_there_while_its_input_or_output_has_the_state() -> None:
     watched.shop.controller.set_input(5, True)
     watched.shop.controller.set_input(6, True)
     assert watched.pass_time(0.1) == [0, 3]
-    watched.shop.runner.panel.output(40, True)
+    watched.shop.runner.io.output(40, True)
     assert watched.pass_time(0.1) == [0]
     watched.shop.controller.set_input(5, False)
     assert watched.pass_time(0.1) == []

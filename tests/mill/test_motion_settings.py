@@ -11,7 +11,7 @@ from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.controller import Controller
 from openacr.map import numbers as n
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 JOG, HOME, SPEEDS = 350_000, 300_000, 650_000
 
@@ -111,7 +111,7 @@ def world(tmp_path: Path) -> Controller:
 def homing_speeds(shop: Shop) -> list[float]:
     shop.runner.home([0])
     found = []
-    while shop.runner.state is State.WAIT:
+    while shop.runner.state is State.HOMING:
         found += speeds(shop, 0.05)
     assert shop.runner.state is State.IDLE
     return found

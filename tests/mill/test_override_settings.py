@@ -4,7 +4,7 @@ import pytest
 from tests.mill.shop import Shop, at, end, line, rapid
 from tests.mill.test_spindle_settings import begin, shop_with, volts
 
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 FOV, ROV, SOV = 450_000, 500_000, 550_000
 FIRST_INPUT = 16

@@ -3,11 +3,11 @@
 import pytest
 from tests.mill.shop import Shop
 
-from openacr.cnc.library import part_named, prepared
-from openacr.cnc.load import load
-from openacr.mill.settings import AXIS, cell
-from openacr.mill.states import State
-from openacr.mill.workshop import Start, Workshop
+from openacr.cnc.loading.load import load
+from openacr.cnc.parts.library import part_named, prepared
+from openacr.mill.config.settings import AXIS, cell
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 
 NAME, IS_THERE = 8, 12
@@ -22,12 +22,12 @@ def eight_axes() -> Store:
 
 
 def ends(store: Store, text: str) -> tuple[float, ...]:
-    shop = Workshop.virtual(store, say=lambda _text: None)
+    shop = MillSession.virtual(store, say=lambda _text: None)
     shop.start(load(text, shop.cells), Start())
     while shop.runner.is_busy:
         shop.step()
     assert shop.runner.alarms.active == []
-    return shop.runner.course.host.position()
+    return shop.runner.stream.host.position()
 
 
 @pytest.mark.req("MILL-OV-LETTERS")
@@ -78,7 +78,7 @@ def test_functions_are_bound_to_inputs_by_their_number_alone(
 def test_files_parts_and_mdi_speak_the_same_language() -> None:
     blocks = ["G91 F60", "G1 X(0.5*2) Y.5", "G2 X1 Y0 I1.5 J.5", "G90"]
     by_file = ends(Store(), "\n".join(blocks))
-    shop = Workshop.virtual(Store(), say=lambda _text: None)
+    shop = MillSession.virtual(Store(), say=lambda _text: None)
     *_, by_mdi = shop.run_blocks(blocks, "acromill", lambda _shop: None)
     assert by_mdi == by_file == pytest.approx((2.0, 0.5, 0, 0, 0, 0, 0, 0), abs=1e-4)
     part = prepared(part_named("CIRCLE"), {}, Store(), is_metric=False, feed=200.0).program

@@ -5,22 +5,22 @@ from pathlib import Path
 import pytest
 
 from openacr.client import Card
-from openacr.cnc.load import load
+from openacr.cnc.loading.load import load
 from openacr.cnc.occupied import HEARTBEAT
 from openacr.controller import Controller
 from openacr.errors import OpenacrError
-from openacr.mill.owner import BEAT_S, BEATS, LISTEN_S, SETTLE_S, Owner
-from openacr.mill.states import State
-from openacr.mill.workshop import Start, Workshop
+from openacr.mill.card.owner import BEAT_S, BEATS, LISTEN_S, SETTLE_S, Owner
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.tabs.control import CONTROL
 
 
-def opened(controller: Controller, store: Store) -> Workshop:
-    return Workshop.real(controller, store, lambda _text: None)
+def opened(controller: Controller, store: Store) -> MillSession:
+    return MillSession.real(controller, store, lambda _text: None)
 
 
-def dwelling(controller: Controller, store: Store) -> Workshop:
+def dwelling(controller: Controller, store: Store) -> MillSession:
     shop = opened(controller, store)
     shop.start(load("G4 F100\nM2\n", store), Start())
     for _ in range(50):

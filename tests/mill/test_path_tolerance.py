@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from tests.mill.shop import PULSES, Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.cnc.load import load
+from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.map import numbers as n
-from openacr.mill.encoding import Encoder
-from openacr.mill.predicting import predicted
-from openacr.mill.settings import AXIS, SPEEDS, Settings, cell
-from openacr.mill.states import State
-from openacr.mill.workshop import Start, Workshop
+from openacr.mill.config.settings import AXIS, SPEEDS, Settings, cell
+from openacr.mill.plan.encoding import Encoder
+from openacr.mill.plan.predicting import predicted
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 
 ACCEL = 100.0  # units/s2 of feed moves
@@ -155,7 +155,7 @@ def test_many_lines_together_and_one_by_one_are_planned_alike() -> None:
 SQUARE = "G20 G90 G94 F600\n{}\nG1 X1\nY1\nX0\nY0\nM2\n"
 
 
-def ran(shop: Workshop, text: str) -> float:
+def ran(shop: MillSession, text: str) -> float:
     """Time of a program in the other dialect."""
     made = load(SQUARE.format(text).encode(), shop.cells, "rs274ngc")
     assert made.errors == []
@@ -167,10 +167,10 @@ def ran(shop: Workshop, text: str) -> float:
 
 
 def test_g64_p_rounds_on_the_virtual_machine() -> None:
-    times = [ran(Workshop.virtual(Store(), say=silent), text) for text in ("G61", "G64 P.1")]
+    times = [ran(MillSession.virtual(Store(), say=silent), text) for text in ("G61", "G64 P.1")]
     assert times[1] < times[0] - 0.05
     metric = "G21\nG64 P2.54\nG20"
-    assert ran(Workshop.virtual(Store(), say=silent), metric) == times[1]
+    assert ran(MillSession.virtual(Store(), say=silent), metric) == times[1]
 
 
 def silent(_text: str) -> None:
@@ -194,12 +194,12 @@ def test_a_card_at_the_other_end_of_a_link_never_hears_of_a_tolerance(
 ) -> None:
     """What it is sent is that of G64 without P, byte for byte."""
     heard = []
-    monkeypatch.setattr("openacr.mill.owner.SystemRandom", lambda: random.Random(1))
+    monkeypatch.setattr("openacr.mill.card.owner.SystemRandom", lambda: random.Random(1))
     for text in ("G64 P0.02", "G64"):
         card, store = Listener(), Store()
         for axis in range(3):
             store.write(cell(AXIS, 7, axis), 0)  # need not be homed
-        shop = Workshop.real(card, store, say=silent)
+        shop = MillSession.real(card, store, say=silent)
         shop.card.command("DRIVE ON X Y Z", program=0)
         ran(shop, text)
         heard.append(card.heard)

@@ -4,8 +4,8 @@ import pytest
 from tests.mill.shop import Shop
 
 from openacr.errors import UserError
-from openacr.mill.alarms import AlarmError
-from openacr.mill.states import State
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.run.lifecycle import State
 
 FEED_HOLD, CYCLE_START, LUBRICATION = "P400_002", "P400_003", "P400_012"
 SPINDLE_CW = "P800_005"
@@ -19,8 +19,8 @@ def paused(shop: Shop, text: str, behind_s: float, rest_s: float = 0.5) -> None:
     assert shop.runner.state is State.PAUSED
 
 
-def moved_by_hand(shop: Shop, axis: int, way_u: float) -> None:
-    shop.runner.jog(lambda jog: jog.move(axis, way_u))
+def moved_by_hand(shop: Shop, axis: int, distance_u: float) -> None:
+    shop.runner.jog(lambda jog: jog.move(axis, distance_u))
     for _ in range(20_000):
         if not shop.runner.jogging.is_active:
             return

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
-from openacr.mill.planning import (
+from openacr.mill.plan.planning import (
     CornerRules,
+    PlannedMove,
     Planner,
-    Stretch,
     corner_speed,
     turn_deg,
 )
@@ -25,10 +25,17 @@ RAMP = 100.0
 
 def line(
     direction: float, length: float = 1.0, feed: float = FEED, mode: PathMode = PathMode.CORNER
-) -> Stretch:
+) -> PlannedMove:
     """A straight move in the plane, its direction in degrees."""
     way = (math.cos(math.radians(direction)), math.sin(math.radians(direction)), 0.0)
-    return Stretch(length_u=length, feed_ups=feed, ramp_ups2=RAMP, start=way, end=way, mode=mode)
+    return PlannedMove(
+        length_u=length,
+        feed_ups=feed,
+        ramp_ups2=RAMP,
+        start=way,
+        end=way,
+        mode=mode,
+    )
 
 
 @given(st.floats(-180.0, 180.0), st.floats(0.0, 180.0))
@@ -101,10 +108,10 @@ moves = st.lists(
 RULES = CornerRules(30.0, 120.0, 0.5)
 
 
-def planned(chosen: Chosen, takes: int) -> list[Stretch]:
+def planned(chosen: Chosen, takes: int) -> list[PlannedMove]:
     """The moves with their end speeds, taken out in pieces of a few moves."""
-    planner: Planner[Stretch] = Planner(RULES)
-    out: list[Stretch] = []
+    planner: Planner[PlannedMove] = Planner(RULES)
+    out: list[PlannedMove] = []
     for at, (direction, length, feed) in enumerate(chosen, start=1):
         planner.add(line(direction, length, feed))
         if at % takes == 0:
@@ -140,7 +147,7 @@ def test_a_chain_of_short_tangent_moves_keeps_the_feed() -> None:
 
 
 def test_as_many_moves_wait_as_were_asked_for() -> None:
-    planner: Planner[Stretch] = Planner(CornerRules(), least_ahead=10)
+    planner: Planner[PlannedMove] = Planner(CornerRules(), least_ahead=10)
     for _ in range(25):
         planner.add(line(0.0, length=100.0))
     assert len(list(planner.take(10000, is_complete=False))) == 15
@@ -154,7 +161,7 @@ def test_as_many_moves_wait_as_were_asked_for() -> None:
 def test_the_longest_way_to_brake_is_that_of_the_moves_in_the_queue(
     moves: list[tuple[float, float]], takes: list[int]
 ) -> None:
-    planner: Planner[Stretch] = Planner(CornerRules())
+    planner: Planner[PlannedMove] = Planner(CornerRules())
     takes = [*takes, 0]
     for k, (feed, ramp) in enumerate(moves):
         planner.add(replace(line(0.0, 0.5, feed), ramp_ups2=ramp))

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from openacr.cnc.canonical import Line, Pace, PathMode, Plane, Polyline, Source
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter, Options
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.mill import plot
-from openacr.mill.plot import Drawing, Kind, ToolPath, chords, thinned
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
+from openacr.mill.plan import tool_path
+from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath, chords, thinned
 from openacr.sysvar import Store
 
 STORE = Store()
@@ -132,8 +132,8 @@ def test_thinning_keeps_ends_gaps_and_the_picture() -> None:
 def test_a_picture_keeps_three_values_a_point_and_a_bounded_count(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(plot, "MOST_POINTS", 10)
-    monkeypatch.setattr(plot, "AT_ONCE", 4)
+    monkeypatch.setattr(tool_path, "MOST_POINTS", 10)
+    monkeypatch.setattr(tool_path, "AT_ONCE", 4)
     path = ToolPath((0, 1, 2), 0.001)
     for n in range(30):
         end = (float(n + 1), 0.0, 0.0, *(0.0,) * 5)

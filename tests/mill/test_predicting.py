@@ -7,8 +7,8 @@ import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.predicting import predicted
-from openacr.mill.settings import Settings
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.predicting import predicted
 
 
 def of(shop: Shop, *entries: c.Entry) -> float:

@@ -6,12 +6,12 @@ import pytest
 from tests.mill.shop import Shop, at, end, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.capture import Capture, capture_of
-from openacr.mill.desk import Desk
-from openacr.mill.overrides import Override
-from openacr.mill.predicting import Predictor
-from openacr.mill.settings import Settings
-from openacr.mill.states import State
+from openacr.mill.config.capture import Capture, capture_of
+from openacr.mill.config.overrides import Override
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.predicting import Predictor
+from openacr.mill.plan.preflight import Preflight
+from openacr.mill.run.lifecycle import State
 from openacr.protocol.move import Move
 
 PROBE, EDGE, SOFTWARE, EACH = "P600_000", "P600_001", "P600_002", "P600_006"
@@ -38,7 +38,7 @@ def touched(shop: Shop, target: c.Point, wires: tuple[int, ...], *, on: bool = T
 
 def tripped(shop: Shop) -> c.Point:
     shop.until(State.IDLE)
-    point = shop.runner.course.host.tripped()
+    point = shop.runner.stream.host.tripped()
     assert point is not None
     assert shop.place() == pytest.approx(point[:3], abs=1.01e-4)  # back where it tripped
     return point[:3]
@@ -174,12 +174,14 @@ def test_an_input_of_a_module_captures_nothing() -> None:
 
 def test_the_check_warns_of_what_the_card_does_not_capture() -> None:
     shop = Shop(**{PROBE: 24})
-    desk = Desk(Settings(shop.store))
-    predictor = Predictor(Settings(shop.store), at(), reader=desk)
+    preflight = Preflight(Settings(shop.store))
+    predictor = Predictor(Settings(shop.store), at(), reader=preflight)
     for number, target in ((3, at(1)), (5, at(1, 0, -1)), (6, at(1, 0, -2))):
         predictor.add(c.Probe(src(number), target, c.Pace(FEED)))
     predictor.rest()
-    assert [str(finding) for finding in desk.findings(lambda _: "") if finding.code == "W404"] == [
+    assert [
+        str(finding) for finding in preflight.findings(lambda _: "") if finding.code == "W404"
+    ] == [
         "TEST.TXT:5:1: W404 probe not captured by the card: input 24 captures X, and Z one of"
         " 26, 18, 10, 2 (the probe is polled, and less exact)"
     ]
@@ -222,7 +224,7 @@ def test_a_kill_that_stays_after_the_contact_ends_the_program(
     while shop.runner.reason != "kill is cleared":
         shop.pass_time(0.005)
     assert passed_until(shop, 14) == pytest.approx(2.0, abs=0.01)
-    assert shop.runner.course.host.tripped() is None  # and it does not go back to a point
+    assert shop.runner.stream.host.tripped() is None  # and it does not go back to a point
 
 
 @pytest.mark.parametrize("which", [1, 2])

@@ -7,8 +7,8 @@ import pytest
 from tests.mill.shop import Shop
 
 from openacr.errors import UserError
-from openacr.mill.overrides import Override
-from openacr.mill.states import Options, State
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import Options, State
 
 DAC_VALUE = 6400 + 16 * 3
 SPINDLE = {"P800_001": 0.00333, "P800_002": 3.0, "P800_005": 40.0, "P800_006": 41.0}
@@ -338,7 +338,7 @@ def test_without_a_signal_a_manual_change_is_confirmed_by_hand() -> None:
     shop.load("F600 T5 M6\nG1 X1\nM2\n")
     shop.pass_time(1.0)
     assert shop.runner.state is State.WAIT
-    shop.runner.doing.changer.confirm()
+    shop.runner.entry_actions.changer.confirm()
     shop.until(State.IDLE)
     assert shop.pulses()[0] == 10000
 

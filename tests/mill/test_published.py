@@ -5,9 +5,9 @@ from typing import cast
 import pytest
 
 from openacr.client import ConnectionLostError
-from openacr.mill.machine import Machine
-from openacr.mill.published import Published
-from openacr.mill.settings import Store
+from openacr.mill.card.driver import MachineDriver
+from openacr.mill.config.settings import Store
+from openacr.mill.run.published import Published
 
 
 class Log:
@@ -22,7 +22,7 @@ class Log:
 
 def test_what_has_changed_is_written_and_nothing_else() -> None:
     cells, card = Log(), Log()
-    published = Published(cast(Store, cells), cast(Machine, card))
+    published = Published(cast(Store, cells), cast(MachineDriver, card))
     for value in (0.0, 0.0, 2.0, 2.0, 0.0):
         published.cell(244, value)
     assert cells.lines == [(244, 0.0), (244, 2.0), (244, 0.0)]
@@ -33,7 +33,7 @@ def test_what_has_changed_is_written_and_nothing_else() -> None:
 
 def test_a_cell_and_a_variable_of_one_number_are_two_places() -> None:
     cells, card = Log(), Log()
-    published = Published(cast(Store, cells), cast(Machine, card))
+    published = Published(cast(Store, cells), cast(MachineDriver, card))
     published.cell(95, 1.0)
     published.variable(95, 1.0)
     published.variable(95, 1.0)
@@ -49,7 +49,7 @@ def test_a_variable_that_could_not_be_written_is_written_once_more() -> None:
                 raise ConnectionLostError("gone")
 
     cells, card = Log(), Failing()
-    published = Published(cast(Store, cells), cast(Machine, card))
+    published = Published(cast(Store, cells), cast(MachineDriver, card))
     with pytest.raises(ConnectionLostError):
         published.variable(95, 1.0)
     published.variable(95, 1.0)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.mill.readout import Format, Readout
+from openacr.mill.config.readout import Format, Readout
 from openacr.sysvar import Store
 
 INCH_X, METRIC_X, METRIC_A, CONTROL_MODE = 850_000, 850_001, 853_001, 850_030

@@ -8,7 +8,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 RADIUS = 0.25
 
@@ -166,7 +166,7 @@ def test_without_a_jog_the_held_move_simply_goes_on() -> None:
     shop.runner.resume()
     shop.until(State.IDLE)
     assert all(y == 0.0 for _, y, _ in shop.path)
-    assert shop.runner.course.moves == 1
+    assert shop.runner.stream.moves == 1
 
 
 def test_the_rest_of_an_arc_keeps_its_centre() -> None:

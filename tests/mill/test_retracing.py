@@ -6,7 +6,7 @@ import pytest
 from tests.mill.shop import Shop
 
 from openacr.errors import UserError
-from openacr.mill.states import State
+from openacr.mill.run.lifecycle import State
 
 CONTOUR = "G90 F600\nG1 X2\nG3 X3 Y1 I2 J1\nG1 Y3\nM12\nX0\nM2\n"
 
@@ -95,10 +95,10 @@ def test_what_lies_behind_a_rapid_is_not_gone_back_over() -> None:
 
 def test_what_lies_behind_a_tool_change_is_not_gone_back_over() -> None:
     shop = Shop()
-    shop.runner.doing.changer.confirm()
+    shop.runner.entry_actions.changer.confirm()
     shop.load("G90 F600\nG1 X1\nT2 M6\nG1 X5\nM2\n")
     shop.until(State.WAIT)
-    shop.runner.doing.changer.confirm()
+    shop.runner.entry_actions.changer.confirm()
     shop.pass_time(0.3)
     shop.runner.stop()
     shop.pass_time(0.5)

@@ -7,7 +7,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.mill.states import Options, State
+from openacr.mill.run.lifecycle import Options, State
 
 
 def test_a_square_is_followed_to_the_pulse() -> None:
@@ -16,7 +16,7 @@ def test_a_square_is_followed_to_the_pulse() -> None:
         line(1, at(1, 0)), line(2, at(1, 1)), line(3, at(0, 1)), line(4, at(0.12345, 0)), end()
     )
     assert shop.pulses() == (1235, 0, 0)  # 1234.5, half away from zero
-    assert shop.runner.course.moves == 4
+    assert shop.runner.stream.moves == 4
 
 
 def test_moves_without_corners_run_at_constant_speed() -> None:
@@ -60,7 +60,7 @@ def test_an_arc_the_card_does_not_know_becomes_chords() -> None:
     shop = Shop(P201_006=5000)  # Y has other pulses per unit
     quarter = c.Arc(src(2), at(0, 1), c.Plane.XY, (0.0, 0.0), math.pi / 2, 1, 1, c.Pace(300.0))
     shop.finish(rapid(1, at(1, 0)), quarter, end())
-    assert shop.runner.course.moves > 40  # 0.0001 of height over 90 degrees
+    assert shop.runner.stream.moves > 40  # 0.0001 of height over 90 degrees
     assert shop.pulses() == (0, 5000, 0)
 
 

@@ -6,10 +6,10 @@ import pytest
 from tests.mill.shop import Shop
 
 from openacr.cnc.canonical import Entry
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.mill.host import RunHost
-from openacr.mill.states import State
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load
+from openacr.mill.run.lifecycle import State
+from openacr.mill.run.run_host import RunHost
 
 SPINDLE, TOOL = 800_000, 900_000
 CODE, SCALING, DAC, AT_ZERO, AT_SPEED, CW, CCW, OFF, EXCEPTION, MIST, FLOOD, COOLANT_OFF = range(12)

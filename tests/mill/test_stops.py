@@ -2,13 +2,13 @@
 
 import pytest
 
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.cnc.shadow import Shadow
-from openacr.mill.predicting import predicted
-from openacr.mill.settings import Settings
-from openacr.mill.workshop import POLL_S, Start, Workshop
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.predicting import predicted
+from openacr.mill.session import POLL_S, MillSession, Start
 from openacr.sysvar import Store
 
 STOPS = 20
@@ -20,7 +20,7 @@ def lost_s(between: str) -> float:
     moves = (f"G1 X{k % 2}.{k:02}\n{between}\n" for k in range(STOPS))
     text = "F60\n" + "".join(moves) + "M2\n"
     store = Store()
-    shop = Workshop.virtual(store, say=lambda _text: None)
+    shop = MillSession.virtual(store, say=lambda _text: None)
     plan = Interpreter(load(text, store), Shadow(store), VirtualMachine())
     expected_s = predicted(plan.entries(), Settings(store), (0.0,) * 8).time_s
     card = shop.virtual_card
@@ -39,7 +39,7 @@ def test_the_virtual_machine_does_not_wait_for_a_poll_at_a_stop(between: str) ->
 
 
 def test_a_step_without_a_change_of_motion_takes_a_poll() -> None:
-    shop = Workshop.virtual(Store(), say=lambda _text: None)
+    shop = MillSession.virtual(Store(), say=lambda _text: None)
     card = shop.virtual_card
     assert card is not None
     shop.step()

@@ -8,14 +8,14 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.client import Card
 from openacr.cnc import canonical as c
-from openacr.cnc.findings import BlockError, Finding
+from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.controller import Controller
 from openacr.errors import StoreError
-from openacr.mill import alarms
-from openacr.mill.alarms import AlarmError
-from openacr.mill.states import State
-from openacr.mill.stopping import stop_all
-from openacr.mill.workshop import Workshop
+from openacr.mill.card import alarms
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.card.stopping import stop_all
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
@@ -264,7 +264,7 @@ def test_alarms_are_logged_with_their_time_unless_the_store_forbids_it(
     store.write(250_118, is_off)
     store.write(ESTOP_CELL, 5)
     controller = Controller()
-    shop = Workshop.real(controller, store, say=print)
+    shop = MillSession.real(controller, store, say=print)
     controller.set_input(5, True)
     for _ in range(5):
         shop.step()
@@ -276,9 +276,9 @@ def test_alarms_are_logged_with_their_time_unless_the_store_forbids_it(
         assert re.fullmatch(r"\d{4}-\d\d-\d\dT\S+  alarm 10  Emergency stop\n", logs[0])
 
 
-def real(controller: Controller, said: list[str], store: Store) -> Workshop:
+def real(controller: Controller, said: list[str], store: Store) -> MillSession:
     store.write(ESTOP_CELL, 5)
-    return Workshop.real(controller, store, said.append)
+    return MillSession.real(controller, store, said.append)
 
 
 @pytest.mark.parametrize("is_released", [True, False])

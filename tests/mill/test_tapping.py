@@ -3,7 +3,7 @@
 import pytest
 from tests.mill.shop import Shop
 
-from openacr.mill.states import Options, State
+from openacr.mill.run.lifecycle import Options, State
 
 CW, CCW, DAC3, HOLD_INPUT = 40, 41, 6448, 5
 CELLS = {

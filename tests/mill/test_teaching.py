@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 
 from openacr.cli.main import app
 from openacr.errors import UserError
-from openacr.mill.teaching import teach
-from openacr.mill.workshop import Workshop
+from openacr.mill.manual.teaching import teach
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 
@@ -22,7 +22,7 @@ def standing(**cells: float) -> Shop:
 
 def taught(shop: Shop, code: str, axes: list[int]) -> None:
     runner = shop.runner
-    teach(shop.store, runner.settings, code, runner.course.host.position(), axes)
+    teach(shop.store, runner.settings, code, runner.stream.host.position(), axes)
 
 
 @pytest.mark.req("MILL-WCS-TEACH")
@@ -45,10 +45,10 @@ def test_the_command_teaches_the_axes_it_is_given(
     with Store(tmp_path / "sysvar.db") as store:
         store.write(271, 7)
 
-    def real(_target: str, cells: Store, say: Callable[[str], None]) -> Workshop:
-        return Workshop(shop.card, cells, say, is_virtual=False)
+    def real(_target: str, cells: Store, say: Callable[[str], None]) -> MillSession:
+        return MillSession(shop.card, cells, say, is_virtual=False)
 
-    monkeypatch.setattr(Workshop, "real", real)
+    monkeypatch.setattr(MillSession, "real", real)
     words = ["mill", "teach", "g55", "--axes", "XZ", "--host", "somewhere"]
     result = CliRunner().invoke(app, words)
     assert result.output == "G55: X Z read 0 here\n"

@@ -10,9 +10,9 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 from tests.mill.test_predicting import some_program
 
 from openacr.cnc import canonical as c
-from openacr.mill.predicting import Predictor
-from openacr.mill.settings import Settings
-from openacr.mill.trajectory import Trajectory
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.predicting import Predictor
+from openacr.mill.plan.trajectory import Trajectory
 
 Reals = NDArray[np.float64]
 PERIOD_S = 0.0005

@@ -9,18 +9,18 @@ from openacr.client.errors import RefusedError
 from openacr.cnc.occupied import HEARTBEAT, WATCHDOG_PROGRAM
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.workshop import Workshop
+from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 PROGRAM_CELL, TIMEOUT_CELL = 250_125, 250_126
 RUNS = 1248  # flag of program 7
 
 
-def opened(controller: Controller, **cells: float) -> Workshop:
+def opened(controller: Controller, **cells: float) -> MillSession:
     store = Store()
     for name, value in cells.items():
         store.write(int(name.removeprefix("P")), value)
-    return Workshop.real(controller, store, lambda _text: None)
+    return MillSession.real(controller, store, lambda _text: None)
 
 
 def listed(controller: Controller, program: int = WATCHDOG_PROGRAM) -> list[str]:

@@ -8,8 +8,8 @@ import pytest
 from openacr.cnc.canonical import Point
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.mill.alarms import AlarmError
-from openacr.mill.workshop import Workshop
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.session import MillSession
 from openacr.mill.zeroing import clear_all, goto_zero, set_zero
 from openacr.sysvar import Store
 
@@ -17,18 +17,18 @@ ACTIVE, SHIFT, ESTOP = 800, 801, 400_004
 AXES = (0, 1, 2)
 
 
-def shop_at(*blocks: str, store: Store | None = None) -> Workshop:
+def shop_at(*blocks: str, store: Store | None = None) -> MillSession:
     """A machine that these blocks have brought somewhere."""
     store = store or Store()
     for axis in AXES:
         store.write(200_007 + 1000 * axis, 0)
-    shop = Workshop.real(Controller(), store, lambda _text: None)
+    shop = MillSession.real(Controller(), store, lambda _text: None)
     shop.card.command("DRIVE ON X Y Z", program=0)
     mdi(shop, *blocks)
     return shop
 
 
-def mdi(shop: Workshop, *blocks: str) -> None:
+def mdi(shop: MillSession, *blocks: str) -> None:
     list(shop.run_blocks(blocks, "acromill", lambda _shop: None))
 
 
@@ -36,11 +36,11 @@ def rounded(place: Point) -> tuple[float, ...]:
     return tuple(round(value, 4) + 0.0 for value in place[:3])
 
 
-def machine_place(shop: Workshop) -> tuple[float, ...]:
-    return rounded(shop.runner.course.host.position())
+def machine_place(shop: MillSession) -> tuple[float, ...]:
+    return rounded(shop.runner.stream.host.position())
 
 
-def gone(shop: Workshop, *axes: int) -> list[tuple[float, ...]]:
+def gone(shop: MillSession, *axes: int) -> list[tuple[float, ...]]:
     return [rounded(p) for p in goto_zero(shop, axes or AXES, lambda _shop: None)]
 
 

@@ -10,8 +10,8 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from openacr.cli.controlled import ControlledMachine
-from openacr.cli.session import Options, Session, Until
+from openacr.cli.run.controlled import ControlledMachine
+from openacr.cli.run.session import Options, Session, Until
 from openacr.controller import Controller
 from openacr.project import Project, SourceFile
 from openacr.scenario import Condition, Scenario, Verdict

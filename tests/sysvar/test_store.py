@@ -7,7 +7,7 @@ import pytest
 
 from openacr.errors import MapError
 from openacr.locks import FileLock
-from openacr.mill.settings import Settings
+from openacr.mill.config.settings import Settings
 from openacr.sysvar import SettingError, Store
 from openacr.sysvar.driven import machine_lock
 

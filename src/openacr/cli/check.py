@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.cli.online import Plc, Program
+from openacr.cli.live.online import Plc, Program
 from openacr.errors import SourceError, UserError
 from openacr.lang.characters import readable, shown
 from openacr.models import MODELS
 from openacr.project import Place, Project, find_project, place_of, read_source
 
 if TYPE_CHECKING:
-    from openacr.cli.faults import Fault
-    from openacr.cli.source import Reader
     from openacr.plant.schema import Card
+    from openacr.source_check.faults import Fault
+    from openacr.source_check.source import Reader
 
 HAS_ERRORS = 1
 
@@ -31,7 +31,7 @@ def list_file(
     ladder: Annotated[bool, typer.Option("--ladder", help="Draw PLCs as ladders instead.")] = False,
 ) -> None:
     """Print a controller file as the card lists it."""
-    from openacr.cli.source import ladders, listing
+    from openacr.source_check.source import ladders, listing
 
     reader = read(file, find_project(file))
     for line in ladders(reader) if ladder and not reader.faults else listing(reader):
@@ -75,10 +75,10 @@ def read(file: Path, project: Project, at: tuple[Place, int] | None = None) -> "
     `at` is the level of a file whose name does not say it.
     """
     from openacr.basic.memory.storage import Storage
-    from openacr.cli.cutoffs import Cutoffs
-    from openacr.cli.room import Room
-    from openacr.cli.source import Reader
     from openacr.map.memory import Memory
+    from openacr.source_check.cutoffs import Cutoffs
+    from openacr.source_check.room import Room
+    from openacr.source_check.source import Reader
 
     place, number = place_of(file) if at is None else at
     is_whole = file.is_dir() or place is Place.SETUP
@@ -145,9 +145,9 @@ def _card(project: Project) -> "Card":
 
 def _table_faults(project: Project) -> Iterator["Fault"]:
     """What is wrong in the machine and scenario files of a project."""
-    from openacr.cli.faults import Fault
     from openacr.plant.load import load_world
     from openacr.scenario import load_scenario
+    from openacr.source_check.faults import Fault
 
     for path, load in ((project.machine, load_world), (project.scenario, load_scenario)):
         try:

@@ -131,7 +131,7 @@ def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
     """Keep the last minutes in a folder, else in one of the user's that no other card uses."""
-    from openacr.cli.journals import ring_root
+    from openacr.cli.run.journals import ring_root
     from openacr.controller.ring import Ring, own_ring
 
     if folder is not None:

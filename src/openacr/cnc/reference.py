@@ -6,10 +6,10 @@ from itertools import groupby
 from pathlib import Path
 
 from openacr.cnc import occupied
-from openacr.cnc.codes import DIALECTS, Axes, Code, Dialect, Group, Limit, Step
-from openacr.cnc.dialects import acromill, rs274ngc  # noqa: F401  fill the dialects
-from openacr.cnc.findings import TEXTS
-from openacr.cnc.refusals import other_dialect
+from openacr.cnc.codes.dialects import acromill, rs274ngc  # noqa: F401  fill the dialects
+from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit, Step
+from openacr.cnc.reading.findings import TEXTS
+from openacr.cnc.reading.refusals import other_dialect
 
 MADE_BY = "Written by `make docs` from the tables of `openacr.cnc`; do not edit."
 LETTERS = "Words that act by themselves. Other letters are data of the codes of their block."

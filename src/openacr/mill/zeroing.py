@@ -6,23 +6,23 @@ The shift is that of G92 (P800 to P832); it counts in every work system and is k
 from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc.canonical import TOOL_AXIS, Point
-from openacr.cnc.gcodes.work import clear_zero, preset_zero
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load_blank
+from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.loading.load import load_blank
 from openacr.errors import UserError
-from openacr.mill.folders import folders_of
-from openacr.mill.workshop import Workshop
+from openacr.mill.config.folders import folders_of
+from openacr.mill.session import MillSession
 
 MDI_DIALECT = "acromill"
 
 
-def reader(shop: Workshop) -> Interpreter:
+def reader(shop: MillSession) -> Interpreter:
     """An interpreter that stands where the machine does, with nothing chosen, as MDI begins."""
     program = load_blank(shop.cells, MDI_DIALECT, folders_of(shop.cells, None), name="ZERO")
-    return Interpreter(program, shop.cells, shop.runner.course.host, MDI_DIALECT)
+    return Interpreter(program, shop.cells, shop.runner.stream.host, MDI_DIALECT)
 
 
-def set_zero(shop: Workshop, axes: Iterable[int]) -> Point:
+def set_zero(shop: MillSession, axes: Iterable[int]) -> Point:
     """SET ZERO: these axes read 0 where they are; the program position. Nothing moves."""
     _require_rest(shop)
     run = reader(shop)
@@ -31,7 +31,7 @@ def set_zero(shop: Workshop, axes: Iterable[int]) -> Point:
     return run.position
 
 
-def clear_all(shop: Workshop) -> Point:
+def clear_all(shop: MillSession) -> Point:
     """CLR ZERO: no axis has a floating zero any more; the program position. Nothing moves."""
     _require_rest(shop)
     run = reader(shop)
@@ -41,7 +41,7 @@ def clear_all(shop: Workshop) -> Point:
 
 
 def goto_zero(
-    shop: Workshop, axes: Iterable[int], attend: Callable[[Workshop], None]
+    shop: MillSession, axes: Iterable[int], attend: Callable[[MillSession], None]
 ) -> Iterator[Point]:
     """GOTO ZERO: rapids to program 0; the program position behind each.
 
@@ -51,7 +51,7 @@ def goto_zero(
         yield reader(shop).position
 
 
-def _blocks(shop: Workshop, axes: set[int]) -> list[str]:
+def _blocks(shop: MillSession, axes: set[int]) -> list[str]:
     names = {axis: shop.runner.settings.axis(axis).name for axis in sorted(axes)}
     others = "".join(f" {name}0" for axis, name in names.items() if axis != TOOL_AXIS)
     blocks = [f"G90 G0{others}"] if others else []
@@ -61,8 +61,8 @@ def _blocks(shop: Workshop, axes: set[int]) -> list[str]:
     return blocks
 
 
-def _require_rest(shop: Workshop) -> None:
+def _require_rest(shop: MillSession) -> None:
     """A zero is set where the machine rests, and nothing is wrong with it."""
     shop.runner.alarms.require_none()
-    if shop.runner.is_busy or shop.machine.look().is_moving or shop.machine.is_jogging():
+    if shop.runner.is_busy or shop.machine.poll().is_moving or shop.machine.is_jogging():
         raise UserError("the machine moves: a zero is set at rest")

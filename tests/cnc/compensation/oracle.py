@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from tests.cnc.compensation.tools import Path
 
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 STEP_RAD = 0.02  # of the chords shapely sees
 

@@ -10,7 +10,7 @@ from tests.cnc.compensation.oracle import contour
 from tests.cnc.compensation.tools import EXACT, Trace
 
 from openacr.cnc.compensation import Compensator, Rules, Side
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 PROGRAMS = 250  # in a bundle
 CLOSE = 3e-6

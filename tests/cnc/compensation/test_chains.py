@@ -8,7 +8,7 @@ from tests.cnc.compensation.tools import EXACT, FEED, Path, Trace, compensate, p
 
 from openacr.cnc.canonical import Plane, Source
 from openacr.cnc.compensation import Compensator, Rules, Side
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 
 def started(radius: float = 0.25, side: Side = Side.LEFT, rules: Rules = EXACT):  # type: ignore[no-untyped-def]

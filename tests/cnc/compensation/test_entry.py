@@ -12,7 +12,7 @@ from tests.cnc.programs import errors, run
 from openacr.cnc.canonical import Arc, Plane, Source
 from openacr.cnc.compensation import Compensator, Side
 from openacr.cnc.compensation.entry import entry_arc
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 ANGLES = st.floats(-math.pi, math.pi)
 LENGTHS = st.floats(0.1, 10.0)

@@ -22,7 +22,7 @@ from tests.cnc.compensation.oracle import (
 from tests.cnc.compensation.tools import EXACT, Path, Trace, compensate
 
 from openacr.cnc.compensation import Rules, Side
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 BUNDLES = 8
 CONTOURS = 400  # in a bundle

@@ -13,7 +13,7 @@ from tests.cnc.compensation.tools import Path, Trace, compensate
 from openacr.cnc.compensation import ChainCheck, Side
 from openacr.cnc.compensation.boxes import Tree
 from openacr.cnc.compensation.nearness import Curves, distances
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 
 def curves_of(elements: list[Element]) -> Curves:
@@ -78,7 +78,7 @@ def test_a_long_chain_is_checked_in_little_time() -> None:
         radius, angle = 1.1 + 0.2 * k / 200, 2 * pi * k / 200
         shifted.to(radius * cos(angle), radius * sin(angle))
     for element in shifted.elements:
-        check.way(element, 0.1)
+        check.centre_path(element, 0.1)
     began = time.process_time()
     check.end()
     assert time.process_time() - began < 10.0

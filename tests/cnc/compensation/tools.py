@@ -5,7 +5,7 @@ from math import atan2, hypot, tau
 
 from openacr.cnc.canonical import Pace, Plane, Point, Source
 from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 FEED = Pace(10.0)
 EXACT = Rules(epsilon=1e-6, sweep_epsilon=1e-4, root_epsilon=-12)

@@ -16,10 +16,10 @@ from tests.cnc.programs import unrolled
 
 from openacr.cnc.canonical import Arc, Line, Rapid
 from openacr.cnc.dxf import Conversion, Options, Pattern, convert
-from openacr.cnc.hosts import VirtualMachine
-from openacr.cnc.interpreter import Interpreter
-from openacr.cnc.load import load
-from openacr.cnc.survey import survey
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.survey import survey
+from openacr.cnc.loading.load import load
+from openacr.cnc.state.hosts import VirtualMachine
 from openacr.errors import UserError
 from openacr.sysvar import Store
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from openacr.mill.plot import Drawing, Kind
-from openacr.mill.view import View
+from openacr.mill.config.view import View
+from openacr.mill.plan.tool_path import Drawing, Kind
 
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
 

@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 
 from openacr.cli.plots.saved import save
 from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, shade
-from openacr.mill.plot import Array, thinned
+from openacr.mill.plan.tool_path import Array, thinned
 
 WIDTH_INCHES, HEIGHT_INCHES, DPI = 13.0, 7.6, 120
 PIXELS = 1600  # more than any view is wide, so that thinning cannot be seen

@@ -32,7 +32,17 @@ from openacr.cnc.canonical.actions import (
     Transfer,
     WaitBit,
 )
-from openacr.cnc.canonical.common import AXES, TOOL_AXIS, Pace, PathMode, Plane, Point, Source
+from openacr.cnc.canonical.common import (
+    AXES,
+    AXIS_LETTERS,
+    ROTARY,
+    TOOL_AXIS,
+    Pace,
+    PathMode,
+    Plane,
+    Point,
+    Source,
+)
 from openacr.cnc.canonical.moves import Arc, Line, Polyline, Probe, Rapid
 
 Motion = Rapid | Line | Arc | Polyline | Probe
@@ -57,6 +67,8 @@ Entry = Motion | Action | BlockEnd | Sync | End
 
 __all__ = [
     "AXES",
+    "AXIS_LETTERS",
+    "ROTARY",
     "TOOL_AXIS",
     "Action",
     "Arc",

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from enum import Enum
 
 AXES = 8
+AXIS_LETTERS = "XYZABCUV"
+ROTARY = frozenset("ABC")
 Point = tuple[float, ...]  # one value for each of the 8 axes
 # Z in every plane: the tool length acts along it, and the tool is retracted along it.
 TOOL_AXIS = 2

@@ -33,7 +33,7 @@ from openacr.cnc.compensation.lead import begin_lead_in, end_lead_in
 from openacr.cnc.compensation.moves import at_place, inserted, tool_way
 from openacr.cnc.compensation.rows import Piece, Table, fit, lay, meet, place
 from openacr.cnc.compensation.rules import Report, Rules, Watch
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 Held = TypeVar("Held")
 
@@ -290,4 +290,4 @@ class Chain(Generic[Held]):
         """Issue a move of the tool."""
         self.ready.append(element)
         if self._watch:
-            self._watch.way(element, abs(away))
+            self._watch.centre_path(element, abs(away))

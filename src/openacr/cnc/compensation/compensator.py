@@ -7,7 +7,7 @@ from openacr.cnc.compensation.chain import Chain, Held
 from openacr.cnc.compensation.entry import entry_arc
 from openacr.cnc.compensation.moves import is_motion, moved
 from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 
 class Phase(Enum):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from openacr.cnc.canonical import Pace, Plane, Point, Source
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 
 @dataclass(slots=True)

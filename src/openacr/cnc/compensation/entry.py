@@ -7,7 +7,7 @@ that ends beside the end of the programmed one, with the same tangent there.
 from math import atan2, copysign, dist, pi
 
 from openacr.cnc.compensation.moves import moved
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 
 def entry_arc(element: Element, away: float, start: tuple[float, float]) -> Element | None:

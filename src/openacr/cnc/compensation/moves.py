@@ -21,7 +21,7 @@ from openacr.cnc.compensation.curve_cy import (
 from openacr.cnc.compensation.drafts import tool_element
 from openacr.cnc.compensation.join_cy import CROSSING, FORCED, JOINED, ROUND
 from openacr.cnc.compensation.rows import Piece
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 from openacr.views import F64
 
 Place = tuple[float, float]

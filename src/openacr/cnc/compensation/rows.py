@@ -11,7 +11,7 @@ from openacr.cnc.compensation.curve_cy import (
     comp_range,
 )
 from openacr.cnc.compensation.join_cy import JOINED, comp_join, comp_meet
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 from openacr.compiled import pick
 from openacr.views import F64
 

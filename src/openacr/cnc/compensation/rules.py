@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 Report = Callable[[str, str, Element], None]
 """Takes a finding: its code, its text, and the element it is about."""
@@ -17,7 +17,7 @@ class Watch(Protocol):
     def contour(self, element: Element) -> None:
         """An element of the programmed contour."""
 
-    def way(self, element: Element, radius: float) -> None:
+    def centre_path(self, element: Element, radius: float) -> None:
         """A move of the tool."""
 
     def end(self) -> None:

@@ -9,7 +9,7 @@ from openacr.cnc.canonical import Point
 from openacr.cnc.compensation.boxes import Tree
 from openacr.cnc.compensation.nearness import Curves
 from openacr.cnc.compensation.rules import Report
-from openacr.cnc.elements import Element
+from openacr.cnc.geometry.elements import Element
 
 LEADS = 2
 LEAST_SINE = 1e-9  # of the angle of two lines that cross
@@ -34,7 +34,7 @@ class ChainCheck:
         """An element of the programmed contour."""
         self._contour.append(element)
 
-    def way(self, element: Element, radius: float) -> None:
+    def centre_path(self, element: Element, radius: float) -> None:
         """A move of the tool."""
         self._ways.append(element)
         self._radii.append(radius)

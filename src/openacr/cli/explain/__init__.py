@@ -1,0 +1,1 @@
+"""Look-ups: parameters, flags, packets and addresses explained."""

@@ -1,0 +1,1 @@
+"""Commands that talk to a card, virtual or real, over its link."""

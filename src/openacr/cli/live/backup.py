@@ -1,0 +1,74 @@
+"""`openacr backup` and `openacr restore`: everything a terminal can read of a card."""
+
+import sys
+from itertools import count
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from openacr.cli.live.online import FAILED, Baud, Silence, Target, connected, progress_bar
+from openacr.errors import UserError
+
+
+def backup(
+    target: Target,
+    folder: Annotated[Path, typer.Argument(help="New or empty folder.")],
+    baud: Baud = 38400,
+    silence: Silence = 10.0,
+) -> None:
+    """Store settings, attachments, variables and programs of a card in a folder.
+
+    The folder is a project: `openacr run` and `openacr serve` take it as it is. Not kept:
+    network address, passwords, local variables, strings, positions.
+    """
+    with connected(target, baud, silence) as card, progress_bar("reading") as progress:
+        names = card.backup(folder, progress)
+    typer.echo(f"{folder}: {', '.join(names)}")
+
+
+def restore(
+    target: Target,
+    folder: Annotated[Path, typer.Argument(help="Folder of a backup.")],
+    is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
+    baud: Baud = 38400,
+    silence: Silence = 10.0,
+) -> None:
+    """Stop a card, clear it and put a backup back.
+
+    All programs and PLCs of the card are halted and replaced, memory is cleared. Before that the
+    card is asked whether it knows every setting. If it refuses a line after all, it gets its
+    former contents back.
+    """
+    from openacr.client import RestoreError
+    from openacr.client.backup import read_folder
+
+    read_folder(folder)  # what is wrong with it is said before anything is cleared
+    if not is_sure:
+        if not sys.stdin.isatty():
+            raise UserError("restore clears the card: say --yes")
+        typer.confirm(f"Clear the card at {target} and restore {folder}?", abort=True)
+    try:
+        with connected(target, baud, silence) as card, progress_bar("restoring") as progress:
+            reports = card.restore(folder, progress)
+    except RestoreError as failed:
+        typer.echo(f"error: {failed}", err=True)
+        if not failed.is_back:
+            kept = _keep(failed.former, folder)
+            typer.echo(
+                f"what was on the card is in {kept}: openacr restore {target} {kept}", err=True
+            )
+        raise typer.Exit(FAILED) from None
+    entered = [str(level) for report in reports for level in report.entered]
+    sent = sum(report.sent for report in reports)
+    typer.echo(f"{folder}: {sent} lines, {', '.join(entered) or 'no programs'}, verified")
+
+
+def _keep(files: dict[str, str], beside: Path) -> Path:
+    """Store what was on a card in a new folder beside the backup; its name."""
+    from openacr.client.backup import write_folder
+
+    names = (beside.with_name(f"{beside.resolve().name}-before{n or ''}") for n in count())
+    folder = next(name for name in names if not name.exists())
+    write_folder(files, folder)
+    return folder

@@ -1,0 +1,127 @@
+"""`openacr loop`: the servo loop of the axes of a card, from their offsets to their outputs."""
+
+import json
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.live.monitor import AXES, axes_on
+from openacr.cli.live.online import Baud, Silence, Target, connected
+from openacr.cli.live.silence import why_silent
+from openacr.map import numbers as at
+
+if TYPE_CHECKING:
+    from openacr.client import Card
+
+# Names shown, in the order in which the signals flow, and their rows in the block of an axis.
+PATH = {
+    "current position": at.AX_CURRENT_POSITION,
+    "gear offset": at.AX_GEAR_OFFSET,
+    "jog offset": at.AX_JOG_OFFSET,
+    "cam offset": at.AX_CAM_OFFSET,
+    "primary setpoint": at.AX_PRIMARY_SETPOINT,
+    "ballscrew offset": at.AX_BALLSCREW_OFFSET,
+    "backlash offset": at.AX_BACKLASH_OFFSET,
+    "secondary setpoint": at.AX_SECONDARY_SETPOINT,
+    "actual position": at.AX_ACTUAL_POSITION,
+    "following error": at.AX_FOLLOWING_ERROR,
+}
+GAINS = {
+    "PGAIN": at.AX_PROPORTIONAL_GAIN,
+    "IGAIN": at.AX_INTEGRAL_GAIN,
+    "ILIMIT": at.AX_INTEGRAL_LIMIT,
+    "IDELAY": at.AX_INTEGRAL_DELAY,
+    "DGAIN": at.AX_DERIVATIVE_GAIN,
+    "DWIDTH": at.AX_DERIVATIVE_WIDTH,
+    "FFVEL": at.AX_FEEDFORWARD_VELOCITY,
+    "FFACC": at.AX_FEEDFORWARD_ACCEL,
+    "FBVEL": at.AX_FBVEL_GAIN_SETTING,
+}
+OUTPUT = {
+    "summation point": at.AX_SUMMATION_POINT,
+    "filter output": at.AX_FILTER_OUTPUT_SIGNAL,
+    "output signal": at.AX_OUTPUT_SIGNAL,
+}
+ROWS = PATH | GAINS | OUTPUT
+NAMES = (*PATH, *GAINS, *(f"{name} [V]" for name in OUTPUT))
+LABELS = max(map(len, NAMES))
+GAP = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """One axis: what is asked of it [pulses], its gains, and what it puts out [V]."""
+
+    axis: int
+    path_cnt: dict[str, int]
+    gains: dict[str, float]
+    output_v: dict[str, float]
+    no_output: str  # why, empty while nothing cuts the output
+
+
+def loop(
+    target: Target,
+    axis: Annotated[list[int] | None, typer.Option(min=0, max=AXES - 1, help="An axis.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    baud: Baud = 38400,
+    silence: Silence = 5.0,
+) -> None:
+    """Show offsets, setpoints, gains and outputs of the servo loops of a card.
+
+    The primary setpoint is position plus gear, jog and cam offsets; ballscrew and backlash
+    make the secondary one of it, which the loop follows. Without --axis all that are on.
+    """
+    with connected(target, baud, silence) as card:
+        found = [read_loop(card, number) for number in axis or axes_on(card)]
+    if as_json:
+        typer.echo(json.dumps([asdict(one) for one in found]))
+        return
+    from rich.console import Console
+
+    console = Console()
+    for line in lines_of(found, console.width):
+        typer.echo(line)
+
+
+def read_loop(card: "Card", axis: int) -> Loop:
+    """Ask the card for one axis, all values of the path of one moment."""
+    first = at.AX_BASE + at.AX_STRIDE * axis
+    values = dict(zip(ROWS, card.read_many([first + row for row in ROWS.values()]), strict=True))
+    return Loop(
+        axis,
+        {name: int(values[name]) for name in PATH},
+        {name: float(values[name]) for name in GAINS},
+        {name: float(values[name]) for name in OUTPUT},
+        why_silent(card, axis),
+    )
+
+
+def lines_of(found: list[Loop], width: int) -> list[str]:
+    """Axes side by side, as many as the terminal has room for; signals in their order."""
+    columns = [_column(one) for one in found]
+    widths = [max(map(len, column)) + GAP for column in columns]
+    lines: list[str] = []
+    first = 0
+    while first < len(columns):
+        behind = first + 1
+        while behind < len(columns) and LABELS + sum(widths[first : behind + 1]) <= width:
+            behind += 1
+        for row, name in enumerate(("", *NAMES)):
+            cells = zip(columns[first:behind], widths[first:behind], strict=True)
+            shown = "".join(f"{column[row]:>{room}}" for column, room in cells)
+            lines.append(f"{name:<{LABELS}}{shown}")
+        lines.append("")
+        first = behind
+    lines += [f"axis {one.axis} has no output: {one.no_output}" for one in found if one.no_output]
+    return lines
+
+
+def _column(one: Loop) -> list[str]:
+    """What is shown of an axis, from its title down."""
+    return [
+        f"axis {one.axis}",
+        *(str(value) for value in one.path_cnt.values()),
+        *(f"{value:.6g}" for value in one.gains.values()),
+        *(f"{value:.4f}" for value in one.output_v.values()),
+    ]

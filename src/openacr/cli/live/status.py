@@ -1,0 +1,154 @@
+"""`openacr status`: lights, drives, encoders and limits of a card at one glance."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.live.monitor import axes_on
+from openacr.cli.live.online import Baud, Silence, Target, connected
+from openacr.cli.live.silence import why_silent
+from openacr.map import numbers as at
+from openacr.map.block import FLAG_WORD_BASE
+
+if TYPE_CHECKING:
+    from openacr.client import Card
+
+BUS_STATE = at.CAN_BASE + at.CAN_BUS_STATE
+INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED = 5646, 5645, 11268
+ENCODER_FLAGS = 32 * (at.EF_WORD - FLAG_WORD_BASE)
+FAULT, LOST = 0, 1
+SIDES = (("positive", 0), ("negative", 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit switch: its input, and what the card makes of it."""
+
+    side: str
+    input: int
+    is_on: bool
+    is_active: bool
+    is_enabled: bool
+    is_latched: bool
+
+
+@dataclass(frozen=True, slots=True)
+class AxisStatus:
+    """What is to be known of an axis that does not move."""
+
+    axis: int
+    light: str
+    is_enabled: bool
+    is_killed: bool
+    encoder_fault: bool
+    encoder_lost: bool
+    limits: tuple[Limit, ...]
+    no_output: str  # why, empty while nothing cuts the output
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """All of it."""
+
+    power: str
+    canopen: str
+    motion_enable: str
+    axes: tuple[AxisStatus, ...]
+
+
+def status(
+    target: Target,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    baud: Baud = 38400,
+    silence: Silence = 5.0,
+) -> None:
+    """Show lights, drives, encoders and limit switches of a card.
+
+    For each limit the raw input stands beside its enable bit: an input that toggles without
+    effect belongs to a limit that is not enabled. Axes are those that are on.
+    """
+    with connected(target, baud, silence) as card:
+        found = read_status(card)
+    if as_json:
+        typer.echo(json.dumps(asdict(found)))
+        return
+    for line in _lines(found):
+        typer.echo(line)
+
+
+def read_status(card: "Card") -> Status:
+    """Ask the card."""
+    from openacr.client.lights import bus_light, power_light
+
+    words = card.read_many([at.P_DIAGNOSTICS, at.W_MISC_CONTROL_1, BUS_STATE])
+    diagnostics, control, bus = map(int, words)
+    is_open, is_latched, has_bus = card.read_bits([INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED])
+    return Status(
+        power_light(is_there=True, diagnostics=diagnostics, misc_control=control),
+        bus_light(bus, is_installed=has_bus),
+        "open" if is_open else "latched" if is_latched else "closed",
+        tuple(_axis(card, axis) for axis in axes_on(card)),
+    )
+
+
+def _axis(card: "Card", axis: int) -> AxisStatus:
+    from openacr.client.lights import axis_light
+
+    drive, limits = map(int, card.read_many([at.AF4_WORD + axis, at.AF5_WORD + axis]))
+    first = int(card.command(f"AXIS{axis} HLBIT")[0])
+    encoder = 32 * _encoder(card, axis) + ENCODER_FLAGS
+    is_faulty, is_lost = card.read_bits([encoder + FAULT, encoder + LOST])
+    inputs = card.read_bits([first, first + 1])
+    return AxisStatus(
+        axis,
+        axis_light(drive),
+        bool(drive & at.AF4_DRIVE_ENABLED),
+        bool(drive & at.AF4_KILL_ALL_MOTION_REQUEST),
+        is_faulty,
+        is_lost,
+        tuple(_limit(limits, first, side, name, inputs[side]) for name, side in SIDES),
+        why_silent(card, axis),
+    )
+
+
+def _limit(word: int, first: int, side: int, name: str, is_on: bool) -> Limit:
+    """Quinary flags: 0 and 1 active, 4 and 5 latched, 20 and 21 enabled."""
+    active, latched, enabled = (bool(word >> bit + side & 1) for bit in (0, 4, 20))
+    return Limit(name, first + side, is_on, active, enabled, latched)
+
+
+def _encoder(card: "Card", axis: int) -> int:
+    """The encoder that tells the position of an axis; its own number where it is none."""
+    words = next(
+        (line.split() for line in card.command("ATTACH") if line.startswith(f"ATTACH AXIS{axis} ")),
+        ["", "", ""],
+    )
+    feedback = words[2]
+    return int(feedback[3:]) if feedback.startswith("ENC") else axis
+
+
+def _lines(found: Status) -> Iterator[str]:
+    yield f"power light     {found.power}"
+    yield f"CANopen light   {found.canopen}"
+    yield f"motion enable   {found.motion_enable}"
+    for axis in found.axes:
+        marks = (
+            ("enabled", axis.is_enabled), ("killed", axis.is_killed),
+            ("encoder fault", axis.encoder_fault), ("encoder lost", axis.encoder_lost),
+            (f"no output: {axis.no_output}", axis.no_output),
+        )  # fmt: skip
+        said = [name for name, is_so in marks if is_so]
+        yield f"axis {axis.axis}: light {axis.light}" + "".join(f", {mark}" for mark in said)
+        for limit in axis.limits:
+            yield (
+                f"  {limit.side} limit  input {limit.input} {_on(limit.is_on)}"
+                f"  active {_on(limit.is_active)}  enabled {_on(limit.is_enabled)}"
+                f"  latched {_on(limit.is_latched)}"
+            )
+
+
+def _on(is_on: bool) -> str:
+    return "1" if is_on else "0"

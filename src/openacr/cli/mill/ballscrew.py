@@ -1,0 +1,121 @@
+"""`openacr mill ballscrew`: tables that compensate what the screws of a machine get wrong."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.mill.check import AtStore
+from openacr.cli.sysvar.change import Password, require_service
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.mill.card.ballscrew import Table
+    from openacr.sysvar import Store
+
+OfAxis = Annotated[str, typer.Argument(metavar="AXIS", help="Name of the axis, e.g. X.")]
+
+
+def import_table(
+    axis: OfAxis,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Lines like X1E.00175.")],
+    store: AtStore = None,
+    password: Password = None,
+) -> None:
+    """Check the table of an axis, keep it beside the store and switch it on."""
+    from openacr.cli.run.output import require_writable, write_text
+    from openacr.mill.card.ballscrew import FILE, ON, read
+    from openacr.mill.config.settings import OFFSETS, cell
+    from openacr.sysvar.location import open_to_write
+
+    with open_to_write(store) as cells:
+        number, name = _axis(cells, axis)
+        table = read(file, name)
+        require_service(cells, [cell(OFFSETS, ON + number)], password)
+        kept = _folder(cells) / f"ballscrew_{name}.txt"
+        require_writable(kept)
+        write_text(kept, table.text())
+        with cells.transaction():
+            cells.write_text(cell(OFFSETS, FILE + number), kept.name)
+            cells.write(cell(OFFSETS, ON + number), 1)
+    typer.echo(f"{kept}: {_summary(table)}; it acts from the next start")
+
+
+def export_table(
+    axis: OfAxis,
+    file: Annotated[
+        Path | None, typer.Argument(metavar="[FILE]", help="File; else standard output.")
+    ] = None,
+    store: AtStore = None,
+) -> None:
+    """Write the table of an axis, which the store names, to a file."""
+    from openacr.mill.card.ballscrew import FILE, read
+    from openacr.mill.config.settings import OFFSETS, cell
+    from openacr.sysvar.location import open_to_read
+
+    with open_to_read(store) as cells:
+        number, name = _axis(cells, axis)
+        kept = cells.read_text(cell(OFFSETS, FILE + number))
+        if not kept:
+            raise UserError(f"axis {name} has no ballscrew table (P{cell(OFFSETS, FILE + number)})")
+        table = read(_folder(cells) / kept, name)
+    _give(table, file)
+
+
+def make_table(
+    axis: OfAxis,
+    file: Annotated[
+        Path,
+        typer.Argument(metavar="MEASURED", help="Lines of a position and what was measured there."),
+    ],
+    home: Annotated[
+        float, typer.Option("--home", help="Where the reference point lies among the positions.")
+    ] = 0.0,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", metavar="FILE", help="File; else standard output.")
+    ] = None,
+    store: AtStore = None,
+) -> None:
+    """Make the table of an axis from measurements of its positions.
+
+    An entry is the setpoint minus the mean of what was measured there.
+    """
+    from openacr.mill.card.ballscrew import measured
+    from openacr.sysvar.location import open_to_read
+
+    with open_to_read(store) as cells:
+        _, name = _axis(cells, axis)
+    _give(measured(file, name, home), out)
+
+
+def _axis(cells: "Store", axis: str) -> tuple[int, str]:
+    """Number and name of a configured axis."""
+    from openacr.cnc.loading.load import axes_of
+
+    letters = axes_of(cells)
+    name = axis.strip().upper()
+    if name not in letters:
+        raise UserError(f"axis {axis} is not configured: {' '.join(letters)} are")
+    return letters[name], name
+
+
+def _folder(cells: "Store") -> Path:
+    """Beside the store; the folder one stands in for one that is not made yet."""
+    return cells.path.parent if cells.path else Path()
+
+
+def _give(table: "Table", file: Path | None) -> None:
+    from openacr.cli.run.output import require_writable, write_text
+
+    if file is None:
+        typer.echo(table.text(), nl=False)
+        return
+    require_writable(file)
+    write_text(file, table.text())
+    typer.echo(f"{file}: {_summary(table)}")
+
+
+def _summary(table: "Table") -> str:
+    first, last = table.entries[0][0], table.entries[-1][0]
+    largest = max(abs(error) for _, error in table.entries)
+    return f"{len(table.entries)} positions from {first:g} to {last:g}, largest error {largest:g}"

@@ -1,0 +1,268 @@
+"""`openacr mill check` and `time`: what a part program does, without a machine."""
+
+import json as json_format
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from openacr.cli.mill.trace import Every, ToTrace, require_trace, trace_file
+from openacr.errors import UserError, unreadable
+from openacr.project import require_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from openacr.cnc.interpreter.survey import Survey
+    from openacr.cnc.program.program import Program
+    from openacr.cnc.reading.findings import Finding
+    from openacr.mill.plan.predicting import Prediction, Reader
+    from openacr.sysvar import Store
+
+FAILED = 1
+S_PER_MIN = 60
+PATH_JERK_CELL, PATH_JERK = 650_015, "Path jerk (P650015)"
+CONTEXT_COLUMNS = 72
+BEGINNING_BYTES = 65536  # what is looked at to tell text from other files
+TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
+
+PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
+AtStore = Annotated[
+    Path | None,
+    typer.Option(
+        "--store",
+        metavar="PATH",
+        help="File of the store (else OPENACR_STORE, else in the data folder of the user).",
+    ),
+]
+Dialect = Annotated[
+    str | None,
+    typer.Option(help="acromill, rs274ngc or auto; else as the file, the store or its signs say."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes without effect.")]
+
+
+@contextmanager
+def opened_store(path: Path | None, *, is_written: bool = False) -> "Iterator[Store]":
+    """The store a machine is described by; made where it is not there only to be written."""
+    from openacr.sysvar.location import open_to_read, open_to_write
+
+    with (open_to_write if is_written else open_to_read)(path) as store:
+        yield store
+
+
+def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", str]:
+    """A program with everything that belongs to it, and the name of its dialect.
+
+    A dialect that was chosen by the signs in the file is said on the error output.
+    """
+    from openacr.cnc.loading.load import load
+    from openacr.mill.config.dialects import choose
+    from openacr.mill.config.folders import folders_of
+
+    require_file(file)
+    choice = choose(file, store, dialect)
+    folder = store.path.parent if store.path else None
+    program = load(file, store, choice.name, folders_of(store, folder))
+    if choice.is_worth_saying or (program.errors and choice.is_doubtful):
+        typer.echo(f"{file}: {choice.text}", err=True)
+    return program, choice.name
+
+
+def require_file(file: Path) -> None:
+    """Refuse a part program that cannot be read."""
+    if file.is_dir():
+        raise UserError(f"{file}: it is a folder, not a part program")
+    if not file.exists():
+        raise UserError(f"{file}: no such file")
+    try:
+        with file.open("rb") as opened:
+            beginning = opened.read(BEGINNING_BYTES)
+    except OSError as error:
+        raise unreadable(file, error) from None
+    require_text(file, beginning, controls=TAPE_CONTROLS, what="part programs")
+
+
+def printable(text: str) -> str:
+    """A line as a terminal may show it: what would steer the terminal is a question mark."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text.expandtabs(1))
+
+
+def show_findings(findings: "list[Finding]") -> None:
+    """Every error and warning with its line and a mark at the column."""
+    for finding in findings:
+        colour = typer.colors.RED if finding.is_error else typer.colors.YELLOW
+        typer.secho(printable(str(finding)), fg=colour, err=True)
+        block = printable(finding.block)
+        if block.strip() and finding.column <= min(len(block), CONTEXT_COLUMNS):
+            typer.echo(f"    {block[:CONTEXT_COLUMNS]}", err=True)
+            typer.echo("    " + " " * (finding.column - 1) + "^", err=True)
+
+
+def check_program(
+    file: PartProgram,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find every error of a part program, and say what it does."""
+    with opened_store(store) as cells:
+        left_out = _left_out(cells)
+        program, name = loaded(file, cells, dialect)
+        survey, prediction = _checked(program, cells, name)
+    if as_json:
+        data = {"dialect": name} | _as_data(survey, prediction) | left_out
+        typer.echo(json_format.dumps(data, indent=1))
+    else:
+        show_findings(survey.findings)
+        _show_survey(survey, prediction)
+        if not survey.errors:
+            _note_left_out(left_out)
+    if survey.errors:
+        raise typer.Exit(FAILED)
+
+
+def time_program(
+    file: PartProgram,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    is_dry: Dry = False,
+    is_exact: Annotated[
+        bool, typer.Option("--exact", help="G64 P goes exactly through corners, as on a real card.")
+    ] = False,
+    as_json: AsJson = False,
+    trace: ToTrace = None,
+    every_s: Every = None,
+) -> None:
+    """Predict how long a part program runs, from the plan of its moves."""
+    require_trace(trace, every_s)
+    with opened_store(store) as cells:
+        left_out = _left_out(cells)
+        program, name = loaded(file, cells, dialect)
+        with _sampled(cells, trace, every_s) as reader:
+            survey, prediction = _surveyed(
+                program, cells, name, is_dry=is_dry, rounds=not is_exact, reader=reader
+            )
+    if survey.errors:
+        show_findings(survey.errors)
+        if as_json:
+            errors = {"errors": survey.data()["errors"]}
+            typer.echo(json_format.dumps({"dialect": name} | errors, indent=1))
+        raise typer.Exit(FAILED)
+    record = _times(prediction)
+    if as_json:
+        typer.echo(json_format.dumps({"dialect": name} | record | left_out, indent=1))
+        return
+    typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
+    _note_left_out(left_out)
+    for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
+        typer.echo(f"  {text:<8} {record[key]:10.2f} s")
+
+
+@contextmanager
+def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Iterator[Reader | None]":
+    """What samples the plan of a program into a trace, where one is wanted."""
+    if path is None:
+        yield None
+        return
+    from openacr.mill.config.settings import Settings
+    from openacr.mill.plan.trajectory import PERIOD_S, Trajectory
+
+    settings = Settings(cells)
+    with trace_file(path, [axis.name for axis in settings.axes]) as write:
+        trajectory = Trajectory(settings, every_s or PERIOD_S, write)
+        yield trajectory
+        trajectory.close()
+
+
+def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey, Prediction]":
+    """A program read once, with what the machine of the store would say to its moves."""
+    from openacr.mill.config.settings import Settings
+    from openacr.mill.plan.preflight import Preflight
+
+    desk = Preflight(Settings(cells))
+    found, prediction = _surveyed(program, cells, dialect, is_dry=False, reader=desk)
+    found.add(desk.findings(program.text_of))
+    return found, prediction
+
+
+def _surveyed(
+    program: "Program",
+    cells: "Store",
+    dialect: str,
+    *,
+    is_dry: bool,
+    rounds: bool = True,
+    reader: "Reader | None" = None,
+) -> "tuple[Survey, Prediction]":
+    """Read a program once, for the survey and for its time."""
+    from openacr.cnc.interpreter.interpreter import Options
+    from openacr.cnc.interpreter.survey import survey
+    from openacr.cnc.state.hosts import VirtualMachine
+    from openacr.mill.config.settings import NONE, Settings
+    from openacr.mill.plan.predicting import Predictor
+
+    settings = Settings(cells)
+    predictor = Predictor(settings, (0.0,) * 8, is_dry=is_dry, rounds=rounds, reader=reader)
+    machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
+    found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
+    predictor.rest()
+    return found, predictor.found
+
+
+def _times(prediction: "Prediction") -> dict[str, float]:
+    return {
+        "time_s": round(prediction.time_s, 4),
+        "feed_s": round(prediction.feed_s, 4),
+        "rapid_s": round(prediction.rapid_s, 4),
+        "dwell_s": round(prediction.dwell_s, 4),
+    }
+
+
+def _left_out(cells: "Store") -> dict[str, list[str]]:
+    """Settings of the machine that the prediction of the time leaves out."""
+    return {"time_without": [PATH_JERK] if cells.read(PATH_JERK_CELL) > 0.0 else []}
+
+
+def _note_left_out(record: dict[str, list[str]]) -> None:
+    for name in record["time_without"]:
+        typer.echo(f"note: the time is that without {name}; the run takes longer", err=True)
+
+
+def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:
+    data = survey.data()
+    data["time_s"] = None if survey.errors else round(prediction.time_s, 4)
+    return data
+
+
+def _show_survey(survey: "Survey", prediction: "Prediction") -> None:
+    counts = survey.move_cnts
+    typer.echo(
+        f"{survey.line_cnt} lines, {len(survey.errors)} errors, {len(survey.warnings)} warnings"
+    )
+    if survey.errors:
+        return
+    typer.echo(
+        f"moves: {counts['feed']} lines, {counts['arc']} arcs, {counts['rapid']} rapids,"
+        f" {counts['dwell']} dwells"
+    )
+    lengths, unit = survey.shown_lengths, survey.unit
+    typer.echo(
+        f"length: {lengths['feed']:.4g} {unit} at feed, {lengths['rapid']:.4g} {unit} at rapid"
+    )
+    for letter, axis in survey.letters.items():
+        low, high = (survey.shown(letter, ends[axis]) for ends in (survey.low, survey.high))
+        if low < high:
+            typer.echo(f"  {letter}: {low:.4f} to {high:.4f} {survey.unit_of(letter)}")
+    if survey.tools:
+        typer.echo("tools: " + " ".join(map(str, survey.tools)))
+    typer.echo(f"time: {clock(prediction.time_s)}")
+
+
+def clock(seconds: float) -> str:
+    """A time as people read it."""
+    minutes, rest = divmod(round(seconds), S_PER_MIN)
+    hours, minutes = divmod(minutes, S_PER_MIN)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,0 +1,120 @@
+"""The console of `openacr mill run --console`: commands typed while the program runs."""
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TextIO
+
+import typer
+
+from openacr.cli.mill.terminal import Lines, number_in
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.mill.run.runner import Runner
+    from openacr.mill.session import MillSession
+
+STEP_S = 0.05
+
+
+class Console:
+    """Takes the lines somebody types, one command each."""
+
+    def __init__(self, source: TextIO | None = None, lines: Lines | None = None) -> None:
+        self._lines = lines or Lines(source)
+        self._shown = ""
+
+    def attend(self, shop: "MillSession") -> None:
+        """Do what was typed, say what changed; the virtual machine runs in real time."""
+        while (line := self._lines.take()) is not None:
+            self._do(shop.runner, line)
+        self._show(shop.runner)
+        if self._lines.are_over:
+            self._require_nobody(shop.runner)
+        if shop.is_virtual:
+            shop.runner.entry_actions.changer.confirm()
+            time.sleep(STEP_S)
+
+    def _do(self, runner: "Runner", line: str) -> None:
+        words = line.lower().split()
+        if not words:
+            return
+        try:
+            command(words)(runner)
+        except UserError as error:
+            typer.echo(f"{line}: {error}", err=True)
+
+    def _require_nobody(self, runner: "Runner") -> None:
+        """Behind the last line, the program has to run by itself."""
+        from openacr.mill.run.lifecycle import State
+
+        is_asking = runner.asking is not None or runner.entry_actions.changer.wants_confirmation
+        is_held = runner.state in (State.HOLD, State.PAUSED) and not runner.retrace.is_active
+        if is_held or is_asking:
+            reason = runner.reason or runner.state.name
+            runner.abort()
+            raise UserError(f"{reason}: nobody is at the console to go on")
+
+    def _show(self, runner: "Runner") -> None:
+        up = "; ".join(alarm.text for alarm in runner.alarms.active)
+        text = f"{runner.state.name} {runner.reason} {up}".strip()
+        if text != self._shown:
+            self._shown = text
+            typer.echo(text, err=True)
+
+
+class Row(NamedTuple):
+    """A command: its value, what it does, and the action."""
+
+    value: str
+    meaning: str
+    act: Callable[["Runner", str], object]
+
+
+COMMANDS = {
+    "stop": Row("", "feed hold", lambda runner, _: runner.stop()),
+    "resume": Row("", "go on with the path where it was held", lambda runner, _: runner.resume()),
+    "start": Row("", "go on from a hold or a pause", lambda runner, _: runner.start()),
+    "abort": Row("", "end the program", lambda runner, _: runner.abort()),
+    "acknowledge": Row("", "clear alarms", lambda runner, _: runner.acknowledge()),
+    "confirm": Row(
+        "", "the tool is changed", lambda runner, _: runner.entry_actions.changer.confirm()
+    ),
+    "block": Row(
+        "",
+        "stop behind every block, or not",
+        lambda runner, _: runner.block(not runner.options.is_single),
+    ),
+    "back": Row("", "held: back along the path", lambda runner, _: runner.trace(-1)),
+    "forward": Row("", "held: forward again", lambda runner, _: runner.trace(1)),
+    "halt": Row("", "held: come to rest on the path", lambda runner, _: runner.trace(0)),
+    "answer": Row("VALUE", "to an INPUT", lambda runner, value: runner.answer(number_in(value))),
+    "fov": Row("CLICK", "feed override", lambda runner, value: _choose(runner, "FEED", value)),
+    "rov": Row("CLICK", "rapid override", lambda runner, value: _choose(runner, "RAPID", value)),
+    "sov": Row(
+        "CLICK", "spindle override", lambda runner, value: _choose(runner, "SPINDLE", value)
+    ),
+}
+"""What may be typed, by name."""
+
+COMMAND_LIST = ", ".join(
+    f"{f'{name} {row.value}'.strip()} ({row.meaning})" for name, row in COMMANDS.items()
+)
+
+
+def _choose(runner: "Runner", name: str, click: str) -> None:
+    from openacr.mill.config.overrides import Override
+
+    if not click.isdecimal():
+        raise UserError("a click of the switch is a whole number from 0")
+    runner.overrides.choose(Override[name], int(click))
+
+
+def command(words: list[str]) -> Callable[["Runner"], object]:
+    """What a line means: a command, with its value where it has one: fov 7."""
+    name, *rest = words
+    row = COMMANDS.get(name)
+    if row is None or len(rest) != bool(row.value):
+        known = ", ".join(f"{name} {row.value}".strip() for name, row in COMMANDS.items())
+        raise UserError(f"no such command; there are {known}")
+    value = rest[0] if rest else ""
+    return lambda runner: row.act(runner, value)

@@ -1,0 +1,28 @@
+"""`openacr mill dialect`: which language a part program is read in, and why."""
+
+import json as json_format
+
+import typer
+
+from openacr.cli.mill.check import AsJson, AtStore, Dialect, PartProgram, opened_store, require_file
+
+
+def show_dialect(
+    file: PartProgram, store: AtStore = None, dialect: Dialect = None, as_json: AsJson = False
+) -> None:
+    """Say in which dialect a part program would be read, and what points to it."""
+    from openacr.mill.config.dialects import choose
+
+    require_file(file)
+    with opened_store(store) as cells:
+        choice = choose(file, cells, dialect)
+    if as_json:
+        record = {
+            "dialect": choice.name,
+            "chosen_by": choice.by,
+            "likely": choice.likely,
+            "signs": list(choice.reasons),
+        }
+        typer.echo(json_format.dumps(record, indent=1))
+    else:
+        typer.echo(f"{file}: {choice.text}")

@@ -1,0 +1,234 @@
+"""`openacr mill part`: the parts of the library, with sizes to choose."""
+
+import json as json_format
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.cnc.parts.library import Ready
+    from openacr.cnc.parts.part import Part
+
+INCH, MM = "inch", "mm"
+# Cells of the store that say in which unit programs begin.
+IS_START_CHOSEN, START_UNIT, POWER_UP_UNIT, G21 = 100_010, 100_014, 850_030, 21
+
+
+def complete_part(incomplete: str) -> list[str]:
+    """Parts of the supplied library that begin like this."""
+    from openacr.cnc.parts.library import names
+
+    return [name for name in names() if name.startswith(incomplete.upper())]
+
+
+def make_part(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[NAME]",
+            help="A part; without it all are listed.",
+            autocompletion=complete_part,
+        ),
+    ] = None,
+    sizes: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="SIZE=VALUE", help="P200=4, 'length in x=4', P200=100mm."),
+    ] = None,
+    is_shown: Annotated[
+        bool, typer.Option("--show", help="Describe the sizes instead of printing the program.")
+    ] = False,
+    is_asked: Annotated[
+        bool, typer.Option("--ask", help="Ask for every size that is not --set.")
+    ] = False,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", metavar="FILE.TXT", help="Write it to a file.")
+    ] = None,
+    tool: Annotated[
+        int, typer.Option("--tool", metavar="D", help="Radius offset D; 0: that of CMP RAD.")
+    ] = 0,
+    feed: Annotated[
+        float | None, typer.Option("--feed", help="F; else that of the run set-up, or Cut Speed.")
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option("--unit", metavar="inch|mm", help="Unit of the program.")
+    ] = None,
+    library: Annotated[
+        Path | None, typer.Option("--library", metavar="FOLDER", help="Folder of other parts.")
+    ] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
+    ] = None,
+    is_forced: Annotated[
+        bool, typer.Option("--force", help="Overwrite a file that is there.")
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Parts, sizes or values as JSON.")
+    ] = False,
+) -> None:
+    """List the parts of the library, or make the program of one of them."""
+    from openacr.cli.run.output import require_absent, require_writable
+    from openacr.cnc.parts.library import FOLDER, names, part_named
+
+    folder = library or FOLDER
+    if name is None:
+        _list([part_named(each, folder) for each in names(folder)], as_json)
+        return
+    part = part_named(name, folder)
+    if out is not None:
+        require_writable(out)
+        require_absent(out, is_forced=is_forced)
+    if is_shown:
+        _show(part, as_json)
+        return
+    given = dict(_given(part, text) for text in sizes or [])
+    if is_asked:
+        given |= _asked(part, given)
+    ready = _ready(part, given, tool, feed, unit, store)
+    if out is not None:
+        _write(out, ready)
+    elif as_json:
+        _print_json(_values(ready))
+    else:
+        typer.echo(ready.program, nl=False)
+
+
+def _ready(
+    part: "Part",
+    given: dict[int, float],
+    tool: int,
+    feed: float | None,
+    unit: str | None,
+    store: Path | None,
+) -> "Ready":
+    from openacr.cnc.parts.library import prepared
+    from openacr.sysvar.location import open_to_read
+
+    with open_to_read(store) as cells:
+        is_metric = _is_metric(unit, cells)
+        return prepared(part, given, cells, is_metric=is_metric, d_number=tool, feed=feed)
+
+
+def _is_metric(unit: str | None, cells: Any) -> bool:
+    if unit is None:
+        chosen = cells.read(START_UNIT) if cells.read(IS_START_CHOSEN) else 0
+        return bool((chosen or cells.read(POWER_UP_UNIT)) == G21)
+    if unit not in (INCH, MM):
+        raise UserError(f"unit {unit!r} is neither {INCH} nor {MM}")
+    return unit == MM
+
+
+def _given(part: "Part", text: str) -> tuple[int, float]:
+    """Cell and value of `P200=4`, the value in the unit of the size."""
+    from openacr.cnc.parts.library import LENGTHS, in_unit
+
+    name, sign, value = text.partition("=")
+    if not sign:
+        raise UserError(f"--set {text}: write SIZE=VALUE, e.g. P200=4")
+    size = part.size(name)
+    number = value.strip().lower()
+    unit = next((each for each in LENGTHS if number.endswith(each)), size.unit)
+    try:
+        if unit != size.unit and size.unit not in LENGTHS:
+            raise ValueError
+        return size.cell, in_unit(float(number.removesuffix(unit)), unit, size.unit)
+    except ValueError:
+        raise UserError(f"--set {text}: {size} takes {size.accepted}") from None
+
+
+def _asked(part: "Part", given: dict[int, float]) -> dict[int, float]:
+    """What the user says for the sizes that were not given; wrong answers are asked again."""
+    answers = {}
+    for size in part.sizes:
+        while size.cell not in given and size.cell not in answers:
+            question = f"P{size.cell} {size.text} ({size.accepted})"
+            text = typer.prompt(question, default=f"{size.default:g}", err=True)
+            try:
+                cell, value = _given(part, f"P{size.cell}={text}")
+            except UserError as error:
+                typer.echo(f"error: {error}", err=True)
+                continue
+            if size.low <= value <= size.high:
+                answers[cell] = value
+            else:
+                typer.echo(f"error: {size} = {value:g} ({size.accepted})", err=True)
+    return answers
+
+
+def _list(parts: list["Part"], as_json: bool) -> None:
+    if as_json:
+        _print_json([{"name": part.name, "title": part.title} for part in parts])
+        return
+    from rich.box import SIMPLE
+    from rich.table import Table
+
+    table = Table("Part", "What it is", "Sizes", box=SIMPLE)
+    for part in parts:
+        table.add_row(part.name, part.title, str(len(part.sizes)))
+    _print(table)
+
+
+def _show(part: "Part", as_json: bool) -> None:
+    if as_json:
+        _print_json(_description(part))
+        return
+    from rich.box import SIMPLE
+    from rich.table import Table
+
+    typer.echo(f"{part.name}: {part.title}")
+    if part.start:
+        typer.echo(f"starts at: {part.start}")
+    table = Table("Cell", "Size", "Default", "Takes", box=SIMPLE)
+    for size in part.sizes:
+        table.add_row(f"P{size.cell}", size.text, f"{size.default:g}", size.accepted)
+    _print(table)
+    for rule in part.rules:
+        typer.echo(f"  must hold: {rule.text}")
+
+
+def _description(part: "Part") -> dict[str, Any]:
+    return {
+        "name": part.name,
+        "title": part.title,
+        "start": part.start,
+        "sizes": [
+            {
+                "cell": size.cell,
+                "text": size.text,
+                "unit": size.unit,
+                "default": size.default,
+                "low": size.low,
+                "high": size.high,
+            }
+            for size in part.sizes
+        ],
+        "checks": [rule.text for rule in part.rules],
+    }
+
+
+def _values(ready: "Ready") -> dict[str, Any]:
+    return {
+        "name": ready.part.name,
+        "unit": MM if ready.is_metric else INCH,
+        "values": {f"P{cell}": value for cell, value in ready.values.items()},
+        "program": ready.program,
+    }
+
+
+def _write(out: Path, ready: "Ready") -> None:
+    from openacr.cli.run.output import write_text
+
+    write_text(out, ready.program)
+    typer.echo(f"{out}: {ready.part.title}")
+
+
+def _print(content: object) -> None:
+    from rich.console import Console
+
+    Console(highlight=False).print(content)
+
+
+def _print_json(content: object) -> None:
+    typer.echo(json_format.dumps(content, indent=2, ensure_ascii=False))

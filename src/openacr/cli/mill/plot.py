@@ -1,0 +1,120 @@
+"""`openacr mill plot`: a picture of the tool path of a part program."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.mill.check import (
+    FAILED,
+    AtStore,
+    Dialect,
+    PartProgram,
+    loaded,
+    opened_store,
+    show_findings,
+)
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from openacr.cli.plots.toolpath import Scene
+    from openacr.cnc.interpreter.survey import Survey
+    from openacr.cnc.program.program import Program
+    from openacr.mill.plan.tool_path import ToolPath
+    from openacr.sysvar import Store
+
+DRAWN = "XYZ"
+DEFAULT_UNIT, CHORD_TOLERANCE = 250_001, 650_016
+
+
+def plot_program(
+    file: PartProgram,
+    picture: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[PICTURE]", help="PNG, SVG or HTML file; else FILE.html beside FILE."
+        ),
+    ] = None,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    by_tool: Annotated[
+        bool, typer.Option("--by-tool", help="Each tool in its colour, as Color via D Codes.")
+    ] = False,
+) -> None:
+    """Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom."""
+    from openacr.cli.plots.formats import require
+    from openacr.cli.plots.toolpath import draw_path
+    from openacr.cli.run.output import require_different, require_writable, write_whole
+
+    target = picture or file.with_suffix(".html")
+    require(target)
+    require_different((file, target))
+    require_writable(target)
+    with opened_store(store) as cells:
+        program, name = loaded(file, cells, dialect)
+        scene, survey = scene_of(program, cells, name, by_tool=by_tool)
+    show_findings(survey.findings)
+    if not len(scene.drawing.kinds):
+        if survey.errors:
+            raise typer.Exit(FAILED)
+        raise UserError(f"{file}: nothing moves")
+    if scene.is_cut:
+        typer.echo(
+            f"note: the picture shows the first {len(scene.drawing.kinds):,} points", err=True
+        )
+    write_whole(target, lambda partial: draw_path(scene, partial))
+    typer.echo(f"{target}: {sum(survey.move_cnts.values()) - survey.move_cnts['dwell']} moves")
+    if survey.errors:
+        raise typer.Exit(FAILED)
+
+
+def scene_of(
+    program: "Program", cells: "Store", dialect: str, *, by_tool: bool = False
+) -> "tuple[Scene, Survey]":
+    """The picture of a program, and what was found while it was read."""
+    from openacr.cli.plots.toolpath import Scene
+    from openacr.cnc.loading.load import axes_of
+    from openacr.mill.config.readout import Readout
+    from openacr.mill.config.view import View
+
+    letters = axes_of(cells)
+    names = tuple(letter for letter in DRAWN if letter in letters)
+    axes = tuple(letters[letter] for letter in names)
+    if len(axes) < 2:
+        raise UserError("two of the axes X, Y and Z are needed for a picture")
+    survey, path = _surveyed(program, cells, dialect, axes)
+    view = View.of(cells, survey.tools, by_tool=by_tool)
+    path.has_tools = view.has_tool_colors
+    readout, is_metric = Readout(cells), bool(cells.read(DEFAULT_UNIT))
+    scene = Scene(
+        path.finished(),
+        Path(program.main.text.name).name.encode("utf-8", "replace").decode(),
+        names,
+        "mm" if is_metric else "inch",
+        low=_of_axes(survey.low, axes),
+        high=_of_axes(survey.high, axes),
+        view=view,
+        digits=tuple(readout.format(axis, is_metric=is_metric).right for axis in axes),
+        has_errors=bool(survey.errors),
+        is_cut=path.is_full,
+    )
+    return scene, survey
+
+
+def _of_axes(values: "Sequence[float]", axes: tuple[int, ...]) -> tuple[float, ...]:
+    """Three values for a picture; a machine without Z stays at height 0."""
+    return (*(values[axis] for axis in axes), 0.0)[:3]
+
+
+def _surveyed(
+    program: "Program", cells: "Store", dialect: str, axes: tuple[int, ...]
+) -> "tuple[Survey, ToolPath]":
+    from openacr.cnc.interpreter.interpreter import Options
+    from openacr.cnc.interpreter.survey import survey
+    from openacr.mill.plan.tool_path import ToolPath
+
+    path = ToolPath(axes, cells.read(CHORD_TOLERANCE))
+    found = survey(program, cells, dialect, Options(watch=path), look=path.add)
+    return found, path

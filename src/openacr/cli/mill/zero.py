@@ -1,0 +1,55 @@
+"""`openacr mill zero set`, `clear` and `goto`: the floating zero of a machine."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.cli.mill.check import AtStore, opened_store
+from openacr.cli.mill.shop import AtHost, end_with_alarms, place_text, workshop
+from openacr.cli.mill.terminal import Attendant
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Point
+    from openacr.mill.session import MillSession
+
+OfAxes = Annotated[str, typer.Option("--axes", help="Names of the axes, e.g. XY; else all.")]
+
+
+def set_floating_zero(host: AtHost, axes: OfAxes = "", store: AtStore = None) -> None:
+    """SET ZERO: axes of a card read 0 where they are; nothing moves.
+
+    As G92: the shift counts in every work system and is kept. CLR ZERO takes it back.
+    """
+    from openacr.mill.zeroing import set_zero
+
+    with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
+        _show(shop, [set_zero(shop, _chosen(shop, axes))])
+
+
+def clear_floating_zero(host: AtHost, store: AtStore = None) -> None:
+    """CLR ZERO: no axis has a floating zero any more; nothing moves."""
+    from openacr.mill.zeroing import clear_all
+
+    with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
+        _show(shop, [clear_all(shop)])
+
+
+def go_to_zero(host: AtHost, axes: OfAxes = "", store: AtStore = None) -> None:
+    """GOTO ZERO: rapids to the floating zero; Z first where that is upward, else last."""
+    from openacr.mill.zeroing import goto_zero
+
+    with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
+        _show(shop, goto_zero(shop, _chosen(shop, axes), Attendant()))
+        end_with_alarms(shop)
+
+
+def _chosen(shop: "MillSession", axes: str) -> list[int]:
+    settings = shop.runner.settings
+    return [settings.named(name).index for name in axes.upper() or settings.names()]
+
+
+def _show(shop: "MillSession", places: "Iterable[Point]") -> None:
+    """Positions as the program counts them."""
+    for place in places:
+        typer.echo(place_text(shop, place))

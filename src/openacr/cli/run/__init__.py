@@ -1,0 +1,1 @@
+"""`openacr run` and `openacr replay`: a project in simulated time, shown and recorded."""

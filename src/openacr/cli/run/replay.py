@@ -1,0 +1,89 @@
+"""`openacr replay`: live through a journal once more."""
+
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from openacr.errors import UserError
+from openacr.lang.characters import readable
+
+if TYPE_CHECKING:
+    from openacr.controller.replay import Replay
+
+DIFFERS = 1
+
+
+def replay(
+    journal: Annotated[
+        Path | None,
+        typer.Argument(help="Journal of `openacr run` or `openacr serve`; default: list those."),
+    ] = None,
+    until: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="Stop so long after the beginning of the journal."),
+    ] = None,
+    check: Annotated[
+        bool, typer.Option("--check", help="Only compare the states; exit code 1: they differ.")
+    ] = False,
+) -> None:
+    """Replay a journal: the same inputs at the same ticks, the same states.
+
+    Shows what programs print and, at the end, the state of the card. With --check it only
+    says whether every digest of the journal was met again. Without a name it lists the
+    journals that served cards have left.
+    """
+    if until is not None and not 0.0 <= until < float("inf"):
+        raise UserError(f"--until {until:g}: give a number of seconds, 0 or more")
+    if journal is None:
+        from openacr.cli.run.journals import listing
+
+        typer.echo(listing())
+        return
+    from openacr.controller.journal import read_journal
+    from openacr.controller.replay import Replay
+
+    read = read_journal(journal)
+    again = Replay(read)
+    if not check:
+        again.card.listen(_show_text)
+    started_s = time.perf_counter()
+    again.run(until)
+    if not check:
+        _show_state(again, time.perf_counter() - started_s)
+    if not read.is_whole:
+        typer.echo("note: the journal was not closed; it is replayed to its last record", err=True)
+    _conclude(again, is_check=check)
+
+
+def _show_text(program: int, text: str) -> None:
+    sys.stdout.write(readable(text).replace("\r\n", "\n"))
+
+
+def _show_state(again: "Replay", wall_s: float) -> None:
+    from rich.console import Console
+
+    from openacr.cli.run.controlled import ControlledMachine
+    from openacr.cli.run.report import report_on, show_report
+
+    machine = ControlledMachine(again.card)
+    begin_tk = again.card.tick - (again.card.lived_tk - again.journal.header.tick)
+    show_report(report_on(machine, max(0, begin_tk), wall_s), Console())
+
+
+def _conclude(again: "Replay", *, is_check: bool) -> None:
+    """Say how the replay compares with the journal."""
+    header, first = again.journal.header, again.difference
+    lived = f"{again.lived_s:g} s replayed, {again.entered} entries"
+    if first is not None:
+        at_s = (first.tick - header.tick) * header.period_s
+        text = f"{lived}: the state differs from the journal at {at_s:g} s (tick {first.tick})"
+        typer.echo(f"{'error' if is_check else 'warning'}: {text}", err=True)
+        if is_check:
+            raise typer.Exit(DIFFERS)
+    elif is_check and not again.equal:
+        raise UserError(f"{lived}: no digest was reached, nothing could be compared")
+    else:
+        typer.echo(f"{lived}: {again.equal} digests equal", err=not is_check)

@@ -1,0 +1,1 @@
+"""`openacr sysvar ...`: the SYSVAR store read and changed."""

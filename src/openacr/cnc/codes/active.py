@@ -1,0 +1,34 @@
+"""What stays active between blocks beside the modal state: a canned cycle, a modal macro."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from openacr.cnc.program.program import Node
+
+
+@dataclass(slots=True)
+class Drilling:
+    """The words of cycle blocks since the last G80: lengths in default units."""
+
+    initial: float = 0.0
+    level: tuple[float, bool] | None = None  # R, and whether it counts from the initial level
+    bottom: tuple[float, bool] | None = None  # Z, and whether it counts from R
+    words: dict[str, float] = field(default_factory=dict)  # Q, P
+
+    @property
+    def levels(self) -> tuple[float, float]:
+        """R level and bottom."""
+        r, is_from_initial = self.level or (0.0, False)
+        r = r + self.initial if is_from_initial else r
+        b, is_from_r = self.bottom or (0.0, False)
+        return r, b + r if is_from_r else b
+
+
+@dataclass(frozen=True, slots=True)
+class ModalMacro:
+    """G66: what is called after every block that has moved."""
+
+    start: Node
+    values: tuple[float, ...]
+    repeat_cnt: int

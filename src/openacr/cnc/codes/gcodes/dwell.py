@@ -1,0 +1,35 @@
+"""G4, G9 and G61 to G64: dwell, exact stop and how moves join."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Dwell
+from openacr.cnc.codes.table import Axes, Group, Limit, Step
+from openacr.cnc.codes.tables import ACROMILL
+
+if TYPE_CHECKING:
+    from openacr.cnc.codes.run import Run
+    from openacr.cnc.program.block_context import BlockContext
+
+gcode = ACROMILL.gcode
+SECONDS = Limit("F", 0.1, 999.9, "E240", is_needed=True)
+
+
+@gcode(4, step=Step.DWELL, takes="F", axes=Axes.BARRED, limits=(SECONDS,))
+def dwell(run: Run, b: BlockContext) -> None:
+    """Rest for F seconds; the feed stays what it was."""
+    run.tell(Dwell(b.source, b.words["F"]))
+
+
+@gcode(9, step=Step.PATH)
+def confirm(run: Run, b: BlockContext) -> None:
+    """The move of this block ends at rest, in position."""
+    b.is_confirmed = True
+
+
+@gcode(61, 62, 63, 64, step=Step.PATH, group=Group.PATH)
+def path_mode(run: Run, b: BlockContext) -> None:
+    """G61 exact stops, G62 slow at corners, G63 without feed override, G64 without slowing."""
+    run.modal.path = int(b.number)
+    run.path.change_pace()

@@ -1,0 +1,129 @@
+"""G0 to G3: rapid moves, lines and arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from openacr.cnc.codes.gcodes.cycles import CYCLE_WORDS, drill
+from openacr.cnc.codes.radii import Words, check_radii
+from openacr.cnc.codes.table import Group, Step
+from openacr.cnc.codes.tables import ACROMILL
+from openacr.cnc.geometry import arcs
+from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.state.cells import EPSILON
+from openacr.cnc.state.modal import INVERSE_TIME
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Entry, Pace, Point
+    from openacr.cnc.codes.run import Motions, Run
+    from openacr.cnc.geometry.arcs import ArcGeometry
+    from openacr.cnc.program.block_context import BlockContext
+
+gcode, letter = ACROMILL.gcode, ACROMILL.letter
+NO_CYCLE, NO_MOTION = 80, 80
+CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
+_LENGTHS = "IJKR"
+
+
+@gcode(0, 1, step=Step.MOTION, group=Group.MOTION)
+def straight(run: Run, b: BlockContext) -> None:
+    """G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends."""
+    select(run, b)
+
+
+@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKR")
+def arc(run: Run, b: BlockContext) -> None:
+    """G2 cuts arcs clockwise, G3 counter-clockwise; a cycle ends."""
+    select(run, b)
+
+
+def select(run: Run, b: BlockContext) -> None:
+    """The motion that is active from now on."""
+    run.modal.motion = b.number
+    run.modal.cycle = NO_CYCLE
+
+
+@letter("MOTION", step=Step.MOTION)
+def motion(run: Run, b: BlockContext) -> Iterator[Entry] | None:
+    """Move as the active motion or cycle does."""
+    if run.modal.cycle != NO_CYCLE:
+        check_words(run, b, CYCLE_WORDS)
+        return drill(run, b)
+    run.motions[run.modal.motion](run, b)
+    return None
+
+
+def check_words(run: Run, b: BlockContext, allowed: str) -> None:
+    """Refuse words the active motion has no use for."""
+    for word in b.plan.modal_words:
+        if word not in allowed:
+            raise meaningless(run, b, word)
+
+
+def meaningless(run: Run, b: BlockContext, word: str) -> CodeError:
+    """The error at a word that neither the codes of the block nor the active motion use."""
+    names = [f"G{run.modal.motion:g}", *b.plan.code_names]
+    hint = run.dialect.grammar.refusals.of_word(word, names)
+    return b.fault("E206", word, word, hint)
+
+
+def rapid(run: Run, b: BlockContext) -> None:
+    """G0."""
+    check_words(run, b, "")
+    run.path.rapid(b, run.path.end(b))
+
+
+def line(run: Run, b: BlockContext) -> None:
+    """G1."""
+    if b.plan.modal_words:
+        check_words(run, b, "")
+    end = run.path.end(b)
+    run.path.line(b, end, _pace(run, b, end, None))
+
+
+def _pace(run: Run, b: BlockContext, end: Point, bow: ArcGeometry | None) -> Pace:
+    """How a feed move to a program point runs."""
+    if run.modal.feed_mode != INVERSE_TIME:
+        return run.path.pace(b)
+    if "F" not in b.words:
+        raise b.fault("E222", detail="F missing in G93")
+    length = run.path.distance(end, bow, run.modal.plane_axes)
+    return replace(run.path.pace(b), feed_upm=b.words["F"] * length)
+
+
+def _arc(run: Run, b: BlockContext, direction: int) -> None:
+    check_words(run, b, _LENGTHS)
+    path, modal = run.path, run.modal
+    plane, end = modal.plane_axes, path.end(b)
+    lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
+    epsilon = run.cells.read(EPSILON)
+    bow = arcs.arc_geometry(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
+    check_radii(run, b, bow, Words(plane, path.program, end, lengths))
+    bow = arcs.placed(b, bow, plane, path.coordinates, path.program)
+    path.arc(b, end, bow, _pace(run, b, end, bow))
+
+
+def clockwise(run: Run, b: BlockContext) -> None:
+    """G2."""
+    _arc(run, b, CLOCKWISE)
+
+
+def counter_clockwise(run: Run, b: BlockContext) -> None:
+    """G3."""
+    _arc(run, b, COUNTER_CLOCKWISE)
+
+
+def no_motion(run: Run, b: BlockContext) -> None:
+    """Axis words without an active motion."""
+    raise meaningless(run, b, b.plan.axes[0][1] if b.plan.axes else b.plan.modal_words[0])
+
+
+MOTIONS: Motions = {
+    0: rapid,
+    1: line,
+    2: clockwise,
+    3: counter_clockwise,
+    NO_MOTION: no_motion,
+}

@@ -1,0 +1,282 @@
+"""G codes the rs274ngc dialect has for itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import AXES, Dwell, Entry
+from openacr.cnc.codes import gcodes as _acromill  # noqa: F401  fills the other table
+from openacr.cnc.codes.gcodes import cycles, motion
+from openacr.cnc.codes.gcodes.offsets import taught
+from openacr.cnc.codes.gcodes.probe import TRIPPED, probed
+from openacr.cnc.codes.gcodes.work import (
+    FLOATING_BEFORE,
+    SYSTEMS,
+    clear_zero,
+    length_of,
+    select,
+    show_zero,
+)
+from openacr.cnc.codes.table import Axes, Group, Limit, Step
+from openacr.cnc.codes.tables import ACROMILL, RS274NGC
+from openacr.cnc.codes.words import select_length, select_radius
+from openacr.cnc.geometry.coordinates import LENGTH_SIGN, ORIGIN, system_base
+from openacr.cnc.state.cells import (
+    FLOATING,
+    LAST_RADIUS,
+    LENGTH,
+    LENGTH_WEAR,
+    LENGTHS,
+    RADII,
+    RADIUS,
+    RADIUS_WEAR,
+)
+
+if TYPE_CHECKING:
+    from openacr.cnc.codes.run import Run
+    from openacr.cnc.program.block_context import BlockContext
+
+gcode = RS274NGC.gcode
+REFERENCE_CELLS = {28: 280, 30: 290}
+RS274NGC.take(
+    ACROMILL,
+    gcodes=(17, 18, 19, 20, 21, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
+    letters="F S T D MOTION CUSTOM",
+)
+
+
+@gcode(4, step=Step.DWELL, takes="P", axes=Axes.BARRED,
+       limits=(Limit("P", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
+def dwell(run: Run, b: BlockContext) -> None:
+    """Rest for P seconds."""
+    run.tell(Dwell(b.source, b.words["P"]))
+
+
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE)
+def no_motion(run: Run, b: BlockContext) -> None:
+    """No motion is active: axis words have no meaning until one is chosen, here or later."""
+    run.modal.cycle = cycles.NONE
+    run.modal.motion = motion.NO_MOTION
+    run.drilling = None
+
+
+@gcode(73, 74, 81, 82, 83, 84, 85, 86, 89, step=Step.MOTION, group=Group.MOTION,
+       words="RQPL", takes="RQPL", axes=Axes.MOVE,
+       limits=(Limit("L", 1, 9999, "E250", is_whole=True),))  # fmt: skip
+def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
+    """A canned cycle; it ends at the higher of R and where it began (G98) or at R (G99)."""
+    yield from cycles.cycle(run, b) or ()
+
+
+@gcode(53, step=Step.MOTION, axes=Axes.MOVE)
+def in_machine(run: Run, b: BlockContext) -> None:
+    """The straight move of this block is in machine coordinates."""
+    run.offset_path.refuse(b, "E310")
+    if run.modal.motion not in (0, 1):
+        raise b.fault("E206", hint="G53 goes with G0 or G1")
+    target = list(run.path.target)
+    for axis, letter, value in b.axes:
+        target[axis] = length_of(run, letter, value)
+    pace = run.path.pace(b) if run.modal.motion == 1 else None
+    run.path.go_machine(b, tuple(target), pace)
+
+
+@gcode(*SYSTEMS, step=Step.WORK, group=Group.WORK)
+def work_system(run: Run, b: BlockContext) -> None:
+    """Work system 1 to 9."""
+    select(run, SYSTEMS[b.number])
+
+
+@gcode(28, 30, step=Step.MOTION, axes=Axes.MOVE)
+def to_reference(run: Run, b: BlockContext) -> None:
+    """Through the words of the block to the stored point."""
+    run.offset_path.refuse(b, "E312")
+    point = [run.cells.read(REFERENCE_CELLS[int(b.number)] + axis) for axis in range(AXES)]
+    if b.plan.axes:
+        run.path.rapid(b, run.path.end(b))
+    target = list(run.path.target)
+    for axis in [axis for axis, _ in b.plan.axes] or range(AXES):
+        target[axis] = point[axis]
+    run.path.go_machine(b, tuple(target))
+
+
+@gcode(28.1, 30.1, step=Step.DATA)
+def store_reference(run: Run, b: BlockContext) -> None:
+    """The present position becomes the stored point."""
+    with run.cells.transaction():
+        for axis, value in enumerate(run.path.target):
+            run.cells.write(REFERENCE_CELLS[int(b.number)] + axis, value)
+
+
+@gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)
+def probe(run: Run, b: BlockContext) -> Iterator[Entry]:
+    """Probe toward (.2 .3) or away (.4 .5); .2 and .4 have to trip."""
+    run.offset_path.refuse(b, "E243")
+    yield from run.sync(b.source)
+    yield from probed(run, b, is_away=b.number > 38.35)
+    is_needed = b.number in (38.2, 38.4)
+    if is_needed and not run.cells.read(TRIPPED) and not run.options.collects_errors:
+        raise b.fault("A36")
+
+
+@gcode(41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION)
+def compensation(run: Run, b: BlockContext) -> None:
+    """Cutter radius compensation left or right, with the radius of D or of the tool."""
+    tool = run.modal.tool_in_spindle
+    if "D" not in b.words and tool:
+        select_radius(run, tool)
+    run.offset_path.switch(b, int(b.number))
+
+
+@gcode(41.1, 42.1, step=Step.COMPENSATION, group=Group.COMPENSATION, takes="D",
+       limits=(Limit("D", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
+def compensation_by_diameter(run: Run, b: BlockContext) -> None:
+    """Cutter radius compensation left or right; D is the diameter itself."""
+    run.modal.radius_number = 0
+    run.parameters.store(RADIUS, run.path.length(b.words["D"]) / 2.0)
+    run.parameters.store(RADIUS_WEAR, 0.0)
+    run.offset_path.switch(b, int(b.number))
+
+
+@gcode(43, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H",
+       limits=(Limit("H", 0, 999, "E222", is_whole=True),))  # fmt: skip
+def length(run: Run, b: BlockContext) -> None:
+    """The length of H, or of the tool, is added to Z."""
+    run.path.coordinates.added = ORIGIN
+    run.modal.length = 43
+    select_length(run, b.whole("H", run.modal.tool_in_spindle))
+    run.path.refresh()
+
+
+@gcode(43.1, step=Step.LENGTH, group=Group.LENGTH, axes=Axes.DATA)
+def length_of_words(run: Run, b: BlockContext) -> None:
+    """The axis words are the offset."""
+    added = [0.0] * AXES
+    for axis, letter, value in b.axes:
+        added[axis] = length_of(run, letter, value)
+    run.modal.length = 49
+    run.path.coordinates.added = tuple(added)
+    run.path.refresh()
+
+
+@gcode(43.2, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H",
+       limits=(Limit("H", 0, 999, "E222", is_needed=True, is_whole=True),))  # fmt: skip
+def more_length(run: Run, b: BlockContext) -> None:
+    """The length of H is added to the offset there is."""
+    run.path.coordinates.add_length(run.cells.read(LENGTHS + b.whole("H")))
+    run.path.refresh()
+
+
+@gcode(49, step=Step.LENGTH, group=Group.LENGTH)
+def no_length(run: Run, b: BlockContext) -> None:
+    """No tool length."""
+    run.modal.length = 49
+    run.path.coordinates.added = ORIGIN
+    select_length(run, 0)
+    run.path.refresh()
+
+
+@gcode(61, step=Step.PATH, group=Group.PATH)
+def exact_path(run: Run, b: BlockContext) -> None:
+    """Every move ends at rest."""
+    _path(run, 60)
+
+
+@gcode(61.1, step=Step.PATH, group=Group.PATH)
+def exact_stop(run: Run, b: BlockContext) -> None:
+    """Every move ends at rest and in position."""
+    _path(run, 61)
+
+
+@gcode(64, step=Step.PATH, group=Group.PATH, words="PQ", takes="PQ",
+       limits=(Limit("P", 0, 1e6, "E222"),))  # fmt: skip
+def blended(run: Run, b: BlockContext) -> None:
+    """No slowing at corners; with P they are rounded within it, where the machine can."""
+    _path(run, 64, run.path.length(b.get("P")))
+
+
+def _path(run: Run, mode: int, tolerance_u: float = 0.0) -> None:
+    run.modal.path = mode
+    run.modal.tolerance = tolerance_u
+    run.path.change_pace()
+
+
+@gcode(90.1, 91.1, step=Step.CENTRES, group=Group.CENTRES)
+def centres(run: Run, b: BlockContext) -> None:
+    """I, J, K are absolute (G90.1) or count from the start (G91.1)."""
+    run.modal.centres = 2 if b.number == 90.1 else 1
+
+
+@gcode(93, 94, step=Step.FEED_MODE, group=Group.FEED_MODE)
+def feed_mode(run: Run, b: BlockContext) -> None:
+    """F is moves per minute (G93) or units per minute (G94)."""
+    run.modal.feed_mode = int(b.number)
+    run.path.change_pace()
+
+
+@gcode(97, step=Step.SPEED)
+def turns_per_minute(run: Run, b: BlockContext) -> None:
+    """S is turns per minute, as it always is."""
+
+
+@gcode(92.1, 92.2, 92.3, step=Step.ZERO)
+def zero_offset(run: Run, b: BlockContext) -> None:
+    """The offset of G92 cleared (.1), set aside (.2), taken again (.3)."""
+    read, write = run.cells.read, run.cells.write
+    with run.cells.transaction(is_durable=False):
+        for axis in range(AXES):
+            if b.number == 92.2:
+                write(FLOATING_BEFORE + axis, read(FLOATING + axis))
+            elif b.number == 92.1:
+                write(FLOATING_BEFORE + axis, 0.0)
+            else:
+                write(FLOATING + axis, read(FLOATING_BEFORE + axis))
+        if b.number == 92.3:
+            show_zero(run)
+        else:
+            clear_zero(run)
+
+
+@gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
+def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
+    """L2 and L20 write work systems, L1, L10 and L11 the tool table."""
+    table = b.whole("L", code="E241")
+    last = {2: 9, 20: 9, 1: LAST_RADIUS, 10: LAST_RADIUS, 11: LAST_RADIUS}.get(table)
+    if last is None or "P" not in b.words:
+        raise b.fault("E241", "L", hint="L 1, 2, 10, 11 or 20 with P")
+    n = b.whole("P", code="E241")
+    if not (0 if last == 9 else 1) <= n <= last:
+        raise b.fault("E241", "P")
+    if last == 9 and "R" in b.words:
+        hint = run.dialect.grammar.refusals.of_word("R", ["G10"])
+        raise b.fault("E241", "R", "R", hint)
+    yield from run.sync(b.source)
+    with run.cells.transaction():
+        if last == 9:
+            _write_system(run, b, n or run.modal.work, is_taught=table == 20)
+        else:
+            _write_tool(run, b, n, is_taught=table != 1)
+    run.reload_offsets()
+
+
+def _write_system(run: Run, b: BlockContext, n: int, *, is_taught: bool) -> None:
+    for axis, letter, value in b.axes:
+        value = length_of(run, letter, value)
+        if is_taught:
+            value = taught(run, n, axis, value)
+        run.cells.write(system_base(n) + axis, value)
+
+
+def _write_tool(run: Run, b: BlockContext, n: int, *, is_taught: bool) -> None:
+    for axis, letter, value in b.axes:
+        value = length_of(run, letter, value)
+        if letter != "Z":
+            raise b.fault("E241", letter, hint="Z is the length, R the radius")
+        if is_taught:
+            sign = LENGTH_SIGN[run.modal.length]
+            used = run.cells.read(LENGTH) + run.cells.read(LENGTH_WEAR)
+            value = run.path.placed[axis] + sign * used - value
+        run.cells.write(LENGTHS + n, value)
+    if "R" in b.words:
+        run.cells.write(RADII + n, run.path.length(b.words["R"]))

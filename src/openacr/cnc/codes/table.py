@@ -1,0 +1,257 @@
+"""The codes of the languages: one decorated function each.
+
+A row says what a code is called, to which group it belongs, when in a block it acts,
+which words it uses and between which values. Checks, the order of action and the tables
+in the reference are derived from these rows.
+
+    @gcode(4, step=Step.DWELL, takes="F", limits=(Limit("F", 0.1, 999.9, "E240"),))
+    def dwell(run: Run, b: Turn) -> None:
+        \"\"\"Rest for F seconds.\"\"\"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from enum import Enum, auto
+from typing import TYPE_CHECKING
+
+from openacr.cnc.reading.grammar import Grammar
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Entry
+    from openacr.cnc.codes.run import Run
+    from openacr.cnc.program.block_context import BlockContext
+    from openacr.cnc.state.modal import Rule
+    from openacr.cnc.state.parameters import Parameters
+
+Handler = Callable[["Run", "BlockContext"], "Iterator[Entry] | None"]
+
+
+class Step(Enum):
+    """When something of a block acts; the order stands in the dialect."""
+
+    FEED = auto()
+    SPEED = auto()
+    TOOL = auto()
+    RADIUS = auto()
+    LENGTH_NUMBER = auto()
+    FEED_MODE = auto()
+    UNIT = auto()
+    PLANE = auto()
+    DISTANCE = auto()
+    RETURN_LEVEL = auto()
+    CENTRES = auto()
+    PATH = auto()
+    CYCLE_OFF = auto()
+    MACRO_OFF = auto()
+    WORK = auto()
+    LOCAL = auto()
+    SCALE = auto()
+    ROTATION = auto()
+    ZERO = auto()
+    LENGTH = auto()
+    FIXTURE = auto()
+    COMPENSATION = auto()
+    DATA = auto()
+    TRANSFER = auto()
+    TOOL_CHANGE = auto()
+    SPINDLE = auto()
+    COOLANT = auto()
+    SWITCHES = auto()
+    DWELL = auto()
+    MOTION = auto()
+    MACRO_CALL = auto()
+    SPINDLE_OFF = auto()
+    COOLANT_OFF = auto()
+    STOP = auto()
+
+
+class Group(Enum):
+    """Codes that replace each other; of each one group a block has at most one."""
+
+    MOTION = 1
+    PLANE = 2
+    DISTANCE = 3
+    UNIT = 6
+    COMPENSATION = 7
+    LENGTH = 8
+    CYCLE = 9
+    RETURN_LEVEL = 10
+    SCALE = 11
+    WORK = 12
+    MACRO = 14
+    PATH = 15
+    ROTATION = 16
+    CENTRES = 17
+    FEED_MODE = 5
+    ZERO = 18
+
+
+class Axes(Enum):
+    """What a code does with the axis words of its block."""
+
+    NONE = auto()
+    DATA = auto()  # takes them: no motion
+    MOVE = auto()  # takes them and moves
+    MODAL = auto()  # they belong to the motion that is active
+    BARRED = auto()  # there may be none
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """Values a word of a code may have, and the error otherwise."""
+
+    letter: str
+    low: float
+    high: float
+    error: str
+    is_needed: bool = False
+    is_whole: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """One G or M code, or the letter of a word that acts by itself."""
+
+    letter: str
+    number: float
+    step: Step
+    act: Handler
+    group: Group | None = None
+    words: str = ""  # letters it uses beside axis words
+    takes: str = ""  # of these, letters that do not act by themselves beside it
+    axes: Axes = Axes.NONE
+    limits: tuple[Limit, ...] = ()
+    acts_dry: bool = True  # also in DRY RUN
+    takes_all: bool = False  # every other word is an argument
+
+    @property
+    def name(self) -> str:
+        """As written."""
+        return f"{self.letter}{self.number:g}"
+
+    @property
+    def summary(self) -> str:
+        """What it does, in one sentence."""
+        return (self.act.__doc__ or "").strip().split("\n")[0]
+
+
+@dataclass(slots=True)
+class Table:
+    """Codes by number, letters by name; a name twice is a mistake of ours."""
+
+    gcodes: dict[float, Code] = field(default_factory=dict)
+    mcodes: dict[float, Code] = field(default_factory=dict)
+    letters: dict[str, Code] = field(default_factory=dict)
+
+    def add(self, code: Code) -> None:
+        """One more row."""
+        rows = {"G": self.gcodes, "M": self.mcodes}.get(code.letter)
+        if rows is None:
+            if code.letter in self.letters:
+                raise ValueError(f"{code.letter} is registered twice")
+            self.letters[code.letter] = code
+        elif code.number in rows:
+            raise ValueError(f"{code.name} is registered twice")
+        else:
+            rows[code.number] = code
+
+    def gcode(
+        self,
+        *numbers: float,
+        step: Step,
+        group: Group | None = None,
+        words: str = "",
+        takes: str = "",
+        axes: Axes = Axes.NONE,
+        limits: tuple[Limit, ...] = (),
+        takes_all: bool = False,
+    ) -> Callable[[Handler], Handler]:
+        """Register a function as G codes."""
+
+        def register(act: Handler) -> Handler:
+            for number in numbers:
+                self.add(
+                    Code(
+                        "G", number, step, act, group, words + takes, takes, axes, limits,
+                        takes_all=takes_all,
+                    )
+                )  # fmt: skip
+            return act
+
+        return register
+
+    def mcode(
+        self,
+        *numbers: float,
+        step: Step,
+        words: str = "",
+        takes: str = "",
+        acts_dry: bool = True,
+        limits: tuple[Limit, ...] = (),
+    ) -> Callable[[Handler], Handler]:
+        """Register a function as M codes."""
+
+        def register(act: Handler) -> Handler:
+            for number in numbers:
+                self.add(
+                    Code(
+                        "M", number, step, act, None, words + takes, takes,
+                        limits=limits, acts_dry=acts_dry,
+                    )
+                )  # fmt: skip
+            return act
+
+        return register
+
+    def letter(
+        self, letter: str, *, step: Step, limits: tuple[Limit, ...] = ()
+    ) -> Callable[[Handler], Handler]:
+        """Register a function as a word that acts by itself."""
+
+        def register(act: Handler) -> Handler:
+            self.add(Code(letter, 0.0, step, act, words=letter, limits=limits))
+            return act
+
+        return register
+
+    def take(
+        self,
+        other: Table,
+        *,
+        gcodes: tuple[float, ...] = (),
+        mcodes: tuple[float, ...] = (),
+        letters: str = "",
+    ) -> None:
+        """Rows of another table, as they are there."""
+        for number in gcodes:
+            self.add(other.gcodes[number])
+        for number in mcodes:
+            self.add(other.mcodes[number])
+        for letter in letters.split():
+            self.add(other.letters[letter])
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """A language: grammar, codes, order of action and the state it starts with."""
+
+    name: str
+    grammar: Grammar
+    table: Table
+    order: tuple[Step, ...]
+    start: dict[str, Rule] = field(default_factory=dict)  # of Modal, before the start set
+    assigns_last: bool = False  # assignments act behind the reading of the block
+    labels: bool = True  # N words are targets
+    parameters: type[Parameters] | None = None  # where numbers mean something else
+    has_own_cycles: bool = False  # without $I
+    rises_first: bool = False  # a series of cycles has one initial level and goes up to R first
+    clearance_inch: float | None = None  # of G73 and G83; None: as in the store
+    has_spirals: bool = True  # arcs whose radii differ
+    has_entry_arcs: bool = False  # compensation may begin with an arc
+    centre_codes: dict[int, str] = field(default_factory=dict)  # how to choose readings of I, J
+    has_custom: bool = True  # M codes from files
+
+
+DIALECTS: dict[str, Dialect] = {}

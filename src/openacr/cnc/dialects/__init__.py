@@ -1,5 +1,0 @@
-"""The languages; importing the package registers them."""
-
-from openacr.cnc.dialects import acromill, rs274ngc
-
-__all__ = ["acromill", "rs274ngc"]

@@ -1,0 +1,1 @@
+"""Arcs, coordinate systems and the moves a program makes from where it is."""

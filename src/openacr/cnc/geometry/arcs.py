@@ -1,0 +1,120 @@
+"""Arcs: centre, sweep and radii from the words of a block."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from openacr.cnc.canonical import Plane, Point
+from openacr.cnc.geometry.coordinates import Coordinates
+from openacr.cnc.program.block_context import BlockContext
+
+SAME = 1e-6  # units: nearer points are one
+NO_TURN = 1e-12  # radians
+CENTRE_WORDS = "IJK"  # of axes 0, 1, 2
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class ArcGeometry:
+    """An arc in its plane: the radius changes linearly over the sweep (+ counter-clockwise)."""
+
+    centre: Pair
+    sweep_rad: float
+    start_radius: float
+    end_radius: float
+
+
+def arc_geometry(
+    b: BlockContext,
+    plane: Plane,
+    start: Point,
+    end: Point,
+    direction: int,
+    reading: int,
+    epsilon: float,
+    lengths: dict[str, float],
+) -> ArcGeometry:
+    """The arc of a block; `lengths` are its words I J K R in default units."""
+    first, second = plane.first, plane.second
+    for letter in CENTRE_WORDS:
+        if letter in lengths and CENTRE_WORDS.index(letter) not in (first, second):
+            raise b.fault("E234", letter, letter)
+    a, z = (start[first], start[second]), (end[first], end[second])
+    if "R" in lengths:
+        if len(lengths) > 1 or math.dist(a, z) < SAME:
+            raise b.fault("E231", "R")
+        centre = _centre_by_radius(b, a, z, lengths["R"], direction, epsilon)
+    else:
+        centre = centre_by_words(b, plane, a, reading, lengths)
+    return _bow(b, a, z, centre, direction)
+
+
+def centre_by_words(
+    b: BlockContext, plane: Plane, start: Pair, reading: int, lengths: dict[str, float]
+) -> Pair:
+    """The centre I, J, K mean: start minus words (0), start plus words (1), a position (2)."""
+    letters = CENTRE_WORDS[plane.first], CENTRE_WORDS[plane.second]
+    if not any(letter in lengths for letter in letters):
+        raise b.fault("E231", hint="I, J, K or R")
+    if reading == 2:
+        x, y = (lengths.get(letter, s) for letter, s in zip(letters, start, strict=True))
+        return x, y
+    sign = 1.0 if reading == 1 else -1.0
+    x, y = (s + sign * lengths.get(letter, 0.0) for letter, s in zip(letters, start, strict=True))
+    return x, y
+
+
+def _centre_by_radius(
+    b: BlockContext, start: Pair, end: Pair, radius: float, direction: int, epsilon: float
+) -> Pair:
+    """The centre on the perpendicular bisector: left of the chord for short arcs to the left."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord = math.hypot(dx, dy)
+    if chord > 2.0 * abs(radius) + epsilon:
+        raise b.fault("E233", "R")
+    height = math.sqrt(max(0.0, radius * radius - chord * chord / 4.0))
+    side = direction * math.copysign(1.0, radius) * height / chord
+    return (start[0] + end[0]) / 2.0 - dy * side, (start[1] + end[1]) / 2.0 + dx * side
+
+
+def _bow(b: BlockContext, start: Pair, end: Pair, centre: Pair, direction: int) -> ArcGeometry:
+    start_radius, end_radius = math.dist(start, centre), math.dist(end, centre)
+    if start_radius < SAME or end_radius < SAME:
+        raise b.fault("E232")
+    turn = 0.0
+    if math.dist(start, end) >= SAME:
+        turn = math.atan2(end[1] - centre[1], end[0] - centre[0])
+        turn -= math.atan2(start[1] - centre[1], start[0] - centre[0])
+    return ArcGeometry(centre, direction * _in_one_turn(direction * turn), start_radius, end_radius)
+
+
+def _in_one_turn(angle: float) -> float:
+    """The same direction in (0, 2 pi]."""
+    if abs(angle) < NO_TURN:
+        return 2.0 * math.pi
+    return angle + 2.0 * math.pi if angle < 0.0 else angle
+
+
+def placed(
+    b: BlockContext, bow: ArcGeometry, plane: Plane, coordinates: Coordinates, start: Point
+) -> ArcGeometry:
+    """The arc after scaling and rotation."""
+    if coordinates.is_plain:
+        return bow
+    first, second = plane.first, plane.second
+    sweep, stretch = bow.sweep_rad, 1.0
+    if coordinates.scale is not None:
+        k1, k2 = coordinates.scale.factors[first], coordinates.scale.factors[second]
+        if abs(abs(k1) - abs(k2)) > SAME:
+            raise b.fault("E244", detail=f"{k1:g} and {k2:g}")
+        stretch = abs(k1)
+        sweep = -sweep if k1 * k2 < 0.0 else sweep
+    if coordinates.rotation is not None and coordinates.rotation.plane is not plane:
+        raise b.fault("E244", detail="the plane is turned out of itself")
+    point = list(start)
+    point[first], point[second] = bow.centre
+    moved = coordinates.forward(tuple(point))
+    return ArcGeometry(
+        (moved[first], moved[second]), sweep, bow.start_radius * stretch, bow.end_radius * stretch
+    )

@@ -1,0 +1,263 @@
+"""Where the program is, and the moves it makes from there.
+
+Three views of one point: `program` as the words say, `placed` after scaling and rotation,
+`target` in machine coordinates. What lies between the last two only shifts, so that the
+cutter radius compensation may take machine points: elements that wait in it stay where
+they are when an offset changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from openacr.cnc.canonical import (
+    ROTARY,
+    Arc,
+    Entry,
+    Line,
+    Pace,
+    PathMode,
+    Plane,
+    Point,
+    Rapid,
+    Source,
+)
+from openacr.cnc.geometry.arcs import ArcGeometry
+from openacr.cnc.geometry.coordinates import ORIGIN, Coordinates
+from openacr.cnc.geometry.elements import Element
+from openacr.cnc.program.block_context import BlockContext
+from openacr.cnc.state.cells import DEFAULT_UNIT, RADIUS, RADIUS_WEAR
+from openacr.cnc.state.hosts import Cells
+from openacr.cnc.state.modal import COMPATIBILITY, METRIC, Modal
+from openacr.units import MM_PER_INCH
+
+FREE_SIDES = {41: 1, 42: -1}
+
+
+class Path:
+    """The point the program has reached, in its three views."""
+
+    def __init__(
+        self, cells: Cells, modal: Modal, letters: dict[str, int], emit: Callable[[Entry], None]
+    ) -> None:
+        self._cells = cells
+        self._rotary = {axis for letter, axis in letters.items() if letter in ROTARY}
+        self._modal = modal
+        self._emit = emit
+        self.coordinates = Coordinates(cells, letters)
+        self.program: Point = ORIGIN
+        self.placed: Point = ORIGIN
+        self.target: Point = ORIGIN
+        self.issued: Point = ORIGIN  # the end of the last move that was made
+        self.times, self.per = 1.0, 1.0  # active unit to default unit
+        self._pace: Pace | None = None
+        self.elements: Callable[[Element], None] | None = None  # into the compensation
+        self.shape: (
+            Callable[[Source, Point, Point, ArcGeometry | None, Pace | None], Point] | None
+        ) = None
+
+    # --- units and feed ----------------------------------------------------------------
+
+    def set_unit(self) -> None:
+        """Take over the active unit and the default unit."""
+        is_metric = self._modal.unit == METRIC
+        is_stored_metric = self._cells.read(DEFAULT_UNIT) != 0.0
+        self.times = MM_PER_INCH if is_stored_metric and not is_metric else 1.0
+        self.per = MM_PER_INCH if is_metric and not is_stored_metric else 1.0
+
+    def length(self, value: float) -> float:
+        """A length in active units, in default units."""
+        return value * self.times / self.per
+
+    def shown(self, value: float) -> float:
+        """A length in default units, in active units."""
+        return value * self.per / self.times
+
+    def inches(self, value: float) -> float:
+        """A length in inches, in default units."""
+        return value * MM_PER_INCH if self._cells.read(DEFAULT_UNIT) else value
+
+    def change_pace(self) -> None:
+        """Feed, path mode or a lock has changed."""
+        self._pace = None
+
+    def pace(self, b: BlockContext) -> Pace:
+        """How a feed move of this block runs."""
+        pace = self._pace or self.plain_pace()
+        return replace(pace, is_confirmed=True) if b.is_confirmed else pace
+
+    def plain_pace(self) -> Pace:
+        """How feed moves run now."""
+        pace = self._pace
+        if pace is None:
+            modal = self._modal
+            mode = modal.mode(is_compatible=self._cells.read(COMPATIBILITY) != 0.0)
+            is_locked = modal.is_feed_locked or mode is PathMode.LOCKED
+            pace = self._pace = Pace(
+                modal.feed, mode, is_locked, modal.path == 61, modal.tolerance, self._side()
+            )
+        return pace
+
+    def _side(self) -> int:
+        """The side of the path that is free; a negative radius leaves open where the part is."""
+        modal = self._modal
+        radius = self._cells.read(RADIUS) + self._cells.read(RADIUS_WEAR)
+        is_known = modal.plane_axes is Plane.XY and radius >= 0.0
+        return FREE_SIDES.get(modal.compensation, 0) if is_known else 0
+
+    # --- places ------------------------------------------------------------------------
+
+    def end(self, b: BlockContext) -> Point:
+        """The program point the axis words of a block mean."""
+        p = list(self.program)
+        times, per = self.times, self.per
+        words = b.words
+        is_incremental = self._modal.distance == 91
+        for axis, letter in b.plan.axes:
+            value = words[letter]
+            if letter not in ROTARY:
+                value = value * times / per
+            p[axis] = p[axis] + value if is_incremental else value
+        return tuple(p)
+
+    def distance(self, end: Point, bow: ArcGeometry | None, plane: Plane) -> float:
+        """The length of a move from here; of rotary axes alone the largest turn."""
+        delta = [b - a for a, b in zip(self.program, end, strict=True)]
+        linear = [d for axis, d in enumerate(delta) if axis not in self._rotary]
+        if bow is not None:
+            beside = [d for axis, d in enumerate(delta) if axis in (plane.drill, 6, 7)]
+            mean = 0.5 * (bow.start_radius + bow.end_radius)
+            return math.hypot(mean * bow.sweep_rad, *beside)
+        return math.hypot(*linear) or max(map(abs, delta))
+
+    def begin(self, machine: Point) -> None:
+        """The machine stands here."""
+        self.coordinates.refresh(self._modal)
+        self.stand(machine)
+
+    def refresh(self) -> None:
+        """Offsets have changed: the same machine point reads anew."""
+        self.coordinates.refresh(self._modal)
+        self.stand(self.target)
+
+    # --- moves -------------------------------------------------------------------------
+
+    def rapid(self, b: BlockContext, end: Point) -> None:
+        """A rapid move to a program point."""
+        self._straight(b, end, self.coordinates.forward(end), None)
+
+    def line(self, b: BlockContext, end: Point, pace: Pace) -> None:
+        """A feed move to a program point."""
+        self._straight(b, end, self.coordinates.forward(end), pace)
+
+    def place(self, b: BlockContext, placed: Point, pace: Pace | None) -> None:
+        """A straight move to a point behind scaling and rotation."""
+        self._straight(b, self.coordinates.backward(placed), placed, pace)
+
+    def go_machine(self, b: BlockContext, target: Point, pace: Pace | None = None) -> None:
+        """A straight move to a machine point."""
+        if target != self.target:
+            self._issue_straight(b.source, target, pace)
+        self.stand(target)
+
+    def stand(self, target: Point) -> None:
+        """The machine stands there."""
+        self.target = self.issued = target
+        self.placed = self.coordinates.from_machine(target)
+        self.program = self.coordinates.backward(self.placed)
+
+    def jump(self, program: Point) -> None:
+        """Straight moves have ended here, without scaling and rotation."""
+        self.program = self.placed = program
+        self.target = self.issued = self.coordinates.to_machine(program)
+
+    def _straight(self, b: BlockContext, end: Point, placed: Point, pace: Pace | None) -> None:
+        b.has_moved = True
+        self.program, self.placed = end, placed
+        start, target = self.target, self.coordinates.to_machine(placed)
+        if self.elements is not None:
+            self.target = target
+            self.elements(Element(b.source, self._modal.plane_axes, start, target, pace))
+            return
+        if target != self.target:
+            self._issue_straight(b.source, target, pace)
+            self.target = target
+
+    def _issue_straight(
+        self,
+        source: Source,
+        target: Point,
+        pace: Pace | None,
+        is_inserted: bool = False,
+        is_compensated: bool = False,
+    ) -> None:
+        if self.shape is not None:
+            target = self.shape(source, self.issued, target, None, pace)
+        self.issued = target
+        if pace is None:
+            self._emit(Rapid(source, target, is_inserted))
+        else:
+            self._emit(Line(source, target, pace, is_inserted, is_compensated))
+
+    def arc(self, b: BlockContext, end: Point, bow: ArcGeometry, pace: Pace) -> None:
+        """An arc; `bow` and `end` are given behind scaling and rotation and in front of it."""
+        b.has_moved = True
+        self.program = end
+        self.placed = self.coordinates.forward(end)
+        start, target = self.target, self.coordinates.to_machine(self.placed)
+        if self.elements is not None:
+            self.target = target
+            plane, shift = self._modal.plane_axes, self.coordinates.shift
+            centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
+            self.elements(Element(b.source, plane, start, target, pace, centre, bow.sweep_rad))
+            return
+        self._issue_arc(b.source, target, bow, pace)
+        self.target = target
+
+    def _issue_arc(
+        self,
+        source: Source,
+        target: Point,
+        bow: ArcGeometry,
+        pace: Pace,
+        is_inserted: bool = False,
+        is_compensated: bool = False,
+    ) -> None:
+        plane = self._modal.plane_axes
+        if self.shape is not None:
+            target = self.shape(source, self.issued, target, bow, pace)
+        self.issued = target
+        shift = self.coordinates.shift
+        centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
+        self._emit(
+            Arc(
+                source,
+                target,
+                plane,
+                centre,
+                bow.sweep_rad,
+                bow.start_radius,
+                bow.end_radius,
+                pace,
+                is_inserted,
+                is_compensated,
+            )
+        )
+
+    def issue(self, element: Element) -> None:
+        """A compensated element as a canonical move."""
+        flags = element.is_inserted, element.is_compensated
+        if element.centre is None or element.pace is None:
+            self._issue_straight(element.source, element.end, element.pace, *flags)
+            return
+        first, second = element.plane.first, element.plane.second
+        shift = self.coordinates.shift
+        bow = ArcGeometry(
+            (element.centre[0] - shift[first], element.centre[1] - shift[second]),
+            element.sweep_rad,
+            math.dist((element.start[first], element.start[second]), element.centre),
+            math.dist((element.end[first], element.end[second]), element.centre),
+        )
+        self._issue_arc(element.source, element.end, bow, element.pace, *flags)

@@ -1,0 +1,64 @@
+"""Loops that move without end, found while a program is read without a machine.
+
+At every jump the state is compared with that of an earlier pass, kept at passes 1, 2, 4, 8 …:
+a state that comes back comes back for ever, for nothing outside changes. A loop whose state
+changes with every pass ends at `MOST_PASSES`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.state.hosts import VirtualMachine
+from openacr.cnc.state.shadow import Shadow
+
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Point
+    from openacr.cnc.interpreter.interpreter import Interpreter
+
+MOST_PASSES = 500_000
+HINT = "it does not end by itself; a machine runs it until it is ended"
+
+
+class Loops:
+    """The jumps of one run, by the line that jumps."""
+
+    def __init__(self, run: Interpreter) -> None:
+        self._run = run
+        self._cnts: dict[tuple[int, int], int] = {}
+        self._earlier: dict[tuple[int, int], tuple[Point, tuple[object, ...]]] = {}
+
+    def jumped(self) -> None:
+        """A line jumps; CodeError A62 where it did so in this very state before."""
+        run = self._run
+        node = run.execution.node
+        if node is None:
+            return
+        key = id(node.part), node.line
+        count = self._cnts.get(key, 0) + 1
+        self._cnts[key] = count
+        if count > MOST_PASSES:
+            raise CodeError("A62", 1, f"more than {MOST_PASSES:,} passes", HINT)
+        earlier = self._earlier.get(key)
+        if earlier is not None and earlier[0] == run.path.target and earlier[1] == self._state():
+            raise CodeError("A62", 1, "the same moves again and again", HINT)
+        if count & (count - 1) == 0:
+            self._earlier[key] = run.path.target, self._state()
+
+    def _state(self) -> tuple[object, ...]:
+        """All that decides how the program goes on; frames are told apart, not compared."""
+        run = self._run
+        cells, machine = run.cells, run.machine
+        return (
+            run.path.program,
+            run.modal.copy(),
+            tuple(run.parameters.values),
+            dict(run.parameters.names),
+            dict(run.parameters.global_names),
+            dict(getattr(run.parameters, "own", {})),
+            dict(cells.written) if isinstance(cells, Shadow) else None,
+            dict(machine.parameters) if isinstance(machine, VirtualMachine) else None,
+            run.o_words.left,
+            tuple(run.flow.frames),
+        )

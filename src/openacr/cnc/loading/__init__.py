@@ -1,0 +1,1 @@
+"""Programs loaded: every line read once, all errors found, the dialect recognised."""

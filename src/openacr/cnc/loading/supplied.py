@@ -1,0 +1,57 @@
+"""Texts that come with the package, and files found whatever the case of their names."""
+
+import re
+from importlib.resources import files
+from pathlib import Path
+
+from openacr.cnc.codes.table import DIALECTS
+from openacr.cnc.program.labels import Place
+from openacr.cnc.program.program import CYCLES_FILE, Part
+from openacr.cnc.reading.parser import parse
+from openacr.cnc.reading.text import Kept, Text, decoded
+
+CUSTOM_NAME = re.compile(r"M(\d+)\.TXT", re.IGNORECASE)
+
+
+def cycle_part() -> Part:
+    """The supplied cycles with their labels."""
+    part = Part(supplied_cycles(), is_cycles=True)
+    add_labels(part)
+    return part
+
+
+def add_labels(part: Part) -> None:
+    """Note the labels of a text that is known to be right."""
+    grammar = DIALECTS["acromill"].grammar
+    offset, line = part.text.begin, 0
+    while (taken := part.text.line(offset)) is not None:
+        line += 1
+        block = parse(decoded(taken[0]), grammar)
+        if block.label is not None:
+            part.labels.add(block.label, Place(part, offset, line))
+        offset = taken[1]
+
+
+def supplied_cycles() -> Text:
+    """The canned cycles that come with the package."""
+    data = files("openacr.cnc.loading").joinpath("CYCLES.TXT").read_bytes()
+    return Text(CYCLES_FILE, Kept(data))
+
+
+def found_in(folder: Path, name: str) -> Path | None:
+    """A file of a folder, whatever the case of its name."""
+    path = folder / name
+    if path.is_file():
+        return path
+    if not path.parent.is_dir():
+        return None
+    wanted = path.name.upper()
+    return next((p for p in path.parent.iterdir() if p.name.upper() == wanted), None)
+
+
+def custom_numbers(folder: Path | None) -> list[int]:
+    """The numbers of the M codes that have a file `Mnnn.TXT` in a folder, ascending."""
+    if folder is None or not folder.is_dir():
+        return []
+    names = (CUSTOM_NAME.fullmatch(path.name) for path in folder.iterdir())
+    return sorted({int(name[1]) for name in names if name})

@@ -1,0 +1,75 @@
+"""Labels and the jumps to them, as they are noted while a program is loaded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from openacr.cnc.loading.checks import Report
+from openacr.cnc.program.labels import Labels, Place
+from openacr.cnc.program.program import Part
+from openacr.cnc.reading.findings import CodeError, Finding, found
+from openacr.cnc.reading.text import decoded
+
+MOST_LABELS = 1_000_000
+FIRST_CYCLE_LABEL = 70_000
+
+
+class Targets:
+    """Where jumps go, and whether they find something there."""
+
+    def __init__(self, report: Report) -> None:
+        self._report = report
+        self._jumps: list[tuple[Part, int, str, int, int]] = []
+
+    def keep(self, label: int, place: Place, *, is_barred: bool) -> None:
+        """One more label; with the cycles included, high ones are barred."""
+        labels = place.part.labels
+        first = labels.get(label)
+        if first is not None:
+            raise CodeError("E221", 1, f"N{label}", first_at(first))
+        if is_barred and label > FIRST_CYCLE_LABEL:
+            raise CodeError("E263", 1, f"N{label}")
+        if len(labels) >= MOST_LABELS:
+            raise CodeError("E270", 1)
+        labels.add(label, place)
+
+    def make_room(self, part: Part, count: int, line: int) -> None:
+        """So many labels of plain lines follow."""
+        if len(part.labels) + count > MOST_LABELS and "E270" not in self._report.warned:
+            self._report.warned.add("E270")
+            self._report.findings.append(found("E270", part.text.name, line))
+
+    def jump(self, place: Place, column: int, label: int) -> None:
+        """A label is wanted by the line that is read."""
+        _, line, raw = self._report.where
+        self._jumps.append((place.part, line, raw, column, label))
+
+    def missed(self) -> Iterator[Finding]:
+        """Jumps that find no label, or one of the cycles, which are for the cycles alone."""
+        for part, line, raw, column, label in self._jumps:
+            place = part.labels.get(label)
+            if place is None or (place.part.is_cycles and not part.is_cycles):
+                code = "E220" if place is None else "E264"
+                yield found(code, part.text.name, line, column, f"N{label}", "", raw)
+
+
+def double_labels(parts: list[Part]) -> Iterator[Finding]:
+    """Labels of plain lines, of which whole blocks are taken over unseen."""
+    for part in {id(part.labels): part for part in parts}.values():
+        for label, first, second in part.labels.doubles():
+            text = second.part.text
+            taken = text.line(second.offset)
+            raw = decoded(taken[0]) if taken else ""
+            yield found("E221", text.name, second.line, 1, f"N{label}", first_at(first), raw)
+
+
+def labels_of_cycles(labels: Labels) -> Iterator[Finding]:
+    """Labels of a program that belong to the cycles."""
+    for label, place in labels.above(FIRST_CYCLE_LABEL):
+        if not place.part.is_cycles:
+            yield found("E263", place.part.text.name, place.line, detail=f"N{label}")
+
+
+def first_at(place: Place) -> str:
+    """Where a label was met first."""
+    return f"first in line {place.line} of {place.part.text.name}"

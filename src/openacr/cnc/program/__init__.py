@@ -1,0 +1,1 @@
+"""A loaded program: its texts, its labels, and which line comes next."""

@@ -1,0 +1,148 @@
+"""Which line comes next: jumps, calls and the levels of calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum, auto
+
+from openacr.cnc.program.labels import Place
+from openacr.cnc.program.program import Node, Nodes, Part, Program
+from openacr.cnc.reading.findings import CodeError
+
+DEEPEST = 10
+FIRST_CYCLE_LABEL = 70_000
+
+
+class Level(Enum):
+    """Why a level was entered."""
+
+    SUB = auto()  # GOSUB
+    MACRO = auto()  # G65
+    MODAL_MACRO = auto()  # G66
+    CUSTOM = auto()  # M code of the user
+    CYCLE = auto()
+
+
+@dataclass(slots=True, eq=False)
+class Frame:
+    """One call; a GOSUB goes back to a line, the others to whoever called."""
+
+    level: Level
+    back: Node | None = None
+    is_done: bool = False
+
+
+class Flow:
+    """The place in the program."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._nodes = Nodes(program)
+        self.next: Node | None = None
+        # Where `next` has yet to be looked for: behind a line, or at a place.
+        self.last: Node | None = None
+        self.place: Place | None = None
+        self.frames: list[Frame] = []
+        self.jumped: Callable[[], None] | None = None  # sees every jump that may be a loop
+
+    def start(self) -> None:
+        """At the first line, in no call."""
+        self.frames.clear()
+        self.go_place(self._program.main.start)
+
+    def leave(self) -> None:
+        """In no program."""
+        self.frames.clear()
+        self.next = self.last = self.place = None
+
+    def pass_by(self, node: Node) -> None:
+        """The line behind this one comes next."""
+        self.next = node.next
+        self.last = node if node.next is None else None
+        self.place = None
+
+    def following(self) -> Node | None:
+        """The line that comes next; None at the end."""
+        last = self.last
+        if last is not None:
+            self.next = last.next = self._nodes.behind(last)
+            self.last = None
+        elif self.place is not None:
+            self.next, self.place = self._nodes.at(self.place), None
+        return self.next
+
+    def behind(self, node: Node) -> Node | None:
+        """The line behind another one."""
+        if node.next is None:
+            node.next = self._nodes.behind(node)
+        return node.next
+
+    def ahead(self) -> Place | None:
+        """The place of a line that was not looked at yet, in the same text; else None."""
+        last = self.last
+        if last is None:
+            return self.place
+        if last.is_include or last.part.behind is not None:
+            return None
+        return Place(last.part, last.after, last.line + 1)
+
+    def go_place(self, place: Place) -> None:
+        """Go on at a place."""
+        self.next, self.last, self.place = None, None, place
+
+    def at(self, place: Place) -> Node | None:
+        """The line at a place."""
+        return self._nodes.at(place)
+
+    # --- jumps ------------------------------------------------------------------------
+
+    def labelled(self, label: int, node: Node, column: int) -> Node:
+        """The line with a label, seen from another line."""
+        found = self.find(label, node.part, column)
+        if found.part.is_cycles and not node.part.is_cycles:
+            raise CodeError("E264", column, f"N{label}")
+        return found
+
+    def find(self, label: int, part: Part, column: int = 0) -> Node:
+        """The line with a label among the texts that belong together."""
+        place = part.labels.get(label)
+        node = self._nodes.at(place) if place else None
+        if node is None:
+            raise CodeError("E220", column, f"N{label}")
+        return node
+
+    def go(self, node: Node | None) -> None:
+        """Go on there, or end the program."""
+        self.next, self.last, self.place = node, None, None
+
+    def jump(self, node: Node) -> None:
+        """GOTO."""
+        if self.jumped is not None:
+            self.jumped()
+        self.go(node)
+
+    def call_sub(self, node: Node) -> None:
+        """GOSUB."""
+        self.enter(Frame(Level.SUB, self.following()))
+        self.go(node)
+
+    def enter(self, frame: Frame) -> None:
+        """One level deeper; cycles do not count."""
+        counted = [one for one in self.frames if one.level is not Level.CYCLE]
+        if frame.level is not Level.CYCLE and len(counted) >= DEEPEST:
+            raise CodeError("E260")
+        self.frames.append(frame)
+
+    def go_back(self, column: int) -> None:
+        """RET."""
+        if not self.frames:
+            raise CodeError("E261", column)
+        frame = self.frames.pop()
+        frame.is_done = True
+        if frame.level is Level.SUB:
+            self.go(frame.back)
+
+    def is_within(self, level: Level) -> bool:
+        """Whether a call of that kind is in force."""
+        return any(frame.level is level for frame in self.frames)

@@ -1,0 +1,106 @@
+"""Where the labels of a program stand.
+
+Lines that are read one by one bring them one by one; plain lines, of which there can be
+hundreds of thousands, as rows of numbers that are sorted when the first one is wanted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from openacr.cnc.program.program import Part
+
+Rows = NDArray[np.int64]  # label, line, offset
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line of a text."""
+
+    part: Part
+    offset: int
+    line: int
+
+
+class Labels:
+    """The labels of texts that belong together."""
+
+    def __init__(self) -> None:
+        self._places: dict[int, Place] = {}
+        self._rows: list[tuple[Part, Rows]] = []
+        self._sorted: list[tuple[Part, Rows]] = []
+        self._row_cnt = 0
+
+    def __len__(self) -> int:
+        return len(self._places) + self._row_cnt
+
+    def add(self, label: int, place: Place) -> None:
+        """One label; the first of two stays."""
+        self._places.setdefault(label, place)
+
+    def add_rows(self, part: Part, rows: Rows) -> None:
+        """Labels of many lines of a text."""
+        self._rows.append((part, rows))
+        self._row_cnt += len(rows)
+
+    def get(self, label: int) -> Place | None:
+        """Where a label stands."""
+        place = self._places.get(label)
+        if place is not None or not self._row_cnt:
+            return place
+        for part, rows in self._in_order():
+            k = int(np.searchsorted(rows[:, 0], label))
+            if k < len(rows) and rows[k, 0] == label:
+                return Place(part, int(rows[k, 2]), int(rows[k, 1]))
+        return None
+
+    def _in_order(self) -> list[tuple[Part, Rows]]:
+        if self._rows:
+            by_part: dict[int, tuple[Part, list[Rows]]] = {}
+            for part, rows in [*self._sorted, *self._rows]:
+                by_part.setdefault(id(part), (part, []))[1].append(rows)
+            self._sorted = [(part, _sorted(many)) for part, many in by_part.values()]
+            self._rows.clear()
+        return self._sorted
+
+    def above(self, limit: int) -> Iterator[tuple[int, Place]]:
+        """Labels above a number, with their places."""
+        yield from ((label, place) for label, place in self._places.items() if label > limit)
+        for part, rows in self._in_order():
+            for label, line, offset in rows[rows[:, 0] > limit].tolist():
+                yield label, Place(part, offset, line)
+
+    def doubles(self) -> Iterator[tuple[int, Place, Place]]:
+        """Labels of rows that stand somewhere else too: the earlier and the later place."""
+        known: list[tuple[Part, Rows]] = []
+        for part, rows in self._in_order():
+            for k in np.flatnonzero(rows[1:, 0] == rows[:-1, 0]).tolist():
+                yield int(rows[k, 0]), _place(part, rows[k]), _place(part, rows[k + 1])
+            for label in set(self._places) & set(rows[:, 0].tolist()):
+                k = int(np.searchsorted(rows[:, 0], label))
+                yield label, *_by_line(self._places[label], _place(part, rows[k]))
+            for other, others in known:
+                for label in np.intersect1d(rows[:, 0], others[:, 0]).tolist():
+                    k, j = (int(np.searchsorted(r[:, 0], label)) for r in (rows, others))
+                    yield label, _place(other, others[j]), _place(part, rows[k])
+            known.append((part, rows))
+
+
+def _sorted(many: list[Rows]) -> Rows:
+    """Rows by label, equal ones by line."""
+    rows = np.concatenate(many)
+    return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
+
+
+def _place(part: Part, row: Rows) -> Place:
+    return Place(part, int(row[2]), int(row[1]))
+
+
+def _by_line(a: Place, b: Place) -> tuple[Place, Place]:
+    return (a, b) if (a.part is not b.part or a.line <= b.line) else (b, a)

@@ -1,0 +1,145 @@
+"""A loaded program: its texts, where labels stand, and what was found wrong with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from openacr.cnc.canonical import Source
+from openacr.cnc.program.labels import Labels, Place
+from openacr.cnc.reading.findings import Finding
+from openacr.cnc.reading.text import Text, decoded
+
+CYCLES_FILE = "CYCLES.TXT"
+MANY = 20_000  # nodes kept
+
+
+@dataclass(slots=True, eq=False)
+class Part:
+    """One text of a program; `labels` are shared with the texts it is added to."""
+
+    text: Text
+    labels: Labels = field(default_factory=Labels)
+    is_cycles: bool = False
+    behind: Place | None = None  # where an included text goes on
+    line_cnt: int = 0
+
+    @property
+    def start(self) -> Place:
+        """The first line."""
+        return Place(self, self.text.begin, 1)
+
+    def line(self, number: int) -> str:
+        """A line by its number; empty behind the last one."""
+        found, after = None, self.text.begin
+        for _ in range(number):
+            found = self.text.line(after)
+            if found is None:
+                return ""
+            after = found[1]
+        return decoded(found[0]) if found else ""
+
+
+class Node:
+    """One line in use: its text, what it does once that is known, and the line behind it."""
+
+    __slots__ = ("after", "is_include", "line", "next", "part", "raw", "ready", "source")
+
+    def __init__(self, part: Part, line: int, raw: str, after: int) -> None:
+        self.part = part
+        self.line = line
+        self.raw = raw
+        self.after = after  # offset of the next line
+        self.is_include = False  # another text follows
+        self.next: Node | None = None
+        self.ready: Any = None  # what the interpreter made of it
+        self.source = Source(part.text.name, line, raw)
+
+
+@dataclass(frozen=True, slots=True)
+class OPlace:
+    """An O-word and where it stands."""
+
+    kind: str
+    place: Place
+
+
+@dataclass(slots=True, eq=False)
+class Program:
+    """Texts with their labels, includes and M codes of the user."""
+
+    main: Part
+    folder: Path | None = None
+    parts: list[Part] = field(default_factory=list)
+    includes: dict[tuple[str, int], Part] = field(default_factory=dict)  # by file and line
+    customs: dict[int, Part] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)
+    has_cycles: bool = False
+    own_cycles: Part | None = None  # those of a dialect that needs no $I
+    o_words: dict[str, list[OPlace]] = field(default_factory=dict)
+
+    @property
+    def errors(self) -> list[Finding]:
+        """Why it cannot be started."""
+        return [finding for finding in self.findings if finding.is_error]
+
+    @property
+    def cycles(self) -> Part:
+        """The text whose labels lead to the cycles."""
+        return self.own_cycles or self.main
+
+    @property
+    def line_cnt(self) -> int:
+        """Lines of the main text."""
+        return self.main.line_cnt
+
+    def text_of(self, source: Source) -> str:
+        """The line an entry comes from; entries of long ways do not carry it."""
+        if source.text:
+            return source.text
+        for part in (self.main, *self.parts):
+            if part.text.name == source.file:
+                return part.line(source.line)
+        return ""
+
+
+class Nodes:
+    """Lines of a program as nodes; those in use are kept."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._kept: dict[tuple[int, int], Node] = {}
+
+    def at(self, place: Place) -> Node | None:
+        """The line at a place; None behind the last one of a program."""
+        key = (id(place.part), place.offset)
+        node = self._kept.get(key)
+        if node is None:
+            node = self._made(place)
+            if node is not None:
+                self._keep(key, node)
+        return node
+
+    def _made(self, place: Place) -> Node | None:
+        found = place.part.text.line(place.offset)
+        if found is None:
+            behind = place.part.behind
+            return self.at(behind) if behind else None
+        node = Node(place.part, place.line, decoded(found[0]), found[1])
+        node.is_include = (place.part.text.name, place.line) in self._program.includes
+        return node
+
+    def _keep(self, key: tuple[int, int], node: Node) -> None:
+        if len(self._kept) >= MANY:
+            for kept in self._kept.values():
+                kept.next = None
+            self._kept.clear()
+        self._kept[key] = node
+
+    def behind(self, node: Node) -> Node | None:
+        """The line that follows, in the text added here where one is."""
+        part = self._program.includes.get((node.part.text.name, node.line))
+        if part is not None:
+            return self.at(part.start)
+        return self.at(Place(node.part, node.after, node.line + 1))

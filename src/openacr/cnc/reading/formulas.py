@@ -1,0 +1,229 @@
+"""Expressions as trees: what they are worth, and the same as Python source.
+
+A tree is evaluated as it stands at first; a formula that is used again and again is
+written as one Python expression and compiled, which makes it several times faster. Both
+forms call the same functions, so that they give the same number.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from openacr.cnc.reading.functions import NAMES, Function
+
+LOCALS = 33  # parameters of a call
+NEAR = 1e-4  # how far from a whole number a whole number may be
+HOT = 16  # uses after which a formula is compiled
+
+
+class Sources(Protocol):
+    """Where the operands of formulas come from."""
+
+    def read_p(self, n: float) -> float:
+        """Parameter Pn."""
+
+    def read_hash(self, n: float) -> float:
+        """Parameter #n: a local of the macro, or Pn."""
+
+    def read_named(self, name: str) -> float:
+        """A named parameter."""
+
+    def has_named(self, name: str) -> bool:
+        """Whether a named parameter exists."""
+
+    def read_input(self, n: float) -> float:
+        """The state of an input."""
+
+    def read_output(self, n: float) -> float:
+        """The state of an output."""
+
+    def read_bit(self, n: float) -> float:
+        """The state of a card flag."""
+
+
+class Names(Sources, Protocol):
+    """The same for compiled formulas."""
+
+    @property
+    def last_local(self) -> int:
+        """#1 to this one belong to the call in force."""
+
+    def is_plain_cell(self, n: float) -> bool:
+        """Whether a parameter is nothing but a cell of the store."""
+
+    def is_card_cell(self, n: float) -> bool:
+        """Whether a parameter is a variable of the card that programs may write."""
+
+    def names_of_formulas(self) -> dict[str, object]:
+        """What compiled formulas call by name."""
+
+
+class Node(Protocol):
+    """A part of a formula."""
+
+    def value(self, at: Sources) -> float:
+        """What it is worth now."""
+
+    def source(self, at: Names) -> str:
+        """The same in Python; operands come from `at`."""
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is always worth the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number as written."""
+
+    number: float
+
+    def value(self, at: Sources) -> float:
+        """Itself."""
+        return self.number
+
+    def source(self, at: Names) -> str:
+        """Itself."""
+        return repr(self.number)
+
+    @property
+    def is_constant(self) -> bool:
+        """Always."""
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """`P n` or `#n`; the index is a formula of its own."""
+
+    index: Node
+    is_hash: bool
+
+    def value(self, at: Sources) -> float:
+        """What is in the cell."""
+        index = self.index.value(at)
+        return at.read_hash(index) if self.is_hash else at.read_p(index)
+
+    def source(self, at: Names) -> str:
+        """A read of the cell."""
+        index = self.index.source(at)
+        if isinstance(self.index, Number):
+            n = self.index.number
+            if self.is_hash and 1 <= n <= at.last_local:
+                return f"(values[{int(n)}] if values[0] else {_read(n, at, self.is_hash)})"
+            return _read(n, at, self.is_hash)
+        return f"{'read_hash' if self.is_hash else 'read_p'}({index})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+def _read(n: float, at: Names, is_hash: bool) -> str:
+    """The shortest way to a parameter."""
+    if at.is_plain_cell(n):
+        return f"cell({int(n)})"
+    if at.is_card_cell(n):
+        return f"card({int(n)})"
+    return f"read_hash({n!r})" if is_hash else f"read_p({n!r})"
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """`#<name>`, or `EXISTS[#<name>]`."""
+
+    name: str
+    is_test: bool = False
+
+    def value(self, at: Sources) -> float:
+        """What it holds, or whether there is one."""
+        return float(at.has_named(self.name)) if self.is_test else at.read_named(self.name)
+
+    def source(self, at: Names) -> str:
+        """A read by name."""
+        name = repr(self.name)
+        return f"float(has_named({name}))" if self.is_test else f"read_named({name})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """`INP(n)`, `OUT(n)`, `BIT(n)`: a state of the machine, 0 or 1."""
+
+    kind: str
+    index: Node
+
+    def value(self, at: Sources) -> float:
+        """The state now."""
+        read: Callable[[float], float] = getattr(at, _READS[self.kind])
+        return read(self.index.value(at))
+
+    def source(self, at: Names) -> str:
+        """A question to the machine."""
+        return f"{_READS[self.kind]}({self.index.source(at)})"
+
+    @property
+    def is_constant(self) -> bool:
+        """Never."""
+        return False
+
+
+_READS = {"INP": "read_input", "OUT": "read_output", "BIT": "read_bit"}
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function or operator of one or two operands."""
+
+    function: Function
+    operands: tuple[Node, ...]
+
+    def value(self, at: Sources) -> float:
+        """The result for the operands as they are now."""
+        return self.function.work(*[operand.value(at) for operand in self.operands])
+
+    def source(self, at: Names) -> str:
+        """The same in Python."""
+        return self.function.template.format(*[operand.source(at) for operand in self.operands])
+
+    @property
+    def is_constant(self) -> bool:
+        """When all operands are."""
+        return all(operand.is_constant for operand in self.operands)
+
+
+class Formula:
+    """A formula in use: counts how often, and is compiled when that pays."""
+
+    __slots__ = ("_at", "_uses", "node", "now")
+
+    def __init__(self, node: Node, at: Names) -> None:
+        self.node = node
+        self._at = at
+        self._uses = 0
+        self.now: Callable[[], float] = self._first
+        if isinstance(node, Number):
+            number = node.number
+            self.now = lambda: number
+
+    def _first(self) -> float:
+        self._uses += 1
+        if self._uses == HOT:
+            self.now = compiled(self.node, self._at)
+        return self.node.value(self._at)
+
+
+def compiled(node: Node, at: Names) -> Callable[[], float]:
+    """The formula as one Python function of nothing."""
+    work: Callable[[], float] = eval(f"lambda: {node.source(at)}", names_for(at))
+    return work
+
+
+def names_for(at: Names) -> dict[str, Any]:
+    """Everything compiled formulas call by name."""
+    return NAMES | at.names_of_formulas()

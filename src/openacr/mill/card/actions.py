@@ -1,0 +1,209 @@
+"""What the machine does between moves: spindle, coolant, tool change, waits.
+
+An action is a generator. It switches something, then yields the condition that has to be
+met before it goes on; the runner looks at the card, shows the reason, counts the time-out
+and closes the action when the program is aborted (`finally` then puts things back).
+"""
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from math import inf
+from typing import TypeAlias
+
+from openacr.client import ConnectionLostError
+from openacr.cnc.occupied import TOOL_LOADED, TOOL_REQUESTED
+from openacr.mill.card import alarms
+from openacr.mill.card.alarms import Kind
+from openacr.mill.card.driver import CardState
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import NONE
+
+CW, CCW, OFF = 3, 4, 5
+FULL_VOLTS = 10.0
+DAC_VALUE, DAC_STRIDE = 6400, 16
+DROP_S = 2.0  # longest wait for the tool-changed input to go off again
+
+# Bits of the spindle code.
+BIPOLAR, WAITS_FOR_SPEED, SPEED_LEVEL, WAITS_FOR_ZERO, ZERO_LEVEL = 1, 2, 4, 8, 16
+
+
+@dataclass(frozen=True, slots=True)
+class Until:
+    """A condition the program waits for, and what happens when it does not come."""
+
+    reason: str
+    is_met: Callable[[CardState], bool]
+    limit_s: float = inf
+    alarm: Kind | None = None  # None: go on after the limit
+
+
+Steps: TypeAlias = Generator[Until, None, None]
+
+
+def pause(seconds: float, reason: str) -> Until:
+    """Let time pass."""
+    return Until(reason, lambda _sample: False, seconds)
+
+
+class Spindle:
+    """The spindle and its handshake."""
+
+    def __init__(self, io: MachineIo) -> None:
+        self._io = io
+        self._row = io.settings.spindle
+        self.state = OFF
+        self.rpm = 0.0
+        self.override = 1.0
+
+    @property
+    def is_on(self) -> bool:
+        """Whether it turns, or is told to."""
+        return self.state != OFF
+
+    def volts(self) -> float:
+        """What the DAC is at, from the speed, the scaling and the override."""
+        if self.state == OFF:
+            return 0.0
+        volts = min(self.rpm * self._row.volts_per_rpm * self.override, FULL_VOLTS)
+        return -volts if self.state == CCW and self._row.code & BIPOLAR else volts
+
+    def write(self) -> None:
+        """Put the voltage on the DAC."""
+        if self._row.dac != NONE:
+            self._io.machine.write(DAC_VALUE + DAC_STRIDE * self._row.dac, self.volts())
+
+    def set_speed(self, rpm: float) -> None:
+        """A new S word; a running spindle follows at once, without handshake."""
+        self.rpm = rpm
+        if self.state != OFF:
+            self.write()
+
+    def set_override(self, factor: float) -> None:
+        """A new spindle override."""
+        before, self.override = self.override, factor
+        if factor == before:
+            return
+        try:
+            self.set_speed(self.rpm)
+        except ConnectionLostError:
+            self.override = before  # so that it is written once more
+            raise
+
+    def start(self, direction: int, rpm: float) -> Steps:
+        """M3 or M4."""
+        row, io = self._row, self._io
+        if self.state not in (OFF, direction):
+            yield from self.stop()
+        io.output(row.off, False)
+        io.output(row.ccw if direction == CW else row.cw, False)
+        self.state, self.rpm = direction, rpm
+        self.write()
+        io.output(row.cw if direction == CW else row.ccw, True)
+        if row.code & WAITS_FOR_SPEED:
+            yield from self._level(row.at_speed, bool(row.code & SPEED_LEVEL), "spindle at speed")
+
+    def stop(self, *, always_waits: bool = False) -> Steps:
+        """M5; a tool change waits for the stop in any case."""
+        self.switch_off()
+        row = self._row
+        if row.code & WAITS_FOR_ZERO or always_waits:
+            yield from self._level(row.at_zero, bool(row.code & ZERO_LEVEL), "spindle at rest")
+
+    def switch_off(self) -> None:
+        """Off at once, as ABORT and E-stop do it."""
+        try:
+            self._io.output(self._row.off, True)
+        finally:
+            self._let_go()
+
+    def _let_go(self) -> None:
+        """Driven in no direction any more."""
+        self.state = OFF
+        try:  # first what the card does not answer: no lost reply keeps it from being sent
+            self._io.output(self._row.cw, False)
+            self._io.output(self._row.ccw, False)
+        finally:
+            self.write()
+
+    def _level(self, number: int, level: bool, reason: str) -> Steps:
+        io = self._io
+        if io.has_input(number):
+            limit_s = self._row.time_out_s or inf
+            is_met = lambda sample: io.is_in(sample, number) == level  # noqa: E731
+            yield Until(reason, is_met, limit_s, alarms.SPINDLE_TIME_OUT)
+
+    def orient(self) -> Steps:
+        """Turn to the fixed angle of fine boring and hold it there."""
+        row, io = self._row, self._io
+        self._let_go()
+        io.output(row.orient, True)
+        if io.has_input(row.oriented):
+            yield from self._level(row.oriented, True, "spindle oriented")
+        else:
+            yield pause(row.orient_s, "spindle orients")
+
+    def release(self) -> None:
+        """End the orientation."""
+        self._io.output(self._row.orient, False)
+
+
+class Coolant:
+    """M7, M8, M9."""
+
+    def __init__(self, io: MachineIo) -> None:
+        self._io = io
+        self.has_mist = self.has_flood = False
+
+    def set(self, mist: bool, flood: bool) -> None:
+        """Switch both; the off output is on while neither runs after an M9."""
+        row = self._io.settings.spindle
+        self._io.output(row.mist, mist)
+        self._io.output(row.flood, flood)
+        self._io.output(row.coolant_off, not mist and not flood)
+        self.has_mist, self.has_flood = mist, flood
+
+
+class ToolChanger:
+    """M6: ask for a tool and wait until it is there."""
+
+    def __init__(self, io: MachineIo, spindle: Spindle) -> None:
+        self._io = io
+        self._spindle = spindle
+        self.wants_confirmation = False  # nothing but a key tells that the tool is there
+        self._is_confirmed = False
+
+    def change(self, tool: int, old: int) -> Steps:
+        """Load a tool. The old one stays if the action is closed on the way."""
+        wiring, io = self._io.settings.wiring, self._io
+        yield from self._spindle.stop(always_waits=True)
+        io.machine.write(TOOL_REQUESTED, tool)
+        io.machine.write(TOOL_LOADED, old)
+        io.output(wiring.tool_change, True)
+        try:
+            yield from self._wait(tool)
+        finally:
+            io.output(wiring.tool_change, False)
+        if io.has_input(wiring.tool_changed):
+            is_off = lambda sample: not io.is_in(sample, wiring.tool_changed)  # noqa: E731
+            yield Until("tool-changed signal off", is_off, DROP_S)
+        io.machine.write(TOOL_LOADED, tool)
+
+    def confirm(self) -> None:
+        """The confirmation key: the tool that is waited for is there."""
+        self._is_confirmed = True
+
+    def _wait(self, tool: int) -> Steps:
+        wiring, io = self._io.settings.wiring, self._io
+        limit_s = wiring.tool_time_out_s or inf
+        reason = f"load tool {tool}" if wiring.is_manual_change else f"tool {tool} is changed"
+        if not io.has_input(wiring.tool_changed):
+            self._is_confirmed, self.wants_confirmation = False, True
+            try:
+                yield Until(reason, lambda _: self._is_confirmed, limit_s, alarms.TOOL_TIME_OUT)
+            finally:
+                self.wants_confirmation = False
+            return
+        is_off = lambda sample: not io.is_in(sample, wiring.tool_changed)  # noqa: E731
+        is_on = lambda sample: io.is_in(sample, wiring.tool_changed)  # noqa: E731
+        yield Until(reason, is_off, limit_s, alarms.TOOL_TIME_OUT)
+        yield Until(reason, is_on, limit_s, alarms.TOOL_TIME_OUT)

@@ -1,0 +1,294 @@
+"""Ballscrew tables: files, tables made of measurements, and tables on the card.
+
+An entry is the primary setpoint minus the mean of what was measured there: what has to be
+added to the setpoint so that the axis arrives. Positions count from the reference point, so
+none in a file is negative: what lies behind the reference point follows at the end, as if
+the screw closed on itself (`wrapped`). Between entries the card interpolates linearly.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from statistics import fmean
+
+from openacr.client import Card
+from openacr.client.values import number_text
+from openacr.errors import UserError
+from openacr.mill.config.settings import HOME, OFFSETS, Settings, Store, cell
+from openacr.mill.config.tabs import AxisSettings
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+LINE = re.compile(rf"\s*([A-Za-z])\s*({NUMBER})\s*[Ee]\s*({NUMBER})\s*")
+MINUS_SIGNS = str.maketrans("\u2212\u2013", "--")  # of printed tables
+ON, FILE = 10, 20
+LEAST_ENTRIES, MOST_SEGMENTS = 2, 64
+MOST_BYTES = 1_000_000
+SAME_U, SAME_CNT = 1e-6, 1e-3
+DECIMALS = 5
+LEAST_COLUMNS = 4  # position, a measurement, its mean and the difference
+ROUNDED_U = 5.01e-4  # of results with three digits
+
+Entries = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Positions from the reference point in ascending order, each with its error."""
+
+    letter: str
+    entries: Entries
+
+    @property
+    def period_u(self) -> float:
+        """The way after which a wrapped table begins anew."""
+        (first, _), (second, _), (last, _) = self.entries[0], self.entries[1], self.entries[-1]
+        return last - first + (second - first)
+
+    def text(self) -> str:
+        """The table as a file."""
+        lines = (f"{self.letter}{_short(p, 6)}E{_fixed(error)}" for p, error in self.entries)
+        return "\n".join([*lines, ""])
+
+    def along(self, limits: tuple[float, float] | None) -> Entries:
+        """The entries where the axis meets them, some of them at negative positions.
+
+        `limits` are the soft limits, the positive one first: entries beyond it are those behind
+        the reference point. Without limits nobody knows, and the table is there twice.
+        """
+        if self.entries[0][0] < 0.0:
+            return self.entries
+        back = [(p - self.period_u, error) for p, error in self.entries]
+        if limits is None:
+            return (*back, *self.entries)
+        high = limits[0] + SAME_U
+        behind = [low for low, (p, _) in zip(back, self.entries, strict=True) if p > high]
+        return (*behind, *(entry for entry in self.entries if entry[0] <= high))
+
+
+def _short(value: float, decimals: int) -> str:
+    return f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+
+
+def _fixed(error: float) -> str:
+    """An error as the files write it: five digits behind the point, none before it."""
+    text = f"{error:.{DECIMALS}f}"
+    if abs(float(text) - error) > SAME_U / 10.0:
+        text = _short(error, 9)
+    return text.replace("0.", ".", 1) if text.lstrip("-").startswith("0.") else text
+
+
+# --- files ------------------------------------------------------------------------------
+
+
+def read(path: Path, letter: str) -> Table:
+    """The table of an axis in a file."""
+    return parse(_content(path), letter, str(path))
+
+
+def _content(path: Path) -> str:
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise UserError(f"{path}: larger than {MOST_BYTES} bytes: no table of an axis")
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise UserError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: it is not text") from None
+
+
+def parse(text: str, letter: str, name: str = "table") -> Table:
+    """The table of an axis in a text; the first line that is wrong is named."""
+    entries: list[tuple[float, float]] = []
+    for number, line in enumerate(text.translate(MINUS_SIGNS).splitlines(), 1):
+        if not line.strip():
+            continue
+        found = LINE.fullmatch(line)
+        where = f"{name}:{number}"
+        if found is None:
+            raise UserError(f"{where}: {line.strip()[:40]!r} is no line like {letter}1E.00175")
+        if found[1].upper() != letter.upper():
+            raise UserError(f"{where}: axis {found[1].upper()}, but the table is that of {letter}")
+        position = float(found[2])
+        if any(abs(position - other) < SAME_U for other, _ in entries):
+            raise UserError(f"{where}: position {position:g} is there twice")
+        entries.append((position, float(found[3])))
+    if len(entries) < LEAST_ENTRIES:
+        raise UserError(f"{name}: {len(entries)} entries; a table needs {LEAST_ENTRIES}")
+    return Table(letter, tuple(sorted(entries)))
+
+
+# --- measurements -----------------------------------------------------------------------
+
+
+def measured(path: Path, letter: str, home_u: float) -> Table:
+    """A table from a file of measurements: lines of a position and what was measured there.
+
+    Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with # and
+    a headline are left out. A position may have several measurements, in one line or in lines
+    of their own, and behind them their mean and the difference, as the guide prints them
+    (Appendix A). Positions are physical, `home_u` is the reference point.
+    """
+    rows: dict[float, list[float]] = {}
+    for place, values in _measurements(path):
+        if len(values) < LEAST_ENTRIES:
+            raise UserError(f"{place}: a position and at least one measurement are needed")
+        rows.setdefault(values[0], []).extend(values[1:])
+    if len(rows) < LEAST_ENTRIES:
+        raise UserError(f"{path}: {len(rows)} positions; a table needs {LEAST_ENTRIES}")
+    if not min(rows) <= home_u <= max(rows):
+        raise UserError(f"{path}: home {home_u:g} is not from {min(rows):g} to {max(rows):g}")
+    return wrapped(letter, {n: errors(n, values) for n, values in rows.items()}, home_u)
+
+
+def _measurements(path: Path) -> list[tuple[str, list[float]]]:
+    """Place, and position with its measurements, of every line."""
+    found: list[tuple[str, list[float]]] = []
+    has_results = False
+    for number, line in enumerate(_content(path).translate(MINUS_SIGNS).splitlines(), 1):
+        words = re.split(r"[,;\s]+", line.strip().strip(",;"))
+        if not words[0] or words[0].startswith("#"):
+            continue
+        values = _numbers(words)
+        if values is not None:
+            found.append((f"{path}:{number}", values))
+        elif found:
+            raise UserError(f"{path}:{number}: a position and at least one measurement are needed")
+        else:
+            has_results |= "mean" in line.lower() or "difference" in line.lower()
+    if has_results or (found and all(_has_results(values) for _, values in found)):
+        return [(place, _without_results(place, values)) for place, values in found]
+    return found
+
+
+def _has_results(values: list[float]) -> bool:
+    """Whether a line ends with the mean of its measurements and the difference."""
+    if len(values) < LEAST_COLUMNS:
+        return False
+    position, *measurements, mean, difference = values
+    return (
+        abs(mean - fmean(measurements)) <= ROUNDED_U
+        and abs(difference - (position - mean)) <= ROUNDED_U
+    )
+
+
+def _without_results(place: str, values: list[float]) -> list[float]:
+    if not _has_results(values):
+        raise UserError(
+            f"{place}: the last two columns are not the mean of the measurements and its difference"
+            " from the position"
+        )
+    return values[:-2]
+
+
+def _numbers(words: Iterable[str]) -> list[float] | None:
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return None
+
+
+def errors(setpoint_u: float, values: Iterable[float]) -> float:
+    """The entry of a position: setpoint minus the mean of the measured values."""
+    return round(setpoint_u - fmean(values), 9)
+
+
+def wrapped(letter: str, physical: Mapping[float, float], home_u: float) -> Table:
+    """A table from physical positions; those before home follow at the end."""
+    places = sorted(physical)
+    table = Table(letter, tuple((place - home_u, physical[place]) for place in places))
+    period = table.period_u
+    moved = ((p + period if p < -SAME_U else p, error) for p, error in table.entries)
+    return Table(letter, tuple(sorted((round(p, 9), error) for p, error in moved)))
+
+
+# --- on the card ------------------------------------------------------------------------
+
+
+def tables_of(store: Store, settings: Settings, folder: Path | None) -> dict[int, Table]:
+    """The tables the store has switched on; names of files are relative to its folder."""
+    found = {}
+    for axis in settings.axes:
+        if not store.read(cell(OFFSETS, ON + axis.index)):
+            continue
+        number = cell(OFFSETS, FILE + axis.index)
+        name = store.read_text(number)
+        if not name:
+            raise UserError(f"the ballscrew table of {axis.name} is on, but has no file: P{number}")
+        found[axis.index] = read((folder or Path()) / name, axis.name)
+    return found
+
+
+def install(card: Card, settings: Settings, tables: Mapping[int, Table]) -> None:
+    """Bring the tables to the card; one acts where the reference point is known."""
+    program = settings.master
+    for axis in settings.axes:
+        card.command(f"BSC CLEAR {axis.name}", program=program)
+    if not tables:
+        return
+    laid = {axis: list(_segments(axis, table)) for axis, table in _used(settings, tables)}
+    card.command("CLEAR", program=program)  # memory of the program: arrays of another set-up
+    card.command(f"DIM LA({sum(map(len, laid.values()))})", program=program)
+    array = 0
+    for axis, segments in laid.items():
+        card.command(f"BSC DIM {axis.name}{len(segments)}", program=program)
+        for number, (length, points) in enumerate(segments):
+            card.command(f"DIM LA{array}({len(points)})", program=program)
+            card.write_array(program, f"LA{array}", points)
+            segment = f"({number},{number_text(length)},LA{array})"
+            card.command(f"BSC SEG {axis.name}{segment}", program=program)
+            array += 1
+        preset_cnt = settings.real(HOME, 1, axis.index) * axis.pulses_per_unit
+        begin_cnt = _pulses(axis, tables[axis.index])[0][0]
+        shift = number_text(-(begin_cnt + preset_cnt))
+        card.command(f"BSC FLZ {axis.name}{shift}", program=program)
+    Compensation(card, settings, tables).renew()
+
+
+class Compensation:
+    """The tables on the card, on where the reference point is known and off elsewhere."""
+
+    def __init__(self, card: Card, settings: Settings, axes: Iterable[int]) -> None:
+        self._card = card
+        self._settings = settings
+        self._axes = frozenset(axes)
+
+    def renew(self) -> None:
+        """Switch each table as it has to be: an axis was homed, or a kill was taken back."""
+        for axis in self._settings.axes:
+            if axis.index in self._axes:
+                state = "ON" if self._settings.is_homed(axis.index) else "OFF"
+                self._card.command(f"BSC {state} {axis.name}", program=self._settings.master)
+
+
+def _used(settings: Settings, tables: Mapping[int, Table]) -> Iterator[tuple[AxisSettings, Table]]:
+    return ((axis, tables[axis.index]) for axis in settings.axes if axis.index in tables)
+
+
+def _pulses(axis: AxisSettings, table: Table) -> Entries:
+    """The table in pulses, in ascending order."""
+    scale = axis.pulses_per_unit
+    return tuple(sorted((p * scale, e * scale) for p, e in table.along(axis.soft_limits)))
+
+
+def _segments(axis: AxisSettings, table: Table) -> Iterator[tuple[float, list[int]]]:
+    """Runs of equal spacing: how many pulses each is long, and its points in pulses."""
+    entries = _pulses(axis, table)
+    runs: list[list[int]] = []
+    for k, ((a, _), (b, _)) in enumerate(pairwise(entries)):
+        if runs and abs((b - a) - _step(entries, runs[-1])) < SAME_CNT:
+            runs[-1].append(k + 1)
+        else:
+            runs.append([k, k + 1])
+    if len(runs) > MOST_SEGMENTS:
+        raise UserError(
+            f"the ballscrew table of {axis.name} changes its spacing {len(runs) - 1} times; "
+            f"the card takes {MOST_SEGMENTS - 1}"
+        )
+    for run in runs:
+        yield entries[run[-1]][0] - entries[run[0]][0], [round(entries[k][1]) for k in run]
+
+
+def _step(entries: Entries, run: list[int]) -> float:
+    return entries[run[1]][0] - entries[run[0]][0]

@@ -1,0 +1,35 @@
+"""Refuses the cards a machine cannot be run on: too old, too small, or moving."""
+
+from openacr.client import Card
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.mill.card import alarms
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.config.settings import Settings
+from openacr.models import Model
+
+OLDEST_FIRMWARE = 11800
+
+
+def check_firmware(card: Card) -> None:
+    """Refuse a card that is older than what the packets of moves need."""
+    version = int(card.read(n.P_FIRMWARE_VERSION))
+    if version < OLDEST_FIRMWARE:
+        raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
+
+
+def check_axes(model: Model, settings: Settings) -> None:
+    """Refuse a machine with axes that its card model cannot drive."""
+    beyond = [axis.name for axis in settings.axes if axis.index >= model.connected_axes]
+    if beyond:
+        lacking = f"{model.name}: axis {' '.join(beyond)}, it has {model.connected_axes} axes"
+        raise AlarmError(alarms.LACKS_FUNCTION, lacking)
+
+
+def check_rest(card: Card, settings: Settings) -> None:
+    """Refuse a machine that moves: setting it up would break off what another program does."""
+    words = [n.MF1_WORD + settings.master, *(n.AF1_WORD + axis.index for axis in settings.axes)]
+    master, *axes = map(int, card.read_many(words))
+    is_moving = master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED)
+    if is_moving or any(word & n.AF1_JOG_ACTIVE for word in axes):
+        raise UserError("the machine moves: another program runs it; wait for its end or stop it")

@@ -1,0 +1,340 @@
+"""The card as a run sees it: one look at a time, and the few things it is told.
+
+Everything goes through the host interface - packets, flags, lines of text - so that the
+same run drives the virtual card and a real one.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+
+from openacr.client import Card, ConnectionLostError
+from openacr.client.errors import GarbledError, NoReplyError
+from openacr.client.values import Number
+from openacr.cnc.occupied import TRIPPED
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.protocol.bits import ClearBit, SetBit
+from openacr.protocol.move import Move
+from openacr.protocol.override import FeedrateOverride, RapidOverride
+from openacr.protocol.packets import Packet
+
+LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
+CLEAR_S = 2.0  # longest time the card takes to clear a kill
+CLOCK_PERIOD_MS = 1 << 31
+BITS_PER_WORD = 32
+USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
+TRIPPED_MASK = 1 << TRIPPED % BITS_PER_WORD
+LIMIT_LATCHES = (
+    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+)
+FIRST_MODULE_FLAG = (n.XIOI_WORD - n.FLAG_WORD_BASE) * BITS_PER_WORD
+
+
+@dataclass(frozen=True, slots=True)
+class CardState:
+    """The state of the card at one moment."""
+
+    clock_ms: int
+    master: int  # flag word of the master
+    counter: int  # packets that have started
+    inputs: int
+    drives: tuple[int, ...]  # quaternary flag words of the axes in use
+    limits: tuple[int, ...]  # quinary flag words
+    modules: tuple[int, ...] = ()  # inputs of the expansion modules
+    was_reset: bool = False  # the clock of the card has begun anew
+    has_tripped: bool = False  # the watchdog has stopped the machine
+    is_guarded: bool = True  # the watchdog runs, where there is one
+    may_have_lost: bool = False  # something that was sent: the connection is a new one
+
+    @property
+    def is_moving(self) -> bool:
+        """A move is active or waits, also while held."""
+        return bool(self.master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED))
+
+    @property
+    def is_held(self) -> bool:
+        """The feed hold has come to rest."""
+        return bool(self.master & n.MF1_IN_FEEDHOLD)
+
+    @property
+    def is_in_position(self) -> bool:
+        """All axes of the master are inside their in-position band."""
+        return not self.master & n.MF1_NOT_IN_POSITION
+
+    @property
+    def is_within_error(self) -> bool:
+        """All axes of the master are inside their following error band."""
+        return bool(self.master & n.MF1_NOT_EXCESS_ERROR)
+
+    @property
+    def is_killed(self) -> bool:
+        """Moves of the master, or all motion of an axis, were killed and are barred by that."""
+        axes = (word & n.AF4_KILL_ALL_MOTION_REQUEST for word in self.drives)
+        return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST) or any(axes)
+
+    def input(self, number: int) -> bool:
+        """The state of an input of the card (0..31) or of a module (256.. and up)."""
+        if number < BITS_PER_WORD:
+            return bool(self.inputs >> number & 1)
+        module, bit = divmod(number - FIRST_MODULE_FLAG, 2 * BITS_PER_WORD)
+        return bool(self.modules[module] >> bit & 1)
+
+
+def flag_of(word: int, mask: int) -> int:
+    """The number of the flag that is this bit of a flag word."""
+    return (word - n.FLAG_WORD_BASE) * BITS_PER_WORD + mask.bit_length() - 1
+
+
+class StepLostError(ConnectionLostError):
+    """The connection broke in something that the next look repeats."""
+
+
+class MachineDriver:
+    """The axes of one master of a card."""
+
+    def __init__(
+        self, card: Card, axes: Sequence[int], master: int = 0, *, rounds_corners: bool = False
+    ) -> None:
+        if not 0 <= master < 8:
+            raise UserError(f"master {master}: a machine runs on master 0 to 7")
+        self.card = card
+        self.axes = tuple(axes)
+        self.master = master
+        self.rounds_corners = rounds_corners  # knows path tolerances: a card of ours alone
+        self._passed_ms = 0
+        self._clock_ms: int | None = None
+        self.is_dropping = False  # moves are killed on purpose
+        self._clear_by_s: float | None = None  # a kill that stays for longer is not ours
+        self._modules = 0
+        self._watchdog: int | None = None
+        self._connections = card.connections
+        self._has_told = False  # since the last look
+        self._has_lost = False  # packets, or what was being sent when a connection broke
+        self._barred = ""  # why nothing is sent to the card any more
+
+    # --- seeing -----------------------------------------------------------------------
+
+    @cached_property
+    def _watched(self) -> list[int]:
+        drives = [n.AF4_WORD + axis for axis in self.axes]
+        limits = [n.AF5_WORD + axis for axis in self.axes]
+        head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, self.counter, n.W_INPUTS]
+        modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
+        watchdog = [] if self._watchdog is None else [USER_FLAGS, n.PF_WORD + self._watchdog]
+        return head + drives + limits + watchdog + modules
+
+    @property
+    def counter(self) -> int:
+        """The parameter that counts the packets of the master."""
+        return n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
+
+    def watch_modules(self, count: int) -> None:
+        """Look at the inputs of so many expansion modules, too; before the first look."""
+        self._modules = count
+        self.__dict__.pop("_watched", None)
+
+    def watch_program(self, program: int) -> None:
+        """Look at the watchdog in this program of the card, too."""
+        self._watchdog = program
+        self.__dict__.pop("_watched", None)
+
+    def poll(self) -> CardState:
+        """Ask the card how it stands."""
+        clock, master, counter, inputs, *words = map(int, self._read_many(self._watched))
+        is_new = self.card.connections != self._connections
+        self._has_lost = self._has_lost or (is_new and self._has_told)
+        self._connections, self._has_told = self.card.connections, False
+        step_ms = 0 if self._clock_ms is None else (clock - self._clock_ms) % CLOCK_PERIOD_MS
+        was_reset = step_ms > CLOCK_PERIOD_MS // 2  # backwards
+        self._passed_ms += 0 if was_reset else step_ms
+        self._clock_ms = clock
+        count = len(self.axes)
+        drives, limits, words = words[:count], words[count : 2 * count], words[2 * count :]
+        flags, program = words[:2] if self._watchdog is not None else (0, n.PF_PROGRAM_RUNNING)
+        modules = words[2:] if self._watchdog is not None else words
+        sample = CardState(
+            clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
+            was_reset=was_reset,
+            has_tripped=bool(flags & TRIPPED_MASK),
+            is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
+            may_have_lost=self._has_lost,
+        )  # fmt: skip
+        self._note_clearing(is_killed=sample.is_killed)
+        return sample
+
+    def _note_clearing(self, *, is_killed: bool) -> None:
+        by_s = self._clear_by_s
+        if by_s is not None and (not is_killed or self.now_s > by_s):
+            self.is_dropping, self._clear_by_s = False, None
+
+    @property
+    def now_s(self) -> float:
+        """Card time since the first look, as of the last one."""
+        return self._passed_ms / 1000.0
+
+    def pause(self, seconds: float) -> None:
+        """Let time pass."""
+        self.card.pause(seconds)
+
+    def read(self, parameter: int) -> float:
+        """A parameter of the card."""
+        self._require_hold()
+        return float(self.card.read(parameter))
+
+    def _read_many(self, parameters: list[int]) -> list[Number]:
+        self._require_hold()
+        return self.card.read_many(parameters)
+
+    def axis_values(self, *offsets: int) -> list[int]:
+        """Rows of all axes in use, one after the other, e.g. `AX_ACTUAL_POSITION`."""
+        axes = [n.AX_BASE + axis * n.AX_STRIDE for axis in self.axes]
+        rows = [axis + offset for offset in offsets for axis in axes]
+        return [int(value) for value in self._read_many(rows)]
+
+    def axis_flags(self, word: int) -> list[int]:
+        """One flag word of all axes in use, e.g. `AF1_WORD`."""
+        return [int(each) for each in self._read_many([word + axis for axis in self.axes])]
+
+    # --- telling ----------------------------------------------------------------------
+
+    def let_go(self, reason: str) -> None:
+        """Exchange nothing with the card any more: every attempt is a ConnectionLostError."""
+        self._barred = reason
+
+    def _tell(self, *packets: Packet) -> None:
+        self._require_hold()
+        self._has_told = True
+        self.card.tell(*packets)
+
+    def _require_hold(self) -> None:
+        if self._barred:
+            raise ConnectionLostError(f"{self.card.name}: {self._barred}")
+
+    @contextmanager
+    def repeating(self) -> Iterator[None]:
+        """What is sent in here is sent again where the connection breaks: StepLostError.
+
+        The looks behind it tell `may_have_lost`, as for packets, which have no answer.
+        """
+        try:
+            yield
+        except ConnectionLostError as lost:
+            self._has_lost = True
+            raise StepLostError(str(lost)) from lost
+
+    def forget_losses(self) -> None:
+        """What may have been lost is being sent again, or is not wanted any more."""
+        self._has_lost = False
+
+    def send(self, moves: Iterable[Move]) -> None:
+        """Moves for the buffer of the master, on the connection of the last look alone.
+
+        On a newer one they could follow moves that were lost.
+        """
+        if self._has_lost or self.card.connections != self._connections:
+            raise ConnectionLostError(f"{self.card.name}: connected again since the last look")
+        self._tell(*moves)
+
+    def write(self, parameter: int, value: float) -> None:
+        """Set a parameter of the card."""
+        self._require_hold()
+        self.card.write(parameter, value)
+
+    def set_flag(self, number: int, on: bool) -> None:
+        """Set or clear a flag."""
+        self._tell(SetBit(number) if on else ClearBit(number))
+
+    def _request(self, mask: int, on: bool = True) -> None:
+        self.set_flag(flag_of(n.MF1_WORD + self.master, mask), on)
+
+    def hold(self) -> None:
+        """Feed hold."""
+        self._request(n.MF1_FEEDHOLD_REQUEST)
+
+    def go_on(self) -> None:
+        """Cycle start; a feed hold that the card has not looked at yet is taken back."""
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
+        self._request(n.MF1_CYCLE_START_REQUEST)
+
+    def stop(self) -> None:
+        """Feed hold, then drop all moves."""
+        self.is_dropping = True
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
+
+    def bar(self) -> None:
+        """Kill all moves at rest; requests that still wait on the card are taken back."""
+        self._request(n.MF1_KILL_ALL_MOVES_REQUEST)
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
+
+    def clear_kill(self) -> None:
+        """Let the master move again.
+
+        A stop or a feed hold that was requested while moves were killed already waits on the
+        card, and would act on the next moves: both are taken back first.
+        """
+        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
+        self._request(n.MF1_FEEDHOLD_REQUEST, False)
+        self.is_dropping, self._clear_by_s = True, self.now_s + CLEAR_S
+        self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
+
+    def kill(self) -> None:
+        """Kill the motion of every axis in use."""
+        self.is_dropping = True
+        self._set_kills(True)
+
+    def disable(self) -> None:
+        """Ctrl-Z: kill all motion and switch all drives off, which DRIVE OFF refuses in motion."""
+        self._require_hold()
+        self.card.kill_all(disable=True)
+
+    def release(self) -> None:
+        """Take a kill back: axes and master may move again; drives stay as they are.
+
+        The card ramps killed motion down as a jog; what it went becomes position.
+        """
+        self.fold_jogs()
+        self._set_kills(False)
+        self.clear_kill()
+        self.go_on()
+
+    def _set_kills(self, on: bool) -> None:
+        self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
+
+    def clear_limits(self) -> None:
+        """Forget limits that were met; an axis that goes on into one meets it again."""
+        for latch in LIMIT_LATCHES:
+            self._set_of_axes(n.AF5_WORD, latch, False)
+
+    def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
+        """One flag of every axis in use, all in one go."""
+        flags = (flag_of(word + axis, mask) for axis in self.axes)
+        self._tell(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
+
+    def is_jogging(self) -> bool:
+        """Whether an axis in use is jogged, or ramps down behind a kill."""
+        return any(word & n.AF1_JOG_ACTIVE for word in self.axis_flags(n.AF1_WORD))
+
+    def fold_jogs(self) -> None:
+        """Make positions of the jog offsets of all axes; at rest."""
+        self.type(f"AXIS{axis} JOG RES" for axis in self.axes)
+
+    def override(self, feed: float, rapid: float) -> None:
+        """Feed and rapid override, 1 = as programmed."""
+        self._tell(FeedrateOverride.of([self.master], feed))
+        self._tell(RapidOverride.of([self.master], rapid))
+
+    def reset_counter(self) -> None:
+        """Count the packets from zero again."""
+        self.write(self.counter, 0)
+
+    def type(self, lines: Iterable[str]) -> None:
+        """Lines of text at the program of the master."""
+        self._require_hold()
+        for line in lines:
+            self.card.command(line, program=self.master)

@@ -1,0 +1,85 @@
+"""Inputs and outputs of the machine by the numbers of the store: inversion, and none at all.
+
+A number is that of the flag on the card: 0 to 31 and 32 to 63 on the card itself, 256 to 287
+and 288 to 319 on the first expansion module, 64 more on each one behind it.
+"""
+
+from collections.abc import Iterator
+
+from openacr.mill.card.driver import CardState, MachineDriver
+from openacr.mill.config.settings import Settings
+
+FIRST_OUTPUT, BEHIND_OUTPUTS = 32, 64
+INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, BEHIND_OUTPUTS)
+FIRST_EXPANSION, EXPANSION_FLAGS = 256, 64  # of each module: 32 inputs, then 32 outputs
+
+
+class MachineIo:
+    """What is wired to the card, and what was switched last."""
+
+    def __init__(self, machine: MachineDriver, settings: Settings) -> None:
+        self.machine = machine
+        self.settings = settings
+        self._out: dict[int, bool] = {}
+        modules = settings.io_modules
+        machine.watch_modules(modules)
+        self.inputs = frozenset(_numbers(INPUTS, modules, 0))
+        self.outputs = frozenset(_numbers(OUTPUTS, modules, 32))
+        self._inverted_in = {n for n in self.inputs if settings.is_input_inverted(n)}
+
+    def output(self, number: int, on: bool) -> None:
+        """Switch an output; a number that is none does nothing."""
+        if number not in self.outputs:
+            return
+        self._out[number] = on
+        self.machine.set_flag(number, on != self.settings.is_output_inverted(number))
+
+    def renew(self) -> None:
+        """Switch every output once more as it was switched last."""
+        for number, on in self._out.items():
+            self.output(number, on)
+
+    def safe_levels(self) -> list[tuple[int, bool]]:
+        """The outputs of spindle, coolant and beam, with their levels while all of it is off."""
+        row, burning = self.settings.spindle, self.settings.burning
+        ons = (row.cw, row.ccw, row.mist, row.flood, burning.plasma, burning.under_burn)
+        off = [(number, False) for number in ons] + [(row.off, True), (row.coolant_off, True)]
+        return [
+            (number, on != self.settings.is_output_inverted(number))
+            for number, on in off
+            if number in self.outputs
+        ]
+
+    def is_on(self, number: int) -> bool:
+        """Whether an output acts, as the card has it."""
+        bit = self.machine.card.read_bit(number)
+        return bit != self.settings.is_output_inverted(number)
+
+    def is_out(self, number: int) -> bool:
+        """Whether an output was switched on here."""
+        return self._out.get(number, False)
+
+    def has_input(self, number: int) -> bool:
+        """Whether there is an input of this number."""
+        return number in self.inputs
+
+    def is_inverted(self, number: int) -> bool:
+        """Whether an input is active when it is off."""
+        return number in self._inverted_in
+
+    def is_in(self, sample: CardState, number: int) -> bool:
+        """Whether an input is active; one that is not there is not."""
+        return self.has_input(number) and sample.input(number) != (number in self._inverted_in)
+
+    def is_key_turned(self, sample: CardState) -> bool:
+        """Whether the maintenance key is turned: its input is off then."""
+        number = self.settings.wiring.soft_limits
+        return self.has_input(number) and not self.is_in(sample, number)
+
+
+def _numbers(own: range, modules: int, first: int) -> Iterator[int]:
+    """The inputs or outputs of the card and of its expansion modules."""
+    yield from own
+    for module in range(modules):
+        begin = FIRST_EXPANSION + EXPANSION_FLAGS * module + first
+        yield from range(begin, begin + len(own))

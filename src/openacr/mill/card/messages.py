@@ -1,0 +1,140 @@
+"""User messages: texts of the store that are shown while an input, output or flag has a state."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from openacr.errors import UserError
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import MESSAGES, Store, cell
+from openacr.sysvar import Store as SysvarStore
+
+MOST = 32
+CELLS = 107  # of one record
+DEFINED, BIT, LEVEL, TEXT_COLOR, BACK_COLOR, SIZE, ALARM, TEXT = range(8)
+LOOK_S = 0.05
+WHITE, RED, LETTERS, LONGEST = 15, 4, 40, 132
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """One record: shown while `bit` is on, or off; colours are 0 to 15 as on the screens."""
+
+    number: int
+    bit: int
+    text: str
+    is_shown_on: bool = True
+    text_color: int = WHITE
+    back_color: int = RED
+    size: int = LETTERS
+    is_alarm: bool = False
+
+    @property
+    def shown(self) -> str:
+        """The text in the length the record allows."""
+        return self.text[: self.size]
+
+
+def record(number: int, k: int) -> int:
+    """The cell of a field of a message."""
+    return cell(MESSAGES, CELLS * number + k)
+
+
+def definitions(store: Store) -> Iterator[Message]:
+    """The messages that are defined."""
+    for number in range(MOST):
+        if store.read(record(number, DEFINED)):
+            values = [int(store.read(record(number, k))) for k in range(TEXT)]
+            yield Message(
+                number,
+                values[BIT],
+                store.read_text(record(number, TEXT)),
+                bool(values[LEVEL]),
+                values[TEXT_COLOR],
+                values[BACK_COLOR],
+                values[SIZE],
+                bool(values[ALARM]),
+            )
+
+
+def free_number(store: Store) -> int:
+    """The first message that is not defined."""
+    for number in range(MOST):
+        if not store.read(record(number, DEFINED)):
+            return number
+    raise UserError(f"{MOST} messages are defined; one has to be removed first")
+
+
+def define(store: SysvarStore, message: Message) -> None:
+    """Keep a message in the store."""
+    _require_number(message.number)
+    if message.bit < 0:
+        raise UserError(f"bit {message.bit}: a message needs an input, output or flag from 0 on")
+    values = (
+        1, message.bit, message.is_shown_on, message.text_color, message.back_color, message.size,
+        message.is_alarm,
+    )  # fmt: skip
+    for k, value in enumerate(values):
+        store.write(record(message.number, k), value)
+    store.write_text(record(message.number, TEXT), message.text)
+
+
+def remove(store: Store, number: int) -> None:
+    """Forget a message."""
+    _require_number(number)
+    if not store.read(record(number, DEFINED)):
+        raise UserError(f"message {number} is not defined")
+    store.write(record(number, DEFINED), 0)
+
+
+def _require_number(number: int) -> None:
+    if not 0 <= number < MOST:
+        raise UserError(f"message {number}: messages are numbered 0 to {MOST - 1}")
+
+
+@dataclass(slots=True)
+class Showing:
+    """A message that was shown; `until_s` stays None while it is."""
+
+    message: Message
+    at_s: float
+    until_s: float | None = None
+
+
+@dataclass(slots=True)
+class Messages:
+    """Watches the bits of all messages of a machine, in card time."""
+
+    io: MachineIo
+    defined: Sequence[Message]
+    changed: Callable[[Message, bool], None]
+    history: list[Showing] = field(default_factory=list)
+    _shown: dict[int, Showing] = field(default_factory=dict)
+    _due_s: float = 0.0
+
+    @property
+    def shown(self) -> list[Message]:
+        """What is shown now, in the order of the numbers."""
+        return [self._shown[number].message for number in sorted(self._shown)]
+
+    def keep(self, now_s: float) -> None:
+        """Look at the bits when it is time to."""
+        if not self.defined or now_s < self._due_s:
+            return
+        self._due_s = now_s + LOOK_S
+        states = self.io.machine.card.read_bits([each.bit for each in self.defined])
+        for message, state in zip(self.defined, states, strict=True):
+            is_on = (state != self._is_inverted(message.bit)) == message.is_shown_on
+            if is_on and message.number not in self._shown:
+                showing = self._shown[message.number] = Showing(message, now_s)
+                self.history.append(showing)
+                self.changed(message, True)
+            elif not is_on and message.number in self._shown:
+                self._shown.pop(message.number).until_s = now_s
+                self.changed(message, False)
+
+    def _is_inverted(self, bit: int) -> bool:
+        """Inputs and outputs count as the store inverts them."""
+        settings = self.io.settings
+        if self.io.has_input(bit):
+            return settings.is_input_inverted(bit)
+        return bit in self.io.outputs and settings.is_output_inverted(bit)

@@ -1,0 +1,127 @@
+"""The lines that make a card fit the machine: sent before a run, never anything that moves.
+
+Axis order, axis index and slave index are the same, so that X, Y and Z are slaves 0, 1, 2:
+arc packets know only those. Drives are left as they are.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from openacr.client import Card
+from openacr.client.errors import RefusedError
+from openacr.client.values import number_text
+from openacr.mill.card import soft_limits
+from openacr.mill.card.ballscrew import Table, install
+from openacr.mill.config.settings import AXES, Settings
+from openacr.mill.config.tabs import AxisSettings
+
+GAIN_WORDS = (
+    "PGAIN",
+    "IGAIN",
+    "IDELAY",
+    "ILIMIT",
+    "DGAIN",
+    "DWIDTH",
+    "FFACC",
+    "FFVEL",
+    "TLM",
+    "FBVEL",
+)
+DAC_GAIN = 3276.8  # counts per volt
+NO_TEST_U = 1e9  # a band nothing leaves
+USER_VARIABLES = 100
+MOVES = 200  # moves the card holds, where its memory allows
+MOVES_WITHOUT_MEMORY = 10
+RAPID_MODES, SPIRAL, CLEAR_REQUEST = 5, 24, 4  # in the secondary flags of a master
+MODE_FLAGS, FLAGS_PER_MASTER = 2048, 32
+VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
+
+
+def prepare(card: Card, settings: Settings, tables: Mapping[int, Table] | None = None) -> int:
+    """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds."""
+    user_variables(card)
+    program = settings.master
+    for line in lines(settings):
+        card.command(line, program=program)
+    install(card, settings, tables or {})
+    return _buffer(card, program)
+
+
+def user_variables(card: Card) -> None:
+    """P0 to P99 of the card, where it has none or fewer."""
+    try:
+        card.ask(f"P{USER_VARIABLES - 1}")
+    except RefusedError:
+        card.command("SYS")
+        card.command(f"DIM P({USER_VARIABLES})")
+
+
+def _buffer(card: Card, program: int) -> int:
+    """The longest buffer that fits: first with memory of the program, else the card's own."""
+    depth = MOVES_WITHOUT_MEMORY
+    try:
+        card.command(f"DIM MBUF({MOVES})", program=program)
+        depth = MOVES
+    except RefusedError:
+        pass
+    try:
+        card.command("MBUF ON", program=program)
+    except RefusedError:
+        return 1
+    return depth
+
+
+def lines(settings: Settings) -> Iterator[str]:
+    """The set-up of one program with its master, its axes and its servo loops."""
+    master = settings.master
+    yield "DETACH"
+    yield f"ATTACH MASTER{master}"
+    for axis in settings.axes:
+        yield f'ATTACH SLAVE{axis.index} AXIS{axis.index} "{axis.name}"'
+    for axis in settings.axes:
+        yield from _axis(axis)
+        yield from soft_limits.lines(axis, settings.speeds.feed_acc_ups2)
+    yield from _spindle(settings)
+    yield "VECDEF " + " ".join(f"{one.name}{int(one.is_linear)}" for one in settings.axes)
+    yield "FOV 1"
+    yield "ROV 1"
+    yield f"JRK {_number(settings.speeds.jerk_ups3)}"
+    yield "LOOK OFF"
+    yield from _modes(settings)
+
+
+def _axis(axis: AxisSettings) -> Iterator[str]:
+    word, encoder = f"AXIS{axis.index}", axis.encoder
+    yield f"ATTACH {word} ENC{encoder} DAC{axis.dac} ENC{encoder}"
+    yield f"ENC{encoder} MULT {axis.multiplier}"
+    yield f"{word} PPU {_number(axis.pulses_per_unit)}"
+    for gain, value in zip(GAIN_WORDS, axis.gains, strict=True):
+        yield f"{word} {gain} {_number(value)}"
+    yield f"DAC{axis.dac} GAIN {_number(-DAC_GAIN if axis.is_inverted else DAC_GAIN)}"
+    yield f"{word} IPB {_number(axis.in_position_u or NO_TEST_U)}"
+    yield f"{word} EXC {_number(axis.excess_error_u or NO_TEST_U)}"
+    yield f"{word} BKL {_number(axis.backlash_u)}"
+    yield f"{word} JOG ACC {_number(axis.jog_acc_ups2)}"
+    yield f"{word} JOG DEC {_number(axis.jog_dec_ups2)}"
+    yield f"{word} ON"
+    yield f"{word} JOG RES"  # a jog that nobody made position: its host was lost
+
+
+def _spindle(settings: Settings) -> Iterator[str]:
+    """The DAC of the spindle is its alone: the axis of the same number would write to it, too."""
+    dac = settings.spindle.dac
+    if 0 <= dac < AXES and all(axis.index != dac for axis in settings.axes):
+        yield f"AXIS{dac} OFF"
+
+
+def _modes(settings: Settings) -> Iterator[str]:
+    """Rapid modes and spirals on, kills stay until they are cleared, the speed limit."""
+    base = MODE_FLAGS + FLAGS_PER_MASTER * settings.master
+    yield f"SET {base + RAPID_MODES}"
+    yield f"SET {base + SPIRAL}"
+    yield f"CLR {base + CLEAR_REQUEST}"
+    limit = VELOCITY_LIMIT + PARAMETERS_PER_MASTER * settings.master
+    yield f"P{limit}={_number(settings.speeds.max_ups)}"
+
+
+def _number(value: float) -> str:
+    return number_text(float(value))

@@ -1,0 +1,73 @@
+"""Soft limits on the card: a second barrier, should the host send an axis beyond its limits.
+
+The host tests every move and jog before it is sent. The card (SLM) stops what gets past that,
+one pulse beyond the limit, so that a move exactly to the limit does not meet it. As on the
+host, the limits act on homed axes alone, and not while the maintenance key is turned.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from openacr.client import Card
+from openacr.client.values import number_text
+from openacr.map import numbers as n
+from openacr.mill.card.driver import CardState, flag_of
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import Settings
+from openacr.mill.config.tabs import AxisSettings
+
+MARGIN_CNT = 1.0
+ENABLES = (n.AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE, n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE)
+ENABLED = ENABLES[0] | ENABLES[1]
+
+
+def lines(axis: AxisSettings, dec_ups2: float) -> Iterator[str]:
+    """The limits of one axis and the ramp of a stop at them; they do not act yet."""
+    word = f"AXIS{axis.index}"
+    yield f"{word} SLIM 0"
+    if axis.soft_limits is None:
+        return
+    margin_u = MARGIN_CNT / abs(axis.pulses_per_unit)
+    high, low = axis.soft_limits
+    yield f"{word} SLM ({number_text(high + margin_u)},{number_text(low - margin_u)})"
+    yield f"{word} SLDEC {number_text(dec_ups2)}"
+
+
+def keep(io: MachineIo, sample: CardState) -> None:
+    """Let the limits of exactly those axes act that have some, are homed, and need the key."""
+    settings, is_turned = io.settings, io.is_key_turned(sample)
+    for axis, word in zip(settings.axes, sample.limits, strict=True):
+        is_limited = axis.soft_limits is not None and settings.is_homed(axis.index)
+        wanted = ENABLED if is_limited and not is_turned else 0
+        if word & ENABLED != wanted:
+            _switch(io, axis.index, bool(wanted))
+
+
+def open_way(io: MachineIo, axis: int) -> None:
+    """Switch the limits of an axis off at once: its position counts no more."""
+    _switch(io, axis, False)
+
+
+def _switch(io: MachineIo, axis: int, on: bool) -> None:
+    for mask in ENABLES:
+        io.machine.set_flag(flag_of(n.AF5_WORD + axis, mask), on)
+
+
+def found(card: Card, settings: Settings) -> list[str]:
+    """The lines that give the axes back the limits they have now."""
+    program = settings.master
+    return [
+        f"AXIS{axis.index} {word} {_value(card, f'AXIS{axis.index} {word}', program)}"
+        for axis in settings.axes
+        for word in ("SLM", "SLDEC", "SLIM")
+    ]
+
+
+def _value(card: Card, query: str, program: int) -> str:
+    text = card.command(query, program=program)[0].strip()
+    return f"({text})" if "," in text else text
+
+
+def restore(card: Card, settings: Settings, found_lines: Iterable[str]) -> None:
+    """Give the axes back the limits that were found before the set-up."""
+    for line in found_lines:
+        card.command(line, program=settings.master)

@@ -1,0 +1,47 @@
+"""Stops a machine whoever drives it: everything off, moves and jogs to rest, then barred."""
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+from openacr.client import Card
+from openacr.client.errors import RefusedError
+from openacr.mill.card.alarms import Kind
+from openacr.mill.card.kill_cause import cause_of
+from openacr.mill.card.leftovers import machine_of, switch_off
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import Settings
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """What a stop has found and done."""
+
+    found: list[str]  # was on
+    rests: bool  # without losing its drives
+    cause: Kind | None  # why all motion had been killed before, where that is known
+
+
+def stop_all(card: Card, settings: Settings) -> Stopped:
+    """Bring the machine to rest with everything off.
+
+    Needs no ownership. Moves stay killed, so that a host that still runs ends its program
+    and nothing moves before an acknowledgement.
+    """
+    machine = machine_of(card, settings)
+    machine.hold()
+    found = switch_off(card, settings)
+    for line in (f"HALT PROG{machine.master}", *(f"AXIS{axis} JOG OFF" for axis in machine.axes)):
+        with suppress(RefusedError):
+            machine.type([line])
+    cause = cause_of(MachineIo(machine, settings), machine.poll())  # before moves are killed here
+    machine.stop()
+
+    def is_at_rest() -> bool:
+        sample = machine.poll()
+        return (sample.is_held or not sample.is_moving) and not machine.is_jogging()
+
+    rests = card.wait(is_at_rest, timeout_s=settings.rest_s)
+    if not rests:
+        machine.disable()
+    machine.bar()
+    return Stopped(found, rests, cause)

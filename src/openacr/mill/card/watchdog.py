@@ -1,0 +1,150 @@
+"""The watchdog: a program on the card that stops the machine when its host is lost.
+
+The host counts in a variable of the card. When that has not changed for the link timeout the
+card itself sets feed hold, stops jogs, and switches spindle, coolant and beam off, again and
+again until the flag it sets is cleared by an acknowledgement. It is plain AcroBASIC in one of
+the programs 0 to 7, which have time slices of their own.
+"""
+
+from collections.abc import Iterator
+
+from openacr.client import Card
+from openacr.client.errors import RefusedError
+from openacr.cnc.occupied import HEARTBEAT, TRIPPED
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import CONTROL, NONE, cell
+
+NAME = "REM openacr watchdog"
+MEMORY_BYTES = 4096
+TEXT_LENGTH = 80
+PROGRAM_CELL = cell(CONTROL, 125)
+NO_WATCHDOG = (
+    f"no watchdog on the card (P{PROGRAM_CELL} is -1): if this host or its link is lost, the"
+    " machine ends the moves it has, and spindle, coolant and beam stay on"
+)
+FLAGS_PER_MASTER, FEED_HOLD_REQUEST = 32, 520
+MS_PER_S = 1000
+PERIOD_S = 0.1  # its program has gone round once
+
+
+class Watchdog:
+    """The watchdog of one machine on its card."""
+
+    def __init__(self, card: Card, io: MachineIo) -> None:
+        self._card = card
+        self._io = io
+        self._settings = io.settings
+        self.program = self._settings.watchdog_program
+        if self.program == self._settings.master:
+            raise UserError(
+                f"P{PROGRAM_CELL} {self.program}: the watchdog cannot be the program of the"
+                " master; 0 to 7 is allowed, -1 for none"
+            )
+
+    def install(self) -> None:
+        """Store it and let it run; UserError where its program is in use or has no memory."""
+        self._require_free_program()
+        self._type("HALT", "NEW", "CLEAR")
+        try:
+            self._store()
+        except RefusedError:  # a card with dimensioned programs, and none for this one
+            self._dimension()
+        self._type("RUN")
+        self._card.pause(PERIOD_S)
+        if not self.is_running:
+            raise UserError(f"the watchdog does not run in program {self.program} of the card")
+
+    def remove(self) -> None:
+        """Halt and erase it."""
+        self._type("HALT", "NEW", "CLEAR")
+
+    def rearm(self) -> None:
+        """Watch again, after it has stopped the machine or was halted."""
+        self._io.machine.set_flag(TRIPPED, False)
+        self._card.pause(PERIOD_S)  # it may be setting its feed hold once more just now
+        if not self.is_running:
+            self.install()
+
+    @property
+    def is_running(self) -> bool:
+        """Whether its program runs."""
+        flags = int(self._card.read(n.PF_WORD + self.program))
+        return bool(flags & n.PF_PROGRAM_RUNNING)
+
+    def _require_free_program(self) -> None:
+        listed = self._card.command("LIST", program=self.program)
+        if listed and NAME not in listed[0]:
+            raise UserError(
+                f"program {self.program} of the card is in use ({listed[0].strip()}): choose"
+                f" another one for the watchdog (P{PROGRAM_CELL}: 0 to 7, -1 for none)"
+            )
+
+    def _dimension(self) -> None:
+        """Give the program memory, and store it once more; what had room before is erased."""
+        self._type("NEW")
+        try:
+            self._card.command("SYS")
+            self._card.command(f"DIM PROG{self.program}({MEMORY_BYTES})")
+            self._store()
+        except RefusedError as refused:
+            self._type("NEW")
+            raise UserError(
+                f"no memory for the watchdog on the card: {refused}; free {MEMORY_BYTES} bytes"
+                f" for program {self.program}, or do without it (P{PROGRAM_CELL} = -1)"
+            ) from None
+
+    def _store(self) -> None:
+        for number, line in enumerate(self.lines(), start=1):
+            self._card.command(f"{10 * number} {line}", program=self.program)
+
+    def _type(self, *lines: str) -> None:
+        for line in lines:
+            self._card.command(line, program=self.program)
+
+    # --- the program ------------------------------------------------------------------
+
+    def lines(self) -> list[str]:
+        """Its lines; the first one has the number 10, each next one 10 more."""
+        timeout_s = self._settings.link_timeout_s
+        first, wait, trip = 50, 70, 150  # numbers of the lines that are gone to
+        clock = f"P{n.P_GLOBAL_SYSTEM_CLOCK}"
+        begin = [
+            NAME,
+            "DIM LV(3)",
+            f"DIM $V(1,{TEXT_LENGTH})",
+            f"IF (BIT{TRIPPED}) THEN GOTO {trip}",
+            f"LV0=P{HEARTBEAT}",
+            f"LV1={clock}",
+            "DWL 0.05",
+            f"IF (BIT{TRIPPED}) THEN GOTO {trip}",
+            f"IF (P{HEARTBEAT}<>LV0) THEN GOTO {first}",
+            f"LV2={clock}-LV1",
+            f"IF (LV2<0) THEN GOTO {first}",  # the clock has wrapped
+            f"IF (LV2<{round(timeout_s * MS_PER_S)}) THEN GOTO {wait}",
+            f"SET {TRIPPED}",
+            f'$V0="host silent for {timeout_s:g} s: feed hold, spindle, coolant, beam off"',
+        ]
+        end = ["DWL 0.05", f"IF (BIT{TRIPPED}) THEN GOTO {trip}", f"GOTO {first}"]
+        return [*begin, *self._stop(), *end]
+
+    def _stop(self) -> Iterator[str]:
+        """Feed hold and jogs to rest, then spindle, coolant and beam off."""
+        settings = self._settings
+        yield f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * settings.master}"
+        for axis in settings.axes:
+            yield f"AXIS{axis.index} JOG OFF"
+        for number, is_on in self._io.safe_levels():
+            yield f"{'SET' if is_on else 'CLR'} {number}"
+        if settings.spindle.dac != NONE:
+            yield f"P{DAC_VALUE + DAC_STRIDE * settings.spindle.dac}=0"
+
+
+def left_text(card: Card, program: int) -> str:
+    """What a watchdog that has stopped the machine left to be read; empty if there is nothing."""
+    try:
+        return " ".join(card.command("?$V0", program=program)).strip()
+    except RefusedError:
+        return ""

@@ -1,0 +1,1 @@
+"""What the store says about the machine: axes, wiring, speeds, formats, languages."""

@@ -1,0 +1,85 @@
+"""The serial line of part programs: drip feed and LINK, as the COMMUNICATIONS tab says."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import serial
+
+from openacr.cnc.reading.text import CONTROL_Z
+from openacr.errors import UserError, reason
+from openacr.mill.config.settings import Store, cell
+
+COMMUNICATIONS = 13
+PARITIES = (serial.PARITY_NONE, serial.PARITY_EVEN, serial.PARITY_ODD)
+XON_XOFF, RTS_CTS = 1, 2
+PART, SILENCE_S = ".part", 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """How characters travel."""
+
+    port: str
+    baud: int
+    data_bits: int
+    parity: str
+    stop_bits: int
+    handshake: int
+
+    @classmethod
+    def of(cls, store: Store, port: str = "") -> "Line":
+        """What the store says now; `port` for another one than it names."""
+
+        def number(k: int) -> int:
+            return int(store.read(cell(COMMUNICATIONS, k)))
+
+        return cls(
+            port or store.read_text(cell(COMMUNICATIONS, 0)), number(1), number(2),
+            PARITIES[number(3)], number(4), number(5),
+        )  # fmt: skip
+
+    def open(self, wait_s: float = 0.0) -> serial.SerialBase:
+        """The port; reading waits so long at most. UserError when it cannot be had.
+
+        With RTS/CTS the driver takes the signals down when its buffer is full; XON and XOFF
+        are sent by whoever reads.
+        """
+        if not self.port:
+            raise UserError("no serial port is set: P750000, or name one")
+        try:
+            return serial.serial_for_url(
+                self.port,
+                baudrate=self.baud,
+                bytesize=self.data_bits,
+                parity=self.parity,
+                stopbits=self.stop_bits,
+                rtscts=self.handshake == RTS_CTS,
+                timeout=wait_s,
+                write_timeout=1.0,
+            )
+        except (serial.SerialException, OSError, ValueError) as failure:
+            raise UserError(f"cannot open serial port {self.port}: {reason(failure)}") from None
+
+
+def receive(port: serial.SerialBase, target: Path, silence_s: float = SILENCE_S) -> int:
+    """LINK: store a part program that is sent as a file; its size in bytes.
+
+    It ends with Ctrl-Z, or when nothing comes any more. The file is there when all of it is.
+    """
+    data = bytearray()
+    try:
+        while CONTROL_Z not in data:
+            more = port.read(max(port.in_waiting, 1))
+            if not more and data:
+                break
+            if not more:
+                raise UserError(f"nothing was sent to {port.port}")
+            data += more
+            port.timeout = silence_s
+    except (serial.SerialException, OSError) as failure:
+        raise UserError(f"{port.port} failed: {failure}") from None
+    program = bytes(data).partition(CONTROL_Z)[0].replace(b"\r\n", b"\n").strip(b"\0")
+    half = target.with_name(target.name + PART)
+    half.write_bytes(program)
+    half.replace(target)
+    return len(program)

@@ -1,0 +1,57 @@
+"""Feed, rapid and spindle override: the click of a switch, and what it means in percent."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+
+from openacr.errors import UserError
+from openacr.mill.config import settings as rows
+from openacr.mill.config.settings import CLICKS, NONE, Settings
+
+SWITCH_INPUTS = 4
+
+
+class Override(IntEnum):
+    """Which override; the value is its tab of the store."""
+
+    FEED = rows.FOV
+    RAPID = rows.ROV
+    SPINDLE = rows.SOV
+
+
+@dataclass(slots=True)
+class _Switch:
+    table: tuple[float, ...]  # percent per click
+    first_input: int
+    click: int
+
+
+class Overrides:
+    """The three switches. `factor` is 1 at 100 percent."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._switches = {
+            which: _Switch(settings.table(which), settings.switch(which), settings.click(which))
+            for which in Override
+        }
+
+    def factor(self, which: Override) -> float:
+        """What the present click means."""
+        switch = self._switches[which]
+        return switch.table[switch.click] / 100.0
+
+    def choose(self, which: Override, click: int) -> None:
+        """Set the click on the screen; refused where a switch on the panel sets it."""
+        switch = self._switches[which]
+        if switch.first_input != NONE:
+            raise UserError(f"{which.name} override is set by the switch on the panel")
+        if not 0 <= click < CLICKS:
+            raise UserError(f"click {click}: 0..{CLICKS - 1} are there")
+        switch.click = click
+
+    def read(self, is_on: Callable[[int], bool]) -> None:
+        """Take the click of each switch from its four inputs, lowest bit first."""
+        for switch in self._switches.values():
+            if switch.first_input != NONE:
+                bits = (is_on(switch.first_input + bit) << bit for bit in range(SWITCH_INPUTS))
+                switch.click = sum(bits)

@@ -1,0 +1,61 @@
+"""Positions as the operator reads them, in the formats of the DISPLAY tab."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openacr.mill.config.settings import AXES, AXIS, CONTROL, DISPLAY, Store, cell
+from openacr.units import MM_PER_INCH
+
+ROTARY = frozenset("ABC")
+METRIC_MODE = 21
+SIGN_AND_POINT = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """How many digits stand left and right of the point."""
+
+    left: int
+    right: int
+
+    @classmethod
+    def of(cls, value: float) -> "Format":
+        """The format a cell holds as digits.digits: 3.4 is three and four."""
+        tenths = round(10.0 * value)
+        return cls(tenths // 10, tenths % 10)
+
+    def text(self, value: float) -> str:
+        """A number of this width; one with more digits is shown whole, never cut."""
+        width = self.left + self.right + SIGN_AND_POINT
+        shown = f"{value:.{self.right}f}"
+        if float(shown) == 0.0:
+            shown = shown.removeprefix("-")
+        return shown.rjust(width)
+
+
+class Readout:
+    """Positions in default units as text, in the unit of the Control Mode or in another one."""
+
+    def __init__(self, store: Store) -> None:
+        self._formats = {
+            is_metric: [Format.of(store.read(cell(DISPLAY, k, axis))) for axis in range(AXES)]
+            for k, is_metric in enumerate((False, True))
+        }
+        self._names = [store.read_text(cell(AXIS, 8, axis)) for axis in range(AXES)]
+        self._is_stored_metric = bool(store.read(cell(CONTROL, 1)))
+        self.is_metric = store.read(cell(DISPLAY, 30)) == METRIC_MODE
+
+    def format(self, axis: int, *, is_metric: bool | None = None) -> Format:
+        """The format of an axis."""
+        return self._formats[self.is_metric if is_metric is None else is_metric][axis]
+
+    def text(self, axis: int, value_u: float, *, is_metric: bool | None = None) -> str:
+        """The position of an axis."""
+        unit = self.is_metric if is_metric is None else is_metric
+        if self._names[axis] not in ROTARY and unit != self._is_stored_metric:
+            value_u *= MM_PER_INCH if unit else 1.0 / MM_PER_INCH
+        return self.format(axis, is_metric=unit).text(value_u)
+
+    def line(self, axes: Sequence[int], place: Sequence[float]) -> str:
+        """Several axes beside each other."""
+        return " ".join(f"{self._names[axis]}{self.text(axis, place[axis])}" for axis in axes)

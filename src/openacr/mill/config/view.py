@@ -1,0 +1,60 @@
+"""How tool paths are drawn: colours and directions of the DISPLAY, TOOL and CONTROL tabs."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from openacr.mill.config.settings import CONTROL, DISPLAY, TOOL, Store, cell
+
+# The 16 colours of the guide's screens, darkened where they would not show on white.
+COLORS = (
+    "#000000", "#0033CC", "#007A33", "#00808A", "#B00020", "#8E24AA", "#8B5A2B", "#9E9E9E",
+    "#555555", "#3B82F6", "#009E73", "#17A2B8", "#E4572E", "#E573C7", "#D9A400", "#C8BFB0",
+)  # fmt: skip
+LIGHT_GREEN = 10
+FIRST_TOOL_COLOR = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """Colours are numbers of `COLORS`; flips and exchange act on the drawing alone."""
+
+    has_tool_colors: bool = False
+    path_color: int = LIGHT_GREEN
+    tool_colors: dict[int, int] = field(default_factory=dict)
+    flips_x: bool = False
+    flips_y: bool = False
+    exchanges: bool = False
+
+    @classmethod
+    def of(cls, store: Store, tools: Iterable[int], *, by_tool: bool = False) -> "View":
+        """What the store says; `by_tool` asks for the colours of tools in any case."""
+        return cls(
+            has_tool_colors=by_tool or bool(store.read(cell(DISPLAY, 20))),
+            path_color=int(store.read(cell(CONTROL, 114))),
+            tool_colors={n: int(store.read(cell(TOOL, FIRST_TOOL_COLOR + n))) for n in tools},
+            flips_x=bool(store.read(cell(DISPLAY, 21))),
+            flips_y=bool(store.read(cell(DISPLAY, 22))),
+            exchanges=bool(store.read(cell(DISPLAY, 23))),
+        )
+
+    def color(self, tool: int) -> str:
+        """The colour of a path that is cut with a tool."""
+        number = self.tool_colors.get(tool, tool) if self.has_tool_colors else self.path_color
+        return COLORS[number % len(COLORS)]
+
+    @property
+    def matrix(self) -> npt.NDArray[np.float64]:
+        """From the axes of the machine to those of the screen: seen = points @ matrix.
+
+        Flips turn axes of the machine round; then X and Y change places.
+        """
+        flips = np.diag([-1.0 if self.flips_x else 1.0, -1.0 if self.flips_y else 1.0, 1.0])
+        return flips[:, [1, 0, 2]] if self.exchanges else flips
+
+    def axis_on(self, direction: int) -> tuple[int, bool]:
+        """The axis of the machine along a direction of the screen, and whether it is flipped."""
+        axis = (1, 0, 2)[direction] if self.exchanges else direction
+        return axis, (self.flips_x, self.flips_y, False)[axis]

@@ -1,0 +1,1 @@
+"""Motion commanded by an operator: jog, hand wheel, homing, probing, teaching."""

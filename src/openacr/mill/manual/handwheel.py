@@ -1,0 +1,97 @@
+"""The hand wheel: a pulse generator whose clicks move the chosen axes.
+
+At every look the way turned since the last one is added to the target of each chosen axis,
+which follows as a jog, at the jog speed and at most to its soft limit. What is turned beyond
+a limit is lost, so that turning back moves the axis at once. When the wheel is let go of,
+the way becomes position.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.mill.card.actions import Steps, Until
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import AXIS, NONE
+from openacr.mill.config.tabs import AxisSettings
+from openacr.mill.manual.jogging import Jogging
+
+COUNTS_PER_CLICK = 4  # one period of the encoder, at MULT 4
+WRAP = 1 << 32
+
+
+@dataclass(slots=True)
+class _Follower:
+    """One axis that follows its wheel."""
+
+    row: AxisSettings
+    encoder: int
+    u_per_count: float
+    counts: int
+    target_u: float
+
+
+class HandWheel:
+    """The hand wheel of one machine."""
+
+    def __init__(self, io: MachineIo, jogging: Jogging) -> None:
+        self._io = io
+        self._machine = io.machine
+        self._jogging = jogging
+        self._followers: list[_Follower] = []
+        self._is_left = False
+
+    @property
+    def axes(self) -> list[int]:
+        """The axes that follow the wheel now."""
+        return [one.row.index for one in self._followers]
+
+    def select(self, axes: Iterable[int]) -> None:
+        """These axes follow the wheel, and no others, until `leave`.
+
+        Refused as a whole when one of them has no wheel, or may not move.
+        """
+        self._followers = [self._follower(axis) for axis in axes]
+        self._is_left = False
+
+    def leave(self) -> None:
+        """The wheel has no effect any more; the axes arrive where it has sent them."""
+        self._is_left = True
+
+    def follow(self) -> Steps:
+        """As long as axes are chosen; at the end all is at rest and position."""
+        yield Until("hand wheel", lambda _sample: self._is_left or self._turned())
+        self._followers = []
+        yield from self._jogging.settle()
+
+    def _follower(self, axis: int) -> _Follower:
+        settings = self._io.settings
+        encoder = int(settings.real(AXIS, 9, axis))
+        if encoder == NONE:
+            raise UserError(f"no hand wheel is installed for axis {settings.axis(axis).name}")
+        row, _ = self._jogging.ready(axis, fast=True)
+        self._machine.type([f"ENC{encoder} MULT {COUNTS_PER_CLICK}"])
+        ratio = settings.real(AXIS, 10, axis) / COUNTS_PER_CLICK
+        return _Follower(row, encoder, ratio, self._counts(encoder), self._jogging.position(row))
+
+    def _counts(self, encoder: int) -> int:
+        return int(self._machine.read(n.ENC_BASE + encoder * n.ENC_STRIDE))
+
+    def _turned(self) -> bool:
+        """Send every axis on by what its wheel was turned; never the end of it."""
+        for one in self._followers:
+            now = self._counts(one.encoder)
+            path = (now - one.counts + WRAP // 2) % WRAP - WRAP // 2
+            one.counts = now
+            if path:
+                self._move(one, path * one.u_per_count)
+        return False
+
+    def _move(self, one: _Follower, distance_u: float) -> None:
+        limit = self._jogging.limit(one.row, 1 if distance_u > 0 else -1)
+        target = one.target_u + distance_u
+        if limit is not None and (target - limit) * distance_u > 0.0:
+            target = limit if (one.target_u - limit) * distance_u <= 0.0 else one.target_u
+        one.target_u = target
+        self._jogging.aim(one.row, target)

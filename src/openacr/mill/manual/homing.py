@@ -1,0 +1,221 @@
+"""Finding the reference point of axes: switch, release, marker, back to the marker.
+
+Every axis goes its own way through the same steps; those of one priority go together. An
+axis that does not get there stays un-homed and gives alarm 34.
+
+The axis moves as a jog, whose ramps and speeds belong to homing for that time only. At the
+end the jog offset is folded into the position and the position is set to Home Preset.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
+from itertools import groupby
+from math import copysign, inf
+from typing import TypeAlias
+
+from openacr.client.values import number_text
+from openacr.map import numbers as n
+from openacr.mill.card import alarms, homed
+from openacr.mill.card.actions import Steps, Until
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.card.ballscrew import Compensation
+from openacr.mill.card.driver import CardState, flag_of
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.tabs import AxisSettings, HomeSettings
+
+FIRST_MARKER = 0  # INTCAP mode: rising edge of the marker of the axis' own encoder
+TRAVEL_SHARE, TRAVEL_U = 1.1, 1000.0
+BEYOND_SHARE = 1.05  # of the longest travel an axis is sent
+STALLED_MS = 3000  # an axis that is told to move and does not
+
+Condition: TypeAlias = Callable[[CardState], bool]
+
+
+def groups(io: MachineIo, axes: Iterable[int]) -> Iterator[list[int]]:
+    """The chosen axes by ascending priority; priority 0 is left out."""
+    priority = {axis: io.settings.home(axis).priority for axis in axes}
+    chosen = sorted((axis for axis in priority if priority[axis] > 0), key=priority.__getitem__)
+    for _, group in groupby(chosen, priority.__getitem__):
+        yield list(group)
+
+
+class _Side:
+    """One of several actions that go on side by side."""
+
+    def __init__(self, path: Steps) -> None:
+        self.path = path
+        self.until = next(path, None)
+
+    def advance(self, sample: CardState) -> bool:
+        """Go on as far as the card lets it; whether it is done."""
+        while self.until is not None and self.until.is_met(sample):
+            self.until = next(self.path, None)
+        return self.until is None
+
+
+def together(distances: Iterable[Steps], reason: str) -> Steps:
+    """Several actions side by side, done when all of them are."""
+    sides = [_Side(path) for path in distances]
+    try:
+        yield Until(reason, lambda sample: not sum(not side.advance(sample) for side in sides))
+    finally:
+        with ExitStack() as each:  # all of them, even if one fails to stop its axis
+            for side in sides:
+                each.callback(side.path.close)
+
+
+class Axis:
+    """One axis on its way to the reference point."""
+
+    def __init__(self, io: MachineIo, axis: AxisSettings) -> None:
+        self._machine = io.machine
+        self._io = io
+        self._axis = axis
+        self._row: HomeSettings = io.settings.home(axis.index)
+
+    @property
+    def outlook(self) -> str:
+        """Where the axis is going to go, for whoever stands beside it."""
+        path, sign = BEYOND_SHARE * self._longest_u(), "-" if self._row.is_negative else "+"
+        switch = f"its switch at input {self._row.switch_input}"
+        return f"{self._axis.name}: {sign} to {switch}, at most {path:g} units"
+
+    def home(self) -> Steps:
+        """All steps; the axis is at rest and its position is known at the end."""
+        if not self._io.has_input(self._row.switch_input):
+            raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no switch input")
+        self._ramps(self._row.acc_ups2, self._row.dec_ups2)
+        try:
+            yield from self._switch()
+            yield from self._marker()
+        except BaseException:  # broken off: by STOP, ABORT, or because nothing was found
+            try:
+                self._ramps(self._row.acc_ups2, self._row.stp_ups2)
+            finally:
+                self._jog(0.0)
+            raise
+        self._ramps(self._axis.jog_acc_ups2, self._axis.jog_dec_ups2)
+        self._type(f"JOG RES {self._axis.name}0")
+        self._type(f"RES {self._axis.name}{number_text(self._row.preset_u)}")
+
+    def _switch(self) -> Steps:
+        row = self._row
+        to_switch = -1.0 if row.is_negative else 1.0
+        if not self._io.is_in(self._machine.poll(), row.switch_input):
+            self._jog(to_switch * row.fast_ups)
+            yield self._until("switch", is_on=True)
+        self._jog(0.0)
+        yield self._rest()
+        self._jog(-to_switch * row.slow_ups)
+        yield self._until("release of the switch", is_on=False)
+
+    def _marker(self) -> Steps:
+        row = self._row
+        away = 1.0 if row.is_negative else -1.0
+        self._type(f"INTCAP {self._axis.name} {FIRST_MARKER}")
+        self._jog(away * row.marker_ups)
+        captured = self._flag(n.AF1_WORD, n.AF1_CAPTURE_COMPLETE)
+        yield self._supervised("marker", lambda _sample: self._is_set(captured))
+        self._jog(0.0)
+        yield self._rest()
+        point = self._machine.read(self._parameter(n.AX_HARDWARE_CAPTURE))
+        actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        back_u = (point - actual) / self._axis.pulses_per_unit
+        self._type(f"JOG VEL {self._axis.name}{number_text(row.marker_ups)}")
+        self._type(f"JOG INC {self._axis.name}{number_text(back_u)}")
+        yield self._rest()
+
+    # --- pieces -----------------------------------------------------------------------
+
+    def _until(self, what: str, *, is_on: bool) -> Until:
+        number = self._row.switch_input
+        return self._supervised(what, lambda sample: self._io.is_in(sample, number) == is_on)
+
+    def _supervised(self, what: str, is_met: Condition) -> Until:
+        """A condition that has to come within the longest travel, and while the axis moves."""
+        start = last = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        longest = self._longest_u() * self._axis.pulses_per_unit
+        moved_ms: int | None = None
+
+        def check(sample: CardState) -> bool:
+            nonlocal last, moved_ms
+            if is_met(sample):
+                return True
+            actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+            if abs(actual - start) > abs(longest) or self._is_barred(sample):
+                raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no {what}")
+            if actual != last or moved_ms is None:
+                last, moved_ms = actual, sample.clock_ms
+            elif sample.clock_ms - moved_ms > STALLED_MS:
+                raise AlarmError(
+                    alarms.HOMING_FAILED, f"{self._axis.name}: it does not move (is its drive on?)"
+                )
+            return False
+
+        return Until(f"homing {self._axis.name}: {what}", check, inf)
+
+    def _is_barred(self, sample: CardState) -> bool:
+        """The card has stopped the axis, at a limit or by a kill."""
+        word = sample.drives[self._machine.axes.index(self._axis.index)]
+        return bool(word & n.AF4_KILL_ALL_MOTION_REQUEST)
+
+    def _longest_u(self) -> float:
+        limits = self._axis.soft_limits
+        return TRAVEL_SHARE * (limits[0] - limits[1]) if limits else TRAVEL_U
+
+    def _rest(self) -> Until:
+        active = self._flag(n.AF1_WORD, n.AF1_JOG_ACTIVE)
+        reason = f"homing {self._axis.name}: rest"
+        return Until(reason, lambda _sample: not self._is_set(active))
+
+    def _ramps(self, acc_ups2: float, dec_ups2: float) -> None:
+        self._type(f"JOG ACC {self._axis.name}{number_text(acc_ups2)}")
+        self._type(f"JOG DEC {self._axis.name}{number_text(dec_ups2)}")
+
+    def _jog(self, speed_ups: float) -> None:
+        """Jog at a signed speed; 0 ramps down.
+
+        The way is little more than the longest travel: the axis stops by itself when the
+        host or the link to it is lost.
+        """
+        name = self._axis.name
+        if speed_ups == 0.0:
+            self._type(f"JOG OFF {name}")
+            return
+        distance_u = copysign(BEYOND_SHARE * self._longest_u(), speed_ups)
+        self._type(f"JOG VEL {name}{number_text(abs(speed_ups))}")
+        self._type(f"JOG INC {name}{number_text(distance_u)}")
+
+    def _type(self, line: str) -> None:
+        self._machine.type([line])
+
+    def _parameter(self, row: int) -> int:
+        return n.AX_BASE + self._axis.index * n.AX_STRIDE + row
+
+    def _flag(self, word: int, mask: int) -> int:
+        return flag_of(word + self._axis.index, mask)
+
+    def _is_set(self, flag: int) -> bool:
+        return self._machine.card.read_bit(flag)
+
+
+def home(
+    io: MachineIo, axes: Iterable[int], compensation: Compensation, say: Callable[[str], None]
+) -> Steps:
+    """Home the chosen axes, priority after priority; the store learns which are homed.
+
+    How far each of them may go is said before: its switch may not be wired to anything.
+    """
+    for group in groups(io, axes):
+        homing = [Axis(io, io.settings.axis(axis)) for axis in group]
+        for each in homing:
+            say(each.outlook)
+        distances = [each.home() for each in homing]
+        for axis in group:
+            homed.note(io, axis, False)
+        compensation.renew()
+        names = " ".join(io.settings.axis(axis).name for axis in group)
+        yield from together(distances, f"homing {names}")
+        for axis in group:
+            homed.note(io, axis, True)
+        compensation.renew()

@@ -1,0 +1,247 @@
+"""Moving axes by hand: as long as a control is held, or by one increment.
+
+A jog is an offset on the card; when it has ended the offset becomes position, so that the
+machine position is one number again. Where soft limits hold, a held jog goes to the limit
+and no further.
+
+While a control is held the card never has more than `LEASH_S` of way ahead at full speed,
+besides what it takes to ramp down; the target is moved on as long as somebody looks. So an
+axis comes to rest by itself when the host or the link to it is lost: nothing ever has to
+be stopped in time.
+"""
+
+from collections.abc import Iterable
+from contextlib import ExitStack
+from dataclasses import dataclass
+
+from openacr.client.errors import RefusedError
+from openacr.client.values import number_text
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.messages import HARD_LIMIT
+from openacr.mill.card import alarms
+from openacr.mill.card.actions import Steps, Until
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import JOG, LONGEST_REST_S, REST_S
+from openacr.mill.config.tabs import AxisSettings
+
+FIRST_INCREMENT, INCREMENTS = 6, 5
+JOG_ACTIVE = n.AF1_JOG_ACTIVE
+LEASH_S, RENEW_S = 0.5, 0.1
+
+
+@dataclass(slots=True)
+class _Held:
+    """An axis on its way: as long as a control is held, or to the end of an increment."""
+
+    direction: int
+    reach_u: float  # way ahead of the axis
+    renewed_s: float
+    end_u: float | None = None  # of an increment: machine position
+
+
+class Jogging:
+    """Jogs of the axes of one machine."""
+
+    def __init__(self, io: MachineIo) -> None:
+        self._io = io
+        self._machine = io.machine
+        self._moving: set[int] = set()
+        self._rest_by_s: float | None = None  # when the axes have to be at rest
+        self._held: dict[int, _Held] = {}
+
+    @property
+    def is_active(self) -> bool:
+        """Whether an axis was set moving and is not known to be at rest."""
+        return bool(self._moving)
+
+    def hold(self, axis: int, direction: int, *, fast: bool = False) -> None:
+        """A control is held: the axis moves until `release`, at most to its soft limit."""
+        row, speed_ups = self.ready(axis, fast=fast)
+        direction = direction if not self._is_turned(axis) else -direction
+        if self._is_at_limit(row, direction):
+            raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        self._lead(row, direction, speed_ups, None)
+
+    def _lead(
+        self, row: AxisSettings, direction: int, speed_ups: float, end_u: float | None
+    ) -> None:
+        brake_u = 0.5 * speed_ups**2 / row.jog_dec_ups2 if row.jog_dec_ups2 else 0.0
+        reach_u = LEASH_S * speed_ups + brake_u
+        self._held[row.index] = _Held(direction, reach_u, self._machine.now_s, end_u)
+        self._aim(row, self._held[row.index])
+
+    def release(self, axis: int) -> None:
+        """The control is let go: the axis ramps to rest."""
+        self._held.pop(axis, None)
+        self._type(f"JOG OFF {self._io.settings.axis(axis).name}")
+
+    def increment(self, axis: int, direction: int, preset: int, *, fast: bool = False) -> float:
+        """Exactly one of the five increments, as Jog Direction turns it; how far that is."""
+        if not 1 <= preset <= INCREMENTS:
+            raise UserError(f"increment {preset}: 1..{INCREMENTS} are there")
+        size = self._io.settings.real(JOG, FIRST_INCREMENT + preset - 1, axis)
+        forward = (direction > 0) is not self._is_turned(axis)
+        self.move(axis, size if forward else -size, fast=fast)
+        return size
+
+    def move(self, axis: int, distance_u: float, *, fast: bool = False) -> None:
+        """By a distance, refused where it leads beyond a soft limit."""
+        row, speed_ups = self.ready(axis, fast=fast)
+        limit = self.limit(row, 1 if distance_u > 0 else -1)
+        end = self.position(row) + distance_u
+        if limit is not None and (end - limit) * distance_u > 0.0:
+            raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        self._lead(row, 1 if distance_u > 0 else -1, speed_ups, end)
+
+    def settle(self) -> Steps:
+        """Wait for rest, then make positions of the offsets."""
+        yield Until("jog", lambda _sample: not self._is_going_on())
+        self._rest_by_s = None
+        for axis in sorted(self._moving):
+            self._type(f"JOG RES {self._io.settings.axis(axis).name}")
+        self._moving.clear()
+
+    def stop_all(self) -> None:
+        """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
+        if self._rest_by_s is None:
+            self._rest_by_s = self._machine.now_s + self._rest_s()
+        with ExitStack() as each:  # all of them, even if the card refuses to stop one
+            for axis in self._moving:
+                each.callback(self._stop, axis)
+
+    def _rest_s(self) -> float:
+        """How long axes may take to come to rest: twice the longest ramp, and a little."""
+        rows = (self._io.settings.axis(axis) for axis in self._moving)
+        ramps_s = (max(row.jog_ups, row.jog_rapid_ups) / _ramp(row) for row in rows if _ramp(row))
+        return min(REST_S + 2.0 * max(ramps_s, default=0.0), LONGEST_REST_S)
+
+    def _stop(self, axis: int) -> None:
+        row = self._io.settings.axis(axis)
+        try:
+            self._type(f"JOG DEC {row.name}{number_text(_ramp(row))}")
+        finally:
+            self.release(axis)
+
+    def let_go(self) -> None:
+        """Nothing is held any more; what has stopped the axes is stronger than a jog."""
+        self._held.clear()
+
+    # --- pieces -----------------------------------------------------------------------
+
+    def _aim(self, row: AxisSettings, held: _Held) -> None:
+        """Move the target of a jog on, at most to its end or the soft limit."""
+        here = self.position(row)
+        end = self.limit(row, held.direction) if held.end_u is None else held.end_u
+        target = here + held.direction * held.reach_u
+        if end is not None and (target - end) * held.direction >= 0.0:
+            beyond = held.end_u is None and (here - end) * held.direction > 0.0
+            target = here if beyond else end
+            if held.end_u is not None:
+                del self._held[row.index]  # the card knows the end now
+        self.aim(row, target)
+        held.renewed_s = self._machine.now_s
+
+    def aim(self, row: AxisSettings, target_u: float) -> None:
+        """Set the machine position an axis is to go to."""
+        self._moving.add(row.index)
+        self._start(row, f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
+
+    def _start(self, row: AxisSettings, line: str) -> None:
+        """Send a jog; AlarmError where the card refuses it for an active limit switch."""
+        try:
+            self._type(line)
+        except RefusedError as refused:
+            if refused.message != HARD_LIMIT:
+                raise
+            raise AlarmError(alarms.HARDWARE_LIMIT, row.name) from refused
+
+    def _is_going_on(self) -> bool:
+        """Whether axes are on their way; those of held controls get more of it."""
+        for axis, held in list(self._held.items()):
+            row = self._io.settings.axis(axis)
+            if self._machine.now_s < held.renewed_s + RENEW_S:
+                continue
+            if held.end_u is None and self._is_at_limit(row, held.direction):
+                del self._held[axis]
+            else:
+                self._aim(row, held)
+        is_going_on = bool(self._held) or self._is_moving()
+        if is_going_on and self._rest_by_s is not None and self._machine.now_s > self._rest_by_s:
+            raise AlarmError(alarms.NO_REST)
+        return is_going_on
+
+    def _is_at_limit(self, row: AxisSettings, direction: int) -> bool:
+        limit = self.limit(row, direction)
+        return limit is not None and (limit - self.position(row)) * direction <= 0.0
+
+    def ready(self, axis: int, *, fast: bool) -> tuple[AxisSettings, float]:
+        """Set the speed and ramps of jogs for an axis that may move; the speed."""
+        settings = self._io.settings
+        row = settings.axis(axis)
+        if row.is_home_required and not settings.is_homed(axis):
+            raise AlarmError(alarms.NOT_HOMED, row.name)
+        is_fast = fast and not self._is_key_turned()
+        speed = min(row.jog_rapid_ups if is_fast else row.jog_ups, settings.speeds.max_ups)
+        self._type(
+            f"JOG ACC {row.name}{number_text(row.jog_acc_ups2)}",
+            f"JOG DEC {row.name}{number_text(row.jog_dec_ups2)}",
+            f"JOG VEL {row.name}{number_text(speed)}",
+        )
+        return row, speed
+
+    def _is_key_turned(self) -> bool:
+        """Whether the maintenance key is turned: no soft limits, but never fast."""
+        return self._io.is_key_turned(self._machine.poll())
+
+    def _is_turned(self, axis: int) -> bool:
+        """Whether Jog Direction turns the controls of an axis around."""
+        return bool(self._io.settings.real(JOG, 5, axis))
+
+    def limit(self, row: AxisSettings, direction: int) -> float | None:
+        """How far an axis may be moved by hand, None for as far as it goes."""
+        if row.soft_limits is None or not self._io.settings.is_homed(row.index):
+            return None
+        if self._is_key_turned():
+            return None
+        high, low = row.soft_limits
+        return high if direction > 0 else low
+
+    def position(self, row: AxisSettings) -> float:
+        """Where the axis is commanded to stand, with the jog that is not position yet."""
+        offset = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_JOG_OFFSET)
+        return self._current(row) + offset / row.pulses_per_unit
+
+    def _current(self, row: AxisSettings) -> float:
+        """Where the axis stands without the jog."""
+        pulses = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_CURRENT_POSITION)
+        return pulses / row.pulses_per_unit
+
+    def _is_moving(self) -> bool:
+        words = self._machine.card.read_many([n.AF1_WORD + axis for axis in self._moving])
+        return any(int(word) & JOG_ACTIVE for word in words)
+
+    def _type(self, *lines: str) -> None:
+        self._machine.type(lines)
+
+
+def _ramp(row: AxisSettings) -> float:
+    """The ramp of a stop, never softer than the one the way to a soft limit was planned with."""
+    return max(row.jog_stp_ups2, row.jog_dec_ups2)
+
+
+def distances(texts: Iterable[str], names: Iterable[str]) -> list[tuple[str, float]]:
+    """Distances as `X0.5 Y-1`: axis and way of each."""
+    known = set(names)
+    found = []
+    for text in texts:
+        name, rest = text[:1].upper(), text[1:]
+        try:
+            path = float(rest)
+        except ValueError:
+            raise UserError(f"{text}: write a distance as X0.5") from None
+        if name not in known:
+            raise UserError(f"axis {name} is not configured: {' '.join(sorted(known))} are")
+        found.append((name, path))
+    return found

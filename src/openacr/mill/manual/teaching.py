@@ -1,0 +1,30 @@
+"""TEACH: where the machine stands becomes the zero of a work coordinate system."""
+
+from collections.abc import Iterable
+
+from openacr.cnc.canonical import Point
+from openacr.cnc.state.hosts import Cells
+from openacr.errors import UserError
+from openacr.mill.config.settings import Settings
+
+COMMON, CELLS_PER_SYSTEM = 900, 10
+SYSTEMS = {"G54": 1, "G55": 2, "G56": 3, "G57": 4, "G58": 5, "G59": 6, "G59.1": 7, "G59.2": 8}
+
+
+def teach(store: Cells, settings: Settings, code: str, here: Point, axes: Iterable[int]) -> None:
+    """The machine position `here` reads 0 in a work system, along these axes.
+
+    The common shift goes on counting: the offset is what is left of the position behind it.
+    All axes are stored together.
+    """
+    if code.upper() not in SYSTEMS:
+        raise UserError(f"{code}: work systems are {' '.join(SYSTEMS)}")
+    chosen = [settings.axis(axis) for axis in axes]
+    for axis in chosen:
+        if axis.is_home_required and not settings.is_homed(axis.index):
+            raise UserError(f"axis {axis.name} is not homed: its position means nothing yet")
+    first = COMMON + CELLS_PER_SYSTEM * SYSTEMS[code.upper()]
+    with store.transaction():
+        for axis in chosen:
+            shift = here[axis.index] - store.read(COMMON + axis.index)
+            store.write(first + axis.index, shift)

@@ -1,0 +1,267 @@
+"""Canonical moves as packets: what the planner needs to know of a move, and its bytes.
+
+A packet never depends on the one before it: velocity and ramp are sent with every move,
+targets and centres are absolute pulses. They are whole numbers, because a single-precision
+float cannot hold 0.00001 inch over 200 inches.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Polyline, Probe, Rapid
+from openacr.mill.config.settings import S_PER_MIN, Settings
+from openacr.mill.plan.geometry import Geometry, MoveShape
+from openacr.mill.plan.planning import PlannedMove
+from openacr.mill.plan.polylines import columns, lines
+from openacr.protocol.move import Move
+from openacr.protocol.move_codes import Code0, Code1, Code3
+
+Motion = Rapid | Line | Arc | Probe
+Pulses = Sequence[int]  # of a machine position, one value per axis that is there
+LONG_MAX = (1 << 31) - 1
+
+# How a move ends, in the two mode bits of header code 0 (Enable Rapid Move Modes is set).
+CONTINUOUS = 0
+CORNERING = int(Code0.MOVE_MODE_BIT_0)
+STOPPING = int(Code0.MOVE_MODE_BIT_1)
+RAPID = CORNERING | STOPPING
+ALWAYS = int(Code0.COUNTER | Code0.ACC | Code0.VEL | Code0.CODE_3_PRESENT)
+PLANES = {Plane.XY: 0, Plane.YZ: int(Code1.PLANE_BIT_0), Plane.ZX: int(Code1.PLANE_BIT_1)}
+CARD_PLANE_AXES = (0, 1, 2)
+
+
+@dataclass(slots=True, kw_only=True)
+class Job(PlannedMove):
+    """One move on its way to the card: how it is planned, and where it goes."""
+
+    entry: Motion
+    begin: Point  # machine positions
+    finish: Point
+    begin_cnt: Pulses
+    finish_cnt: Pulses
+    count: int = 0  # the number of its packet, 0 while it has none
+    block: int = 0  # blocks that end before it
+
+
+class Encoder:
+    """Jobs and packets for the axes of one machine."""
+
+    def __init__(self, settings: Settings, *, is_dry: bool = False, rounds: bool = False) -> None:
+        """`rounds`: the card knows path tolerances, an extension that real cards have not."""
+        self._settings = settings
+        self._speeds = settings.speeds
+        self._geometry = Geometry(settings)
+        self._axes = [axis.index for axis in settings.axes]
+        self._scale = [0.0] * 8
+        for axis in settings.axes:
+            self._scale[axis.index] = axis.pulses_per_unit
+        self._is_dry = is_dry
+        self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
+
+    # --- planning ---------------------------------------------------------------------
+
+    def jobs(self, entry: Motion | Polyline, begin: Point) -> Iterator[Job]:
+        """A canonical move as the moves that the card will make."""
+        if isinstance(entry, Polyline):
+            yield from self._lines(entry, begin)
+            return
+        for piece in self._pieces(entry, begin):
+            yield self.job(piece, begin)
+            begin = piece.end
+
+    def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
+        tolerance = self._tolerance(entry.pace)
+        found = columns(entry, begin, self._settings, self._line_speed(entry.pace), tolerance)
+        mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
+        begin_cnt: Pulses = self.pulses(begin)
+        rows = zip(
+            lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
+            found.ramp_ups2.tolist(), found.direction.tolist(), found.tolerance_u.tolist(),
+            found.pulses[1:].tolist(), strict=True,
+        )  # fmt: skip
+        for line, length, feed, ramp, direction, tolerance_u, finish_cnt in rows:
+            heading = direction if any(direction) else None
+            yield Job(
+                length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
+                mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin, finish=line.end,
+                begin_cnt=begin_cnt, finish_cnt=finish_cnt,
+            )  # fmt: skip
+            begin, begin_cnt = line.end, finish_cnt
+
+    def job(self, entry: Motion, begin: Point) -> Job:
+        """One move as the planner sees it."""
+        shape = self._shape(entry, begin)
+        is_rapid = isinstance(entry, Rapid)
+        ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
+        tolerance = 0.0
+        if isinstance(entry, Line) and self._geometry.is_linear(shape):
+            tolerance = self._tolerance(entry.pace)
+        begin_cnt, finish_cnt = self.pulses(begin), self.pulses(entry.end)
+        if tolerance > 0.0:
+            sent = self._geometry.line(self._place(begin_cnt), self._place(finish_cnt))
+            shape = sent if sent.length_u > 0.0 else shape
+        return Job(
+            length_u=shape.length_u,
+            feed_ups=self._speed(entry, shape),
+            ramp_ups2=self._geometry.ramp_limit(shape, ramp, rounds=tolerance > 0.0),
+            tolerance_u=tolerance,
+            start=shape.start,
+            end=shape.end,
+            mode=PathMode.EXACT if isinstance(entry, Rapid) else _mode(entry),
+            is_rapid=is_rapid,
+            entry=entry,
+            begin=begin,
+            finish=entry.end,
+            begin_cnt=begin_cnt,
+            finish_cnt=finish_cnt,
+        )
+
+    def _place(self, counts: Pulses) -> Point:
+        """The machine position the card understands."""
+        point = [0.0] * len(self._scale)
+        for axis, count in zip(self._axes, counts, strict=True):
+            point[axis] = count / self._scale[axis]
+        return tuple(point)
+
+    def _shape(self, entry: Motion, begin: Point) -> MoveShape:
+        if not isinstance(entry, Arc):
+            return self._geometry.line(begin, entry.end)
+        plane = (entry.plane.first, entry.plane.second)
+        return self._geometry.arc(begin, entry.end, plane, entry.centre, entry.sweep_rad)
+
+    def _speed(self, entry: Motion, shape: MoveShape) -> float:
+        """Units per second (degrees where only rotary axes move), within all limits."""
+        speeds = self._speeds
+        if isinstance(entry, Rapid):
+            wanted = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
+        else:
+            wanted = self._line_speed(entry.pace)
+        if isinstance(entry, Arc):
+            # An arc needs v^2 / r across: it may not be more than the machine gives.
+            radius = min(entry.start_radius, entry.end_radius)
+            wanted = min(wanted, math.sqrt(speeds.arc_acc_ups2 * radius))
+        return min(wanted, self._geometry.speed_limit(shape))
+
+    def _tolerance(self, pace: Pace) -> float:
+        """How far the card may leave the corners between straight moves."""
+        if not self._rounds or pace.is_confirmed or pace.mode is not PathMode.FREE:
+            return 0.0
+        return pace.tolerance_u
+
+    def _line_speed(self, pace: Pace) -> float:
+        """The speed a feed move asks for."""
+        return self._speeds.trial_ups if self._is_dry else pace.feed_upm / S_PER_MIN
+
+    # --- packets ----------------------------------------------------------------------
+
+    def packet(self, job: Job) -> Move | None:
+        """The bytes of a move; None when it ends on the pulse where it begins."""
+        entry = job.entry
+        ends = zip(self._axes, job.begin_cnt, job.finish_cnt, strict=True)
+        in_plane = (entry.plane.first, entry.plane.second) if isinstance(entry, Arc) else ()
+        moved = {axis: end for axis, begin, end in ends if end != begin or axis in in_plane}
+        if not moved:
+            return None
+        mode, fvel = _ending(job)
+        locked = Code0.OVERRIDE_LOCKOUT if _is_locked(entry) else 0
+        codes1, centers = self._arc(entry)
+        return Move.of(
+            moved,
+            master=self._settings.master,
+            code0=ALWAYS | mode | int(locked),
+            code1=codes1,
+            code3=int(Code3.FVEL) if fvel is not None else 0,
+            vel=job.feed_ups,
+            fvel=fvel,
+            acc=job.ramp_ups2,
+            centers=centers,
+            tolerance=job.tolerance_u if job.is_joined else None,
+        )
+
+    def _arc(self, entry: Motion) -> tuple[int, tuple[int, int] | None]:
+        if not isinstance(entry, Arc):
+            return 0, None
+        first, second = entry.plane.first, entry.plane.second
+        turn = int(Code1.COUNTERCLOCKWISE) if entry.sweep_rad > 0 else 0
+        centre = (self._pulse(first, entry.centre[0]), self._pulse(second, entry.centre[1]))
+        return PLANES[entry.plane] | turn, centre
+
+    def pulses(self, point: Point) -> Pulses:
+        """A machine position in pulses of the axes that are there."""
+        return [self._pulse(axis, point[axis]) for axis in self._axes]
+
+    def _pulse(self, axis: int, position_u: float) -> int:
+        exact = position_u * self._scale[axis]
+        nearest = math.floor(abs(exact) + 0.5)  # half away from zero
+        return nearest if exact >= 0 else -nearest
+
+    def beyond_pulses(self, job: Job) -> str | None:
+        """The axis and position that do not fit the 32 bits a packet has for pulses."""
+        for axis, end in zip(self._axes, job.finish_cnt, strict=True):
+            if abs(end) > LONG_MAX:
+                return f"axis {axis}: {job.finish[axis]:g}"
+        return None
+
+    # --- forms the card knows ---------------------------------------------------------
+
+    def _pieces(self, entry: Motion, begin: Point) -> Iterator[Motion]:
+        """A canonical move in forms the card can run: arcs it does not know become chords."""
+        if isinstance(entry, Arc) and not self._runs(entry):
+            yield from self._chords(entry, begin)
+        else:
+            yield entry
+
+    def _runs(self, arc: Arc) -> bool:
+        """Whether the card can run an arc: X Y Z with equal pulses per unit in the plane."""
+        first, second = arc.plane.first, arc.plane.second
+        known = first in CARD_PLANE_AXES and second in CARD_PLANE_AXES
+        return known and self._scale[first] == self._scale[second]
+
+    def _chords(self, arc: Arc, begin: Point) -> Iterator[Line]:
+        """Straight pieces whose height over the arc stays within the chord tolerance."""
+        radius = max(arc.start_radius, arc.end_radius)
+        height = min(self._speeds.chord_u, radius)
+        pace = replace(arc.pace, tolerance_u=max(arc.pace.tolerance_u - height, 0.0))
+        half = math.acos(max(1.0 - height / radius, -1.0))
+        count = max(1, math.ceil(abs(arc.sweep_rad) / (2.0 * half)))
+        for number in range(1, count + 1):
+            end = arc.end if number == count else along(arc, begin, number / count)
+            yield Line(arc.source, end, pace, arc.is_inserted, arc.is_compensated)
+
+
+def along(arc: Arc, begin: Point, share: float) -> Point:
+    """The point of an arc behind a share 0..1 of its sweep."""
+    first, second = arc.plane.first, arc.plane.second
+    start = math.atan2(begin[second] - arc.centre[1], begin[first] - arc.centre[0])
+    angle = start + share * arc.sweep_rad
+    radius = arc.start_radius + share * (arc.end_radius - arc.start_radius)
+    point = [a + share * (b - a) for a, b in zip(begin, arc.end, strict=True)]
+    point[first] = arc.centre[0] + radius * math.cos(angle)
+    point[second] = arc.centre[1] + radius * math.sin(angle)
+    return tuple(point)
+
+
+def _mode(entry: Line | Arc | Probe) -> PathMode:
+    return PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
+
+
+def _is_locked(entry: Motion) -> bool:
+    if isinstance(entry, Rapid):
+        return False
+    return entry.pace.is_locked or entry.pace.mode is PathMode.LOCKED
+
+
+def _ending(job: Job) -> tuple[int, float | None]:
+    """The mode bits for the planned end of a move, and its final velocity.
+
+    A corner that the card rounds is planned by the card; the move ends at rest if the next one
+    does not come in time.
+    """
+    if job.is_rapid:
+        return RAPID, None
+    if job.is_joined or job.exit_ups <= 0.0 or isinstance(job.entry, Probe):
+        return STOPPING, None
+    if job.exit_ups >= job.feed_ups:
+        return CONTINUOUS, None
+    return CORNERING, job.exit_ups

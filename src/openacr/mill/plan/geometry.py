@@ -1,0 +1,133 @@
+"""Canonical moves as the planner sees them: length, tangents, the speeds that limits allow.
+
+The feed counts along the linear axes X Y Z U V; rotary axes follow, and a move of rotary
+axes alone has its length in degrees of the fastest one.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from openacr.mill.config.settings import Settings
+from openacr.mill.config.tabs import AxisSettings
+from openacr.mill.plan.rounding import Direction
+
+Point = Sequence[float]  # machine position, one value per axis 0..7
+
+
+@dataclass(frozen=True, slots=True)
+class MoveShape:
+    """The shape of one move: `share` is how far each axis goes per unit of its length."""
+
+    length_u: float
+    start: Direction | None
+    end: Direction | None
+    share: tuple[float, ...]
+
+
+def linear_axes(settings: Settings) -> list[int]:
+    """The axes along which the feed counts; tangents have a component for each."""
+    return [one.index for one in settings.axes if one.is_linear]
+
+
+class Geometry:
+    """Lengths and limits for one set of axes."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._axes = settings.axes
+        self._speeds = settings.speeds
+        self._linear = linear_axes(settings)
+        self._rotary = [one.index for one in settings.axes if not one.is_linear]
+
+    def line(self, start: Point, end: Point) -> MoveShape:
+        """A straight way; its length is 0 when no axis moves."""
+        delta = [b - a for a, b in zip(start, end, strict=True)]
+        length = math.sqrt(sum(delta[axis] ** 2 for axis in self._linear))
+        direction = None
+        if length > 0.0:
+            direction = tuple(delta[axis] / length for axis in self._linear)
+        else:
+            length = max((abs(delta[axis]) for axis in self._rotary), default=0.0)
+        share = tuple(abs(d) / length for d in delta) if length > 0.0 else (0.0,) * len(delta)
+        return MoveShape(length, direction, direction, share)
+
+    def arc(
+        self,
+        start: Point,
+        end: Point,
+        plane: tuple[int, int],
+        centre: tuple[float, float],
+        sweep_rad: float,
+    ) -> MoveShape:
+        """An arc from `start` to `end`; positive sweeps turn from the first axis to the second.
+
+        A radius that changes along the way (a spiral) counts with its mean; other linear
+        axes are added as on a helix.
+        """
+        first, second = plane
+        radius = 0.5 * (
+            math.dist((start[first], start[second]), centre)
+            + math.dist((end[first], end[second]), centre)
+        )
+        bow = radius * abs(sweep_rad)
+        rise = {axis: end[axis] - start[axis] for axis in self._linear if axis not in plane}
+        length = math.sqrt(bow * bow + sum(d * d for d in rise.values()))
+        if length == 0.0:
+            return MoveShape(0.0, None, None, (0.0,) * len(start))
+        share = [abs(b - a) / length for a, b in zip(start, end, strict=True)]
+        share[first] = share[second] = bow / length
+        turn = math.copysign(1.0, sweep_rad) * bow / length
+        tangents = [
+            self._tangent(point, plane, centre, turn, rise, length) for point in (start, end)
+        ]
+        return MoveShape(length, tangents[0], tangents[1], tuple(share))
+
+    def _tangent(
+        self,
+        point: Point,
+        plane: tuple[int, int],
+        centre: tuple[float, float],
+        turn: float,
+        rise: dict[int, float],
+        length: float,
+    ) -> Direction:
+        """The unit tangent: a quarter turn ahead of the radius, tilted by the rise."""
+        first, second = plane
+        x, y = point[first] - centre[0], point[second] - centre[1]
+        radius = math.hypot(x, y) or 1.0
+        parts = {first: -y / radius * turn, second: x / radius * turn}
+        parts |= {axis: d / length for axis, d in rise.items()}
+        return tuple(parts[axis] for axis in self._linear)
+
+    def is_linear(self, shape: MoveShape) -> bool:
+        """Whether linear axes move alone."""
+        return shape.start is not None and not any(shape.share[axis] for axis in self._rotary)
+
+    def speed_limit(self, shape: MoveShape) -> float:
+        """The highest vector speed that no axis limit forbids, units/s."""
+        limits = [self._speeds.max_ups] if shape.start is not None else []
+        limits += _per_axis(((one, one.max_speed_ups) for one in self._axes), shape)
+        if self._speeds.rotary_max > 0.0:
+            rotary = (one for one in self._axes if one.index in self._rotary)
+            limits += _per_axis(((one, self._speeds.rotary_max) for one in rotary), shape)
+        return min(limits, default=math.inf)
+
+    def ramp_limit(self, shape: MoveShape, ramp_ups2: float, *, rounds: bool = False) -> float:
+        """The vector acceleration that no axis limit forbids, units/s2.
+
+        In a rounded corner it has any direction: there it may not exceed the limit of any axis.
+        """
+        if rounds:
+            own = [one.max_acceleration_ups2 for one in self._axes if shape.share[one.index] > 0.0]
+            return min([ramp_ups2, *(limit for limit in own if limit > 0.0)])
+        own = _per_axis(((one, one.max_acceleration_ups2) for one in self._axes), shape)
+        return min([ramp_ups2, *own])
+
+
+def _per_axis(limits: Iterable[tuple[AxisSettings, float]], shape: MoveShape) -> list[float]:
+    """The limits of axes as limits of the vector; 0 is no limit."""
+    return [
+        limit / shape.share[axis.index]
+        for axis, limit in limits
+        if limit > 0.0 and shape.share[axis.index] > 0.0
+    ]

@@ -1,0 +1,177 @@
+"""What a machine would refuse, or do slower, found in a program before any machine is there.
+
+The moves are those a run would send. Soft limits act on homed axes only while a machine runs;
+at the desk every axis is tested as if it were homed, and one warning names those that are not.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from openacr.cnc.canonical import Probe, Rapid, Source
+from openacr.cnc.reading.findings import Finding, found
+from openacr.mill.config.capture import capture_of
+from openacr.mill.config.settings import S_PER_MIN, Settings
+from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
+from openacr.mill.plan.predicting import Phases
+from openacr.mill.plan.travel_limits import Excess, excesses, limited
+
+REACHED = 1.0 - 1e-6  # of the feed; the speeds of the plan come out of square roots
+
+
+@dataclass(slots=True)
+class Beyond:
+    """All moves beyond one limit: the first, the last, the farthest and how many."""
+
+    first: Job
+    excess: Excess  # of the first
+    last: Job
+    farthest: Excess
+    farthest_line: int
+    cnt: int = 1
+
+    def add(self, job: Job, excess: Excess) -> None:
+        """One more point beyond the same limit."""
+        if job is not self.last:
+            self.cnt += 1
+            self.last = job
+        if excess.beyond_u > self.farthest.beyond_u:
+            self.farthest, self.farthest_line = excess, job.entry.source.line
+
+    @property
+    def hint(self) -> str:
+        """What is to be said of the other moves."""
+        if self.cnt == 1:
+            return ""
+        return f"{self.cnt} moves, line {self.farthest_line} by {self.farthest.beyond_u:.6g}"
+
+
+@dataclass(slots=True)
+class Slow:
+    """Feed moves in one go, from rest to rest or to another feed: the highest speed of all."""
+
+    source: Source
+    feed_ups: float
+    top_ups: float = 0.0
+    cnt: int = 0
+
+    @property
+    def share(self) -> float:
+        """How much of the feed is reached."""
+        return self.top_ups / self.feed_ups
+
+
+class Preflight:
+    """Looks at the moves of a program as they are read and planned; memory does not grow."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._encoder = Encoder(settings)
+        self._limited = limited(settings)
+        self._unhomed = {
+            axis.index: axis.name for axis in self._limited if not settings.is_homed(axis.index)
+        }
+        self._untested: dict[str, Source] = {}
+        self._beyond: dict[tuple[int, bool], Beyond] = {}
+        self._unsayable: tuple[Source, str] | None = None
+        self._settings = settings
+        self._polled: dict[str, Source] = {}  # why a probe is polled, and the first line
+        self._chain: Slow | None = None
+        self._slow: Slow | None = None  # the slowest of all
+        self._first_slow: Source | None = None
+        self._slow_cnt = 0
+
+    # --- moves ------------------------------------------------------------------------
+
+    def read(self, job: Job) -> None:
+        """A move of the program: where it goes."""
+        if self._limited:
+            for excess in excesses(job, self._limited):
+                self._note(job, excess)
+        if self._unhomed:
+            self._miss(job)
+        if isinstance(job.entry, Probe):
+            self._note_probe(job)
+        if self._unsayable is None and max(map(abs, job.finish_cnt)) > LONG_MAX:
+            text = self._encoder.beyond_pulses(job) or ""
+            self._unsayable = job.entry.source, text
+
+    def _note_probe(self, job: Job) -> None:
+        """Whether the card captures the positions of a probing move."""
+        travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
+        capture = capture_of(self._settings, travel_u, is_rising=True)
+        if capture.reason:
+            self._polled.setdefault(capture.reason, job.entry.source)
+
+    def _note(self, job: Job, excess: Excess) -> None:
+        limits = excess.axis.soft_limits
+        key = excess.axis.index, limits is not None and excess.limit_u == limits[0]
+        if key in self._beyond:
+            self._beyond[key].add(job, excess)
+        else:
+            line = job.entry.source.line
+            self._beyond[key] = Beyond(job, excess, job, excess, line)
+
+    def _miss(self, job: Job) -> None:
+        """Note the first move of an axis whose limits would not act."""
+        for axis, name in list(self._unhomed.items()):
+            if job.begin[axis] != job.finish[axis]:
+                self._untested[name] = job.entry.source
+                del self._unhomed[axis]
+
+    def rested(self, seconds: float) -> None:
+        """The machine rests: nothing is to be tested."""
+
+    def passed(self, job: Job, phases: Phases) -> None:
+        """A planned move: how fast it gets."""
+        entry = job.entry
+        if isinstance(entry, Rapid):
+            return
+        feed_ups, chain = entry.pace.feed_upm / S_PER_MIN, self._chain
+        if chain is None or chain.feed_ups != feed_ups:
+            self._close()
+            chain = self._chain = Slow(entry.source, feed_ups)
+        chain.cnt += 1
+        for _, begin_ups, end_ups in phases:
+            chain.top_ups = max(chain.top_ups, begin_ups, end_ups)
+        if job.exit_ups == 0.0:
+            self._close()
+
+    def _close(self) -> None:
+        """Moves in one go are over; note them if none reached the feed."""
+        chain, self._chain = self._chain, None
+        if chain is None or chain.top_ups >= REACHED * chain.feed_ups:
+            return
+        self._slow_cnt += chain.cnt
+        self._first_slow = self._first_slow or chain.source
+        if self._slow is None or chain.share < self._slow.share:
+            self._slow = chain
+
+    # --- findings ---------------------------------------------------------------------
+
+    def findings(self, text_of: Callable[[Source], str]) -> list[Finding]:
+        """What was found, when the program has been read to its end."""
+        self._close()
+        return [
+            found(code, source.file, source.line, 1, detail, hint, text_of(source))
+            for code, source, detail, hint in self._all()
+        ]
+
+    def _all(self) -> Iterator[tuple[str, Source, str, str]]:
+        """Codes with their places, details and hints."""
+        for beyond in self._beyond.values():
+            yield "E401", beyond.first.entry.source, str(beyond.excess), beyond.hint
+        if self._unsayable is not None:
+            yield "E403", *self._unsayable, ""
+        if self._untested:
+            names = " ".join(self._untested)
+            source = next(iter(self._untested.values()))
+            yield "W403", source, f"{names} not homed", "tested as if homed"
+        for reason, source in self._polled.items():
+            yield "W404", source, reason, "the probe is polled, and less exact"
+        if self._first_slow is not None and self._slow is not None:
+            slow = self._slow
+            worst = f"line {slow.source.line} comes to {100.0 * slow.share:.3g} % of F"
+            yield "W402", self._first_slow, _moves(self._slow_cnt), worst
+
+
+def _moves(cnt: int) -> str:
+    return "1 move" if cnt == 1 else f"{cnt} moves"

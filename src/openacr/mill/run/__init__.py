@@ -1,0 +1,1 @@
+"""Part programs on a card: the life cycle of a run, from its start to rest."""

@@ -1,0 +1,97 @@
+"""What the runner looks for at every look: causes of alarms, and the switches of the panel."""
+
+from collections.abc import Callable, Iterator
+
+from openacr.map import numbers as n
+from openacr.mill.card import alarms
+from openacr.mill.card.alarms import Alarm, Kind
+from openacr.mill.card.driver import CardState
+from openacr.mill.card.kill_cause import Killed
+from openacr.mill.card.machine_io import MachineIo
+
+HARDWARE_LIMIT = (
+    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+)
+SOFT_LIMIT = n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+Cause = tuple[Kind, str]
+
+
+class Watch:
+    """The causes of alarms that the card and its inputs show."""
+
+    def __init__(self, io: MachineIo) -> None:
+        self._io = io
+        self._names = [axis.name for axis in io.settings.axes]
+        self.killed = Killed(io.machine)
+        self._has_error_band = any(axis.excess_error_u > 0.0 for axis in io.settings.axes)
+
+    def causes(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
+        """Everything that is wrong now; `spins` says that the spindle is on."""
+        killed_by = self.killed.kind(sample)
+        yield from self._present(sample, spins=spins)
+        if self._is_killed(sample):
+            yield killed_by, ""
+
+    def _is_killed(self, sample: CardState) -> bool:
+        """Whether moves were killed by another; a soft limit that was crossed kills them, too."""
+        is_crossed = any(word & SOFT_LIMIT for word in sample.limits)
+        return sample.is_killed and not is_crossed and not self._io.machine.is_dropping
+
+    def _present(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
+        """What is wrong now, besides a kill."""
+        wiring, spindle = self._io.settings.wiring, self._io.settings.spindle
+        if self._io.is_in(sample, wiring.emergency_stop):
+            yield alarms.EMERGENCY_STOP, ""
+        if sample.was_reset:
+            yield alarms.CARD_RESET, ""
+        if sample.has_tripped:
+            yield alarms.HOST_LOST, ""
+        if not sample.is_guarded:
+            yield alarms.WATCHDOG_HALTED, ""
+        yield from self._of_axes(sample)
+        if self._has_error_band and not sample.is_within_error:
+            for name in self._in_error():
+                yield alarms.EXCESS_ERROR, name
+        if spins and self._io.is_in(sample, spindle.exception):
+            yield alarms.SPINDLE_EXCEPTION, ""
+        if self._io.is_in(sample, wiring.lubrication):
+            yield alarms.LUBRICATION, ""
+
+    def _of_axes(self, sample: CardState) -> Iterator[Cause]:
+        for name, drive, limit in zip(self._names, sample.drives, sample.limits, strict=True):
+            if drive & n.AF4_EXCESS_ERROR_FAULT:
+                yield alarms.EXCESS_ERROR, name
+            if drive & n.AF4_DRIVE_FAULT:
+                yield alarms.DRIVE_FAULT, name
+            if limit & HARDWARE_LIMIT:
+                yield alarms.HARDWARE_LIMIT, name
+            if limit & SOFT_LIMIT:
+                yield alarms.LIMIT_CROSSED, name
+
+    def _in_error(self) -> Iterator[str]:
+        """The axes outside their band, asked for only when the master says there are some."""
+        words = self._io.machine.axis_flags(n.AF1_WORD)
+        for axis, word in zip(self._io.settings.axes, words, strict=True):
+            if axis.excess_error_u > 0.0 and not word & n.AF1_NOT_EXCESS_ERROR:
+                yield axis.name
+
+    def is_gone(self, sample: CardState, *, spins: bool) -> Callable[[Alarm], bool]:
+        """Whether the cause of an alarm is no longer there; a kill is one as long as it lasts."""
+        present = {(kind.code, detail) for kind, detail in self._present(sample, spins=spins)}
+        if self._is_killed(sample):
+            present.add((alarms.MOVES_KILLED.code, ""))
+        return lambda alarm: (alarm.kind.code, alarm.detail) not in present
+
+
+class Edges:
+    """Inputs that act when they come on."""
+
+    def __init__(self, io: MachineIo) -> None:
+        self._io = io
+        self._before: dict[int, bool] = {}
+
+    def rose(self, sample: CardState, number: int) -> bool:
+        """Whether an input came on since the last look; at the first one it did not."""
+        now = self._io.is_in(sample, number)
+        before, self._before[number] = self._before.get(number, True), now
+        return now and not before

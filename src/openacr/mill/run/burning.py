@@ -1,0 +1,61 @@
+"""Outputs of burning machines: hi/lo of a plasma source, height sensing near the end of a cut.
+
+Plasma Hi/Lo is on while the tool cuts at least at its percentage of the programmed feed.
+The Under Burn output is on along every cut, a chain of lines and arcs, and goes off when
+less than Under Burn Distance of the chain is left.
+"""
+
+from collections.abc import Iterator
+
+from openacr.cnc.canonical import Arc, Line
+from openacr.map import numbers as n
+from openacr.mill.card.driver import CardState
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.settings import NONE
+from openacr.mill.plan.encoding import Job
+from openacr.mill.run.program_stream import ProgramStream
+
+PERCENT = 0.01
+
+
+class Burner:
+    """The two outputs of one machine; those that are none are left alone."""
+
+    def __init__(self, io: MachineIo, stream: ProgramStream) -> None:
+        self._io = io
+        self._stream = stream
+        self._row = io.settings.burning
+        base = n.MA_BASE + io.settings.master * n.MA_STRIDE
+        self._rows = (base + n.MA_FRACTION_INTO_MOVE, base + n.MA_VECTOR_VELOCITY)
+
+    def keep(self, sample: CardState, *, is_cutting: bool) -> None:
+        """Switch both as the tool moves now; off unless a program cuts."""
+        if self._row.plasma == NONE and self._row.under_burn == NONE:
+            return
+        job = self._stream.tracker.current if is_cutting and sample.is_moving else None
+        if job is None or not isinstance(job.entry, Line | Arc):
+            self._switch(self._row.plasma, False)
+            self._switch(self._row.under_burn, False)
+            return
+        share, speed_ups = map(float, self._io.machine.card.read_many(self._rows))
+        fast_ups = job.feed_ups * self._row.plasma_percent * PERCENT
+        self._switch(self._row.plasma, speed_ups >= fast_ups)
+        self._switch(self._row.under_burn, not self._is_near_end((1.0 - share) * job.length_u))
+
+    def _is_near_end(self, left_u: float) -> bool:
+        """Whether the chain is known to end within the distance."""
+        for job in self._behind():
+            if left_u >= self._row.under_burn_u or not isinstance(job.entry, Line | Arc):
+                return left_u < self._row.under_burn_u
+            left_u += job.length_u
+        return left_u < self._row.under_burn_u and self._stream.is_read_up
+
+    def _behind(self) -> Iterator[Job]:
+        """The moves behind the present one."""
+        moves = self._stream.ahead()
+        next(moves, None)
+        return moves
+
+    def _switch(self, number: int, on: bool) -> None:
+        if number != NONE and self._io.is_out(number) != on:
+            self._io.output(number, on)

@@ -1,0 +1,125 @@
+"""Drip feed: a program that is run while it arrives over a serial line.
+
+The sender is held back while enough of the program waits to be read, and let go on when it
+runs short. When he stalls the machine comes to rest on its path, and goes on with the next
+lines; M2, Ctrl-Z, or a line that breaks down ends the program.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import TypeAlias
+
+import serial
+
+from openacr.cnc import canonical as c
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.interpreter import Options as Reading
+from openacr.cnc.interpreter.mdi import Mdi
+from openacr.cnc.loading.arriving import ArrivingText, NotYetError
+from openacr.cnc.loading.load import Folders, load_blank
+from openacr.cnc.program.flow import Level
+from openacr.cnc.program.program import Program
+from openacr.cnc.reading.findings import BlockError, found
+from openacr.cnc.state.hosts import Cells
+from openacr.mill.config.communications import XON_XOFF, Line
+from openacr.mill.run.feeding import Starved
+from openacr.mill.run.run_host import RunHost
+
+XON, XOFF = b"\x11", b"\x13"
+FULL, LOW = 16_384, 4_096  # unread bytes that hold the sender back, and let him go on
+NAME = "DRIP"
+
+Entries: TypeAlias = Iterator[c.Entry | Starved]
+
+
+class Drip:
+    """One program on its way in over a serial port."""
+
+    def __init__(
+        self,
+        line: Line,
+        store: Cells,
+        dialect: str = "acromill",
+        *,
+        is_dry: bool = False,
+        folders: Folders | None = None,
+    ) -> None:
+        self._port = line.open()
+        self._sends_xoff = line.handshake == XON_XOFF
+        self.is_held_back = False
+        self._store, self._dialect, self._is_dry = store, dialect, is_dry
+        self.program: Program = load_blank(store, dialect, folders, name=NAME)
+        self.text = ArrivingText(NAME, self.program.main.labels)
+        self.program.main.text = self.text
+        self.text.of_part(self.program.main)
+        if self._sends_xoff:
+            self._send(XON)
+
+    def close(self) -> None:
+        """Let go of the port."""
+        self._port.close()
+
+    def poll(self) -> None:
+        """Take what has arrived, as much as is wanted."""
+        try:
+            while not self.text.is_complete and self.text.unread < FULL:
+                data = self._port.read(min(self._port.in_waiting, FULL))
+                if not data:
+                    break
+                self.text.add(data)
+        except (serial.SerialException, OSError):
+            self.text.complete()  # the line is broken: what has arrived is all there is
+            return
+        self._hold_back()
+
+    def _hold_back(self) -> None:
+        if not self._sends_xoff or self.text.is_complete:
+            return
+        if not self.is_held_back and self.text.unread >= FULL:
+            self.is_held_back = True
+            self._send(XOFF)
+        elif self.is_held_back and self.text.unread <= LOW:
+            self.is_held_back = False
+            self._send(XON)
+
+    def _send(self, character: bytes) -> None:
+        try:
+            self._port.write(character)
+        except (serial.SerialException, OSError):
+            self.text.complete()
+
+    # --- entries ----------------------------------------------------------------------
+
+    def entries(self, host: RunHost) -> Entries:
+        """The program as far as it is there; `Starved` where it is not."""
+        reading = Reading(is_dry=self._is_dry, has_block_ends=True)
+        run = Interpreter(self.program, self._store, host, self._dialect, reading)
+        Mdi(run)  # the supplied cycles are there without $I
+        source: Callable[[], Iterator[c.Entry]] = run.entries
+        while True:
+            self.poll()
+            try:
+                yield from source()
+                return
+            except NotYetError:
+                self._refuse_open_macros(run)
+                yield Starved()
+            except BlockError as error:
+                raise self._unreached(error) from None
+            source = run.go_on
+
+    def _refuse_open_macros(self, run: Interpreter) -> None:
+        """The text of a macro has to be there when it is called."""
+        if any(frame.level is not Level.SUB for frame in run.flow.frames):
+            raise self._too_early(run)
+
+    def _too_early(self, run: Interpreter) -> BlockError:
+        node = run.execution.node
+        line = node.line if node else 1
+        return BlockError(found("E108", NAME, line, 1, "the macro has not arrived"))
+
+    def _unreached(self, error: BlockError) -> BlockError:
+        """A label that is not there yet cannot be jumped to."""
+        if error.finding.code != "E220":
+            return error
+        return BlockError(replace(error.finding, code="E108", hint="it has not arrived"))

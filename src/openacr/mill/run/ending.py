@@ -1,0 +1,88 @@
+"""The ends of a program: the last block, ABORT or an alarm, and the kill of all motion.
+
+However a program ends, spindle, coolant and beam are switched off first; nothing waits for
+the machine to come to rest before that. Every wait of an ending has a limit, and a machine
+that does not come to rest within it loses its drives (alarm 15).
+"""
+
+from contextlib import ExitStack
+
+from openacr.mill.card import alarms
+from openacr.mill.card.action_player import ActionPlayer
+from openacr.mill.card.actions import Steps, Until
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.run.entry_actions import EntryActions
+from openacr.mill.run.lifecycle import Lifecycle
+from openacr.mill.run.pausing import Pausing
+from openacr.mill.run.program_stream import ProgramStream
+
+
+class Ending:
+    """Ends what runs on one machine."""
+
+    def __init__(
+        self,
+        io: MachineIo,
+        stream: ProgramStream,
+        entry_actions: EntryActions,
+        pausing: Pausing,
+        player: ActionPlayer,
+        lifecycle: Lifecycle,
+    ) -> None:
+        self._io = io
+        self._machine = io.machine
+        self._stream = stream
+        self._entry_actions = entry_actions
+        self._pausing = pausing
+        self._player = player
+        self._lifecycle = lifecycle
+
+    def finish(self) -> None:
+        """All is done and at rest; blocks typed one by one leave on what is on."""
+        if not self._lifecycle.options.is_mdi:
+            self._entry_actions.off()
+        self._leave()
+
+    def abort(self) -> None:
+        """To rest, moves dropped, everything off.
+
+        The hold is requested at once: a host that ends may never poll the card again.
+        """
+        with ExitStack() as then:  # each of these even if the one before it fails; last one first
+            then.callback(self._player.begin, self._to_rest())
+            then.callback(self._leave)
+            if not self._lifecycle.options.is_dry:
+                then.callback(self._entry_actions.off)
+            then.callback(self._machine.hold)
+
+    def kill(self) -> None:
+        """All motion is killed, drives and spindle go off, the program is over."""
+        with ExitStack() as then:  # each of these even if the one before it fails; last one first
+            then.callback(self._player.close)
+            then.callback(self._leave)
+            then.callback(self._entry_actions.off)
+            then.callback(self._io.output, self._io.settings.wiring.drive_enable, False)
+            self._machine.kill()
+
+    def cut_power(self) -> None:
+        """The last resort, when nothing brings the machine to rest: kill, and all drives off."""
+        with ExitStack() as then:
+            then.callback(self._machine.disable)
+            then.callback(self.kill)
+
+    def _leave(self) -> None:
+        self._pausing.close()
+        self._stream.end()
+        self._entry_actions.is_tapping = False
+
+    def _to_rest(self) -> Steps:
+        yield self._stream.stops()
+        yield from self._stream.drop_moves()
+        yield Until(
+            "axes stop",
+            lambda _sample: not self._machine.is_jogging(),
+            self._io.settings.rest_s,
+            alarms.NO_REST,
+        )
+        self._machine.fold_jogs()  # of a homing that was broken off
+        self._machine.go_on()  # nothing is left to move: a hold must not outlast its program

@@ -1,0 +1,43 @@
+"""Passes of a program: once, or over and over where the store says so."""
+
+from openacr.errors import UserError
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.run.console import Console
+from openacr.mill.run.lifecycle import Event, Lifecycle
+from openacr.mill.run.program_stream import Entries, ProgramStream
+
+
+class Passes:
+    """The passes of what runs on one machine."""
+
+    def __init__(
+        self, io: MachineIo, stream: ProgramStream, console: Console, lifecycle: Lifecycle
+    ) -> None:
+        self.count = 0  # ends of programs reached
+        self._io = io
+        self._stream = stream
+        self._console = console
+        self._lifecycle = lifecycle
+        self._entries: Entries | None = None
+
+    def load(self, entries: Entries) -> None:
+        """Take a program; its first pass begins with `begin`."""
+        self._entries = entries
+
+    def finish(self) -> None:
+        """M2 or the end: over, or once more."""
+        options = self._lifecycle.options
+        if not options.is_mdi:
+            self.count += 1
+            self._console.count_part(self.count)
+        if self._io.settings.repeats and options.is_repeated:
+            self.begin()
+        else:
+            self._lifecycle.fire(Event.END)
+
+    def begin(self) -> None:
+        """Begin the program from its first block on."""
+        if self._entries is None:
+            raise UserError("no program is loaded")
+        options = self._lifecycle.options
+        self._stream.begin(self._entries, is_dry=options.is_dry, is_single=options.is_single)

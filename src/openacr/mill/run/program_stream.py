@@ -1,0 +1,333 @@
+"""One pass of a program on its way to the card: what was sent, what comes next.
+
+The course knows the moves; what the runner decides (hold, go on, take back, join again)
+happens to them here.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+
+from openacr.cnc import canonical as c
+from openacr.errors import UserError
+from openacr.map.numbers import AX_CURRENT_POSITION, AX_JOG_OFFSET
+from openacr.mill.card import alarms
+from openacr.mill.card.actions import Steps, Until
+from openacr.mill.card.driver import CLEAR_S, CardState
+from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.manual.probing import Probing
+from openacr.mill.plan.encoding import Encoder, Job, Motion
+from openacr.mill.plan.travel_limits import first_excess
+from openacr.mill.run.entry_actions import EntryActions
+from openacr.mill.run.feeding import Fault, Feed, Halt, Starved
+from openacr.mill.run.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
+from openacr.mill.run.run_host import RunHost
+from openacr.mill.run.tracking import Tracker, time_s
+
+SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
+KILL_S = 0.5  # longest wait for a card at rest to take notice
+PULSES_OFF = 2.0  # further away the machine has been moved
+Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
+
+
+class ProgramStream:
+    """The moves of one machine, from the entries of a program to the buffer of the card."""
+
+    def __init__(self, io: MachineIo, entry_actions: EntryActions, depth: int) -> None:
+        self.settings = io.settings
+        self.host = RunHost(io.machine, io.settings, lambda: self._probing.point)
+        self.tracker = Tracker()
+        self.moves = 0  # moves sent
+        self.is_retaking = False  # the card is on its way to rest, to give its moves back
+        self.may_lack_moves = False  # some that were sent in a pause's beginning may be lost
+        self._machine = io.machine
+        self._entry_actions = entry_actions
+        self._depth = depth
+        self._probing = Probing(io, self._send, self.host.position, entry_actions.say)
+        self._encoder = Encoder(io.settings)
+        self._feed: Feed | None = None
+        self._excused: Job | None = None  # a last move whose end the machine has left on purpose
+        self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
+        self._rapid_level: float | None = None  # the highest its rapids brought the tool to
+
+    def begin(self, entries: Entries, *, is_dry: bool, is_single: bool) -> None:
+        """A program from its first block on."""
+        self._machine.reset_counter()
+        self.tracker.reset()
+        self.tracker.trail.restart([])
+        rounds = self._machine.rounds_corners
+        self._encoder = Encoder(self.settings, is_dry=is_dry, rounds=rounds)
+        self._begin, self._rapid_level = self.host.position(), None
+        self._feed = Feed(entries(self.host), self._begin, self.settings, self._encoder)
+        self._feed.is_single = is_single
+
+    def end(self) -> None:
+        """No program any more."""
+        self._feed = None
+
+    @property
+    def has_program(self) -> bool:
+        """Whether a program is on its way."""
+        return self._feed is not None
+
+    @property
+    def is_read_up(self) -> bool:
+        """Whether nothing comes behind the moves that are known, before the machine rests."""
+        return self._feed is None or self._feed.halt is not None
+
+    def ahead(self) -> Iterator[Job]:
+        """The move that is executed, and those known to come behind it."""
+        yield from self.tracker.jobs()
+        if self._feed is not None:
+            yield from self._feed.jobs()
+
+    def set_single(self, on: bool) -> None:
+        """Whether every block is followed by a stop."""
+        if self._feed is not None:
+            self._feed.is_single = on
+
+    # --- forward ----------------------------------------------------------------------
+
+    def advance(self, sample: CardState) -> Halt | None:
+        """Read and send as far as there is room; what the program has come to at rest."""
+        feed = self._feed
+        if feed is None:
+            return None
+        room = self._depth - self.tracker.waiting
+        feed.read(room)
+        jobs = feed.take(room, is_urgent=feed.is_starved and self._is_short())
+        is_at_rest = False
+        with self._machine.repeating():
+            self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
+            is_at_rest = self.tracker.is_at_end(sample)
+            for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
+                for _ in self._entry_actions.steps(note):
+                    pass  # none of them waits
+        halt = feed.halt if feed.is_empty and is_at_rest else None
+        if halt is not None and (moved := self._moved_by_others()):
+            return Fault(alarms.NOT_IN_PLACE, moved)
+        if isinstance(halt, c.Tool):
+            self.tracker.trail.bar(self.tracker.current)
+        return halt
+
+    def excuse(self) -> None:
+        """The machine leaves the end of its last move on purpose: by hand, or in probing."""
+        self._excused = next(reversed(self.tracker.jobs()), None)
+
+    def _moved_by_others(self) -> str:
+        """At rest behind moves: the axis that is not where they led to; empty if all are."""
+        jobs = self.tracker.jobs()
+        if not jobs or jobs[-1] is self._excused:
+            return ""
+        both = self._machine.axis_values(AX_CURRENT_POSITION, AX_JOG_OFFSET)
+        here, jogs = both[: len(both) // 2], both[len(both) // 2 :]
+        for axis, at, jog, end in zip(
+            self.settings.axes, here, jogs, jobs[-1].finish_cnt, strict=True
+        ):
+            if abs(at + jog - end) > PULSES_OFF:
+                at_u, end_u = (at + jog) / axis.pulses_per_unit, end / axis.pulses_per_unit
+                return f"axis {axis.name} is at {at_u:.6g}, the program led it to {end_u:.6g}"
+        return ""
+
+    def _is_short(self) -> bool:
+        """Whether the card soon has no moves any more."""
+        behind = self.tracker.jobs()[1:]
+        return sum(map(time_s, behind)) < SHORT_S
+
+    @property
+    def is_starved(self) -> bool:
+        """Whether the program has to wait for its sender."""
+        return self._feed is not None and self._feed.is_starved
+
+    def go_on(self) -> None:
+        """What the program had come to is done."""
+        if self._feed is not None:
+            self._feed.go_on()
+
+    def _send(self, jobs: Iterable[Job]) -> None:
+        packets = []
+        for job in jobs:
+            packet = self._encoder.packet(job)
+            self.tracker.add(job, has_packet=packet is not None)
+            if packet is not None:
+                packets.append(packet)
+            if isinstance(job.entry, c.Rapid):
+                before, level = self._rapid_level, job.finish[c.TOOL_AXIS]
+                self._rapid_level = level if before is None else max(before, level)
+        if packets:
+            self._machine.send(packets)
+            self.moves += len(packets)
+
+    def probe(self, entry: c.Probe) -> Steps:
+        """G31, from rest to rest."""
+        feed = self._feed
+        if feed is not None:
+            yield from self._probing.steps(feed.probe(entry), self._encoder.job)
+            feed.position = self.host.position()
+            self.excuse()
+
+    # --- back and again ---------------------------------------------------------------
+
+    def place(self) -> Place | None:
+        """Where a held machine stands on its path."""
+        job = self.tracker.current
+        return place(job, self.host.position()) if job else None
+
+    def is_off(self, point: c.Point) -> bool:
+        """Whether the machine has been moved away from where it was held."""
+        return bool(self._moved_axes(self.host.position(), point))
+
+    def _moved_axes(self, here: c.Point, point: c.Point) -> set[int]:
+        """The axes that are not at a point any more."""
+        return {
+            axis.index
+            for axis in self.settings.axes
+            if abs(here[axis.index] - point[axis.index])
+            > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
+        }
+
+    def require_way_back(self, point: c.Point) -> None:
+        """Refuse to come back to a point over a part: it is not known where the tool is free."""
+        self._level(self.host.position(), point)
+
+    def _level(self, here: c.Point, target: c.Point) -> float:
+        """The level of the tool axis at which the tool goes over to a point.
+
+        A tool that was only moved along its axis needs none. Any other goes up to the highest
+        level of the rapids of this program, or where it was raised to by hand.
+        """
+        moved, axis = self._moved_axes(here, target), c.TOOL_AXIS
+        high = max(here[axis], target[axis])
+        if moved <= {axis} or all(one.index != axis for one in self.settings.axes):
+            return high
+        if self._rapid_level is not None:
+            return max(high, self._rapid_level)
+        if axis in moved and here[axis] > target[axis]:
+            return high
+        raise UserError(
+            "the tool was moved beside its path, and the program has not said yet at which"
+            f" level it is free: raise {self.settings.axis(axis).name} by hand first"
+        )
+
+    def retake(self) -> Steps:
+        """Stop, take every move back that is not done, and read them again.
+
+        It may be broken off anywhere, and begun once more.
+        """
+        if self._feed is None:
+            return
+        self.is_retaking = True
+        try:
+            with self._machine.repeating():
+                self._machine.hold()
+                yield self.stops()
+                yield from self.put_back(self.host.position())
+        finally:
+            self.is_retaking = False
+
+    def stops(self) -> Until:
+        """The wait for the rest of a feed hold; alarm 15 if it does not come."""
+        return Until(
+            "stops",
+            lambda sample: sample.is_held or not sample.is_moving,
+            self.settings.rest_s,
+            alarms.NO_REST,
+        )
+
+    def put_back(self, here: c.Point) -> Steps:
+        """Take the rest of the way back from the card, for a machine that is held at `here`."""
+        self.make_first(self._taken_back(here))
+        yield from self.drop_moves()
+
+    def make_first(self, jobs: list[Job]) -> None:
+        """These moves come before everything the program still has to make."""
+        if self._feed is not None:
+            self._feed.replace(jobs)
+
+    def rejoin(self, target: c.Point, left: Place | None) -> Steps:
+        """Back to where the machine was held, then the rest of the path."""
+        feed = self._feed
+        if feed is None:
+            return
+        here = self.host.position()
+        leading = self._leading(here, target, left)
+        jobs = self._taken_back(target)
+        yield from self.drop_moves()
+        feed.replace([*leading, *jobs])
+
+    def _leading(self, here: c.Point, target: c.Point, left: Place | None) -> list[Job]:
+        """The moves back to where the machine was held: on an arc where there is one to be had."""
+        if left is None:
+            return self._straight_back(here, target)
+        level_u = self._level(here, target)
+        was_raised = self._moved_axes(here, target) <= {c.TOOL_AXIS}
+        radius_u = 0.0 if was_raised else self.settings.lead_in_u
+        leading = self._jobs(lead_in(left, here, level_u, radius_u), here)
+        if any(first_excess(job, self.settings) for job in leading):
+            leading = self._jobs(lead_in(left, here, level_u, 0.0), here)
+        return leading
+
+    def come_back(self, target: c.Point) -> None:
+        """Back to a point the machine rested at, straight, before anything else."""
+        jobs = self._straight_back(self.host.position(), target)
+        if self._feed is not None and jobs:
+            self._feed.replace(jobs)
+
+    def _straight_back(self, here: c.Point, target: c.Point) -> list[Job]:
+        job = self.tracker.current
+        source, pace = (job.entry.source, pace_of(job)) if job else (c.Source("", 1, ""), None)
+        level_u = self._level(here, target)
+        return self._jobs(straight_back(source, here, target, level_u, pace), here)
+
+    def return_to_begin(self) -> Steps:
+        """Straight to where the program was started, where the tool can be raised before."""
+        try:
+            jobs = self._straight_back(self.host.position(), self._begin)
+        except UserError as refused:
+            yield from self._entry_actions.steps(c.Say(c.Source("", 1, ""), f"stays: {refused}"))
+            return
+        self._send(jobs)
+        yield Until("back to the start", self.tracker.is_at_end)
+
+    def drop_moves(self) -> Steps:
+        """Drop what the card holds and count from zero again; alarm 15 if it moves on.
+
+        A kill that cannot be cleared was set by another host or by the card: it is alarm 14
+        from then on.
+        """
+        self._machine.stop()
+        limit_s = self.settings.rest_s
+        yield Until("moves end", lambda sample: not sample.is_moving, limit_s, alarms.NO_REST)
+        yield Until("kill is seen", lambda sample: sample.is_killed, KILL_S)
+        self._machine.clear_kill()
+        self._machine.reset_counter()
+        self.tracker.reset()
+        self.may_lack_moves = False
+        # What was seen before the counter was reset must not pass for the end of new moves.
+        yield Until(
+            "kill is cleared", lambda sample: not sample.is_killed and sample.counter == 0, CLEAR_S
+        )
+
+    def _jobs(self, entries: Iterator[Motion], begin: c.Point) -> list[Job]:
+        jobs = []
+        for entry in entries:
+            jobs.append(self._encoder.job(entry, begin))
+            begin = entry.end
+        return [job for job in jobs if job.length_u > 0.0]
+
+    def _taken_back(self, here: c.Point) -> list[Job]:
+        """The rest of the move that is held at `here`, and those behind it."""
+        jobs, held, rest = self.tracker.take_back(), None, []
+        if jobs and 0 < jobs[0].count <= self.tracker.started:
+            held = jobs.pop(0)
+            first = first_of(held.entry, held.begin, here)
+            for piece in self.pieces_of(held, first, held.begin):
+                self.tracker.trail.add(piece)
+            rest = self.pieces_of(held, rest_of(held.entry, held.begin, here), here)
+        if self._feed is not None:
+            self._feed.count_anew(jobs, held, rest[0] if rest else None)
+        return rest + jobs
+
+    def pieces_of(self, whole: Job, entry: Motion, begin: c.Point) -> list[Job]:
+        """A part of a move as a move of its own, or nothing where it has no length."""
+        part = self._encoder.job(entry, begin)
+        part.block = whole.block
+        return [part] if part.length_u > 0.0 else []

@@ -1,0 +1,137 @@
+r"""Back to a path that was left: what is left of a move, and how it is joined.
+
+After a stop the machine may have been moved by hand. A tool that was only raised comes
+straight down where it left the path, at the point P. One that was moved beside the path
+first goes up to where it is free, over, and down at feed. Where cutter radius compensation
+says on which side of the path the part is not (+1 left, -1 right), it comes down there and
+joins the path on a quarter arc that touches it at P:
+
+    centre  C = P + s r n,  s = side, n = t turned by +90 degrees
+    start   E = C - r t,    from E the arc turns through 90 degrees into P
+
+Everywhere else it comes down at P itself: no other place is known to be free.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from openacr.cnc.canonical import (
+    TOOL_AXIS,
+    Arc,
+    Line,
+    Pace,
+    PathMode,
+    Plane,
+    Point,
+    Rapid,
+    Source,
+)
+from openacr.mill.plan.encoding import Job, Motion
+
+RIGHT_ANGLE = 0.5 * math.pi
+Path = TypeVar("Path", bound=Motion)
+
+
+def first_of(entry: Path, begin: Point, here: Point) -> Path:
+    """A move up to a point on it."""
+    if not isinstance(entry, Arc):
+        return replace(entry, end=here)
+    first, second = entry.plane.first, entry.plane.second
+    radius = math.dist((here[first], here[second]), entry.centre)
+    return replace(entry, end=here, sweep_rad=_turned(entry, begin, here), end_radius=radius)
+
+
+def rest_of(entry: Path, begin: Point, here: Point) -> Path:
+    """A move from a point on it on."""
+    if not isinstance(entry, Arc):
+        return entry
+    first, second = entry.plane.first, entry.plane.second
+    gone = _turned(entry, begin, here)
+    radius = math.dist((here[first], here[second]), entry.centre)
+    return replace(entry, sweep_rad=entry.sweep_rad - gone, start_radius=radius)
+
+
+def _turned(arc: Arc, begin: Point, here: Point) -> float:
+    """How far an arc has got: the angle between two points, in its direction."""
+    first, second = arc.plane.first, arc.plane.second
+    angles = [
+        math.atan2(point[second] - arc.centre[1], point[first] - arc.centre[0])
+        for point in (begin, here)
+    ]
+    turn = math.copysign(1.0, arc.sweep_rad)
+    gone = (turn * (angles[1] - angles[0])) % (2.0 * math.pi)
+    if gone > abs(arc.sweep_rad):  # a little in front of the beginning, by rounding
+        gone = 0.0 if gone > math.pi + 0.5 * abs(arc.sweep_rad) else abs(arc.sweep_rad)
+    return turn * gone
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a path was left: the point, the direction in XY, and the move."""
+
+    point: Point
+    tangent: tuple[float, float] | None  # None where nothing moved in XY
+    job: Job
+
+
+def place(job: Job, here: Point) -> Place:
+    """The place of a machine that is at `here` on a move."""
+    return Place(here, _tangent(job, here), job)
+
+
+def _tangent(job: Job, here: Point) -> tuple[float, float] | None:
+    first, second = Plane.XY.first, Plane.XY.second
+    if isinstance(job.entry, Arc) and job.entry.plane is Plane.XY:
+        x, y = here[first] - job.entry.centre[0], here[second] - job.entry.centre[1]
+        turn = math.copysign(1.0, job.entry.sweep_rad)
+        x, y = -turn * y, turn * x
+    else:
+        x, y = job.finish[first] - job.begin[first], job.finish[second] - job.begin[second]
+    length = math.hypot(x, y)
+    return (x / length, y / length) if length > 0.0 else None
+
+
+def lead_in(left: Place, here: Point, level_u: float, radius_u: float) -> Iterator[Motion]:
+    """The moves from where the machine is now to the place where it left the path.
+
+    `level_u` is where the tool is free, above both; a `radius_u` of 0 wants no arc.
+    """
+    source, target, pace = left.job.entry.source, left.point, pace_of(left.job)
+    if pace is None or pace.side == 0 or left.tangent is None or radius_u <= 0.0:
+        yield from straight_back(source, here, target, level_u, pace)
+        return
+    (tx, ty), side = left.tangent, float(pace.side)
+    first, second = Plane.XY.first, Plane.XY.second
+    centre = (target[first] - side * radius_u * ty, target[second] + side * radius_u * tx)
+    start = _with(target, first, centre[0] - radius_u * tx)
+    start = _with(start, second, centre[1] - radius_u * ty)
+    yield from straight_back(source, here, start, level_u, pace)
+    yield Arc(
+        source, target, Plane.XY, centre, side * RIGHT_ANGLE, radius_u, radius_u, pace,
+        is_inserted=True,
+    )  # fmt: skip
+
+
+def straight_back(
+    source: Source, here: Point, target: Point, level_u: float, pace: Pace | None
+) -> Iterator[Rapid | Line]:
+    """Up to a level, over, and down to a point: in rapids, the last one at a pace if there is."""
+    yield Rapid(source, _with(here, TOOL_AXIS, level_u), is_inserted=True)
+    yield Rapid(source, _with(target, TOOL_AXIS, level_u), is_inserted=True)
+    if pace is None:
+        yield Rapid(source, target, is_inserted=True)
+    else:
+        yield Line(source, target, pace, is_inserted=True)
+
+
+def pace_of(job: Job) -> Pace | None:
+    """How a tool comes down to a move: at its feed, None for at rapid."""
+    if isinstance(job.entry, Rapid):
+        return None
+    return replace(job.entry.pace, mode=PathMode.FREE, is_confirmed=False)
+
+
+def _with(point: Point, axis: int, value: float) -> Point:
+    return (*point[:axis], value, *point[axis + 1 :])

@@ -1,0 +1,62 @@
+"""The machine as the interpreter asks for it: always behind a Sync, when all is at rest."""
+
+from collections.abc import Callable
+
+from openacr.cnc.canonical import AXES, Point
+from openacr.map.numbers import AX_CURRENT_POSITION
+from openacr.mill.card.driver import MachineDriver
+from openacr.mill.config.settings import Settings
+
+
+class RunHost:
+    """`cnc.hosts.MachineDriver` for a card. `answers` are what the operator said, by parameter."""
+
+    def __init__(
+        self, machine: MachineDriver, settings: Settings, tripped: Callable[[], Point | None]
+    ) -> None:
+        self._machine = machine
+        self._settings = settings
+        self._tripped = tripped
+        self.answers: dict[int, float] = {}
+        self.is_skipping = False  # the switch
+        self.skips_always = False  # the button on the screen
+
+    def read_parameter(self, n: int) -> float:
+        """A parameter of the card."""
+        return self._machine.read(n)
+
+    def write_parameter(self, n: int, value: float) -> None:
+        """Set a parameter of the card."""
+        self._machine.write(n, value)
+
+    def read_bit(self, n: int) -> bool:
+        """A flag of the card."""
+        return self._machine.card.read_bit(n)
+
+    def position(self) -> Point:
+        """Where the axes are commanded to stand."""
+        counts = self._machine.axis_values(AX_CURRENT_POSITION)
+        point = [0.0] * AXES
+        for axis, count in zip(self._settings.axes, counts, strict=True):
+            point[axis.index] = count / axis.pulses_per_unit
+        return tuple(point)
+
+    def tripped(self) -> Point | None:
+        """Where the probe tripped in the last probing move."""
+        return self._tripped()
+
+    def answer(self, parameter: int) -> float | None:
+        """What the operator said, once."""
+        return self.answers.pop(parameter, None)
+
+    def is_homed(self, axis: int) -> bool:
+        """Whether an axis knows its reference point."""
+        return self._settings.is_homed(axis)
+
+    def has_probe(self) -> bool:
+        """Whether a probe input is configured."""
+        return self._settings.wiring.probe >= 0
+
+    def is_block_skip_on(self) -> bool:
+        """The switch, or the button on the screen."""
+        return self.is_skipping or self.skips_always

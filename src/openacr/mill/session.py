@@ -1,0 +1,391 @@
+"""A machine for one run: the card, the cells, the runner, and who watches it.
+
+The virtual machine stands on its reference points and has nothing wired to it: inputs that
+the store names are left out, waits for relays are passed by, tools are there when they are
+asked for. A real one is everything the store says.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from itertools import chain, repeat
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from openacr.client import Card
+from openacr.client.links import Host
+from openacr.client.options import Options as Talking
+from openacr.cnc import canonical as c
+from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.interpreter import Options as Reading
+from openacr.cnc.interpreter.mdi import Mdi
+from openacr.cnc.interpreter.replay import Replay, start_at
+from openacr.cnc.loading.load import load_blank
+from openacr.cnc.program.program import Program
+from openacr.cnc.state.cells import DEFAULT_UNIT
+from openacr.cnc.state.hosts import Cells
+from openacr.cnc.state.shadow import Shadow
+from openacr.engine.watches import Watch, Watched
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.mill.card import alarms, homed, soft_limits
+from openacr.mill.card.alarms import Alarms
+from openacr.mill.card.ballscrew import tables_of
+from openacr.mill.card.checks import check_axes, check_firmware, check_rest
+from openacr.mill.card.driver import LINK_ERRORS, MachineDriver
+from openacr.mill.card.enabling import rest_outputs
+from openacr.mill.card.leftovers import has_tripped, tidy
+from openacr.mill.card.messages import Message, Messages, definitions
+from openacr.mill.card.owner import BEAT_S, LISTEN_S, Owner
+from openacr.mill.card.setup import prepare, user_variables
+from openacr.mill.card.watchdog import NO_WATCHDOG, Watchdog
+from openacr.mill.config.folders import folders_of
+from openacr.mill.config.settings import HOMED, NONE, Settings
+from openacr.mill.manual.jogging import Jogging
+from openacr.mill.run.dripping import Drip
+from openacr.mill.run.lifecycle import Options, State
+from openacr.mill.run.run_host import RunHost
+from openacr.mill.run.runner import Runner
+from openacr.sysvar import AT_START, Store
+from openacr.sysvar.rules import require_wiring
+
+if TYPE_CHECKING:
+    from openacr.controller import Controller
+
+POLL_S = 0.02
+SHORTEST_S = 0.001  # the clock of the card counts milliseconds
+MOTION = n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED | n.MF1_NOT_IN_POSITION
+NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
+ALL_AXES = 255
+# Inputs of the store that nothing is wired to on the virtual machine.
+UNWIRED = (
+    *range(400_000, 400_007), 400_012, 450_016, 500_016, 550_016, 800_003, 800_004, 800_008,
+    800_013, 900_000,
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Start:
+    """How a program is to be run."""
+
+    dialect: str = "acromill"
+    line: int = 1
+    is_dry: bool = False
+    is_skipping: bool = False
+    stops_optionally: bool = False
+    is_repeated: bool = True  # where the store says Repeat Forever
+    accepts_tool: bool = False  # start at a line although another tool is in the spindle
+    safe_z: float | None = None  # machine position of Z where the tool is free, for a start line
+
+
+class MillSession:
+    """A card that is set up for the machine, and its runner."""
+
+    def __init__(
+        self,
+        card: Card,
+        cells: Cells,
+        say: Callable[[str], None],
+        *,
+        is_virtual: bool,
+        folder: Path | None = None,  # of the store, for its files
+        owner: Owner | None = None,
+    ) -> None:
+        self._owner = owner
+        self._folder = folder
+        self.cells = cells
+        self.card = card
+        self.is_virtual = is_virtual
+        self.virtual_card: Controller | None = None
+        self.program: Program | None = None
+        self.typed: list[str] = []  # blocks run in MDI: the text of a program
+        with cells.transaction():
+            for number, value in AT_START.items():
+                cells.write(number, value)
+        settings = Settings(cells)
+        self._limits_found = [] if is_virtual else soft_limits.found(card, settings)
+        tables = tables_of(cells, settings, folder)
+        depth = prepare(card, settings, tables)
+        axes = [axis.index for axis in settings.axes]
+        self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
+        alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
+        self._motion = Watch(Watched.WORD, n.MF1_WORD + self.machine.master, MOTION)
+        self.runner = Runner(
+            self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
+            compensated=tables,
+        )  # fmt: skip
+        self._drip: Drip | None = None
+        self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
+        io = self.runner.io
+        rest_outputs(io)
+        defined = [
+            each for each in definitions(cells) if not (is_virtual and io.has_input(each.bit))
+        ]
+        self.messages = Messages(io, defined, self._note_message)
+        self._watchdog: Watchdog | None = None
+        if owner is not None:
+            self._guard(say)
+
+    def _guard(self, say: Callable[[str], None]) -> None:
+        """The watchdog on the card, unless the store does without."""
+        if self.runner.settings.watchdog_program == NONE:
+            say(NO_WATCHDOG)
+            return
+        self._watchdog = Watchdog(self.card, self.runner.io)
+        self._watchdog.install()
+        self.machine.watch_program(self._watchdog.program)
+        self.runner.guard(self._watchdog.rearm)
+
+    @classmethod
+    def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "MillSession":
+        """The virtual machine; what a program writes to the store is forgotten."""
+        from openacr.controller import Controller
+
+        cells = Shadow(store)
+        cells.write(HOMED, ALL_AXES)
+        for cell in UNWIRED:
+            cells.write(cell, NONE)
+        cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
+        controller = Controller(store.read_text(CARD_MODEL))
+        check_axes(controller.model, Settings(cells))
+        card = Card.open(controller)
+        shop = cls(card, cells, say, is_virtual=True, folder=_folder_of(store))
+        shop.virtual_card = controller
+        names = " ".join(axis.name for axis in shop.runner.settings.axes)
+        shop.card.command(f"DRIVE ON {names}", program=shop.machine.master)
+        return shop
+
+    @classmethod
+    def real(
+        cls, target: str | Host, store: Store, say: Callable[[str], None] = print
+    ) -> "MillSession":
+        """A card at the other end of a link; drives are left as they are."""
+        settings = Settings(store)
+        timeout_s = settings.link_timeout_s
+        card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
+        try:
+            require_wiring(store)
+            check_firmware(card)
+            user_variables(card)
+            listen_s = max(LISTEN_S, timeout_s + BEAT_S)
+            owner = Owner(card, store.path, program=settings.master, listen_s=listen_s)
+        except BaseException:
+            card.close()
+            raise
+        try:
+            tidy(card, settings, say, was_left=bool(owner.found))
+            check_rest(card, settings)
+            homed.agree(card, store, say)  # before the set-up: tables act on homed axes alone
+            return cls(card, store, say, is_virtual=False, folder=_folder_of(store), owner=owner)
+        except BaseException:
+            with suppress(*LINK_ERRORS):
+                owner.release(left=owner.found)  # what another watchdog still listens to
+            card.close()
+            raise
+
+    def close(self) -> None:
+        """Let go of the card."""
+        if self._drip is not None:
+            self._drip.close()  # last of all that the machine was driven with
+        if self._owner is not None:
+            self._release(self._owner)
+        self.card.close()
+
+    def _release(self, owner: Owner) -> None:
+        """Take the watchdog off the card, unless it has stopped the machine, and let go of it."""
+        if self.runner.is_out_of_reach:
+            owner.forget()
+            return
+        with suppress(*LINK_ERRORS):
+            if self._watchdog is not None and owner.is_ours() and not has_tripped(self.card):
+                self._watchdog.remove()
+            if owner.is_ours():
+                soft_limits.restore(self.card, self.runner.settings, self._limits_found)
+            owner.release()
+
+    @property
+    def cells_unit(self) -> str:
+        """The unit of the store, in which positions are."""
+        return "mm" if self.cells.read(DEFAULT_UNIT) else "inch"
+
+    # --- programs ---------------------------------------------------------------------
+
+    @property
+    def block(self) -> tuple[int, str] | None:
+        """Line and text of the block that is executed."""
+        source = self.runner.source
+        if source is None:
+            return None
+        text = self.program.text_of(source) if self.program else source.text
+        return source.line, text.strip()
+
+    def rehearse(self, program: Program, start: Start) -> Replay:
+        """Replay the lines before a start line: nothing moves, nothing is written."""
+        return start_at(self._interpreter(program, start), start.line, start.safe_z)
+
+    def start(self, program: Program, start: Start, replay: Replay | None = None) -> None:
+        """Begin a program; at a later line behind the replay that was rehearsed and agreed to."""
+        self.program = program
+        options = Options(
+            is_dry=start.is_dry,
+            stops_optionally=start.stops_optionally,
+            is_repeated=start.is_repeated,
+        )
+        if start.line > 1 and replay is None:
+            replay = self.rehearse(program, start)
+        if replay is not None and replay.needs_tool and not start.accepts_tool:
+            raise UserError("another tool is in the spindle; --any-tool starts all the same")
+        reading = replay.run if replay is not None else self._interpreter(program, start)
+        first: Callable[[], Iterator[c.Entry]] = replay.entries if replay else reading.entries
+        passes = chain([first], repeat(reading.entries))
+        self.runner.run(lambda _host: self._watched(next(passes)()), options)
+
+    def keep_drip(self, drip: Drip) -> None:
+        """Close this line when the machine is let go of, not before it is at rest."""
+        self._drip = drip
+
+    def start_drip(self, drip: Drip, start: Start) -> None:
+        """Begin a program that is still arriving."""
+        self.program, self._drip = drip.program, drip
+        self.runner.stream.host.skips_always = start.is_skipping
+        options = Options(start.is_dry, stops_optionally=start.stops_optionally, is_repeated=False)
+        self.runner.run(drip.entries, options)
+
+    def _interpreter(self, program: Program, start: Start) -> Interpreter:
+        reading = Reading(is_dry=start.is_dry, has_block_ends=True)
+        self.runner.stream.host.skips_always = start.is_skipping
+        cells = Shadow(self.cells) if start.line > 1 else self.cells
+        return Interpreter(program, cells, self.runner.stream.host, start.dialect, reading)
+
+    def _watched(self, entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
+        """The entries; on the virtual machine nobody has to be waited for."""
+        for entry in entries:
+            if self.is_virtual and isinstance(entry, c.WaitBit):
+                yield c.Say(entry.source, f"passed by: {entry.reason}")
+            else:
+                yield entry
+
+    def run_blocks(
+        self, blocks: Iterable[str | None], dialect: str, attend: Callable[["MillSession"], None]
+    ) -> Iterator[c.Point]:
+        """MDI: one block after the other; where the machine stands behind each.
+
+        While the next block is None, for it is still being typed, the machine is looked at.
+        """
+        host = self.runner.stream.host
+        folders = folders_of(self.cells, self._folder)
+        program = load_blank(self.cells, dialect, folders, name="MDI")
+        typed = Mdi(Interpreter(program, self.cells, host, dialect))
+        self.typed = typed.text
+        for block in blocks:
+            if block is None:
+                self.step()
+            else:
+                entries = _ended(typed.execute(block))
+                self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
+                self._finish(attend)
+                yield host.position()
+            if self.runner.alarms.bars_start:
+                return
+
+    def jog(
+        self, distances: Iterable[tuple[str, float]], attend: Callable[["MillSession"], None]
+    ) -> None:
+        """Move axes by hand, each by a distance."""
+        numbers = {axis.name: axis.index for axis in self.runner.settings.axes}
+        for name, distance_u in distances:
+            self.runner.jog(partial(Jogging.move, axis=numbers[name], distance_u=distance_u))
+        self._finish(attend)
+
+    def home(self, names: str, attend: Callable[["MillSession"], None]) -> list[str]:
+        """Find the reference points of the axes named, or of all that have a priority."""
+        settings = self.runner.settings
+        chosen = [settings.named(name) for name in names or settings.names()]
+        self.runner.home([axis.index for axis in chosen])
+        self._finish(attend)
+        return [axis.name for axis in chosen if settings.is_homed(axis.index)]
+
+    def _finish(self, attend: Callable[["MillSession"], None]) -> None:
+        while self.runner.is_busy:
+            self.step()
+            attend(self)
+
+    def step(self) -> None:
+        """Let a little time pass and do what is due."""
+        self._pass_time()
+        if self._drip is not None:
+            self._drip.poll()
+        self._keep_ownership()
+        self.runner.step()
+        with suppress(*LINK_ERRORS):  # the next look tells
+            self.messages.keep(self.machine.now_s)
+
+    def _pass_time(self) -> None:
+        """Until the next look: a poll, or to the end of a wait if that comes first.
+
+        The virtual machine need not wait for the poll where motion begins or ends.
+        """
+        step_s = min(POLL_S, max(self.runner.wait_left_s, SHORTEST_S))
+        card = self.virtual_card
+        if card is None:
+            self.machine.pause(step_s)
+            return
+        card.watch([self._motion])
+        try:
+            self.machine.pause(step_s)
+        finally:
+            card.watch()
+
+    def _keep_ownership(self) -> None:
+        """Count on; before anything is sent, for this process may have been stopped for long."""
+        is_ours = True
+        if self._owner is not None and not self.runner.is_out_of_reach:
+            with suppress(*LINK_ERRORS):  # the next look tells
+                is_ours = self._owner.keep(self.card.now_s())
+        if not is_ours:
+            self.runner.disown()
+
+    def _note_message(self, message: Message, is_on: bool) -> None:
+        if is_on and message.is_alarm:
+            detail = f"{message.number}: {message.shown}"
+            self.runner.alarms.give(alarms.USER_MESSAGE, detail, self.machine.now_s)
+        self.show_message(message, is_on)
+
+    def carry_on(self) -> None:
+        """What an operator does who never hesitates: starts again, confirms tools."""
+        runner = self.runner
+        runner.entry_actions.changer.confirm()
+        if runner.state is State.HOLD:
+            runner.start()
+
+
+def _folder_of(store: Store) -> Path | None:
+    return store.path.parent if store.path else None
+
+
+def _say_message(say: Callable[[str], None], message: Message, is_on: bool) -> None:
+    say(f"message {message.number}: {message.shown}" + ("" if is_on else " (over)"))
+
+
+def _error_log(cells: Cells, folder: Path | None) -> Path | None:
+    """The file alarms are appended to, where the store wants one."""
+    if folder is None or cells.read(NO_ERROR_FILE):
+        return None
+    return folder / (cells.read_text(LOG_NAME) or "MILL.LOG")
+
+
+def _given(entries: Iterator[c.Entry], _host: RunHost) -> Iterator[c.Entry]:
+    """Entries that are there already."""
+    return entries
+
+
+def _ended(entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
+    """The entries of a block, and an end behind it that switches nothing off."""
+    last = c.Source("MDI", 1, "")
+    for entry in entries:
+        last = getattr(entry, "source", last)
+        yield entry
+        if isinstance(entry, c.End):
+            return
+    yield c.End(last, is_by_code=False)

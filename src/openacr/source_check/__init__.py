@@ -1,0 +1,1 @@
+"""Controller files read as a card would read them, without a card: every line, every error."""

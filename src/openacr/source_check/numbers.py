@@ -1,0 +1,100 @@
+"""Parameters, flags and axes of a file that no card, or not this one, has."""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import fields, is_dataclass
+from functools import cache
+
+from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.grammar.flags import BitItem
+from openacr.basic.language.loader import FileLine
+from openacr.basic.language.nodes import (
+    Alias,
+    AxisRef,
+    Block,
+    Flag,
+    Number,
+    Parameter,
+    Prefix,
+    Statement,
+)
+from openacr.basic.language.registry import Command, Function
+from openacr.lang.lexer import Token, TokenKind
+from openacr.lang.source import Span
+from openacr.map.memory import kind_table
+from openacr.map.numbers import FLAG_LAST, KIND_NONE, USER_COUNT
+from openacr.messages import INVALID_ARGUMENT, INVALID_BIT, INVALID_PARAMETER, Message
+from openacr.source_check.cutoffs import statements
+from openacr.source_check.texts import Finding
+
+_NAMES = re.compile(r"(?<![A-Za-z$])(?:P|BIT|SET|CLR|INH|TRG|INT|AXIS)[ \t(+-]*\d", re.IGNORECASE)
+_AXIS = re.compile(r"(?<![A-Za-z$])AXIS[ \t(]*(\d+)", re.IGNORECASE)
+_INTEGER = re.compile(r"\d+")
+_LONGEST = 18  # digits; more make no number of anything
+
+
+def is_doubtful(text: str, axes: int) -> bool:
+    """Whether a line may name what there is not; cheap, for all lines of a long program."""
+    if not _NAMES.search(text):
+        return False
+    if any(len(digits) > _LONGEST or _is_unused(int(digits)) for digits in _INTEGER.findall(text)):
+        return True
+    return any(int(number) >= axes for number in _AXIS.findall(text))
+
+
+def missing(
+    line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...], axes: int
+) -> Iterator[Finding]:
+    """An error for each literal number of a parameter, flag or axis that does not exist."""
+    tokens = list(found)
+    for statement in statements(blocks):
+        for number, message, hint in dict.fromkeys(_wrong(statement, axes)):
+            span = _place(tokens, statement, number)
+            yield Finding(line, StatementError(message, span), hint=hint)
+
+
+def _wrong(statement: Statement, axes: int) -> Iterator[tuple[int, Message, str]]:
+    for node in _nodes((statement.arguments, statement.prefix)):
+        match node:
+            case Parameter(Number(value)) if not _is_parameter(int(value)):
+                yield int(value), INVALID_PARAMETER, f"there is no parameter P{int(value)}"
+            case Flag(Number(value)) | BitItem(Number(value)) if not abs(value) <= FLAG_LAST:
+                yield abs(int(value)), INVALID_BIT, f"flags are 0 to {FLAG_LAST}"
+            case AxisRef("AXIS", Number(value)) | Prefix("AXIS", Number(value)) if value >= axes:
+                yield int(value), INVALID_ARGUMENT, f"the card has axes 0 to {axes - 1}"
+
+
+def _nodes(item: object) -> Iterator[object]:
+    """A tree and all that is written in it; an alias was judged where it is defined."""
+    if isinstance(item, tuple):
+        for part in item:
+            yield from _nodes(part)
+    elif is_dataclass(item) and not isinstance(item, Command | Function | Alias | Statement):
+        yield item
+        for field in fields(item):
+            yield from _nodes(getattr(item, field.name))
+
+
+def _place(found: list[Token], statement: Statement, number: int) -> Span:
+    """Where the number is written in its statement or, as a prefix, before it."""
+    places = [token for token in found if token.kind is TokenKind.NUMBER and token.value == number]
+    behind = [token for token in places if token.column > statement.column]
+    token = next(iter(behind or places[-1:]), None)
+    if token is None:
+        return Span(1, statement.column, len(statement.command.name))
+    return Span(1, token.column, len(token.text))
+
+
+def _is_unused(number: int) -> bool:
+    """Whether this is the number of no parameter or of no flag."""
+    return number > FLAG_LAST or not _is_parameter(number)
+
+
+def _is_parameter(number: int) -> bool:
+    kinds = _kinds()
+    return number < USER_COUNT or (number < len(kinds) and kinds[number] != KIND_NONE)
+
+
+@cache
+def _kinds() -> bytes:
+    return kind_table()

@@ -1,0 +1,135 @@
+"""What files take of the memory of a card, by the arithmetic of the card itself."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from openacr.basic.commands import targets
+from openacr.basic.commands.character_io import channel_name
+from openacr.basic.commands.memory_control import (
+    Dimension,
+    dimension_local,
+    dimension_system,
+    is_of_system,
+)
+from openacr.basic.language.grammar import ObjectRef
+from openacr.basic.language.nodes import Block, Expr, Number, Statement, resolved
+from openacr.basic.language.registry import Level
+from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, line_bytes
+from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.memory.program_store import OWNERS
+from openacr.basic.memory.storage import Storage
+from openacr.errors import CardError
+from openacr.map.memory import Memory
+from openacr.messages import OUT_OF_MEMORY
+from openacr.source_check.texts import Finding, Text, TextLine
+
+MOST_BYTES_PER_CHARACTER = 8  # of an instruction of a PLC; fewer of other lines
+
+
+@dataclass(slots=True)
+class Room:
+    """The memory of a card that was new before, as it is after the lines read so far.
+
+    It is known as long as all sizes are: one that is computed, or a DIM that depends on
+    something, ends that.
+    """
+
+    storage: Storage = field(default_factory=lambda: Storage(Memory()))
+    is_known: bool = True
+    is_complete: bool = False  # what gives programs their memory has been read
+
+    def note(self, level: Level, number: int, blocks: Iterable[Block]) -> CardError | None:
+        """Execute the DIM, CLEAR and NEW commands of a line; what the card says against one."""
+        for block in blocks:
+            for statement in block:
+                if isinstance(statement, Statement) and self.is_known:
+                    try:
+                        self._execute(level, number, statement)
+                    except CardError as error:
+                        return error
+        return None
+
+    def _execute(self, level: Level, number: int, statement: Statement) -> None:
+        words, arguments = statement.command.words, statement.arguments
+        if words == ("DIM",) and isinstance(arguments[0], Dimension):
+            self._dimension(level, number, arguments[0])
+        elif words == ("CLEAR",) and isinstance(arguments[0], ObjectRef):
+            self.storage.clear_stream(channel_name(arguments[0]))
+        elif words == ("CLEAR",) and level is Level.SYS:
+            self.storage.clear_system()
+        elif words == ("CLEAR",) and level is Level.PROG:
+            self.storage.locals.clear(number)
+        elif words == ("NEW",):
+            for owner in _owners(level, number, arguments[0]):
+                self.storage.set_code_bytes(owner, 0)
+        elif any(_dimensions(getattr(argument, "blocks", ())) for argument in arguments):
+            self.is_known = False
+
+    def _dimension(self, level: Level, number: int, what: Dimension) -> None:
+        index = None if what.index is None else _integer(what.index)
+        sizes = tuple(map(_integer, what.sizes))
+        known = [size for size in sizes if size is not None]
+        if len(known) < len(sizes) or (what.index is not None and index is None):
+            self.is_known = False
+        elif not is_of_system(what.word):
+            if level is Level.PROG:
+                dimension_local(self.storage, number, what.word, index, tuple(known), repeat=False)
+        elif level is Level.SYS:
+            dimension_system(self.storage, what.word, index, tuple(known))
+
+    def store(self, level: Level, number: int, text: Text) -> Iterator[Finding]:
+        """Account for a text; the first line that finds no room, if there is one."""
+        if not self.is_known or text.lost:
+            return
+        (owner,) = _owners(level, number, None)
+        if not self.is_complete and not self.storage.size(owner):
+            return
+        self.storage.set_code_bytes(owner, 0)
+        lines, free = text.in_order(), self.storage.free_program(owner)
+        if free >= sum(map(_most_bytes, lines)):
+            return
+        used = 0
+        for line in lines:
+            cost = _bytes(line)
+            if used + cost > free:
+                whole = sum(map(_bytes, lines))
+                hint = f"the text takes {whole} bytes, there is room for {max(free, 0)}"
+                yield Finding(line.place, CardError(OUT_OF_MEMORY), hint=hint)
+                break
+            used += cost
+        self.storage.set_code_bytes(owner, used)
+
+
+def _owners(level: Level, number: int, target: object) -> Iterable[int]:
+    """The programs (0-15) and PLCs (16-23) a command or a text belongs to."""
+    if isinstance(target, ObjectRef):
+        return range(OWNERS) if target.word == "ALL" else (targets.named(target),)
+    if level is Level.SYS:
+        return ()
+    return (number + PROGRAMS if level is Level.PLC else number,)
+
+
+def _bytes(line: TextLine) -> int:
+    """What the card stores of a line."""
+    if line.rung is not None:
+        return PLC_INSTRUCTION.bytes(line.rung.count)
+    return 0 if line.outline.is_empty else line_bytes(list(line.tokens))
+
+
+def _most_bytes(line: TextLine) -> int:
+    """More than a line of a program can take; at once, for texts with room to spare."""
+    return MOST_BYTES_PER_CHARACTER * (len(line.place.text) + 1)
+
+
+def _dimensions(blocks: Iterable[Block]) -> bool:
+    """Whether there is a DIM among what may be executed."""
+    return any(
+        isinstance(statement, Statement) and statement.command.words == ("DIM",)
+        for block in blocks
+        for statement in block
+    )
+
+
+def _integer(size: Expr) -> int | None:
+    value = resolved(size)
+    return int(value.value) if isinstance(value, Number) else None

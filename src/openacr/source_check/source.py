@@ -1,0 +1,319 @@
+"""Read controller files as the card would, without a card: every line, every error.
+
+The reader keeps what later lines depend on: the level (SYS, PROG n, PLC n), the text being
+entered with PROGRAM, the axis names of each program and the aliases. Nothing is executed.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
+from openacr.basic.channels.entry import split_at_level
+from openacr.basic.commands.card_setup import CONFIG_NOTICE
+from openacr.basic.commands.operating_system import Definition
+from openacr.basic.language.aliases import check_name, numbered_names
+from openacr.basic.language.lister import Lister
+from openacr.basic.language.loader import FileLine, file_lines, long_lived_objects
+from openacr.basic.language.nodes import Block, Expr, Move, Number, Statement, String
+from openacr.basic.language.parser import Parser
+from openacr.basic.language.plc_names import PlcNames
+from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope, join_names
+from openacr.basic.memory.program_store import line_number, opens_capture
+from openacr.basic.vm.outline import Outline, outline
+from openacr.errors import CardError
+from openacr.lang.lexer import Token, TokenKind, tokens
+from openacr.lang.source import Span
+from openacr.messages import UNKNOWN_COMMAND
+from openacr.plc.compile import PlcCompileError, compile_plc
+from openacr.plc.ladder import draw
+from openacr.plc.reader import read_line
+from openacr.project import PROGRAM_COUNT, Place, SourceFile
+from openacr.source_check import numbers
+from openacr.source_check.cutoffs import Cutoffs, statements
+from openacr.source_check.faults import Fault
+from openacr.source_check.hints import hint_for
+from openacr.source_check.room import Room
+from openacr.source_check.sizes import Sizes, undimensioned, variable
+from openacr.source_check.structure import Structure
+from openacr.source_check.texts import Finding, Text, TextLine, label_of
+
+MOST_AXES = 16
+EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
+_LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A piece of a listing: the text of a program or PLC, or one line executed at once."""
+
+    text: Text | None = None
+    tokens: tuple[Token, ...] = ()
+
+
+@dataclass(slots=True)
+class Reader:
+    """Reads files one after the other."""
+
+    faults: list[Fault] = field(default_factory=list)
+    aliases: dict[str, Expr] = field(default_factory=dict)
+    axes: dict[int, set[str]] = field(default_factory=dict)
+    sizes: Sizes = field(default_factory=Sizes)
+    room: Room = field(default_factory=Room)
+    cutoffs: Cutoffs = field(default_factory=Cutoffs)
+    texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
+    parts: list[Part] = field(default_factory=list)
+    level: Level = Level.SYS
+    number: int = 0
+    is_capturing: bool = False
+    axis_count: int = MOST_AXES  # of the card
+    has_digits_in_names: bool = False  # of aliases, as the model has it
+    _path: str = ""
+    _originals: list[str] = field(default_factory=list)
+    _captured: Text = field(default_factory=Text)
+    _known: dict[str, Outline] = field(default_factory=dict)  # by shape, what may be captured
+    _stored_scope: Scope = field(default_factory=Scope)
+    _kinds: dict[str, str] = field(default_factory=dict)  # of the variables that have aliases
+
+    def read(self, source: SourceFile) -> None:
+        """Read one file; program and PLC files begin at the level their name says."""
+        self._path = str(source.path)
+        self._originals = source.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        levels = {Place.SETUP: Level.SYS, Place.PROGRAM: Level.PROG, Place.PLC: Level.PLC}
+        self.level, self.number = levels[source.place], source.number
+        self.is_capturing = False
+        self._scope_changed()
+        read_before, known_faults = set(self.texts), len(self.faults)
+        with long_lived_objects():
+            for line in file_lines(source.text):
+                known = self._known.get(line.shape)
+                if known is None or not self._put_known(line, known):
+                    self._take(line)
+            for key in [key for key in self.texts if key not in read_before]:
+                self._check(*key)
+        for finding in self.cutoffs.findings():
+            self._report(finding)
+        self.faults[known_faults:] = sorted(
+            self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
+        )
+
+    def _put_known(self, line: FileLine, known: Outline) -> bool:
+        """Store a captured line of a shape that was accepted before."""
+        if known.has_label and label_of(line.text) is None:
+            return False
+        text = self._captured
+        text.put(TextLine(text.next_number(), line, known, self._stored_scope))
+        return True
+
+    def _take(self, line: FileLine) -> None:
+        try:
+            self._line(line)
+        except CardError as error:
+            self._fault(line, error)
+            is_numbered = self.level is Level.PROG and line.text[:1].isdigit()
+            if self.is_capturing or is_numbered or self.level is Level.PLC:
+                self._text().lost.update(_words(line.text))
+
+    def _scope_changed(self) -> None:
+        """Begin anew with known lines: level, axes or aliases may have changed."""
+        self._known = {}
+        self._stored_scope = self._scope(stored=True)
+        named = ((name, variable(node)) for name, node in self.aliases.items())
+        self._kinds = {name: item[0] for name, item in named if item}
+
+    def _line(self, line: FileLine) -> None:
+        found = tokens(line.text, 1)
+        word = next((t.text.upper() for t in found if t.value != ":"), "")
+        if self.is_capturing and word not in _LEVEL_WORDS:
+            self._store(line, found)
+            if word == "ENDP":
+                self.is_capturing, self._known = False, {}
+        elif found[0].kind is TokenKind.NUMBER:
+            self._store(line, found)
+        elif (behind := opens_capture(line.text)) is not None:
+            self._open(line, behind)
+        else:
+            self.is_capturing = False
+            self._immediate(line, found)
+
+    def _open(self, line: FileLine, behind: str) -> None:
+        """PROGRAM: everything up to ENDP is stored."""
+        self._captured = self._text()
+        self._captured.clear()
+        self.is_capturing = True
+        self._store(line, tokens("PROGRAM", 1))
+        if behind.startswith("_"):
+            self._store(line, tokens(behind, 1))
+
+    def _text(self) -> Text:
+        """The text that lines of the present level belong to."""
+        if self.level is Level.SYS:
+            raise CardError(UNKNOWN_COMMAND)
+        key = (self.level, self.number)
+        if key not in self.texts:
+            self.texts[key] = Text()
+            self.parts.append(Part(text=self.texts[key]))
+        return self.texts[key]
+
+    def _scope(self, *, stored: bool) -> Scope:
+        axes = frozenset(self.axes.get(self.number, ()) if self.level is Level.PROG else ())
+        return Scope(self.level, stored, axes, self.aliases, numbered_names(self.aliases))
+
+    def _store(self, line: FileLine, found: list[Token]) -> None:
+        text = self._text()
+        number, start = text.next_number(), 0
+        if found[0].kind is TokenKind.NUMBER:
+            number, start = line_number(found[0]), found[0].column + len(found[0].text) - 1
+            found = found[1:]
+        if found[0].kind is TokenKind.END:
+            text.lines.pop(number, None)
+            return
+        if self.level is Level.PLC:
+            join_names(found, self._stored_scope.numbered)
+            rung = read_line(found, PlcNames(self.aliases))
+            text.put(TextLine(number, line, Outline(), self._stored_scope, start, rung))
+            return
+        tree = Parser(found, self._stored_scope).line()
+        known = outline(found, tree, self._kinds)
+        text.put(TextLine(number, line, known, self._stored_scope, start))
+        if self.is_capturing and not start and line.shape and not self._stored_scope.numbered:
+            self._known[line.shape] = known
+        if known.dimensions:
+            self.sizes.note(self.number, tree.blocks)
+
+    def _immediate(self, line: FileLine, found: list[Token]) -> None:
+        """A line that is executed at once: take note of what later lines depend on."""
+        found, rest = split_at_level(found)
+        tree = Parser(found, self._scope(stored=False)).line()
+        if not tree.is_empty:
+            self.parts.append(Part(tokens=tuple(found)))
+        self.sizes.note(self.number, tree.blocks)
+        self._judge(line, found, tree.blocks)
+        refused = self.room.note(self.level, self.number, tree.blocks)
+        if refused is not None:
+            self._fault(line, refused)
+        for block in tree.blocks:
+            for statement in block:
+                if not isinstance(statement, Move):
+                    self._note(statement)
+        self._scope_changed()
+        if rest:
+            self._immediate(line, rest)
+
+    def _note(self, statement: Statement) -> None:
+        words, arguments = statement.command.words, statement.arguments
+        if words[0] in _LEVEL_WORDS and len(words) == 1:
+            self.level = _LEVEL_WORDS[words[0]]
+            self.number = _integer(arguments[0]) if arguments else 0
+        elif words[:2] == ("ATTACH", "SLAVE"):
+            names = [item.text for item in arguments if isinstance(item, String)]
+            self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
+        for item in arguments:
+            if isinstance(item, Definition) and item.target is not None:
+                check_name(item.name, has_digits=self.has_digits_in_names)
+                self.aliases = self.aliases | {item.name: item.target}
+
+    def _check(self, level: Level, number: int) -> None:
+        """Tie the lines of a program or PLC together."""
+        text = self.texts[level, number]
+        for finding in self.room.store(level, number, text):
+            self._report(finding)
+        if level is Level.PROG:
+            for finding in Structure(text).check():
+                self._report(finding)
+            for finding in undimensioned(text, number, self.sizes, self.aliases):
+                self._report(finding)
+            for line in text.in_order():
+                is_doubtful = numbers.is_doubtful(line.place.text, self.axis_count)
+                if line.outline.is_judged or is_doubtful:
+                    self._judge(line.place, line.tokens, self._tree_of(line))
+        elif not text.lost:
+            self._check_rungs(text)
+
+    def _check_rungs(self, text: Text) -> None:
+        """Check a PLC as RUN would."""
+        try:
+            compile_plc(text.rungs())
+        except PlcCompileError as error:
+            self._fault(text.lines[error.line].place, error)
+        except CardError as error:
+            self._fault(text.lines[max(text.lines)].place, error)
+
+    def _judge(self, line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...]) -> None:
+        """What is wrong with a line that can be read."""
+        self.cutoffs.note(line, tuple(found), blocks)
+        for finding in numbers.missing(line, found, blocks, self.axis_count):
+            self._report(finding)
+        self._warn(line, blocks)
+
+    @staticmethod
+    def _tree_of(line: TextLine) -> tuple[Block, ...]:
+        return Parser(list(line.tokens), line.scope).line().blocks
+
+    def _warn(self, line: FileLine, blocks: tuple[Block, ...]) -> None:
+        """Warn of what a real card would refuse, and of what no modelled card can do."""
+        for statement in statements(blocks):
+            command = statement.command
+            warning = EXTENSION_WARNING if command.is_extension else command.lacks
+            if command.name == "CONFIG" and statement.arguments != (None,):
+                warning = CONFIG_NOTICE
+            if warning:
+                span = Span(1, statement.column, len(command.name))
+                self._report(Finding(line, None, span, warning))
+
+    def _report(self, finding: Finding) -> None:
+        if finding.error is not None:
+            self._fault(finding.line, finding.error, finding.hint)
+        else:
+            place = self._place(finding.line, finding.span)
+            self._add(place, finding.warning, finding.hint, "warning")
+
+    def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
+        span: Span | None = getattr(error, "span", None)
+        names = {*self.axes.get(self.number, ()), *self.aliases}
+        hint = hint or hint_for(error.message, line.text, span, self.level, names)
+        self._add(self._place(line, span), error.text, hint, "error")
+
+    def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
+        original = self._originals[place[0] - 1].rstrip()
+        self.faults.append(Fault(self._path, *place, text, hint, original, severity))
+
+    def _place(self, line: FileLine, span: Span | None) -> tuple[int, int, int]:
+        """Line, column and length in the file as it is."""
+        original = self._originals[line.number - 1].rstrip()
+        begin = len(original) - len(original.lstrip()) + 1
+        # A prompt in front of the line was taken away before it was read.
+        shift = len(original) - len(line.text) if original.endswith(line.text) else 0
+        column = max(begin, span.column + shift) if span else begin
+        length = span.length if span else len(original)
+        # Behind the end of the line stands what was joined to it.
+        return line.number, min(column, len(original) + 1), length
+
+
+def listing(reader: Reader) -> Iterator[str]:
+    """Write everything that was read as LIST shows it."""
+    lister = Lister(reader.aliases)
+    for part in reader.parts:
+        if part.text is not None:
+            yield from lister.program(part.text.stored())
+        else:
+            yield lister.line(part.tokens)
+
+
+def ladders(reader: Reader) -> Iterator[str]:
+    """Draw the PLCs that were read."""
+    for (level, number), text in reader.texts.items():
+        if level is Level.PLC:
+            yield f"PLC{number}"
+            yield from draw(text.rungs())
+
+
+def _words(text: str) -> set[str]:
+    """The words of a line that cannot be read, and its number."""
+    return {word.upper() for word in re.findall(r"\w+", text)}
+
+
+def _integer(argument: object) -> int:
+    value = argument.value if isinstance(argument, Number) else argument
+    return int(value) % PROGRAM_COUNT if isinstance(value, (int, float)) else 0

@@ -1,0 +1,109 @@
+"""What `mill check` says about the machine: limits, pulses and feeds, without a machine."""
+
+import pytest
+from tests.mill.shop import Shop, at, line, rapid, src
+
+from openacr.cnc import canonical as c
+from openacr.cnc.reading.findings import Finding
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.predicting import Predictor
+from openacr.mill.plan.preflight import Preflight
+from openacr.mill.run.lifecycle import State
+
+LIMITS = {"P200_000": 2.0, "P200_001": -2.0, "P200_002": 0, "P271": 1}
+
+
+def found(shop: Shop, *entries: c.Entry) -> list[Finding]:
+    settings = Settings(shop.store)
+    preflight = Preflight(settings)
+    predictor = Predictor(settings, at(), reader=preflight)
+    for entry in entries:
+        predictor.add(entry)
+    predictor.rest()
+    return preflight.findings(lambda source: source.text)
+
+
+def said(shop: Shop, *entries: c.Entry) -> list[str]:
+    return [str(finding) for finding in found(shop, *entries)]
+
+
+def bulge(number: int) -> c.Arc:
+    return c.Arc(src(number), at(1.5, 1), c.Plane.XY, (1.5, 0.0), 3.14159265, 1.0, 1.0, c.Pace(60))
+
+
+@pytest.mark.parametrize(
+    ("moves", "excess"),
+    [
+        ([line(1, at(1)), line(2, at(3))], "axis X would go to 3, 1 beyond its limit 2"),
+        (
+            [line(1, at(1)), rapid(2, at(-2.25))],
+            "axis X would go to -2.25, 0.25 beyond its limit -2",
+        ),
+        ([line(1, at(1.5, -1)), bulge(2)], "axis X would go to 2.5, 0.5 beyond its limit 2"),
+    ],
+)
+def test_a_move_beyond_a_limit_is_found_in_the_words_of_the_alarm_of_a_run(
+    moves: list[c.Entry], excess: str
+) -> None:
+    shop = Shop(**LIMITS)
+    assert said(shop, *moves) == [f"TEST.TXT:2:1: E401 target beyond soft limit: {excess}"]
+    shop.start(*moves, c.End(src(9), is_by_code=True))
+    assert shop.until(State.ALARM) is State.ALARM
+    assert shop.runner.alarms.active[0].text == f"Target beyond soft limit: line 2, {excess}"
+
+
+def test_a_place_at_the_limit_is_none_beyond_it() -> None:
+    assert said(Shop(**LIMITS), line(1, at(2)), line(2, at(-2)), line(3, at(-2, 50))) == []
+
+
+def test_disabled_limits_are_not_tested() -> None:
+    assert said(Shop(**{**LIMITS, "P200_002": 1}), line(1, at(300))) == []
+
+
+def test_each_limit_is_told_once_with_its_farthest_move() -> None:
+    way = [line(1, at(3)), line(2, at(0)), line(3, at(5.5)), line(4, at(0)), line(5, at(-3))]
+    assert said(Shop(**LIMITS), *way) == [
+        "TEST.TXT:1:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2"
+        " (2 moves, line 3 by 3.5)",
+        "TEST.TXT:5:1: E401 target beyond soft limit: axis X would go to -3, 1 beyond its limit -2",
+    ]
+
+
+def test_axes_that_are_not_homed_are_tested_all_the_same_and_named_once() -> None:
+    wide = {f"P20{axis}_00{k}": value for axis in (1, 2) for k, value in enumerate((9, -9, 0))}
+    way = [line(1, at(0, 1)), line(2, at(1, 1)), line(3, at(3, 1)), line(4, at(2))]
+    assert said(Shop(**{**LIMITS, **wide, "P271": 0}), *way) == [
+        "TEST.TXT:3:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2",
+        "TEST.TXT:1:1: W403 limits not testable: Y X not homed (tested as if homed)",
+    ]
+
+
+def test_a_position_without_pulses_is_an_error() -> None:
+    assert said(Shop(), rapid(1, at(1)), rapid(7, at(2**31 / 10000))) == [
+        "TEST.TXT:7:1: E403 position beyond 32 bits of pulses: axis 0: 214748"
+    ]
+
+
+def test_a_feed_that_no_move_of_a_way_reaches_is_told_once() -> None:
+    # a = 100 units/s2: 0.04 units from rest to rest come to sqrt(100 x 0.04) = 2 of 10 units/s
+    way: list[c.Entry] = [
+        line(1, at(5)),
+        rapid(2, at(0)),
+        line(3, at(0.04)),
+        rapid(4, at(0)),
+        line(5, at(0.01)),
+    ]
+    assert said(Shop(), *way) == [
+        "TEST.TXT:3:1: W402 feed never reached: 2 moves (line 5 comes to 10 % of F)"
+    ]
+
+
+def test_short_pieces_of_a_long_way_reach_their_feed() -> None:
+    assert said(Shop(), *(line(n, at(n / 200)) for n in range(1, 1001))) == []
+
+
+def test_a_feed_above_the_machine_is_never_reached() -> None:
+    # 3000 per minute are 50 units/s, the machine makes 100 units/s, axis X 40 of them
+    assert said(Shop(P200_015=2400.0), line(1, at(50), feed=3000.0)) == [
+        "TEST.TXT:1:1: W402 feed never reached: 1 move (line 1 comes to 80 % of F)"
+    ]
