@@ -8,6 +8,7 @@
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages anew
+#   make site    the documentation as web pages with a search, in build/site
 #   make clean   remove everything that can be made again (also .venv)
 #
 # A C compiler makes the card many times faster; without one the same sources run as
@@ -16,7 +17,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak lowest mutate docs clean
+.PHONY: help setup demo test lint bench soak lowest mutate docs site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -37,7 +38,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,11s/^# *//p' Makefile
+	@sed -n '3,13s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -107,6 +108,14 @@ docs: $(BUILT)
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 	$(PY) -m openacr.mill.run.lifecycle_page docs/run-life-cycle.md
+
+# The pages of docs/ and the Python interface with a search, in build/site; a broken link ends it.
+site: $(BUILT)
+	@OPENACR_PURE=1 $(PIP) install -qq --no-build-isolation --editable ".[site]"
+	@rm -rf build/site-pages build/site
+	@cp -r docs build/site-pages && cp site/*.md site/conf.py build/site-pages/
+	$(PY) -m sphinx -q -W --keep-going -j auto -b html build/site-pages build/site
+	@echo "the site is in build/site/index.html"
 
 clean:
 	rm -rf $(VENV) $(LOWEST) build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis \
