@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from openacr.sysvar.lookup import parameter
-from openacr.sysvar.schema import FIRST_SYSTEM, Parameter
+from openacr.sysvar.schema import CARD_PARAMETERS, FIRST_SYSTEM, Parameter
 
 
 class Host(Enum):
@@ -113,8 +113,8 @@ HOMES = (
     _store(3001, 3999, "H wear"),
     _store(4000, 4001, "current H"),
     _store(4002, 4095, "available"),
-    Home(4096, 20_487, "card parameters", Host.LIVE, False, Writer.CARD),
-    _nothing(20_488, 99_999),
+    Home(CARD_PARAMETERS[0], CARD_PARAMETERS[-1], "card parameters", Host.LIVE, False, Writer.CARD),
+    _nothing(CARD_PARAMETERS.stop, FIRST_SYSTEM - 1),
     _store(FIRST_SYSTEM, LAST_SYSTEM, "system parameters", Writer.SERVICE),
     _nothing(LAST_SYSTEM + 1, BEYOND),
 )

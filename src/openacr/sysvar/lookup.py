@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 
 from openacr.errors import MapError
-from openacr.sysvar.schema import FIRST_SYSTEM, Parameter, Tab
+from openacr.sysvar.schema import CARD_PARAMETERS, CARD_VARIABLES, FIRST_SYSTEM, Parameter, Tab
 from openacr.sysvar.tabs import CELLS, TAB_CELLS, TABS
 
 _NUMBER = re.compile(r"[Pp]?\s*(\d{1,9})")
@@ -42,9 +42,9 @@ def known(number: int) -> Parameter:
 
 
 def _where(number: int) -> str:
-    if 0 <= number < 100:
+    if number in CARD_VARIABLES:
         return ": it is a variable of the card"
-    if 4096 <= number <= 20_487:
+    if number in CARD_PARAMETERS:
         return ": it is a parameter of the card"
     numbers = _numbers()
     place = bisect_left(numbers, number)

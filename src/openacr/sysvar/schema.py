@@ -12,8 +12,11 @@ from functools import cached_property
 from typing import Any
 
 from openacr.errors import MapError
+from openacr.map.numbers import FLAG_WORD_BASE
 
 FIRST_SYSTEM = 100_000  # the first cell that is no variable or offset of programs
+CARD_VARIABLES = range(100)  # P numbers of the card, not of the store
+CARD_PARAMETERS = range(FLAG_WORD_BASE, 20_488)
 AXES = 8
 AXIS_CELLS = 1_000
 ANY = math.inf
