@@ -196,11 +196,11 @@ def source_parameter(I: I32, t: int) -> int:
     k: int = I[sources.index[t]]
     if kind == FROM_PARAMETER:
         return k
-    if kind == FROM_COUNTER:
+    if kind == FROM_COUNTER and 0 <= k < encoders.COUNT:
         return encoders.encoder_position[k]
-    if kind == FROM_STEPS:
+    if kind == FROM_STEPS and 0 <= k < steppers.COUNT:
         return steppers.stepper_count[k]
-    if kind == FROM_AXIS:
+    if kind == FROM_AXIS and 0 <= k < axes.COUNT:
         return axes.primary_setpoint[k]
     return -1
 
