@@ -13,7 +13,10 @@ TESTS = (
     "tests/kernel/test_robustness.py",
     "tests/kernel/test_jog.py",
     "tests/parity/test_parity.py",
+    "tests/fuzz/test_extremes.py",  # every command with numbers nothing can have
+    "tests/fuzz/test_lines.py",  # 20 000 lines, typed and stored
 )
+PYTEST = ["-m", "pytest", "-n0", "-m", "not soak", *TESTS]
 
 
 @pytest.mark.soak
@@ -29,7 +32,7 @@ def test_no_index_is_out_of_range(tmp_path: Path) -> None:
         "OPENACR_REQUIRE_EXT": "1",
         "PYTHONPATH": os.pathsep.join((str(tmp_path / "src"), str(tmp_path))),
     }
-    for command in (["setup.py", "build_ext", "--inplace", "-q"], ["-m", "pytest", "-n0", *TESTS]):
+    for command in (["setup.py", "build_ext", "--inplace", "-q"], PYTEST):
         done = subprocess.run(
             [sys.executable, *command],
             cwd=tmp_path,
