@@ -8,49 +8,33 @@ state: `digest` is equal on every machine build of the core.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller.journal import Entered
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
+from openacr.controller.running import Running
 from openacr.controller.streams import CONSOLE
-from openacr.controller.surroundings import Surroundings
-from openacr.controller.views import AxisView
+from openacr.controller.surroundings import Surroundings, needs_axis
+from openacr.controller.views import AxisStatistics, AxisView
 from openacr.engine.watches import give_orders, state_image, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.characters import as_typed
 from openacr.map.memory import digest_of
 from openacr.map.numbers import (
-    AXF_PEAK_ERROR_CNT,
-    AXF_PEAK_VELOCITY_CPS,
-    AXF_TRAVEL_CNT,
     FSBI_BASE,
     FSBI_STRIDE,
     FSBI_WORDS,
 )
 from openacr.models import DEFAULT_MODEL, Model
-from openacr.motion.interlocks import scale_of
-from openacr.motion.row_index import axis_reals
 from openacr.plant import load, schema
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus
 
 
-@dataclass(frozen=True, slots=True)
-class AxisStatistics:
-    """What an axis has done since power-up, in its units."""
-
-    position_u: float
-    actual_u: float
-    distance_u: float
-    peak_velocity_ups: float
-    peak_following_error_u: float
-
-
-class Controller(Surroundings):
+class Controller(Running):
     """A virtual card; see design notes in docs/overview.md."""
 
     def __init__(
@@ -62,6 +46,7 @@ class Controller(Surroundings):
     ) -> None:
         super().__init__(model, world=world, data=data)
         self._console: int | None = None
+        self._surroundings = Surroundings(self.card, self.world, self._note)
         self._origins = Origins()
 
     @classmethod
@@ -185,11 +170,45 @@ class Controller(Surroundings):
         """Call `hear(program, text)` with everything programs print."""
         self.system.listeners.taps.append(hear)
 
+    # the machine around it
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch an input; one that the world drives is forced to this level until it is released.
+
+        Inputs are those onboard (0-31), the miscellaneous ones (64-95), those of expansion boards
+        and of CANopen nodes; UserError for any other number.
+        """
+        self._surroundings.set_input(bit, on)
+
+    def release_input(self, bit: int) -> None:
+        """Let go of an input: it shows what drives it again, and is off where nothing does."""
+        self._surroundings.release_input(bit)
+
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Bring a value, in its unit, to the analog input that a parameter shows."""
+        self._surroundings.set_analog(parameter, value)
+
+    def drag(self, axis: int, by_u: float) -> None:
+        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
+        self._surroundings.drag(axis, by_u)
+
+    def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
+        """Let something go wrong with an axis of the machine, by its number in machine.toml.
+
+        Kinds: encoder-lost, encoder-noise, drive, motor-cable, jam, obstacle (`value`: where, in
+        units of the axis), friction (`value`: torque in Nm). It lasts until `mend`.
+        """
+        self._surroundings.fault(axis, kind, value)
+
+    def mend(self, axis: int, kind: str | None = None) -> None:
+        """End one kind of fault of an axis, or all of them."""
+        self._surroundings.mend(axis, kind)
+
     # reading
 
     def axis(self, number: int) -> AxisView:
         """One axis, for reading."""
-        self._needs_axis(number)
+        needs_axis(self.card, number)
         return AxisView(self.card, number)
 
     def origin(self, program: int, line: int) -> tuple[str, int] | None:
@@ -201,18 +220,8 @@ class Controller(Surroundings):
 
     def statistics(self, axis: int) -> AxisStatistics:
         """What an axis has done since power-up."""
-        self._needs_axis(axis)
-        scale = abs(scale_of(self.card, axis))
-        reals = axis_reals(axis)
-        view = AxisView(self.card, axis)
-        memory = self.memory.F
-        return AxisStatistics(
-            view.commanded_u,
-            view.actual_u,
-            memory[reals + AXF_TRAVEL_CNT] / scale,
-            memory[reals + AXF_PEAK_VELOCITY_CPS] / scale,
-            memory[reals + AXF_PEAK_ERROR_CNT] / scale,
-        )
+        needs_axis(self.card, axis)
+        return AxisStatistics.of(self.card, axis)
 
     def digest(self) -> str:
         """Fingerprint of the state; what this process asked of the engine does not count."""

@@ -4,9 +4,9 @@ Everything is noted in the journal with its tick.
 """
 
 import math
+from typing import Protocol
 
 from openacr.controller.journal import Entered
-from openacr.controller.running import Running
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.map.numbers import (
@@ -16,12 +16,21 @@ from openacr.map.numbers import (
     AXI_POSITION_SOURCE,
 )
 from openacr.motion.axis.attach import Feedback
+from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
 from openacr.motion.row_index import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
+from openacr.plant.schema import World
 
 RAW_COUNTS = 4  # of an encoder per line, at MULT 4
 _INPUTS = "inputs are " + ", ".join(f"{first}-{last}" for first, last in inputs.RANGES)
+
+
+def needs_axis(card: Card, number: int) -> None:
+    """UserError for an axis the card does not have."""
+    if not 0 <= number < card.model.axes:
+        known = f"the {card.model.name} has axes 0-{card.model.axes - 1}"
+        raise UserError(f"axis {number}: {known}")
 
 
 def _needs_finite(what: str, value: float) -> None:
@@ -36,15 +45,23 @@ def _fault_kind(word: str) -> faults.MachineFault:
         raise UserError(f"fault {word!r}: known are {', '.join(faults.MachineFault)}") from None
 
 
-class Surroundings(Running):
-    """A card in its machine, which can be interfered with."""
+class Note(Protocol):
+    """Enters what has happened into the journals."""
+
+    def __call__(self, what: Entered, number: int, value: float = 0.0, *, name: str = "") -> None:
+        """What, at which number, with which value and name."""
+
+
+class Surroundings:
+    """The machine around a card, in which a caller can interfere."""
+
+    def __init__(self, card: Card, world: World, note: Note) -> None:
+        self.card, self.world = card, world
+        self.memory = card.memory
+        self._note = note
 
     def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input; one that the world drives is forced to this level until it is released.
-
-        Inputs are those onboard (0-31), the miscellaneous ones (64-95), those of expansion boards
-        and of CANopen nodes; UserError for any other number.
-        """
+        """Switch an input, or force one that the world drives; UserError where there is none."""
         self._needs_input(bit)
         inputs.switch(self.memory, bit, on)
         self._note(Entered.INPUT, bit, on)
@@ -76,7 +93,7 @@ class Surroundings(Running):
 
     def drag(self, axis: int, by_u: float) -> None:
         """Push the load of an axis by hand, at once; it takes part in the physics after that."""
-        self._needs_axis(axis)
+        needs_axis(self.card, axis)
         _needs_finite(f"axis {axis}", by_u)
         pulses = by_u * scale_of(self.card, axis)
         if not self._push(axis, pulses):
@@ -101,11 +118,7 @@ class Surroundings(Running):
         return apply.push(self.memory, motor, counts)
 
     def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
-        """Let something go wrong with an axis of the machine, by its number in machine.toml.
-
-        Kinds: encoder-lost, encoder-noise, drive, motor-cable, jam, obstacle (`value`: where, in
-        units of the axis), friction (`value`: torque in Nm). It lasts until `mend`.
-        """
+        """Let something go wrong with an axis of the machine until `mend`."""
         _needs_finite(f"axis {axis}", value)
         faults.inject(self.world, self.memory, axis, _fault_kind(kind), value)
         self._note(Entered.FAULT, axis, value, name=kind)
@@ -114,8 +127,3 @@ class Surroundings(Running):
         """End one kind of fault of an axis, or all of them."""
         faults.mend(self.world, self.memory, axis, None if kind is None else _fault_kind(kind))
         self._note(Entered.MEND, axis, name=kind or "")
-
-    def _needs_axis(self, number: int) -> None:
-        if not 0 <= number < self.model.axes:
-            known = f"the {self.model.name} has axes 0-{self.model.axes - 1}"
-            raise UserError(f"axis {number}: {known}")

@@ -1,14 +1,19 @@
 """Ways to look into a card from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Self
 
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
     AX_FOLLOWING_ERROR,
     AX_SECONDARY_SETPOINT,
+    AXF_PEAK_ERROR_CNT,
+    AXF_PEAK_VELOCITY_CPS,
     AXF_PSP_VELOCITY_CPS,
     AXF_SSP_CNT,
+    AXF_TRAVEL_CNT,
 )
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
@@ -81,3 +86,29 @@ class AxisView:
     def following_error(self) -> int:
         """Following error as P12291 shows it [pulses]."""
         return self._card.memory.I[axis_parameter(self.number) + AX_FOLLOWING_ERROR]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisStatistics:
+    """What an axis has done since power-up, in its units."""
+
+    position_u: float
+    actual_u: float
+    distance_u: float
+    peak_velocity_ups: float
+    peak_following_error_u: float
+
+    @classmethod
+    def of(cls, card: Card, axis: int) -> Self:
+        """Those of an axis at this tick."""
+        scale = abs(scale_of(card, axis))
+        reals = axis_reals(axis)
+        view = AxisView(card, axis)
+        memory = card.memory.F
+        return cls(
+            view.commanded_u,
+            view.actual_u,
+            memory[reals + AXF_TRAVEL_CNT] / scale,
+            memory[reals + AXF_PEAK_VELOCITY_CPS] / scale,
+            memory[reals + AXF_PEAK_ERROR_CNT] / scale,
+        )
