@@ -1,0 +1,119 @@
+"""Files, texts and projects checked: which card they are for, and what is read before them."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from openacr.basic.memory.storage import Storage
+from openacr.errors import SourceError, UserError
+from openacr.map.memory import Memory
+from openacr.models import MODELS
+from openacr.plant.load import load_world
+from openacr.plant.schema import Card
+from openacr.project import Place, Project, SourceFile, find_project, place_of, read_source
+from openacr.scenario import load_scenario
+from openacr.source_check.cutoffs import Cutoffs
+from openacr.source_check.faults import Fault
+from openacr.source_check.room import Room
+from openacr.source_check.source import Reader
+
+Level = tuple[Place, int]  # set-up, program or PLC, and its number
+
+
+def check(path: Path, at: Level | None = None) -> list[Fault]:
+    """Every fault of a controller file, or of all files of a project folder.
+
+    `at` is the level of a file whose name does not say it. SourceError or UserError where the
+    input cannot be read at all.
+    """
+    project = find_project(path)
+    return [*table_faults(project), *read(path, project, at).faults]
+
+
+def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
+    """Every fault of a text that is to be the file `path`, which need not exist.
+
+    The set-up and the machine file beside `path` are read before it.
+    """
+    place, number = place_of(path) if at is None else at
+    source = SourceFile(path, text.encode("latin-1", errors="replace"), place, number)
+    home = Project(path.parent) if place is Place.SETUP else _home(path.parent, is_needed=False)
+    reader = _reader(home)
+    _read_setup(reader, home)
+    reader.read(source)
+    return reader.faults
+
+
+def read(file: Path, project: Project, at: Level | None = None) -> Reader:
+    """Read all files of a project; one alone is read after the set-up beside it.
+
+    `at` is the level of a file whose name does not say it.
+    """
+    place, number = place_of(file) if at is None else at
+    is_whole = file.is_dir() or place is Place.SETUP
+    home = project if is_whole else _home(file.parent, is_needed=at is None)
+    reader = _reader(home)
+    if is_whole:
+        reader.sizes.is_complete = reader.room.is_complete = file.is_dir()
+        for source in project.sources:
+            reader.read(source)
+        return reader
+    _read_setup(reader, home)
+    reader.read(read_source(file, place, number))
+    return reader
+
+
+def table_faults(project: Project) -> Iterator[Fault]:
+    """The faults of the machine and scenario files of a project."""
+    for path, load in ((project.machine, load_world), (project.scenario, load_scenario)):
+        try:
+            if path:
+                load(path)
+        except SourceError as wrong:
+            text = (path.read_text(errors="replace") if path else "").split("\n")
+            for error in wrong.errors:
+                line = text[error.line - 1].rstrip() if 0 < error.line <= len(text) else ""
+                place = (error.line, error.column, 1)
+                yield Fault(error.path, *place, error.text, error.hint, line)
+
+
+def _reader(home: Project) -> Reader:
+    """A reader for the card of a project."""
+    card = _card(home)
+    model = MODELS[card.model]
+    return Reader(
+        room=Room(Storage(Memory(), streams=model.streams)),
+        has_digits_in_names=model.has_digits_in_names,
+        axis_count=model.axes,
+        cutoffs=Cutoffs(card.period_s),
+    )
+
+
+def _read_setup(reader: Reader, home: Project) -> None:
+    """Read the set-up of a project for what follows it; its own faults are not wanted."""
+    if home.setup:
+        reader.room.is_complete = True
+        reader.read(home.setup)
+        reader.faults.clear()
+        reader.parts.clear()
+
+
+def _home(folder: Path, *, is_needed: bool) -> Project:
+    """The project a file lies in; one without files where a project is absent and not needed."""
+    try:
+        return find_project(folder)
+    except SourceError:
+        raise
+    except UserError:
+        if is_needed:
+            raise
+        return Project(folder)
+
+
+def _card(project: Project) -> Card:
+    """The card the files are for; the usual one unless a readable machine file says which."""
+    if project.machine is None:
+        return Card()
+    try:
+        return load_world(project.machine).card
+    except SourceError:
+        return Card()
