@@ -26,7 +26,7 @@ def test_tab_t_starts_at_100000_plus_50000_t() -> None:
     assert [tab.base for tab in TABS] == [FIRST_SYSTEM + TAB_CELLS * t for t in range(19)]
     assert max(found.number for found in parameters()) == LAST_SYSTEM
     assert min(found.number for found in parameters()) == 100
-    assert CELLS.base == 0
+    assert CELLS.tab.base == 0
 
 
 @pytest.mark.parametrize(

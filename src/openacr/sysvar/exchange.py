@@ -19,6 +19,7 @@ from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import CellKind, Parameter
 from openacr.sysvar.store import AT_START, Store
+from openacr.sysvar.tabs import CELLS, GENERAL
 from openacr.sysvar.values import SettingError, Value
 from openacr.units import MM_PER_INCH
 
@@ -26,7 +27,15 @@ LAYOUT = 1
 INCH, MM = "inch", "mm"
 _HEAD = ("layout", "unit")
 # What says how a run stands is no setting.
-_OF_A_RUN = frozenset({*range(234, 249), *AT_START, password.CELL, UNITS, rules.RUN_STATE})
+_OF_A_RUN = frozenset(
+    (
+        *range(CELLS.tool_selected, CELLS.run_time + 1),
+        *AT_START,
+        password.CELL,
+        UNITS,
+        rules.RUN_STATE,
+    )
+)
 
 
 def exported(store: Store, *, everything: bool = False) -> str:
@@ -47,7 +56,7 @@ def _belongs(store: Store, parameter: Parameter, everything: bool) -> bool:
     n = parameter.number
     if parameter.row.is_fixed or n in _OF_A_RUN:
         return False
-    if parameter.is_per_length and (parameter.axis or 0) < store.read(100_001):
+    if parameter.is_per_length and (parameter.axis or 0) < store.read(GENERAL.axis_count):
         return True  # its default is a number per unit, whichever that is
     return everything or store.value(n) != store.default(n)
 

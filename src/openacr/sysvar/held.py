@@ -1,10 +1,11 @@
 """The cells of a store in memory: what was stored, and defaults that were asked for."""
 
 from openacr.sysvar.schema import FIRST_SYSTEM
+from openacr.sysvar.tabs import CONTROL
 from openacr.sysvar.values import Value
 from openacr.units import MM_PER_INCH
 
-UNITS = 250_001  # 0 inch, 1 mm
+UNITS = CONTROL.default_units  # 0 inch, 1 mm
 
 
 class Held:

@@ -23,7 +23,7 @@ Named = tuple[Parameter, list[str]]
 
 def _tab_of(number: int) -> Tab:
     if number < FIRST_SYSTEM:
-        return CELLS
+        return CELLS.tab
     return TABS[min((number - FIRST_SYSTEM) // TAB_CELLS, _LAST_TAB)]
 
 
@@ -59,7 +59,7 @@ def _numbers() -> list[int]:
 
 def parameters() -> Iterator[Parameter]:
     """All cells of the store in the order of their numbers."""
-    for tab in (CELLS, *TABS):
+    for tab in (CELLS.tab, *TABS):
         for offset in sorted(tab.cells):
             yield known(tab.base + offset)
 
@@ -67,7 +67,7 @@ def parameters() -> Iterator[Parameter]:
 def tab_named(text: str) -> Tab | None:
     """The tab of that name, whatever its case."""
     wanted = text.strip().upper()
-    return next((tab for tab in (*TABS, CELLS) if tab.name == wanted), None)
+    return next((tab for tab in (*TABS, CELLS.tab) if tab.name == wanted), None)
 
 
 def in_tab(tab: Tab) -> list[Parameter]:

@@ -6,8 +6,9 @@ import os
 
 from openacr.errors import UserError
 from openacr.sysvar.store import Store
+from openacr.sysvar.tabs import GENERAL
 
-CELL = 100_004
+CELL = GENERAL.password_hash
 _SALT_BYTES, _HASH_BYTES = 16, 32
 _COST = {"n": 1 << 14, "r": 8, "p": 1}  # 16 MB and some 50 ms for each try
 

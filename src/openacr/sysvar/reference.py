@@ -32,7 +32,7 @@ WRITERS = {
 def page() -> str:
     """The whole page."""
     parts = ["# Parameters of the CNC side", MADE_BY, UNITS, "## Where numbers live", _map()]
-    for tab in (*TABS, CELLS):
+    for tab in (*TABS, CELLS.tab):
         parts += [f"## {tab.name}", _numbers(tab), _table(tab)]
     return "\n\n".join(part for part in parts if part) + "\n"
 

@@ -6,24 +6,21 @@ from typing import Protocol
 
 from openacr.models import MODELS
 from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
-from openacr.sysvar.schema import AXES, AXIS_CELLS, FIRST_SYSTEM, Parameter, Wire
+from openacr.sysvar.schema import AXES, FIRST_SYSTEM, Parameter, Wire
+from openacr.sysvar.tabs import AXIS, CELLS, CONTROL, DISPLAY, FOV, GENERAL, IO, ROV, SOV, SPINDLE
 from openacr.sysvar.values import SettingError
 
-MODEL, RUN_STATE = 100_002, 244
+MODEL, RUN_STATE = GENERAL.card_model, CELLS.run_state
 RUNNING = frozenset((1, 2, 3, 4))  # run, paused, wait, stop
-ANGLE1, ANGLE2 = 250_010, 250_011
-FIRST_AXIS, PLUS, MINUS, IS_OFF, NAME = 200_000, 0, 1, 2, 8
-TABLES, CLICKS = (450_000, 500_000, 550_000), 16
-DISPLAY, DISPLAY_FORMATS = 850_000, 2
+ANGLE1, ANGLE2 = CONTROL.acute_angle1_threshold, CONTROL.acute_angle2
+TABLES = (FOV.percents, ROV.percents, SOV.percents)
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
-SPINDLE_DAC, CONFIGURED, AXIS_DAC = 800_002, 12, 14
-DAC = (CONFIGURED, AXIS_DAC)
-FEED_HOLD, CYCLE_START, EMERGENCY_STOP = 400_002, 400_003, 400_004
-STEERING = {FEED_HOLD, CYCLE_START, EMERGENCY_STOP}  # inputs that serve nothing else
-REFERENCE_OUTPUTS = {400_011, 400_019}  # of G27 and G28: one lamp may serve both
-# Switches that are read at four inputs, by the cell of the first: joystick, FOV, ROV, SOV.
-SWITCH_LINES = dict.fromkeys((400_006, 450_016, 500_016, 550_016), 4)
-MODULES, FIRST_MODULE_LINE, MODULE_LINES, MODULE_INPUTS = 250_124, 256, 64, 32
+STEERING = {IO.feedhold_input, IO.cycle_start_input, IO.emergency_stop}  # serve nothing else
+REFERENCE_OUTPUTS = {IO.g27_output, IO.g28_error_output}  # one lamp may serve both
+# Switches that are read at four inputs, by the cell of the first.
+SWITCH_LINES = dict.fromkeys((IO.jog_joystick_input, FOV.switch, ROV.switch, SOV.switch), 4)
+MODULES = CONTROL.io_expansion_modules
+FIRST_MODULE_LINE, MODULE_LINES, MODULE_INPUTS = 256, 64, 32
 
 
 class Reader(Protocol):
@@ -50,28 +47,26 @@ def check(cells: Reader, changed: Collection[int], is_running: Callable[[], bool
             rule(cells, system)
 
 
-def _soft_limits(cells: Reader, changed: Iterable[int]) -> None:
-    for n in changed:
-        axis, k = divmod(n - FIRST_AXIS, AXIS_CELLS)
-        if not 0 <= axis < AXES or k not in (PLUS, MINUS, IS_OFF):
+def _soft_limits(cells: Reader, changed: Collection[int]) -> None:
+    for axis in range(AXES):
+        numbers = AXIS.plus_soft_limit[axis], AXIS.minus_soft_limit[axis], AXIS.disable_limit[axis]
+        if set(numbers).isdisjoint(changed):
             continue
-        base = FIRST_AXIS + AXIS_CELLS * axis
-        plus, minus, is_off = (cells.read(base + k) for k in (PLUS, MINUS, IS_OFF))
+        plus, minus, is_off = (cells.read(n) for n in numbers)
         if not is_off and plus <= minus:
             raise SettingError(
-                known(base + PLUS),
+                known(AXIS.plus_soft_limit[axis]),
                 plus,
                 f"it must be above the -Soft Limit, {minus:g}",
-                f"or set P{base + IS_OFF} Disable Limit",
+                f"or set P{AXIS.disable_limit[axis]} Disable Limit",
             )
 
 
 def _axis_names(cells: Reader, changed: Iterable[int]) -> None:
-    numbers = [FIRST_AXIS + AXIS_CELLS * axis + NAME for axis in range(AXES)]
-    if not set(numbers) & set(changed):
+    if set(AXIS.name).isdisjoint(changed):
         return
     names: dict[str, int] = {}
-    for n in numbers:
+    for n in AXIS.name:
         name = cells.read_text(n)
         if name not in AXIS_LETTERS or len(name) != 1:
             raise SettingError(known(n), name, "one of " + ", ".join(AXIS_LETTERS))
@@ -88,15 +83,15 @@ def _angles(cells: Reader, changed: Iterable[int]) -> None:
 
 
 def _override_tables(cells: Reader, changed: Iterable[int]) -> None:
-    for base in TABLES:
-        if not any(base <= n < base + CLICKS for n in changed):
+    for table in TABLES:
+        if not any(n in table for n in changed):
             continue
         before = 0.0
-        for click in range(CLICKS):
-            percent = cells.read(base + click)
+        for click, n in enumerate(table):
+            percent = cells.read(n)
             if percent < before:
                 raise SettingError(
-                    known(base + click),
+                    known(n),
                     percent,
                     f"click {click - 1} has {before:g}",
                     "percentages rise from click to click",
@@ -137,8 +132,7 @@ def _is_on_module(value: float, wire: Wire, modules: int) -> bool:
 
 def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
     for n in changed:
-        axis, k = divmod(n - DISPLAY, AXIS_CELLS)
-        if not (0 <= axis < AXES and k < DISPLAY_FORMATS):
+        if n not in DISPLAY.inch_format and n not in DISPLAY.metric_format:
             continue
         value = cells.read(n)
         if not re.fullmatch(r"[0-9]\.[0-9]", f"{value!r}"):
@@ -148,10 +142,10 @@ def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
 def _sharing(cells: Reader, changed: Collection[int]) -> None:
     """An output, a DAC or an input that steers the machine serves one purpose."""
     lines = [each for each in parameters() if each.row.wire]
-    dacs = [SPINDLE_DAC, *(FIRST_AXIS + AXIS_CELLS * axis + k for axis in range(AXES) for k in DAC)]
+    dacs = {SPINDLE.dac, *AXIS.configured, *AXIS.dac_number}
     if not {each.number for each in lines}.isdisjoint(changed):
         _refuse_shared(cells, changed, _users(cells, lines))
-    if not set(dacs).isdisjoint(changed):
+    if not dacs.isdisjoint(changed):
         _refuse_shared(cells, changed, _dac_users(cells))
 
 
@@ -183,13 +177,12 @@ def _users(cells: Reader, lines: Iterable[Parameter]) -> Users:
 
 def _dac_users(cells: Reader) -> Users:
     users: Users = {}
-    spindle = int(cells.read(SPINDLE_DAC))
+    spindle = int(cells.read(SPINDLE.dac))
     if spindle >= 0:
-        users["DAC", spindle] = [SPINDLE_DAC]
-    for axis in range(AXES):
-        base = FIRST_AXIS + AXIS_CELLS * axis
-        if cells.read(base + CONFIGURED):
-            users.setdefault(("DAC", int(cells.read(base + AXIS_DAC))), []).append(base + AXIS_DAC)
+        users["DAC", spindle] = [SPINDLE.dac]
+    for configured, dac in zip(AXIS.configured, AXIS.dac_number, strict=True):
+        if cells.read(configured):
+            users.setdefault(("DAC", int(cells.read(dac))), []).append(dac)
     return users
 
 

@@ -5,11 +5,12 @@ stand for a series of like cells, `step` apart. Lengths are declared in inches.
 """
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from openacr.errors import MapError
 from openacr.map.numbers import FLAG_WORD_BASE
@@ -123,11 +124,51 @@ class Parameter:
         return f"P{self.number} {self.name}{axis}"
 
 
-class Tab:
-    """A tab of the system parameters, or the cells of programs."""
+Declared = TypeVar("Declared", int, range)
 
-    def __init__(self, name: str, base: int, *, per_axis: bool = False) -> None:
-        self.name, self.base, self.is_per_axis = name, base, per_axis
+
+class Declaring(ABC, Generic[Declared]):
+    """Declares rows of a tab; the result of each declaration is what users of the cell write."""
+
+    @abstractmethod
+    def _row(self, k: int, name: str, kind: CellKind, **more: object) -> Declared:
+        """Take a row in; the result is the number of its cell, or of each of its cells."""
+
+    def real(
+        self, k: int, name: str, unit: str, default: Default = 0.0, **more: object
+    ) -> Declared:
+        """A number."""
+        return self._row(k, name, CellKind.REAL, unit=unit, default=default, **more)
+
+    def integer(self, k: int, name: str, default: Default = 0, **more: object) -> Declared:
+        """A whole number."""
+        return self._row(k, name, CellKind.INTEGER, default=default, **more)
+
+    def boolean(self, k: int, name: str, default: Default = 0, **more: object) -> Declared:
+        """False or true."""
+        marks = {"default": default, "words": FALSE_TRUE, "low": 0, "high": 1}
+        return self._row(k, name, CellKind.BOOLEAN, **marks, **more)
+
+    def choice(
+        self, k: int, name: str, words: Mapping[int, str], default: Default = 0, **more: object
+    ) -> Declared:
+        """One of some values, each with a word for it."""
+        return self._row(k, name, CellKind.CHOICE, words=words, default=default, **more)
+
+    def text(self, k: int, name: str, default: Default = "", **more: object) -> Declared:
+        """Words."""
+        return self._row(k, name, CellKind.TEXT, default=default, **more)
+
+
+class Tab(Declaring[int]):
+    """A tab of the system parameters, or the cells of programs.
+
+    A row of one cell is declared at the tab itself and gives its number; rows of several
+    cells are declared at `per_axis`, `by_axis` or a `series` and give the range of theirs.
+    """
+
+    def __init__(self, name: str, base: int) -> None:
+        self.name, self.base = name, base
         self.rows: list[Row] = []
         self._is_motion = False
 
@@ -139,37 +180,40 @@ class Tab:
         """Rows from here on may change at any time."""
         self._is_motion = False
 
-    def add(self, row: Row) -> None:
+    @property
+    def per_axis(self) -> "Series":
+        """Declares rows with a cell in the thousand of each axis."""
+        return Series(self, is_per_axis=True)
+
+    @property
+    def by_axis(self) -> "Series":
+        """Declares rows with a cell for each axis, one after the other."""
+        return Series(self, count=AXES, is_by_axis=True)
+
+    def series(self, count: int, **more: object) -> "Series":
+        """Declares rows of `count` like cells, `step` apart, the first with the number `first`."""
+        return Series(self, count=count, **more)
+
+    @property
+    def is_per_axis(self) -> bool:
+        """Whether each axis has a thousand of the numbers."""
+        return any(row.is_per_axis for row in self.rows)
+
+    def add(self, row: Row) -> range:
         """Take a row in; two rows for one cell are a slip in the tables."""
         self.rows.append(row)
+        count, step = (AXES, AXIS_CELLS) if row.is_per_axis else (row.count, row.step)
+        first = self.base + row.k
+        return range(first, first + count * step, step)
 
-    def real(self, k: int, name: str, unit: str, default: Default = 0.0, **more: object) -> None:
-        """A number."""
-        self._row(k, name, CellKind.REAL, unit=unit, default=default, **more)
-
-    def integer(self, k: int, name: str, default: Default = 0, **more: object) -> None:
-        """A whole number."""
-        self._row(k, name, CellKind.INTEGER, default=default, **more)
-
-    def boolean(self, k: int, name: str, default: Default = 0, **more: object) -> None:
-        """False or true."""
-        self._row(
-            k, name, CellKind.BOOLEAN, default=default, words=FALSE_TRUE, low=0, high=1, **more
+    def declare(self, k: int, name: str, kind: CellKind, **more: object) -> range:
+        """Take a row in from its fields; the result is the numbers of its cells."""
+        return self.add(
+            Row(k, name, kind, **{"is_motion": self._is_motion, **more})  # type: ignore[arg-type]
         )
 
-    def choice(
-        self, k: int, name: str, words: Mapping[int, str], default: Default = 0, **more: object
-    ) -> None:
-        """One of some values, each with a word for it."""
-        self._row(k, name, CellKind.CHOICE, words=words, default=default, **more)
-
-    def text(self, k: int, name: str, default: Default = "", **more: object) -> None:
-        """Words."""
-        self._row(k, name, CellKind.TEXT, default=default, **more)
-
-    def _row(self, k: int, name: str, kind: CellKind, **more: object) -> None:
-        marks = {"is_motion": self._is_motion, "is_per_axis": self.is_per_axis}
-        self.add(Row(k, name, kind, **{**marks, **more}))  # type: ignore[arg-type]
+    def _row(self, k: int, name: str, kind: CellKind, **more: object) -> int:
+        return self.declare(k, name, kind, **more)[0]
 
     @cached_property
     def cells(self) -> dict[int, tuple[Row, int | None, int]]:
@@ -189,6 +233,16 @@ class Tab:
             return None
         row, axis, index = found
         return Parameter(number, self.name, row, axis, index)
+
+
+class Series(Declaring[range]):
+    """Declares rows of several cells: `SERIES[axis]` or `SERIES[place]` is the number of one."""
+
+    def __init__(self, tab: Tab, **marks: object) -> None:
+        self._tab, self._marks = tab, marks
+
+    def _row(self, k: int, name: str, kind: CellKind, **more: object) -> range:
+        return self._tab.declare(k, name, kind, **{**self._marks, **more})
 
 
 FALSE_TRUE = {0: "false", 1: "true"}

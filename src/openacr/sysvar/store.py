@@ -1,10 +1,10 @@
 """The store as programs see it: numbered cells, read from memory, written through at once.
 
     with Store(path) as store:
-        feed = store.read(650_002)
+        feed = store.read(SPEEDS.cut_speed)
         with store.transaction():          # all of it is stored, or nothing
-            store.write(2001, 1.5)
-            store.write(3001, 0.01)
+            store.write(CELLS.h_length[1], 1.5)
+            store.write(CELLS.h_wear[1], 0.01)
 
 Reading costs a look into a dictionary: cells are kept in memory, and a counter all
 processes share says when they have to be read again. A value another process has written
@@ -26,15 +26,23 @@ from openacr.sysvar.database import Database
 from openacr.sysvar.driven import is_driven
 from openacr.sysvar.held import UNITS, Held
 from openacr.sysvar.homes import Home, home_of
-from openacr.sysvar.schema import AXIS_CELLS, FIRST_SYSTEM, At, Parameter
+from openacr.sysvar.schema import FIRST_SYSTEM, At, Parameter
+from openacr.sysvar.tabs import AXIS, CELLS
 from openacr.sysvar.values import SettingError, Value
 from openacr.units import MM_PER_INCH
 
 LOOK_S = 0.05  # the counter is not believed for longer
 NEVER = b""  # no counter ever reads like this
-AXIS_NAME = 200_008
 # The state at the start of the front end: no offset in use, spindle off, idle.
-AT_START = {1998: 0.0, 1999: 0.0, 4000: 0.0, 4001: 0.0, 240: 5.0, 241: 0.0, 244: 0.0}
+AT_START = {
+    CELLS.current_d_radius: 0.0,
+    CELLS.current_d_wear: 0.0,
+    CELLS.current_h_length: 0.0,
+    CELLS.current_h_wear: 0.0,
+    CELLS.spindle_state: 5.0,
+    CELLS.coolant_state: 0.0,
+    CELLS.run_state: 0.0,
+}
 
 Listener = Callable[[frozenset[int]], None]
 
@@ -162,9 +170,9 @@ class Store:
 
     def letter_of(self, parameter: Parameter) -> str:
         """The name of the axis a cell belongs to, empty for none."""
-        if parameter.axis is None or parameter.number == AXIS_NAME + AXIS_CELLS * parameter.axis:
+        if parameter.axis is None or parameter.number == AXIS.name[parameter.axis]:
             return ""
-        return self.read_text(AXIS_NAME + AXIS_CELLS * parameter.axis)
+        return self.read_text(AXIS.name[parameter.axis])
 
     def _first_number(self, n: int) -> float:
         parameter = self.parameter(n)
