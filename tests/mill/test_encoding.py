@@ -10,11 +10,12 @@ from hypothesis import strategies as st
 from tests.mill.shop import PULSES, at, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.mill.config.settings import AXIS, Settings, cell
+from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder, Job
 from openacr.mill.plan.planning import CornerRules, Planner
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import AXIS
 
 
 def encoder(**cells: float) -> Encoder:
@@ -144,7 +145,7 @@ def test_a_polyline_is_planned_and_sent_like_its_lines_one_by_one(
 ) -> None:
     cells = {"P100_001": 4.0, "P650_000": 6000.0, "P650_010": 720.0}
     if is_limited:
-        cells |= {f"P{cell(AXIS, 15, 0)}": 120.0, f"P{cell(AXIS, 16, 1)}": 7.0}
+        cells |= {f"P{AXIS.max_axis_speed[0]}": 120.0, f"P{AXIS.max_axis_acceleration[1]}": 7.0}
     coder = encoder(**cells)
     begin, ends, point = at(1.0, -2.0), [], np.array(at(1.0, -2.0))
     for way in ways:

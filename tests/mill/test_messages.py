@@ -12,11 +12,11 @@ from openacr.mill.card.messages import (
     define,
     definitions,
     free_number,
-    record,
     remove,
 )
 from openacr.mill.config.pparm import OperatorParameters
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import MESSAGES
 from openacr.sysvar.values import SettingError
 
 
@@ -92,7 +92,7 @@ def test_definitions_outlive_the_process_with_length_and_colours(tmp_path: Path)
             remove(store, 9)
         with pytest.raises(SettingError):
             define(store, Message(1, 5, "x", text_color=16))
-        assert not store.read(record(9, 0))
+        assert not store.read(MESSAGES.defined[9])
 
 
 @pytest.mark.req("MILL-PPARM-RANGE", "MILL-PPARM-LIVE")

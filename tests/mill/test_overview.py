@@ -5,19 +5,18 @@ from tests.mill.shop import Shop
 
 from openacr.cnc.loading.load import load
 from openacr.cnc.parts.library import part_named, prepared
-from openacr.mill.config.settings import AXIS, cell
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import AXIS
 
-NAME, IS_THERE = 8, 12
 ESTOP = "P400_004"
 
 
 def eight_axes() -> Store:
     store = Store()
     for axis in range(8):
-        store.write(cell(AXIS, IS_THERE, axis), 1)
+        store.write(AXIS.configured[axis], 1)
     return store
 
 
@@ -36,8 +35,8 @@ def test_letters_address_the_axes_in_their_order_and_can_be_renamed() -> None:
     text = "G90 F600\nG1 X.1 Y.2 Z.3 A4 B5 C6 U.7 V.8\nM2\n"
     assert ends(store, text) == pytest.approx((0.1, 0.2, 0.3, 4, 5, 6, 0.7, 0.8), abs=1e-4)
     with store.transaction():
-        store.write_text(cell(AXIS, NAME, 0), "V")
-        store.write_text(cell(AXIS, NAME, 7), "X")
+        store.write_text(AXIS.name[0], "V")
+        store.write_text(AXIS.name[7], "X")
     assert ends(store, text) == pytest.approx((0.8, 0.2, 0.3, 4, 5, 6, 0.7, 0.1), abs=1e-4)
 
 

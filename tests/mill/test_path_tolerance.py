@@ -14,12 +14,13 @@ from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.map import numbers as n
-from openacr.mill.config.settings import AXIS, SPEEDS, Settings, cell
+from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder
 from openacr.mill.plan.predicting import predicted
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import AXIS, SPEEDS
 
 ACCEL = 100.0  # units/s2 of feed moves
 LOOK_TICKS = 10
@@ -125,7 +126,7 @@ def test_short_segments_are_predicted_with_the_corners_that_whole_pulses_make() 
 
 
 def test_no_axis_exceeds_its_own_acceleration_in_a_corner() -> None:
-    shop = Shop(**{f"P{cell(AXIS, 16, 1)}": 30.0})
+    shop = Shop(**{f"P{AXIS.max_axis_acceleration[1]}": 30.0})
     points = [(2.0, 0.1), (4.0, 0.0), (4.2, 0.5), (5.0, 0.5), (6.0, 0.48)]
     places = followed(shop, *lines(points, tolerance_u=0.02))
     second = np.abs(np.diff(places, n=2, axis=0)).max(axis=0) / shop.controller.period_s**2
@@ -134,7 +135,7 @@ def test_no_axis_exceeds_its_own_acceleration_in_a_corner() -> None:
 
 
 def test_many_lines_together_and_one_by_one_are_planned_alike() -> None:
-    shop = Shop(**{f"P{cell(AXIS, 16, 1)}": 30.0})
+    shop = Shop(**{f"P{AXIS.max_axis_acceleration[1]}": 30.0})
     rng = random.Random(7)
     points = [at(*(rng.uniform(-1, 1) for _ in range(3))) for _ in range(40)]
     pace = c.Pace(300.0, tolerance_u=0.01)
@@ -198,7 +199,7 @@ def test_a_card_at_the_other_end_of_a_link_never_hears_of_a_tolerance(
     for text in ("G64 P0.02", "G64"):
         card, store = Listener(), Store()
         for axis in range(3):
-            store.write(cell(AXIS, 7, axis), 0)  # need not be homed
+            store.write(AXIS.home_required[axis], 0)  # need not be homed
         shop = MillSession.real(card, store, say=silent)
         shop.card.command("DRIVE ON X Y Z", program=0)
         ran(shop, text)
@@ -208,7 +209,7 @@ def test_a_card_at_the_other_end_of_a_link_never_hears_of_a_tolerance(
 
 
 def test_with_a_jerk_limit_corners_stay_exact() -> None:
-    places = followed(Shop(**{f"P{cell(SPEEDS, 15)}": 1000.0}), *lines(POCKET, tolerance_u=0.05))
+    places = followed(Shop(**{f"P{SPEEDS.path_jerk}": 1000.0}), *lines(POCKET, tolerance_u=0.05))
     assert off_path(places, POCKET) < 1e-6
 
 

@@ -7,10 +7,11 @@ from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map.numbers import AF4_DRIVE_ENABLED, AF4_WORD, P_FIRMWARE_VERSION
-from openacr.mill.config.settings import AXIS, HOMED, cell
+from openacr.mill.config.settings import HOMED
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import AXIS
 
 CARD_MODEL, POWER_UP_DISTANCE, CONTROL_MODE = 100_002, 250_111, 850_030
 PROBLEM = "G1 F600 X1\nM2\n"
@@ -91,7 +92,7 @@ def test_the_store_says_how_the_control_starts(distance: int, mode: int, end: fl
 def test_the_virtual_machine_is_of_the_model_of_the_store(model: str) -> None:
     store = Store()
     store.write_text(CARD_MODEL, model)
-    store.write(cell(AXIS, 12, 2), 0)
+    store.write(AXIS.configured[2], 0)
     shop = MillSession.virtual(store, say=lambda _text: None)
     assert shop.card.command("VER") == [f"{model} Version 1.18.06 Update 15"]
     shop.start(load("F100 G1 X1 Y1\nG2 X2 Y0 I1 J0\nM2\n", shop.cells), Start())

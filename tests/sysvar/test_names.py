@@ -7,7 +7,11 @@ from openacr.sysvar.lookup import known
 from openacr.sysvar.schema import AXES, Tab
 from openacr.sysvar.tabs import AXIS, CELLS, CONTROL, FOV, JOG, MESSAGES, OFFSETS, SPEEDS, TABS
 
-NAMESPACES = [getattr(tabs, name) for name in tabs.__all__ if name not in ("TABS", "TAB_CELLS")]
+NAMESPACES = [
+    getattr(tabs, name)
+    for name in tabs.__all__
+    if name.isupper() and name not in ("TABS", "TAB_CELLS")
+]
 
 
 def _ranges(value: object) -> list[range]:

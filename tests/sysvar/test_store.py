@@ -10,6 +10,7 @@ from openacr.locks import FileLock
 from openacr.mill.config.settings import Settings
 from openacr.sysvar import SettingError, Store
 from openacr.sysvar.driven import machine_lock
+from openacr.sysvar.tabs import FOV, ROV, SOV, OverrideTab
 
 PERSISTENT = [
     pytest.param((100, 150, 199), marks=pytest.mark.req("MILL-P-100-199")),
@@ -181,14 +182,14 @@ def test_16_percentages_rise_from_click_to_click(base: int, tab: str) -> None:
 
 
 @pytest.mark.req("MILL-SYS-FOV-PERSIST", "MILL-SYS-ROV-PERSIST", "MILL-SYS-SOV-PERSIST")
-@pytest.mark.parametrize("base", [450_000, 500_000, 550_000])
-def test_override_tables_survive(base: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("base", "tab"), [(450_000, FOV), (500_000, ROV), (550_000, SOV)])
+def test_override_tables_survive(base: int, tab: OverrideTab, tmp_path: Path) -> None:
     with Store(tmp_path / "s.db") as store, store.transaction():
         for click in range(16):
             store.write(base + click, 7 * click)
     with Store(tmp_path / "s.db") as store:
         assert [store.read(base + click) for click in range(16)] == [7 * c for c in range(16)]
-        assert Settings(store).table(base // 50_000 - 2) == tuple(7 * c for c in range(16))
+        assert Settings(store).table(tab) == tuple(7 * c for c in range(16))
 
 
 def test_soft_limits_need_room_between_them_when_they_are_on() -> None:

@@ -23,7 +23,6 @@ from openacr.cnc.interpreter.mdi import Mdi
 from openacr.cnc.interpreter.replay import Replay, start_at
 from openacr.cnc.loading.load import load_blank
 from openacr.cnc.program.program import Program
-from openacr.cnc.state.cells import DEFAULT_UNIT
 from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.shadow import Shadow
 from openacr.engine.watches import Watch, Watched
@@ -49,6 +48,7 @@ from openacr.mill.run.run_host import RunHost
 from openacr.mill.run.runner import Runner
 from openacr.sysvar import AT_START, Store
 from openacr.sysvar.rules import require_wiring
+from openacr.sysvar.tabs import CONTROL, FOV, GENERAL, IO, ROV, SOV, SPINDLE, TOOL
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
@@ -56,13 +56,26 @@ if TYPE_CHECKING:
 POLL_S = 0.02
 SHORTEST_S = 0.001  # the clock of the card counts milliseconds
 MOTION = n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED | n.MF1_NOT_IN_POSITION
-NO_ERROR_FILE, LOG_NAME, CARD_MODEL = 250_118, 100_006, 100_002
 ALL_AXES = 255
 # Inputs of the store that nothing is wired to on the virtual machine.
 UNWIRED = (
-    *range(400_000, 400_007), 400_012, 450_016, 500_016, 550_016, 800_003, 800_004, 800_008,
-    800_013, 900_000,
-)  # fmt: skip
+    IO.block_skip,
+    IO.optional_stop,
+    IO.feedhold_input,
+    IO.cycle_start_input,
+    IO.emergency_stop,
+    IO.soft_limits_input,
+    IO.jog_joystick_input,
+    IO.lubrication_error,
+    FOV.switch,
+    ROV.switch,
+    SOV.switch,
+    SPINDLE.at_zero_input,
+    SPINDLE.at_speed_input,
+    SPINDLE.exception_input,
+    SPINDLE.oriented_input,
+    TOOL.changed_input,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,8 +159,8 @@ class MillSession:
         cells.write(HOMED, ALL_AXES)
         for cell in UNWIRED:
             cells.write(cell, NONE)
-        cells.write(800_000, int(store.read(800_000)) & 1)  # no handshake, same range
-        controller = Controller(store.read_text(CARD_MODEL))
+        cells.write(SPINDLE.code, int(store.read(SPINDLE.code)) & 1)  # no handshake, same range
+        controller = Controller(store.read_text(GENERAL.card_model))
         check_axes(controller.model, Settings(cells))
         card = Card.open(controller)
         shop = cls(card, cells, say, is_virtual=True, folder=_folder_of(store))
@@ -207,7 +220,7 @@ class MillSession:
     @property
     def cells_unit(self) -> str:
         """The unit of the store, in which positions are."""
-        return "mm" if self.cells.read(DEFAULT_UNIT) else "inch"
+        return "mm" if self.cells.read(CONTROL.default_units) else "inch"
 
     # --- programs ---------------------------------------------------------------------
 
@@ -370,9 +383,9 @@ def _say_message(say: Callable[[str], None], message: Message, is_on: bool) -> N
 
 def _error_log(cells: Cells, folder: Path | None) -> Path | None:
     """The file alarms are appended to, where the store wants one."""
-    if folder is None or cells.read(NO_ERROR_FILE):
+    if folder is None or cells.read(CONTROL.disable_error_file):
         return None
-    return folder / (cells.read_text(LOG_NAME) or "MILL.LOG")
+    return folder / (cells.read_text(GENERAL.error_log_name) or "MILL.LOG")
 
 
 def _given(entries: Iterator[c.Entry], _host: RunHost) -> Iterator[c.Entry]:

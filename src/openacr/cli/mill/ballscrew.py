@@ -24,20 +24,20 @@ def import_table(
 ) -> None:
     """Check the table of an axis, keep it beside the store and switch it on."""
     from openacr.cli.run.output import require_writable, write_text
-    from openacr.mill.card.ballscrew import FILE, ON, read
-    from openacr.mill.config.settings import OFFSETS, cell
+    from openacr.mill.card.ballscrew import read
     from openacr.sysvar.location import open_to_write
+    from openacr.sysvar.tabs import OFFSETS
 
     with open_to_write(store) as cells:
         number, name = _axis(cells, axis)
         table = read(file, name)
-        require_service(cells, [cell(OFFSETS, ON + number)], password)
+        require_service(cells, [OFFSETS.ballscrew_on[number]], password)
         kept = _folder(cells) / f"ballscrew_{name}.txt"
         require_writable(kept)
         write_text(kept, table.text())
         with cells.transaction():
-            cells.write_text(cell(OFFSETS, FILE + number), kept.name)
-            cells.write(cell(OFFSETS, ON + number), 1)
+            cells.write_text(OFFSETS.ballscrew_file[number], kept.name)
+            cells.write(OFFSETS.ballscrew_on[number], 1)
     typer.echo(f"{kept}: {_summary(table)}; it acts from the next start")
 
 
@@ -49,15 +49,17 @@ def export_table(
     store: AtStore = None,
 ) -> None:
     """Write the table of an axis, which the store names, to a file."""
-    from openacr.mill.card.ballscrew import FILE, read
-    from openacr.mill.config.settings import OFFSETS, cell
+    from openacr.mill.card.ballscrew import read
     from openacr.sysvar.location import open_to_read
+    from openacr.sysvar.tabs import OFFSETS
 
     with open_to_read(store) as cells:
         number, name = _axis(cells, axis)
-        kept = cells.read_text(cell(OFFSETS, FILE + number))
+        kept = cells.read_text(OFFSETS.ballscrew_file[number])
         if not kept:
-            raise UserError(f"axis {name} has no ballscrew table (P{cell(OFFSETS, FILE + number)})")
+            raise UserError(
+                f"axis {name} has no ballscrew table (P{OFFSETS.ballscrew_file[number]})"
+            )
         table = read(_folder(cells) / kept, name)
     _give(table, file)
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 FAILED = 1
 S_PER_MIN = 60
-PATH_JERK_CELL, PATH_JERK = 650_015, "Path jerk (P650015)"
 CONTEXT_COLUMNS = 72
 BEGINNING_BYTES = 65536  # what is looked at to tell text from other files
 TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
@@ -223,7 +222,10 @@ def _times(prediction: "Prediction") -> dict[str, float]:
 
 def _left_out(cells: "Store") -> dict[str, list[str]]:
     """Settings of the machine that the prediction of the time leaves out."""
-    return {"time_without": [PATH_JERK] if cells.read(PATH_JERK_CELL) > 0.0 else []}
+    from openacr.sysvar.tabs import SPEEDS
+
+    jerk = f"Path jerk (P{SPEEDS.path_jerk})"
+    return {"time_without": [jerk] if cells.read(SPEEDS.path_jerk) > 0.0 else []}
 
 
 def _note_left_out(record: dict[str, list[str]]) -> None:

@@ -15,12 +15,6 @@ if TYPE_CHECKING:
     from openacr.cnc.dxf import Conversion, Options
     from openacr.sysvar import Store
 
-# Cells of the store that say how drawings are imported.
-EPSILON, SAFE_HEIGHT, DRILL_Z, DRILL_R, DRILL_F, LEAD_IN = (
-    250_101, 250_120, 250_121, 250_122, 250_123, 250_005,
-)  # fmt: skip
-
-
 NO_DEPTH = "the path is cut at Z0: --cut-z says how deep"
 
 
@@ -90,6 +84,7 @@ def import_drawing(
     from openacr.cnc.dxf import Options, Pattern, convert
     from openacr.cnc.parts.library import tool_radius
     from openacr.sysvar.location import open_to_read
+    from openacr.sysvar.tabs import CONTROL
 
     if file is None:
         _list_drawings(as_json)
@@ -105,16 +100,20 @@ def import_drawing(
             is_counter_clockwise=direction in (Direction.CCW, Direction.ONE),
             layer=layer,
             is_metric=cells.is_metric,
-            epsilon=_positive("--epsilon", _given(epsilon, cells, EPSILON)),
-            safe_height=_finite("--safe-height", _given(safe_height, cells, SAFE_HEIGHT)),
+            epsilon=_positive(
+                "--epsilon", _given(epsilon, cells, CONTROL.epsilon_for_compensation)
+            ),
+            safe_height=_finite(
+                "--safe-height", _given(safe_height, cells, CONTROL.dxf_safe_height)
+            ),
             cut_z=_finite("--cut-z", cut_z or 0.0),
-            drill_bottom=_finite("--drill-z", _given(drill_z, cells, DRILL_Z)),
-            drill_level=_finite("--drill-r", _given(drill_r, cells, DRILL_R)),
-            drill_feed=_positive("--feed", _given(feed, cells, DRILL_F)),
+            drill_bottom=_finite("--drill-z", _given(drill_z, cells, CONTROL.dxf_drill_z)),
+            drill_level=_finite("--drill-r", _given(drill_r, cells, CONTROL.dxf_drill_r)),
+            drill_feed=_positive("--feed", _given(feed, cells, CONTROL.dxf_drill_f)),
             feed=None if feed is None else _positive("--feed", feed),
             d_number=tool,
             radius=tool_radius(cells, tool) if tool else 0.0,
-            lead=_positive("--lead", _given(lead, cells, LEAD_IN)),
+            lead=_positive("--lead", _given(lead, cells, CONTROL.default_lead_in_radius)),
         )
     conversion = convert(file, options)
     write_text(target, conversion.text)

@@ -141,6 +141,6 @@ def _require_flag(bit: int) -> None:
 
 
 def _require_service(cells: "Store", password: str | None) -> None:
-    from openacr.mill.card.messages import DEFINED, record
+    from openacr.sysvar.tabs import MESSAGES
 
-    require_service(cells, [record(0, DEFINED)], password)
+    require_service(cells, [MESSAGES.defined[0]], password)

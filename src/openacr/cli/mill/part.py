@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 INCH, MM = "inch", "mm"
 # Cells of the store that say in which unit programs begin.
-IS_START_CHOSEN, START_UNIT, POWER_UP_UNIT, G21 = 100_010, 100_014, 850_030, 21
+G21 = 21
 
 
 def complete_part(incomplete: str) -> list[str]:
@@ -112,9 +112,11 @@ def _ready(
 
 
 def _is_metric(unit: str | None, cells: Any) -> bool:
+    from openacr.sysvar.tabs import DISPLAY, GENERAL
+
     if unit is None:
-        chosen = cells.read(START_UNIT) if cells.read(IS_START_CHOSEN) else 0
-        return bool((chosen or cells.read(POWER_UP_UNIT)) == G21)
+        chosen = cells.read(GENERAL.start_unit) if cells.read(GENERAL.start_set_chosen) else 0
+        return bool((chosen or cells.read(DISPLAY.control_mode)) == G21)
     if unit not in (INCH, MM):
         raise UserError(f"unit {unit!r} is neither {INCH} nor {MM}")
     return unit == MM

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from openacr.sysvar import Store
 
 DRAWN = "XYZ"
-DEFAULT_UNIT, CHORD_TOLERANCE = 250_001, 650_016
 
 
 def plot_program(
@@ -78,6 +77,7 @@ def scene_of(
     from openacr.cnc.loading.load import axes_of
     from openacr.mill.config.readout import Readout
     from openacr.mill.config.view import View
+    from openacr.sysvar.tabs import CONTROL
 
     letters = axes_of(cells)
     names = tuple(letter for letter in DRAWN if letter in letters)
@@ -87,7 +87,7 @@ def scene_of(
     survey, path = _surveyed(program, cells, dialect, axes)
     view = View.of(cells, survey.tools, by_tool=by_tool)
     path.has_tools = view.has_tool_colors
-    readout, is_metric = Readout(cells), bool(cells.read(DEFAULT_UNIT))
+    readout, is_metric = Readout(cells), bool(cells.read(CONTROL.default_units))
     scene = Scene(
         path.finished(),
         Path(program.main.text.name).name.encode("utf-8", "replace").decode(),
@@ -114,7 +114,8 @@ def _surveyed(
     from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import survey
     from openacr.mill.plan.tool_path import ToolPath
+    from openacr.sysvar.tabs import SPEEDS
 
-    path = ToolPath(axes, cells.read(CHORD_TOLERANCE))
+    path = ToolPath(axes, cells.read(SPEEDS.chord_tolerance))
     found = survey(program, cells, dialect, Options(watch=path), look=path.add)
     return found, path

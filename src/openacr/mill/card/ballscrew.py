@@ -16,13 +16,13 @@ from statistics import fmean
 from openacr.client import Card
 from openacr.client.values import number_text
 from openacr.errors import UserError
-from openacr.mill.config.settings import HOME, OFFSETS, Settings, Store, cell
+from openacr.mill.config.settings import Settings, Store
 from openacr.mill.config.tabs import AxisSettings
+from openacr.sysvar.tabs import HOME, OFFSETS
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 LINE = re.compile(rf"\s*([A-Za-z])\s*({NUMBER})\s*[Ee]\s*({NUMBER})\s*")
 MINUS_SIGNS = str.maketrans("\u2212\u2013", "--")  # of printed tables
-ON, FILE = 10, 20
 LEAST_ENTRIES, MOST_SEGMENTS = 2, 64
 MOST_BYTES = 1_000_000
 SAME_U, SAME_CNT = 1e-6, 1e-3
@@ -210,9 +210,9 @@ def tables_of(store: Store, settings: Settings, folder: Path | None) -> dict[int
     """The tables the store has switched on; names of files are relative to its folder."""
     found = {}
     for axis in settings.axes:
-        if not store.read(cell(OFFSETS, ON + axis.index)):
+        if not store.read(OFFSETS.ballscrew_on[axis.index]):
             continue
-        number = cell(OFFSETS, FILE + axis.index)
+        number = OFFSETS.ballscrew_file[axis.index]
         name = store.read_text(number)
         if not name:
             raise UserError(f"the ballscrew table of {axis.name} is on, but has no file: P{number}")
@@ -239,7 +239,7 @@ def install(card: Card, settings: Settings, tables: Mapping[int, Table]) -> None
             segment = f"({number},{number_text(length)},LA{array})"
             card.command(f"BSC SEG {axis.name}{segment}", program=program)
             array += 1
-        preset_cnt = settings.real(HOME, 1, axis.index) * axis.pulses_per_unit
+        preset_cnt = settings.real(HOME.preset[axis.index]) * axis.pulses_per_unit
         begin_cnt = _pulses(axis, tables[axis.index])[0][0]
         shift = number_text(-(begin_cnt + preset_cnt))
         card.command(f"BSC FLZ {axis.name}{shift}", program=program)

@@ -5,12 +5,11 @@ from dataclasses import dataclass, field
 
 from openacr.errors import UserError
 from openacr.mill.card.machine_io import MachineIo
-from openacr.mill.config.settings import MESSAGES, Store, cell
+from openacr.mill.config.settings import Store
 from openacr.sysvar import Store as SysvarStore
+from openacr.sysvar.tabs import MESSAGES
 
-MOST = 32
-CELLS = 107  # of one record
-DEFINED, BIT, LEVEL, TEXT_COLOR, BACK_COLOR, SIZE, ALARM, TEXT = range(8)
+MOST = len(MESSAGES.defined)
 LOOK_S = 0.05
 WHITE, RED, LETTERS, LONGEST = 15, 4, 40, 132
 
@@ -34,32 +33,26 @@ class Message:
         return self.text[: self.size]
 
 
-def record(number: int, k: int) -> int:
-    """The cell of a field of a message."""
-    return cell(MESSAGES, CELLS * number + k)
-
-
 def definitions(store: Store) -> Iterator[Message]:
     """The messages that are defined."""
-    for number in range(MOST):
-        if store.read(record(number, DEFINED)):
-            values = [int(store.read(record(number, k))) for k in range(TEXT)]
+    for number, defined in enumerate(MESSAGES.defined):
+        if store.read(defined):
             yield Message(
                 number,
-                values[BIT],
-                store.read_text(record(number, TEXT)),
-                bool(values[LEVEL]),
-                values[TEXT_COLOR],
-                values[BACK_COLOR],
-                values[SIZE],
-                bool(values[ALARM]),
+                bit=int(store.read(MESSAGES.bit[number])),
+                text=store.read_text(MESSAGES.text[number]),
+                is_shown_on=bool(store.read(MESSAGES.level[number])),
+                text_color=int(store.read(MESSAGES.text_colour[number])),
+                back_color=int(store.read(MESSAGES.back_colour[number])),
+                size=int(store.read(MESSAGES.size[number])),
+                is_alarm=bool(store.read(MESSAGES.alarm[number])),
             )
 
 
 def free_number(store: Store) -> int:
     """The first message that is not defined."""
-    for number in range(MOST):
-        if not store.read(record(number, DEFINED)):
+    for number, defined in enumerate(MESSAGES.defined):
+        if not store.read(defined):
             return number
     raise UserError(f"{MOST} messages are defined; one has to be removed first")
 
@@ -69,21 +62,23 @@ def define(store: SysvarStore, message: Message) -> None:
     _require_number(message.number)
     if message.bit < 0:
         raise UserError(f"bit {message.bit}: a message needs an input, output or flag from 0 on")
-    values = (
-        1, message.bit, message.is_shown_on, message.text_color, message.back_color, message.size,
-        message.is_alarm,
-    )  # fmt: skip
-    for k, value in enumerate(values):
-        store.write(record(message.number, k), value)
-    store.write_text(record(message.number, TEXT), message.text)
+    n = message.number
+    store.write(MESSAGES.defined[n], 1)
+    store.write(MESSAGES.bit[n], message.bit)
+    store.write(MESSAGES.level[n], message.is_shown_on)
+    store.write(MESSAGES.text_colour[n], message.text_color)
+    store.write(MESSAGES.back_colour[n], message.back_color)
+    store.write(MESSAGES.size[n], message.size)
+    store.write(MESSAGES.alarm[n], message.is_alarm)
+    store.write_text(MESSAGES.text[n], message.text)
 
 
 def remove(store: Store, number: int) -> None:
     """Forget a message."""
     _require_number(number)
-    if not store.read(record(number, DEFINED)):
+    if not store.read(MESSAGES.defined[number]):
         raise UserError(f"message {number} is not defined")
-    store.write(record(number, DEFINED), 0)
+    store.write(MESSAGES.defined[number], 0)
 
 
 def _require_number(number: int) -> None:

@@ -11,8 +11,9 @@ from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
-from openacr.mill.config.settings import AXES, Settings
+from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
+from openacr.sysvar.schema import AXES
 
 GAIN_WORDS = (
     "PGAIN",

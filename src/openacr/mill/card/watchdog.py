@@ -15,12 +15,13 @@ from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
 from openacr.mill.card.machine_io import MachineIo
-from openacr.mill.config.settings import CONTROL, NONE, cell
+from openacr.mill.config.settings import NONE
+from openacr.sysvar.tabs import CONTROL
 
 NAME = "REM openacr watchdog"
 MEMORY_BYTES = 4096
 TEXT_LENGTH = 80
-PROGRAM_CELL = cell(CONTROL, 125)
+PROGRAM_CELL = CONTROL.watchdog_program
 NO_WATCHDOG = (
     f"no watchdog on the card (P{PROGRAM_CELL} is -1): if this host or its link is lost, the"
     " machine ends the moves it has, and spindle, coolant and beam stay on"

@@ -7,9 +7,9 @@ import serial
 
 from openacr.cnc.reading.text import CONTROL_Z
 from openacr.errors import UserError, reason
-from openacr.mill.config.settings import Store, cell
+from openacr.mill.config.settings import Store
+from openacr.sysvar.tabs import COMMUNICATIONS
 
-COMMUNICATIONS = 13
 PARITIES = (serial.PARITY_NONE, serial.PARITY_EVEN, serial.PARITY_ODD)
 XON_XOFF, RTS_CTS = 1, 2
 PART, SILENCE_S = ".part", 3.0
@@ -30,13 +30,17 @@ class Line:
     def of(cls, store: Store, port: str = "") -> "Line":
         """What the store says now; `port` for another one than it names."""
 
-        def number(k: int) -> int:
-            return int(store.read(cell(COMMUNICATIONS, k)))
+        def number(n: int) -> int:
+            return int(store.read(n))
 
         return cls(
-            port or store.read_text(cell(COMMUNICATIONS, 0)), number(1), number(2),
-            PARITIES[number(3)], number(4), number(5),
-        )  # fmt: skip
+            port=port or store.read_text(COMMUNICATIONS.port),
+            baud=number(COMMUNICATIONS.baud),
+            data_bits=number(COMMUNICATIONS.data_bits),
+            parity=PARITIES[number(COMMUNICATIONS.parity)],
+            stop_bits=number(COMMUNICATIONS.stop_bits),
+            handshake=number(COMMUNICATIONS.handshake),
+        )
 
     def open(self, wait_s: float = 0.0) -> serial.SerialBase:
         """The port; reading waits so long at most. UserError when it cannot be had.
@@ -45,7 +49,7 @@ class Line:
         are sent by whoever reads.
         """
         if not self.port:
-            raise UserError("no serial port is set: P750000, or name one")
+            raise UserError(f"no serial port is set: P{COMMUNICATIONS.port}, or name one")
         try:
             return serial.serial_for_url(
                 self.port,

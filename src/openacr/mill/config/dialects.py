@@ -9,14 +9,14 @@ from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.loading.likely import ACROMILL, RS274NGC, likely
 from openacr.cnc.state.hosts import Cells
 from openacr.errors import UserError
+from openacr.sysvar.tabs import COMPATIBILITY, CONTROL
 
 AUTO = "auto"
-CHOICE_CELL, CENTRES_CELL = 700_005, 250_003
 BY_NUMBER = {-1: AUTO, 0: ACROMILL, 1: RS274NGC}
 BY_WORDS = {
     "option": "--dialect",
     "file": ";dialect in the file",
-    "store": f"Dialect (P{CHOICE_CELL})",
+    "store": f"Dialect (P{COMPATIBILITY.dialect})",
 }
 HEAD_LINES = 10
 HEAD_BYTES = 1 << 18  # where signs are looked for
@@ -64,7 +64,7 @@ def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice
     `wanted` "auto" leaves the store out. Without a file nothing is likely: `acromill`.
     """
     lines = _head(file) if file else []
-    found = likely(lines, int(cells.read(CENTRES_CELL)))
+    found = likely(lines, int(cells.read(CONTROL.ij_inversion)))
     signs = tuple(found.reasons)
     if wanted and wanted.lower() != AUTO:
         return Choice(_known(wanted), "option", signs, found.dialect)
@@ -72,7 +72,7 @@ def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice
     named = next((mark[1] for mark in marks if mark), None)
     if named and named.lower() != AUTO:
         return Choice(_known(named), "file", signs, found.dialect)
-    stored = BY_NUMBER[int(cells.read(CHOICE_CELL))]
+    stored = BY_NUMBER[int(cells.read(COMPATIBILITY.dialect))]
     if stored != AUTO and not wanted:
         return Choice(stored, "store", signs, found.dialect)
     return Choice(found.dialect, "signs", signs, found.dialect)

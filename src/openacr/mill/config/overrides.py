@@ -2,21 +2,22 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import Enum
 
 from openacr.errors import UserError
-from openacr.mill.config import settings as rows
-from openacr.mill.config.settings import CLICKS, NONE, Settings
+from openacr.mill.config.settings import NONE, Settings
+from openacr.sysvar.tabs import FOV, ROV, SOV
+from openacr.sysvar.tabs.wiring import CLICKS
 
 SWITCH_INPUTS = 4
 
 
-class Override(IntEnum):
+class Override(Enum):
     """Which override; the value is its tab of the store."""
 
-    FEED = rows.FOV
-    RAPID = rows.ROV
-    SPINDLE = rows.SOV
+    FEED = FOV
+    RAPID = ROV
+    SPINDLE = SOV
 
 
 @dataclass(slots=True)
@@ -31,7 +32,11 @@ class Overrides:
 
     def __init__(self, settings: Settings) -> None:
         self._switches = {
-            which: _Switch(settings.table(which), settings.switch(which), settings.click(which))
+            which: _Switch(
+                settings.table(which.value),
+                settings.switch(which.value),
+                settings.click(which.value),
+            )
             for which in Override
         }
 

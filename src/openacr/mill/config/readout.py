@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from openacr.mill.config.settings import AXES, AXIS, CONTROL, DISPLAY, Store, cell
+from openacr.mill.config.settings import Store
+from openacr.sysvar.tabs import AXIS, CONTROL, DISPLAY
 from openacr.units import MM_PER_INCH
 
 ROTARY = frozenset("ABC")
@@ -38,12 +39,12 @@ class Readout:
 
     def __init__(self, store: Store) -> None:
         self._formats = {
-            is_metric: [Format.of(store.read(cell(DISPLAY, k, axis))) for axis in range(AXES)]
-            for k, is_metric in enumerate((False, True))
+            False: [Format.of(store.read(n)) for n in DISPLAY.inch_format],
+            True: [Format.of(store.read(n)) for n in DISPLAY.metric_format],
         }
-        self._names = [store.read_text(cell(AXIS, 8, axis)) for axis in range(AXES)]
-        self._is_stored_metric = bool(store.read(cell(CONTROL, 1)))
-        self.is_metric = store.read(cell(DISPLAY, 30)) == METRIC_MODE
+        self._names = [store.read_text(n) for n in AXIS.name]
+        self._is_stored_metric = bool(store.read(CONTROL.default_units))
+        self.is_metric = store.read(DISPLAY.control_mode) == METRIC_MODE
 
     def format(self, axis: int, *, is_metric: bool | None = None) -> Format:
         """The format of an axis."""

@@ -1,7 +1,6 @@
 """What the system parameters of the store say about the machine, as the runner needs it.
 
-The store knows numbers; `cell(tab, k, axis)` is their one rule. Feeds are per minute in the
-store and per second here.
+Feeds are per minute in the store and per second here.
 """
 
 from collections.abc import Iterator
@@ -16,20 +15,42 @@ from openacr.mill.config.tabs import (
     SpindleSettings,
     Wiring,
 )
+from openacr.sysvar.schema import AXES
+from openacr.sysvar.tabs import (
+    AXIS,
+    CELLS,
+    COMPATIBILITY,
+    CONTROL,
+    GENERAL,
+    HOME,
+    IO,
+    JOG,
+    OFFSETS,
+    PROBE,
+    SERVO,
+    SPEEDS,
+    SPINDLE,
+    TOOL,
+    OverrideTab,
+)
 
-FIRST_CELL, TAB_CELLS, AXIS_CELLS = 100_000, 50_000, 1_000
-AXES = 8
 NONE = -1
 S_PER_MIN = 60.0
-CLICKS = 16
 REST_S, LONGEST_REST_S = 5.0, 60.0  # to come to rest: besides the ramp, and with it
 BUFFERED_S = 2.0  # of motion that waits on the card, beyond the link timeout
-HOMED = 271  # cell with the mask of homed axes
-
-GENERAL, SERVO, AXIS, CONTROL, HOME, JOG, IO, FOV, ROV, SOV, PROBE, SPEEDS, COMPATIBILITY = range(
-    13
+HOMED = CELLS.homed_axes
+GAINS = (
+    SERVO.p_gain,
+    SERVO.i_gain,
+    SERVO.i_delay,
+    SERVO.i_limit,
+    SERVO.d_gain,
+    SERVO.d_time,
+    SERVO.acceleration_feedforward,
+    SERVO.velocity_feedforward,
+    SERVO.torque_limits,
+    SERVO.velocity_feedback,
 )
-SPINDLE, DISPLAY, TOOL, OFFSETS, MESSAGES = 14, 15, 16, 17, 18
 
 
 class Store(Protocol):
@@ -45,160 +66,157 @@ class Store(Protocol):
         """The text in a cell."""
 
 
-def cell(tab: int, k: int, axis: int = 0) -> int:
-    """The number of a system parameter."""
-    return FIRST_CELL + TAB_CELLS * tab + AXIS_CELLS * axis + k
-
-
 class Settings:
     """The settings of one run, read once when it starts."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
-        self.master = self._int(GENERAL, 5)
+        self.master = self._int(GENERAL.master_program)
         self.axes = tuple(self._axis(a) for a in range(AXES) if self._is_configured(a))
         if not self.axes:
-            raise UserError("no axis is configured: set P200012 and up")
+            raise UserError(f"no axis is configured: set P{AXIS.configured[0]} and up")
         self.speeds = self._speeds()
         self.spindle = self._spindle()
         self.wiring = self._wiring()
         self.burning = Burning(
-            self._int(SPEEDS, 17), self._real(SPEEDS, 5), self._int(CONTROL, 14),
-            self._real(CONTROL, 12),
-        )  # fmt: skip
-        self.io_modules = self._int(CONTROL, 124)
-        self.drip_threshold = self._int(CONTROL, 116)
-        self.forward_threshold = self._int(CONTROL, 117)
-        self.repeats = bool(self._int(CONTROL, 13))
-        self.returns_to_start = bool(self._int(CONTROL, 6))
-        self.lead_in_u = self._real(CONTROL, 5)
-        self.on_the_fly = bool(self._int(COMPATIBILITY, 4))
-        self.watchdog_program = self._int(CONTROL, 125)
-        self.link_timeout_s = self._real(CONTROL, 126)
-        self.is_metric = bool(self._int(CONTROL, 1))
+            self._int(SPEEDS.plasma_output),
+            self._real(SPEEDS.plasma_percent),
+            self._int(CONTROL.under_burn_output),
+            self._real(CONTROL.under_burn_distance),
+        )
+        self.io_modules = self._int(CONTROL.io_expansion_modules)
+        self.drip_threshold = self._int(CONTROL.dripfeed_threshold)
+        self.forward_threshold = self._int(CONTROL.forward_threshold)
+        self.repeats = bool(self._int(CONTROL.repeat_forever))
+        self.returns_to_start = bool(self._int(CONTROL.goto_start_after_start))
+        self.lead_in_u = self._real(CONTROL.default_lead_in_radius)
+        self.on_the_fly = bool(self._int(COMPATIBILITY.m_codes_on_the_fly))
+        self.watchdog_program = self._int(CONTROL.watchdog_program)
+        self.link_timeout_s = self._real(CONTROL.link_timeout)
+        self.is_metric = bool(self._int(CONTROL.default_units))
 
-    def _real(self, tab: int, k: int, axis: int = 0) -> float:
-        return self._store.read(cell(tab, k, axis))
+    def _real(self, n: int) -> float:
+        return self._store.read(n)
 
-    def _int(self, tab: int, k: int, axis: int = 0) -> int:
-        return int(self._store.read(cell(tab, k, axis)))
+    def _int(self, n: int) -> int:
+        return int(self._store.read(n))
 
-    def _per_s(self, tab: int, k: int, axis: int = 0) -> float:
-        return self._real(tab, k, axis) / S_PER_MIN
+    def _per_s(self, n: int) -> float:
+        return self._store.read(n) / S_PER_MIN
 
     def _is_configured(self, axis: int) -> bool:
-        return bool(self._int(AXIS, 12, axis))
+        return bool(self._int(AXIS.configured[axis]))
 
     def _axis(self, a: int) -> AxisSettings:
-        high, low = self._real(AXIS, 0, a), self._real(AXIS, 1, a)
+        high, low = self._real(AXIS.plus_soft_limit[a]), self._real(AXIS.minus_soft_limit[a])
         return AxisSettings(
             index=a,
-            name=self._store.read_text(cell(AXIS, 8, a)),
-            pulses_per_unit=self._real(AXIS, 6, a),
-            encoder=self._int(AXIS, 13, a),
-            dac=self._int(AXIS, 14, a),
-            multiplier=self._int(AXIS, 11, a),
-            is_inverted=bool(self._int(AXIS, 5, a)),
-            gains=tuple(self._real(SERVO, k, a) for k in range(10)),
-            soft_limits=None if self._int(AXIS, 2, a) else (high, low),
-            in_position_u=self._real(AXIS, 3, a),
-            excess_error_u=self._real(AXIS, 4, a),
-            is_home_required=bool(self._int(AXIS, 7, a)),
-            max_speed_ups=self._per_s(AXIS, 15, a),
-            max_acceleration_ups2=self._real(AXIS, 16, a),
-            backlash_u=self._real(OFFSETS, a),
-            jog_ups=self._per_s(JOG, 0, a),
-            jog_rapid_ups=self._per_s(JOG, 1, a),
-            jog_acc_ups2=self._real(JOG, 2, a),
-            jog_dec_ups2=self._real(JOG, 3, a),
-            jog_stp_ups2=self._real(JOG, 4, a),
+            name=self._store.read_text(AXIS.name[a]),
+            pulses_per_unit=self._real(AXIS.pulses_per_unit[a]),
+            encoder=self._int(AXIS.encoder[a]),
+            dac=self._int(AXIS.dac_number[a]),
+            multiplier=self._int(AXIS.encoder_mult[a]),
+            is_inverted=bool(self._int(AXIS.dac_polarity[a])),
+            gains=tuple(self._real(gain[a]) for gain in GAINS),
+            soft_limits=None if self._int(AXIS.disable_limit[a]) else (high, low),
+            in_position_u=self._real(AXIS.in_position_band[a]),
+            excess_error_u=self._real(AXIS.excess_error_band[a]),
+            is_home_required=bool(self._int(AXIS.home_required[a])),
+            max_speed_ups=self._per_s(AXIS.max_axis_speed[a]),
+            max_acceleration_ups2=self._real(AXIS.max_axis_acceleration[a]),
+            backlash_u=self._real(OFFSETS.backlash[a]),
+            jog_ups=self._per_s(JOG.feedrate[a]),
+            jog_rapid_ups=self._per_s(JOG.rapid[a]),
+            jog_acc_ups2=self._real(JOG.acceleration[a]),
+            jog_dec_ups2=self._real(JOG.deceleration[a]),
+            jog_stp_ups2=self._real(JOG.stp_ramp[a]),
         )
 
-    def real(self, tab: int, k: int, axis: int = 0) -> float:
-        """One cell of a tab."""
-        return self._real(tab, k, axis)
+    def real(self, n: int) -> float:
+        """The number in a cell."""
+        return self._store.read(n)
 
     def home(self, a: int) -> HomeSettings:
         """How axis `a` is homed."""
         return HomeSettings(
-            is_negative=bool(self._int(HOME, 0, a)),
-            preset_u=self._real(HOME, 1, a),
-            switch_input=self._int(HOME, 2, a),
-            fast_ups=self._per_s(HOME, 3, a),
-            slow_ups=self._per_s(HOME, 4, a),
-            marker_ups=self._real(SPEEDS, 4) or self._per_s(HOME, 5, a),
-            acc_ups2=self._real(HOME, 6, a),
-            dec_ups2=self._real(HOME, 7, a),
-            stp_ups2=self._real(HOME, 8, a),
-            priority=self._int(HOME, 9, a),
+            is_negative=bool(self._int(HOME.direction[a])),
+            preset_u=self._real(HOME.preset[a]),
+            switch_input=self._int(HOME.switch_input[a]),
+            fast_ups=self._per_s(HOME.fast_speed[a]),
+            slow_ups=self._per_s(HOME.slow_speed[a]),
+            marker_ups=self._real(SPEEDS.marker_speed) or self._per_s(HOME.marker_speed[a]),
+            acc_ups2=self._real(HOME.acceleration[a]),
+            dec_ups2=self._real(HOME.deceleration[a]),
+            stp_ups2=self._real(HOME.stp[a]),
+            priority=self._int(HOME.priority[a]),
         )
 
     def _speeds(self) -> Speeds:
-        feed_acc = self._real(SPEEDS, 8)
-        most = self._per_s(SPEEDS, 0)
+        feed_acc = self._real(SPEEDS.master_feed_acc_dec)
+        most = self._per_s(SPEEDS.max_machine_speed)
         return Speeds(
             max_ups=most,
-            trial_ups=self._per_s(SPEEDS, 1),
-            trace_ups=self._per_s(SPEEDS, 6) or self._per_s(SPEEDS, 2),
-            rapid_ups=min(self._per_s(SPEEDS, 11) or most, most),
-            rapid_acc_ups2=self._real(SPEEDS, 7),
+            trial_ups=self._per_s(SPEEDS.trial_speed),
+            trace_ups=self._per_s(SPEEDS.forward_backward_speed) or self._per_s(SPEEDS.cut_speed),
+            rapid_ups=min(self._per_s(SPEEDS.rapid_speed) or most, most),
+            rapid_acc_ups2=self._real(SPEEDS.master_rapid_acc_dec),
             feed_acc_ups2=feed_acc,
-            arc_acc_ups2=self._real(SPEEDS, 13) or feed_acc,
-            corner_ups=self._per_s(SPEEDS, 3),
-            corner_step_ups=self._real(SPEEDS, 12),
-            angle1_deg=self._real(CONTROL, 10),
-            angle2_deg=self._real(CONTROL, 11),
-            rotary_max=self._per_s(SPEEDS, 10),
-            in_position_s=self._real(SPEEDS, 14),
-            jerk_ups3=self._real(SPEEDS, 15),
-            chord_u=self._real(SPEEDS, 16),
+            arc_acc_ups2=self._real(SPEEDS.arc_acceleration) or feed_acc,
+            corner_ups=self._per_s(SPEEDS.min_corner_speed),
+            corner_step_ups=self._real(SPEEDS.corner_step),
+            angle1_deg=self._real(CONTROL.acute_angle1_threshold),
+            angle2_deg=self._real(CONTROL.acute_angle2),
+            rotary_max=self._per_s(SPEEDS.max_rotary_speed),
+            in_position_s=self._real(SPEEDS.in_position_time_out),
+            jerk_ups3=self._real(SPEEDS.path_jerk),
+            chord_u=self._real(SPEEDS.chord_tolerance),
         )
 
     def _spindle(self) -> SpindleSettings:
         return SpindleSettings(
-            code=self._int(SPINDLE, 0),
-            volts_per_rpm=self._real(SPINDLE, 1),
-            dac=self._int(SPINDLE, 2),
-            at_zero=self._int(SPINDLE, 3),
-            at_speed=self._int(SPINDLE, 4),
-            cw=self._int(SPINDLE, 5),
-            ccw=self._int(SPINDLE, 6),
-            off=self._int(SPINDLE, 7),
-            exception=self._int(SPINDLE, 8),
-            mist=self._int(SPINDLE, 9),
-            flood=self._int(SPINDLE, 10),
-            coolant_off=self._int(SPINDLE, 11),
-            orient=self._int(SPINDLE, 12),
-            oriented=self._int(SPINDLE, 13),
-            orient_s=self._real(SPINDLE, 14),
-            time_out_s=self._real(SPINDLE, 15),
+            code=self._int(SPINDLE.code),
+            volts_per_rpm=self._real(SPINDLE.scaling),
+            dac=self._int(SPINDLE.dac),
+            at_zero=self._int(SPINDLE.at_zero_input),
+            at_speed=self._int(SPINDLE.at_speed_input),
+            cw=self._int(SPINDLE.cw_output),
+            ccw=self._int(SPINDLE.ccw_output),
+            off=self._int(SPINDLE.off_output),
+            exception=self._int(SPINDLE.exception_input),
+            mist=self._int(SPINDLE.coolant_mist_output),
+            flood=self._int(SPINDLE.coolant_flood_output),
+            coolant_off=self._int(SPINDLE.coolant_off_output),
+            orient=self._int(SPINDLE.orient_output),
+            oriented=self._int(SPINDLE.oriented_input),
+            orient_s=self._real(SPINDLE.orient_time),
+            time_out_s=self._real(SPINDLE.time_out),
         )
 
     def _wiring(self) -> Wiring:
         return Wiring(
-            block_skip=self._int(IO, 0),
-            optional_stop=self._int(IO, 1),
-            feed_hold=self._int(IO, 2),
-            cycle_start=self._int(IO, 3),
-            emergency_stop=self._int(IO, 4),
-            soft_limits=self._int(IO, 5),
-            joystick=self._int(IO, 6),
-            g27_input=self._int(IO, 10),
-            g27_output=self._int(IO, 11),
-            lubrication=self._int(IO, 12),
-            drive_enable=self._int(IO, 13),
-            g28_error=self._int(IO, 19),
-            probe=self._int(PROBE, 0),
-            is_probe_trailing=bool(self._int(PROBE, 1)),
-            is_probe_software=bool(self._int(PROBE, 2)),
-            is_probe_on_each=bool(self._int(PROBE, 6)),
-            probe_back_ups=self._per_s(PROBE, 3),
-            is_probe_checked=bool(self._int(PROBE, 4)),
-            reference_s=self._real(PROBE, 5),
-            tool_changed=self._int(TOOL, 0),
-            tool_change=self._int(TOOL, 1),
-            is_manual_change=bool(self._int(TOOL, 2)),
-            tool_time_out_s=self._real(TOOL, 3),
+            block_skip=self._int(IO.block_skip),
+            optional_stop=self._int(IO.optional_stop),
+            feed_hold=self._int(IO.feedhold_input),
+            cycle_start=self._int(IO.cycle_start_input),
+            emergency_stop=self._int(IO.emergency_stop),
+            soft_limits=self._int(IO.soft_limits_input),
+            joystick=self._int(IO.jog_joystick_input),
+            g27_input=self._int(IO.g27_input),
+            g27_output=self._int(IO.g27_output),
+            lubrication=self._int(IO.lubrication_error),
+            drive_enable=self._int(IO.drive_enable_output),
+            g28_error=self._int(IO.g28_error_output),
+            probe=self._int(PROBE.input),
+            is_probe_trailing=bool(self._int(PROBE.edge)),
+            is_probe_software=bool(self._int(PROBE.capture)),
+            is_probe_on_each=bool(self._int(PROBE.wired_to_each_axis)),
+            probe_back_ups=self._per_s(PROBE.back_up_feed),
+            is_probe_checked=bool(self._int(PROBE.tripped_at_start_check)),
+            reference_s=self._real(PROBE.reference_input_wait),
+            tool_changed=self._int(TOOL.changed_input),
+            tool_change=self._int(TOOL.change_output),
+            is_manual_change=bool(self._int(TOOL.manual_tool_change)),
+            tool_time_out_s=self._real(TOOL.change_time_out),
         )
 
     @property
@@ -217,32 +235,32 @@ class Settings:
         """
         return self.link_timeout_s + BUFFERED_S
 
-    def table(self, tab: int) -> tuple[float, ...]:
+    def table(self, tab: OverrideTab) -> tuple[float, ...]:
         """The percentages of the clicks of an override switch (FOV, ROV or SOV)."""
-        return tuple(self._real(tab, k) for k in range(CLICKS))
+        return tuple(self._real(n) for n in tab.percents)
 
-    def click(self, tab: int) -> int:
-        """The click an override stands at without a switch."""
-        return self._int(tab, 17)
+    def click(self, tab: OverrideTab) -> int:
+        """The click of an override without a switch."""
+        return self._int(tab.click)
 
-    def switch(self, tab: int) -> int:
+    def switch(self, tab: OverrideTab) -> int:
         """The first of the four inputs of an override switch, -1 for none."""
-        return self._int(tab, 16)
+        return self._int(tab.switch)
 
     def is_input_inverted(self, number: int) -> bool:
         """Whether an input counts as active when it is off."""
-        return bool(self._int(CONTROL, 1000 + number))
+        return bool(self._int(CONTROL.input_inverted[number]))
 
     def is_output_inverted(self, number: int) -> bool:
         """Whether an output is switched off to act."""
-        return bool(self._int(CONTROL, 2000 + number))
+        return bool(self._int(CONTROL.output_inverted[number]))
 
     def axis(self, index: int) -> AxisSettings:
         """The settings of a configured axis."""
         for one in self.axes:
             if one.index == index:
                 return one
-        raise UserError(f"axis {index} is not configured (P{cell(AXIS, 12, index)})")
+        raise UserError(f"axis {index} is not configured (P{AXIS.configured[index]})")
 
     def named(self, name: str) -> AxisSettings:
         """The settings of the axis of this name."""

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from openacr.mill.config.settings import CONTROL, DISPLAY, TOOL, Store, cell
+from openacr.mill.config.settings import Store
+from openacr.sysvar.tabs import CONTROL, DISPLAY, TOOL
 
 # The 16 colours of the guide's screens, darkened where they would not show on white.
 COLORS = (
@@ -14,7 +15,6 @@ COLORS = (
     "#555555", "#3B82F6", "#009E73", "#17A2B8", "#E4572E", "#E573C7", "#D9A400", "#C8BFB0",
 )  # fmt: skip
 LIGHT_GREEN = 10
-FIRST_TOOL_COLOR = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +32,12 @@ class View:
     def of(cls, store: Store, tools: Iterable[int], *, by_tool: bool = False) -> "View":
         """What the store says; `by_tool` asks for the colours of tools in any case."""
         return cls(
-            has_tool_colors=by_tool or bool(store.read(cell(DISPLAY, 20))),
-            path_color=int(store.read(cell(CONTROL, 114))),
-            tool_colors={n: int(store.read(cell(TOOL, FIRST_TOOL_COLOR + n))) for n in tools},
-            flips_x=bool(store.read(cell(DISPLAY, 21))),
-            flips_y=bool(store.read(cell(DISPLAY, 22))),
-            exchanges=bool(store.read(cell(DISPLAY, 23))),
+            has_tool_colors=by_tool or bool(store.read(DISPLAY.color_via_d_codes)),
+            path_color=int(store.read(CONTROL.path_color)),
+            tool_colors={n: int(store.read(TOOL.colour[n])) for n in tools},
+            flips_x=bool(store.read(DISPLAY.flip_x_axis)),
+            flips_y=bool(store.read(DISPLAY.flip_y_axis)),
+            exchanges=bool(store.read(DISPLAY.exchange_xy)),
         )
 
     def color(self, tool: int) -> str:

@@ -13,9 +13,10 @@ from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.machine_io import MachineIo
-from openacr.mill.config.settings import AXIS, NONE
+from openacr.mill.config.settings import NONE
 from openacr.mill.config.tabs import AxisSettings
 from openacr.mill.manual.jogging import Jogging
+from openacr.sysvar.tabs import AXIS
 
 COUNTS_PER_CLICK = 4  # one period of the encoder, at MULT 4
 WRAP = 1 << 32
@@ -67,12 +68,12 @@ class HandWheel:
 
     def _follower(self, axis: int) -> _Follower:
         settings = self._io.settings
-        encoder = int(settings.real(AXIS, 9, axis))
+        encoder = int(settings.real(AXIS.handwheel_src[axis]))
         if encoder == NONE:
             raise UserError(f"no hand wheel is installed for axis {settings.axis(axis).name}")
         row, _ = self._jogging.ready(axis, fast=True)
         self._machine.type([f"ENC{encoder} MULT {COUNTS_PER_CLICK}"])
-        ratio = settings.real(AXIS, 10, axis) / COUNTS_PER_CLICK
+        ratio = settings.real(AXIS.handwheel_ratio[axis]) / COUNTS_PER_CLICK
         return _Follower(row, encoder, ratio, self._counts(encoder), self._jogging.position(row))
 
     def _counts(self, encoder: int) -> int:

@@ -23,10 +23,11 @@ from openacr.mill.card import alarms
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.machine_io import MachineIo
-from openacr.mill.config.settings import JOG, LONGEST_REST_S, REST_S
+from openacr.mill.config.settings import LONGEST_REST_S, REST_S
 from openacr.mill.config.tabs import AxisSettings
+from openacr.sysvar.tabs import JOG
 
-FIRST_INCREMENT, INCREMENTS = 6, 5
+INCREMENTS = len(JOG.increments)
 JOG_ACTIVE = n.AF1_JOG_ACTIVE
 LEASH_S, RENEW_S = 0.5, 0.1
 
@@ -81,7 +82,7 @@ class Jogging:
         """Exactly one of the five increments, as Jog Direction turns it; how far that is."""
         if not 1 <= preset <= INCREMENTS:
             raise UserError(f"increment {preset}: 1..{INCREMENTS} are there")
-        size = self._io.settings.real(JOG, FIRST_INCREMENT + preset - 1, axis)
+        size = self._io.settings.real(JOG.increments[preset - 1][axis])
         forward = (direction > 0) is not self._is_turned(axis)
         self.move(axis, size if forward else -size, fast=fast)
         return size
@@ -197,7 +198,7 @@ class Jogging:
 
     def _is_turned(self, axis: int) -> bool:
         """Whether Jog Direction turns the controls of an axis around."""
-        return bool(self._io.settings.real(JOG, 5, axis))
+        return bool(self._io.settings.real(JOG.direction[axis]))
 
     def limit(self, row: AxisSettings, direction: int) -> float | None:
         """How far an axis may be moved by hand, None for as far as it goes."""

@@ -6,9 +6,10 @@ from openacr.cnc.canonical import Point
 from openacr.cnc.state.hosts import Cells
 from openacr.errors import UserError
 from openacr.mill.config.settings import Settings
+from openacr.sysvar.tabs import CELLS
 
-COMMON, CELLS_PER_SYSTEM = 900, 10
-SYSTEMS = {"G54": 1, "G55": 2, "G56": 3, "G57": 4, "G58": 5, "G59": 6, "G59.1": 7, "G59.2": 8}
+CODES = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2")
+SYSTEMS = dict(zip(CODES, CELLS.work_systems, strict=True))
 
 
 def teach(store: Cells, settings: Settings, code: str, here: Point, axes: Iterable[int]) -> None:
@@ -23,8 +24,8 @@ def teach(store: Cells, settings: Settings, code: str, here: Point, axes: Iterab
     for axis in chosen:
         if axis.is_home_required and not settings.is_homed(axis.index):
             raise UserError(f"axis {axis.name} is not homed: its position means nothing yet")
-    first = COMMON + CELLS_PER_SYSTEM * SYSTEMS[code.upper()]
+    system = SYSTEMS[code.upper()]
     with store.transaction():
         for axis in chosen:
-            shift = here[axis.index] - store.read(COMMON + axis.index)
-            store.write(first + axis.index, shift)
+            shift = here[axis.index] - store.read(CELLS.common_work_shift[axis.index])
+            store.write(system[axis.index], shift)

@@ -16,11 +16,11 @@ from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import NONE, Store
 from openacr.mill.run.feeding import Fault, Halt, InPosition
+from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
     from openacr.mill.card.driver import CardState
 
-TOOL_IN_SPINDLE = 235
 SETTLED_S = 0.5  # longest time axes take to come to rest behind their targets
 PULSES_OFF = 2.0  # what the check of a reference point allows
 
@@ -111,10 +111,10 @@ class EntryActions:
 
     @steps.register
     def _(self, entry: c.Tool) -> Steps:
-        old = int(self._store.read(TOOL_IN_SPINDLE))
+        old = int(self._store.read(CELLS.tool_in_spindle))
         if entry.number != old:
             yield from self.changer.change(entry.number, old)
-            self._store.write(TOOL_IN_SPINDLE, entry.number)
+            self._store.write(CELLS.tool_in_spindle, entry.number)
 
     @steps.register
     def _(self, entry: c.Transfer) -> Steps:

@@ -5,9 +5,11 @@ from typing import NamedTuple
 
 from openacr.mill.card.driver import MachineDriver
 from openacr.mill.config.settings import Store
+from openacr.sysvar.tabs import CELLS
 
 Write = Callable[[int, float], None]
-EXECUTING_LINE, RUN_STATE, PARTS, LAST_ALARM, FEED_PERCENT, RUN_TIME = range(243, 249)
+EXECUTING_LINE, RUN_STATE, PARTS = CELLS.executing_line, CELLS.run_state, CELLS.parts_finished
+LAST_ALARM, FEED_PERCENT, RUN_TIME = CELLS.last_alarm, CELLS.fov_percent, CELLS.run_time
 
 
 class Facts(NamedTuple):

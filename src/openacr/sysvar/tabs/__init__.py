@@ -9,7 +9,7 @@ from openacr.sysvar.tabs.cells import CELLS
 from openacr.sysvar.tabs.control import COMMUNICATIONS, COMPATIBILITY, CONTROL, DISPLAY, GENERAL
 from openacr.sysvar.tabs.motion import AXIS, HOME, JOG, SERVO, SPEEDS
 from openacr.sysvar.tabs.offsets import MESSAGES, OFFSETS
-from openacr.sysvar.tabs.wiring import FOV, IO, PROBE, ROV, SOV, SPINDLE, TOOL
+from openacr.sysvar.tabs.wiring import FOV, IO, PROBE, ROV, SOV, SPINDLE, TOOL, OverrideTab
 
 TAB_CELLS = 50_000
 
@@ -61,4 +61,5 @@ __all__ = [
     "TABS",
     "TAB_CELLS",
     "TOOL",
+    "OverrideTab",
 ]

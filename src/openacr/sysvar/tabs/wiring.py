@@ -52,7 +52,7 @@ class IO:
 CLICKS = 16
 
 
-class Override:
+class OverrideTab:
     """The tab of an override switch: a percentage for each of its clicks."""
 
     def __init__(self, name: str, base: int, percents: tuple[int, ...], click: int) -> None:
@@ -71,9 +71,11 @@ class Override:
         )
 
 
-FOV = Override("FOV", 450_000, tuple(range(0, 160, 10)), 10)
-ROV = Override("ROV", 500_000, (0, 5, 10, 20, 25, 30, 35, 40, 45, 50, 60, 70, 80, 90, 95, 100), 15)
-SOV = Override("SOV", 550_000, tuple(range(50, 130, 5)), 10)
+FOV = OverrideTab("FOV", 450_000, tuple(range(0, 160, 10)), 10)
+ROV = OverrideTab(
+    "ROV", 500_000, (0, 5, 10, 20, 25, 30, 35, 40, 45, 50, 60, 70, 80, 90, 95, 100), 15
+)
+SOV = OverrideTab("SOV", 550_000, tuple(range(50, 130, 5)), 10)
 
 
 class PROBE:
