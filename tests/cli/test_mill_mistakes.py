@@ -55,7 +55,7 @@ def test_looking_makes_no_store(command: str, folder: Path) -> None:
     assert not (folder / "sysvar.db").exists()
     code, text = mill(command, "OK.NC", "--store", "other.db")
     assert code == 2
-    assert "other.db is not there" in text
+    assert "other.db does not exist" in text
 
 
 @pytest.mark.parametrize(

@@ -102,7 +102,7 @@ def test_one_refused_value_stores_none_of_them(path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["get", "flux"], "no parameter of the store is called 'flux'"),
+        (["get", "flux"], "no parameter of the store is named 'flux'"),
         (["set", "jog feedrate=3"], "'jog feedrate' can be P350000"),
         (["set", "P650002"], "sets nothing (write NAME=VALUE"),
         (["set", "P5=1"], "P5 is not in the store: it is a variable of the card"),
@@ -133,7 +133,7 @@ def test_looking_makes_no_file(path: Path, tmp_path: Path) -> None:
     assert not path.exists()
     result = run("get", "cut speed", "--store", str(tmp_path / "slip.db"))
     assert result.exit_code == 2
-    assert "slip.db is not there" in result.output
+    assert "slip.db does not exist" in result.output
 
 
 def test_names_are_completed() -> None:
@@ -187,10 +187,10 @@ def test_an_import_into_a_store_of_another_unit_converts_lengths(
         ("P650002 = -1\n", "P650002 Cut Speed cannot be -1"),
         ("P650002 = [1]\n", "P650002 Cut Speed cannot be [1]"),
         ("P650002 = \n", "at line 1"),
-        ("flux = 1\n", "no parameter of the store is called 'flux'"),
-        ("layout = 2\n", "layout 2 is not known here"),
+        ("flux = 1\n", "no parameter of the store is named 'flux'"),
+        ("layout = 2\n", "layout 2 is not supported"),
         ('unit = "cm"\n', "unit 'cm' is neither"),
-        ("P200002 = false\n", "must be above the -Soft Limit"),
+        ("P200002 = false\n", "has to be above the -Soft Limit"),
     ],
 )
 def test_a_bad_import_changes_nothing(path: Path, tmp_path: Path, text: str, words: str) -> None:

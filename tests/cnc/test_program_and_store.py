@@ -237,7 +237,7 @@ def test_an_axis_is_programmed_by_its_name() -> None:
               if isinstance(entry, Line)]  # fmt: skip
     assert end[2] == 5.0
     assert [found.code for found in load("G1 Z1", store).errors] == ["E207"]
-    with pytest.raises(Exception, match="P200008 has that name already"):
+    with pytest.raises(Exception, match="P200008 already has that name"):
         store.write_text(201_008, "X")
     with pytest.raises(Exception, match="one of X, Y, Z, A, B, C, U, V"):
         store.write_text(201_008, "Q")

@@ -153,7 +153,7 @@ def test_a_writer_waits_for_the_one_at_work(tmp_path: Path) -> None:
     path = tmp_path / "s.db"
     busy = Database(path)
     busy.begin(is_durable=False)
-    busy.put([(150, 1.0, 1)])
+    busy.write_rows([(150, 1.0, 1)])
     with Store(path) as store, process("store.write(150, 2.0)", path) as other:
         go(other)
         time.sleep(0.15)
@@ -180,7 +180,7 @@ def test_many_processes_may_open_a_new_store_at_once(tmp_path: Path) -> None:
         assert [store.read(100 + n) for n in range(4)] == [1.0] * 4
 
 
-def test_a_cached_read_costs_about_a_look_into_a_dictionary(tmp_path: Path) -> None:
+def test_a_cached_read_costs_about_a_dictionary_access(tmp_path: Path) -> None:
     with Store(tmp_path / "s.db") as store:
         store.write(2001, 1.5)
         best = min(_seconds_per_read(store) for _ in range(20))

@@ -169,7 +169,7 @@ def test_16_percentages_rise_from_click_to_click(base: int, tab: str) -> None:
     assert [store.parameter(base + click).tab for click in range(16)] == [tab] * 16
     before = [store.read(base + click) for click in range(16)]
     assert before == sorted(before)
-    with pytest.raises(SettingError, match="percentages rise from click to click"):
+    with pytest.raises(SettingError, match="percentages must not fall from click to click"):
         store.write(base + 5, before[6] + 1)
     with pytest.raises(SettingError), store.transaction():
         for click in range(16):
@@ -194,7 +194,7 @@ def test_override_tables_survive(base: int, tab: OverrideTab, tmp_path: Path) ->
 
 def test_soft_limits_need_room_between_them_when_they_are_on() -> None:
     store = Store()
-    with pytest.raises(SettingError, match=r"must be above the -Soft Limit, 0"):
+    with pytest.raises(SettingError, match=r"has to be above the -Soft Limit, 0"):
         store.write(201_002, 0)
     with store.transaction():
         store.write(201_002, 0)
@@ -208,7 +208,7 @@ def test_soft_limits_need_room_between_them_when_they_are_on() -> None:
 def test_the_second_angle_is_0_or_not_below_the_first() -> None:
     store = Store()
     store.write(250_011, 90)
-    with pytest.raises(SettingError, match="not below Acute Angle1, 95"):
+    with pytest.raises(SettingError, match="at least Acute Angle1, 95"):
         store.write(250_010, 95)
     store.write(250_011, 0)
     store.write(250_010, 95)
@@ -216,7 +216,7 @@ def test_the_second_angle_is_0_or_not_below_the_first() -> None:
 
 def test_axis_names_are_letters_and_unique() -> None:
     store = Store()
-    with pytest.raises(SettingError, match="P200008 has that name already"):
+    with pytest.raises(SettingError, match="P200008 already has that name"):
         store.write_text(202_008, "X")
     with pytest.raises(SettingError, match="one of X, Y, Z, A"):
         store.write_text(202_008, "W")
@@ -243,7 +243,7 @@ def test_settings_of_motion_do_not_change_while_a_program_runs(n: int) -> None:
     store.write(200_002, 1)
     before = store.read(n)
     store.write(244, 1)
-    with pytest.raises(SettingError, match=r"cannot be changed: a program runs \(stop it first\)"):
+    with pytest.raises(SettingError, match=r": a program is running \(stop it first\)"):
         store.write(n, 1)
     assert store.read(n) == before
     store.write(2001, 1.5)  # offsets do
@@ -258,7 +258,7 @@ def test_a_program_that_was_killed_bars_no_settings(tmp_path: Path) -> None:
     with Store(tmp_path / "s.db") as store:
         store.write(244, 1)
         lock = FileLock(machine_lock(tmp_path / "s.db"), "taken")
-        with pytest.raises(SettingError, match="a program runs"):
+        with pytest.raises(SettingError, match="a program is running"):
             store.write(650_002, 20)
         lock.release()
         store.write(650_002, 20)

@@ -32,9 +32,9 @@ from openacr.sysvar.values import checked, parsed, shown, unit_of
         (250_103, 1, "Root Epsilon cannot be 1: a whole number from -12 to 0"),
         (800_000, 32, "Spindle Code cannot be 32"),
         (400_004, -2, "a whole number from -1 to 511; -1 = disable"),
-        (100_000, 2, "it is fixed"),
+        (100_000, 2, "it is read-only"),
         (1000, 1, "D radius 0 cannot be 1"),
-        (200_008, 1.0, "it takes text"),
+        (200_008, 1.0, "text is expected"),
     ],
 )
 def test_a_value_out_of_range_is_refused_with_the_name_and_the_range(
@@ -157,11 +157,11 @@ def test_an_unclear_name_lists_what_it_can_mean() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("flux capacitor", "no parameter of the store is called 'flux capacitor'"),
+        ("flux capacitor", "no parameter of the store is named 'flux capacitor'"),
         ("P5", "variable of the card"),
         ("P4096", "parameter of the card"),
         ("P250015", "P250015 is not in the store"),
-        ("9" * 5000, "no parameter of the store is called '999"),
+        ("9" * 5000, "no parameter of the store is named '999"),
     ],
 )
 def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:
@@ -172,12 +172,12 @@ def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("cut sped", "no parameter of the store is called 'cut sped': did you mean 'Cut Speed'?"),
-        ("cutspeed", "no parameter of the store is called 'cutspeed': did you mean 'Cut Speed'?"),
-        ("SPEDS", "no parameter of the store is called 'SPEDS': did you mean 'SPEEDS'?"),
-        ("jog fedrate", "no parameter of the store is called 'jog fedrate': "
+        ("cut sped", "no parameter of the store is named 'cut sped': did you mean 'Cut Speed'?"),
+        ("cutspeed", "no parameter of the store is named 'cutspeed': did you mean 'Cut Speed'?"),
+        ("SPEDS", "no parameter of the store is named 'SPEDS': did you mean 'SPEEDS'?"),
+        ("jog fedrate", "no parameter of the store is named 'jog fedrate': "
          "did you mean 'Jog Feedrate'?"),
-        ("flux capacitor", "no parameter of the store is called 'flux capacitor'"),
+        ("flux capacitor", "no parameter of the store is named 'flux capacitor'"),
         ("P650900", "P650900 is not in the store (the nearest: P650017 and P700000)"),
         ("P24000", "P24000 is not in the store (the nearest: P4095 and P100000)"),
         ("P999999999", "P999999999 is not in the store (the nearest: P1003424)"),

@@ -15,15 +15,15 @@ SPINDLE_FAULT, AT_ZERO, AT_SPEED = 800_008, 800_003, 800_004
 @pytest.mark.parametrize(
     ("first", "second", "text"),
     [
-        ((SPINDLE_CW, 40), (FLOOD, 40), "output 40 is that of P800005 Spindle CW Output already"),
-        ((M12, 40), (M13, 40), "output 40 is that of P400101 Discrete Output 1 already"),
-        ((ESTOP, 5), (CYCLE_START, 5), "input 5 is that of P400004 Emergency Stop already"),
-        ((CYCLE_START, 5), (ESTOP, 5), "input 5 is that of P400003 Cycle Start Input already"),
-        ((FEED_HOLD, 5), (LUBRICATION, 5), "input 5 is that of P400002 FeedHold Input already"),
-        ((JOYSTICK, 4), (CYCLE_START, 7), "input 7 is that of P400006 Jog JoyStick Input already"),
-        ((AXIS_DAC, 0), (SPINDLE_DAC, 2), "DAC 2 is that of P202014 DAC number already"),
-        ((SPINDLE_DAC, 3), (AXIS_DAC, 3), "DAC 3 is that of P800002 Spindle DAC already"),
-        ((AXIS_DAC, 0), (AXIS_DAC, 1), "DAC 1 is that of P201014 DAC number already"),
+        ((SPINDLE_CW, 40), (FLOOD, 40), "output 40 is already used by P800005 Spindle CW Output"),
+        ((M12, 40), (M13, 40), "output 40 is already used by P400101 Discrete Output 1"),
+        ((ESTOP, 5), (CYCLE_START, 5), "input 5 is already used by P400004 Emergency Stop"),
+        ((CYCLE_START, 5), (ESTOP, 5), "input 5 is already used by P400003 Cycle Start Input"),
+        ((FEED_HOLD, 5), (LUBRICATION, 5), "input 5 is already used by P400002 FeedHold Input"),
+        ((JOYSTICK, 4), (CYCLE_START, 7), "input 7 is already used by P400006 Jog JoyStick Input"),
+        ((AXIS_DAC, 0), (SPINDLE_DAC, 2), "DAC 2 is already used by P202014 DAC number"),
+        ((SPINDLE_DAC, 3), (AXIS_DAC, 3), "DAC 3 is already used by P800002 Spindle DAC"),
+        ((AXIS_DAC, 0), (AXIS_DAC, 1), "DAC 1 is already used by P201014 DAC number"),
     ],
 )
 def test_what_is_used_already_is_refused(
@@ -61,7 +61,7 @@ def test_what_may_be_shared_is_not_refused(first: tuple[int, int], second: tuple
 def test_an_axis_that_is_added_needs_a_dac_of_its_own() -> None:
     store = Store()
     store.write(SPINDLE_DAC, 3)
-    with pytest.raises(SettingError, match="DAC 3 is that of P800002 Spindle DAC already"):
+    with pytest.raises(SettingError, match="DAC 3 is already used by P800002 Spindle DAC"):
         store.write(CONFIGURED + 3000, 1)
 
 
@@ -73,7 +73,7 @@ class Old(Store):
 
 
 def test_a_store_from_before_is_refused_as_a_whole() -> None:
-    with pytest.raises(SettingError, match="output 40 is that of"):
+    with pytest.raises(SettingError, match="output 40 is already used by"):
         require_wiring(Old())
 
 
@@ -82,5 +82,5 @@ def test_the_dac_of_a_spindle_is_refused_as_a_whole() -> None:
         def read(self, n: int) -> float:
             return 1.0 if n == SPINDLE_DAC else super().read(n)
 
-    with pytest.raises(SettingError, match="DAC 1 is that of"):
+    with pytest.raises(SettingError, match="DAC 1 is already used by"):
         require_wiring(Spindle())

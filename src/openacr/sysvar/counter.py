@@ -1,15 +1,16 @@
-"""A counter that all processes of a store see: it tells whether anybody wrote.
+"""A counter shared by all processes of a store: unchanged while nothing is written.
 
-A file of 8 bytes beside the store, mapped into memory. Whoever commits makes it odd
-before and even after (a sequence lock), so that
+A file of 8 bytes next to the store, mapped into memory. A process that commits makes it odd
+before and even afterwards (a sequence lock), so that
 
-* an even number that has not changed means nothing was written, for the price of
-  looking at memory;
-* an odd number - somebody is at it, or died at it - means: ask the database itself.
+* an even number that has not changed means that nothing was written, at the cost of
+  one memory read;
+* an odd number - a commit is in progress, or its process died - means that the database
+  itself has to be asked.
 
-The counter only saves time. Without it (no right to write there) every read asks the
-database; and what did not count - other programs, a process that died at the one moment -
-is seen after `LOOK_S` of the store at the latest.
+The counter only saves time. Without it (no permission to write there) every read asks the
+database. Changes that were not counted - by other programs, or by a process that died
+between commit and count - are seen after `POLL_S` of the store at the latest.
 """
 
 import mmap
@@ -44,15 +45,15 @@ class Counter:
         return self._map is not None and self._number() > 0
 
     def begin(self) -> None:
-        """Something is about to be committed."""
+        """Mark the start of a commit."""
         self._set(self._number() | 1)
 
     def end(self) -> None:
-        """It has been committed, or given up."""
+        """Mark the end of a commit, done or abandoned."""
         self._set((self._number() | 1) + 1)
 
     def close(self) -> None:
-        """Let go of the file, which stays: others may use it."""
+        """Close the file; it is not deleted, because other processes may use it."""
         self.memory = ASK
         if self._map is not None:
             self._map.close()
@@ -67,7 +68,7 @@ class Counter:
 
 
 def is_settled(stamp: bytes) -> bool:
-    """Whether nobody was writing when this was read."""
+    """Whether no commit was in progress when these bytes were read."""
     return not stamp[0] & 1
 
 

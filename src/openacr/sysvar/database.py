@@ -1,8 +1,8 @@
 """The file of the store: SQLite in WAL mode, shared by any number of processes.
 
 Table `cell`: number, value (REAL, TEXT, or NULL for the default) and `changed`, which
-counts transactions: rows with a higher count than the one last seen are news. A reader
-finds all of a transaction or nothing of it, whatever happens to the writer.
+counts transactions: rows with a higher count than the one last seen have changed. A reader
+sees all of a transaction or nothing of it, whatever happens to the writer.
 """
 
 import sqlite3
@@ -15,10 +15,10 @@ from typing import TypeVar
 from openacr.errors import StoreError
 
 FORMAT = 1
-APPLICATION_ID = 0x41435256  # marks the file as ours: "ACRV"
+APPLICATION_ID = 0x41435256  # identifies the file as a store: "ACRV"
 BUSY_S = 5.0
 RETRY_S = 0.01
-PAGE = 512  # bytes: no database is smaller
+PAGE = 512  # bytes, the smallest size of a database
 
 Row = tuple[int, float | str | None, int]
 _Result = TypeVar("_Result")
@@ -29,7 +29,7 @@ _HINT = "move it away and import an export of it"
 
 
 class Database:
-    """The cells in a file; in memory without a path."""
+    """The cells in a SQLite file, or in memory without a path."""
 
     def __init__(self, path: Path | None, *, is_used: bool = False) -> None:
         self.path = path
@@ -42,7 +42,7 @@ class Database:
     # --- opening ----------------------------------------------------------------------
 
     def _refuse_emptied(self, path: Path, is_used: bool) -> None:
-        """A store that was used and has no page any more would pass for a new one."""
+        """Refuse a used store whose file is now empty: it would be taken for a new one."""
         try:
             size = path.stat().st_size if path.is_file() else PAGE
         except OSError as failure:
@@ -55,7 +55,7 @@ class Database:
     def _open(self) -> sqlite3.Connection:
         if self.path is None:
             return self._connected(":memory:")
-        with suppress(OSError):  # opening says what is wrong
+        with suppress(OSError):  # opening reports what is wrong
             self.path.parent.mkdir(parents=True, exist_ok=True)
         try:
             return self._connected(self.path.absolute().as_uri())
@@ -65,7 +65,7 @@ class Database:
             raise _explained(self.path, failure) from None
 
     def _open_to_read(self) -> sqlite3.Connection:
-        """Where nothing may be written: with the log of a writer, or as the file is."""
+        """Open a read-only file, with the log of a writer if there is one."""
         self.is_read_only = True
         place = str(self.path.absolute().as_uri()) if self.path else ""
         try:
@@ -102,7 +102,7 @@ class Database:
             raise _damaged(self.path)
 
     def _create(self, connection: sqlite3.Connection) -> None:
-        """A new file gets its table; whoever comes first makes it."""
+        """Create the table in a new file, unless another process has just done so."""
         run = connection.execute
         if run("PRAGMA application_id").fetchone()[0]:
             return
@@ -126,14 +126,14 @@ class Database:
         return int(self._do("PRAGMA data_version").fetchone()[0])
 
     def since(self, token: int) -> list[Row]:
-        """The cells changed by transactions behind `token`, oldest first."""
+        """The cells changed by transactions after `token`, oldest first."""
         query = "SELECT number, value, changed FROM cell WHERE changed > ? ORDER BY changed, number"
         return self._do(query, (token,)).fetchall()
 
     # --- writing ----------------------------------------------------------------------
 
     def begin(self, *, is_durable: bool) -> None:
-        """Start a transaction; waits for the one of another process."""
+        """Start a transaction, after that of another process has ended."""
         if self.is_read_only:
             raise StoreError(f"{self.path} is read-only: nothing can be stored")
         if is_durable != self._is_durable:
@@ -141,29 +141,29 @@ class Database:
             self._is_durable = is_durable
         self._do("BEGIN IMMEDIATE")
 
-    def put(self, rows: Iterable[Row]) -> None:
-        """Set cells, inside a transaction."""
+    def write_rows(self, rows: Iterable[Row]) -> None:
+        """Write cells inside a transaction."""
         try:
             self._connection.executemany("INSERT OR REPLACE INTO cell VALUES (?, ?, ?)", rows)
         except sqlite3.Error as failure:
             raise _explained(self.path, failure) from None
 
     def commit(self) -> None:
-        """End a transaction: all of it is stored."""
+        """End a transaction and store all of it."""
         self._do("COMMIT")
 
     def rollback(self) -> None:
-        """End a transaction: nothing of it is stored."""
+        """End a transaction and store nothing of it."""
         with suppress(sqlite3.Error):
             if self._connection.in_transaction:
                 self._connection.execute("ROLLBACK")
 
     def flush(self) -> None:
-        """Bring everything committed to the disk itself."""
+        """Write everything committed to the disk."""
         self._do("PRAGMA wal_checkpoint(PASSIVE)")
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         with suppress(sqlite3.Error):
             self._connection.close()
 
@@ -178,7 +178,7 @@ _MARKS = ("application_id", "user_version")
 
 
 def _patiently(work: Callable[[], _Result]) -> _Result:
-    """Another process may be opening the file at the same moment: it is waited for."""
+    """Repeat while another process is opening the same file."""
     until = time.monotonic() + BUSY_S
     while True:
         try:
@@ -195,7 +195,7 @@ _WORDS = {
     sqlite3.SQLITE_LOCKED: f"is in use by another program for more than {BUSY_S:g} s; try again",
     sqlite3.SQLITE_FULL: "cannot be written: the disk is full; nothing of this was stored",
     sqlite3.SQLITE_READONLY: "is read-only: nothing can be stored",
-    sqlite3.SQLITE_CANTOPEN: "cannot be opened: is its folder there, and may it be used?",
+    sqlite3.SQLITE_CANTOPEN: "cannot be opened: does its folder exist, and may you write to it?",
 }
 
 

@@ -1,4 +1,4 @@
-"""Whether a program drives the machine of a store now, whatever its cells were left at."""
+"""Whether a program drives the machine of a store now, asked of its lock, not of its cells."""
 
 from pathlib import Path
 
@@ -8,10 +8,10 @@ SUFFIX = "-machine"
 
 
 def machine_lock(store: Path) -> Path:
-    """The file that a program locks as long as it drives the machine of a store."""
+    """The file that a program keeps locked while it drives the machine of a store."""
     return store.with_name(store.name + SUFFIX)
 
 
 def is_driven(store: Path | None) -> bool:
-    """Whether a program holds that lock; a store without a file has no other programs."""
+    """Whether a program holds that lock; never for a store without a file."""
     return store is None or is_taken(machine_lock(store))

@@ -1,4 +1,4 @@
-"""Settings as a TOML file: written with names and units beside the numbers, read back.
+"""Settings as a TOML file: exported with names and units as comments, and imported.
 
     layout = 1
     unit = "inch"
@@ -6,7 +6,7 @@
     [SPEEDS]
     P650002 = 12.5  # Cut Speed [in/min]
 
-Keys are numbers or unique names; lengths are in the unit of the file, where they name none.
+Keys are numbers or unique names; lengths are in the unit of the file unless they name one.
 """
 
 import json
@@ -26,7 +26,7 @@ from openacr.units import MM_PER_INCH
 LAYOUT = 1
 INCH, MM = "inch", "mm"
 _HEAD = ("layout", "unit")
-# What says how a run stands is no setting.
+# Cells that show the state of a run are not settings.
 _OF_A_RUN = frozenset(
     (
         *range(CELLS.tool_selected, CELLS.run_time + 1),
@@ -39,7 +39,7 @@ _OF_A_RUN = frozenset(
 
 
 def exported(store: Store, *, everything: bool = False) -> str:
-    """The settings that are not as in a new store, or all of them."""
+    """The settings that differ from a new store, or all of them, as TOML."""
     lines = [f"layout = {LAYOUT}", f'unit = "{MM if store.is_metric else INCH}"']
     tab = ""
     for parameter in lookup.parameters():
@@ -57,7 +57,7 @@ def _belongs(store: Store, parameter: Parameter, everything: bool) -> bool:
     if parameter.row.is_fixed or n in _OF_A_RUN:
         return False
     if parameter.is_per_length and (parameter.axis or 0) < store.read(GENERAL.axis_count):
-        return True  # its default is a number per unit, whichever that is
+        return True  # its default is the same number in either unit
     return everything or store.value(n) != store.default(n)
 
 
@@ -83,9 +83,9 @@ def _key(name: str) -> str:
 
 
 def imported(store: Store, text: str, place: str = "the file") -> int:
-    """Store the settings of a file, all or none; the result counts them.
+    """Store the settings of a file, all or none; returns their count.
 
-    A store that is still empty takes the unit of the file, any other keeps its own.
+    An empty store takes over the unit of the file, any other keeps its own.
     """
     try:
         document = tomllib.loads(text)
@@ -104,7 +104,7 @@ def imported(store: Store, text: str, place: str = "the file") -> int:
 def _checked_head(document: dict[str, Any], place: str) -> bool:
     layout, unit = document.get("layout", LAYOUT), document.get("unit", INCH)
     if layout != LAYOUT:
-        raise UserError(f"{place}: layout {layout} is not known here, only {LAYOUT}")
+        raise UserError(f"{place}: layout {layout} is not supported, only {LAYOUT}")
     if unit not in (INCH, MM):
         raise UserError(f'{place}: unit {unit!r} is neither "{INCH}" nor "{MM}"')
     return bool(unit == MM)
@@ -119,7 +119,7 @@ def _entries(document: dict[str, Any]) -> Iterator[tuple[Parameter, object]]:
 
 
 def _apply(store: Store, entries: list[tuple[Parameter, object]], is_metric: bool) -> int:
-    """Names of axes and the unit come first: what lengths are depends on them."""
+    """Store names of axes and the unit first: the meaning of lengths depends on them."""
     for parameter, value in sorted(entries, key=lambda each: _rank(each[0])):
         if parameter.is_text:
             store.write_text(parameter.number, value)  # type: ignore[arg-type]
@@ -133,7 +133,7 @@ def _rank(parameter: Parameter) -> int:
 
 
 def _number(store: Store, parameter: Parameter, value: object, is_metric: bool) -> float:
-    """A number of the file, in the unit of the store."""
+    """A number from the file, in the unit of the store."""
     letter = store.letter_of(parameter)
     if isinstance(value, str):
         number = values.parsed(parameter, value, is_metric, letter)

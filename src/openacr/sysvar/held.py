@@ -1,4 +1,4 @@
-"""The cells of a store in memory: what was stored, and defaults that were asked for."""
+"""The cells of a store in memory: stored values, and defaults already computed."""
 
 from openacr.sysvar.schema import FIRST_SYSTEM
 from openacr.sysvar.tabs import CONTROL
@@ -9,7 +9,7 @@ UNITS = CONTROL.default_units  # 0 inch, 1 mm
 
 
 class Held:
-    """Cells by number. `numbers` holds defaults, too, once they were computed."""
+    """Cells by number; `numbers` also holds the defaults that were computed."""
 
     def __init__(self) -> None:
         self.numbers: dict[int, float] = {}
@@ -19,27 +19,27 @@ class Held:
         self._defaults: set[int] = set()
 
     def raw(self, n: int) -> Value | None:
-        """What was stored in a cell, None for its default."""
+        """The stored value of a cell, None while it has its default."""
         if n not in self.stored:
             return None
         return self.texts[n] if n in self.texts else self.numbers[n]
 
     def hold(self, n: int, value: Value | None) -> None:
-        """Keep what was stored in a cell, None for its default."""
+        """Set the stored value of a cell, None for its default."""
         if value is None:
             self._forget(n)
         else:
-            self._keep(n, value)
+            self._hold_value(n, value)
         if n >= FIRST_SYSTEM:
             self._forget_defaults()
 
     def keep_default(self, n: int, value: float) -> float:
-        """Remember the default of a cell as long as no system parameter changes."""
+        """Remember the default of a cell until a system parameter changes."""
         self.numbers[n] = value
         self._defaults.add(n)
         return value
 
-    def _keep(self, n: int, value: Value) -> None:
+    def _hold_value(self, n: int, value: Value) -> None:
         self.stored.add(n)
         self._defaults.discard(n)
         if isinstance(value, str):
@@ -58,7 +58,7 @@ class Held:
             self.factor = 1.0
 
     def _forget_defaults(self) -> None:
-        """Defaults may follow system parameters."""
+        """Forget the computed defaults, because they may depend on system parameters."""
         for n in self._defaults:
             del self.numbers[n]
         self._defaults.clear()

@@ -1,4 +1,4 @@
-"""Where the store lies when nobody says so, and opening it there."""
+"""The default location of the store, and opening a store there or elsewhere."""
 
 import os
 from pathlib import Path
@@ -11,7 +11,7 @@ FILE_NAME = "sysvar.db"
 
 
 def default_path() -> Path:
-    """The file named by OPENACR_STORE, else one in the data folder of the user."""
+    """The file named by OPENACR_STORE, else `sysvar.db` in the user's data folder."""
     named = os.environ.get(VARIABLE)
     if named:
         return Path(named).expanduser()
@@ -21,19 +21,19 @@ def default_path() -> Path:
 
 
 def open_to_write(path: Path | None) -> Store:
-    """The store that is meant; a file that is not there is made."""
+    """Open a store for writing; a missing file is created."""
     return Store(path or default_path())
 
 
 def open_to_read(path: Path | None) -> Store:
-    """The store that is meant, for looking: nothing is made.
+    """Open a store for reading; no file is created.
 
-    Where none was made yet, everything is as in a new one; a file that was named has to be
-    there.
+    Without a default store all cells have the values of a new one; a file that was named has
+    to exist.
     """
     meant = path or default_path()
     if meant.exists():
         return Store(meant)
     if path is not None:
-        raise StoreError(f"{path} is not there (`openacr sysvar set --store` makes a store)")
+        raise StoreError(f"{path} does not exist (`openacr sysvar set --store` creates a store)")
     return Store()

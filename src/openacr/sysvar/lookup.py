@@ -16,7 +16,7 @@ AXIS_LETTERS = "XYZABCUV"
 _AXIS_WORDS = frozenset(("axis", *AXIS_LETTERS.lower()))
 LISTED = 5
 LONGEST_NAME = 60
-NEAR = 0.7  # of the letters of a name are right
+NEAR = 0.7  # share of the letters of a name that have to match
 _LAST_TAB = len(TABS) - 1
 Named = tuple[Parameter, list[str]]
 
@@ -27,14 +27,14 @@ def _tab_of(number: int) -> Tab:
     return TABS[min((number - FIRST_SYSTEM) // TAB_CELLS, _LAST_TAB)]
 
 
-@lru_cache(maxsize=1 << 14)  # all of them
+@lru_cache(maxsize=1 << 14)  # every cell
 def parameter(number: int) -> Parameter | None:
-    """What a number stands for in the store; None if there is no such cell."""
+    """The parameter of a cell number; None if there is no such cell."""
     return _tab_of(number).parameter(number)
 
 
 def known(number: int) -> Parameter:
-    """What a number stands for in the store; MapError if there is no such cell."""
+    """The parameter of a cell number; MapError if there is no such cell."""
     found = parameter(number)
     if found is None:
         raise MapError(f"P{number} is not in the store{_where(number)}")
@@ -65,7 +65,7 @@ def parameters() -> Iterator[Parameter]:
 
 
 def tab_named(text: str) -> Tab | None:
-    """The tab of that name, whatever its case."""
+    """The tab of that name, in upper or lower case."""
     wanted = text.strip().upper()
     return next((tab for tab in (*TABS, CELLS.tab) if tab.name == wanted), None)
 
@@ -76,19 +76,19 @@ def in_tab(tab: Tab) -> list[Parameter]:
 
 
 def find(text: str) -> list[Parameter]:
-    """The parameters a number, a tab or words of names mean; MapError if there are none."""
+    """The parameters a number, a tab or words of a name match; MapError if none does."""
     number = _NUMBER.fullmatch(text.strip())
     if number:
         return [known(int(number[1]))]
     tab = tab_named(text)
     found = in_tab(tab) if tab else _named(_words(text))
     if not found:
-        raise MapError(f"no parameter of the store is called {text.strip()!r}{_meant(text)}")
+        raise MapError(f"no parameter of the store is named {text.strip()!r}{_meant(text)}")
     return found
 
 
 def _meant(text: str) -> str:
-    """The name or tab that comes nearest, as a question; nothing where none is near."""
+    """The most similar name or tab, as a question; empty where none is similar."""
     names = {"".join(words): members[0][0].name for words, members in _names() if members} | {
         tab.name.lower(): tab.name for tab in TABS
     }
@@ -98,24 +98,24 @@ def _meant(text: str) -> str:
 
 
 def _names() -> Iterator[tuple[list[str], list[Named]]]:
-    """Of every row the words of its name, without those of axes, and its parameters."""
+    """The words of the name of each row, without those of axes, and its parameters."""
     for _, members in _catalogue():
         yield [word for word in members[0][1] if word not in _AXIS_WORDS], members
 
 
 def tab_like(text: str) -> str:
-    """The tab that comes nearest, as a question; nothing where none is near."""
+    """The most similar tab, as a question; empty where none is similar."""
     near = get_close_matches(text.strip().upper(), [tab.name for tab in TABS], n=1)
     return f"did you mean {near[0]}?" if near else ""
 
 
 def one(text: str) -> Parameter:
-    """The one parameter that is meant; MapError if there are several."""
+    """The only parameter a text matches; MapError if there are several."""
     found = find(text)
     if len(found) > 1:
         several = ", ".join(str(parameter) for parameter in found[:LISTED])
         more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
-        raise MapError(f"{text.strip()!r} can be {several}{more}: say its number, or its axis")
+        raise MapError(f"{text.strip()!r} can be {several}{more}: give its number, or its axis")
     return found[0]
 
 
@@ -125,7 +125,7 @@ def _words(text: str) -> list[str]:
 
 @lru_cache(maxsize=1)
 def _catalogue() -> tuple[tuple[list[str], list[Named]], ...]:
-    """Of every row the words of its name and tab, and its parameters with the words of theirs."""
+    """The words of the name and tab of each row, and its parameters with their own words."""
     rows: dict[tuple[str, int], tuple[list[str], list[Named]]] = {}
     for found in parameters():
         words = [*_words(found.row.name), *_words(found.tab)]
@@ -135,7 +135,7 @@ def _catalogue() -> tuple[tuple[list[str], list[Named]], ...]:
 
 
 def _named(words: list[str]) -> list[Parameter]:
-    """Those with exactly these words as their name, else those that have all of them."""
+    """The parameters whose name is exactly these words, else those that contain all of them."""
     partly = []
     exactly = []
     telling = [word for word in words if word not in _AXIS_WORDS and not word.isdigit()]
@@ -152,7 +152,7 @@ def _named(words: list[str]) -> list[Parameter]:
 
 
 def _without(words: list[str], own: list[str]) -> list[str] | None:
-    """What is left of `words` when the whole name is taken out of it, in its order."""
+    """The words left after removing the whole name, in its order; None if it is not there."""
     size = len(own)
     for start in range(len(words) - size + 1):
         if words[start : start + size] == own:
@@ -161,7 +161,7 @@ def _without(words: list[str], own: list[str]) -> list[str] | None:
 
 
 def _names_axis(words: list[str], found: Parameter) -> bool:
-    """Whether the words left say the axis (X, axis X, axis 0), the tab, or both."""
+    """Whether the words left name the axis (X, axis X, axis 0), the tab, or both."""
     tab = _words(found.tab)
     rest = [word for word in words if word != "axis" and word not in tab]
     axis = [] if found.axis is None else [str(found.axis), AXIS_LETTERS[found.axis].lower()]

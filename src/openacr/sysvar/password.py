@@ -1,4 +1,4 @@
-"""The password of the service: kept as a salted scrypt hash, compared in constant time."""
+"""The service password: stored as a salted scrypt hash, compared in constant time."""
 
 import hashlib
 import hmac
@@ -10,16 +10,16 @@ from openacr.sysvar.tabs import GENERAL
 
 CELL = GENERAL.password_hash
 _SALT_BYTES, _HASH_BYTES = 16, 32
-_COST = {"n": 1 << 14, "r": 8, "p": 1}  # 16 MB and some 50 ms for each try
+_COST = {"n": 1 << 14, "r": 8, "p": 1}  # 16 MB and about 50 ms per attempt
 
 
 def is_asked(store: Store) -> bool:
-    """Whether system parameters are guarded by a password."""
+    """Whether a password protects the system parameters."""
     return bool(store.read_text(CELL))
 
 
 def is_right(store: Store, password: str) -> bool:
-    """Whether this is the password; any will do where none is asked."""
+    """Whether this is the password; any is accepted while none is set."""
     kept = store.read_text(CELL)
     if not kept:
         return True
@@ -32,7 +32,7 @@ def is_right(store: Store, password: str) -> bool:
 
 
 def change(store: Store, password: str) -> None:
-    """Ask for this password from now on; for none when it is empty."""
+    """Set the password; an empty one removes it."""
     if password != password.strip():
         raise UserError("a password neither begins nor ends with a blank")
     salt = os.urandom(_SALT_BYTES)

@@ -1,4 +1,4 @@
-"""Write the page of all cells from their tables: `python -m openacr.sysvar.reference FILE`."""
+"""Write the page of all cells from the tables: `python -m openacr.sysvar.reference FILE`."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -23,14 +23,14 @@ KINDS = {
 WRITERS = {
     Writer.PROGRAM: "yes",
     Writer.WARNED: "yes, with W220",
-    Writer.NOBODY: "no (E212)",
+    Writer.NONE: "no (E212)",
     Writer.SERVICE: "MDI with the service role, else E212",
     Writer.CARD: "where the card allows",
 }
 
 
 def page() -> str:
-    """The whole page."""
+    """The page as Markdown."""
     parts = ["# Parameters of the CNC side", MADE_BY, UNITS, "## Where numbers live", _map()]
     for tab in (*TABS, CELLS.tab):
         parts += [f"## {tab.name}", _numbers(tab), _table(tab)]
@@ -49,14 +49,12 @@ def _map() -> str:
 
 
 def _numbers(tab: Tab) -> str:
-    return (
-        f"Numbers are those of axis 0; axis a has {AXIS_CELLS} a more." if tab.is_per_axis else ""
-    )
+    return f"Numbers are those of axis 0; add {AXIS_CELLS} a for axis a." if tab.is_per_axis else ""
 
 
 def _table(tab: Tab) -> str:
     head = [
-        "| P | name | type | unit | default | takes | meaning |",
+        "| P | name | type | unit | default | values | meaning |",
         "|---|---|---|---|---|---|---|",
     ]
     return "\n".join(head + list(_rows(tab)))
@@ -91,7 +89,7 @@ def _span(tab: Tab, row: Row) -> str:
 
 
 def _defaults(store: Store, first: int, last: int) -> str:
-    """The default of a cell, or of the first and the last of a series."""
+    """The default of a cell, or those of the first and last cell of a series."""
     ends = (_default(store, first), _default(store, last))
     return ends[0] if ends[0] == ends[1] else " ... ".join(ends)
 

@@ -1,4 +1,4 @@
-"""What holds between settings: checked when a change is stored, for the cells it touched."""
+"""Rules between settings, checked for the cells a change touches before it is stored."""
 
 import re
 from collections.abc import Callable, Collection, Iterable
@@ -15,8 +15,8 @@ RUNNING = frozenset((1, 2, 3, 4))  # run, paused, wait, stop
 ANGLE1, ANGLE2 = CONTROL.acute_angle1_threshold, CONTROL.acute_angle2
 TABLES = (FOV.percents, ROV.percents, SOV.percents)
 FIRST_LINE = {Wire.INPUT: 0, Wire.OUTPUT: 32}
-STEERING = {IO.feedhold_input, IO.cycle_start_input, IO.emergency_stop}  # serve nothing else
-REFERENCE_OUTPUTS = {IO.g27_output, IO.g28_error_output}  # one lamp may serve both
+STEERING = {IO.feedhold_input, IO.cycle_start_input, IO.emergency_stop}  # no second function
+REFERENCE_OUTPUTS = {IO.g27_output, IO.g28_error_output}  # may share one lamp
 # Switches that are read at four inputs, by the cell of the first.
 SWITCH_LINES = dict.fromkeys((IO.jog_joystick_input, FOV.switch, ROV.switch, SOV.switch), 4)
 MODULES = CONTROL.io_expansion_modules
@@ -24,7 +24,7 @@ FIRST_MODULE_LINE, MODULE_LINES, MODULE_INPUTS = 256, 64, 32
 
 
 class Reader(Protocol):
-    """The cells as they will be."""
+    """The cells as they will be after the change."""
 
     def read(self, n: int) -> float:
         """A number."""
@@ -34,14 +34,14 @@ class Reader(Protocol):
 
 
 def check(cells: Reader, changed: Collection[int], is_running: Callable[[], bool]) -> None:
-    """Refuse a group of changes that cannot stand; SettingError names one cell of it.
+    """Refuse a group of changes that break a rule; SettingError names one cell of it.
 
     `is_running` is asked when a setting of motion is among them.
     """
     system = sorted(n for n in changed if n >= FIRST_SYSTEM)
     for n in system:
         if known(n).row.is_motion and is_running():
-            raise SettingError(known(n), None, "a program runs", "stop it first")
+            raise SettingError(known(n), None, "a program is running", "stop it first")
     if system:
         for rule in _RULES:
             rule(cells, system)
@@ -57,7 +57,7 @@ def _soft_limits(cells: Reader, changed: Collection[int]) -> None:
             raise SettingError(
                 known(AXIS.plus_soft_limit[axis]),
                 plus,
-                f"it must be above the -Soft Limit, {minus:g}",
+                f"it has to be above the -Soft Limit, {minus:g}",
                 f"or set P{AXIS.disable_limit[axis]} Disable Limit",
             )
 
@@ -71,7 +71,7 @@ def _axis_names(cells: Reader, changed: Iterable[int]) -> None:
         if name not in AXIS_LETTERS or len(name) != 1:
             raise SettingError(known(n), name, "one of " + ", ".join(AXIS_LETTERS))
         if name in names:
-            raise SettingError(known(n), name, f"P{names[name]} has that name already")
+            raise SettingError(known(n), name, f"P{names[name]} already has that name")
         names[name] = n
 
 
@@ -79,7 +79,9 @@ def _angles(cells: Reader, changed: Iterable[int]) -> None:
     if {ANGLE1, ANGLE2} & set(changed):
         first, second = cells.read(ANGLE1), cells.read(ANGLE2)
         if second and second < first:
-            raise SettingError(known(ANGLE2), second, f"0, or not below Acute Angle1, {first:g}")
+            raise SettingError(
+                known(ANGLE2), second, f"it has to be 0, or at least Acute Angle1, {first:g}"
+            )
 
 
 def _override_tables(cells: Reader, changed: Iterable[int]) -> None:
@@ -94,7 +96,7 @@ def _override_tables(cells: Reader, changed: Iterable[int]) -> None:
                     known(n),
                     percent,
                     f"click {click - 1} has {before:g}",
-                    "percentages rise from click to click",
+                    "percentages must not fall from click to click",
                 )
             before = percent
 
@@ -105,7 +107,7 @@ def _card_model(cells: Reader, changed: Iterable[int]) -> None:
 
 
 def _wires(cells: Reader, changed: Iterable[int]) -> None:
-    """Numbers of inputs and outputs are those the card has; another card, other numbers."""
+    """Refuse numbers of inputs and outputs that the card model does not have."""
     count = MODELS[cells.read_text(MODEL)].lines
     modules = int(cells.read(MODULES))
     if MODEL in changed or MODULES in changed:
@@ -120,12 +122,12 @@ def _wires(cells: Reader, changed: Iterable[int]) -> None:
                 known(n),
                 value,
                 f"{row.wire.value}s of the card are {first} to {first + count - 1}",
-                "-1 for none",
+                "-1: not connected",
             )
 
 
 def _is_on_module(value: float, wire: Wire, modules: int) -> bool:
-    """Whether a line is on one of the expansion modules: 32 inputs, then 32 outputs of each."""
+    """Whether a line is on an expansion module: each has 32 inputs, then 32 outputs."""
     module, line = divmod(int(value) - FIRST_MODULE_LINE, MODULE_LINES)
     return 0 <= module < modules and (line >= MODULE_INPUTS) == (wire is Wire.OUTPUT)
 
@@ -140,7 +142,7 @@ def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
 
 
 def _sharing(cells: Reader, changed: Collection[int]) -> None:
-    """An output, a DAC or an input that steers the machine serves one purpose."""
+    """Refuse two functions on one output, one DAC or one control input."""
     lines = [each for each in parameters() if each.row.wire]
     dacs = {SPINDLE.dac, *AXIS.configured, *AXIS.dac_number}
     if not {each.number for each in lines}.isdisjoint(changed):
@@ -150,13 +152,13 @@ def _sharing(cells: Reader, changed: Collection[int]) -> None:
 
 
 def require_wiring(cells: Reader) -> None:
-    """Refuse a machine two of whose functions are on one output, DAC or steering input."""
+    """Refuse a machine with two functions on one output, DAC or control input."""
     everything = [each.number for each in parameters() if each.row.wire]
     _refuse_shared(cells, everything, _users(cells, [known(n) for n in everything]))
     _refuse_shared(cells, everything, _dac_users(cells))
 
 
-Users = dict[tuple[str, int], list[int]]  # by what is used: the cells that use it
+Users = dict[tuple[str, int], list[int]]  # by line: the cells that name it
 
 
 def _users(cells: Reader, lines: Iterable[Parameter]) -> Users:
@@ -191,7 +193,7 @@ def _refuse_shared(cells: Reader, changed: Collection[int], users: Users) -> Non
         if len(numbers) > 1:
             mine = next((n for n in numbers if n in changed), numbers[-1])
             other = known(next(n for n in numbers if n != mine))
-            text = f"{what} {line} is that of P{other.number} {other.name} already"
+            text = f"{what} {line} is already used by P{other.number} {other.name}"
             raise SettingError(known(mine), cells.read(mine), text)
 
 

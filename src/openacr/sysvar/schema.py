@@ -1,7 +1,7 @@
-"""Rows of the SYSVAR store: what a cell means, what it may hold, what it holds at first.
+"""Rows of the SYSVAR store: meaning, allowed values and default of every cell.
 
 A tab is a range of numbers: parameter `k` of axis `a` is cell `base + 1000 a + k`. A row can
-stand for a series of like cells, `step` apart. Lengths are declared in inches.
+describe a series of equal cells, `step` apart. Lengths are declared in inches.
 """
 
 import math
@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar
 from openacr.errors import MapError
 from openacr.map.numbers import FLAG_WORD_BASE
 
-FIRST_SYSTEM = 100_000  # the first cell that is no variable or offset of programs
+FIRST_SYSTEM = 100_000  # the first system parameter; below are variables and offsets of programs
 CARD_VARIABLES = range(100)  # P numbers of the card, not of the store
 CARD_PARAMETERS = range(FLAG_WORD_BASE, 20_488)
 AXES = 8
@@ -24,7 +24,7 @@ ANY = math.inf
 
 
 class CellKind(Enum):
-    """What a cell holds."""
+    """The type of the value in a cell."""
 
     REAL = "R"
     INTEGER = "I"
@@ -34,7 +34,7 @@ class CellKind(Enum):
 
 
 class Wire(Enum):
-    """What the number in a cell is that of."""
+    """What kind of line a cell gives the number of."""
 
     INPUT = "input"
     OUTPUT = "output"
@@ -42,7 +42,7 @@ class Wire(Enum):
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """The place a default is asked for: axis, place in the series, and the other cells."""
+    """Where a default is computed: axis, position in the series, and the other cells."""
 
     axis: int
     index: int
@@ -57,7 +57,7 @@ class Row:
     """One line of a tab: a parameter, or a series of `count` of them."""
 
     k: int
-    name: str  # with {} where the number in the series stands
+    name: str  # {} is replaced by the number in the series
     kind: CellKind
     unit: str = ""  # u = default unit, u/m, u/s, u/s2 ... as the reference writes them
     default: Default = 0.0
@@ -65,28 +65,28 @@ class Row:
     low: float = -ANY
     high: float = ANY
     is_low_open: bool = False  # the lowest value itself is refused
-    words: Mapping[int, str] = field(default_factory=dict)  # values with a name
-    noun: str = ""  # numbers are written and shown with it, too: Axis4
+    words: Mapping[int, str] = field(default_factory=dict)  # names of values
+    noun: str = ""  # prefix with which numbers may be written and are displayed: Axis4
     doc: str = ""
     count: int = 1
     step: int = 1
-    first: int = 0  # number of the first one of the series
+    first: int = 0  # number of the first cell of the series
     axis: int | None = None
-    is_by_axis: bool = False  # the place in the series is the axis
+    is_by_axis: bool = False  # the position in the series is the axis number
     is_per_axis: bool = False
     is_motion: bool = False  # must not change while a program runs
-    is_fixed: bool = False  # nobody writes it
+    is_fixed: bool = False  # read-only
     wire: Wire | None = None  # the value is the number of an input or output of the card
 
     @property
     def is_series(self) -> bool:
-        """Whether the name takes a number."""
+        """Whether the name contains the number in the series."""
         return "{}" in self.name
 
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One cell: its number, where it belongs, and its row."""
+    """One cell: its number, tab, axis and row."""
 
     number: int
     tab: str
@@ -96,27 +96,27 @@ class Parameter:
 
     @property
     def name(self) -> str:
-        """The name as the guide prints it, with its number in the series."""
+        """The name as printed in the guide, with the number in the series."""
         return self.row.name.format(self.index) if self.row.is_series else self.row.name
 
     @property
     def kind(self) -> CellKind:
-        """What the cell holds."""
+        """The type of the value."""
         return self.row.kind
 
     @property
     def is_text(self) -> bool:
-        """Whether the cell holds words instead of a number."""
+        """Whether the cell holds text."""
         return self.row.kind is CellKind.TEXT
 
     @property
     def is_length(self) -> bool:
-        """Whether the value grows by 25.4 from inches to millimetres."""
+        """Whether the value is multiplied by 25.4 from inches to millimetres."""
         return self.row.unit.split("/")[0].split(" ")[0] == "u"
 
     @property
     def is_per_length(self) -> bool:
-        """Whether the value shrinks by 25.4 from inches to millimetres."""
+        """Whether the value is divided by 25.4 from inches to millimetres."""
         return self.row.unit.endswith("/u")
 
     def __str__(self) -> str:
@@ -137,26 +137,26 @@ class Declaring(ABC, Generic[Declared]):
     def real(
         self, k: int, name: str, unit: str, default: Default = 0.0, **more: object
     ) -> Declared:
-        """A number."""
+        """Add a number."""
         return self._row(k, name, CellKind.REAL, unit=unit, default=default, **more)
 
     def integer(self, k: int, name: str, default: Default = 0, **more: object) -> Declared:
-        """A whole number."""
+        """Add a whole number."""
         return self._row(k, name, CellKind.INTEGER, default=default, **more)
 
     def boolean(self, k: int, name: str, default: Default = 0, **more: object) -> Declared:
-        """False or true."""
+        """Add a false/true value."""
         marks = {"default": default, "words": FALSE_TRUE, "low": 0, "high": 1}
         return self._row(k, name, CellKind.BOOLEAN, **marks, **more)
 
     def choice(
         self, k: int, name: str, words: Mapping[int, str], default: Default = 0, **more: object
     ) -> Declared:
-        """One of some values, each with a word for it."""
+        """Add a choice: a few values, each with a name."""
         return self._row(k, name, CellKind.CHOICE, words=words, default=default, **more)
 
     def text(self, k: int, name: str, default: Default = "", **more: object) -> Declared:
-        """Words."""
+        """Add a text."""
         return self._row(k, name, CellKind.TEXT, default=default, **more)
 
 
@@ -173,11 +173,11 @@ class Tab(Declaring[int]):
         self._is_motion = False
 
     def motion(self) -> None:
-        """Rows from here on must not change while a program runs."""
+        """Mark the rows added from now on as fixed while a program runs."""
         self._is_motion = True
 
     def still(self) -> None:
-        """Rows from here on may change at any time."""
+        """Mark the rows added from now on as changeable at any time."""
         self._is_motion = False
 
     @property
@@ -200,7 +200,7 @@ class Tab(Declaring[int]):
         return any(row.is_per_axis for row in self.rows)
 
     def add(self, row: Row) -> range:
-        """Take a row in; two rows for one cell are a slip in the tables."""
+        """Add a row; two rows for one cell are an error in the tables."""
         self.rows.append(row)
         count, step = (AXES, AXIS_CELLS) if row.is_per_axis else (row.count, row.step)
         first = self.base + row.k
@@ -217,7 +217,7 @@ class Tab(Declaring[int]):
 
     @cached_property
     def cells(self) -> dict[int, tuple[Row, int | None, int]]:
-        """Row, axis and place in the series of every cell, by its distance from the base."""
+        """Row, axis and position in the series of every cell, by its offset from the base."""
         found: dict[int, tuple[Row, int | None, int]] = {}
         for row in self.rows:
             for offset, axis, index in _places(row):
@@ -227,7 +227,7 @@ class Tab(Declaring[int]):
         return found
 
     def parameter(self, number: int) -> Parameter | None:
-        """What a number means, None if it stands for nothing here."""
+        """The parameter of a cell number; None if this tab has no such cell."""
         found = self.cells.get(number - self.base)
         if found is None:
             return None

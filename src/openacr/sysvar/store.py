@@ -1,4 +1,4 @@
-"""The store as programs see it: numbered cells, read from memory, written through at once.
+"""The store as programs use it: numbered cells, read from memory, written through at once.
 
     with Store(path) as store:
         feed = store.read(SPEEDS.cut_speed)
@@ -6,9 +6,9 @@
             store.write(CELLS.h_length[1], 1.5)
             store.write(CELLS.h_wear[1], 0.01)
 
-Reading costs a look into a dictionary: cells are kept in memory, and a counter all
-processes share says when they have to be read again. A value another process has written
-is seen at the next read.
+A read is a dictionary access: cells are kept in memory, and a counter shared by all
+processes shows when they have to be read again. A value written by another process is seen
+at the next read.
 """
 
 import time
@@ -31,8 +31,8 @@ from openacr.sysvar.tabs import AXIS, CELLS
 from openacr.sysvar.values import SettingError, Value
 from openacr.units import MM_PER_INCH
 
-LOOK_S = 0.05  # the counter is not believed for longer
-NEVER = b""  # no counter ever reads like this
+POLL_S = 0.05  # longest time without asking the database itself
+NEVER = b""  # equals no state of the counter
 # The state at the start of the front end: no offset in use, spindle off, idle.
 AT_START = {
     CELLS.current_d_radius: 0.0,
@@ -48,7 +48,7 @@ Listener = Callable[[frozenset[int]], None]
 
 
 class Changes(NamedTuple):
-    """Cells that were written, and the token to ask for the next ones."""
+    """The cells that were written, and the token with which to ask for the next ones."""
 
     numbers: frozenset[int]
     token: int
@@ -57,8 +57,8 @@ class Changes(NamedTuple):
 class Store:
     """The SYSVAR store in a file, or in memory without a path.
 
-    A file that is not there is made; `is_metric` holds for a new one: all lengths of the
-    defaults are then millimetres.
+    A missing file is created; `is_metric` applies to a new one only: the defaults of lengths
+    are then millimetres.
     """
 
     def __init__(self, path: Path | str | None = None, *, is_metric: bool = False) -> None:
@@ -70,7 +70,7 @@ class Store:
         self._until = 0.0
         self._held = Held()
         self._numbers = self._held.numbers
-        self._before: dict[int, Value | None] = {}  # values to go back to, in a transaction
+        self._before: dict[int, Value | None] = {}  # previous values, for a rollback
         self._depth = 0
         self._token = 0
         self._version = -1
@@ -81,7 +81,7 @@ class Store:
             self._counter.close()
             raise
         try:
-            self._look()
+            self._poll_database()
         except BaseException:
             self.close()
             raise
@@ -100,14 +100,14 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Let go of the file; everything written is in it."""
+        """Close the file; everything written is in it."""
         self._database.close()
         self._counter.close()
         self._memory = ASK
 
     @property
     def is_read_only(self) -> bool:
-        """Whether nothing can be written."""
+        """Whether the file cannot be written."""
         return self._database.is_read_only
 
     # --- reading ----------------------------------------------------------------------
@@ -115,7 +115,7 @@ class Store:
     def read(self, n: int) -> float:
         """The number in a cell."""
         if self._memory[:SIZE] != self._seen or time.monotonic() > self._until:
-            self._look()
+            self._poll_database()
         try:
             return self._numbers[n]
         except KeyError:
@@ -123,7 +123,7 @@ class Store:
 
     @staticmethod
     def home(n: int) -> Home:
-        """Where a number lives, be it on the card, and who may use it."""
+        """Where a number is kept (store or card), and who may use it."""
         return home_of(n)
 
     def read_text(self, n: int) -> str:
@@ -133,11 +133,11 @@ class Store:
         return self._first_text(n) if found is None else found
 
     def value(self, n: int) -> Value:
-        """What is in a cell, number or text."""
+        """The number or text in a cell."""
         return self.read_text(n) if self.parameter(n).is_text else self.read(n)
 
     def default(self, n: int) -> Value:
-        """What a cell holds until something is written."""
+        """The value of a cell until one is written."""
         parameter = self.parameter(n)
         first = parameter.row.default
         if callable(first):
@@ -151,25 +151,25 @@ class Store:
         return float(first)
 
     def is_set(self, n: int) -> bool:
-        """Whether a value was written, be it that of the default."""
+        """Whether a value was written, even one equal to the default."""
         self._refresh()
         return n in self._held.stored
 
     def parameter(self, n: int) -> Parameter:
-        """What a cell means; MapError if there is none."""
+        """The description of a cell; MapError if there is no such cell."""
         return lookup.known(n)
 
     def find(self, text: str) -> list[Parameter]:
-        """The cells a number, a tab or words of names mean; MapError if there are none."""
+        """The cells a number, a tab or words of a name match; MapError if none does."""
         return lookup.find(text)
 
     @property
     def is_metric(self) -> bool:
-        """Whether lengths are millimetres."""
+        """Whether lengths are in millimetres."""
         return self.read(UNITS) == 1.0
 
     def letter_of(self, parameter: Parameter) -> str:
-        """The name of the axis a cell belongs to, empty for none."""
+        """The name of the axis a cell belongs to, empty if it belongs to none."""
         if parameter.axis is None or parameter.number == AXIS.name[parameter.axis]:
             return ""
         return self.read_text(AXIS.name[parameter.axis])
@@ -189,25 +189,25 @@ class Store:
     # --- writing ----------------------------------------------------------------------
 
     def write(self, n: int, value: float) -> None:
-        """Set a number: stored before this returns, as a group of its own if in none."""
+        """Set a number; outside a transaction it is stored before this returns."""
         self._set(n, value)
 
     def write_text(self, n: int, value: str) -> None:
-        """Set a text."""
+        """Set a text, as `write` sets a number."""
         self._set(n, value)
 
     def reset(self, n: int) -> None:
-        """Give a cell its default again."""
+        """Set a cell back to its default."""
         with self.transaction():
             if n in self._held.stored:
-                self._put(n, None)
+                self._set_held(n, None)
 
     @contextmanager
     def transaction(self, *, is_durable: bool = True) -> Iterator[None]:
         """A group of changes: all of them are stored, or none.
 
-        Inside it the new values are read. `is_durable` waits until they are on the disk:
-        without it the end of the process loses nothing, but a power cut may lose the last
+        Reads inside it return the new values. `is_durable` waits until they are on the disk:
+        without it nothing is lost when the process ends, but a power cut may lose the last
         changes.
         """
         foreign: frozenset[int] = frozenset()
@@ -223,20 +223,20 @@ class Store:
                     self._commit()
                     changed = frozenset(self._before)
                 except BaseException:
-                    self._give_up()
+                    self._roll_back()
                     raise
                 finally:
                     self._depth = 0
                     self._before = {}
         finally:
-            self._tell(foreign)
-            self._tell(changed)
+            self._notify(foreign)
+            self._notify(changed)
 
     def begin_metric(self) -> None:
-        """Make a store that is still empty metric: its defaults are numbers of millimetres."""
+        """Make an empty store metric: the defaults of its lengths are then in millimetres."""
         with self.transaction():
             if not self._token:
-                self._put(UNITS, 1.0)
+                self._set_held(UNITS, 1.0)
 
     def flush(self) -> None:
         """Wait until everything written is on the disk."""
@@ -245,7 +245,7 @@ class Store:
     def _set(self, n: int, value: Value) -> None:
         parameter = self.parameter(n)
         if parameter.row.is_fixed:
-            raise SettingError(parameter, value, "it is fixed")
+            raise SettingError(parameter, value, "it is read-only")
         is_metric, letter = self._held.factor != 1.0, self.letter_of(parameter)
         new = values.checked(parameter, value, is_metric, letter)
         self._refresh()
@@ -254,27 +254,27 @@ class Store:
         with self.transaction(is_durable=n >= FIRST_SYSTEM):
             if n == UNITS and new != self.read(UNITS):
                 self._convert(MM_PER_INCH if new else 1.0 / MM_PER_INCH)
-            self._put(n, new)
+            self._set_held(n, new)
 
-    def _put(self, n: int, value: Value | None) -> None:
-        self._keep(n)
+    def _set_held(self, n: int, value: Value | None) -> None:
+        self._remember_before(n)
         self._held.hold(n, value)
 
     def _convert(self, factor: float) -> None:
-        """All stored lengths in the other unit; the machine stays the same."""
+        """Convert all stored lengths to the other unit; the machine stays the same."""
         for parameter in lookup.parameters():
             n = parameter.number
             if parameter.is_per_length or (parameter.is_length and n in self._held.stored):
                 letter = self.letter_of(parameter)
-                self._put(n, values.scaled(parameter, self.read(n), factor, letter))
+                self._set_held(n, values.scaled(parameter, self.read(n), factor, letter))
 
     # --- transactions -----------------------------------------------------------------
 
     def _begin(self, is_durable: bool) -> frozenset[int]:
-        """Start a transaction; the result is what others have written since the last look."""
+        """Start a transaction; returns the cells other processes wrote since the last poll."""
         self._database.begin(is_durable=is_durable)
         try:
-            foreign = self._take(self._database.since(self._token))
+            foreign = self._apply_rows(self._database.since(self._token))
         except BaseException:
             self._database.rollback()
             raise
@@ -289,7 +289,7 @@ class Store:
             return
         rules.check(self, self._before, self._is_running)
         token = self._token + 1  # all before it was read when the transaction began
-        self._database.put((n, self._held.raw(n), token) for n in self._before)
+        self._database.write_rows((n, self._held.raw(n), token) for n in self._before)
         self._counter.begin()
         try:
             self._database.commit()
@@ -299,17 +299,17 @@ class Store:
         self._seen = NEVER
 
     def _is_running(self) -> bool:
-        """Whether a program runs: one that was killed has left its state, but not its lock."""
+        """Whether a program runs: a killed one leaves its state in P244, but not its lock."""
         return self._was_running and is_driven(self.path)
 
-    def _give_up(self) -> None:
+    def _roll_back(self) -> None:
         self._database.rollback()
         for n, value in self._before.items():
             self._held.hold(n, value)
         self._before = {}
 
-    def _keep(self, n: int) -> None:
-        """Remember what a cell held before this transaction."""
+    def _remember_before(self, n: int) -> None:
+        """Remember the value of a cell from before this transaction."""
         if n not in self._before:
             self._before[n] = self._held.raw(n)
 
@@ -317,24 +317,24 @@ class Store:
 
     def _refresh(self) -> None:
         if self._memory[:SIZE] != self._seen or time.monotonic() > self._until:
-            self._look()
+            self._poll_database()
 
-    def _look(self) -> None:
+    def _poll_database(self) -> None:
         """Ask the database whether another process has written, and read what it wrote."""
         with self._lock:
             if self._depth:
                 return
-            stamp = self._memory[:SIZE]  # before the look: what comes in between is seen again
+            stamp = self._memory[:SIZE]  # first: changes from now on count again
             version = self._database.version()
             changed: frozenset[int] = frozenset()
             if version != self._version:
-                changed = self._take(self._database.since(self._token))
+                changed = self._apply_rows(self._database.since(self._token))
                 self._version = version
             self._seen = stamp if is_settled(stamp) else NEVER
-            self._until = time.monotonic() + LOOK_S
-        self._tell(changed)
+            self._until = time.monotonic() + POLL_S
+        self._notify(changed)
 
-    def _take(self, rows: Iterable[tuple[int, Value | None, int]]) -> frozenset[int]:
+    def _apply_rows(self, rows: Iterable[tuple[int, Value | None, int]]) -> frozenset[int]:
         changed = set()
         for n, value, token in rows:
             self._held.hold(n, None if value is None else _of_the_kind(n, value))
@@ -342,7 +342,7 @@ class Store:
             changed.add(n)
         return frozenset(changed)
 
-    # --- news -------------------------------------------------------------------------
+    # --- changes -------------------------------------------------------------------------
 
     @property
     def token(self) -> int:
@@ -351,7 +351,7 @@ class Store:
         return self._token
 
     def changes_since(self, token: int) -> Changes:
-        """The cells written by anybody behind `token`."""
+        """The cells written by any process after `token`."""
         self._refresh()
         rows = self._database.since(token)
         return Changes(
@@ -359,7 +359,7 @@ class Store:
         )
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
-        """Have `listener` called with the numbers of changed cells; the result ends that.
+        """Call `listener` with the numbers of changed cells; call the result to end that.
 
         Changes of other processes are noticed when a cell is read, or by `poll`.
         """
@@ -367,20 +367,20 @@ class Store:
         return lambda: self._listeners.remove(listener)
 
     def poll(self) -> None:
-        """Look for changes of other processes."""
-        self._look()
+        """Read the changes of other processes, and notify the listeners."""
+        self._poll_database()
 
-    def _tell(self, changed: frozenset[int]) -> None:
+    def _notify(self, changed: frozenset[int]) -> None:
         if changed:
             for listener in tuple(self._listeners):
                 listener(changed)
 
 
 def _of_the_kind(n: int, value: Value) -> Value:
-    """A stored value; StoreError if it is none for its cell."""
+    """A stored value as number or text; StoreError if the cell is of the other kind."""
     parameter = lookup.parameter(n)
     if isinstance(value, str) and (parameter is None or parameter.is_text):
         return value
     if isinstance(value, int | float) and (parameter is None or not parameter.is_text):
         return float(value)
-    raise StoreError(f"the store holds {value!r} for {parameter}, which is of another kind")
+    raise StoreError(f"the store holds {value!r} for {parameter}, which is of another type")

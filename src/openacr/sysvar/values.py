@@ -1,4 +1,4 @@
-"""Values: what a cell accepts, how users write values, how they are shown.
+"""Values of cells: which are accepted, how users write them, how they are displayed.
 
 Lengths are kept in the default unit of the store; `5mm` and `0.2in` are converted.
 """
@@ -22,9 +22,9 @@ _TRUTHS = {"true": 1, "yes": 1, "on": 1, "false": 0, "no": 0, "off": 0}
 
 
 class SettingError(UserError):
-    """A value a cell cannot take: which one, what was given, what it accepts.
+    """A value that a cell refuses, with the cell, the value and what it accepts.
 
-    The value is None where no value can be given at present.
+    The value is None where the cell cannot be changed at present.
     """
 
     def __init__(self, parameter: Parameter, value: object, expected: str, hint: str = "") -> None:
@@ -38,12 +38,12 @@ class SettingError(UserError):
 
 
 def rounded(value: float, digits: int = DIGITS) -> float:
-    """Without the noise of a conversion in its last digits."""
+    """The value rounded to `digits` digits, without the noise of unit conversion."""
     return float(f"{value:.{digits}g}")
 
 
 def scaled(parameter: Parameter, value: float, factor: float, letter: str = "") -> float:
-    """A length value in another unit; `letter` names the axis, rotary ones stay as they are."""
+    """A length in another unit; values of rotary axes (`letter`) are not converted."""
     if letter in ROTARY:
         return value
     if parameter.is_length:
@@ -55,7 +55,7 @@ def scaled(parameter: Parameter, value: float, factor: float, letter: str = "") 
 
 
 def checked(parameter: Parameter, value: Value, is_metric: bool = False, letter: str = "") -> Value:
-    """The value as it is stored; SettingError if the cell cannot hold it.
+    """The value as it will be stored; SettingError if the cell refuses it.
 
     `is_metric` is the unit of the store, `letter` names the axis of the cell.
     """
@@ -71,7 +71,7 @@ def checked(parameter: Parameter, value: Value, is_metric: bool = False, letter:
 
 def _text(parameter: Parameter, value: Value) -> str:
     if not isinstance(value, str):
-        raise SettingError(parameter, value, "it takes text")
+        raise SettingError(parameter, value, "text is expected")
     if len(value) > LONGEST_TEXT or not value.isprintable():
         raise SettingError(parameter, value, f"at most {LONGEST_TEXT} printable characters")
     return value
@@ -90,7 +90,7 @@ def _fits(parameter: Parameter, number: float, is_metric: bool, letter: str) -> 
 
 
 def _limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, float]:
-    """The lowest and highest value; those of lengths are declared in inches."""
+    """The lowest and highest value; lengths are declared in inches and converted."""
     is_scaled = is_metric and parameter.is_length and letter not in ROTARY
     scale = MM_PER_INCH if is_scaled else 1.0
     return parameter.row.low * scale, parameter.row.high * scale
@@ -117,7 +117,7 @@ def _choice(value: int, word: str) -> str:
 
 
 def span(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str:
-    """The range of a number in words, empty where there is none."""
+    """The range of a number in words, empty where it is unlimited."""
     if parameter.is_per_length:
         return "other than 0"
     low, high = _limits(parameter, is_metric, letter)
@@ -133,7 +133,7 @@ def span(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str
 
 
 def parsed(parameter: Parameter, text: str, is_metric: bool = False, letter: str = "") -> Value:
-    """What a user wrote, as a value for the store: numbers, words of choices, lengths."""
+    """A user's text as a value for the store: a number, the word of a choice, a length."""
     if parameter.is_text:
         return text
     plain = text.strip()
@@ -177,7 +177,7 @@ def _factor(unit: str, is_metric: bool) -> float:
 
 
 def shown(parameter: Parameter, value: Value) -> str:
-    """A value as a user reads it: `2 (absolute)`, `0.0508`."""
+    """A value as displayed to a user: `2 (absolute)`, `0.0508`."""
     if isinstance(value, str):
         return value
     number = plain(rounded(value, SHOWN_DIGITS))
@@ -188,7 +188,7 @@ def shown(parameter: Parameter, value: Value) -> str:
 
 
 def plain(value: float) -> str:
-    """A number with as many digits as it needs."""
+    """A number without needless digits."""
     return str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
 
 

@@ -3,7 +3,7 @@
 from openacr.models import ACR8020
 from openacr.sysvar.schema import OUTPUT, Tab
 
-_CODES = {"doc": "Code chosen for the start of programs."}
+_CODES = {"doc": "Code active at the start of programs."}
 _IJ = {0: "negative", 1: "positive", 2: "absolute"}
 
 
@@ -12,31 +12,35 @@ class GENERAL:
 
     tab = Tab("GENERAL", 100_000)
     store_layout_version = tab.integer(
-        0, "Store layout version", 1, is_fixed=True, doc="Of this table."
+        0, "Store layout version", 1, is_fixed=True, doc="Version of this table."
     )
     tab.motion()
     axis_count = tab.integer(1, "Axis count", 3, low=2, high=8, doc="Axes of the machine.")
     card_model = tab.text(2, "Card model", ACR8020.name, doc="Model of the card.")
     card_number = tab.integer(
-        3, "Card number", low=0, high=7, doc="Of several cards in one computer."
+        3, "Card number", low=0, high=7, doc="Number of the card, if the computer has several."
     )
     tab.still()
-    password_hash = tab.text(4, "Password hash", doc="Empty: no password is asked.")
+    password_hash = tab.text(4, "Password hash", doc="Empty: no password is set.")
     tab.motion()
     master_program = tab.integer(
-        5, "Master, program", low=0, high=7, doc="Where the machine lives on the card."
+        5,
+        "Master, program",
+        low=0,
+        high=7,
+        doc="Master and program of the card that the machine uses.",
     )
     tab.still()
     error_log_name = tab.text(6, "Error log name", "MILL.LOG", doc="File of the error log.")
     start_set_chosen = tab.boolean(
-        10, "Start set chosen", doc="True: P100011 and up hold at the start."
+        10, "Start set chosen", doc="True: programs start with P100011 to P100018."
     )
     start_motion = tab.choice(
         11,
         "Start motion",
         {code: f"G{code}" for code in range(4)},
         1,
-        doc="Code chosen for starts.",
+        doc="Code active at the start of programs.",
     )
     start_plane = tab.choice(12, "Start plane", {17: "G17", 18: "G18", 19: "G19"}, 17, **_CODES)
     start_distance = tab.choice(
@@ -53,9 +57,14 @@ class GENERAL:
     )
     start_return_level = tab.choice(17, "Start return level", {98: "G98", 99: "G99"}, 98, **_CODES)
     start_ij = tab.choice(18, "Start I/J", {-1: "as CONTROL", **_IJ}, -1, doc="-1: P250003.")
-    cmp_rad = tab.real(20, "CMP RAD", "u", doc="Cutter radius of programs without D.")
+    cmp_rad = tab.real(20, "CMP RAD", "u", doc="Cutter radius for programs without D.")
     run_setup_feedrate = tab.real(
-        21, "RUN SETUP FEEDRATE", "u/m", low=0, high=1e6, doc="0 = Cut Speed."
+        21,
+        "RUN SETUP FEEDRATE",
+        "u/m",
+        low=0,
+        high=1e6,
+        doc="Feed before the first F, 0 = Cut Speed.",
     )
 
 
@@ -69,46 +78,79 @@ class CONTROL:
         "Default Units",
         {0: "inch", 1: "mm"},
         typical="inch",
-        doc="Unit of all stored lengths and of Pulses/Unit; they are converted when it changes.",
+        doc="Unit of all stored lengths and of Pulses/Unit; a change converts them.",
     )
     tab.still()
     default_graphics = tab.boolean(
-        2, "Default Graphics", 1, typical="true", doc="Draw a part when it is loaded."
+        2, "Default Graphics", 1, typical="true", doc="True: draw a part when it is loaded."
     )
     ij_inversion = tab.choice(
-        3, "I/J Inversion", _IJ, 2, typical="absolute", doc="Reading of I, J, K (G200)."
+        3, "I/J Inversion", _IJ, 2, typical="absolute", doc="Meaning of I, J, K (G200)."
     )
     lib_part_ij_inversion = tab.choice(
-        4, "Lib Part I/J Inversion", _IJ, 2, typical="absolute", doc="In library parts."
+        4,
+        "Lib Part I/J Inversion",
+        _IJ,
+        2,
+        typical="absolute",
+        doc="Meaning of I, J, K in library parts.",
     )
     default_lead_in_radius = tab.real(
-        5, "Default Lead in Radius", "u", 0.25, typical="0.25", low=0, doc="Of parts and off-path."
+        5,
+        "Default Lead in Radius",
+        "u",
+        0.25,
+        typical="0.25",
+        low=0,
+        doc="Radius of leads of parts and back to the path.",
     )
     goto_start_after_start = tab.boolean(
-        6, "Goto Start After Start", typical="false", doc="Return after a dry run."
+        6,
+        "Goto Start After Start",
+        typical="false",
+        doc="True: return to the start after a dry run.",
     )
     x_axis_cutting_size = tab.real(
-        7, "X Axis Cutting Size", "u", 24, typical="24", low=0, doc="Of the blank."
+        7, "X Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
     )
     y_axis_cutting_size = tab.real(
-        8, "Y Axis Cutting Size", "u", 24, typical="24", low=0, doc="Of the blank."
+        8, "Y Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
     )
     z_axis_cutting_size = tab.real(
-        9, "Z Axis Cutting Size", "u", 24, typical="24", low=0, doc="Of the blank."
+        9, "Z Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
     )
     acute_angle1_threshold = tab.real(
-        10, "Acute Angle1 threshold", "deg", typical="0", low=0, high=180, doc="Corners slow down."
+        10,
+        "Acute Angle1 threshold",
+        "deg",
+        typical="0",
+        low=0,
+        high=180,
+        doc="Angle from which corners slow down.",
     )
     acute_angle2 = tab.real(
-        11, "Acute Angle2", "deg", typical="0", low=0, high=180, doc="Corners stop."
+        11,
+        "Acute Angle2",
+        "deg",
+        typical="0",
+        low=0,
+        high=180,
+        doc="Angle from which corners stop.",
     )
     under_burn_distance = tab.real(
-        12, "Under Burn Distance", "u", typical="0", low=0, doc="Height sensing off before."
+        12,
+        "Under Burn Distance",
+        "u",
+        typical="0",
+        low=0,
+        doc="Height sensing goes off this far before the end of a cut.",
     )
     repeat_forever = tab.boolean(
-        13, "Repeat Forever", typical="false", doc="Run the part in an endless loop."
+        13, "Repeat Forever", typical="false", doc="True: repeat the part until stopped."
     )
-    under_burn_output = tab.integer(14, "Under Burn Output", -1, doc="Its output.", **OUTPUT)
+    under_burn_output = tab.integer(
+        14, "Under Burn Output", -1, doc="Output that switches height sensing.", **OUTPUT
+    )
     epsilon_for_compensation = tab.real(
         101,
         "Epsilon for Compensation",
@@ -127,10 +169,16 @@ class CONTROL:
         typical="0.01",
         low=0,
         high=1,
-        doc="Smaller arcs are lines.",
+        doc="Arcs of a smaller sweep are cut as lines.",
     )
     root_epsilon = tab.integer(
-        103, "Root Epsilon", -4, typical="-4", low=-12, high=0, doc="Exponent: gap of two circles."
+        103,
+        "Root Epsilon",
+        -4,
+        typical="-4",
+        low=-12,
+        high=0,
+        doc="Exponent of 10: tolerance for circles that nearly meet.",
     )
     power_up_incremental_or_absolute = tab.choice(
         111,
@@ -141,49 +189,75 @@ class CONTROL:
         doc="G90 or G91 at power-up.",
     )
     tangential_axis = tab.integer(
-        112, "Tangential Axis", -1, low=-1, high=7, words={-1: "disable"}, doc="Axis of M595..M599."
+        112,
+        "Tangential Axis",
+        -1,
+        low=-1,
+        high=7,
+        words={-1: "disable"},
+        doc="Axis turned by M595..M599.",
     )
     perpen_tangent_epsilon = tab.real(
-        113, "Perpen/Tangent Epsilon", "deg", low=0, high=180, doc="Smaller turns insert no move."
+        113,
+        "Perpen/Tangent Epsilon",
+        "deg",
+        low=0,
+        high=180,
+        doc="Turns up to this angle insert no move.",
     )
     path_color = tab.integer(
-        114, "Path Color", 10, typical="10", low=0, high=15, doc="Of the tool path."
+        114, "Path Color", 10, typical="10", low=0, high=15, doc="Colour of the tool path."
     )
     position_display = tab.choice(
-        115, "Position Display", {0: "big", 1: "small"}, typical="big", doc="Font."
+        115,
+        "Position Display",
+        {0: "big", 1: "small"},
+        typical="big",
+        doc="Font of the position display.",
     )
     dripfeed_threshold = tab.integer(
-        116, "DripFeed Threshold", 40, typical="40", low=1, high=10_000, doc="Blocks before motion."
+        116,
+        "DripFeed Threshold",
+        40,
+        typical="40",
+        low=1,
+        high=10_000,
+        doc="Blocks received before motion starts.",
     )
     forward_threshold = tab.integer(
-        117, "Forward Threshold", 10, typical="10", low=1, high=1_000, doc="Blocks kept ahead."
+        117, "Forward Threshold", 10, typical="10", low=1, high=1_000, doc="Blocks read ahead."
     )
     disable_error_file = tab.boolean(
         118, "Disable Error File", 1, typical="true", doc="True: no error log."
     )
     machine_type = tab.text(119, "Machine Type", "MILL", typical="MILL", doc="Type of the machine.")
-    dxf_safe_height = tab.real(120, "DXF Safe Height", "u", 0.1, doc="Of moves between chains.")
+    dxf_safe_height = tab.real(120, "DXF Safe Height", "u", 0.1, doc="Z of moves between chains.")
     dxf_drill_z = tab.real(121, "DXF drill Z", "u", -0.5, doc="Depth of imported holes.")
-    dxf_drill_r = tab.real(122, "DXF drill R", "u", 0.1, doc="Level above imported holes.")
+    dxf_drill_r = tab.real(122, "DXF drill R", "u", 0.1, doc="R level above imported holes.")
     dxf_drill_f = tab.real(
-        123, "DXF drill F", "u/m", 10, low=0, is_low_open=True, doc="Feed of holes."
+        123, "DXF drill F", "u/m", 10, low=0, is_low_open=True, doc="Feed of imported holes."
     )
     io_expansion_modules = tab.integer(
         124, "I/O Expansion Modules", low=0, high=4, doc="Modules on the card."
     )
     watchdog_program = tab.integer(
-        125, "Watchdog Program", 7, low=-1, high=7, doc="On the card, for a lost host; -1: none."
+        125,
+        "Watchdog Program",
+        7,
+        low=-1,
+        high=7,
+        doc="Program of the card that stops it when the host is lost, -1: none.",
     )
     link_timeout = tab.real(
         126, "Link Timeout", "s", 2, low=1.5, high=60, doc="Longest time without the host."
     )
-    gouge_stop = tab.boolean(130, "Gouge Stop", 1, doc="True: a gouge refuses the program.")
-    spirals_allowed = tab.boolean(
-        131, "Spirals Allowed", doc="True: arcs whose two radii differ by any amount are meant."
+    gouge_stop = tab.boolean(130, "Gouge Stop", 1, doc="True: a gouge is an error.")
+    spirals_allowed = tab.boolean(131, "Spirals Allowed", doc="True: arcs may have any two radii.")
+    g73_retract = tab.real(
+        140, "G73 Retract", "u", 0.02, low=0, doc="Retract after each peck of G73."
     )
-    g73_retract = tab.real(140, "G73 Retract", "u", 0.02, low=0, doc="Of each peck of G73.")
     g83_clearance = tab.real(
-        141, "G83 Clearance", "u", 0.05, low=0, doc="Above the last bottom of G83."
+        141, "G83 Clearance", "u", 0.05, low=0, doc="Clearance above the last bottom of G83."
     )
     fine_bore_shift_direction = tab.choice(
         142,
@@ -193,10 +267,10 @@ class CONTROL:
     )
     tab.motion()
     input_inverted = tab.series(1000).boolean(
-        1000, "Input {} inverted", doc="Active when it is off."
+        1000, "Input {} inverted", doc="True: the input is active when off."
     )
     output_inverted = tab.series(1000).boolean(
-        2000, "Output {} inverted", doc="Switched off to act."
+        2000, "Output {} inverted", doc="True: the output is active when off."
     )
 
 
@@ -206,17 +280,25 @@ class COMPATIBILITY:
     tab = Tab("COMPATIBILITY", 700_000)
     compatibility = tab.boolean(0, "Compatibility", typical="false", doc="True: G64 acts as G62.")
     hash_input_test = tab.boolean(1, "Hash Input Test", 1, doc="IF #n = 0|1 tests input n.")
-    m30_ends_program = tab.boolean(2, "M30 Ends Program", doc="M30 is M2, not output 6 off.")
-    block_skip_live = tab.boolean(3, "Block Skip Live", doc="Blocks with / wait for the motion.")
-    m_codes_on_the_fly = tab.boolean(4, "M Codes On The Fly", doc="M7..M37 act without a stop.")
+    m30_ends_program = tab.boolean(
+        2, "M30 Ends Program", doc="True: M30 ends programs, as M2; false: output 6 off."
+    )
+    block_skip_live = tab.boolean(
+        3, "Block Skip Live", doc="True: blocks with / wait for the end of the motion."
+    )
+    m_codes_on_the_fly = tab.boolean(
+        4, "M Codes On The Fly", doc="True: M7..M37 act without stopping the motion."
+    )
     dialect = tab.choice(
         5,
         "Dialect",
         {-1: "auto", 0: "acromill", 1: "rs274ngc"},
         -1,
-        doc="Of part programs; auto: by the signs in the file.",
+        doc="Dialect of part programs; auto: recognised from the file.",
     )
-    auto_include_cycles = tab.boolean(6, "Auto Include Cycles", doc="CYCLES.TXT needs no $I.")
+    auto_include_cycles = tab.boolean(
+        6, "Auto Include Cycles", doc="True: cycles work without $I CYCLES.TXT."
+    )
 
 
 class COMMUNICATIONS:
@@ -225,15 +307,17 @@ class COMMUNICATIONS:
     tab = Tab("COMMUNICATIONS", 750_000)
     port = tab.text(0, "Port", doc="Serial port of drip feed and LINK.")
     baud = tab.integer(1, "Baud", 9600, low=300, high=4_000_000, doc="Bits per second.")
-    data_bits = tab.choice(2, "Data bits", {7: "7", 8: "8"}, 8, doc="Of a character.")
-    parity = tab.choice(3, "Parity", {0: "none", 1: "even", 2: "odd"}, doc="Of a character.")
-    stop_bits = tab.choice(4, "Stop bits", {1: "1", 2: "2"}, 1, doc="Of a character.")
+    data_bits = tab.choice(2, "Data bits", {7: "7", 8: "8"}, 8, doc="Data bits per character.")
+    parity = tab.choice(
+        3, "Parity", {0: "none", 1: "even", 2: "odd"}, doc="Parity of each character."
+    )
+    stop_bits = tab.choice(4, "Stop bits", {1: "1", 2: "2"}, 1, doc="Stop bits per character.")
     handshake = tab.choice(
         5, "Handshake", {0: "none", 1: "XON/XOFF", 2: "RTS/CTS"}, 1, doc="Flow control."
     )
 
 
-_FORMAT = {"low": 0.1, "high": 9.9, "doc": "Digits left and right of the point."}
+_FORMAT = {"low": 0.1, "high": 9.9, "doc": "Digits before and after the point."}
 
 
 class DISPLAY:
@@ -243,11 +327,11 @@ class DISPLAY:
     inch_format = tab.per_axis.real(0, "Inch format", "", 3.4, typical="3.4", **_FORMAT)
     metric_format = tab.per_axis.real(1, "Metric format", "", 4.5, typical="4.5", **_FORMAT)
     color_via_d_codes = tab.boolean(
-        20, "Color via D Codes", doc="The path has the colour of its tool."
+        20, "Color via D Codes", doc="True: the path has the colour of its tool."
     )
-    flip_x_axis = tab.boolean(21, "Flip X Axis", doc="Mirror the drawing left and right.")
-    flip_y_axis = tab.boolean(22, "Flip Y Axis", doc="Mirror the drawing up and down.")
-    exchange_xy = tab.boolean(23, "Exchange XY", doc="Swap the directions of the drawing.")
+    flip_x_axis = tab.boolean(21, "Flip X Axis", doc="True: mirror the drawing left to right.")
+    flip_y_axis = tab.boolean(22, "Flip Y Axis", doc="True: mirror the drawing top to bottom.")
+    exchange_xy = tab.boolean(23, "Exchange XY", doc="True: swap X and Y in the drawing.")
     control_mode = tab.choice(
         30, "Control Mode", {20: "inch", 21: "mm"}, 20, doc="Active unit at power-up."
     )

@@ -19,16 +19,26 @@ class SERVO:
         1, "I Gain", "V/s/pulse", typical="0.001", low=0, doc="Volts per second and pulse of error."
     )
     i_delay = tab.per_axis.real(
-        2, "I Delay", "s", typical="1", low=0, doc="Rest before integration starts."
+        2, "I Delay", "s", typical="1", low=0, doc="Time at rest before integration starts."
     )
     i_limit = tab.per_axis.real(
-        3, "I Limit", "V", typical="1", low=0, high=10, doc="Largest integral part."
+        3, "I Limit", "V", typical="1", low=0, high=10, doc="Limit of the integral term."
     )
     d_gain = tab.per_axis.real(
-        4, "D Gain", "V/(pulse/s)", typical="0.00001", low=0, doc="Volts per rate of the error."
+        4,
+        "D Gain",
+        "V/(pulse/s)",
+        typical="0.00001",
+        low=0,
+        doc="Volts per rate of change of the error.",
     )
     d_time = tab.per_axis.real(
-        5, "D Time", "s", typical="0.002", low=0, doc="Sampling time of the rate, 0 each period."
+        5,
+        "D Time",
+        "s",
+        typical="0.002",
+        low=0,
+        doc="Sampling time of the D term, 0: every servo period.",
     )
     acceleration_feedforward = tab.per_axis.real(
         6,
@@ -62,10 +72,10 @@ class AXIS:
     tab = Tab("AXES", 200_000)
     tab.motion()
     plus_soft_limit = tab.per_axis.real(
-        0, "+Soft Limit", "u", typical="machine +", doc="Farthest position from home."
+        0, "+Soft Limit", "u", typical="machine +", doc="Highest position, from home."
     )
     minus_soft_limit = tab.per_axis.real(
-        1, "-Soft Limit", "u", typical="machine -", doc="Lowest position from home."
+        1, "-Soft Limit", "u", typical="machine -", doc="Lowest position, from home."
     )
     disable_limit = tab.per_axis.boolean(
         2, "Disable Limit", 1, typical="false", doc="True: the soft limits are off."
@@ -76,26 +86,31 @@ class AXIS:
         "u",
         typical="0.001",
         low=0,
-        doc="Error of an axis in position, 0 any.",
+        doc="Largest error in position, 0: unlimited.",
     )
     excess_error_band = tab.per_axis.real(
-        4, "ExcessErr Band", "u", typical="0.25", low=0, doc="Error that stops the machine, 0 none."
+        4,
+        "ExcessErr Band",
+        "u",
+        typical="0.25",
+        low=0,
+        doc="Error that stops the machine, 0: unlimited.",
     )
     dac_polarity = tab.per_axis.choice(
         5, "Dac Polarity", {0: "pos", 1: "neg"}, doc="Sign of the drive output."
     )
     pulses_per_unit = tab.per_axis.real(
-        6, "Pulses/Unit", "pulse/u", 10_000, typical="10000", doc="Encoder pulses of one unit."
+        6, "Pulses/Unit", "pulse/u", 10_000, typical="10000", doc="Encoder pulses per unit."
     )
     home_required = tab.per_axis.boolean(
-        7, "Home Reqd", typical="true", doc="True: the axis moves only when homed."
+        7, "Home Reqd", typical="true", doc="True: the axis must be homed before it moves."
     )
     name = tab.per_axis.text(
         8,
         "Axis Name",
         lambda at: "XYZABCUV"[at.axis],
         typical="X, Y ...",
-        doc="One of X Y Z A B C U V, each once.",
+        doc="One of X Y Z A B C U V, unique.",
     )
     handwheel_src = tab.per_axis.integer(
         9,
@@ -109,7 +124,13 @@ class AXIS:
         doc="Encoder of the handwheel.",
     )
     handwheel_ratio = tab.per_axis.real(
-        10, "HandwheelRatio", "u per click", 0.005, typical="0.005", low=0, doc="Way of one click."
+        10,
+        "HandwheelRatio",
+        "u per click",
+        0.005,
+        typical="0.005",
+        low=0,
+        doc="Distance per click.",
     )
     encoder_mult = tab.per_axis.choice(
         11,
@@ -117,7 +138,7 @@ class AXIS:
         {value: str(value) for value in (-4, -2, -1, 1, 2, 4)},
         4,
         typical="4",
-        doc="Counts per encoder line; negative counts the other way.",
+        doc="Counts per encoder line; negative reverses the counting direction.",
     )
     configured = tab.per_axis.boolean(
         12,
@@ -137,10 +158,14 @@ class AXIS:
         doc="Analog output of the axis.",
     )
     max_axis_speed = tab.per_axis.real(
-        15, "Max axis speed", "u/m", low=0, doc="Fastest the axis may go, 0 any."
+        15, "Max axis speed", "u/m", low=0, doc="Highest speed of the axis, 0: unlimited."
     )
     max_axis_acceleration = tab.per_axis.real(
-        16, "Max axis acceleration", "u/s2", low=0, doc="Of the axis alone, 0 any."
+        16,
+        "Max axis acceleration",
+        "u/s2",
+        low=0,
+        doc="Highest acceleration of the axis, 0: unlimited.",
     )
 
 
@@ -150,27 +175,27 @@ class HOME:
     tab = Tab("HOME", 300_000)
     tab.motion()
     direction = tab.per_axis.choice(
-        0, "Home Direction", {0: "pos", 1: "neg"}, doc="Search direction of the switch."
+        0, "Home Direction", {0: "pos", 1: "neg"}, doc="Direction of the search for the switch."
     )
     preset = tab.per_axis.real(
-        1, "Home Preset", "u", doc="Position shown when homing has finished."
+        1, "Home Preset", "u", doc="Position of the axis when homing has finished."
     )
     switch_input = tab.per_axis.integer(
         2,
         "Home Switch Input",
         16,
         typical="16",
-        doc="Input of the switch.",
+        doc="Input of the home switch.",
         **INPUT,
     )
     fast_speed = tab.per_axis.real(
-        3, "Home Fast Speed", "u/m", 10, typical="100", doc="Towards the switch.", **_SPEED
+        3, "Home Fast Speed", "u/m", 10, typical="100", doc="Speed towards the switch.", **_SPEED
     )
     slow_speed = tab.per_axis.real(
-        4, "Home Slow Speed", "u/m", 5, typical="10", doc="Away from the switch.", **_SPEED
+        4, "Home Slow Speed", "u/m", 5, typical="10", doc="Speed away from the switch.", **_SPEED
     )
     marker_speed = tab.per_axis.real(
-        5, "Marker Speed", "u/m", 2, typical="10", doc="Search of the marker.", **_SPEED
+        5, "Marker Speed", "u/m", 2, typical="10", doc="Speed of the marker search.", **_SPEED
     )
     acceleration = tab.per_axis.real(
         6, "Home Acceleration", "u/s2", 100, typical="100", doc="Ramp up.", **_RAMP
@@ -186,7 +211,7 @@ class HOME:
         typical="1",
         low=0,
         high=8,
-        doc="Order of homing, 0 leaves the axis out.",
+        doc="Order of homing, 0: the axis is not homed.",
     )
 
 
@@ -197,7 +222,9 @@ _INCREMENTS = (1, 0.1, 0.01, 0.001, 0.0001)
 def _increment(place: int, size: float) -> range:
     """An increment of jogging, by axis."""
     name, shown = f"Jog Increment {place + 1}", f"{size:g}"
-    return _JOG.per_axis.real(6 + place, name, "u", size, typical=shown, low=0, doc="One press.")
+    return _JOG.per_axis.real(
+        6 + place, name, "u", size, typical=shown, low=0, doc="Distance per press."
+    )
 
 
 class JOG:
@@ -232,12 +259,20 @@ class SPEEDS:
     tab = Tab("SPEEDS", 650_000)
     tab.motion()
     max_machine_speed = tab.real(
-        0, "Max Machine Speed", "u/m", 200, typical="200", doc="Bound of all.", **_SPEED
+        0,
+        "Max Machine Speed",
+        "u/m",
+        200,
+        typical="200",
+        doc="Upper limit of all speeds.",
+        **_SPEED,
     )
     trial_speed = tab.real(
         1, "Trial Speed", "u/m", 100, typical="100", doc="Speed of DRY RUN.", **_SPEED
     )
-    cut_speed = tab.real(2, "Cut Speed", "u/m", 10, typical="10", doc="Feed without F.", **_SPEED)
+    cut_speed = tab.real(
+        2, "Cut Speed", "u/m", 10, typical="10", doc="Feed of programs without F.", **_SPEED
+    )
     min_corner_speed = tab.real(
         3,
         "Min Corner Speed",
@@ -246,10 +281,10 @@ class SPEEDS:
         typical="40",
         low=0,
         high=1e6,
-        doc="Lowest at corners (G62).",
+        doc="Lowest speed at corners (G62).",
     )
     marker_speed = tab.real(
-        4, "Marker Speed", "u/s", low=0, high=1e6, doc="Replaces that of HOME, 0 does not."
+        4, "Marker Speed", "u/s", low=0, high=1e6, doc="Replaces Marker Speed of HOME, 0: does not."
     )
     plasma_percent = tab.real(
         5,
@@ -257,33 +292,73 @@ class SPEEDS:
         "%",
         low=0,
         high=100,
-        doc="Speed that switches Plasma output.",
+        doc="Speed that switches the plasma output.",
     )
     forward_backward_speed = tab.real(
-        6, "Forward Backward Speed", "u/m", low=0, high=1e6, doc="Retrace, 0 = Cut Speed."
+        6,
+        "Forward Backward Speed",
+        "u/m",
+        low=0,
+        high=1e6,
+        doc="Speed of retracing, 0 = Cut Speed.",
     )
     master_rapid_acc_dec = tab.real(
-        7, "Master Rapid ACC/DEC", "u/s2", 100, typical="100", doc="Of rapids.", **_RAMP
+        7,
+        "Master Rapid ACC/DEC",
+        "u/s2",
+        100,
+        typical="100",
+        doc="Acceleration of rapids.",
+        **_RAMP,
     )
     master_feed_acc_dec = tab.real(
-        8, "Master Feed ACC/DEC", "u/s2", 100, typical="100", doc="Of feed moves.", **_RAMP
+        8,
+        "Master Feed ACC/DEC",
+        "u/s2",
+        100,
+        typical="100",
+        doc="Acceleration of feed moves.",
+        **_RAMP,
     )
     max_rotary_speed = tab.real(
-        10, "Max Rotary Speed", "deg/m", low=0, high=1e9, doc="Of rotary axes, 0 any."
+        10,
+        "Max Rotary Speed",
+        "deg/m",
+        low=0,
+        high=1e9,
+        doc="Highest speed of rotary axes, 0: unlimited.",
     )
     rapid_speed = tab.real(
-        11, "Rapid Speed", "u/m", low=0, high=1e6, doc="Of G0, 0 = Max Machine Speed."
+        11, "Rapid Speed", "u/m", low=0, high=1e6, doc="Speed of G0, 0 = Max Machine Speed."
     )
     corner_step = tab.real(
-        12, "Corner Step", "u/s", low=0, high=1e6, doc="Step of one axis at a corner, 0 any."
+        12,
+        "Corner Step",
+        "u/s",
+        low=0,
+        high=1e6,
+        doc="Largest speed step of an axis at a corner, 0: unlimited.",
     )
     arc_acceleration = tab.real(
-        13, "Arc Acceleration", "u/s2", low=0, high=1e9, doc="0 = Master Feed ACC/DEC."
+        13,
+        "Arc Acceleration",
+        "u/s2",
+        low=0,
+        high=1e9,
+        doc="Largest acceleration on arcs, 0 = Master Feed ACC/DEC.",
     )
     in_position_time_out = tab.real(
-        14, "In-position time-out", "s", 5, low=0, high=3600, doc="Then alarm 24."
+        14,
+        "In-position time-out",
+        "s",
+        5,
+        low=0,
+        high=3600,
+        doc="Longest wait for position, then alarm 24.",
     )
-    path_jerk = tab.real(15, "Path jerk", "u/s3", low=0, high=1e12, doc="0: straight ramps.")
+    path_jerk = tab.real(
+        15, "Path jerk", "u/s3", low=0, high=1e12, doc="Jerk along the path, 0: linear ramps."
+    )
     chord_tolerance = tab.real(
         16,
         "Chord tolerance",
@@ -292,6 +367,8 @@ class SPEEDS:
         low=0,
         is_low_open=True,
         high=ANY,
-        doc="Of chords for arcs.",
+        doc="Largest error of chords for arcs.",
     )
-    plasma_output = tab.integer(17, "Plasma output", -1, doc="Output of the plasma.", **OUTPUT)
+    plasma_output = tab.integer(
+        17, "Plasma output", -1, doc="Output of the plasma torch.", **OUTPUT
+    )

@@ -8,7 +8,7 @@ _OFFSETS = Tab("OFFSETS", 950_000)
 def _fixtures(axis: int) -> range:
     """The fixture offsets of an axis, that of G101 first."""
     return _OFFSETS.series(99, step=10, first=1).real(
-        2010 + axis, "Fixture {}", "u", axis=axis, doc="Of G101..G199."
+        2010 + axis, "Fixture {}", "u", axis=axis, doc="Offset of G101..G199."
     )
 
 
@@ -17,8 +17,12 @@ class OFFSETS:
 
     tab = _OFFSETS
     tab.motion()
-    backlash = tab.by_axis.real(0, "Backlash", "u", low=0, doc="Slack taken up on reversal.")
-    ballscrew_on = tab.by_axis.boolean(10, "Ballscrew on", doc="Whether the ballscrew table acts.")
+    backlash = tab.by_axis.real(
+        0, "Backlash", "u", low=0, doc="Slack of the drive, taken up on reversal."
+    )
+    ballscrew_on = tab.by_axis.boolean(
+        10, "Ballscrew on", doc="Whether the ballscrew table is applied."
+    )
     ballscrew_file = tab.by_axis.text(20, "Ballscrew file", doc="File of the ballscrew table.")
     tab.still()
     fixtures = tuple(_fixtures(axis) for axis in range(AXES))  # by axis
@@ -26,13 +30,13 @@ class OFFSETS:
     output_name = tab.series(1000).text(20_000, "Output {} name", doc="Shown beside the output.")
     _button = tab.series(32, step=20)
     button_caption = _button.text(
-        30_000, "Button {} caption", doc="Empty: there is no such button."
+        30_000, "Button {} caption", doc="Caption; empty: the button is not shown."
     )
     button_set_bit = _button.integer(
-        30_001, "Button {} set bit", -1, low=-1, high=65_535, doc="-1 none."
+        30_001, "Button {} set bit", -1, low=-1, high=65_535, doc="-1: none."
     )
     button_show_bit = _button.integer(
-        30_002, "Button {} show bit", -1, low=-1, high=65_535, doc="-1 none."
+        30_002, "Button {} show bit", -1, low=-1, high=65_535, doc="-1: none."
     )
     button_mode = _button.choice(
         30_003, "Button {} mode", {0: "momentary", 1: "toggle"}, doc="What a press does."
@@ -48,7 +52,7 @@ class MESSAGES:
 
     tab = Tab("MESSAGES", 1_000_000)
     _record = tab.series(MESSAGE_COUNT, step=MESSAGE_CELLS)
-    defined = _record.boolean(0, "Message {} defined", doc="Whether there is such a message.")
+    defined = _record.boolean(0, "Message {} defined", doc="Whether the message is defined.")
     bit = _record.integer(
         1,
         "Message {} bit",
@@ -58,13 +62,15 @@ class MESSAGES:
         doc="Input, output or flag that shows it.",
     )
     level = _record.boolean(2, "Message {} level", 1, doc="State of the bit that shows it.")
-    text_colour = _record.integer(3, "Message {} text colour", 15, doc="Of the letters.", **_COLOUR)
-    back_colour = _record.integer(
-        4, "Message {} back colour", 4, doc="Behind the letters.", **_COLOUR
+    text_colour = _record.integer(
+        3, "Message {} text colour", 15, doc="Colour of the text.", **_COLOUR
     )
-    size = _record.integer(5, "Message {} size", 40, low=1, high=132, doc="Length in letters.")
-    alarm = _record.boolean(6, "Message {} alarm", doc="True: it is an alarm.")
-    text = _record.text(7, "Message {} text", doc="What is shown.")
+    back_colour = _record.integer(
+        4, "Message {} back colour", 4, doc="Colour of the background.", **_COLOUR
+    )
+    size = _record.integer(5, "Message {} size", 40, low=1, high=132, doc="Length in characters.")
+    alarm = _record.boolean(6, "Message {} alarm", doc="True: the message is an alarm.")
+    text = _record.text(7, "Message {} text", doc="Text of the message.")
     for _k in range(8, MESSAGE_CELLS):
         _record.integer(_k, "Message {} reserved", is_fixed=True, doc="Always 0.")
     messages_defined = tab.integer(
@@ -72,5 +78,5 @@ class MESSAGES:
         "Messages defined",
         lambda at: sum(at.read(n) for n in MESSAGES.defined),
         is_fixed=True,
-        doc="How many messages there are.",
+        doc="Number of messages defined.",
     )
