@@ -11,12 +11,12 @@ import math
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Pace, Plane, Point, Rapid, Source
+from openacr.sysvar.tabs import CONTROL
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.geometry.arcs import ArcGeometry
 
-AXIS_CELL, EPSILON_CELL = 250_112, 250_113
 NO_MOVE = 1e-9
 
 
@@ -26,8 +26,8 @@ class Tangent:
     def __init__(self, run: Run, offset_deg: float) -> None:
         self._run = run
         self._offset_deg = offset_deg
-        self._axis = int(run.cells.read(AXIS_CELL))
-        self._epsilon_deg = run.cells.read(EPSILON_CELL)
+        self._axis = int(run.cells.read(CONTROL.tangential_axis))
+        self._epsilon_deg = run.cells.read(CONTROL.perpen_tangent_epsilon)
 
     def shape(
         self, source: Source, start: Point, end: Point, bow: ArcGeometry | None, pace: Pace | None

@@ -1,17 +1,16 @@
 """M codes that switch something, and the cells of the store that say what is wired to them."""
 
 from openacr.cnc.state.hosts import Cells
+from openacr.sysvar.tabs import CONTROL, IO, SPINDLE
 
 NONE = -1.0
-SPINDLE_DAC, SPINDLE_CW, SPINDLE_CCW, MIST, FLOOD = 800_002, 800_005, 800_006, 800_009, 800_010
-TANGENTIAL_AXIS, FIRST_DISCRETE = 250_112, 400_101
 WIRED_BY: dict[str, tuple[int, ...]] = {
-    "M3": (SPINDLE_CW, SPINDLE_DAC),
-    "M4": (SPINDLE_CCW, SPINDLE_DAC),
-    "M7": (MIST,),
-    "M8": (FLOOD,),
-    **{f"M{12 + k}": (FIRST_DISCRETE + k,) for k in range(13)},
-    **{f"M{n}": (TANGENTIAL_AXIS,) for n in (595, 597, 598)},
+    "M3": (SPINDLE.cw_output, SPINDLE.dac),
+    "M4": (SPINDLE.ccw_output, SPINDLE.dac),
+    "M7": (SPINDLE.coolant_mist_output,),
+    "M8": (SPINDLE.coolant_flood_output,),
+    **{f"M{12 + k}": (n,) for k, n in enumerate(IO.discrete_output)},
+    **{f"M{n}": (CONTROL.tangential_axis,) for n in (595, 597, 598)},
 }
 
 

@@ -13,13 +13,13 @@ from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.state.cells import EPSILON, RADIUS, RADIUS_WEAR
+from openacr.sysvar.tabs import CONTROL
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.interpreter import Interpreter
 
 OFF = 40
 SIDES = {41: Side.LEFT, 42: Side.RIGHT}
-SWEEP_EPSILON, ROOT_EPSILON, GOUGE_STOP = 250_102, 250_103, 250_130
 _ARCS = (2, 3)
 
 
@@ -34,9 +34,9 @@ class OffsetPath:
         read = self._run.cells.read
         rules = Rules(
             read(EPSILON),
-            read(SWEEP_EPSILON),
-            int(read(ROOT_EPSILON)),
-            read(GOUGE_STOP) != 0.0,
+            read(CONTROL.sweep_epsilon),
+            int(read(CONTROL.root_epsilon)),
+            read(CONTROL.gouge_stop) != 0.0,
             self._run.dialect.has_entry_arcs,
         )
         watch = self._run.options.watch

@@ -13,8 +13,7 @@ from openacr.cnc.reading.findings import CodeError, Finding, found
 from openacr.cnc.reading.formulas import Call, Node, Number, Parameter, State
 from openacr.cnc.state.cells import M30_ENDS, START_FEED
 from openacr.cnc.state.hosts import Cells
-
-MANUAL_CHANGE, CHANGED_INPUT = 900_002, 900_000
+from openacr.sysvar.tabs import TOOL
 
 
 class Report:
@@ -119,7 +118,7 @@ class Checks:
 
     def _is_change_impossible(self) -> bool:
         read = self._cells.read
-        return read(MANUAL_CHANGE) == 0.0 and read(CHANGED_INPUT) < 0.0
+        return read(TOOL.manual_tool_change) == 0.0 and read(TOOL.changed_input) < 0.0
 
     def end(self, name: str, *, has_cycles: bool) -> None:
         """The last line of the main text was read."""

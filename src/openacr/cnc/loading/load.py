@@ -27,10 +27,9 @@ from openacr.cnc.reading.parser import parse
 from openacr.cnc.reading.text import Text, decoded
 from openacr.cnc.state.cells import M30_ENDS
 from openacr.cnc.state.hosts import Cells
+from openacr.sysvar.tabs import AXIS, COMPATIBILITY, TOOL
 
 DEEPEST_INCLUDE = 8
-NAME_CELL, CONFIGURED_CELL, AXIS_CELLS = 200_008, 200_012, 1000
-AUTO_CYCLES, CUSTOM_FOLDER = 700_006, 900_010
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +44,8 @@ def axes_of(cells: Cells) -> dict[str, int]:
     """Letters of the configured axes."""
     found: dict[str, int] = {}
     for axis in range(len(AXIS_LETTERS)):
-        cell = AXIS_CELLS * axis
-        if cells.read(CONFIGURED_CELL + cell):
-            found[cells.read_text(NAME_CELL + cell).strip().upper()] = axis
+        if cells.read(AXIS.configured[axis]):
+            found[cells.read_text(AXIS.name[axis]).strip().upper()] = axis
     return found
 
 
@@ -108,7 +106,7 @@ class Loader:
         self._add_subroutines()
         if self._dialect.has_own_cycles:
             program.own_cycles = cycle_part()
-        elif self._cells.read(AUTO_CYCLES) and not program.has_cycles:
+        elif self._cells.read(COMPATIBILITY.auto_include_cycles) and not program.has_cycles:
             self._add_cycles(program.main)
         has_cycles = program.has_cycles or self._seen.asks_for_cycles
         self._checks.end(text.name, has_cycles=has_cycles)
@@ -226,7 +224,7 @@ class Loader:
     def _custom_folder(self) -> Path | None:
         if self._folders.customs is not None:
             return self._folders.customs
-        named = self._cells.read_text(CUSTOM_FOLDER)
+        named = self._cells.read_text(TOOL.custom_m_folder)
         return Path(named) if named else None
 
     # --- added texts ------------------------------------------------------------------

@@ -33,11 +33,11 @@ from openacr.cnc.state.cells import (
 )
 from openacr.cnc.state.hosts import Cells
 from openacr.errors import UserError
+from openacr.sysvar.tabs import CONTROL
 from openacr.units import MM_PER_INCH
 
 FOLDER = Path(__file__).parent / "library"
 SUFFIX = ".TXT"
-LEAD_IN_CELL = 250_005
 LENGTHS = frozenset((INCH, MM))
 DIGITS = 12
 
@@ -129,7 +129,7 @@ def prepared(
         values[size.cell] = in_unit(value, size.unit, active)
     radius = in_unit(tool_radius(cells, d_number), store_unit, active)
     values.setdefault(TOOL_RADIUS, radius)  # a part may use that cell for a size of its own
-    values[LEAD_IN] = in_unit(cells.read(LEAD_IN_CELL), store_unit, active)
+    values[LEAD_IN] = in_unit(cells.read(CONTROL.default_lead_in_radius), store_unit, active)
     if not findings:
         findings = [
             finding for rule in part.rules for finding in _broken(part, rule, values, cells)

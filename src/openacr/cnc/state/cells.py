@@ -1,21 +1,30 @@
-"""Numbers of store cells that several modules of the interpreter read or write."""
+"""Store cells that several modules of the interpreter read or write, bound once as numbers."""
+
+from openacr.sysvar.tabs import CELLS, COMPATIBILITY, CONTROL, GENERAL, OFFSETS, SPEEDS
+from openacr.sysvar.tabs.cells import LENGTH_OFFSETS, RADIUS_OFFSETS
 
 # System parameters.
-CMP_RAD = 100_020  # radius of programs without D
-START_FEED = 100_021  # RUN SETUP FEEDRATE, 0: Cut Speed
-DEFAULT_UNIT = 250_001  # 0 inch, 1 mm
-LIBRARY_CENTRES = 250_004  # reading of I, J, K in library parts
-SPIRALS = 250_131  # arcs of any two radii are meant
-EPSILON = 250_101  # for compensation; ends nearer than this are one
-CUT_SPEED = 650_002
-HASH_TEST = 700_001
-M30_ENDS = 700_002
+CMP_RAD = GENERAL.cmp_rad  # radius of programs without D
+START_FEED = GENERAL.run_setup_feedrate  # 0: Cut Speed
+DEFAULT_UNIT = CONTROL.default_units  # 0 inch, 1 mm
+LIBRARY_CENTRES = CONTROL.lib_part_ij_inversion  # reading of I, J, K in library parts
+SPIRALS = CONTROL.spirals_allowed  # arcs of any two radii are meant
+EPSILON = CONTROL.epsilon_for_compensation  # ends nearer than this are one
+CUT_SPEED = SPEEDS.cut_speed
+HASH_TEST = COMPATIBILITY.hash_input_test
+M30_ENDS = COMPATIBILITY.m30_ends_program
 
-# Offsets: a table each, then the values in use.
-RADII, RADIUS_WEARS, RADIUS, RADIUS_WEAR = 1000, 1500, 1998, 1999
-LENGTHS, LENGTH_WEARS, LENGTH, LENGTH_WEAR = 2000, 3000, 4000, 4001
-LAST_RADIUS, LAST_LENGTH = 400, 999
-COMMON, LOCAL, FLOATING, FIXTURES = 900, 990, 801, 952_000  # of axis 0
+# Offsets: a table each by its first cell, then the values in use.
+RADII, RADIUS_WEARS = CELLS.d_radius[0], CELLS.d_wear[0]
+RADIUS, RADIUS_WEAR = CELLS.current_d_radius, CELLS.current_d_wear
+LENGTHS, LENGTH_WEARS = CELLS.h_length[0], CELLS.h_wear[0]
+LENGTH, LENGTH_WEAR = CELLS.current_h_length, CELLS.current_h_wear
+LAST_RADIUS, LAST_LENGTH = RADIUS_OFFSETS, LENGTH_OFFSETS
+# Of axis 0.
+COMMON, LOCAL = CELLS.common_work_shift[0], CELLS.local_shift[0]
+FLOATING = CELLS.floating_zero_shift[0]
+FIXTURES = OFFSETS.fixtures[0][0] - OFFSETS.fixtures[0].step  # of G100, which has no cells
 
 # What is shown of the state.
-TOOL, TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT = 234, 235, 238, 240, 241
+TOOL, TOOL_IN_SPINDLE, SPEED = CELLS.tool_selected, CELLS.tool_in_spindle, CELLS.spindle_speed
+SPIN, COOLANT = CELLS.spindle_state, CELLS.coolant_state

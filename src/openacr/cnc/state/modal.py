@@ -13,6 +13,8 @@ from typing import Any, Self
 from openacr.cnc.canonical import PathMode, Plane, Spin
 from openacr.cnc.state.cells import CUT_SPEED, DEFAULT_UNIT, START_FEED, TOOL, TOOL_IN_SPINDLE
 from openacr.cnc.state.hosts import Cells
+from openacr.sysvar import tabs
+from openacr.sysvar.tabs import CONTROL, DISPLAY, GENERAL
 
 PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}
 MODES = {
@@ -24,8 +26,9 @@ MODES = {
 }
 INVERSE_TIME, PER_MINUTE = 93, 94
 INCH, METRIC = 20, 21
-START_CHOSEN = 100_010
-COMPATIBILITY = 700_000
+POWER_UP_DISTANCE = CONTROL.power_up_incremental_or_absolute
+START_CHOSEN = GENERAL.start_set_chosen
+COMPATIBILITY = tabs.COMPATIBILITY.compatibility
 
 
 @dataclass(slots=True)
@@ -95,8 +98,8 @@ def _or(n: int, other: int) -> Rule:
 
 
 def _centres(cells: Cells) -> int:
-    chosen = int(cells.read(100_018))
-    return chosen if chosen >= 0 else int(cells.read(250_003))
+    chosen = int(cells.read(GENERAL.start_ij))
+    return chosen if chosen >= 0 else int(cells.read(CONTROL.ij_inversion))
 
 
 def _feed(cells: Cells) -> float:
@@ -108,8 +111,16 @@ def store_unit(cells: Cells) -> int:
     return METRIC if cells.read(DEFAULT_UNIT) else INCH
 
 
+def _work(cells: Cells) -> int:
+    return max(0, int(cells.read(GENERAL.start_work_system)) - 53)
+
+
 def _path(cells: Cells) -> int:
-    return 62 if cells.read(COMPATIBILITY) and cells.read(100_016) == 64 else _cell(100_016)(cells)
+    return (
+        62
+        if cells.read(COMPATIBILITY) and cells.read(GENERAL.start_path_mode) == 64
+        else _cell(GENERAL.start_path_mode)(cells)
+    )
 
 
 def always(value: object) -> Rule:
@@ -128,20 +139,29 @@ class Reset:
 
 
 RESETS = (
-    Reset("motion", always(1), _cell(100_011)),
-    Reset("plane", always(17), _cell(100_012)),
-    Reset("distance", _cell(250_111), _or(100_013, 250_111)),
-    Reset("unit", _cell(850_030), _or(100_014, 850_030)),
+    Reset("motion", always(1), _cell(GENERAL.start_motion)),
+    Reset("plane", always(17), _cell(GENERAL.start_plane)),
+    Reset(
+        "distance",
+        _cell(CONTROL.power_up_incremental_or_absolute),
+        _or(GENERAL.start_distance, CONTROL.power_up_incremental_or_absolute),
+    ),
+    Reset("unit", _cell(DISPLAY.control_mode), _or(GENERAL.start_unit, DISPLAY.control_mode)),
     Reset("compensation", always(40)),
     Reset("length", always(49)),
     Reset("length_number", always(0)),
     Reset("fixture", always(0)),
     Reset("cycle", always(80)),
-    Reset("return_level", always(98), _cell(100_017)),
-    Reset("work", always(1), lambda cells: max(0, int(cells.read(100_015)) - 53), at_abort=False),
+    Reset("return_level", always(98), _cell(GENERAL.start_return_level)),
+    Reset(
+        "work",
+        always(1),
+        lambda cells: max(0, int(cells.read(GENERAL.start_work_system)) - 53),
+        at_abort=False,
+    ),
     Reset("path", lambda cells: 62 if cells.read(COMPATIBILITY) else 64, _path),
     Reset("tolerance", always(0.0)),
-    Reset("centres", _cell(250_003), _centres),
+    Reset("centres", _cell(CONTROL.ij_inversion), _centres),
     Reset("feed", _feed, _feed),
     Reset("feed_mode", always(PER_MINUTE)),
     Reset("has_feed", lambda cells: cells.read(START_FEED) > 0.0),

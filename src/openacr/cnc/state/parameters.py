@@ -18,12 +18,19 @@ from openacr.cnc.reading.grammar import Grammar
 from openacr.cnc.state.hosts import Cells, Machine
 from openacr.cnc.state.modal import Modal
 from openacr.errors import MapError, OpenacrError
+from openacr.sysvar.tabs import CELLS, CONTROL
 
 FIRST_STORED, LAST_STORED = 100, 4095
 # From these cells on: whether input and output n are active when they are off.
-INPUTS_INVERTED, OUTPUTS_INVERTED, LAST_LINE = 251_000, 252_000, 999
+INPUTS_INVERTED, OUTPUTS_INVERTED = CONTROL.input_inverted[0], CONTROL.output_inverted[0]
+LAST_LINE = len(CONTROL.input_inverted) - 1
 # Written by programs, read by the coordinates.
-OFFSET_CELLS = ((801, 808), (900, 997), (1998, 1999), (4000, 4001))
+OFFSET_CELLS = (
+    (CELLS.floating_zero_shift[0], CELLS.floating_zero_shift[-1]),
+    (CELLS.common_work_shift[0], CELLS.local_shift[-1]),
+    (CELLS.current_d_radius, CELLS.current_d_wear),
+    (CELLS.current_h_length, CELLS.current_h_wear),
+)
 LAST_CARD = 89
 FREE_CELLS = (
     (109, 233),
@@ -39,17 +46,17 @@ OPERANDS = (
 )  # fmt: skip
 
 SHOWN: dict[int, Callable[[Modal], float]] = {
-    234: lambda m: float(m.tool),
-    235: lambda m: float(m.tool_in_spindle),
-    236: lambda m: float(m.radius_number),
-    237: lambda m: float(m.length_number),
-    238: lambda m: m.speed,
-    240: lambda m: float(m.spin.value),
-    241: lambda m: m.mist + 2.0 * m.flood,
-    242: lambda m: float(m.unit),
-    998: lambda m: float(m.work),
+    CELLS.tool_selected: lambda m: float(m.tool),
+    CELLS.tool_in_spindle: lambda m: float(m.tool_in_spindle),
+    CELLS.d_number: lambda m: float(m.radius_number),
+    CELLS.h_number: lambda m: float(m.length_number),
+    CELLS.spindle_speed: lambda m: m.speed,
+    CELLS.spindle_state: lambda m: float(m.spin.value),
+    CELLS.coolant_state: lambda m: m.mist + 2.0 * m.flood,
+    CELLS.unit: lambda m: float(m.unit),
+    CELLS.work_system_in_use: lambda m: float(m.work),
 }
-FEED_CELL = 239
+FEED_CELL = CELLS.feed
 
 
 class NotAtRestError(Exception):

@@ -16,6 +16,7 @@ from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.reading.formulas import LOCALS
+from openacr.sysvar.tabs import CELLS, CONTROL
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Motions, Run
@@ -25,8 +26,6 @@ gcode = ACROMILL.gcode
 CYCLE_WORDS = "RQPFL"
 NONE = 80
 LABELS = 1000  # label of code 81: N81000
-FIRST_CELL = 249
-RETRACT, CLEARANCE, SHIFT = 250_140, 250_141, 250_142
 PECKS, SHIFTS, TO_INITIAL = (73, 83), (76, 87), (87,)
 TURNS = {74: Spin.COUNTER_CLOCKWISE, 84: Spin.CLOCKWISE}  # tapping starts like this
 SHIFT_SIGNS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
@@ -130,7 +129,7 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
         modal.spin = wanted
         run.tell(Spindle(b.source, wanted, modal.speed))
     with run.cells.transaction(is_durable=False):
-        for n, value in enumerate(_cells(run, drilling, left), FIRST_CELL):
+        for n, value in enumerate(_cells(run, drilling, left), CELLS.cycle_code):
             run.cells.write(n, value)
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
     start = run.flow.find(kept[0] * LABELS, run.program.cycles, b.plan.column(""))
@@ -154,7 +153,7 @@ def _cells(run: Run, drilling: Drilling, left: int) -> list[float]:
     is_to_r = modal.return_level == 99 and code not in TO_INITIAL
     placed = [_level(run, plane, z) for z in (bottom, r, i, r if is_to_r else i)]
     q = drilling.words.get("Q", 0.0)
-    signs = SHIFT_SIGNS[int(read(SHIFT))]
+    signs = SHIFT_SIGNS[int(read(CONTROL.fine_bore_shift_direction))]
     return [
         float(code),
         *[path.shown(x) for x in (first, second, *placed)],
@@ -180,7 +179,7 @@ def _clearances(run: Run) -> tuple[float, float]:
     inch = run.dialect.clearance_inch
     if inch is not None:
         return run.path.inches(inch), run.path.inches(inch)
-    return run.cells.read(RETRACT), run.cells.read(CLEARANCE)
+    return run.cells.read(CONTROL.g73_retract), run.cells.read(CONTROL.g83_clearance)
 
 
 def _level(run: Run, plane: Plane, z: float) -> float:

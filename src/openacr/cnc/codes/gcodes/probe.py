@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import ROTARY, Entry, Pace, PathMode, Point, Probe
 from openacr.cnc.codes.table import Axes, Step
 from openacr.cnc.codes.tables import ACROMILL
+from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = ACROMILL.gcode
-TRIPS, TRIPPED, PROGRAM_TRIPS = 101, 329, 330
+TRIPPED = CELLS.g31_tripped
 
 
 @gcode(31, step=Step.MOTION, axes=Axes.MOVE)
@@ -52,6 +53,8 @@ def keep(run: Run, trip: Point) -> None:
     program = run.path.program
     for axis, value in enumerate(trip):
         is_length = axis not in rotary
-        run.cells.write(TRIPS + axis, run.path.shown(value) if is_length else value)
+        run.cells.write(CELLS.g31_trip[axis], run.path.shown(value) if is_length else value)
         read = program[axis]
-        run.cells.write(PROGRAM_TRIPS + axis, run.path.shown(read) if is_length else read)
+        run.cells.write(
+            CELLS.g31_program_position[axis], run.path.shown(read) if is_length else read
+        )

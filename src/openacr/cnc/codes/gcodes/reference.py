@@ -5,25 +5,29 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import AXES, Check, Confirm, Entry, Point
+from openacr.cnc.canonical import Check, Confirm, Entry, Point
 from openacr.cnc.codes.table import Axes, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
+from openacr.sysvar.tabs import CELLS, IO
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = ACROMILL.gcode
-REFERENCES, HOLE = 280, 10
-MEMORY, MEMORY_MASK = 320, 328
-CHECK_INPUT = 400_010
+REFERENCES = (
+    CELLS.reference_point_1,
+    CELLS.reference_point_2,
+    CELLS.reference_point_3,
+    CELLS.reference_point_4,
+)
 
 
 @gcode(27, step=Step.MOTION, axes=Axes.MOVE)
 def check_reference(run: Run, b: BlockContext) -> Iterator[Entry]:
     """To reference point 1, wait for its switch, then to the commanded position."""
     _refuse(run, b)
-    if run.cells.read(CHECK_INPUT) < 0.0 or not b.plan.axes:
+    if run.cells.read(IO.g27_input) < 0.0 or not b.plan.axes:
         raise b.fault("E242", hint="G27 Input and axis words are needed")
     end = run.path.end(b)
     axes = tuple(axis for axis, _ in b.plan.axes)
@@ -55,10 +59,10 @@ def _through(run: Run, b: BlockContext, n: int) -> Iterator[Entry]:
     memory = run.modal.memory
     for axis, _ in b.plan.axes:
         memory[axis] = end[axis]
-        run.cells.write(MEMORY + axis, end[axis])
+        run.cells.write(CELLS.intermediate_point[axis], end[axis])
     if not memory:
         raise b.fault("E242", hint="no intermediate point yet")
-    run.cells.write(MEMORY_MASK, float(sum(1 << axis for axis in memory)))
+    run.cells.write(CELLS.intermediate_mask, float(sum(1 << axis for axis in memory)))
     run.path.go_machine(b, _at_memory(run))
     axes = tuple(sorted(memory))
     _to_reference(run, b, n, axes)
@@ -88,8 +92,7 @@ def _at_memory(run: Run) -> Point:
 
 
 def _reference(run: Run, n: int) -> Point:
-    base = REFERENCES + HOLE * (n - 1)
-    return tuple(run.cells.read(base + axis) for axis in range(AXES))
+    return tuple(run.cells.read(cell) for cell in REFERENCES[n - 1])
 
 
 def _to_reference(run: Run, b: BlockContext, n: int, axes: tuple[int, ...]) -> None:

@@ -8,6 +8,7 @@ from openacr.cnc.canonical import AXES, ROTARY
 from openacr.cnc.codes.table import Axes, Group, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.state.cells import FLOATING, LOCAL
+from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 gcode = ACROMILL.gcode
 SYSTEMS = {54: 1, 55: 2, 56: 3, 57: 4, 58: 5, 59: 6, 59.1: 7, 59.2: 8, 59.3: 9}
-FLOATING_ON, FLOATING_WORD, FLOATING_BEFORE, FLOATING_AT = 800, 809, 817, 825
+FLOATING_ON, FLOATING_WORD = CELLS.floating_zero_active, CELLS.floating_zero_word[0]
+FLOATING_BEFORE, FLOATING_AT = CELLS.floating_zero_before[0], CELLS.floating_zero_position[0]
 
 
 @gcode(*list(SYSTEMS)[:8], step=Step.WORK, group=Group.WORK)

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import Entry, Orient, Pause, Spin, Spindle, Stop, Tapping
 from openacr.cnc.codes.table import Step
 from openacr.cnc.codes.tables import ACROMILL
+from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
 mcode = ACROMILL.mcode
-SPIN_AT_CALL = 264
+SPIN_AT_CALL = CELLS.cycle_spindle_at_call
 BY_HAND = "retract by hand, then start"
 
 

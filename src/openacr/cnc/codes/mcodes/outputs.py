@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import Output
 from openacr.cnc.codes.table import Step
 from openacr.cnc.codes.tables import ACROMILL
+from openacr.sysvar.tabs import IO
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
@@ -14,12 +15,11 @@ if TYPE_CHECKING:
 
 mcode = ACROMILL.mcode
 FIRST_ON, FIRST_OFF, COUNT = 12, 25, 13
-OUTPUT_CELLS = 400_101
 
 
 @mcode(*range(FIRST_ON, FIRST_ON + 2 * COUNT), step=Step.SWITCHES, acts_dry=False)
 def discrete(run: Run, b: BlockContext) -> None:
     """M12 to M24 turn discrete output 1 to 13 on, M25 to M37 off."""
     k = int(b.number) - FIRST_ON
-    number = int(run.cells.read(OUTPUT_CELLS + k % COUNT))
+    number = int(run.cells.read(IO.discrete_output[k % COUNT]))
     run.tell(Output(b.source, number, b.number < FIRST_OFF))

@@ -32,13 +32,14 @@ from openacr.cnc.state.cells import (
     RADIUS,
     RADIUS_WEAR,
 )
+from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = RS274NGC.gcode
-REFERENCE_CELLS = {28: 280, 30: 290}
+REFERENCE_CELLS = {28: CELLS.reference_point_1, 30: CELLS.reference_point_2}
 RS274NGC.take(
     ACROMILL,
     gcodes=(17, 18, 19, 20, 21, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
@@ -92,7 +93,7 @@ def work_system(run: Run, b: BlockContext) -> None:
 def to_reference(run: Run, b: BlockContext) -> None:
     """Through the words of the block to the stored point."""
     run.offset_path.refuse(b, "E312")
-    point = [run.cells.read(REFERENCE_CELLS[int(b.number)] + axis) for axis in range(AXES)]
+    point = [run.cells.read(REFERENCE_CELLS[int(b.number)][axis]) for axis in range(AXES)]
     if b.plan.axes:
         run.path.rapid(b, run.path.end(b))
     target = list(run.path.target)
@@ -106,7 +107,7 @@ def store_reference(run: Run, b: BlockContext) -> None:
     """The present position becomes the stored point."""
     with run.cells.transaction():
         for axis, value in enumerate(run.path.target):
-            run.cells.write(REFERENCE_CELLS[int(b.number)] + axis, value)
+            run.cells.write(REFERENCE_CELLS[int(b.number)][axis], value)
 
 
 @gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)

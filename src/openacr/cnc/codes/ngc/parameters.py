@@ -12,6 +12,7 @@ from openacr.cnc.canonical import AXES
 from openacr.cnc.geometry.coordinates import system_base
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.state.parameters import SHOWN, Parameters, number
+from openacr.sysvar import tabs
 
 FIRST_SYSTEM, SYSTEMS, SYSTEM_STEP = 5221, 9, 20
 FIRST_POSITION = 5420
@@ -24,16 +25,16 @@ def _run_of(first: int, cell: int) -> dict[int, int]:
 
 
 CELLS = {
-    5070: 329,
-    5210: 800,
-    **_run_of(5061, 330),
-    **_run_of(5161, 280),
-    **_run_of(5181, 290),
-    **_run_of(5211, 801),
+    5070: tabs.CELLS.g31_tripped,
+    5210: tabs.CELLS.floating_zero_active,
+    **_run_of(5061, tabs.CELLS.g31_program_position[0]),
+    **_run_of(5161, tabs.CELLS.reference_point_1[0]),
+    **_run_of(5181, tabs.CELLS.reference_point_2[0]),
+    **_run_of(5211, tabs.CELLS.floating_zero_shift[0]),
 }
 for _n in range(SYSTEMS):
     CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, system_base(_n + 1))
-STATES = {5220: 998, 5400: 235}
+STATES = {5220: tabs.CELLS.work_system_in_use, 5400: tabs.CELLS.tool_in_spindle}
 
 
 class NgcParameters(Parameters):
