@@ -41,7 +41,7 @@ def test_contents_that_could_not_be_put_back_are_kept_beside_the_backup(
         assert result.exit_code == 1
         kept = folder.with_name(name)
         assert result.stderr == (
-            "error: the line broke; the former contents could not be put back either: gone\n"
+            "error: the line broke; the former contents could not be restored either: gone\n"
             f"what was on the card is in {kept}: openacr restore card:1 {kept}\n"
         )
         assert [path.name for path in kept.iterdir()] == ["setup.8k"]

@@ -196,7 +196,7 @@ def test_former_contents_that_cannot_be_put_back_are_in_the_error(tmp_path: Path
     assert not failed.value.is_back
     assert failed.value.former == before
     assert str(failed.value) == (
-        "the line broke; the former contents could not be put back either: cannot connect"
+        "the line broke; the former contents could not be restored either: cannot connect"
     )
 
 
@@ -233,7 +233,7 @@ def test_progress_ends_at_its_total(tmp_path: Path) -> None:
 
 def test_a_folder_with_controller_files_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "setup.8k").write_text("SYS\n")
-    with pytest.raises(UserError, match=r"setup\.8k is there already"):
+    with pytest.raises(UserError, match=r"setup\.8k already exists"):
         Card.open(Controller()).backup(tmp_path)
 
 

@@ -284,7 +284,7 @@ def test_a_card_that_reads_no_more_is_given_up(
 
     async def fill(link: AsyncTcpLink) -> None:
         await link.open()
-        with pytest.raises(ConnectionLostError, match=f"{LOOPBACK}:{port} takes no more"):
+        with pytest.raises(ConnectionLostError, match=f"{LOOPBACK}:{port} accepts no more data"):
             await link.write(flood)
         await asyncio.wait_for(link.close(), 5.0)
 

@@ -240,17 +240,17 @@ def test_wild_journals_are_refused_or_replayed(written: Path, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("record", "said"),
     [
-        ([10**15, "flag", 130, 1], "is damaged: tick 1000000000000000 comes after"),
-        ([0, "flag", 130, 1], "is damaged: tick 0 comes after"),
+        ([10**15, "flag", 130, 1], "is damaged: tick 1000000000000000 follows tick"),
+        ([0, "flag", 130, 1], "is damaged: tick 0 follows tick"),
         ([210, "drag", 999, 1.0], "axis 999"),
         ([210, "drag", -1, 1.0], "line 3 is damaged"),
         ([210, "input", 10**6, 1], "input 1000000"),
-        ([210, "parameter", 10**6, 1.0], "cannot enter this card"),
+        ([210, "parameter", 10**6, 1.0], "cannot be applied to this card"),
         ([210, "bytes", 77, "?1\r"], "there is no connection 77"),
         ([210, "bytes", 1, "\u20ac"], "line 3 is damaged"),
         ([210, "key", 1], "line 3 is damaged"),
         ([210, "open", 5, "telepathy", ""], "line 3 is damaged"),
-        ([210, "open", 5, "terminal", "STREAM9"], "cannot enter this card"),
+        ([210, "open", 5, "terminal", "STREAM9"], "cannot be applied to this card"),
         ([210.5, "close", 1], "line 3 is damaged"),
     ],
 )
@@ -274,7 +274,7 @@ def test_a_header_that_no_card_has_written_is_refused(written: Path, tmp_path: P
     axis = {**world["axis"][0], "number": 1}
     for change, said in (
         ({"model": "ACR1"}, "unknown model, ACR1"),
-        ({"period_s": 0.001}, "two lengths of a tick"),
+        ({"period_s": 0.001}, "two different tick lengths"),
         ({"tick": -1}, "its first record cannot be read"),
         ({"digest_every_tk": 0}, "its first record cannot be read"),
         ({"world": {**world, "axis": [axis, axis]}}, "its machine is damaged"),

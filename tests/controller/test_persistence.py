@@ -448,10 +448,10 @@ def test_one_flipped_bit_costs_one_program_and_every_host_is_told(
 def test_what_this_version_cannot_read_is_kept(power_up: PowerUp, tmp_path: Path) -> None:
     host = power_up()
     host.type("PROG0", "10 PRINT 1")
-    host.card.nonvolatile.shelf.write({"battery text 3": b"\x01"})
+    host.card.nonvolatile.store.write({"battery text 3": b"\x01"})
     host = power_up()
     assert "it was kept as 'unreadable battery text 3'" in notices(host)
-    assert host.card.nonvolatile.shelf.read("unreadable battery text 3") == b"\x01"
+    assert host.card.nonvolatile.store.read("unreadable battery text 3") == b"\x01"
     host.heard()
     assert host.type("PROG0", "LIST") == "P00>10 PRINT 1|P00>"
 
@@ -478,7 +478,7 @@ def test_a_file_that_is_no_database_does_not_keep_the_card_from_starting(
 
 def test_data_of_another_model_is_refused(power_up: PowerUp, tmp_path: Path) -> None:
     power_up("ACR8020").card.close()
-    with pytest.raises(StoreError, match="belongs to an ACR8020, the card is an ACR9000"):
+    with pytest.raises(StoreError, match="was stored by an ACR8020, the card is an ACR9000"):
         Controller("ACR9000", data=tmp_path)
     assert Controller("ACR8020", data=tmp_path).nonvolatile.notices == []
 
@@ -491,7 +491,7 @@ def test_a_full_disk_is_an_error_of_the_command(
     def fail(changes: object, *, flush: bool = True) -> None:
         raise StoreError("no space left")
 
-    monkeypatch.setattr(host.card.nonvolatile.shelf.images, "write", fail)
+    monkeypatch.setattr(host.card.nonvolatile.store.images, "write", fail)
     assert host.type("ESAVE") == "Save failed|SYS>"
     assert "no space left" in notices(host)
 
@@ -509,12 +509,12 @@ def test_a_battery_catches_up_when_the_disk_has_room_again(
         raise StoreError("no space left")
 
     with monkeypatch.context() as full:
-        full.setattr(host.card.nonvolatile.shelf.images, "write", fail)
+        full.setattr(host.card.nonvolatile.store.images, "write", fail)
         host.type("10 PRINT 2", "20 PRINT 3", "SYS", "P1 = 2")
         for _ in range(30):
             host.card.advance(seconds=0.1)
     assert 3 <= tries <= 5  # the text at once, then once a second
-    assert "battery-backed memory is not stored until that is mended" in notices(host)
+    assert "battery-backed memory is not stored until this is corrected" in notices(host)
     again = power_up()
     assert again.type("PROG0", "LIST") == "P00>10 PRINT 2|20 PRINT 3|P00>"
     assert again.ask("?P1") == "2"

@@ -399,7 +399,7 @@ NONSENSE: list[tuple[Callable[[Controller], object], str]] = [
     (lambda made: made.fault(1, "obstacle", nan), "axis 1: nan is not a finite number"),
     (lambda made: made.fault(1, "friction", -0.1), "axis X: friction of -0.1 Nm; it is 0 or more"),
     (lambda made: made.mend(2), "axis 2: the machine has no such axis"),
-    (lambda made: made.record(0), "record every 0 ticks: 1 is the least"),
+    (lambda made: made.record(0), "record every 0 ticks: the minimum is 1"),
     (lambda made: made.receive(99, b"X5\r"), "stream 99: no such stream is open"),
     (lambda made: made.accepts_input(99), "stream 99: no such stream is open"),
     (lambda made: made.replying(99), "stream 99: no such stream is open"),

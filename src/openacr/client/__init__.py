@@ -1,4 +1,4 @@
-"""Talk to any ACR card: virtual or real, in this process, over TCP or a serial line.
+"""Client for any ACR card: virtual or real, in this process, over TCP or a serial line.
 
     from openacr.client import Card
 

@@ -62,16 +62,16 @@ class AsyncCard:
 
     @property
     def name(self) -> str:
-        """Where the card is."""
+        """The address of the card."""
         return self._talk.name
 
     @property
     def level(self) -> Level:
-        """The level lines are typed at."""
+        """The level at which lines are typed."""
         return self._talk.level
 
     def now_s(self) -> float:
-        """The clock that time-outs count in."""
+        """The clock that time-outs use [s]."""
         return self._link.now_s()
 
     async def pause(self, seconds: float) -> None:
@@ -80,23 +80,23 @@ class AsyncCard:
             await self._link.pause(seconds)
 
     async def connect(self) -> None:
-        """Connect now; without it the first request connects."""
+        """Connect now; otherwise the first request connects."""
         await self._do(self._talk.query(""))
 
     async def close(self) -> None:
-        """Disconnect; motion and programs go on."""
+        """Disconnect; motion and programs continue."""
         await self._do(self._talk.close())
 
     # --- lines ------------------------------------------------------------------------
 
     async def go(self, level: Level) -> None:
-        """Come to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
+        """Change to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
         await self._do(self._talk.go(level))
 
     async def command(
         self, line: str, *, program: int | None = None, timeout_s: float | None = None
     ) -> list[str]:
-        """Type a line, at a program if one is given; what the card prints. RefusedError."""
+        """Type a line, at a program if given, and return the output; RefusedError."""
         at = None if program is None else Level.program(program)
         return list(await self._do(self._talk.command(line, at=at, wait_s=timeout_s)))
 
@@ -108,11 +108,11 @@ class AsyncCard:
     # --- parameters, flags, variables -------------------------------------------------
 
     async def read(self, what: What) -> Number:
-        """One parameter."""
+        """Read one parameter."""
         return await self._do(values.read(self._talk, what))
 
     async def read_many(self, whats: Iterable[What]) -> list[Number]:
-        """Several parameters in their order, up to eight of a kind at once."""
+        """Read several parameters in order, up to eight of a kind at once."""
         return await self._do(values.read_many(self._talk, whats))
 
     async def write(self, what: What, value: Number) -> None:
@@ -124,7 +124,7 @@ class AsyncCard:
         return await self._do(values.read_bit(self._talk, what))
 
     async def read_bits(self, whats: Iterable[What]) -> list[bool]:
-        """Several flags in their order."""
+        """Read several flags in order."""
         return await self._do(values.read_bits(self._talk, whats))
 
     async def write_bit(self, what: What, on: bool) -> None:
@@ -140,7 +140,7 @@ class AsyncCard:
         return Master(number, self.read, self.read_bit, self.write, self.write_bit)
 
     async def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
-        """An array of a program."""
+        """Read an array of a program."""
         return await self._do(values.read_array(self._talk, program, array, part))
 
     async def write_array(
@@ -156,7 +156,7 @@ class AsyncCard:
         timeout_s: float = 60.0,
         every_s: float = 0.02,
     ) -> bool:
-        """Ask again and again until something is so; False if it is not in time."""
+        """Poll until a condition holds; False if it does not in time."""
         end_s = self.now_s() + timeout_s
         while not await is_reached():
             if self.now_s() >= end_s:
@@ -167,7 +167,7 @@ class AsyncCard:
     async def watch(
         self, whats: Iterable[What], every_s: float = 0.1
     ) -> AsyncGenerator[list[Number], None]:
-        """A subscription: parameters at a steady rate, also over a lost connection."""
+        """Sample parameters at a steady rate, resuming after a lost connection."""
         chosen, due_s = list(whats), self.now_s()
         while True:
             yield await self.read_many(chosen)
@@ -185,7 +185,7 @@ class AsyncCard:
         await self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
 
     async def listen(self, program: int, *, run: bool = False) -> AsyncGenerator[str, None]:
-        """What a program prints, as it comes; ends when the program does after `run`."""
+        """Yield what a program prints, as it arrives; after `run`, ends with the program."""
         await self._do(self._talk.go(Level.program(program)))
         await self._do(self._talk.exchange(Follow("LRUN" if run else "LISTEN")))
         try:
@@ -211,11 +211,11 @@ class AsyncCard:
         return await self._do(op)
 
     async def upload(self, level: Level) -> str:
-        """The text of a program or PLC as a file that stores it again."""
+        """Read the text of a program or PLC, as a file that can be downloaded again."""
         return await self._do(transfer.upload(self._talk, level))
 
     async def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
-        """Store everything a terminal can read in a folder; the names of the files."""
+        """Store everything a terminal can read in a folder; returns the file names."""
         from openacr.client.backup import backup, write_folder
 
         files = await self._do(backup(self._talk, progress))
@@ -223,10 +223,10 @@ class AsyncCard:
         return list(files)
 
     async def restore(self, folder: str | Path, progress: Progress | None = None) -> list[Report]:
-        """Stop everything, clear the card and put a backup back.
+        """Stop everything, clear the card and restore a backup.
 
-        DownloadError: the card does not know a setting of it, nothing was changed. RestoreError:
-        it failed later, and the card has its former contents or the error has them.
+        DownloadError: the card does not know one of its settings; nothing was changed.
+        RestoreError: it failed later; the card has its former contents, or the error holds them.
         """
         from openacr.client.backup import read_folder
         from openacr.client.restore import restore
@@ -247,13 +247,13 @@ class AsyncCard:
     # --- packets ----------------------------------------------------------------------
 
     async def tell(self, *packets: Packet) -> None:
-        """Send packets that the card does not answer: flags, overrides, moves."""
+        """Send packets the card does not answer: flags, overrides, moves."""
         await self._do(self._talk.tell(packets))
 
     async def send_moves(self, moves: Iterable[Move], stream: MoveStream | None = None) -> int:
-        """Send binary moves as fast as the buffer of the card takes them; how many.
+        """Send binary moves as fast as the card's buffer accepts them; returns their count.
 
-        A `MoveStream` goes on where its last moves ended and knows which have started.
+        A `MoveStream` continues where its last moves ended and knows which have started.
         """
         return await self._do((stream or MoveStream()).send(self._talk, moves))
 

@@ -1,4 +1,4 @@
-"""Links to a card for asyncio: TCP by itself, any blocking link through a thread."""
+"""Links to a card for asyncio: TCP natively, any blocking link in a thread."""
 
 import asyncio
 from collections.abc import Callable
@@ -25,7 +25,7 @@ class AsyncLink(Protocol):
         """Connect."""
 
     async def read(self, timeout_s: float | None) -> bytes:
-        """What has arrived; empty when nothing came in time."""
+        """Return the bytes that have arrived; empty when none came in time."""
 
     async def write(self, data: bytes) -> None:
         """Send everything."""
@@ -34,7 +34,7 @@ class AsyncLink(Protocol):
         """Let time pass."""
 
     def now_s(self) -> float:
-        """The time."""
+        """The clock of the link [s]."""
 
     async def close(self) -> None:
         """Disconnect."""
@@ -51,7 +51,7 @@ class AsyncTcpLink:
         self._streams: tuple[asyncio.StreamReader, asyncio.StreamWriter] | None = None
 
     async def open(self) -> None:
-        """Connect; asyncio sets no-delay by itself."""
+        """Connect; asyncio sets TCP_NODELAY itself."""
         try:
             connecting = asyncio.open_connection(*self._address)
             self._streams = await asyncio.wait_for(connecting, CONNECT_S)
@@ -79,7 +79,7 @@ class AsyncTcpLink:
             async with asyncio.timeout(CONNECT_S):
                 await writer.drain()
         except TimeoutError:
-            raise ConnectionLostError(f"{self.name} takes no more") from None
+            raise ConnectionLostError(f"{self.name} accepts no more data") from None
         except OSError as failure:
             raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
@@ -102,7 +102,7 @@ class AsyncTcpLink:
             _, writer = self._streams
             self._streams = None
             if writer.transport.get_write_buffer_size():
-                writer.transport.abort()  # else it would wait for a card that reads no more
+                writer.transport.abort()  # otherwise it would wait for a card that no longer reads
             writer.close()
             with suppress(OSError):
                 await writer.wait_closed()
@@ -120,12 +120,12 @@ class AsyncProcessLink:
         self._link.open()
 
     async def read(self, timeout_s: float | None) -> bytes:
-        """What the card has to say."""
+        """Return the output of the card."""
         await asyncio.sleep(0)
         return self._link.read(timeout_s)
 
     async def write(self, data: bytes) -> None:
-        """Give the card bytes."""
+        """Send bytes to the card."""
         self._link.write(data)
 
     async def pause(self, seconds: float) -> None:
@@ -143,7 +143,7 @@ class AsyncProcessLink:
 
 
 class ThreadLink:
-    """A blocking link whose calls run one after the other in a thread of its own."""
+    """A blocking link whose calls run one at a time in a thread of its own."""
 
     def __init__(self, link: Link) -> None:
         self.name, self.kind = link.name, link.kind
@@ -184,7 +184,7 @@ class ThreadLink:
 
 
 def for_asyncio(link: Link) -> AsyncLink:
-    """The same way to the card, for asyncio."""
+    """The asyncio form of a link to the card."""
     if isinstance(link, TcpLink):
         return AsyncTcpLink(link)
     if isinstance(link, ProcessLink):

@@ -1,12 +1,12 @@
-"""Everything a terminal can read of a card, as controller files that put it back.
+"""Back up everything a terminal can read of a card, as controller files that restore it.
 
-The settings come from the rows of the language: every command that is saved and reports its
-value when the value is left out. A card that does not know one of them is not a reason to
-fail; the file then says in a remark what is missing.
+The settings come from the command table of the language: every command that is saved and
+reports its value when typed without one. If a card does not know one of them the backup
+still succeeds; a remark in the file names what is missing.
 
-Not kept, because a terminal cannot read it or must not write it back: the network address,
-passwords, positions and captures, running programs and their local variables, strings, and
-what the drives and the machine remember.
+Not included, because a terminal cannot read it or must not write it back: the network
+address, passwords, positions and captures, running programs and their local variables,
+strings, and what the drives and the machine store.
 """
 
 import re
@@ -34,10 +34,10 @@ Files: TypeAlias = list[tuple[Path, Level, str]]
 AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
-# Said better by another row, or not to be written back.
+# Covered by another row, or not to be written back.
 _LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "AXIS # ON", "AXIS # OFF", "FOV", "ROV"))
 _SYSTEM_ROWS = ("PERIOD", "ADC MODE", "ADC MAX")
-_OF_MASTER = "VECDEF"  # of an axis, but only while it has a master
+_OF_MASTER = "VECDEF"  # set per axis, but only while the axis has a master
 _FLAGS = (
     "drive fault level invert",
     "step direction output",
@@ -66,7 +66,7 @@ _VARIABLES = re.compile(r"DIM P\((\d+)\)")
 
 @dataclass(slots=True)
 class _Reader:
-    """Collects lines that put back what the card reports."""
+    """Collects the lines that restore what the card reports."""
 
     talk: Talk
     progress: Progress | None
@@ -75,7 +75,7 @@ class _Reader:
     lines: list[str] = field(default_factory=list)
 
     def ask(self, query: str, *, at: Level = SYS) -> Op[tuple[str, ...]]:
-        """What the card reports; nothing, and a remark, if it does not know the query."""
+        """Ask the card; an unknown query returns nothing and leaves a remark."""
         self.done += 1
         if self.progress is not None:
             self.progress(min(self.done, self.total), self.total)
@@ -86,9 +86,9 @@ class _Reader:
             return ()
 
     def setting(self, row: Command, command: str = "", *, at: Level = SYS) -> Op[None]:
-        """A command that reports its value, with that value after it; `command` as it is asked.
+        """Add a command with the value it reports; `command` is the form of the query.
 
-        An extension is left out unless it is set: real cards refuse it.
+        An extension is omitted unless it is set: real cards refuse it.
         """
         command = command or row.name
         for value in (yield from self.ask(command, at=at)):
@@ -98,7 +98,7 @@ class _Reader:
                 self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
 
     def commands(self, query: str, word: str, *, at: Level = SYS) -> Op[list[str]]:
-        """What a query reports in the form of commands that begin with a word."""
+        """Return the reported lines that are commands beginning with a word."""
         found: list[str] = []
         for line in (yield from self.ask(query, at=at)):
             if line.startswith(f"{word} "):
@@ -109,7 +109,7 @@ class _Reader:
 
 
 def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
-    """The files by name: setup.8k, and prog0.8k, plc0.8k ... for what is stored."""
+    """Return the files by name: setup.8k, and prog0.8k, plc0.8k ... for stored programs."""
     home = talk.level
     reader = _Reader(talk, progress)
     version = yield from reader.ask("VER")
@@ -129,7 +129,7 @@ def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
 
 def _read_system(reader: _Reader) -> Op[None]:
     sizes = yield from reader.commands("DIM", "DIM")
-    sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR does that
+    sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR sets these
     aliases = yield from reader.commands("DEF", "#DEFINE")
     attachments = yield from reader.commands("ATTACH", "ATTACH")
     axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
@@ -149,7 +149,7 @@ def _read_system(reader: _Reader) -> Op[None]:
 
 
 def _axes_that_answer(reader: _Reader) -> Op[list[int]]:
-    """The axes of a card that does not tell how they are attached."""
+    """The axes of a card that does not report how they are attached."""
     for axis in range(AXES):
         try:
             yield from reader.talk.query(f"AXIS{axis} PPU", at=SYS)
@@ -247,11 +247,11 @@ def _is_of_object(row: Command) -> bool:
 
 
 def write_folder(files: dict[str, str], folder: Path) -> None:
-    """Store a backup in a new or empty folder; UserError if it holds controller files."""
+    """Write a backup to a new or empty folder; UserError if it holds controller files."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if present := sorted(path.name for path in folder.glob("*.8k")):
-            raise UserError(f"{folder}: {present[0]} is there already; choose an empty folder")
+            raise UserError(f"{folder}: {present[0]} already exists; choose an empty folder")
         for name, text in files.items():
             (folder / name).write_text(text, encoding="latin-1", newline="\n")
     except OSError as failure:
@@ -259,10 +259,10 @@ def write_folder(files: dict[str, str], folder: Path) -> None:
 
 
 def read_folder(folder: Path) -> Files:
-    """The files of a backup in the order they are sent: set-up, programs, PLCs."""
+    """Read the files of a backup, in the order they are sent: set-up, programs, PLCs."""
     present = [(folder / name, level) for name, level in _file_names() if (folder / name).is_file()]
     if not present or present[0][0].name != SETUP_FILE:
-        raise UserError(f"{folder}: there is no {SETUP_FILE}, so this is no backup")
+        raise UserError(f"{folder} is not a backup: it has no {SETUP_FILE}")
     try:
         return [(path, level, path.read_text(encoding="latin-1")) for path, level in present]
     except OSError as failure:
@@ -270,7 +270,7 @@ def read_folder(folder: Path) -> Files:
 
 
 def files_of(texts: dict[str, str]) -> Files:
-    """A backup as `backup` gives it, in the order its files are sent."""
+    """The files returned by `backup`, in the order they are sent."""
     return [(Path(name), level, texts[name]) for name, level in _file_names() if name in texts]
 
 

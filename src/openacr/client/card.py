@@ -78,12 +78,12 @@ class Card(Closing):
 
     @property
     def name(self) -> str:
-        """Where the card is."""
+        """The address of the card."""
         return self._talk.name
 
     @property
     def level(self) -> Level:
-        """The level lines are typed at."""
+        """The level at which lines are typed."""
         return self._talk.level
 
     @property
@@ -92,7 +92,7 @@ class Card(Closing):
         return self._talk.connections
 
     def now_s(self) -> float:
-        """The clock that time-outs count in."""
+        """The clock that time-outs use [s]."""
         return self._link.now_s()
 
     def pause(self, seconds: float) -> None:
@@ -101,23 +101,23 @@ class Card(Closing):
             self._link.pause(seconds)
 
     def connect(self) -> None:
-        """Connect now; without it the first request connects."""
+        """Connect now; otherwise the first request connects."""
         self._do(self._talk.query(""))
 
     def close(self) -> None:
-        """Disconnect; motion and programs go on."""
+        """Disconnect; motion and programs continue."""
         self._do(self._talk.close())
 
     # --- lines ------------------------------------------------------------------------
 
     def go(self, level: Level) -> None:
-        """Come to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
+        """Change to a level: `Level()` is SYS, `Level.program(3)`, `Level.plc(0)`."""
         self._do(self._talk.go(level))
 
     def command(
         self, line: str, *, program: int | None = None, timeout_s: float | None = None
     ) -> list[str]:
-        """Type a line, at a program if one is given; what the card prints. RefusedError."""
+        """Type a line, at a program if given, and return the output; RefusedError."""
         at = None if program is None else Level.program(program)
         return list(self._do(self._talk.command(line, at=at, wait_s=timeout_s)))
 
@@ -129,11 +129,11 @@ class Card(Closing):
     # --- parameters, flags, variables -------------------------------------------------
 
     def read(self, what: What) -> Number:
-        """One parameter."""
+        """Read one parameter."""
         return self._do(values.read(self._talk, what))
 
     def read_many(self, whats: Iterable[What]) -> list[Number]:
-        """Several parameters in their order, up to eight of a kind at once."""
+        """Read several parameters in order, up to eight of a kind at once."""
         return self._do(values.read_many(self._talk, whats))
 
     def write(self, what: What, value: Number) -> None:
@@ -145,7 +145,7 @@ class Card(Closing):
         return self._do(values.read_bit(self._talk, what))
 
     def read_bits(self, whats: Iterable[What]) -> list[bool]:
-        """Several flags in their order."""
+        """Read several flags in order."""
         return self._do(values.read_bits(self._talk, whats))
 
     def write_bit(self, what: What, on: bool) -> None:
@@ -161,7 +161,7 @@ class Card(Closing):
         return Master(number, self.read, self.read_bit, self.write, self.write_bit)
 
     def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
-        """An array of a program: `card.read_array(0, "LA0")`."""
+        """Read an array of a program: `card.read_array(0, "LA0")`."""
         return self._do(values.read_array(self._talk, program, array, part))
 
     def write_array(
@@ -173,7 +173,7 @@ class Card(Closing):
     def wait(
         self, is_reached: Callable[[], bool], *, timeout_s: float = 60.0, every_s: float = 0.02
     ) -> bool:
-        """Ask again and again until something is so; False if it is not in time."""
+        """Poll until a condition holds; False if it does not in time."""
         end_s = self.now_s() + timeout_s
         while not is_reached():
             if self.now_s() >= end_s:
@@ -184,7 +184,7 @@ class Card(Closing):
     def watch(
         self, whats: Iterable[What], every_s: float = 0.1
     ) -> Generator[list[Number], None, None]:
-        """A subscription: parameters at a steady rate, also over a lost connection."""
+        """Sample parameters at a steady rate, resuming after a lost connection."""
         chosen, due_s = list(whats), self.now_s()
         while True:
             yield self.read_many(chosen)
@@ -202,10 +202,10 @@ class Card(Closing):
         self._do(self._talk.order("HALT ALL" if program is None else f"HALT PROG{program}"))
 
     def listen(self, program: int, *, run: bool = False) -> Generator[str, None, None]:
-        """What a program prints, as it comes; ends when the program does after `run`.
+        """Yield what a program prints, as it arrives; after `run`, ends with the program.
 
-        Leave the loop to stop listening; the program runs on. The text is empty after
-        every quarter of a second in which nothing was printed.
+        Leave the loop to stop listening; the program keeps running. An empty text is yielded
+        after every quarter of a second in which nothing was printed.
         """
         self._do(self._talk.go(Level.program(program)))
         self._do(self._talk.exchange(Follow("LRUN" if run else "LISTEN")))
@@ -232,11 +232,11 @@ class Card(Closing):
         return self._do(op)
 
     def upload(self, level: Level) -> str:
-        """The text of a program or PLC as a file that stores it again."""
+        """Read the text of a program or PLC, as a file that can be downloaded again."""
         return self._do(transfer.upload(self._talk, level))
 
     def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
-        """Store everything a terminal can read in a folder; the names of the files."""
+        """Store everything a terminal can read in a folder; returns the file names."""
         from openacr.client.backup import backup, write_folder
 
         files = self._do(backup(self._talk, progress))
@@ -244,10 +244,10 @@ class Card(Closing):
         return list(files)
 
     def restore(self, folder: str | Path, progress: Progress | None = None) -> list[Report]:
-        """Stop everything, clear the card and put a backup back.
+        """Stop everything, clear the card and restore a backup.
 
-        DownloadError: the card does not know a setting of it, nothing was changed. RestoreError:
-        it failed later, and the card has its former contents or the error has them.
+        DownloadError: the card does not know one of its settings; nothing was changed.
+        RestoreError: it failed later; the card has its former contents, or the error holds them.
         """
         from openacr.client.backup import read_folder
         from openacr.client.restore import restore
@@ -268,13 +268,13 @@ class Card(Closing):
     # --- packets ----------------------------------------------------------------------
 
     def tell(self, *packets: Packet) -> None:
-        """Send packets that the card does not answer: flags, overrides, moves."""
+        """Send packets the card does not answer: flags, overrides, moves."""
         self._do(self._talk.tell(packets))
 
     def send_moves(self, moves: Iterable[Move], stream: MoveStream | None = None) -> int:
-        """Send binary moves as fast as the buffer of the card takes them; how many.
+        """Send binary moves as fast as the card's buffer accepts them; returns their count.
 
-        A `MoveStream` goes on where its last moves ended and knows which have started.
+        A `MoveStream` continues where its last moves ended and knows which have started.
         """
         return self._do((stream or MoveStream()).send(self._talk, moves))
 

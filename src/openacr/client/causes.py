@@ -1,4 +1,4 @@
-"""Why there is no connection: the codes hosts show, each with its usual cause."""
+"""Causes of failed connections, with the codes that host software displays."""
 
 import errno
 import socket
@@ -16,7 +16,7 @@ _NO_WAY = frozenset((errno.EHOSTUNREACH, errno.ENETUNREACH, errno.ENETDOWN, errn
 
 
 def network_cause(failure: Exception) -> str:
-    """Code and cause of a connection over the network that failed."""
+    """Code and usual cause of a failed network connection."""
     if isinstance(failure, ConnectionRefusedError):
         return REFUSED
     if isinstance(failure, TimeoutError):
@@ -27,6 +27,6 @@ def network_cause(failure: Exception) -> str:
 
 
 def cannot_connect(name: str, failure: Exception) -> ConnectionLostError:
-    """A connection over the network that did not come about, with its cause."""
-    said = reason(failure) or "no answer"
-    return ConnectionLostError(f"cannot connect to {name}: {said} ({network_cause(failure)})")
+    """The error for a failed network connection, with its cause."""
+    why = reason(failure) or "no answer"
+    return ConnectionLostError(f"cannot connect to {name}: {why} ({network_cause(failure)})")

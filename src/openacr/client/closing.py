@@ -1,14 +1,14 @@
-"""What ends with the block that opened it."""
+"""Base class of objects that a `with` block closes."""
 
 from types import TracebackType
 from typing import Self
 
 
 class Closing:
-    """`with` closes it, whatever ends the block."""
+    """An object that its `with` block closes, even on an exception."""
 
     def close(self) -> None:
-        """Give up what is held; again does nothing."""
+        """Release all resources; calling it again has no effect."""
         raise NotImplementedError
 
     def __enter__(self) -> Self:

@@ -1,4 +1,4 @@
-"""Carry a conversation out: do what its generator asks for, blocking or with asyncio."""
+"""Run a conversation: perform the effects its generator requests, blocking or with asyncio."""
 
 from typing import Generic, TypeVar, cast
 
@@ -10,8 +10,8 @@ from openacr.client.links import Link
 T = TypeVar("T")
 
 
-class _Course(Generic[T]):
-    """A conversation on its way: the effect that is wanted next, until there is a result."""
+class _Conversation(Generic[T]):
+    """A running conversation: the effect requested next, until there is a result."""
 
     def __init__(self, op: Op[T]) -> None:
         self._op = op
@@ -20,7 +20,7 @@ class _Course(Generic[T]):
         self.go_on(None)
 
     def go_on(self, outcome: bytes | BaseException | None) -> None:
-        """Hand over what came of the effect: bytes, or why it failed."""
+        """Resume the conversation with the outcome of the effect: bytes, or its failure."""
         try:
             if isinstance(outcome, BaseException):
                 self.wanted = self._op.throw(outcome)
@@ -31,24 +31,24 @@ class _Course(Generic[T]):
 
     @property
     def result(self) -> T:
-        """What the conversation has come to, once nothing is wanted any more."""
+        """The result of the conversation, once it requests no more effects."""
         return cast(T, self._result)
 
 
 def carry_out(op: Op[T], link: Link) -> T:
-    """The result of a conversation over a blocking link.
+    """Run a conversation over a blocking link and return its result.
 
-    Ctrl-C is handed to the conversation like a broken link: it may have to tidy up.
+    Ctrl-C is passed to the conversation like a broken link: it may have to clean up.
     """
-    course = _Course(op)
-    while course.wanted is not None:
+    conversation = _Conversation(op)
+    while conversation.wanted is not None:
         outcome: bytes | BaseException | None
         try:
-            outcome = _perform(course.wanted, link)
+            outcome = _perform(conversation.wanted, link)
         except (ConnectionLostError, KeyboardInterrupt) as broken:
             outcome = broken
-        course.go_on(outcome)
-    return course.result
+        conversation.go_on(outcome)
+    return conversation.result
 
 
 def _perform(effect: Effect, link: Link) -> bytes | None:
@@ -67,16 +67,16 @@ def _perform(effect: Effect, link: Link) -> bytes | None:
 
 
 async def carry_out_async(op: Op[T], link: AsyncLink) -> T:
-    """The result of a conversation over an asyncio link."""
-    course = _Course(op)
-    while course.wanted is not None:
+    """Run a conversation over an asyncio link and return its result."""
+    conversation = _Conversation(op)
+    while conversation.wanted is not None:
         outcome: bytes | BaseException | None
         try:
-            outcome = await _perform_async(course.wanted, link)
+            outcome = await _perform_async(conversation.wanted, link)
         except ConnectionLostError as broken:
             outcome = broken
-        course.go_on(outcome)
-    return course.result
+        conversation.go_on(outcome)
+    return conversation.result
 
 
 async def _perform_async(effect: Effect, link: AsyncLink) -> bytes | None:

@@ -1,4 +1,4 @@
-"""What a conversation with a card wants done outside: its generators yield these."""
+"""Effects that the generators of a conversation with a card yield, to be performed outside."""
 
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Send:
 
 @dataclass(frozen=True, slots=True)
 class Receive:
-    """Wait for bytes (None: for ever); the result is empty when none came in time."""
+    """Wait for bytes (None: forever); the result is empty when none came in time."""
 
     wait_s: float | None
 

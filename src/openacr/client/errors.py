@@ -1,4 +1,4 @@
-"""What can go wrong between a host and a card, as types whose fields say what and where."""
+"""Errors between a host and a card, as types whose fields give the details."""
 
 import re
 
@@ -22,7 +22,7 @@ _HINTS = {
     UNKNOWN_COMMAND: "moves and profile settings need a program level",
     PROGRAM_IS_RUNNING: "halt it first",
     REDIMENSIONED_BLOCK: "NEW ALL and CLEAR at the SYS level free the memory",
-    SLAVE_KILL_ACTIVE: "Ctrl-Y (clear_kills) lets the axes move again",
+    SLAVE_KILL_ACTIVE: "Ctrl-Y (clear_kills) allows the axes to move again",
 }
 
 
@@ -48,14 +48,14 @@ class NoReplyError(ClientError, TimeoutError):
         what = "no end of the reply" if is_begun else "no reply"
         within = f"{round(wait_s, 2):g} s"
         super().__init__(
-            f"{link}: {what} within {within} to {sent} (is the card's terminal there, and"
-            " the line free? lines that wait, such as DWL, INH or a move with a full buffer,"
-            " need a longer time-out)"
+            f"{link}: {what} within {within} to {sent} (check that the card's terminal is"
+            " reachable and not in use; lines that wait, such as DWL, INH or a move with a full"
+            " buffer, need a longer time-out)"
         )
 
 
 class GarbledError(ClientError):
-    """What came back does not fit what was sent: noise on the line, or another host on it."""
+    """The reply does not match the request: noise on the line, or another host using it."""
 
     def __init__(self, link: str, sent: str, received: bytes) -> None:
         self.sent, self.received = sent, received
@@ -63,19 +63,19 @@ class GarbledError(ClientError):
 
 
 class ConnectionLostError(ClientError, ConnectionError):
-    """The connection is gone; a command that was on its way may or may not have acted."""
+    """The connection is lost; a command in transit may or may not have been executed."""
 
 
 class DownloadError(ClientError, SourceError):
-    """The card has refused a line of a file; nothing behind that line was sent."""
+    """The card has refused a line of a file; nothing after that line was sent."""
 
 
 class VerificationError(ClientError, SourceError):
-    """The card lists something else than was sent."""
+    """The listing of the card differs from what was sent."""
 
 
 class RestoreError(ClientError):
-    """A backup could not be put back; `former` is what was on the card, as files by name.
+    """A backup could not be restored; `former` is the previous contents, as files by name.
 
     `is_back`: the card has its former contents again.
     """
@@ -89,7 +89,7 @@ class RestoreError(ClientError):
             super().__init__(f"{ended}; the card has its former contents again")
         else:
             super().__init__(
-                f"{ended}; the former contents could not be put back either:"
+                f"{ended}; the former contents could not be restored either:"
                 f" {str(second) or 'interrupted'}"
             )
 

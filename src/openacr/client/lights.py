@@ -1,4 +1,4 @@
-"""The lights on the front of a card, told from what it says about itself."""
+"""The status lights on the front of a card, derived from its parameters and flags."""
 
 from enum import StrEnum
 
@@ -9,7 +9,7 @@ FLASH_INVALID = 0b111 << 24  # flags 5656 to 5658: boot flash and both system fl
 
 
 class Light(StrEnum):
-    """What a light shows."""
+    """The state of a status light."""
 
     OFF = "off"
     GREEN = "green"
@@ -30,7 +30,7 @@ _BUS = (
 
 
 def power_light(*, is_there: bool, diagnostics: int = 0, misc_control: int = 0) -> Light:
-    """Power: off without, red with a supply that fails, both colours after a boot error."""
+    """Power light: off without power, red if a supply fails, red and green after a boot error."""
     if not is_there:
         return Light.OFF
     if misc_control & FLASH_INVALID:
@@ -39,13 +39,13 @@ def power_light(*, is_there: bool, diagnostics: int = 0, misc_control: int = 0) 
 
 
 def axis_light(drive_flags: int) -> Light:
-    """An axis: red with a fault (or without a cable: the fault input is on), green enabled."""
+    """Axis light: red with a fault (or no cable: the fault input is on), green if enabled."""
     if drive_flags & (at.AF4_DRIVE_FAULT_INPUT | at.AF4_DRIVE_FAULT):
         return Light.RED
     return Light.GREEN if drive_flags & at.AF4_DRIVE_ENABLED else Light.OFF
 
 
 def bus_light(bus_state: int, *, is_installed: bool) -> Light:
-    """The CANopen network; off without a controller for it."""
+    """CANopen light; off on a card without a CANopen controller."""
     known = is_installed and 0 <= bus_state < len(_BUS)
     return _BUS[bus_state] if known else Light.OFF

@@ -1,7 +1,7 @@
 """Links to a card: TCP, a serial line, or a card in the same process; blocking.
 
-`now_s` is the clock that time-outs and pauses count in: the wall clock, but card time
-where the card lives in this process, since there time passes only while somebody waits.
+`now_s` is the clock that time-outs and pauses use: the wall clock, or card time for a card
+in this process, whose time passes only while a caller waits.
 """
 
 import re
@@ -26,7 +26,7 @@ _TCP_TARGET = re.compile(r"(?:\[(?P<v6>[^\]]+)\]|(?P<host>[^:/]+))(?::(?P<port>\
 
 
 class Host(Protocol):
-    """A card in this process: what `openacr.Controller` offers to whoever serves it."""
+    """A card in this process: the part of `openacr.Controller` that a link uses."""
 
     @property
     def period_s(self) -> float:
@@ -34,29 +34,29 @@ class Host(Protocol):
 
     @property
     def lived_tk(self) -> int:
-        """Ticks that have passed since the card was made."""
+        """Ticks since the card was created."""
 
     def open_stream(self, kind: StreamKind) -> int:
-        """A stream for a new connection."""
+        """Open a stream for a new connection."""
 
     def close_stream(self, stream: int) -> None:
-        """The connection ended."""
+        """Close the stream of an ended connection."""
 
     def receive(self, stream: int, data: bytes) -> None:
-        """Bytes that arrived together."""
+        """Process bytes that arrived together."""
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
 
     def take_output(self, stream: int) -> bytes:
-        """The bytes of the next write, none when there is nothing to send."""
+        """Return the bytes of the next write, empty when there is nothing to send."""
 
     def advance(self, ticks: int) -> None:
         """Let card time pass."""
 
 
 class Link(Protocol):
-    """A way to a card; every method raises ConnectionLostError when it is broken."""
+    """A connection to a card; every method raises ConnectionLostError when it is broken."""
 
     name: str
     kind: StreamKind
@@ -65,7 +65,7 @@ class Link(Protocol):
         """Connect."""
 
     def read(self, timeout_s: float | None) -> bytes:
-        """What has arrived; empty when nothing came in time."""
+        """Return the bytes that have arrived; empty when none came in time."""
 
     def write(self, data: bytes) -> None:
         """Send everything."""
@@ -74,10 +74,10 @@ class Link(Protocol):
         """Let time pass."""
 
     def now_s(self) -> float:
-        """The time."""
+        """The clock of the link [s]."""
 
     def close(self) -> None:
-        """Disconnect; nothing happens when that is so already."""
+        """Disconnect; no effect when not connected."""
 
 
 class TcpLink:
@@ -186,7 +186,7 @@ class SerialLink:
             raise ConnectionLostError(f"{self.name}: {reason(failure)}") from None
 
     def fileno(self) -> int:
-        """For `select`, where the system has that."""
+        """For `select`, where the system supports it."""
         number: int = self._connected().fileno()
         return number
 
@@ -204,7 +204,7 @@ class SerialLink:
         return time.monotonic()
 
     def close(self) -> None:
-        """Give the port back."""
+        """Release the port."""
         if self._port is not None:
             self._port.close()
             self._port = None
@@ -229,7 +229,7 @@ class ProcessLink:
             raise ConnectionLostError(str(failure)) from None
 
     def read(self, timeout_s: float | None) -> bytes:
-        """What the card has to say; lets its time pass until there is something."""
+        """Return the output of the card, advancing its time until there is some."""
         stream = self._connected()
         left_tk = None if timeout_s is None else self._ticks(timeout_s)
         while not (data := self._card.take_output(stream)):
@@ -241,7 +241,7 @@ class ProcessLink:
         return data
 
     def write(self, data: bytes) -> None:
-        """Give the card bytes; as on a wire, time passes while it takes no more."""
+        """Send bytes to the card; as on a wire, time passes while it accepts no more."""
         stream = self._connected()
         for _ in range(self._ticks(CONNECT_S)):
             if self._card.accepts_input(stream):
@@ -267,7 +267,7 @@ class ProcessLink:
         self._advance(self._ticks(seconds))
 
     def now_s(self) -> float:
-        """Card time since the link was made, as far as this link let it pass."""
+        """Card time that this link has let pass since it was created [s]."""
         return self._passed_tk * self._card.period_s
 
     def close(self) -> None:

@@ -1,7 +1,7 @@
-"""What a text is once a card has stored it: numbered lines of tokens.
+"""Compare a program text with the card's listing of it, as numbered lines of tokens.
 
-A card drops spelling, so a text and its listing are compared token by token. Comments that
-begin with an apostrophe and empty lines are not stored at all.
+A card does not keep the spelling, so a text and its listing are compared token by token.
+Comments that begin with an apostrophe and empty lines are not stored at all.
 """
 
 import re
@@ -35,10 +35,10 @@ class Stored:
     """The lines sent for one program or PLC, under their numbers, hidden or not."""
 
     lines: dict[int, Sent] = field(default_factory=dict)
-    is_whole: bool = False  # entered with PROGRAM: nothing else is stored
+    is_whole: bool = False  # entered with PROGRAM: nothing else remains stored
 
     def add(self, text: str, line: int) -> None:
-        """Note a line that was entered."""
+        """Record a line that was entered."""
         numbered = _NUMBERED.fullmatch(text)
         if numbered and not (numbered[2] or "").strip():
             self.lines.pop(int(numbered[1]), None)
@@ -53,7 +53,7 @@ class Stored:
         return last - last % HIDDEN_STEP + HIDDEN_STEP
 
     def difference(self, listed: Sequence[str]) -> tuple[int, str] | None:
-        """The first line that is listed differently: line of the file, what is wrong."""
+        """The first line listed differently: its line in the file, and the difference."""
         sent = [self.lines[number] for number in sorted(self.lines)]
         shown = plain(listed) if self.is_whole else self._under_numbers(listed)
         for wanted, found in zip(sent, shown, strict=False):
@@ -66,7 +66,7 @@ class Stored:
         return None
 
     def _under_numbers(self, listed: Iterable[str]) -> list[str]:
-        """Listed lines under the numbers that were sent; older lines may stand between them."""
+        """The listed lines whose numbers were sent; older lines may be between them."""
         found = filter(None, map(_NUMBERED.fullmatch, listed))
         by_number = {int(match[1]): match[2] or "" for match in found}
         return [by_number.get(number, "") for number in sorted(self.lines)]
@@ -90,25 +90,25 @@ def _token(kind: TokenKind, value: str | int | float) -> tuple[TokenKind, object
 
 
 def _parts(text: str) -> list[str]:
-    """The lines a card makes of one: PROGRAM and the label behind it are two."""
+    """Split a line as a card does: PROGRAM and a label after it become two lines."""
     found = _MISPRINT.fullmatch(text.strip())
     return ["PROGRAM", found[1]] if found else [text]
 
 
 def plain(listed: Sequence[str]) -> list[str]:
-    """A listing without the numbers that BIT5651 shows in front of free-form text."""
+    """A listing without the numbers that BIT5651 adds in front of free-form text."""
     if listed and _FORCED_NUMBERS.match(listed[0]):
         return [line.lstrip().partition(" ")[2] for line in listed]
     return list(listed)
 
 
 def is_free_form(text: str) -> bool:
-    """PROGRAM opens the text; otherwise its lines carry numbers."""
+    """Whether PROGRAM opens the text; otherwise its lines are numbered."""
     return _PROGRAM.match(text) is not None
 
 
 def is_numbered(text: str) -> bool:
-    """All program text in a file carries line numbers, as a listing of such a program does."""
+    """Whether all program text in a file is numbered, like the listing of such a program."""
     lines = [line for line in text.splitlines() if line.strip()]
     numbered = [line for line in lines if _NUMBERED.fullmatch(line)]
     others = [line for line in lines if not _NUMBERED.fullmatch(line)]

@@ -1,11 +1,11 @@
-"""Binary moves, sent ahead of the motion as far as the buffer of the card reaches.
+"""Stream binary moves ahead of the motion, up to the depth of the card's buffer.
 
-Every packet makes the move counter of the master count up when its move starts, so
+Every packet increments the move counter of its master when its move starts, so
 
     waiting = sent - started
 
 is known without an answer to each move. While it is below the depth of the buffer the card
-takes moves at once, and other requests on the same connection are never held up by them.
+accepts moves at once, and they never delay other requests on the same connection.
 """
 
 from collections.abc import Iterable, Iterator
@@ -27,10 +27,10 @@ POLL_S = 0.002
 
 @dataclass(slots=True)
 class MoveStream:
-    """The moves of one master on their way to a card with a buffer of `depth` moves.
+    """A stream of moves of one master to a card with a buffer of `depth` moves.
 
-    While the buffer is full and no move starts for `stall_s` (None: any time; a feedhold, a
-    very long move), `send` ends with NoReplyError.
+    If the buffer stays full and no move starts for `stall_s`, `send` raises NoReplyError
+    (None: never, e.g. for a feedhold or a very long move).
     """
 
     master: int = 0
@@ -38,20 +38,20 @@ class MoveStream:
     stall_s: float | None = 600.0
     sent: int = 0
     started: int = 0
-    origin: int | None = None  # of the move counter
+    origin: int | None = None  # move counter at the start of the stream
 
     @property
     def waiting(self) -> int:
-        """Moves that have been sent and have not started."""
+        """Count of moves sent but not yet started."""
         return self.sent - self.started
 
     @property
     def counter(self) -> int:
-        """The parameter that counts."""
+        """The parameter number of the move counter."""
         return MA_BASE + self.master * MA_STRIDE + MA_MOVE_COUNTER
 
     def update(self, talk: Talk) -> Op[int]:
-        """Ask how many moves have started."""
+        """Read how many moves have started."""
         count = int((yield from values.read(talk, self.counter)))
         if self.origin is None:
             self.origin = count
@@ -59,7 +59,7 @@ class MoveStream:
         return self.started
 
     def send(self, talk: Talk, moves: Iterable[Move]) -> Op[int]:
-        """Send moves, each when there is room for it; how many they were."""
+        """Send moves, each when there is room for it; returns their count."""
         source = iter(moves)
         if self.origin is None:
             yield from self.update(talk)

@@ -1,4 +1,4 @@
-"""Which parameter or flag a user means: by number, by name, by object and name."""
+"""Resolve a parameter or flag given by number, by name, or by object and name."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -11,14 +11,14 @@ What: TypeAlias = int | str
 
 
 def parameter_number(what: What) -> int:
-    """The number meant by `12288`, `"P12288"` or `"axis0.current position"`."""
+    """The parameter number for `12288`, `"P12288"` or `"axis0.current position"`."""
     if isinstance(what, int):
         return what
     return _parameters().get(what.lower()) or _only(what, find_parameter(what))
 
 
 def flag_number(what: What) -> int:
-    """The number meant by `516`, `"BIT516"` or `"master0.in motion"`."""
+    """The flag number for `516`, `"BIT516"` or `"master0.in motion"`."""
     if isinstance(what, int):
         return what
     return _flags().get(what.lower()) or _only(what, find_flag(what))
@@ -28,13 +28,13 @@ def _only(text: str, found: Iterable[Parameter] | Iterable[Flag]) -> int:
     numbers = [record.number for record in found]
     if len(numbers) != 1:
         some = ", ".join(str(number) for number in numbers[:3])
-        raise UserError(f"{text!r} means {len(numbers)} things ({some}, ...): name the object too")
+        raise UserError(f"{text!r} has {len(numbers)} matches ({some}, ...): name the object too")
     return numbers[0]
 
 
 @cache
 def _parameters() -> dict[str, int]:
-    """Full names, for those asked for again and again; everything else is searched."""
+    """Numbers by full name, for frequent requests; all other names are searched."""
     return _full_names(parameters().values())
 
 
@@ -44,7 +44,7 @@ def _flags() -> dict[str, int]:
 
 
 def _full_names(records: Iterable[Parameter] | Iterable[Flag]) -> dict[str, int]:
-    """Numbers by `axis0.current position`; names that several have are left out."""
+    """Numbers by names such as `axis0.current position`; ambiguous names are omitted."""
     found: dict[str, int] = {}
     several: set[str] = set()
     for record in records:

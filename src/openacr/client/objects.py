@@ -1,7 +1,7 @@
 """Axes and masters with their parameters as attributes.
 
-`Quantity` is one parameter of an object. Reading the attribute gives what the card's owner
-gives for a parameter: a number from `Card`, an awaitable of a number from `AsyncCard`.
+`Quantity` is one parameter of an object. Reading the attribute returns what reading a
+parameter returns: a number for `Card`, an awaitable of a number for `AsyncCard`.
 """
 
 from collections.abc import Callable
@@ -10,9 +10,9 @@ from typing import Generic, TypeVar, overload
 from openacr.client.names import What, flag_number, parameter_number
 from openacr.client.values import Number
 
-R = TypeVar("R")  # what reading a number gives
-B = TypeVar("B")  # what reading a flag gives
-W = TypeVar("W")  # what writing gives
+R = TypeVar("R")  # result of reading a number
+B = TypeVar("B")  # result of reading a flag
+W = TypeVar("W")  # result of writing
 
 
 class Thing(Generic[R, B, W]):
@@ -94,20 +94,20 @@ class Condition:
 
 
 class Axis(Thing[R, B, W]):
-    """One axis; positions in pulses, as the card keeps them (`ppu` pulses are one unit)."""
+    """One axis; positions in pulses, as the card stores them (`ppu` pulses are one unit)."""
 
     word = "axis"
 
-    current_position = Quantity("current position", "Commanded position [pulses], no jog offset.")
-    target_position = Quantity("target position", "Where the present move ends [pulses].")
-    actual_position = Quantity("actual position", "What the encoder says [pulses].")
+    current_position = Quantity("current position", "Commanded position, no jog offset [pulses].")
+    target_position = Quantity("target position", "End of the current move [pulses].")
+    actual_position = Quantity("actual position", "Encoder position [pulses].")
     following_error = Quantity("following error", "Commanded minus actual position [pulses].")
     primary_setpoint = Quantity("primary setpoint", "Commanded position with offsets [pulses].")
-    jog_offset = Quantity("jog offset", "What jogs have added [pulses].")
+    jog_offset = Quantity("jog offset", "Offset accumulated by jogs [pulses].")
     output_signal = Quantity("output signal", "Signal to the drive [V].")
     ppu = Quantity("ppu", "Pulses per unit.")
     is_enabled = Condition("drive enabled", "The drive is on.")
-    is_killed = Condition("kill all motion request", "All motion of the axis is barred.")
+    is_killed = Condition("kill all motion request", "All motion of the axis is inhibited.")
     is_jogging = Condition("jog active", "A jog moves the axis.")
 
 
@@ -117,8 +117,8 @@ class Master(Thing[R, B, W]):
     word = "master"
 
     vector_velocity = Quantity("vector velocity", "Present speed along the path [units/s].")
-    distance_to_go = Quantity("distance to go", "To the end of the present move [units].")
+    distance_to_go = Quantity("distance to go", "Distance to the end of the current move [units].")
     feedrate_override = Quantity("feedrate override", "Factor on all speeds (FOV).")
-    move_counter = Quantity("move counter", "Moves begun so far.")
-    is_in_motion = Condition("in motion", "A coordinated move is under way.")
-    is_killed = Condition("kill all moves request", "Moves are barred.")
+    move_counter = Quantity("move counter", "Count of moves started.")
+    is_in_motion = Condition("in motion", "A coordinated move is in progress.")
+    is_killed = Condition("kill all moves request", "Moves are inhibited.")

@@ -1,19 +1,19 @@
-"""How to talk to a card, and how long to wait for it."""
+"""Options of the communication with a card, and its time-outs."""
 
 from dataclasses import dataclass
 
 from openacr.channels import EchoMode
 
-SLOWEST_BYTES_PER_S = 1024  # what a line may take for a long reply, beyond the deadline
+SLOWEST_BYTES_PER_S = 1024  # assumed lowest rate: a long reply extends the deadline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
-    """How to talk to a card.
+    """Options of the communication with a card.
 
-    `timeout_s`: longest silence while a reply is awaited (None: any, and no deadline).
-    `deadline_s`: longest time until a reply is whole, plus a second for every KiB of it (None:
-    any). `reconnect_s`: how long to try again after a lost connection (0: not at all).
+    `timeout_s`: longest silence while waiting for a reply (None: unlimited, and no deadline).
+    `deadline_s`: longest time until a reply is complete, plus a second for every KiB of it
+    (None: unlimited). `reconnect_s`: how long to retry after a lost connection (0: no retry).
     `uses_packets`: read parameters with binary packets, exact and up to eight at once; otherwise
     by text.
     """
@@ -27,7 +27,7 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Patience:
-    """How long a reply may take: silence at most, and until what time it has to be whole."""
+    """Limits of a reply: longest silence, and the time by which it must be complete."""
 
     silence_s: float | None
     begin_s: float

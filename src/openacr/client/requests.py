@@ -1,4 +1,4 @@
-"""What a host asks of one stream of a card, and what it gets back."""
+"""Requests of a host to one stream of a card, and their answers."""
 
 import re
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ _GO = re.compile(r"\s*(SYS|PROG|PLC)\s*(\d*)\s*", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """Where a stream stands: at the system level, a program or a PLC."""
+    """The level of a stream: the system, a program or a PLC."""
 
     word: str = "SYS"
     number: int = 0
@@ -30,7 +30,7 @@ class Level:
 
     @classmethod
     def of_prompt(cls, text: str) -> Self | None:
-        """The level a prompt names."""
+        """The level named by a prompt."""
         found = _PROMPT.fullmatch(text)
         if found is None:
             return None
@@ -38,7 +38,7 @@ class Level:
 
     @classmethod
     def of_line(cls, line: str) -> Self | None:
-        """The level that a line goes to; None for a line that does something else."""
+        """The level a line changes to; None for any other line."""
         found = _GO.fullmatch(line)
         return cls(found[1].upper(), int(found[2] or 0)) if found else None
 
@@ -51,7 +51,7 @@ SYS = Level()
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line of text; `is_query`: it changes nothing and may be sent again."""
+    """A line of text; `is_query`: it changes nothing, so it may be sent again."""
 
     text: str
     is_query: bool = False
@@ -62,7 +62,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Packets the card replies to, sent together and answered in their order."""
+    """Packets that the card answers, sent together and answered in order."""
 
     packets: tuple[Packet, ...]
     is_query: bool = True
@@ -84,7 +84,7 @@ class Press:
 
 @dataclass(frozen=True, slots=True)
 class Follow:
-    """LISTEN or LRUN: the output of a program comes until it ends or ESC is sent."""
+    """LISTEN or LRUN: follow the output of a program until it ends or ESC is sent."""
 
     text: str
     is_query: bool = False
@@ -95,7 +95,7 @@ class Follow:
 
 @dataclass(frozen=True, slots=True)
 class Leave:
-    """ESC: listening ends, the prompt comes back."""
+    """ESC: stop listening; the prompt returns."""
 
     is_query: bool = False
 
@@ -105,7 +105,7 @@ class Leave:
 
 @dataclass(frozen=True, slots=True)
 class Align:
-    """Whatever the stream was doing: come to the SYS level and a known ECHO mode."""
+    """Bring the stream from any state to the SYS level and a known ECHO mode."""
 
     is_query: bool = True
 
@@ -118,16 +118,16 @@ Request: TypeAlias = Line | Ask | Press | Follow | Leave | Align
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A request is dealt with: the lines or the packet data that came back."""
+    """The answer to a completed request: lines of text or packet data."""
 
     lines: tuple[str, ...] = ()
     data: bytes = b""
     is_garbled: bool = False
-    raw: bytes = b""  # of a garbled answer
+    raw: bytes = b""  # the bytes of a garbled answer
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """Text a followed program has printed."""
+    """Text printed by a followed program."""
 
     text: str

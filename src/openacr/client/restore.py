@@ -1,8 +1,8 @@
-"""Putting a backup back: nothing is cleared before the card is known to take it.
+"""Restore a backup; nothing is cleared before the card is known to accept it.
 
-First the card is asked for every setting of the backup, so that one it does not know (another
-model, an extension of openacr) ends the restore while everything is as it was. Then what is on the
-card is read; if a line is refused after all, that is put back.
+First every setting of the backup is queried, so that a setting unknown to the card (another
+model, an extension of openacr) ends the restore before anything has changed. Then the contents
+of the card are read; if it still refuses a line, they are restored.
 """
 
 import re
@@ -30,8 +30,8 @@ _UNKNOWN = (UNKNOWN_COMMAND, SYNTAX_ERROR, INVALID_ARGUMENT)
 def restore(talk: Talk, files: Files, progress: Progress | None = None) -> Op[list[Report]]:
     """Stop everything, clear the card and send a backup.
 
-    DownloadError where the card does not know a setting: nothing has changed. RestoreError
-    where it fails later: the card then has its former contents, or the error has them.
+    DownloadError if the card does not know a setting: nothing has changed. RestoreError
+    if it fails later: the card then has its former contents, or the error holds them.
     """
     yield from _needs_known_settings(talk, files)
     former = yield from backup(talk, progress)
@@ -53,7 +53,7 @@ def _send(talk: Talk, files: Files, progress: Progress | None = None) -> Op[list
 
 
 def _put_back(talk: Talk, former: dict[str, str], failure: BaseException) -> Op[None]:
-    """Give the card its former contents; RestoreError, but after Ctrl-C only if that fails."""
+    """Restore the former contents; raises RestoreError, after Ctrl-C only if that fails."""
     try:
         yield from _send(talk, files_of(former))
     except (ClientError, UserError, KeyboardInterrupt) as second:
@@ -67,7 +67,7 @@ def _put_back(talk: Talk, former: dict[str, str], failure: BaseException) -> Op[
 
 @dataclass(frozen=True, slots=True)
 class _Setting:
-    """A line of a backup that sets a value, and how the value is asked for."""
+    """A line of a backup that sets a value, and the query for the value."""
 
     row: Command
     query: str
@@ -113,7 +113,7 @@ def _settings(path: Path, level: Level, text: str) -> Iterator[_Setting]:
 
 
 def _row(query: str) -> Command | None:
-    """The command that is asked for so, if its value is one that is saved."""
+    """The command of a query, if its value is saved."""
     words = _OBJECT.sub(r"\1 # ", query, count=1)
     for name in (query, _AXIS.sub("", query, count=1), words):
         row = registry.known(name)

@@ -1,4 +1,4 @@
-"""A terminal session without a person: lines in, everything the card sends out.
+"""A scripted terminal session: lines in, everything the card sends out.
 
 Each line is sent after the prompt of the one before it. Where no prompt can be expected
 (prompts turned off by ECHO, a control key next) the card gets QUIET_S of silence instead.
@@ -21,7 +21,7 @@ _KEYS = re.compile(rb"[\x18\x19\x1a\x1b]+")
 
 @dataclass(slots=True)
 class Script:
-    """Sends lines over a link and passes on what comes back."""
+    """Sends lines over a link and passes on the replies."""
 
     link: Link
     show: Callable[[bytes], None]
@@ -66,7 +66,7 @@ class Script:
             seen = (seen + data)[-64:]
 
     def _left_s(self, deadline_s: float, line: bytes) -> float:
-        """How long the reply may still take; NoReplyError when that is over."""
+        """Time left for the reply; NoReplyError when it has expired."""
         left_s = deadline_s - self.link.now_s()
         if left_s <= 0:
             raise NoReplyError(self.link.name, line.decode("utf-8", "replace"), self.wait_s)

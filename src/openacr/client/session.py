@@ -1,17 +1,17 @@
 """The host's end of one stream, sans I/O: requests become bytes, bytes become answers.
 
-`begin(request)` gives the bytes to send, `receive_data` takes what comes back in pieces of
-any size, `next_event` says what it means: an Answer when the request is dealt with, Heard
-while a program is followed, NEED_DATA while something is missing. One request at a time:
-a card answers in order and says nothing by itself, so nothing more can be told apart.
+`begin(request)` returns the bytes to send, `receive_data` accepts the reply in pieces of
+any size, `next_event` interprets it: an Answer when the request is complete, Heard
+while a program is followed, NEED_DATA while bytes are missing. One request at a time:
+a card answers in order and sends nothing unprompted, so one at a time is unambiguous.
 
 How the end of a text answer is found depends on the ECHO mode:
 
-    1, 0 (prompts on)    the prompt behind the last output line
-    4 (no prompts)       a second line is sent behind the first: it prints a mark that
-                         nothing else prints; the answer ends where the mark comes back
+    1, 0 (prompts on)    the prompt after the last output line
+    4 (no prompts)       a second line is sent after the first: it prints a unique mark;
+                         the answer ends where the mark is received
 
-A packet reply repeats the request, then follows data of known length. It is found by the
+A packet reply repeats the request, followed by data of known length. It is found by the
 repeated request, so text and packets may alternate on one stream.
 """
 
@@ -45,8 +45,8 @@ ECHO_MODES = (EchoMode.CHARACTERS, EchoMode.NO_PROMPT, EchoMode(0))
 _PROMPT = rb"(SYS>|P\d\d>|PLC\d>)"
 _AT_LINE_START = re.compile(rb"(?:^|\n)" + _PROMPT + rb"\Z")
 _ANYWHERE = re.compile(_PROMPT + rb"\Z")
-PROMPT_BYTES = len(b"\nPLC0>")  # the longest there is
-# The end of a text that may turn out to be a prompt or a line end.
+PROMPT_BYTES = len(b"\nPLC0>")  # the longest prompt
+# A tail of a text that may become a prompt or a line end.
 _UNFINISHED = re.compile(rb"(?:^|\n)(?:SY?|SYS|P\d{0,2}|PLC?|PLC\d)\Z|\r\Z")
 
 Event = Answer | Heard | NeedData
@@ -65,10 +65,10 @@ class Session:
         self._request: Request | None = None
         self._received = bytearray()
         self._total = 0
-        self._scanned = 0  # so far there is no mark
+        self._scanned = 0  # bytes already searched for the mark
         self._marks = 0
         self._mark = b""
-        self._is_echoed = False  # the echo of the line that began listening is gone
+        self._is_echoed = False  # the echo of the line that began listening is removed
         self._wires: list[bytes] = []  # the packets of the request, as they travel
         self._readers: dict[type, Callable[[bool], Event]] = {
             Line: self._line,
@@ -85,29 +85,29 @@ class Session:
 
     @property
     def received(self) -> bytes:
-        """What has come back and is not understood yet."""
+        """The received bytes that are not interpreted yet."""
         return bytes(self._received)
 
     @property
     def received_bytes(self) -> int:
-        """How much has come back since the last event, understood or thrown away."""
+        """Bytes received since the last event, interpreted or discarded."""
         return self._total
 
     @property
     def is_fitting(self) -> bool:
-        """What has come back so far can be the beginning of the answer."""
+        """Whether the received bytes can be the beginning of the answer."""
         expected = self._expected
         return self._received[: len(expected)] == expected[: len(self._received)]
 
     @property
     def _expected(self) -> bytes:
-        """What the answer begins with."""
+        """The bytes with which the answer begins."""
         if isinstance(self._request, Line) and self.echo & EchoMode.CHARACTERS:
             return bytes_of(self._request.text) + CRLF
         return self._wires[0] if isinstance(self._request, Ask) else b""
 
     def forget(self) -> None:
-        """Drop an unfinished request, as after a lost connection."""
+        """Discard an unfinished request, as after a lost connection."""
         self._request = None
         self._received.clear()
         self._total = self._scanned = 0
@@ -116,7 +116,7 @@ class Session:
     # --- requests ---------------------------------------------------------------------
 
     def begin(self, request: Request) -> bytes:
-        """The bytes to send; what was received for the request before is forgotten."""
+        """Begin a request and return the bytes to send; earlier received bytes are discarded."""
         if not isinstance(request, Ask | Press | Leave):
             self.forget()
         self._request, self._total, self._scanned = request, 0, 0
@@ -140,7 +140,7 @@ class Session:
         return b"" if self.has_prompts else self._mark_line()
 
     def _mark_line(self) -> bytes:
-        """A line whose output is like no other."""
+        """A line with unique output."""
         self._marks += 1
         self._mark = b"=%d=" % self._marks
         return b'PRINT "' + self._mark + b'"' + CR
@@ -148,28 +148,28 @@ class Session:
     # --- answers ----------------------------------------------------------------------
 
     def receive_data(self, data: bytes) -> None:
-        """Take what has arrived."""
+        """Accept received bytes."""
         self._received += data
         self._total += len(data)
 
     @property
     def may_be_done(self) -> bool:
-        """What is there could be a whole answer: wait a moment only, then `end_of_data`."""
+        """Whether the answer may be complete: wait only a moment, then call `end_of_data`."""
         if not self.has_prompts:
             return self.is_listening and bool(self._received)
         return self.is_listening or _ANYWHERE.search(self._received, self._tail) is not None
 
     @property
     def _tail(self) -> int:
-        """Where a prompt at the end of what was received can begin."""
+        """The index at which a prompt at the end of the received bytes can begin."""
         return max(0, len(self._received) - PROMPT_BYTES)
 
     def next_event(self) -> Event:
-        """What the received bytes mean; Answer once the request is dealt with."""
+        """Interpret the received bytes; Answer once the request is complete."""
         return self._next(is_silent=False)
 
     def end_of_data(self) -> Event:
-        """As `next_event`, when nothing more has come for a while."""
+        """Like `next_event`, when nothing more has arrived for a while."""
         return self._next(is_silent=True)
 
     def _next(self, *, is_silent: bool) -> Event:
@@ -181,7 +181,7 @@ class Session:
         return self._readers[type(request)](is_silent)
 
     def _done(self, answer: Answer) -> Answer:
-        """The request is over; while listening the followed program goes on talking."""
+        """End the request; while listening the followed program continues to print."""
         self._request = None
         if not self.is_listening:
             self._received.clear()
@@ -209,12 +209,12 @@ class Session:
         return self._done(Answer(lines))
 
     def _without_end(self, is_silent: bool) -> bytes | None:
-        """The answer without prompt or mark, once its end is there."""
+        """The answer without prompt or mark, once its end has arrived."""
         if not self.has_prompts:
             end = self._received.find(self._mark + CRLF, self._scanned)
             self._scanned = max(0, len(self._received) - len(self._mark + CRLF))
             return None if end < 0 else bytes(self._received[:end])
-        # The echo may contain anything, so a prompt counts only behind it.
+        # The echo may contain anything, so a prompt counts only after it.
         begin = len(self._expected) if self.is_fitting else 0
         if len(self._received) < begin:
             return None
@@ -230,7 +230,7 @@ class Session:
         end = self._mark + CRLF
         at = self._received.rfind(end)
         if at < 0:
-            del self._received[: -len(end)]  # what the stream was doing before is thrown away
+            del self._received[: -len(end)]  # earlier output of the stream is discarded
             return NEED_DATA
         if self.has_prompts and not _ANYWHERE.fullmatch(self._received, at + len(end)):
             return NEED_DATA
@@ -260,7 +260,7 @@ class Session:
         return self._done(Answer(data=data))
 
     def _reply_data(self, packet: Packet, begin: int) -> tuple[bytes, int] | None:
-        """The data behind the repeated request, and where the reply ends."""
+        """The data after the repeated request, and the end of the reply."""
         wanted = packet.reply_words() * WORD_BYTES
         if not self.mode.prefixes:
             end = begin + wanted
@@ -291,7 +291,7 @@ class Session:
         return self._heard(held.end() - len(held[0].lstrip(b"\n")) if held else len(text))
 
     def _heard(self, length: int) -> Event:
-        """Give out the first bytes; what follows has to wait."""
+        """Report the first bytes as printed text; keep the rest."""
         if not length:
             return NEED_DATA
         self._total = 0

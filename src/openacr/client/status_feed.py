@@ -1,4 +1,4 @@
-"""The fast status of a card over UDP: what FSTAT copies, as it is sent."""
+"""Receive the fast status of a card over UDP: the words that FSTAT copies."""
 
 import socket
 import time
@@ -24,8 +24,8 @@ RENEW_S = LIFE_S / 4
 class StatusFeed(Closing):
     """A subscription: `for status in StatusFeed(host): print(status.longs(0))`.
 
-    FSTAT on the card says what the words are. Datagrams may be lost; those that come are in
-    order on one network. `interval_s` is 0.01 to 60. After `timeout_s` without any, NoReplyError.
+    FSTAT on the card defines the words. Datagrams may be lost; those that arrive are in
+    order within one network. `interval_s` is 0.01 to 60; `timeout_s` without any: NoReplyError.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class StatusFeed(Closing):
         except (OSError, OverflowError) as failure:
             raise cannot_connect(self.name, failure) from None
         try:
-            self._socket.connect(address)  # so that nobody else is heard
+            self._socket.connect(address)  # accept datagrams of the card alone
             self._ask(is_on=True)
         except (OSError, ConnectionLostError) as failure:
             self._socket.close()
@@ -66,12 +66,12 @@ class StatusFeed(Closing):
         self._asked_s = time.monotonic()
 
     def __iter__(self) -> Generator[FastStatus, None, None]:
-        """Every status that arrives, until the feed is closed."""
+        """Yield every status that arrives, until the feed is closed."""
         while True:
             yield self.read()
 
     def read(self) -> FastStatus:
-        """The next status; NoReplyError when none comes in time, ConnectionLostError."""
+        """Return the next status; NoReplyError if none arrives in time, ConnectionLostError."""
         deadline_s = time.monotonic() + max(self._timeout_s, 2 * self._interval_ms / 1000)
         while (left_s := deadline_s - time.monotonic()) > 0:
             if time.monotonic() - self._asked_s > RENEW_S:

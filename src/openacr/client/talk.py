@@ -1,8 +1,8 @@
-"""The conversation with one card: connect, align, ask, time out, connect again.
+"""The conversation with one card: connect, align, request, time out, reconnect.
 
-Everything here is a generator that yields what is to be done outside - open the link, send
-bytes, wait for bytes, pause - and is resumed with the result. A blocking and an asyncio
-shell drive the same generators (`card`, `async_card`); tests can drive them with neither.
+Every operation is a generator that yields the effects to be performed outside - open the link,
+send bytes, wait for bytes, pause - and is resumed with the result. A blocking and an asyncio
+shell drive the same generators (`card`, `async_card`); tests can drive them without either.
 """
 
 from collections.abc import Callable, Iterable
@@ -37,13 +37,13 @@ from openacr.protocol.packets import Packet
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0
-LONGEST_REPLY_BYTES = 1 << 22  # a listing of all the memory a card has is shorter
+LONGEST_REPLY_BYTES = 1 << 22  # longer than a listing of the entire memory of a card
 
 
 class Talk:
-    """One card at the other end of a link that is called `name` in messages.
+    """The conversation with one card over a link that is called `name` in messages.
 
-    `now_s` is the clock that time-outs count in.
+    `now_s` is the clock that time-outs use.
     """
 
     def __init__(
@@ -55,36 +55,36 @@ class Talk:
         self.now_s = now_s
         self.session = Session(options.echo)
         self.connections = 0  # made so far
-        self._home = SYS  # the level to come back to
+        self._home = SYS  # the level to return to
         self._is_open = False
         self._was_open = False
         self._is_aligned = False
 
     @property
     def level(self) -> Level:
-        """The level of the stream, also while it is being connected again."""
+        """The level of the stream, also while it is being reconnected."""
         return self._home
 
     @property
     def is_listening(self) -> bool:
-        """A program is being followed."""
+        """Whether a program is being followed."""
         return self.session.is_listening
 
     @property
     def uses_packets(self) -> bool:
-        """Parameters are read with packets; not where XON and XOFF would be taken out of them."""
+        """Whether parameters are read with packets; not where XON/XOFF would corrupt them."""
         is_clean = self.kind is not StreamKind.SERIAL or self.session.mode.prefixes
         return self.options.uses_packets and is_clean
 
     def set_echo(self, echo: EchoMode) -> None:
-        """Work in another ECHO mode from the next request on."""
+        """Use another ECHO mode from the next request on."""
         if echo != self.session.echo:
             self.session.echo, self._is_aligned = echo, False
 
     # --- requests ---------------------------------------------------------------------
 
     def exchange(self, request: Request, wait_s: float | None = None) -> Op[Answer]:
-        """The answer to a request; a query is sent again if the connection breaks."""
+        """Send a request and return its answer; a query is repeated if the connection breaks."""
         try:
             yield from self._be_ready()
             return (yield from self._once(request, wait_s))
@@ -99,7 +99,7 @@ class Talk:
         if self.is_listening and isinstance(request, Line | Follow):
             raise UserError(f"{request}: a program is being followed; end that first")
         was_listening = self.is_listening
-        self._is_aligned = False  # until the answer is there, whatever happens
+        self._is_aligned = False  # until the answer has arrived
         yield Send(self.session.begin(request))
         silence_s = wait_s or self.options.timeout_s
         patience = Patience(silence_s, self.now_s(), self.options.deadline_s)
@@ -118,12 +118,12 @@ class Talk:
         while not isinstance(event, Answer):
             if event is NEED_DATA:
                 event = yield from self._more(request, patience)
-            else:  # text of a followed program, while something else is awaited
+            else:  # text of a followed program, while waiting for an answer
                 event = self.session.next_event()
         return event
 
     def _more(self, request: Request, patience: Patience) -> Op[Event]:
-        """Wait for bytes; only for a moment when what is there could be all."""
+        """Wait for bytes; only for a moment when the answer may be complete."""
         if self.session.may_be_done:
             data = yield Receive(QUIET_S)
             if not data and isinstance(event := self.session.end_of_data(), Answer):
@@ -138,7 +138,7 @@ class Talk:
         return self._take(data or b"", request)
 
     def _take(self, data: bytes, request: object) -> Event:
-        """What the bytes mean that have arrived; GarbledError when a reply does not end."""
+        """Interpret received bytes; GarbledError when a reply does not end."""
         self.session.receive_data(data)
         if self.session.received_bytes > LONGEST_REPLY_BYTES:
             received = self.session.received
@@ -157,7 +157,7 @@ class Talk:
     # --- following a program ----------------------------------------------------------
 
     def hear(self, wait_s: float | None) -> Op[str | None]:
-        """The next text of the followed program, empty if none came in time; None: it ended."""
+        """The next text of the followed program, empty if none in time; None: it has ended."""
         if not self.is_listening:
             return None
         try:
@@ -186,7 +186,7 @@ class Talk:
     # --- connection -------------------------------------------------------------------
 
     def _be_ready(self) -> Op[None]:
-        """Connect and come to a known state, if that is not so already."""
+        """Connect and reach a known state, if not already there."""
         if not self._is_open:
             yield from self._connect()
         if not self._is_aligned:
@@ -200,7 +200,7 @@ class Talk:
                 yield from self._once(Line(str(home)), None)
 
     def _connect(self) -> Op[None]:
-        """Open the link; once it has been open before, keep trying."""
+        """Open the link; retry if it has been open before."""
         end_s = self.now_s() + (self.options.reconnect_s if self._was_open else 0.0)
         pause_s = FIRST_PAUSE_S
         while True:
@@ -223,58 +223,58 @@ class Talk:
             yield from self._ask_mode()
 
     def _ask_mode(self) -> Op[None]:
-        """How packets travel on a serial line; the power-up value if the card does not say."""
+        """Ask for the packet MODE of a serial line; the power-up value if not reported."""
         answer = yield from self._once(Line("MODE", is_query=True), None)
         known = len(answer.lines) == 1 and answer.lines[0] in ("0", "1", "2", "3")
         self.session.mode = BinaryMode(int(answer.lines[0])) if known else self.kind.startup_mode
 
     def _drop(self) -> Op[None]:
-        """The connection is of no use any more."""
+        """Close a connection that has become unusable."""
         self.session.forget()
         self._is_open = self._is_aligned = False
         yield Close()
 
     def close(self) -> Op[None]:
-        """End the connection; motion and programs go on."""
+        """End the connection; motion and programs continue."""
         if self._is_open:
             yield from self._drop()
         self._was_open = False
 
-    # --- what everything above is made of ---------------------------------------------
+    # --- lines, levels and packets -------------------------------------------------------
 
     def command(
         self, line: str, *, at: Level | None = None, wait_s: float | None = None
     ) -> Op[tuple[str, ...]]:
-        """Send a line, at a certain level if need be; the output lines. RefusedError."""
+        """Send a line, at a level if given, and return the output lines; RefusedError."""
         if at is not None:
             yield from self.go(at)
         answer = yield from self.exchange(Line(line), wait_s)
         return checked(line, answer.lines)
 
     def query(self, line: str, *, at: Level | None = None) -> Op[tuple[str, ...]]:
-        """As `command`, for a line that only reports something."""
+        """Like `command`, for a line that only reports something."""
         if at is not None:
             yield from self.go(at)
         answer = yield from self.exchange(Line(line, is_query=True))
         return checked(line, answer.lines)
 
     def order(self, line: str, *, at: Level | None = None) -> Op[None]:
-        """As `command`, for a line that says nothing unless it is refused."""
+        """Like `command`, for a line that prints nothing unless it is refused."""
         lines = yield from self.command(line, at=at)
         if lines:
             raise RefusedError(line, lines[-1])
 
     def go(self, level: Level) -> Op[None]:
-        """Come to a level."""
+        """Change to a level."""
         if self.level != level or not self._is_open:
             yield from self.order(str(level))
 
     def send(self, request: Press) -> Op[None]:
-        """Send something the card does not answer."""
+        """Send a request the card does not answer."""
         yield from self.exchange(request)
 
     def tell(self, packets: Iterable[Packet]) -> Op[None]:
-        """Send packets the card does not answer, in one write."""
+        """Send packets the card does not answer, all in one write."""
         try:
             yield from self._be_ready()
             mode = self.session.mode
@@ -284,7 +284,7 @@ class Talk:
             raise
 
     def leave(self) -> Op[None]:
-        """End following a program; it runs on."""
+        """Stop following a program; it keeps running."""
         if self.is_listening:
             yield from self.exchange(Leave())
 

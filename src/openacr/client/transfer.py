@@ -1,4 +1,4 @@
-"""Programs to the card and back: line by line, compared with what the card then lists."""
+"""Transfer programs to and from a card: line by line, verified against its listing."""
 
 import re
 from collections.abc import Callable
@@ -24,7 +24,7 @@ _UNSENDABLE = str.maketrans("", "", "\x0c\x1a\x1b")  # page and file ends, captu
 
 @dataclass(frozen=True, slots=True)
 class Remark:
-    """What the card has said about a line that it took: a report, not a known error."""
+    """The card's output for a line it accepted: a report, not a known error."""
 
     line: int
     text: str
@@ -32,7 +32,7 @@ class Remark:
 
 @dataclass(slots=True)
 class Report:
-    """What a download did."""
+    """The result of a download."""
 
     sent: int = 0
     entered: dict[Level, Stored] = field(default_factory=dict)
@@ -50,7 +50,7 @@ def download(
 ) -> Op[Report]:
     """Send a controller file; DownloadError at the first line the card refuses."""
     before = talk.options.echo
-    talk.set_echo(EchoMode.CHARACTERS)  # every line needs its prompt, also stored ones
+    talk.set_echo(EchoMode.CHARACTERS)  # every line needs its prompt, including stored ones
     try:
         yield from talk.go(to or SYS)
         sender = _Sender(talk, path)
@@ -68,7 +68,7 @@ def download(
 
 
 def _lines(text: str) -> list[FileLine]:
-    """What to send for a file: published listings need some tolerance, our own none."""
+    """The lines to send for a file: published listings need some tolerance, our own none."""
     cleaned = text.translate(_UNSENDABLE)
     if is_numbered(cleaned):
         numbered = enumerate(cleaned.splitlines(), start=1)
@@ -105,7 +105,7 @@ class _Sender:
         self._note(line)
 
     def _note(self, line: FileLine) -> None:
-        """Keep what the card has stored."""
+        """Record what the card has stored."""
         self._last = line.number
         if self._captured is not None:
             if _ENDS.match(line.text):
@@ -122,7 +122,7 @@ class _Sender:
             stored.add(line.text, line.number)
 
     def end(self) -> Op[None]:
-        """The end of the file ends a program as ENDP does."""
+        """End the entry: the end of the file ends a program as ENDP does."""
         if self._captured is not None:
             yield from self.send(FileLine(self._last, "ENDP"))
 
@@ -132,7 +132,7 @@ class _Sender:
         return DownloadError(text, path=self.path, line=line.number, hint=hint)
 
     def _erase(self) -> Op[str]:
-        """Leave no half of a program that could be run by mistake; what was done about it."""
+        """Erase an incomplete program, which could be run by mistake; returns a note of it."""
         if self._captured is None:
             return ""
         self._captured = None
@@ -146,7 +146,7 @@ class _Sender:
 
 
 def _verify(talk: Talk, report: Report, path: str) -> Op[None]:
-    """Compare what the card lists with what was sent; VerificationError."""
+    """Compare the listing of the card with what was sent; VerificationError."""
     home = talk.level
     for level, stored in report.entered.items():
         try:
@@ -160,7 +160,7 @@ def _verify(talk: Talk, report: Report, path: str) -> Op[None]:
 
 
 def upload(talk: Talk, level: Level) -> Op[str]:
-    """The text of a program or PLC as a file that stores it again; empty if there is none."""
+    """Read a program or PLC as a file that can be downloaded again; empty if none is stored."""
     home = talk.level
     listed = plain((yield from talk.query("LIST", at=level)))
     yield from talk.go(home)

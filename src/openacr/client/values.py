@@ -23,14 +23,14 @@ from openacr.protocol.parameter import GetIeee, GetLong
 Number: TypeAlias = int | float
 
 BITS_PER_WORD = 32
-TOGETHER = 16  # packets on their way at once: a small buffer takes them
+TOGETHER = 16  # packets in transit at once: a small buffer holds them
 ARRAY_WORDS = frozenset(("LA", "SA", "DA"))
 _INTEGER = re.compile(r"-?\d+")
 _DIMENSION = re.compile(r"DIM (\w+?)\((\d+)\)")
 
 
 def number_of(line: str, text: str) -> Number:
-    """The number in an answer; anything else is a refusal."""
+    """The number in an answer; RefusedError for anything else."""
     try:
         return int(text) if _INTEGER.fullmatch(text) else float(text)
     except ValueError:
@@ -38,7 +38,7 @@ def number_of(line: str, text: str) -> Number:
 
 
 def number_text(value: Number) -> str:
-    """A number as a card reads it, with all its digits."""
+    """Format a number for a card, with all its digits."""
     return repr(value).upper() if isinstance(value, float) else str(int(value))
 
 
@@ -46,7 +46,7 @@ def number_text(value: Number) -> str:
 
 
 def ask(talk: Talk, expression: str, *, at: Level | None = None) -> Op[Number]:
-    """What `?expression` prints."""
+    """Return the value that `?expression` prints."""
     line = f"?{expression}"
     lines = yield from talk.query(line, at=at)
     if len(lines) != 1:
@@ -55,7 +55,7 @@ def ask(talk: Talk, expression: str, *, at: Level | None = None) -> Op[Number]:
 
 
 def read(talk: Talk, what: What) -> Op[Number]:
-    """One parameter: exact by packet where the card has a packet for it, else by text."""
+    """Read one parameter: exactly, by packet, where one reaches it, otherwise by text."""
     number = parameter_number(what)
     kind = _packet_kind(talk, number)
     if kind is None:
@@ -65,7 +65,7 @@ def read(talk: Talk, what: What) -> Op[Number]:
 
 
 def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
-    """Several parameters in their order; those of one packet group with one packet."""
+    """Read several parameters in order; those of one packet group with one packet."""
     numbers = tuple(parameter_number(what) for what in whats)
     plan = _plan(numbers if talk.uses_packets else ())
     found: dict[int, Number] = {}
@@ -80,7 +80,7 @@ def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """Packets sent together, with the parameters they bring."""
+    """Packets sent together, with the parameters they return."""
 
     packets: tuple[DataRequest, ...]
     numbers: tuple[int, ...]
@@ -89,7 +89,7 @@ class _Part:
 
 @lru_cache(maxsize=256)
 def _plan(numbers: tuple[int, ...]) -> tuple[_Part, ...]:
-    """The data packets for parameters, as far as packets reach them; hosts ask again and again."""
+    """The data packets that read these parameters; cached, since hosts repeat requests."""
     packets = _packets(numbers)
     parts = []
     for at in range(0, len(packets), TOGETHER):
@@ -124,7 +124,7 @@ def _kind(number: int) -> Kind | None:
 def _fetch(talk: Talk, packets: tuple[Packet, ...], kinds: tuple[Kind, ...]) -> Op[list[Number]]:
     answer = yield from talk.exchange(Ask(packets))
     if len(answer.data) != WORD_BYTES * len(kinds):
-        raise RefusedError(", ".join(map(str, packets)), "reply of another length")
+        raise RefusedError(", ".join(map(str, packets)), "the reply has the wrong length")
     return list(_layout(kinds).unpack(answer.data))
 
 
@@ -134,7 +134,7 @@ def _layout(kinds: tuple[Kind, ...]) -> struct.Struct:
 
 
 def next_due_s(due_s: float, every_s: float, now_s: float) -> float:
-    """When the next sample is due; samples that were missed are not made up for."""
+    """When the next sample is due; missed samples are skipped."""
     missed = max(0.0, (now_s - due_s) // every_s) if every_s > 0 else 0.0
     return due_s + (missed + 1.0) * every_s
 
@@ -145,7 +145,7 @@ def read_bit(talk: Talk, what: What) -> Op[bool]:
 
 
 def read_bits(talk: Talk, whats: Iterable[What]) -> Op[list[bool]]:
-    """Several flags in their order; one word is read once."""
+    """Read several flags in order; each flag word is read once."""
     numbers = [flag_number(what) for what in whats]
     words = list(dict.fromkeys(FLAG_WORD_BASE + number // BITS_PER_WORD for number in numbers))
     found = dict(zip(words, (yield from read_many(talk, words)), strict=True))
@@ -172,7 +172,7 @@ def write_bit(talk: Talk, what: What, on: bool) -> Op[None]:
 
 
 def array_length(talk: Talk, program: int, array: str) -> Op[int]:
-    """How many elements `LA0` (SA, DA likewise) of a program has; 0 if it has none."""
+    """Count of elements of `LA0` (SA, DA likewise) of a program; 0 if not dimensioned."""
     lines = yield from talk.query("DIM", at=Level.program(program))
     found = (_DIMENSION.fullmatch(line) for line in lines)
     sizes = {match[1]: int(match[2]) for match in found if match}
@@ -180,7 +180,7 @@ def array_length(talk: Talk, program: int, array: str) -> Op[int]:
 
 
 def read_array(talk: Talk, program: int, array: str, part: range | None = None) -> Op[list[Number]]:
-    """The elements of an array of a program, all of them unless a range is given."""
+    """Read the elements of an array of a program, all unless a range is given."""
     name = _array_name(array)
     if part is None:
         part = range((yield from array_length(talk, program, name)))
@@ -193,7 +193,7 @@ def read_array(talk: Talk, program: int, array: str, part: range | None = None) 
 def write_array(
     talk: Talk, program: int, array: str, values: Iterable[Number], first: int = 0
 ) -> Op[None]:
-    """Set elements of an array of a program from one index on."""
+    """Set elements of an array of a program, starting at an index."""
     name = _array_name(array)
     for index, value in enumerate(values, start=first):
         line = f"{name}({index})={number_text(value)}"
@@ -203,5 +203,5 @@ def write_array(
 def _array_name(array: str) -> str:
     name = array.replace(" ", "").upper()
     if name[:2] not in ARRAY_WORDS or not name[2:].isdigit():
-        raise UserError(f"{array!r} is no numeric array: LA0, SA0, DA0 and so on are")
+        raise UserError(f"{array!r} is not a numeric array: use LA0, SA0, DA0 and so on")
     return name

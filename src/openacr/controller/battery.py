@@ -1,7 +1,7 @@
-"""Battery-backed memory in a data folder: it is written while the card lives.
+"""Battery-backed memory in a data folder, written while the card runs.
 
-Texts of programs and sizes are written at once, values once a second of card time, each
-time as one transaction. In the process itself the memory simply stays through REBOOT.
+Program texts and sizes are written at once, values once per second of card time, each
+time as one transaction. Within the process the memory simply persists through REBOOT.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from msgspec import Struct
 from openacr.basic.execute.system import System
 from openacr.basic.memory import user_memory
 from openacr.basic.memory.user_memory import Data, Text, UserMemory
-from openacr.controller.shelf import Shelf
+from openacr.controller.image_store import ImageStore
 from openacr.errors import CardError
 from openacr.map import numbers as at
 
@@ -23,7 +23,7 @@ VALUES_EVERY_S = 1.0
 
 
 class Backed(Struct, frozen=True):
-    """What is kept beside the texts."""
+    """Battery-backed contents other than the program texts."""
 
     data: Data
     config: list[str]
@@ -32,11 +32,11 @@ class Backed(Struct, frozen=True):
 class Battery:
     """The battery of a card; `is_on` is False for cards without one, and after BRESET."""
 
-    def __init__(self, system: System, shelf: Shelf) -> None:
-        self._system, self._shelf = system, shelf
+    def __init__(self, system: System, store: ImageStore) -> None:
+        self._system, self._store = system, store
         self.is_on = system.card.model.has_battery
-        self._follows = self.is_on and shelf.images.is_durable
-        self._is_behind = False  # the last write has failed: tried again once a second
+        self._follows = self.is_on and store.images.is_durable
+        self._retries = False  # the last write failed: tried again once a second
         self._written_tk = 0
         self._shape: object = None
         self._stored = b""
@@ -45,40 +45,40 @@ class Battery:
     def stored(self) -> tuple[UserMemory, tuple[str, ...]] | None:
         """User memory and CONFIG as they were without power; None where nothing is stored.
 
-        Each text stands for itself. Where sizes and values are lost, the texts come back into the
-        memory of a new card.
+        Each text is stored separately: if sizes and values are lost, the texts are still restored
+        into the memory of a new card.
         """
-        names = self._shelf.names(BATTERY) if self.is_on else []
+        names = self._store.names(BATTERY) if self.is_on else []
         if not names:
             return None
-        backed = self._shelf.decoded(BATTERY, Backed)
+        backed = self._store.decoded(BATTERY, Backed)
         if backed is None:
-            self._shelf.lost("sizes, aliases and variables of battery-backed memory are lost")
+            self._store.lost("sizes, aliases and variables of battery-backed memory are lost")
             config = list(self._system.setup.config)
             backed = Backed(user_memory.take_data(self._system, values=False), config)
-        texts = [self._shelf.decoded(name, Text) for name in names if name != BATTERY]
+        texts = [self._store.decoded(name, Text) for name in names if name != BATTERY]
         found = [text for text in texts if text is not None]
         return UserMemory(found, backed.data), tuple(backed.config)
 
     def disable(self) -> None:
-        """BRESET: nothing is kept any more, until the next power-up."""
+        """Stop storing anything until the next power-up (BRESET)."""
         self.is_on = self._follows = False
-        self._shelf.write(dict.fromkeys(self._shelf.names(BATTERY)))
+        self._store.write(dict.fromkeys(self._store.names(BATTERY)))
 
     def follow(self) -> None:
-        """Write what has changed: texts and sizes at once."""
-        if self._follows and (not self._is_behind or self._is_due):
+        """Write changed texts and sizes at once."""
+        if self._follows and (not self._retries or self._is_due):
             shape = self._present_shape()
             self._write(values=self._is_due or shape != self._shape)
             self._shape = shape
 
     def follow_in_time(self) -> None:
-        """Write if the last time is long enough ago."""
+        """Write changed values if the last write is long enough ago."""
         if self._follows and self._is_due:
             self._write(values=True)
 
     def close(self) -> None:
-        """Write what is left."""
+        """Write everything not yet stored."""
         if self._follows:
             self._write(values=True)
         self._follows = False
@@ -86,7 +86,7 @@ class Battery:
     @property
     def _is_due(self) -> bool:
         lived_s = (self._system.card.tick - self._written_tk) * self._system.card.period_s
-        return not 0.0 <= lived_s < VALUES_EVERY_S  # REBOOT begins to count anew
+        return not 0.0 <= lived_s < VALUES_EVERY_S  # REBOOT restarts the count
 
     def _write(self, *, values: bool) -> None:
         programs = self._system.programs
@@ -98,12 +98,12 @@ class Battery:
                 changes[BATTERY] = self._stored = content
         try:
             if changes:
-                self._shelf.write(changes, flush=False)
+                self._store.write(changes, flush=False)
         except CardError:
-            self._is_behind, self._stored = True, b""
-            self._shelf.notice("battery-backed memory is not stored until that is mended")
+            self._retries, self._stored = True, b""
+            self._store.notice("battery-backed memory is not stored until this is corrected")
         else:
-            self._is_behind = False
+            self._retries = False
             programs.changed.clear()
 
     def _text(self, owner: int) -> bytes | None:
@@ -117,11 +117,11 @@ class Battery:
         return msgspec.msgpack.encode(Backed(data, list(self._system.setup.config)))
 
     def _present_shape(self) -> object:
-        """Everything but values and text: it changes with every DIM, #DEFINE, CONFIG, ..."""
+        """Everything except values and text; changes with every DIM, #DEFINE, CONFIG, ..."""
         system, rows = self._system, self._system.card.memory.I
         sizes = array("i", rows[at.STI_BASE : at.STI_BASE + at.ST_COUNT * at.STI_STRIDE])
         for place in range(at.STI_CODE_BYTES, len(sizes), at.STI_STRIDE):
-            sizes[place] = 0  # follows from the text
+            sizes[place] = 0  # derived from the text
         return (
             sizes.tobytes(),
             rows[at.SMI_BASE : at.SMI_BASE + at.SM_COUNT * at.SMI_STRIDE].tobytes(),

@@ -1,8 +1,8 @@
 """The composition root: one virtual card with the world around it.
 
 Everything that changes a card from outside enters here - bytes on a stream, an input that
-switches - and is noted in the journal with its tick. Same entries at same ticks, same
-state: `digest` is equal on every machine build of the core.
+switches - and is recorded in the journal with its tick. The same entries at the same ticks
+give the same state: `digest` is equal on every machine and build of the core.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from openacr.protocol.status import GROUPS, WORDS, FastStatus
 
 
 class Controller(Running):
-    """A virtual card; see design notes in docs/overview.md."""
+    """A virtual card; see docs/overview.md for the design."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class Controller(Running):
 
     @classmethod
     def from_project(cls, path: str | Path) -> Controller:
-        """A card with a project folder or controller file loaded; LoadError if it refuses lines."""
+        """Create a card from a project folder or controller file; LoadError on refused lines."""
         controller, errors = cls.load(find_project(path))
         if errors:
             raise LoadError(errors)
@@ -61,15 +61,15 @@ class Controller(Running):
     def load(
         cls, project: Project, *, data: Path | None = None
     ) -> tuple[Controller, list[SourceError]]:
-        """A card with a project loaded, and the lines it has refused.
+        """Create a card with a project loaded; returns it with the lines it refused.
 
-        A card that finds programs in its data folder keeps them; of the project it takes
-        the world alone, as a machine whose card is switched on again.
+        A card that finds programs in its data folder keeps them and uses only the machine
+        description of the project, like a machine that is switched on again.
         """
         world = load.load_world(project.machine) if project.machine else None
         controller = cls(world.card.model if world else DEFAULT_MODEL, world=world, data=data)
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
-            controller.nonvolatile.shelf.notice(
+            controller.nonvolatile.store.notice(
                 f"the card has programs in {data} and keeps them; of {project.root} only the"
                 " machine is used (give an empty folder to load its programs)"
             )
@@ -89,20 +89,20 @@ class Controller(Running):
     # streams
 
     def open_stream(self, kind: StreamKind, name: str | None = None) -> int:
-        """A stream for a new connection; NoFreeStreamError when all (or that one) are taken."""
+        """Open a stream for a new connection; NoFreeStreamError if all (or that one) are in use."""
         stream = self.streams.open(kind, name)
         self._note(Entered.OPEN, stream, text=kind.value, name=name or "")
         return stream
 
     def close_stream(self, stream: int) -> None:
-        """The connection ended; motion and programs go on."""
+        """Close the stream of an ended connection; motion and programs continue."""
         self._note(Entered.CLOSE, stream)
         self.streams.close(stream)
 
     def receive(self, stream: int, data: bytes) -> None:
-        """Bytes that arrived together, at the present tick; UserError for a stream not open.
+        """Process bytes that arrived together at the present tick; UserError if not open.
 
-        Lines and packets beyond some 2 ms of work wait for the ticks that follow; keys do not.
+        Lines and packets beyond about 2 ms of work wait for the following ticks; keys do not.
         """
         self.streams.opened(stream)
         self._note(Entered.BYTES, stream, text=data.decode("latin-1"))
@@ -112,11 +112,11 @@ class Controller(Running):
         self.nonvolatile.battery.follow()
 
     def has_stream(self, stream: int) -> bool:
-        """Whether a connection of this number is open."""
+        """Whether a stream with this number is open."""
         return stream in self.streams
 
     def type_lines(self, stream: int, data: bytes) -> None:
-        """Bytes of a caller in this process, line by line: each line has a turn of its own."""
+        """Process bytes of a caller in this process line by line, each in a turn of its own."""
         for line in data.splitlines(keepends=True) or [data]:
             self.receive(stream, line)
 
@@ -125,7 +125,7 @@ class Controller(Running):
         return self.streams.accepts_input(stream)
 
     def replying(self, stream: int) -> bool:
-        """True while a line is on its way to an answer and not blocked."""
+        """True while a line is being processed and is not blocked."""
         session = self.streams.session(stream)
         if session is None or not session.busy:
             return False
@@ -138,27 +138,27 @@ class Controller(Running):
         return FastStatus(tuple(self.memory.I[place] for place in places)).encode()
 
     def take_output(self, stream: int) -> bytes:
-        """The bytes of the next write, none when there is nothing to send."""
+        """Return the bytes of the next write, empty when there is nothing to send."""
         return self.streams.take_output(stream)
 
     @property
     def console(self) -> int:
-        """The stream of this process, opened at first use."""
+        """The stream of the calling process, opened at first use."""
         if self._console is None:
             self._console = self.open_stream(StreamKind.TERMINAL, CONSOLE)
         return self._console
 
     def send(self, text: str) -> str:
-        """Type text on the console; what the card has answered so far.
+        """Type text on the console and return what the card has answered so far.
 
-        What takes longer needs card time: a LIST of more than 50 lines, a wait. `advance`,
-        then `send("")` gives the rest of the answer.
+        Longer actions need card time (a LIST of more than 50 lines, a wait): call `advance`,
+        then `send("")` for the rest of the answer.
         """
         self.type_lines(self.console, as_typed(text))
         return b"".join(iter(lambda: self.take_output(self.console), b"")).decode("latin-1")
 
     def press(self, key: ControlKey) -> None:
-        """Ctrl-X kills motion and ends programs, Ctrl-Y lifts kills, Ctrl-Z also drops drives."""
+        """Press Ctrl-X (kill motion, end programs), Ctrl-Y (clear kills) or Ctrl-Z (drives off)."""
         if key not in set(ControlKey):
             raise UserError(
                 f"key {key!r}: known are {', '.join(known.name for known in ControlKey)}"
@@ -207,28 +207,28 @@ class Controller(Running):
     # reading
 
     def axis(self, number: int) -> AxisView:
-        """One axis, for reading."""
+        """A read-only view of one axis."""
         needs_axis(self.card, number)
         return AxisView(self.card, number)
 
     def origin(self, program: int, line: int) -> tuple[str, int] | None:
-        """File and line of a project that a line of a program (0-15) or PLC (16-23) is from.
+        """Source file and line of a stored line of a program (0-15) or PLC (16-23).
 
-        None for lines that were typed or changed since, and for lines there are not.
+        None for lines that were typed or changed since, and for lines that do not exist.
         """
         return self._origins.find(self.system.programs, program, line)
 
     def statistics(self, axis: int) -> AxisStatistics:
-        """What an axis has done since power-up."""
+        """Totals of an axis since power-up."""
         needs_axis(self.card, axis)
         return AxisStatistics.of(self.card, axis)
 
     def digest(self) -> str:
-        """Fingerprint of the state; what this process asked of the engine does not count."""
+        """Fingerprint of the state, without what this process requested from the engine."""
         return digest_of(self.image())
 
     def image(self) -> bytearray:
-        """A copy of the state that `digest` speaks of."""
+        """A copy of the state that `digest` covers."""
         return state_image(self.memory)
 
     # snapshots
@@ -240,7 +240,7 @@ class Controller(Running):
     def restore(self, snapshot: snapshots.Snapshot) -> None:
         """Return to a snapshot of this card, or of one with the same model and world.
 
-        A journal on disk cannot tell of this: StoreError while one is written.
+        A journal cannot record this: StoreError while one is being written.
         """
         if self.recorder is not None:
             raise StoreError("a card that writes a journal cannot return to a snapshot")
@@ -252,7 +252,7 @@ class Controller(Running):
         self._lived_before_tk = snapshot.beside.lived_before_tk
 
     def take_over(self, snapshot: snapshots.Snapshot) -> None:
-        """Become the card of a snapshot, with everybody who was connected to it."""
+        """Become the card of a snapshot, with every connection it had."""
         self.restore(snapshot)
         snapshots.put_back_streams(self, snapshot)
         self._console = self.streams.number_of(CONSOLE)
@@ -260,7 +260,7 @@ class Controller(Running):
     # the end
 
     def close(self) -> None:
-        """Close the journal and the data folder; the card is not used any more."""
+        """Close the journal and the data folder; the card must not be used afterwards."""
         if self.recorder is not None:
             self.recorder.close()
             self.recorder = None
@@ -269,7 +269,7 @@ class Controller(Running):
     # loading
 
     def _wait_for_console_line(self) -> bool:
-        """Let time pass until the line on the loading session is done; False if it hangs."""
+        """Advance until the line on the loading session is done; False if it hangs."""
         session = self.system.sessions[CONSOLE]
         for _ in range(round(PATIENCE_S * 1000)):
             if not session.busy:

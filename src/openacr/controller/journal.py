@@ -1,4 +1,4 @@
-"""Everything that entered a card, with its tick: in memory, and in files to replay.
+"""The journal: every external input to a card with its tick, in memory and in replayable files.
 
 A journal file is text, one record per line:
 
@@ -6,21 +6,21 @@ A journal file is text, one record per line:
     {"model": ..., "world": ..., "tick": ..., "digest": ..., "snapshot": ..., ...}
     [tick, "open", stream, kind, name]      a connection begins
     [tick, "bytes", stream, text]           bytes that arrived together, as Latin-1
-    [tick, "close", stream]                 it ends
+    [tick, "close", stream]                 the connection ends
     [tick, "input", flag, 0 or 1]           an input switches
-    [tick, "release", flag]                 an input that was forced is let go
+    [tick, "release", flag]                 a forced input is released
     [tick, "analog", parameter, value]      a value at an analog input
     [tick, "drag", axis, units]             a load is pushed by hand
-    [tick, "fault", axis, kind, value]      something goes wrong in the machine
-    [tick, "mend", axis, kind]              it ends; "" for all kinds
+    [tick, "fault", axis, kind, value]      a fault of the machine begins
+    [tick, "mend", axis, kind]              the fault ends; "" for all kinds
     [tick, "parameter", number, value]      a parameter written from Python
     [tick, "flag", number, 0 or 1]          a flag written from Python
     [tick, "key", code]                     Ctrl-X, Ctrl-Y or Ctrl-Z pressed from Python
     [tick, "digest", fingerprint]           every simulated second
     [tick, "end", fingerprint]              the end of a journal that was closed
 
-Ticks count all the card has lived, restarts included. A last line that was cut off in the
-middle is left out by the reader.
+Ticks are counted over the whole life of the card, restarts included. The reader ignores a
+truncated last line.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ MAGIC = b"openacr journal 1\n"
 
 
 class Entered(StrEnum):
-    """What entered the card, or what is said about its state."""
+    """The kind of an entry: an input to the card, or a record of its state."""
 
     OPEN = "open"
     BYTES = "bytes"
@@ -69,10 +69,10 @@ class Entered(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class JournalEntry:
-    """One thing that entered the card, `tick` ticks into its life.
+    """One input to the card, `tick` ticks into its life.
 
     `number` is the stream, input, axis, parameter, flag or key. `text` holds bytes (one
-    character each), the kind of a stream, or a digest; `name` the stream that was asked for, or the
+    character each), the kind of a stream, or a digest; `name` the stream requested, or the
     kind of a fault.
     """
 
@@ -90,12 +90,12 @@ class JournalEntry:
 
     @property
     def is_digest(self) -> bool:
-        """Whether it says something about the card instead of changing it."""
+        """Whether the entry records the state of the card instead of changing it."""
         return self.what in (Entered.DIGEST, Entered.END)
 
 
 class Header(msgspec.Struct, frozen=True):
-    """What a journal begins with: the card as it was, and where it came from."""
+    """The first record of a journal: the initial state of the card and its origin."""
 
     program: str
     layout: str
@@ -112,7 +112,7 @@ class Header(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """A journal as read from a file; `is_whole`: it was closed, nothing is cut off."""
+    """A journal as read from a file; `is_whole`: it was closed and is not truncated."""
 
     header: Header
     entries: tuple[JournalEntry, ...]
@@ -120,7 +120,7 @@ class Journal:
 
     @property
     def snapshot(self) -> snapshots.Snapshot:
-        """The card as it was; StoreError if this version cannot take it over."""
+        """The initial state of the card; StoreError if this version cannot use it."""
         if self.header.layout != snapshots.layout():
             raise StoreError(
                 f"the journal was written by openacr {self.header.program} with another layout"
@@ -214,13 +214,13 @@ def read_journal(path: Path) -> Journal:
     _check(path, header)
     entries = tuple(
         _entries(path, header, lines[:-1])
-    )  # behind the last line end: nothing, or a part
+    )  # after the last line end: nothing, or a part of a record
     is_whole = bool(entries) and entries[-1].what is Entered.END and not lines[-1]
     return Journal(header, entries, is_whole)
 
 
 def _entries(path: Path, header: Header, lines: list[bytes]) -> Iterator[JournalEntry]:
-    """The entries in their order; no two are farther apart than two digests."""
+    """The entries in order; no gap is longer than the interval between two digests."""
     latest = header.tick
     for number, line in enumerate(lines, 3):
         try:
@@ -229,19 +229,19 @@ def _entries(path: Path, header: Header, lines: list[bytes]) -> Iterator[Journal
             raise StoreError(f"{path}: line {number} is damaged") from None
         if not latest <= entry.tick <= latest + header.digest_every_tk:
             raise StoreError(
-                f"{path}: line {number} is damaged: tick {entry.tick} comes after {latest}, and"
-                f" there is an entry every {header.digest_every_tk} ticks"
+                f"{path}: line {number} is damaged: tick {entry.tick} follows tick {latest}, but"
+                f" there must be an entry every {header.digest_every_tk} ticks"
             )
         latest = entry.tick
         yield entry
 
 
 def _check(path: Path, header: Header) -> None:
-    """Refuse a header no card has written."""
+    """Refuse a header that no card can have written."""
     if header.model not in MODELS:
         raise StoreError(f"{path} is the journal of an unknown model, {header.model}")
     wrong = next(contradictions(header.world), None)
     if wrong is not None:
         raise StoreError(f"{path}: its machine is damaged: {wrong.text}")
     if header.period_s != header.world.card.period_s:
-        raise StoreError(f"{path}: its first record is damaged: two lengths of a tick")
+        raise StoreError(f"{path}: its first record is damaged: it has two different tick lengths")

@@ -13,7 +13,7 @@ from openacr.errors import CardError, SourceError
 from openacr.motion.axis import modules
 from openacr.project import Place, Project, SourceFile
 
-PATIENCE_S = 60.0  # a line of a set-up file that waits longer than this hangs
+PATIENCE_S = 60.0  # a line of a set-up file that waits longer counts as hanging
 
 
 class LoadError(SourceError):
@@ -29,18 +29,18 @@ class LoadError(SourceError):
 
 @dataclass(slots=True)
 class Origins:
-    """Where in the files of a project the stored lines of programs and PLCs come from."""
+    """Source positions, in the files of a project, of the stored lines of programs and PLCs."""
 
     path: str = ""  # of the file that is being read, and its line
     line: int = 0
     _places: dict[tuple[int, int], tuple[str, str, int]] = field(default_factory=dict)
 
     def note(self, owner: int, stored: StoredLine) -> None:
-        """Remember that this line was stored by the present line of the present file."""
+        """Record that the current line of the current file stored this line."""
         self._places[owner, stored.number] = stored.text, self.path, self.line
 
     def find(self, programs: ProgramStore, owner: int, number: int) -> tuple[str, int] | None:
-        """File and line of a stored line; None where it was changed or came from elsewhere."""
+        """File and line of a stored line; None if it was changed or came from elsewhere."""
         stored = programs.texts[owner].get(number)
         place = self._places.get((owner, number))
         if stored is None or place is None or place[0] != stored.text:
@@ -50,14 +50,14 @@ class Origins:
 
 @dataclass(slots=True)
 class Loader:
-    """Feeds files to a session; `wait` lets time pass until its line is done."""
+    """Feeds files to a session; `wait` advances card time until the line is done."""
 
     session: Session
     wait: Callable[[], bool]
     origins: Origins = field(default_factory=Origins)
 
     def load(self, project: Project) -> list[SourceError]:
-        """Load every file; the errors are those the card reports, with their place."""
+        """Load every file; returns the errors the card reports, with their positions."""
         errors: list[SourceError] = []
         programs = self.session.system.programs
         programs.on_put = self.origins.note
@@ -85,7 +85,7 @@ class Loader:
         if self.session.capture is not None:
             self._feed("ENDP")
         if source.place is Place.SETUP:
-            # A machine is set up with its project and switched on again, once and for all.
+            # A machine is set up with its project once and then switched on again.
             modules.fit(self.session.system.card, self.session.system.setup.config)
         return errors
 

@@ -1,6 +1,6 @@
-"""A card with the world around it and everything that serves it, wired together.
+"""A card wired together with its simulated machine, its storage and its streams.
 
-What comes from outside is noted in the journal here; power-up and REBOOT are here too.
+External inputs are recorded in the journal here; power-up and REBOOT are here as well.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ class CardParts:
 
     @property
     def lived_tk(self) -> int:
-        """Ticks this card has lived altogether; restarting it does not begin anew."""
+        """Ticks this card has run in total; a restart does not reset the count."""
         return self._lived_before_tk + self.tick
 
     @property
@@ -107,7 +107,7 @@ class CardParts:
     def _note(
         self, what: Entered, number: int, value: float = 0.0, *, text: str = "", name: str = ""
     ) -> None:
-        """Enter something that comes from outside into the journals."""
+        """Record an external input in the journals."""
         if self.is_journalled or self.recorder is not None:
             entry = JournalEntry(self.lived_tk, what, number, text, float(value), name)
             if self.is_journalled:
@@ -146,7 +146,7 @@ class CardParts:
         outside = apply.take_state(self.memory)
         self.executor.threads.reset()
         self.system.restart(keeps_memory=self.nonvolatile.battery.is_on)
-        self.executor.threads.space.rebuild()  # the rows that say whose code lies where are gone
+        self.executor.threads.space.rebuild()  # the rows that locate the compiled code are gone
         self._apply_world()
         apply.put_state(self.memory, outside)
         give_orders(self.memory, orders)
@@ -156,7 +156,7 @@ class CardParts:
         self._start_boot_programs()
 
     def _start_boot_programs(self) -> None:
-        with suppress(CardError):  # nobody is connected who could be told
+        with suppress(CardError):  # no host is connected to report it to
             self.system.start_boot_programs()
 
     def _plc_text(self, plc: int) -> Iterator[tuple[int, PlcLine]]:
@@ -172,7 +172,7 @@ class CardParts:
         self.memory.I[ENGI_BASE + row] = value
 
     def _deliver(self, channel: int, text: str) -> None:
-        """Write something on a channel by its number."""
+        """Write text on a channel, by channel number."""
         for session in self.system.sessions.values():
             if session.index == channel:
                 session.write(text)

@@ -1,11 +1,11 @@
 """Binary moves that have arrived and wait for room in the buffer of their master.
 
-A packet is not answered, so nothing may be lost: what does not fit waits here in the order
-of arrival, and the engine comes back in the tick in which a buffer has room again. While
-MOST moves of a master wait, nothing more is read from streams that sent some of them: these
-senders are held back by their transport, and nobody else is. Until then packets and control
-keys that come behind waiting moves act at once. A refused move (killed, at a limit) takes
-those behind it along, since they would lead from the wrong place.
+Move packets are not answered, so none may be lost: moves that do not fit wait here in order
+of arrival, and the engine returns in the tick in which a buffer has room again. While MOST
+moves of a master wait, the streams that sent some of them are not read: their transport
+holds these senders back, and no others. Until then packets and control keys that arrive
+after waiting moves act at once. A refused move (killed, at a limit) discards the moves
+that follow it, since they would start from the wrong position.
 """
 
 import logging
@@ -39,11 +39,11 @@ class MoveQueue:
         self._waiting: dict[int, deque[Move]] = {}
 
     def is_full(self, master: int) -> bool:
-        """Whether those who send moves of a master have to be held back."""
+        """Whether senders of moves for a master have to be held back."""
         return len(self._waiting.get(master, ())) >= MOST
 
     def add(self, move: Move) -> None:
-        """Issue a move, behind those that wait already."""
+        """Issue a move, after those already waiting."""
         if move.master not in self._waiting and self._has_room(move):
             try:
                 self._make(move)
@@ -54,7 +54,7 @@ class MoveQueue:
         self._issue(move.master)
 
     def drain(self) -> None:
-        """Issue what has found room."""
+        """Issue the moves that now have room."""
         for master in list(self._waiting):
             self._issue(master)
 
@@ -64,7 +64,7 @@ class MoveQueue:
             while waiting and self._has_room(waiting[0]):
                 self._make(waiting.popleft())
         except (CardError, PacketError) as refused:
-            log.debug("master %d: %s; %d moves behind it dropped", master, refused, len(waiting))
+            log.debug("master %d: %s; %d later moves dropped", master, refused, len(waiting))
             waiting.clear()
         if not waiting:
             del self._waiting[master]
@@ -78,25 +78,25 @@ class MoveQueue:
 
     def _has_room(self, move: Move) -> bool:
         if move.master >= self._card.model.masters:
-            return True  # nothing to wait for: it will be refused
+            return True  # no reason to wait: it will be refused
         row, limit = self._room(move)
         return self._card.memory.I[row] < limit
 
     def _room(self, move: Move) -> tuple[int, int]:
-        """Row in I and value it must stay below for a move to find room."""
+        """Row in I, and the value below which it must stay, for a move to have room."""
         if move.curve in _FAMILIES:
             return curve_moves.room_row(self._card, move.master, curve_moves.MOST)
         return moves.room_row(self._card, move.master)
 
     def _note(self) -> None:
-        """Tell the engine which masters are waited for, and for how much room."""
+        """Set for which masters the engine has to report room, and how much."""
         rows = self._card.memory.I
         rows[_WAITING] = sum(1 << master for master in self._waiting)
         for master, waiting in self._waiting.items():
             rows[master_ints(master) + MSI_ROOM_BELOW] = self._room(waiting[0])[1]
 
     def clear(self) -> None:
-        """Forget all waiting moves, as at power-up."""
+        """Discard all waiting moves, as at power-up."""
         self._waiting.clear()
         self._note()
 
@@ -105,7 +105,7 @@ class MoveQueue:
         return [move.encode() for waiting in self._waiting.values() for move in waiting]
 
     def restore(self, state: list[bytes]) -> None:
-        """Take over what `state` returned."""
+        """Restore what `state` returned."""
         self._waiting.clear()
         for data in state:
             move = Move.decode(data)
@@ -114,7 +114,7 @@ class MoveQueue:
 
 
 def _host_move(card: Card, move: Move) -> HostMove:
-    """What a packet asks of a card in its present mode."""
+    """The move a packet requests of a card in its present mode."""
     profile = move.profile(host_moves.has_rapid_modes(card, move.master))
     return HostMove(
         master=move.master,
@@ -157,7 +157,7 @@ def _host_point(card: Card, move: Move) -> HostPoint:
 def _pulses(
     card: Card, move: Move, values: tuple[tuple[int, int | float], ...]
 ) -> Iterator[tuple[int, float]]:
-    """Integers are pulses, floats units of the axis of the slave."""
+    """A value in pulses: integers are pulses, floats are units of the slave's axis."""
     for slave, value in values:
         axis = host_moves.slave_axis(card, move.master, slave)
         yield slave, value * (scale_of(card, axis) if isinstance(value, float) else 1.0)
@@ -165,7 +165,7 @@ def _pulses(
 
 def _arc(card: Card, move: Move) -> Arc:
     if move.centers is None:
-        raise PacketError("an arc without centers")
+        raise PacketError("the packet of an arc has no centers")
     slaves = move.arc_slaves
     pair = ((slaves[0], move.centers[0]), (slaves[1], move.centers[1]))
     center = [value for _, value in _pulses(card, move, pair)]

@@ -17,7 +17,7 @@ from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.move import Move
 from openacr.protocol.string_words import ProgramStrings
 
-TIMEOUT_MS = 50  # of channels without a parameter for it
+TIMEOUT_MS = 50  # for channels without a time-out parameter
 _TIMEOUTS = {
     "FIFO": P_FIFO_COMMUNICATION_TIMEOUT,
     "COM1": P_COM1_COMMUNICATION_TIMEOUT,
@@ -49,7 +49,7 @@ class PacketHost:
         self.variable_address = self._space.variable_address
 
     def timeout_tk(self, channel: str) -> int:
-        """The longest gap between the bytes of a packet on a channel, in ticks."""
+        """The longest permitted gap between the bytes of a packet on a channel, in ticks."""
         row = _TIMEOUTS.get(channel)
         time_ms = TIMEOUT_MS if row is None else self._card.memory.I[row]
         return max(1, round(time_ms / 1000 / self._card.period_s))
@@ -61,5 +61,5 @@ class PacketHost:
             self._card.memory.S[master_parameter(master) + row] = max(value, 0.0)
 
     def issue_move(self, move: Move) -> None:
-        """Issue a move, or let it wait for room in the buffer of its master."""
+        """Issue a move, or queue it until the buffer of its master has room."""
         self.moves.add(move)

@@ -1,12 +1,12 @@
-"""What a card keeps without power: saved parameters, user flash and battery-backed memory.
+"""The non-volatile memory of a card: saved parameters, user flash and battery-backed memory.
 
     image       written                                   read
-    battery     while the card lives (`battery.py`)       power-up
+    battery     while the card runs (`battery.py`)        power-up
     flash       FLASH SAVE, FLASH IMAGE                   power-up, REBOOT, FLASH LOAD
     parameters  ESAVE                                     power-up, REBOOT, ELOAD
 
-At power-up they are read in this order, each over what the one before has left. An image
-that is damaged counts as not there, and `notices` says so.
+At power-up they are read in this order, each overwriting the one before. A damaged image
+counts as absent, and `notices` reports it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from openacr.basic.memory import saved, user_memory
 from openacr.basic.memory.setup import Setup
 from openacr.basic.memory.user_memory import UserMemory
 from openacr.controller.battery import BATTERY, Battery
-from openacr.controller.shelf import UNREADABLE, Shelf
+from openacr.controller.image_store import UNREADABLE, ImageStore
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.motion.axis import modules
@@ -36,63 +36,63 @@ BOOT_EMPTY, SYSTEM1_EMPTY, SYSTEM2_EMPTY, USER_EMPTY, BACKED_UP = range(5656, 56
 class Persistence:
     """The non-volatile memory of one card, as the commands of that group use it."""
 
-    def __init__(self, system: System, shelf: Shelf) -> None:
-        self._system, self.shelf = system, shelf
+    def __init__(self, system: System, store: ImageStore) -> None:
+        self._system, self.store = system, store
         system.nonvolatile = self
-        self.battery = Battery(system, shelf)
+        self.battery = Battery(system, store)
         self._claim()
 
     @classmethod
     def open(cls, system: System, folder: Path | None) -> Persistence:
-        """The non-volatile memory in a data folder, without one in this process alone."""
-        shelf = Shelf.in_folder(folder)
+        """The non-volatile memory in a data folder; without a folder, kept in this process."""
+        store = ImageStore.in_folder(folder)
         try:
-            return cls(system, shelf)
+            return cls(system, store)
         except (StoreError, CardError) as error:
-            shelf.images.close()
+            store.images.close()
             raise StoreError(f"{folder}: {error}") from None
 
     @property
     def notices(self) -> list[str]:
-        """What whoever has switched the card on should know, in sentences."""
-        return self.shelf.notices
+        """Messages for the operator who switched the card on, as sentences."""
+        return self.store.notices
 
     def _claim(self) -> None:
-        """Refuse what another model has stored."""
+        """Refuse data stored by another model."""
         name = self._system.card.model.name.encode()
-        known = self.shelf.read(CARD)
+        known = self.store.read(CARD)
         if known is not None and known != name:
             raise StoreError(
-                f"this data belongs to an {known.decode()}, the card is an {name.decode()}"
+                f"this data was stored by an {known.decode()}, the card is an {name.decode()}"
             )
         if known is None:
-            self.shelf.write({CARD: name})
+            self.store.write({CARD: name})
 
     # power-up
 
     def power_up(self) -> None:
-        """Bring back what is stored, after the card has got its defaults."""
+        """Restore the stored contents, after the card has been set to its defaults."""
         config = None
         if backed := self.battery.stored():
             memory, config = backed
             self._put_user_memory(memory)
         self._load(config)
         self.battery.follow()
-        self.shelf.is_up = True
-        for text in self.shelf.losses:
+        self.store.is_up = True
+        for text in self.store.losses:
             for session in self._system.sessions.values():
                 session.announcements.append(f"Warning: {text}")
 
     def restart(self) -> None:
-        """Bring back what is stored, at REBOOT; battery-backed memory is there already."""
+        """Restore the stored contents at REBOOT; battery-backed memory is still present."""
         self._load(self._system.setup.config if self.battery.is_on else None)
 
     def _load(self, config: tuple[str, ...] | None) -> None:
-        """Flash, then parameters; CONFIG is that of the battery where there is one."""
+        """Load flash, then parameters; CONFIG comes from the battery if present."""
         self.flash_load()
         self._system.setup = Setup()
         self.eload()
-        modes = self.shelf.decoded(STREAM_MODES, list[int])
+        modes = self.store.decoded(STREAM_MODES, list[int])
         if modes is not None:
             saved.put_stream_modes(self._system, modes)
         if config is not None:
@@ -109,7 +109,7 @@ class Persistence:
 
     def _say(self, refused: list[str]) -> None:
         for line in refused:
-            self.shelf.notice(f"not restored: {line}")
+            self.store.notice(f"not restored: {line}")
 
     # parameters
 
@@ -117,34 +117,34 @@ class Persistence:
         """ESAVE."""
         parameters = msgspec.msgpack.encode(saved.take(self._system))
         modes = msgspec.msgpack.encode(saved.take_stream_modes(self._system))
-        self.shelf.write({PARAMETERS: parameters, STREAM_MODES: modes})
+        self.store.write({PARAMETERS: parameters, STREAM_MODES: modes})
 
     def eload(self) -> None:
-        """ELOAD; without saved parameters nothing changes."""
-        parameters = self.shelf.decoded(PARAMETERS, dict[str, Any])
+        """Load the saved parameters (ELOAD); without any, nothing changes."""
+        parameters = self.store.decoded(PARAMETERS, dict[str, Any])
         if parameters is not None:
             self._say(saved.put(self._system, parameters))
 
     def erase(self) -> None:
-        """ERASE: forget the saved parameters; start-up modes of streams stay."""
-        self.shelf.write({PARAMETERS: None})
+        """Erase the saved parameters (ERASE); start-up modes of streams remain."""
+        self.store.write({PARAMETERS: None})
 
     # flash and battery
 
     def flash_save(self, *, values: bool) -> None:
-        """FLASH SAVE, and with values FLASH IMAGE."""
+        """Store user memory in flash: FLASH SAVE, or FLASH IMAGE with values."""
         image = user_memory.take(self._system, values=values)
-        self.shelf.write({FLASH: msgspec.msgpack.encode(image)})
+        self.store.write({FLASH: msgspec.msgpack.encode(image)})
 
     def flash_load(self) -> None:
-        """FLASH LOAD; from an empty flash nothing is loaded."""
-        flash = self.shelf.decoded(FLASH, UserMemory)
+        """Load user memory from flash (FLASH LOAD); an empty flash loads nothing."""
+        flash = self.store.decoded(FLASH, UserMemory)
         if flash is not None:
             self._put_user_memory(flash)
 
     def flash_erase(self) -> None:
-        """FLASH ERASE."""
-        self.shelf.write({FLASH: None})
+        """Erase the user flash (FLASH ERASE)."""
+        self.store.write({FLASH: None})
 
     def breset(self) -> None:
         """BRESET."""
@@ -153,14 +153,14 @@ class Persistence:
     # firmware
 
     def firmware_backup(self) -> None:
-        """FIRMWARE BACKUP: system flash 2 becomes a copy of system flash 1."""
-        self.shelf.write({BACKUP: self._firmware})
+        """Copy system flash 1 to system flash 2 (FIRMWARE BACKUP)."""
+        self.store.write({BACKUP: self._firmware})
         self._system.card.memory.set_bit(BACKED_UP, True)
 
     def firmware_checksum(self) -> None:
-        """FIRMWARE CHECKSUM: versions, checksums and flags of all four flash memories."""
+        """Update versions, checksums and flags of all four flash memories (FIRMWARE CHECKSUM)."""
         memory, own = self._system.card.memory, self._firmware
-        backup, user = self.shelf.read(BACKUP) or b"", self.shelf.read(FLASH) or b""
+        backup, user = self.store.read(BACKUP) or b"", self.store.read(FLASH) or b""
         for number, content in (
             (at.P_BOOTFLASH_VERSION, own),
             (at.P_SYSFLASH1_VERSION, own),
@@ -177,31 +177,31 @@ class Persistence:
 
     @property
     def _firmware(self) -> bytes:
-        """What the flash memories of the card hold of its firmware: the version."""
+        """The firmware content of the flash memories: the version alone."""
         return self._system.card.model.firmware.encode()
 
     # snapshots and the end
 
     def state(self) -> dict[str, bytes]:
-        """What is stored beside the battery, for a snapshot."""
-        found = {name: self.shelf.read(name) for name in self._others()}
+        """The stored images other than the battery, for a snapshot."""
+        found = {name: self.store.read(name) for name in self._others()}
         state = {name: data for name, data in found.items() if data is not None}
         is_reset = self._system.card.model.has_battery and not self.battery.is_on
         return state | ({NO_BATTERY: b""} if is_reset else {})
 
     def restore(self, state: Mapping[str, bytes]) -> None:
-        """Take over what `state` returned."""
+        """Restore what `state` returned."""
         gone: dict[str, bytes | None] = dict.fromkeys(self._others())
         wanted = {name: data for name, data in state.items() if name != NO_BATTERY}
-        self.shelf.write(gone | wanted)
+        self.store.write(gone | wanted)
         if NO_BATTERY in state:
             self.battery.disable()
 
     def _others(self) -> list[str]:
         others = (BATTERY, UNREADABLE)
-        return [name for name in self.shelf.names() if not name.startswith(others)]
+        return [name for name in self.store.names() if not name.startswith(others)]
 
     def close(self) -> None:
-        """Write what is left and let go of the data folder."""
+        """Write everything not yet stored and release the data folder."""
         self.battery.close()
-        self.shelf.images.close()
+        self.store.images.close()

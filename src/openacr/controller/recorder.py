@@ -1,9 +1,9 @@
-"""Writes the journal of a card while it lives.
+"""Write the journal of a card while it runs.
 
 A card in real time has no milliseconds to spare for a fingerprint of its memory or for a
-compressed snapshot: of both only a copy is taken at the tick, the rest is done in a thread.
-Records keep their order; those behind an unfinished one wait for it. What has entered is
-written together whenever time passes, so a process that is killed loses the last tick.
+compressed snapshot: only a copy is taken in the tick, the rest is done in a thread.
+Records keep their order; those after an unfinished one wait for it. Inputs are written
+together whenever time advances, so a process that is killed loses the last tick.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ _WORKER = ThreadPoolExecutor(1, thread_name_prefix="journal")
 
 
 class Records:
-    """A file of records, in their order, some of which are still being worked out.
+    """A file of records in order, some of which are still being computed.
 
-    When the disk is full the file ends with its last whole record and the card goes on.
+    When the disk is full the file ends with its last complete record and the card continues.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.failure = ""  # why nothing is written any more
+        self.failure = ""  # why writing has stopped
         self.size_bytes = 0
         self._waiting: deque[bytes | Future[bytes]] = deque()
         self._waiting_bytes = 0
@@ -66,11 +66,11 @@ class Records:
             self.flush()
 
     def work_out(self, record: Callable[[], bytes]) -> None:
-        """Append a record that a thread works out."""
+        """Append a record that a thread computes."""
         self._waiting.append(_WORKER.submit(record))
 
     def flush(self, *, waits: bool = False) -> None:
-        """Write what is ready, or all there is."""
+        """Write the records that are ready; with `waits`, all of them."""
         ready = bytearray()
         while self._waiting and (waits or _is_ready(self._waiting[0])):
             record = self._waiting.popleft()
@@ -84,13 +84,13 @@ class Records:
         try:
             while rest:
                 rest = rest[self._file.write(rest) :]
-        except OSError as failure:  # the card goes on
+        except OSError as failure:  # the card continues
             self.failure = reason(failure)
             log.warning("%s is not complete: %s", self.path, self.failure)
         self.size_bytes += len(data)
 
     def end(self) -> None:
-        """Close the file as soon as everything is written; nothing is waited for."""
+        """Close the file as soon as everything is written, without waiting for it."""
         self.flush()
         _WORKER.submit(self.close)
 
@@ -138,7 +138,7 @@ class Recorder:
 
     @property
     def failure(self) -> str:
-        """Why nothing is written any more."""
+        """Why writing has stopped; empty while it has not."""
         return self.records.failure
 
     @property
@@ -147,12 +147,12 @@ class Recorder:
         return self.records.size_bytes
 
     def note(self, entry: JournalEntry) -> None:
-        """Enter something; written before the card lives on."""
+        """Record an entry; it is written before time advances."""
         if not self.failure:
             self.records.put(record_of(entry))
 
     def flush(self) -> None:
-        """Write what has been entered."""
+        """Write the recorded entries."""
         self.records.flush()
 
     def mark(self) -> None:

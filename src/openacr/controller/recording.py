@@ -1,4 +1,4 @@
-"""The samples of all axes that the compiled loop leaves, in buffers of one size."""
+"""The samples of all axes recorded by the compiled loop, in buffers of fixed size."""
 
 from collections.abc import Sequence
 from typing import cast
@@ -25,7 +25,7 @@ CHUNK_ROWS = 65536
 
 
 class Recording:
-    """What is recorded of a card; `view` is the buffer the loop writes to."""
+    """The recording of a card; `view` is the buffer the loop writes to."""
 
     def __init__(self, card: Card) -> None:
         self._card = card
@@ -34,7 +34,7 @@ class Recording:
         self.view: F64 = memoryview(bytearray(8)).cast("d")
 
     def start(self, every_tk: int, *, keep_peaks: bool, samples: Sequence[Sample]) -> None:
-        """Record once in `every_tk` ticks from now; what was recorded before is dropped."""
+        """Record every `every_tk` ticks from now on; earlier samples are dropped."""
         self._full = []
         set_samples(self._card.memory, samples)
         self._set(ENGI_TRACE_PEAKS, int(keep_peaks))
@@ -43,7 +43,7 @@ class Recording:
         self._begin_buffer()
 
     def go_on(self) -> None:
-        """The buffer is full: keep it, and go on with another one."""
+        """Keep the full buffer and continue with a new one."""
         if self._present is not None:
             self._full.append(self._present)
         self._begin_buffer()

@@ -1,4 +1,4 @@
-"""Live through a journal once more: the same card, everything that entered at its tick."""
+"""Replay a journal: the same card receives every input again at its tick."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from openacr.protocol.events import ControlKey
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A digest of the journal that the replayed card does not have."""
+    """A digest of the journal that differs from that of the replayed card."""
 
     tick: int
     expected: str
@@ -21,7 +21,7 @@ class Difference:
 
 
 class Replay:
-    """One replay; `card` is the card as far as it has come."""
+    """One replay; `card` is the card at the point reached so far."""
 
     def __init__(self, journal: Journal) -> None:
         self.journal = journal
@@ -32,7 +32,7 @@ class Replay:
         if (self.card.digest(), self.card.lived_tk) != (header.digest, header.tick):
             raise StoreError("the journal is damaged: its snapshot is not that of its first tick")
         self.entered = 0  # entries that were applied
-        self.equal = 0  # digests that were as in the journal
+        self.equal = 0  # digests that matched the journal
         self.difference: Difference | None = None  # the first one
         self._streams: dict[int, int] = {}
 
@@ -42,7 +42,7 @@ class Replay:
         return (self.card.lived_tk - self.journal.header.tick) * self.journal.header.period_s
 
     def run(self, until_s: float | None = None) -> None:
-        """Replay everything, or so many simulated seconds from the beginning of the journal."""
+        """Replay everything, or up to `until_s` simulated seconds after the journal's start."""
         header = self.journal.header
         end_tk = None if until_s is None else header.tick + round(until_s / header.period_s)
         for entry in self.journal.entries:
@@ -56,8 +56,8 @@ class Replay:
                 self._apply(entry)
             except (UserError, CardError, NoFreeStreamError, LookupError) as error:
                 raise StoreError(
-                    f"the journal is damaged: what entered at tick {entry.tick}"
-                    f" ({entry.what}) cannot enter this card: {error}"
+                    f"the journal is damaged: the entry at tick {entry.tick}"
+                    f" ({entry.what}) cannot be applied to this card: {error}"
                 ) from None
         if end_tk is not None:
             self._advance_to(end_tk)
@@ -102,7 +102,7 @@ class Replay:
             raise UserError(f"there is no connection {stream}")
 
     def _apply_to_stream(self, entry: JournalEntry) -> None:
-        """Connections may get other numbers than they had."""
+        """Apply a stream entry; connections may get other numbers than they had."""
         if entry.what is Entered.OPEN:
             opened = self.card.open_stream(StreamKind(entry.text), entry.name or None)
             self._streams[entry.number] = opened

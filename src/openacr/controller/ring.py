@@ -1,4 +1,4 @@
-"""The journal of the last minutes of a card that may run for months."""
+"""A rolling journal: the last minutes of a card that may run for months."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 SUFFIX = ".journal"
-PLACES = 64  # cards that are served on one machine at once
+PLACES = 64  # cards served on one computer at once
 
 
 class Ring:
-    """Keeps the last minutes of a card in a folder: a file for each stretch of time.
+    """Keeps the last minutes of a card in a folder, one file per period of time.
 
-    Every file begins with a snapshot, so each can be replayed without those before it. A
-    file is also full when hosts have sent very much. A file that cannot be written is left
-    out; the card goes on.
+    Every file begins with a snapshot, so each can be replayed without the earlier ones. A
+    file also ends early when hosts have sent a large amount. A file that cannot be written
+    is omitted; the card continues.
     """
 
     def __init__(
@@ -55,17 +55,17 @@ class Ring:
         return self._end_tk if self._recorder is None else self._recorder.next_tk
 
     def note(self, entry: JournalEntry) -> None:
-        """Enter something."""
+        """Record an entry."""
         if self._recorder is not None:
             self._recorder.note(entry)
 
     def flush(self) -> None:
-        """Write what has been entered."""
+        """Write the recorded entries."""
         if self._recorder is not None:
             self._recorder.flush()
 
     def mark(self) -> None:
-        """Write the digest that is due; when a stretch is over, begin the next file."""
+        """Write the digest that is due; when the period of a file is over, begin the next."""
         recorder = self._recorder
         is_full = recorder is not None and recorder.size_bytes > self._most_bytes
         if self._card.lived_tk < self._end_tk and not is_full:
@@ -81,7 +81,7 @@ class Ring:
             self._recorder = None
 
     def close(self) -> None:
-        """Close the present file and leave the folder to others."""
+        """Close the current file and release the folder."""
         if self._recorder is not None:
             self._recorder.close()
         self._lock.release()
@@ -99,7 +99,7 @@ def own_ring(card: Controller, folder: Path) -> Ring:
     for place in range(1, PLACES + 1):
         with suppress(InUseError):
             return Ring(card, folder / str(place))
-    raise StoreError(f"{folder} has no free place: {PLACES} cards use it")
+    raise StoreError(f"{folder} has no room for another card: {PLACES} cards use it")
 
 
 def journals(folder: Path) -> list[Path]:

@@ -1,4 +1,4 @@
-"""The life of a card: ticks pass in the compiled engine, what it leaves is done here."""
+"""Advance a card in time: run the compiled engine and serve its requests to Python."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from openacr.map.numbers import (
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.plant import schema
 
-LONGEST_RUN_TK = 2**31 - 1  # of one run of the engine, which counts down in 32 bits
+LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down in 32 bits
 
 _engine_run = pick(loop_cy.engine_run)
 _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
 
 
 class Running(CardParts):
-    """Lets time pass."""
+    """A card whose time can be advanced."""
 
     def __init__(
         self,
@@ -45,13 +45,13 @@ class Running(CardParts):
         data: Path | None = None,
     ) -> None:
         super().__init__(model, world=world, data=data)
-        self._look: Callable[[], bool] | None = None
+        self._poll: Callable[[], bool] | None = None
         self._recording = Recording(self.card)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
-        """Let the card live for `ticks` ticks and `seconds`, or until a watch ends it.
+        """Advance the card by `ticks` ticks plus `seconds`, or until a watch ends it.
 
-        UserError for a negative time, and for one that is no number.
+        UserError for a time that is negative or not a number.
         """
         if not (ticks >= 0 and 0.0 <= seconds < math.inf):
             raise UserError(f"advance by {ticks} ticks and {seconds} s: time only goes forward")
@@ -60,7 +60,7 @@ class Running(CardParts):
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
     ) -> bool:
-        """Let the card live until a flag has this state; False if it has not in time.
+        """Advance the card until a flag has this state; False if it does not in time.
 
         MapError for a flag that does not exist, UserError for a negative time.
         """
@@ -79,7 +79,7 @@ class Running(CardParts):
         return reason == loop_cy.UNTIL_MET
 
     def _live(self, ticks: int) -> int:
-        """Run the engine, with a stop wherever the journal wants a digest; why it ended."""
+        """Run the engine, stopping where the journal needs a digest; returns why it ended."""
         while True:
             step = min(ticks, LONGEST_RUN_TK)
             if self.recorder is not None:
@@ -97,17 +97,17 @@ class Running(CardParts):
                 self.nonvolatile.battery.follow_in_time()
                 return reason
 
-    def watch(self, watches: Sequence[Watch] = (), look: Callable[[], bool] | None = None) -> None:
-        """End `advance` and `until` early from now on, behind the tick in which it happened.
+    def watch(self, watches: Sequence[Watch] = (), poll: Callable[[], bool] | None = None) -> None:
+        """End `advance` and `until` early from now on, after the tick in which an event occurs.
 
-        It ends when a watch has changed, or when `look`, which is asked behind every tick in
-        which statements were performed that can print or answer, returns True.
+        An event is a change of a watch, or that `poll` returns True; `poll` is called after every
+        tick in which statements were executed that can print or answer.
         """
         set_watches(self.memory, watches)
-        self._look = look
+        self._poll = poll
 
     def _run(self) -> int:
-        """Run the engine to the end of its ticks or until what was awaited; why it ended."""
+        """Run the engine to the end of its ticks or the awaited event; returns why it ended."""
         memory, space = self.memory, self.executor.threads.space
         while True:
             reason = _engine_run(
@@ -118,7 +118,7 @@ class Running(CardParts):
             if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
                 return reason
             if reason == loop_cy.STOPPED:
-                if self._look is not None and self._look():
+                if self._poll is not None and self._poll():
                     return reason
             elif reason == loop_cy.TRACE_FULL:
                 self._recording.go_on()
@@ -126,11 +126,11 @@ class Running(CardParts):
                 self._attend(reason)
                 if self._wants_reboot:
                     self._reboot()
-                    if self._look is not None or memory.I[ENGI_BASE + ENGI_WATCH_COUNT]:
+                    if self._poll is not None or memory.I[ENGI_BASE + ENGI_WATCH_COUNT]:
                         return loop_cy.WATCH
 
     def _attend(self, reason: int) -> None:
-        """Do what the engine leaves to Python."""
+        """Do the work for which the engine returned to Python."""
         if reason == loop_cy.REQUESTS:
             self.control.scan()
             for name in take_escapes(self.memory):
@@ -143,11 +143,11 @@ class Running(CardParts):
         else:
             self.executor.attend(reason - loop_cy.THREAD)
             self.streams.settle()
-        if self._look is not None or self.streams.is_overdue:
+        if self._poll is not None or self.streams.is_overdue:
             self._set_engine(ENGI_STOP, 1)
 
     def _take_turns(self) -> None:
-        """Go on with what hosts have sent faster than it is dealt with; stop next tick again."""
+        """Continue with the backlog of host input; stop again in the next tick if any is left."""
         self.streams.take_turns()
         if self._wants_reboot:
             self._reboot()
@@ -164,16 +164,16 @@ class Running(CardParts):
         """Record all axes, and the chosen samples, once in `every_tk` ticks (1 or more) from now.
 
         With `keep_peaks` no peak of velocity or following error between two samples is lost:
-        every other sample has the lowest value since the one before, the next the highest.
+        samples alternate between the lowest and the highest value since the previous pair.
         """
         if every_tk < 1:
-            raise UserError(f"record every {every_tk} ticks: 1 is the least")
+            raise UserError(f"record every {every_tk} ticks: the minimum is 1")
         self._recording.start(every_tk, keep_peaks=keep_peaks, samples=samples)
 
     def trace(self) -> Trace:
-        """What has been recorded so far."""
+        """The samples recorded so far."""
         return self._recording.trace()
 
     def take_trace(self) -> Trace:
-        """What has been recorded since the last call; the rows are dropped."""
+        """The samples recorded since the last call, which are then dropped."""
         return self._recording.take()

@@ -1,8 +1,8 @@
-"""The whole state of a card at one tick, to come back to.
+"""Snapshots: the complete state of a card at one tick, which can be restored.
 
-A snapshot is the rows of the memory map and, beside them, plain data: texts of programs and
-lines, what waits to be read or sent, what the card keeps without power. Nothing in it is an
-object of this program: what programs and PLCs execute is made anew from text and rows.
+A snapshot holds the rows of the memory map and, in addition, plain data: program texts and
+lines, input and output still pending, and the non-volatile memory. It holds no Python
+objects: the code of programs and PLCs is compiled again from text and rows.
 `snapshot_file.py` writes and reads it as bytes.
 """
 
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
 
 
 class Beside(Struct, frozen=True):
-    """The state of a card beside the memory map."""
+    """The state of a card outside the memory map."""
 
     language: Language
     streams: StreamsState
-    moves: list[bytes]  # packets of binary moves that wait for room
-    stored: dict[str, bytes]  # what is kept without power
+    moves: list[bytes]  # packets of binary moves waiting for room
+    stored: dict[str, bytes]  # the non-volatile memory
     lived_before_tk: Index
 
 
 class Snapshot(Struct, frozen=True):
-    """A snapshot; it fits cards of the same model, world and layout of the memory."""
+    """A snapshot; it fits cards with the same model, world and memory layout."""
 
     model: str
     world: str
@@ -66,9 +66,9 @@ def take(card: Controller) -> Snapshot:
 
 
 def put_back(card: Controller, snapshot: Snapshot) -> None:
-    """Return a card to a snapshot; who is connected stays connected.
+    """Return a card to a snapshot; open connections remain.
 
-    StoreError, and the card as it was, if the snapshot does not fit the card.
+    StoreError, with the card unchanged, if the snapshot does not fit the card.
     """
     check_fits(card, snapshot)
     rows = card.memory.snapshot()
@@ -92,25 +92,25 @@ def _put_back(card: Controller, rows: bytes, language: Language, moves: list[byt
 
 
 def put_back_streams(card: Controller, snapshot: Snapshot) -> None:
-    """Connect a new card to everything that was connected."""
+    """Restore the connections of a snapshot on a new card."""
     card.streams.restore(snapshot.beside.streams)
 
 
 def check_fits(card: Controller, snapshot: Snapshot) -> None:
     """StoreError if a snapshot is of another layout, model or world."""
     if snapshot.layout != layout():
-        raise StoreError("the snapshot is of another version of openacr, with other rows")
+        raise StoreError("the snapshot is of a version of openacr with another memory layout")
     if snapshot.model != card.model.name:
         raise StoreError(
             f"the snapshot is of an {snapshot.model}, the card is an {card.model.name}"
         )
     if snapshot.world != world_print(card.world):
-        raise StoreError("the snapshot is of a card with another machine around it")
+        raise StoreError("the snapshot was taken with another machine connected to the card")
 
 
 @cache
 def layout() -> str:
-    """Fingerprint of the places of all rows: snapshots fit cards with the same one."""
+    """Fingerprint of the memory layout: snapshots fit cards with the same one."""
     places = sorted((name, value) for name, value in vars(numbers).items() if name.isupper())
     return blake2b(repr(places).encode(), digest_size=8).hexdigest()
 

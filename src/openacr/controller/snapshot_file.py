@@ -1,11 +1,11 @@
-"""Snapshots as bytes, and back.
+"""Encode snapshots as bytes, and decode them.
 
     openacr snapshot 1 LF
     a header in MessagePack: Header, the lengths and the fingerprint of what follows
-    compressed with zlib: the state beside the rows in MessagePack (snapshot.Beside), the rows
+    compressed with zlib: the state outside the rows in MessagePack (snapshot.Beside), the rows
 
-The rows are the memory map as it lies in memory, little-endian. Everything is checked before it
-is used: types and ranges of the plain data, and of every row what its declaration says.
+The rows are the memory map as it is in memory, little-endian. Everything is checked before it
+is used: types and ranges of the plain data, and every row against its declaration.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ MOST_BESIDE_BYTES = 1 << 26
 
 
 class Header(Struct, frozen=True):
-    """What a snapshot is of, and what must follow."""
+    """The header of a snapshot: its card, and the lengths and digest of the content."""
 
     program: str
     layout: str
@@ -48,7 +48,7 @@ _HEADER_BYTES = 4  # length of the header, little-endian
 
 
 def encode(snapshot: Snapshot) -> bytes:
-    """A snapshot as bytes."""
+    """Encode a snapshot as bytes."""
     beside = msgspec.msgpack.encode(snapshot.beside)
     content = beside + snapshot.rows
     header = msgspec.msgpack.encode(
@@ -62,9 +62,9 @@ def encode(snapshot: Snapshot) -> bytes:
 
 
 def decode(data: bytes) -> Snapshot:
-    """The snapshot `encode` made; StoreError for anything else, before any of it is used."""
+    """Decode the bytes made by `encode`; StoreError for anything else, before any of it is used."""
     if not data.startswith(MAGIC):
-        raise StoreError("the snapshot cannot be read: it is none, or of another version")
+        raise StoreError("the snapshot cannot be read: not a snapshot, or of another version")
     begin = len(MAGIC) + _HEADER_BYTES
     end = begin + int.from_bytes(data[len(MAGIC) : begin], "little")
     try:
@@ -78,7 +78,7 @@ def decode(data: bytes) -> Snapshot:
         )
     content = _inflated(data[end:], header.beside_bytes + header.rows_bytes)
     if _digest(content) != header.digest:
-        raise StoreError("the snapshot is damaged: its fingerprint is another one")
+        raise StoreError("the snapshot is damaged: its fingerprint does not match")
     rows = content[header.beside_bytes :]
     check(rows)
     try:
@@ -89,7 +89,7 @@ def decode(data: bytes) -> Snapshot:
 
 
 def check(rows: bytes) -> None:
-    """StoreError unless every row may be used as the card uses it."""
+    """Raise StoreError unless every row is within its declared range."""
     memory = Memory()
     memory.restore(rows)
     check_rows(memory)
@@ -99,14 +99,14 @@ def check(rows: bytes) -> None:
 
 
 def _inflated(data: bytes, size: int) -> bytes:
-    """Exactly so many bytes; a stream that would give more is not read to its end."""
+    """Decompress exactly `size` bytes; a longer stream is not read to its end."""
     inflater = zlib.decompressobj()
     try:
         content = inflater.decompress(data, size + 1)
     except zlib.error as error:
         raise StoreError(f"the snapshot is damaged: {error}") from None
     if len(content) != size or not inflater.eof or inflater.unused_data:
-        raise StoreError("the snapshot is damaged: it is shorter or longer than its header says")
+        raise StoreError("the snapshot is damaged: its length differs from that in its header")
     return content
 
 

@@ -1,4 +1,4 @@
-"""Command streams: bytes from and to a host, a terminal on one side, a session on the other."""
+"""Command streams: each connects a host's bytes, through a terminal, to a session."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ from openacr.protocol.memory import Poke
 from openacr.protocol.move import Move
 from openacr.protocol.terminal import Terminal, TerminalState
 
-CONSOLE = "STREAM1"  # the stream of whoever works with the card in this process
-LINE_WORK = 150  # to take one line, in the units of a LIST: 2.5 of them are a microsecond
-CHARACTER_WORK = 30  # more for each of its characters
+CONSOLE = "STREAM1"  # the stream of a caller in this process
+LINE_WORK = 150  # to read one line, in the units of a LIST: 2.5 units are a microsecond
+CHARACTER_WORK = 30  # added for each of its characters
 PACKET_WORK = 12  # to act on a packet
-VALUE_WORK = 8  # more for each value it reads or pokes
-WORK_PER_TURN = 5000  # some 2 ms of the computer for what arrives together
-WORK_PER_TICK = 250  # some 0.1 ms in every tick for lines that are left over
+VALUE_WORK = 8  # added for each value it reads or pokes
+WORK_PER_TURN = 5000  # about 2 ms of computing for bytes that arrive together
+WORK_PER_TICK = 250  # about 0.1 ms in every tick for lines left over
 
 
 Credit = Annotated[int, Meta(ge=-(1 << 31), le=WORK_PER_TURN)]
 
 
 class StreamState(Struct, frozen=True):
-    """What a snapshot keeps of one connection."""
+    """The state of one connection in a snapshot."""
 
     terminal: TerminalState
     channel: str | None
@@ -51,7 +51,7 @@ class StreamState(Struct, frozen=True):
 
 
 class StreamsState(Struct, frozen=True):
-    """What a snapshot keeps of all connections; `next` is the number of the next one."""
+    """The state of all connections in a snapshot; `next` is the number of the next one."""
 
     next: Index
     open: dict[Index, StreamState]
@@ -68,7 +68,7 @@ class Stream:
 
     @property
     def is_overdue(self) -> bool:
-        """Whether something waits for nothing but its turn."""
+        """Whether input waits only for its turn."""
         return self.terminal.has_next
 
 
@@ -93,7 +93,7 @@ class Streams:
         return number in self._open
 
     def open(self, kind: StreamKind, name: str | None = None) -> int:
-        """A stream for a new connection; NoFreeStreamError when all are taken."""
+        """Open a stream for a new connection; NoFreeStreamError if all are in use."""
         session = None
         if kind is not StreamKind.PACKETS:
             session = self._free(kind, name)
@@ -113,19 +113,19 @@ class Streams:
         raise NoFreeStreamError(f"no {name or kind.value} stream is free")
 
     def close(self, number: int) -> None:
-        """The connection ended; motion and programs go on."""
+        """Close the stream of an ended connection; motion and programs continue."""
         stream = self._open.pop(number, None)
         if stream is not None and stream.session is not None:
             stream.session.disconnect()
 
     def opened(self, number: int) -> Stream:
-        """The stream of a number; UserError where none is open."""
+        """The open stream with this number; UserError if not open."""
         if number not in self._open:
             raise UserError(f"stream {number}: no such stream is open")
         return self._open[number]
 
     def receive(self, number: int, data: bytes, tick: int) -> None:
-        """Bytes that arrived together at `tick`; UserError for a stream that is not open."""
+        """Process bytes that arrived together at `tick`; UserError if the stream is not open."""
         stream = self.opened(number)
         stream.credit = WORK_PER_TURN
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
@@ -138,7 +138,7 @@ class Streams:
             self.settle()  # what was typed goes to the other channel
 
     def settle(self) -> None:
-        """Hand over what sessions have to say, and lines that were waiting for an answer."""
+        """Pass on the output of sessions, and input lines that were waiting for an answer."""
         for stream in list(self._open.values()):
             if stream.session is not None and (
                 stream.session.has_output or stream.terminal.busy != stream.session.busy
@@ -157,11 +157,11 @@ class Streams:
 
     @property
     def is_overdue(self) -> bool:
-        """Whether lines wait for their turn, which `take_turns` gives them."""
+        """Whether lines wait for a turn from `take_turns`."""
         return any(stream.is_overdue for stream in self._open.values())
 
     def take_turns(self) -> None:
-        """At the end of a tick: deal with lines that were too much work for one turn."""
+        """Process lines that exceeded the work of one turn; called at the end of a tick."""
         for stream in list(self._open.values()):
             if stream.is_overdue:
                 stream.credit = min(stream.credit + WORK_PER_TICK, WORK_PER_TURN)
@@ -191,12 +191,12 @@ class Streams:
         return next((n for n, each in opened if each.session and each.session.name == name), None)
 
     def take_output(self, number: int) -> bytes:
-        """The bytes of the next write."""
+        """Return the bytes of the next write."""
         stream = self._open.get(number)
         return stream.terminal.data_to_send() if stream else b""
 
     def disconnect_all(self) -> None:
-        """Start all open streams afresh, as after power-up."""
+        """Reset all open streams, as after power-up."""
         for stream in self._open.values():
             if stream.session is not None:
                 stream.session.disconnect()
@@ -217,7 +217,7 @@ class Streams:
         return StreamsState(self._next, opened)
 
     def restore(self, state: StreamsState) -> None:
-        """Take over what `state` returned; sessions have been restored before."""
+        """Restore what `state` returned; sessions must have been restored before."""
         self._open.clear()
         for each in self._sessions.values():
             each.is_connected = False
@@ -232,7 +232,7 @@ class Streams:
     def _restored(self, name: str, kind: StreamKind) -> Session:
         session = self._sessions.get(name)
         if session is None or session.is_connected or kind is StreamKind.PACKETS:
-            raise StoreError(f"the snapshot connects a stream of packets or two streams to {name}")
+            raise StoreError(f"the snapshot connects {name} to two streams or a packet stream")
         session.is_connected = True
         return session
 
@@ -240,7 +240,7 @@ class Streams:
         while stream.credit > 0 and (event := stream.terminal.next_event()) is not NEED_DATA:
             stream.credit -= _work(event)
             self._deal(stream, event)
-            if not isinstance(event, Received):  # packets say nothing to the session
+            if not isinstance(event, Received):  # packets do not concern the session
                 self._settle(stream)
         for key in stream.terminal.pause():
             self._press(key)
@@ -270,14 +270,14 @@ class Streams:
             session.escape()
 
     def _settle(self, stream: Stream) -> None:
-        """Copy the state of the session to its terminal and send what it has to say."""
+        """Copy the state of the session to its terminal and send its output."""
         session, terminal = stream.session, stream.terminal
         if session is None:
             return
         terminal.busy = session.busy
         attention = session.attention
         if (terminal.attention, attention) == (Attention.LISTENING, Attention.COMMANDS):
-            # What the program has read is no part of the next command.
+            # Characters the program has read are not part of the next command.
             terminal.begin_line(session.typed_ahead)
             session.typed_ahead = ""
         terminal.attention = attention
@@ -291,7 +291,7 @@ class Streams:
 
 
 def _work(event: Event) -> int:
-    """What an event may cost; keys cost nothing."""
+    """The work an event may cause; keys cost nothing."""
     if isinstance(event, ReceivedLine):
         return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Received):

@@ -1,6 +1,6 @@
-"""The surroundings of a card as a caller acts on them: inputs, loads moved by hand, faults.
+"""Actions on the machine around a card: switch inputs, move loads by hand, cause faults.
 
-Everything is noted in the journal with its tick.
+Every action is recorded in the journal with its tick.
 """
 
 import math
@@ -46,14 +46,14 @@ def _fault_kind(word: str) -> faults.MachineFault:
 
 
 class Note(Protocol):
-    """Enters what has happened into the journals."""
+    """A function that records an action in the journals."""
 
     def __call__(self, what: Entered, number: int, value: float = 0.0, *, name: str = "") -> None:
-        """What, at which number, with which value and name."""
+        """Record the kind of action, its number, value and name."""
 
 
 class Surroundings:
-    """The machine around a card, in which a caller can interfere."""
+    """The machine around a card, on which a caller can act."""
 
     def __init__(self, card: Card, world: World, note: Note) -> None:
         self.card, self.world = card, world
@@ -61,13 +61,13 @@ class Surroundings:
         self._note = note
 
     def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input, or force one that the world drives; UserError where there is none."""
+        """Switch an input, or force one driven by the machine; UserError if not an input."""
         self._needs_input(bit)
         inputs.switch(self.memory, bit, on)
         self._note(Entered.INPUT, bit, on)
 
     def release_input(self, bit: int) -> None:
-        """Let go of an input: it shows what drives it again, and is off where nothing does."""
+        """Release a forced input: the machine drives it again; off if nothing drives it."""
         self._needs_input(bit)
         inputs.release(self.memory, bit)
         self._note(Entered.RELEASE, bit)
@@ -79,7 +79,7 @@ class Surroundings:
             raise UserError(f"input {bit}: {why}")
 
     def set_analog(self, parameter: int, value: float) -> None:
-        """Bring a value, in its unit, to the analog input that a parameter shows."""
+        """Apply a value, in its unit, to the analog input that a parameter shows."""
         _needs_finite(f"P{parameter}", value)
         channel = analogs.terminal(parameter)
         place = terminals.analog_input(self.memory, parameter)
@@ -92,7 +92,7 @@ class Surroundings:
         self._note(Entered.ANALOG, parameter, value)
 
     def drag(self, axis: int, by_u: float) -> None:
-        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
+        """Move the load of an axis by hand, at once; the simulation continues from there."""
         needs_axis(self.card, axis)
         _needs_finite(f"axis {axis}", by_u)
         pulses = by_u * scale_of(self.card, axis)
@@ -102,7 +102,7 @@ class Surroundings:
         self._note(Entered.DRAG, axis, by_u)
 
     def _push(self, axis: int, pulses: float) -> bool:
-        """Move the motor of an axis; False if there is none."""
+        """Move the motor of an axis; False if it has none."""
         rows = self.memory.I
         ints = axis_ints(axis)
         motor = rows[ints + AXI_POSITION_INDEX]
@@ -118,7 +118,7 @@ class Surroundings:
         return apply.push(self.memory, motor, counts)
 
     def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
-        """Let something go wrong with an axis of the machine until `mend`."""
+        """Cause a fault on an axis of the machine; it lasts until `mend`."""
         _needs_finite(f"axis {axis}", value)
         faults.inject(self.world, self.memory, axis, _fault_kind(kind), value)
         self._note(Entered.FAULT, axis, value, name=kind)

@@ -24,9 +24,9 @@ class AxisTrace:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """What was recorded: time, onboard inputs and outputs as bit masks, every axis.
+    """A recording: time, onboard inputs and outputs as bit masks, every axis.
 
-    `values` has a column for each value chosen beside the axes, shape (rows, chosen).
+    `values` has a column for each additionally chosen value, shape (rows, chosen).
     """
 
     time_s: Reals

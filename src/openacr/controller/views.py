@@ -1,4 +1,4 @@
-"""Ways to look into a card from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
+"""Access to a card's values from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from openacr.motion.row_index import axis_parameter, axis_reals
 
 
 class Parameters:
-    """Parameters by number; `note` is told of everything that is written."""
+    """Parameters by number; `note` is called for every write."""
 
     def __init__(self, memory: Memory, note: Callable[[int, float], None]) -> None:
         self._memory, self._note = memory, note
@@ -35,7 +35,7 @@ class Parameters:
 
 
 class Bits:
-    """Flags by number; `note` is told of everything that is written."""
+    """Flags by number; `note` is called for every write."""
 
     def __init__(self, memory: Memory, note: Callable[[int, float], None]) -> None:
         self._memory, self._note = memory, note
@@ -57,7 +57,7 @@ class AxisView:
 
     @property
     def commanded_u(self) -> float:
-        """Secondary setpoint: where the servo loop is told to be."""
+        """Secondary setpoint: the position commanded to the servo loop."""
         ssp = self._card.memory.F[axis_reals(self.number) + AXF_SSP_CNT]
         return ssp / scale_of(self._card, self.number)
 

@@ -19,11 +19,11 @@ REF = "PG Interpolation"
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
-    """How the move of a block is to be made: ended by a flag (INT), at once (TRJ).
+class MoveOptions:
+    """Options of the move of a block: ended by a flag (INT), replacing the current move (TRJ).
 
-    `knot` and `weight` are those of a point of a curve, `family` the curve a knot is meant for if
-    it is said.
+    `knot` and `weight` belong to a point of a curve, `family` is the curve type of a knot if
+    given.
     """
 
     interrupt: FlagState | None = None
@@ -33,7 +33,7 @@ class Manner:
     family: curve_modes.Family | None = None
 
 
-Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | Manner
+Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | MoveOptions
 
 
 @command("MOV", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
@@ -52,13 +52,13 @@ def mov(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
 )
 def int_(run: Run, bit: BitState, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move in a straight line that ends early when a flag is set (with a minus: clear)."""
-    return (Manner(interrupt=flag_state(run, bit)), *targets)
+    return (MoveOptions(interrupt=flag_state(run, bit)), *targets)
 
 
 @command("TRJ", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
 def trj(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Start a new trajectory at once, in place of the moves under way and waiting."""
-    return (Manner(replace=True), *targets)
+    return (MoveOptions(replace=True), *targets)
 
 
 @registry.issues_moves
@@ -66,34 +66,34 @@ def issue(run: Run, given: tuple[Given, ...]) -> Wait | None:
     """Start the move of a block, or buffer it; wait while the buffer is full."""
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
-    manner = _manner(given)
+    options = _move_options(given)
     if curve_points.is_given(run.card, master):
-        return _point(run, master, manner, given)
-    if manner.knot is not None or manner.weight is not None:
+        return _point(run, master, options, given)
+    if options.knot is not None or options.weight is not None:
         raise CardError(NOT_VALID_AT_THIS_LEVEL)
     count = tangent.moves_of(run.card, master)
-    if not manner.replace and not moves.has_room(run.card, master, count):
+    if not options.replace and not moves.has_room(run.card, master, count):
         return room(run, master, count)
-    programmed = [_part(item) for item in given if not isinstance(item, Manner)]
+    programmed = [_part(item) for item in given if not isinstance(item, MoveOptions)]
     parts = transform.apply(run.card, program, programmed)
-    moves.issue(run.card, program, parts, interrupt=manner.interrupt, replace=manner.replace)
+    moves.issue(run.card, program, parts, interrupt=options.interrupt, replace=options.replace)
     return None
 
 
-def _point(run: Run, master: int, manner: Manner, given: tuple[Given, ...]) -> Wait | None:
+def _point(run: Run, master: int, options: MoveOptions, given: tuple[Given, ...]) -> Wait | None:
     """Take a point of SPLINE or NURB; wait until all pieces it may complete find room."""
     program = run.needed_program()
-    is_other = manner.family not in (None, curve_modes.family(run.card, master))
-    if manner.interrupt or manner.replace or is_other:
+    is_other = options.family not in (None, curve_modes.family(run.card, master))
+    if options.interrupt or options.replace or is_other:
         raise CardError(INVALID_ARGUMENT)
     if not curve_moves.has_room(run.card, master, curve_moves.MOST):
         return room_for_pieces(run, master)
-    programmed = [_part(item) for item in given if not isinstance(item, Manner)]
+    programmed = [_part(item) for item in given if not isinstance(item, MoveOptions)]
     parts = transform.apply(run.card, program, programmed)
     targets = [part for part in parts if isinstance(part, Target)]
     if len(targets) < len(parts):
         raise CardError(INVALID_ARGUMENT)
-    moves.point(run.card, program, targets, manner.knot, manner.weight)
+    moves.point(run.card, program, targets, options.knot, options.weight)
     return None
 
 
@@ -116,10 +116,10 @@ def flag_state(run: Run, bit: BitState) -> FlagState:
     return FlagState(bit.number, bit.clear)
 
 
-def _manner(given: tuple[Given, ...]) -> Manner:
-    found = Manner()
+def _move_options(given: tuple[Given, ...]) -> MoveOptions:
+    found = MoveOptions()
     for item in given:
-        if isinstance(item, Manner):
+        if isinstance(item, MoveOptions):
             found = replace(
                 found,
                 interrupt=item.interrupt or found.interrupt,
@@ -134,6 +134,6 @@ def _manner(given: tuple[Given, ...]) -> Manner:
 def _part(given: Given) -> Part:
     if isinstance(given, AxisTarget):
         return Target(given.axis.number, given.value, given.incremental)
-    if isinstance(given, Manner):
+    if isinstance(given, MoveOptions):
         raise TypeError(given)
     return given

@@ -6,7 +6,7 @@ SK, NK and NW, which are words also where axes are named K and W.
 
 from __future__ import annotations
 
-from openacr.basic.commands.interpolation import GROUP, REF, Given, Manner, room_for_pieces
+from openacr.basic.commands.interpolation import GROUP, REF, Given, MoveOptions, room_for_pieces
 from openacr.basic.language.grammar import Int, Num
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run, Wait
@@ -39,7 +39,7 @@ def spline_end(run: Run) -> Wait | None:
 @command("SK", group=GROUP, levels=PROG, grammar=(Num("seconds"),), ref=REF, units="s", move=True)
 def sk(run: Run, knot: float) -> tuple[Given, ...]:
     """Set the time of the way to this point of a spline; a negative one ends it."""
-    return (Manner(knot=knot, family=Family.SPLINE),)
+    return (MoveOptions(knot=knot, family=Family.SPLINE),)
 
 
 @command("NURB", group=GROUP, levels=BY_OBJECT, ref=REF)
@@ -82,19 +82,19 @@ def nurb_end(run: Run) -> Wait | None:
 @command("NK", group=GROUP, levels=PROG, grammar=(Num("knot"),), ref=REF, move=True)
 def nk(run: Run, knot: float) -> tuple[Given, ...]:
     """Set the knot of this control point or, alone, give a further one; a negative one ends."""
-    return (Manner(knot=knot, family=Family.NURB),)
+    return (MoveOptions(knot=knot, family=Family.NURB),)
 
 
 @command("NW", group=GROUP, levels=PROG, grammar=(Num("weight"),), ref=REF, default="1", move=True)
 def nw(run: Run, weight: float) -> tuple[Given, ...]:
     """Set the weight of this control point."""
-    return (Manner(weight=weight),)
+    return (MoveOptions(weight=weight),)
 
 
 @command("K", group=GROUP, levels=PROG, grammar=(Num("knot"),), ref=REF, move=True, typed=False)
 def k(run: Run, knot: float) -> tuple[Given, ...]:
     """Set the knot of a point of the SPLINE or NURB: `K 0.5 X1 Y2`; `K -1` ends the curve."""
-    return (Manner(knot=knot),)
+    return (MoveOptions(knot=knot),)
 
 
 @command(
@@ -109,7 +109,7 @@ def k(run: Run, knot: float) -> tuple[Given, ...]:
 )
 def w(run: Run, weight: float) -> tuple[Given, ...]:
     """Set the weight of a control point with a knot: `K 0.5 W 2 X1 Y2`."""
-    return (Manner(weight=weight),)
+    return (MoveOptions(weight=weight),)
 
 
 def _report(run: Run, family: Family) -> None:

@@ -1,4 +1,4 @@
-"""Stored images as a card uses them: what is damaged is not there, what fails is said."""
+"""The stored images of a card: damaged images count as absent, failures are reported."""
 
 from __future__ import annotations
 
@@ -16,49 +16,49 @@ from openacr.store.images import needs_version
 
 log = logging.getLogger(__name__)
 
-UNREADABLE = "unreadable "  # begins the names of images that say nothing to this version
+UNREADABLE = "unreadable "  # prefix of the names of images this version cannot read
 FORMAT = 1  # of all images; one of another format counts as damaged
 _Kind = TypeVar("_Kind")
 
 
-class Shelf:
-    """The images of one card, with notices for whoever has switched it on."""
+class ImageStore:
+    """The images of one card, with notices for the operator who switched it on."""
 
     def __init__(self, images: Images) -> None:
         self.images = images
         self.notices: list[str] = []
-        self.losses: list[str] = []  # what hosts have to know
-        self.is_up = False  # until then whoever switches the card on says what is found
+        self.losses: list[str] = []  # losses that hosts have to know about
+        self.is_up = False  # before power-up is complete, the caller reports the notices
 
     @classmethod
-    def in_folder(cls, folder: Path | None) -> Shelf:
-        """The images in a data folder, without one those of this process alone."""
+    def in_folder(cls, folder: Path | None) -> ImageStore:
+        """The images in a data folder; without a folder, kept in this process."""
         if folder is None:
             return cls(Scratch())
         images, damage = Database.open(folder)
-        shelf = cls(images)
+        store = cls(images)
         if damage is not None:
-            shelf.lost(damage)
-        return shelf
+            store.lost(damage)
+        return store
 
     def notice(self, text: str) -> None:
-        """Keep what whoever switched the card on should know."""
+        """Add a message for the operator; logged as well once the card is up."""
         if text not in self.notices:
             self.notices.append(text)
             if self.is_up:
                 log.warning("%s", text)
 
     def lost(self, text: str) -> None:
-        """Say that something stored is gone, also to hosts that connect from now on."""
+        """Report that stored data is lost, also to hosts that connect from now on."""
         self.notice(text)
         self.losses.append(text)
 
     def names(self, prefix: str = "") -> list[str]:
-        """The images whose names begin so."""
+        """The names of the images that begin with `prefix`."""
         return [name for name in self.images.names() if name.startswith(prefix)]
 
     def read(self, name: str) -> bytes | None:
-        """The bytes of an image; one that is damaged is not there, with a notice."""
+        """The bytes of an image; a damaged one counts as absent and is reported."""
         try:
             image = self.images.read(name)
             return None if image is None else needs_version(name, image, FORMAT)
@@ -67,7 +67,7 @@ class Shelf:
             return None
 
     def decoded(self, name: str, kind: type[_Kind]) -> _Kind | None:
-        """What an image says; one that says something else is not there, with a notice."""
+        """The decoded content of an image; one of another type counts as absent and is reported."""
         data = self.read(name)
         if data is None:
             return None
@@ -80,7 +80,7 @@ class Shelf:
             return None
 
     def write(self, changes: Mapping[str, bytes | None], *, flush: bool = True) -> None:
-        """Store or delete images, all or none; `Save failed` if that is impossible."""
+        """Store or delete images, all or none; CardError `Save failed` if impossible."""
         images = {
             name: None if data is None else Image(FORMAT, data) for name, data in changes.items()
         }
