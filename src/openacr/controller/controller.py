@@ -181,7 +181,7 @@ class Controller(Running):
         self._surroundings.set_input(bit, on)
 
     def release_input(self, bit: int) -> None:
-        """Let go of an input: it shows what drives it again, and is off where nothing does."""
+        """Release a forced input: the machine drives it again; off if nothing drives it."""
         self._surroundings.release_input(bit)
 
     def set_analog(self, parameter: int, value: float) -> None:
@@ -189,11 +189,11 @@ class Controller(Running):
         self._surroundings.set_analog(parameter, value)
 
     def drag(self, axis: int, by_u: float) -> None:
-        """Push the load of an axis by hand, at once; it takes part in the physics after that."""
+        """Move the load of an axis by hand, at once; the simulation continues from there."""
         self._surroundings.drag(axis, by_u)
 
     def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
-        """Let something go wrong with an axis of the machine, by its number in machine.toml.
+        """Cause a fault on an axis of the machine, by its number in machine.toml.
 
         Kinds: encoder-lost, encoder-noise, drive, motor-cable, jam, obstacle (`value`: where, in
         units of the axis), friction (`value`: torque in Nm). It lasts until `mend`.

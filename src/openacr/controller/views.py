@@ -90,7 +90,7 @@ class AxisView:
 
 @dataclass(frozen=True, slots=True)
 class AxisStatistics:
-    """What an axis has done since power-up, in its units."""
+    """Totals of an axis since power-up, in its units."""
 
     position_u: float
     actual_u: float

@@ -1,6 +1,6 @@
-"""The card's memory as peek, poke and address packets see it: 32-bit words.
+"""The address space of peek, poke and address packets: 32-bit words.
 
-Real addresses differ from card to card, so hosts ask for them. This card answers with:
+Real addresses differ from card to card, so hosts query them. This card answers with:
 
     system pointers   of all documented cards: the address of the global variables, or 0
     0x00411000...     parameter p at 0x00410000 + p
@@ -37,7 +37,7 @@ _FP64_WORDS = 2
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """Where the storage rows of a program tell about one kind of variables."""
+    """The storage rows that describe one kind of variables of a program."""
 
     base: int
     count: int
@@ -46,7 +46,7 @@ class _Rows:
 
     @property
     def is_table(self) -> bool:
-        """The block holds references to arrays."""
+        """Whether the block holds references to arrays."""
         return self.element_words > 0
 
 
@@ -69,7 +69,7 @@ def _in_heap(address: int) -> bool:
 
 
 class AddressSpace:
-    """Words and addresses of one card's memory."""
+    """The words of one card's memory, by address."""
 
     def __init__(
         self, memory: Memory, strings: Callable[[], Sequence[string_words.ProgramStrings]]
@@ -78,20 +78,20 @@ class AddressSpace:
         self._strings = strings  # of all programs, wherever they are now
 
     def parameter_address(self, number: int) -> int:
-        """Where a parameter lies; 0 when there is none of that number."""
+        """The address of a parameter; 0 if there is no such parameter."""
         if 0 <= number < self._globals():
             return GLOBALS + 1 + _FP64_WORDS * number
         return PARAMETERS + number if self._is_word_parameter(number) else 0
 
     def variable_address(self, program: int, kind: int) -> int:
-        """Where the variables of one kind of a program lie; 0 when it has none."""
+        """The address of the variables of one kind of a program; 0 if it has none."""
         if kind in _STRING_KINDS and 0 <= program < PROGRAMS:
             return _STRING_KINDS[VariableKind(kind)](program, self._strings()[program])
         block = program * KINDS + kind
         return LOCALS + block * BLOCK_WORDS if self._block(block) else 0
 
     def read_words(self, address: int, count: int) -> list[int]:
-        """That many words from an address on; MapError where there is no memory."""
+        """Read `count` words from an address on; MapError where there is no memory."""
         if _in_heap(address) and _in_heap(address + count - 1):
             start = _HEAP_FIRST + address - HEAP
             return self._memory.I[start : start + count].tolist()
@@ -142,7 +142,7 @@ class AddressSpace:
         return base * rows.words + offset - 1
 
     def _computed(self, address: int) -> int | None:
-        """Counts and pointers, which no program can change."""
+        """The value of a count or pointer word, which no program can change."""
         if address in SYSTEM_POINTERS:
             return GLOBALS if self._globals() else 0
         if address == GLOBALS:
@@ -160,9 +160,9 @@ class AddressSpace:
         return HEAP + header - _HEAP_FIRST if header else 0
 
     def _array_at(self, address: int) -> range:
-        """Places of the elements of the array a word of the heap belongs to, none outside arrays.
+        """The element places of the array that a heap word belongs to, empty outside arrays.
 
-        Words that lie together belong to one array: a count stands between two of them.
+        Adjacent words belong to one array: two arrays are separated by a count.
         """
         place = _HEAP_FIRST + address - HEAP
         longs = self._memory.I

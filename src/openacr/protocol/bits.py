@@ -2,7 +2,7 @@
 
 On the DPCB of the ACR8020 a zero byte belongs to every such packet. Some hosts send it
 over the network as well: there it counts as padding when it directly follows in the same
-segment and nothing else does; `terminal` decides that.
+segment and is the last byte of it; `terminal` decides that.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class _OneFlag(Packet):
     bit: U16
 
     def flags(self) -> tuple[int]:
-        """The one."""
+        """The number of the flag."""
         return (self.bit,)
 
 
@@ -32,7 +32,7 @@ class SetBit(_OneFlag):
     HEADER: ClassVar[bytes] = b"\x1c"
 
     def act(self, host: Host) -> bytes:
-        """Set it."""
+        """Set the flag."""
         host.write_bit(self.bit, True)
         return b""
 
@@ -45,6 +45,6 @@ class ClearBit(_OneFlag):
     HEADER: ClassVar[bytes] = b"\x1d"
 
     def act(self, host: Host) -> bytes:
-        """Clear it."""
+        """Clear the flag."""
         host.write_bit(self.bit, False)
         return b""

@@ -1,7 +1,7 @@
 """Data packets: up to eight parameters selected by group code, index and mask (UG2 ch. 6).
 
-The parameter behind a mask bit follows from the numbering of the map, not from a list:
-each group starts at 256 * code, and one mask bit is one object (or one word) further.
+The parameter of a mask bit follows from the numbering of the map, not from a list:
+each group starts at 256 * code, and the next mask bit is the next object (or word).
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ class Group:
     split: bool = False  # index bit 7 selects the objects 8 to 15
 
     def parameter(self, index: int, bit: int) -> int:
-        """The parameter that mask bit `bit` of group index `index` lets through."""
+        """The parameter selected by mask bit `bit` of group index `index`."""
         base = 256 * self.code + self.stride * bit
         if not self.split:
             return base + self.step * index
@@ -55,7 +55,7 @@ GROUPS = {
 }
 
 # One table prints 0x21 and 0x31 for the second halves (errata): 256 * code only fits 0x28
-# and 0x38, which all others have. Hosts written after that table are understood too.
+# and 0x38, which all others have. Hosts written from that table are also accepted.
 GROUPS |= {0x21: GROUPS[0x28], 0x31: GROUPS[0x38]}
 
 
@@ -74,11 +74,11 @@ class DataRequest(Packet):
         return self.mask.bit_count()
 
     def act(self, host: Host) -> bytes:
-        """Read them; 0 where there is no parameter."""
+        """Read the parameters; 0 where there is none."""
         return self.reply([value_of(host, number) for number in self.parameters()])
 
     def parameters(self) -> Iterator[int]:
-        """The parameter numbers asked for, lowest mask bit first."""
+        """The requested parameter numbers, lowest mask bit first."""
         group = GROUPS.get(self.group)
         if group is None:
             raise PacketError(f"there is no packet group 0x{self.group:02X}")

@@ -1,8 +1,8 @@
-"""MODE 0 to 3: how the data bytes of a binary transfer travel (UG2 ch. 6).
+"""Conversion of the data bytes of a binary transfer, MODE 0 to 3 (UG2 ch. 6).
 
 Prefixing keeps control characters (and with them XON and XOFF) out of the data,
 stripping keeps the high bit out for 7-bit lines. The header byte that starts a transfer
-is never converted; everything behind it is.
+is never converted; everything after it is.
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ TOGGLE = 0x40  # turns a control character into a printable one and back
 
 
 def _encode_byte(byte: int, strips: bool) -> bytes:
-    """One data byte as it travels with prefixing on."""
+    """Encode one data byte with prefixing on."""
     if strips and byte > 0x7F:
         return bytes((HIGH,)) + _encode_byte(byte & 0x7F, strips)
     if byte < 0x20 or byte == 0x7F:
@@ -29,7 +29,7 @@ _TABLES = {strips: [_encode_byte(byte, strips) for byte in range(256)] for strip
 
 
 def encode(data: bytes, mode: BinaryMode) -> bytes:
-    """The data bytes of a transfer (without its header byte) as they travel in `mode`."""
+    """Encode the data bytes of a transfer (without its header byte) for `mode`."""
     if not mode.prefixes:
         return data
     table = _TABLES[mode.strips]
@@ -37,13 +37,13 @@ def encode(data: bytes, mode: BinaryMode) -> bytes:
 
 
 def encode_packet(packet: bytes, mode: BinaryMode) -> bytes:
-    """A whole packet as it travels in `mode`: its header byte stays as it is."""
+    """Encode a whole packet for `mode`: its header byte is unchanged."""
     return packet[:1] + encode(packet[1:], mode)
 
 
 @dataclass(slots=True)
 class Decoder:
-    """Gives back the data bytes of one transfer, received byte by byte."""
+    """Decodes the data bytes of one transfer, received byte by byte."""
 
     mode: BinaryMode
     prefixed: bool = False
@@ -70,7 +70,7 @@ class Decoder:
 
 
 def decode(data: bytes, mode: BinaryMode) -> bytes:
-    """The data bytes (without header byte) that travelled as `data`."""
+    """Decode the received data bytes of a transfer (without header byte)."""
     decoder = Decoder(mode)
     decoded = (decoder.feed(byte) for byte in data)
     return bytes(byte for byte in decoded if byte is not None)

@@ -1,4 +1,4 @@
-"""What a stream of a card makes of the bytes it receives."""
+"""Events that a stream of a card decodes from received bytes."""
 
 from dataclasses import dataclass
 from enum import Enum, IntEnum
@@ -29,7 +29,7 @@ class LineTooLong:
 
 @dataclass(frozen=True, slots=True)
 class Typed:
-    """One byte for the program or device that has the attention."""
+    """One byte for the program or device that currently reads the stream."""
 
     byte: int
 
@@ -43,7 +43,7 @@ class Control:
 
 @dataclass(frozen=True, slots=True)
 class Escape:
-    """ESC while listening or passing through: end that, send CR LF and one prompt."""
+    """ESC while listening or passing through: end it, send CR LF and one prompt."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Received:
 
 
 class NeedData(Enum):
-    """The answer when all received bytes are used up."""
+    """Returned when all received bytes are used up."""
 
     NEED_DATA = "need data"
 

@@ -1,6 +1,6 @@
-"""What the card does with a received packet, and what it answers.
+"""Execute a received packet and return its reply.
 
-Packets are acted on when first seen, also while commands wait. A packet the card cannot act on
+Packets are executed on arrival, also while commands wait. A packet the card cannot execute
 (a parameter, address or group that does not exist, a value that is not a number) changes
 nothing; where a reply is due, undefined fields read 0, so that the host stays in step.
 """
@@ -15,7 +15,7 @@ log = logging.getLogger(__name__)
 
 
 def execute(host: Host, packet: Packet) -> bytes:
-    """Act on a packet and give the reply to send, empty when there is none."""
+    """Execute a packet and return the reply to send, empty if it has none."""
     try:
         return packet.act(host)
     except (MapError, PacketError, CardError) as refused:

@@ -1,10 +1,10 @@
 """Cuts binary packets out of a byte stream: lengths, MODE conversion, time-out, padding.
 
 A packet may arrive in any number of pieces; when the gap between two bytes exceeds the
-time-out of the channel, what was received so far is thrown away and the next byte counts
-as the first one of something new. Time is an argument: this module knows no clock.
+time-out of the channel, the bytes received so far are discarded and the next byte begins
+new input. Time is an argument: this module reads no clock.
 
-Two packets have two lengths, which a stream cannot tell apart by itself: SET and CLR on a
+Two kinds of packet have two lengths, which the bytes do not distinguish: SET and CLR on a
 DPCB, FOV and ROV of hosts written after the first edition of the manual (`override`).
 """
 
@@ -18,12 +18,12 @@ from openacr.protocol.escape import Decoder
 from openacr.protocol.override import SHORT_BYTES, is_short, lengthened
 from openacr.protocol.packets import Packet, PacketError, decode, dpcb_padding, total_length
 
-LONGEST_HEAD = 9  # bytes that tell the length of any packet: all codes of a move
-LONGEST_PACKET = 1024  # more than any packet has
+LONGEST_HEAD = 9  # bytes that determine the length of any packet: all codes of a move
+LONGEST_PACKET = 1024  # bytes; longer than any packet
 
 
 class ReaderState(Struct, frozen=True):
-    """What a snapshot keeps of a packet that is not complete."""
+    """The state of an incomplete packet in a snapshot."""
 
     data: Annotated[bytes, Meta(max_length=LONGEST_PACKET)]
     tick: int
@@ -46,22 +46,22 @@ class PacketReader:
     _decoder: Decoder = field(default_factory=lambda: Decoder(BinaryMode.PLAIN))
     _tick: int = 0
     _is_plain: bool = True  # nothing has to be converted
-    _wanted: int = 0  # bytes, as far as those received tell
+    _wanted: int = 0  # length in bytes, as far as known from those received
 
     @property
     def reading(self) -> bool:
-        """A packet has started and is not complete."""
+        """Whether a packet has started and is not complete."""
         return bool(self._data)
 
     @property
     def whole_bytes(self) -> int:
-        """How many bytes may be fed together: 1 where they have to be converted."""
+        """Count of bytes that may be fed together: 1 if they have to be converted."""
         return self._wanted - len(self._data) if self._is_plain else 1
 
     def whole_packet(self, data: bytes, at: int) -> bytes:
-        """The packet at a place in plain data; empty unless all of it is surely there.
+        """The packet at an index of plain data; empty unless it is certainly complete.
 
-        Hosts send packets whole, thousands a second: those need no collecting.
+        Hosts send packets whole, thousands per second: these need no collecting.
         """
         if self.dpcb or self.short_overrides:
             return b""
@@ -72,7 +72,7 @@ class PacketReader:
         return data[at : at + length] if at + length <= len(data) else b""
 
     def start(self, header: int, mode: BinaryMode, tick: int) -> None:
-        """Begin with a header byte; the data behind it travel in `mode`."""
+        """Begin a packet with its header byte; the data after it are encoded for `mode`."""
         self._data = bytearray((header,))
         self._decoder = Decoder(mode)
         self._is_plain = not mode.prefixes
@@ -80,7 +80,7 @@ class PacketReader:
         self._wanted = 2
 
     def expire(self, tick: int, timeout_tk: int) -> None:
-        """Throw away what is there when the gap before a byte at `tick` is too long."""
+        """Discard an incomplete packet if the gap before a byte at `tick` is too long."""
         if self.reading and tick - self._tick > timeout_tk:
             self._data.clear()
 
@@ -121,13 +121,13 @@ class PacketReader:
     # snapshot
 
     def state(self) -> ReaderState:
-        """Everything but what the stream is, for a snapshot."""
+        """The state for a snapshot, without the properties of the stream."""
         mode = int(self._decoder.mode)
         pending = self._decoder.prefixed, self._decoder.high
         return ReaderState(bytes(self._data), self._tick, self._wanted, mode, *pending)
 
     def restore(self, state: ReaderState) -> None:
-        """Take over what `state` returned."""
+        """Restore what `state` returned."""
         mode = BinaryMode(state.mode)
         self._data, self._tick = bytearray(state.data), state.tick
         self._wanted = max(state.wanted, len(state.data) + 1)

@@ -1,4 +1,4 @@
-"""The card as packets see it, and what several packets ask of it."""
+"""The interface through which packets act on a card, with shared conversions."""
 
 import math
 from collections.abc import Sequence
@@ -17,16 +17,16 @@ class PacketError(OpenacrError):
 
 
 class Host(Protocol):
-    """The card as packets see it.
+    """The interface of a card that packets use.
 
     Unknown numbers raise CardError or MapError, unknown addresses MapError.
     """
 
     def read_parameter(self, number: int) -> int | float:
-        """An int for LONG parameters, a float for all others."""
+        """Read a parameter: an int for LONG parameters, a float for all others."""
 
     def write_parameter(self, number: int, value: int | float) -> None:
-        """Store a value; the parameter's type decides how."""
+        """Store a value, converted to the type of the parameter."""
 
     def write_bit(self, number: int, on: bool) -> None:
         """Set or clear a flag."""
@@ -38,20 +38,20 @@ class Host(Protocol):
         """Queue a move; CardError when the card refuses it."""
 
     def read_words(self, address: int, count: int) -> Sequence[int]:
-        """That many 32-bit words of memory."""
+        """Read `count` 32-bit words of memory from an address on."""
 
     def write_words(self, address: int, words: Sequence[int]) -> None:
-        """Store 32-bit words."""
+        """Store 32-bit words from an address on."""
 
     def parameter_address(self, number: int) -> int:
-        """Where a parameter lies; 0 when there is none of that number."""
+        """The address of a parameter; 0 if there is no such parameter."""
 
     def variable_address(self, program: int, kind: int) -> int:
-        """Where the local variables of one kind lie; 0 when there are none."""
+        """The address of the local variables of one kind; 0 if there are none."""
 
 
 def value_of(host: Host, number: int) -> int | float:
-    """A parameter, or 0 where the map has none: undefined fields of a reply read 0."""
+    """Read a parameter, or 0 if it does not exist: undefined fields of a reply read 0."""
     try:
         return host.read_parameter(number)
     except (MapError, CardError):
@@ -59,18 +59,18 @@ def value_of(host: Host, number: int) -> int | float:
 
 
 def long_value_of(host: Host, number: int) -> int:
-    """A parameter as 32-bit integer, as a store into a LONG parameter would make it."""
+    """Read a parameter as 32-bit integer, converted as by storing into a LONG parameter."""
     value = value_of(host, number)
     return value if isinstance(value, int) else long_of(value)
 
 
 def finite(value: float) -> float:
-    """The value; PacketError for infinities and NaN, which no parameter may become."""
+    """Return the value; PacketError for infinities and NaN, which no parameter may have."""
     if not math.isfinite(value):
         raise PacketError(f"{value} is not a number for a card")
     return value
 
 
 def masked(word: int, nand_mask: int, or_mask: int) -> int:
-    """Clear the bits of `nand_mask`, then set those of `or_mask`; as signed 32-bit."""
+    """Clear the bits of `nand_mask`, then set those of `or_mask`; returns signed 32-bit."""
     return wrap32((word & ~nand_mask) | or_mask)

@@ -62,11 +62,11 @@ def _conversion(code: int) -> Conversion:
     try:
         return Conversion(code)
     except ValueError:
-        raise PacketError(f"conversion code {code} is none of 0, 1, 2") from None
+        raise PacketError(f"conversion code {code} is not 0, 1 or 2") from None
 
 
 def _words(host: Host, address: int, count: int) -> Sequence[int]:
-    """Memory words, 0 where there is no memory."""
+    """Read memory words, 0 where there is no memory."""
     try:
         return host.read_words(address, count)
     except MapError:
@@ -85,7 +85,7 @@ class Peek(Packet):
 
     @property
     def conversion(self) -> Conversion:
-        """What the words in memory are; PacketError for an unknown code."""
+        """How the words in memory are interpreted; PacketError for an unknown code."""
         return _conversion(self.code)
 
     def reply_words(self) -> int:
@@ -118,12 +118,12 @@ class Poke(Packet):
 
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
-        """Head plus one word per value, once the count is there."""
+        """Length of the head plus one word per value, once the count is received."""
         return HEAD_BYTES + (WORD_BYTES * prefix[3] if len(prefix) > 3 else 0)
 
     @classmethod
     def decode(cls, data: bytes) -> Self:
-        """The packet in these bytes; data are integers for code 0 and IEEE otherwise."""
+        """Decode a packet; data are integers for code 0 and IEEE otherwise."""
         if len(data) < HEAD_BYTES or len(data) != cls.total_length(data):
             raise PacketError(f"Poke: {len(data)} bytes do not fit the count")
         code, count, address = struct.unpack_from("<BBI", data, 2)
@@ -131,7 +131,7 @@ class Poke(Packet):
         return cls(code, count, address, struct.unpack_from(f"<{count}{kind}", data, HEAD_BYTES))
 
     def encode(self) -> bytes:
-        """Head and data."""
+        """Encode head and data."""
         if len(self.values) != self.count or self.count > 255:
             raise PacketError(f"Poke: {len(self.values)} values, count {self.count}, at most 255")
         whole = self.code == Conversion.LONG
@@ -142,7 +142,7 @@ class Poke(Packet):
 
     @property
     def conversion(self) -> Conversion:
-        """What the words in memory become; PacketError for an unknown code."""
+        """How the values are stored in memory; PacketError for an unknown code."""
         return _conversion(self.code)
 
     def act(self, host: Host) -> bytes:
@@ -173,7 +173,7 @@ class Poke(Packet):
 @register
 @dataclass(frozen=True, slots=True)
 class VariableAddress(Packet):
-    """Ask where the local variables of one kind lie; 0 means the program has none."""
+    """Query the address of the local variables of one kind; 0: the program has none."""
 
     HEADER: ClassVar[bytes] = b"\x00\x92"
     program: U8
@@ -184,7 +184,7 @@ class VariableAddress(Packet):
         return 1
 
     def act(self, host: Host) -> bytes:
-        """Look it up."""
+        """Return the address."""
         return self.reply([host.variable_address(self.program, self.kind)])
 
 

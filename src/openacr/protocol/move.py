@@ -8,7 +8,7 @@ count as zero. What bits 0 to 2 of code 0 mean depends on a flag of the master (
 Rapid Move Modes), so a decoded move keeps the codes and `profile()` reads them.
 
 The path tolerance is an extension: bit 0 of header code 5 announces it, which the manual
-leaves reserved. It is for cards of openacr alone.
+leaves reserved. Only openacr cards accept it.
 """
 
 import struct
@@ -45,7 +45,7 @@ from openacr.protocol.move_codes import (
 from openacr.protocol.packet import WORD_BYTES, Packet, Part, pack_word, register
 
 FLAG_BYTES = 3  # of a SET or CLR packet
-NO_TARGET = 1e-9  # no target is a float so small
+NO_TARGET = 1e-9  # no real target is as small as this
 
 
 @register
@@ -83,9 +83,9 @@ class Move(Packet):
         scaling: tuple[float, float] | None = None,
         tolerance: float | None = None,
     ) -> Self:
-        """A move with the header bits that its fields need added to the given codes.
+        """Build a move, adding the header bits that its fields need to the given codes.
 
-        Floats anywhere in targets or centers make them all IEEE; the master number and
+        A float anywhere in targets or centers makes them all IEEE; the master number and
         the slaves present are entered into the codes.
         """
         positions = [*targets.values(), *(centers or ())]
@@ -142,7 +142,7 @@ class Move(Packet):
         return head[: header.length] + data
 
     def act(self, host: Host) -> bytes:
-        """Queue it, unless a value is not a number."""
+        """Queue the move, unless a value is not a number."""
         for value in self.values():
             finite(value)
         host.issue_move(self)
@@ -165,7 +165,7 @@ class Move(Packet):
             yield self.tolerance
 
     def names(self) -> list[str]:
-        """What the data fields are, in wire order."""
+        """The names of the data fields, in wire order."""
         profile = (("VEL", self.vel), ("FVEL", self.fvel), ("ACC", self.acc))
         names = [name for name, value in profile if value is not None]
         names += [f"slave {slave}" for slave, _ in self.targets]
@@ -223,7 +223,7 @@ class Move(Packet):
 
     @property
     def is_counterclockwise(self) -> bool:
-        """The sense of an arc."""
+        """Whether an arc runs counterclockwise."""
         return header_of(self.codes).is_counterclockwise
 
     @property
@@ -258,10 +258,10 @@ class Move(Packet):
 def unpadded(segment: bytes) -> bytes | None:
     """The documented form of a move whose five header bytes were zero-padded to eight.
 
-    One host sends that form. It is told apart by length: the segment holds exactly this
+    One host sends that form. It is recognized by its length: the segment holds exactly this
     one packet, three bytes longer than its header announces, and those three are zero.
-    A SET or CLR packet behind the documented form makes the same length; read as the end of
-    a float, the number of its flag would be the exponent of next to nothing.
+    A SET or CLR packet after the documented form gives the same length; read as the end of
+    a float, its flag number would be an exponent that makes the value practically zero.
     """
     if len(segment) < PADDED_HEADER or segment[5:PADDED_HEADER] != bytes(3):
         return None

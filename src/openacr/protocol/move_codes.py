@@ -49,7 +49,7 @@ class Code3(IntFlag):
 
 MASTER_BIT_3 = 0x08  # of header code 4
 TOLERANCE = 0x01  # of header code 5, reserved on real cards: the packet ends with a path tolerance
-# Plain integers are much quicker than flags, and moves come by the thousand.
+# Plain integers are much faster than flags, and moves arrive by the thousand.
 CODE_3_PRESENT, VEL, ACC = Code0.CODE_3_PRESENT.value, Code0.VEL.value, Code0.ACC.value
 ARC, FVEL, SCALING = Code1.ARC.value, Code3.FVEL.value, Code3.SCALING.value
 FLOATING_POINT, EXTENDED = Code3.FLOATING_POINT.value, Code3.EXTENDED.value
@@ -66,7 +66,7 @@ class Curve(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What header code 0 says about speed: ramps at the end and which override applies."""
+    """The speed settings of header code 0: ramps at the end, and the override that applies."""
 
     stop_ramp: bool  # STP := DEC for this move, else STP := 0
     final_velocity_zero: bool  # FVEL 0 for this move
@@ -76,7 +76,7 @@ class Profile:
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """What header codes say: which fields follow, and what kind of move it is."""
+    """Decoded header codes: which fields follow, and what kind of move it is."""
 
     length: int
     slaves: tuple[int, ...]
@@ -105,7 +105,7 @@ class Header:
 
 @lru_cache(maxsize=1024)
 def header_of(codes: bytes) -> Header:
-    """What eight header codes say; hosts send few different ones, but thousands a second."""
+    """Decode eight header codes; cached, since hosts send few different ones very often."""
     code0, code1, code3 = Code0(codes[0]), Code1(codes[1]), Code3(codes[3])
     present = codes[2] | codes[6] << 8
     curve = _curve(code1, code3)
@@ -164,7 +164,7 @@ def _header_length(code0: int, code3: int) -> int:
 
 @lru_cache(maxsize=512)
 def profile_of(code0: int, rapid_move_modes: bool) -> Profile:
-    """What the low bits of header code 0 mean, with or without rapid move modes."""
+    """Decode the low bits of header code 0, with or without rapid move modes."""
     low, ramp = bool(code0 & 1), bool(code0 & 4)
     locked = bool(Code0(code0) & Code0.OVERRIDE_LOCKOUT)
     if not rapid_move_modes:

@@ -1,8 +1,8 @@
-"""What one stream still has to send, kept in the pieces that one write each should carry.
+"""The output queue of one stream, divided into the pieces to be sent in one write each.
 
-Hosts look at the last piece they received: value and prompt of a line therefore leave
-together, and a packet reply leaves alone. Only a long text leaves in several writes, so
-that XOFF and a slow line hold back what is left of it.
+Hosts evaluate the last piece they received: value and prompt of a line are therefore sent
+together, and a packet reply is sent alone. Only a long text is sent in several writes, so
+that XOFF and a slow line hold back the rest of it.
 """
 
 from collections import deque
@@ -15,7 +15,7 @@ SLICE_BYTES = 4096  # of text in one write; about a second at 38400 baud
 
 
 class OutputState(Struct, frozen=True):
-    """What a snapshot keeps: bytes of each write, and whether it is a packet of its own."""
+    """The queue in a snapshot: the bytes of each write, and whether it is a packet."""
 
     stopped: bool
     dropped_bytes: int
@@ -24,9 +24,9 @@ class OutputState(Struct, frozen=True):
 
 @dataclass(slots=True)
 class Output:
-    """A queue of writes that takes no more, and counts what it drops, once LIMIT_BYTES wait.
+    """A queue of writes; once LIMIT_BYTES wait it drops further output and counts it.
 
-    What it does take it takes whole: one listing may be longer than the limit.
+    Accepted output is accepted whole: one listing may be longer than the limit.
     """
 
     stopped: bool = False  # XOFF received
@@ -35,7 +35,7 @@ class Output:
     _size: int = 0
 
     def text(self, data: bytes) -> None:
-        """Append to the text that leaves with the next write."""
+        """Append to the text of the next write."""
         if not self._fits(data):
             return
         if self._writes and not self._writes[-1][1]:
@@ -44,12 +44,12 @@ class Output:
             self._writes.append((bytearray(data), False))
 
     def packet(self, data: bytes) -> None:
-        """Append one write of its own."""
+        """Append a packet, which is sent in a write of its own."""
         if self._fits(data):
             self._writes.append((bytearray(data), True))
 
     def _fits(self, data: bytes) -> bool:
-        """Room for this piece; nothing is ever sent in part."""
+        """Whether there is room for this piece; no piece is ever sent in part."""
         if not data or self._size >= LIMIT_BYTES:
             self.dropped_bytes += len(data)
             return False
@@ -57,7 +57,7 @@ class Output:
         return True
 
     def take(self) -> bytes:
-        """The bytes of the next write; none while there is nothing or XOFF holds."""
+        """Return the bytes of the next write; empty if there is no output or XOFF holds it."""
         if self.stopped or not self._writes:
             return b""
         first, is_packet = self._writes[0]
@@ -70,12 +70,12 @@ class Output:
         return data
 
     def state(self) -> OutputState:
-        """Everything, for a snapshot."""
+        """The queue, for a snapshot."""
         writes = [(bytes(data), alone) for data, alone in self._writes]
         return OutputState(self.stopped, self.dropped_bytes, writes)
 
     def restore(self, state: OutputState) -> None:
-        """Take over what `state` returned."""
+        """Restore what `state` returned."""
         self.stopped, self.dropped_bytes = state.stopped, state.dropped_bytes
         self._writes = deque((bytearray(data), alone) for data, alone in state.writes)
         self._size = sum(len(data) for data, _ in self._writes)

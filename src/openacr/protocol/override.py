@@ -1,14 +1,14 @@
 """Feedrate and rapid feedrate override of several masters at once (UG2 ch. 6).
 
-Eight bytes in all. The first edition prints six where the mask in byte 1 is enough: the two
-bytes of the 16 master mask are there only behind a zero. It also starts its ROV examples
+Eight bytes in all. The first edition prints six where the mask in byte 1 suffices: the two
+bytes of the 16 master mask are present only after a zero. It also starts its ROV examples
 with the FOV header. The later guide corrects both (errata) and lets byte 1 be set in eight
-bytes, so a card accepts one of the two forms: the later one, unless `machine.toml` says
+bytes, so a card accepts one of the two forms: the later one, unless `machine.toml` sets
 `short_override_packets = true`.
 
 Six bytes that are taken for the beginning of eight have the first two bytes of the next packet
-as the upper half of their value, which is then negative or next to nothing in all but a few
-cases: no override, so it is refused and those two bytes are read again (`belongs_to_next`).
+as the upper half of their value, which is then negative or almost zero in all but a few
+cases: not an override, so it is refused and those two bytes are read again (`belongs_to_next`).
 """
 
 import struct
@@ -35,7 +35,7 @@ class Override(Packet):
 
     @classmethod
     def of(cls, masters: Iterable[int], value: float) -> Self:
-        """The packet for these masters, in the short mask as far as that reaches."""
+        """Build the packet for these masters, with the short mask where it suffices."""
         mask = 0
         for master in masters:
             if not 0 <= master < MASTERS:
@@ -76,12 +76,12 @@ class RapidOverride(Override):
 
 
 def is_short(start: bytes) -> bool:
-    """Whether the first edition ends the packet that starts so behind six bytes."""
+    """Whether the packet that starts so has six bytes in the first edition."""
     return start[:1] in (FeedrateOverride.HEADER, RapidOverride.HEADER) and start[1] != 0
 
 
 def lengthened(packet: bytes) -> bytes:
-    """The eight bytes of a packet of six."""
+    """The eight-byte form of a six-byte packet."""
     return packet[:MASK_16_AT] + bytes(MASK_16_BYTES) + packet[MASK_16_AT:]
 
 

@@ -1,8 +1,8 @@
-"""What all binary packets share: fields, header table, replies and hex explanation.
+"""Common parts of all binary packets: fields, header table, replies and hex explanation.
 
-A packet is a frozen dataclass whose annotations are its wire layout; `act` is what the card does
-with it. Decoding, encoding, the length of an incomplete packet and the explanation of a hex dump
-are derived from the annotations, so a new packet is one class in one file.
+A packet is a frozen dataclass whose annotations are its wire layout; `act` is its effect on
+the card. Decoding, encoding, the length of an incomplete packet and the explanation of a hex
+dump are derived from the annotations, so a new packet is one class in one file.
 Every reply of the card is the request repeated, followed by four-byte words (UG2 ch. 6).
 """
 
@@ -19,7 +19,7 @@ WORD_BYTES = 4
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """How one field travels: a `struct` format, low byte first."""
+    """The wire form of one field: a `struct` format, low byte first."""
 
     format: str
 
@@ -34,12 +34,12 @@ U16 = Annotated[int, Wire("H")]
 I32 = Annotated[int, Wire("i")]
 U32 = Annotated[int, Wire("I")]
 F32 = Annotated[float, Wire("f")]
-RESERVED_U32 = Annotated[int, Wire("2xI")]  # behind two reserved bytes
+RESERVED_U32 = Annotated[int, Wire("2xI")]  # after two reserved bytes
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """One line of an explained hex dump: these bytes are this field with this value."""
+    """One line of an explained hex dump: the bytes, name and value of a field."""
 
     data: bytes
     name: str
@@ -58,7 +58,7 @@ class Packet(ABC):
 
     @classmethod
     def total_length(cls, prefix: bytes) -> int:
-        """Bytes of the whole packet as far as `prefix` tells; more may turn out later."""
+        """Length of the packet as far as known from `prefix`; more bytes may increase it."""
         return _form(cls).length
 
     @classmethod
@@ -78,17 +78,17 @@ class Packet(ABC):
 
     @abstractmethod
     def act(self, host: Host) -> bytes:
-        """What the card does; the reply, empty when there is none.
+        """Execute the packet on a card and return the reply, empty if it has none.
 
-        MapError, CardError or PacketError when it cannot be done: then nothing has changed.
+        MapError, CardError or PacketError if impossible: then nothing has changed.
         """
 
     def parameters(self) -> Iterable[int]:
-        """The parameters named by number."""
+        """The parameters that the packet names by number."""
         return ()
 
     def flags(self) -> Iterable[int]:
-        """The flags named by number."""
+        """The flags that the packet names by number."""
         return ()
 
     def reply_words(self) -> int:
@@ -96,11 +96,11 @@ class Packet(ABC):
         return 0
 
     def reply(self, values: Sequence[int | float]) -> bytes:
-        """The card's answer: the request again, then integers as LONG, floats as IEEE."""
+        """Build the reply: the request repeated, then integers as LONG, floats as IEEE."""
         return self.encode() + b"".join(map(pack_word, values))
 
     def explain(self) -> list[Part]:
-        """The packet taken apart, for hex dumps and documentation."""
+        """The fields of the packet one by one, for hex dumps and documentation."""
         data = self.encode()
         at = len(self.HEADER)
         parts = [Part(data[:at], "header", type(self).__name__)]
@@ -129,7 +129,7 @@ def wires(packet: type[Packet]) -> tuple[tuple[str, Wire], ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Form:
-    """The wire layout of a packet class, worked out once."""
+    """The wire layout of a packet class, computed once."""
 
     names: tuple[str, ...]
     fields: struct.Struct
@@ -164,7 +164,7 @@ P = TypeVar("P", bound=type[Packet])
 
 
 def register(packet: P) -> P:
-    """Enter a packet class into the header table; two of the same header are a mistake."""
+    """Enter a packet class into the header table; ValueError if its header is taken."""
     if packet.HEADER in PACKETS:
         raise ValueError(f"two packets start with {packet.HEADER.hex(' ')}")
     PACKETS[packet.HEADER] = packet
@@ -172,5 +172,5 @@ def register(packet: P) -> P:
 
 
 def packet_class(prefix: bytes) -> type[Packet] | None:
-    """The class of packets starting so; None while (or because) no header fits."""
+    """The class of packets that start with `prefix`; None if no header matches (yet)."""
     return PACKETS.get(prefix[:2]) or PACKETS.get(prefix[:1])

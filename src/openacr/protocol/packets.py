@@ -23,7 +23,7 @@ HEADER_IDS = frozenset(header[0] for header in PACKETS)  # bytes that begin a pa
 
 
 def total_length(prefix: bytes) -> int:
-    """Bytes of the packet that starts so, as far as `prefix` (at least its header) tells."""
+    """Length of the packet that starts with `prefix` (at least its header), as far as known."""
     found = packet_class(prefix)
     if found is None:
         raise PacketError(f"no packet starts with {prefix[:2].hex(' ')}")
@@ -31,7 +31,7 @@ def total_length(prefix: bytes) -> int:
 
 
 def dpcb_padding(prefix: bytes) -> int:
-    """How many zero bytes follow the packet that starts so on a DPCB."""
+    """Count of zero bytes that follow the packet starting with `prefix` on a DPCB."""
     found = packet_class(prefix)
     return 0 if found is None else found.DPCB_PADDING
 

@@ -9,12 +9,12 @@ from openacr.protocol.packet import F32, I32, U16, U32, Packet, register
 
 @dataclass(frozen=True, slots=True)
 class _OneParameter(Packet):
-    """Begins with the number of a parameter."""
+    """A packet that begins with the number of a parameter."""
 
     parameter: U16
 
     def parameters(self) -> tuple[int]:
-        """The one."""
+        """The number of the parameter."""
         return (self.parameter,)
 
 
@@ -43,7 +43,7 @@ class SetLong(_OneParameter):
     value: I32
 
     def act(self, host: Host) -> bytes:
-        """Store it."""
+        """Store the value."""
         host.write_parameter(self.parameter, self.value)
         return b""
 
@@ -73,7 +73,7 @@ class SetIeee(_OneParameter):
     value: F32
 
     def act(self, host: Host) -> bytes:
-        """Store it, unless it is not a number."""
+        """Store the value, unless it is not a number."""
         host.write_parameter(self.parameter, finite(self.value))
         return b""
 
@@ -81,7 +81,7 @@ class SetIeee(_OneParameter):
 @register
 @dataclass(frozen=True, slots=True)
 class ParameterAddress(_OneParameter):
-    """Ask for the memory address of a parameter; 0 means there is no such parameter."""
+    """Query the memory address of a parameter; 0: there is no such parameter."""
 
     HEADER: ClassVar[bytes] = b"\x00\x93"
 
@@ -90,7 +90,7 @@ class ParameterAddress(_OneParameter):
         return 1
 
     def act(self, host: Host) -> bytes:
-        """Look it up."""
+        """Return the address."""
         return self.reply([host.parameter_address(self.parameter)])
 
 
@@ -105,7 +105,7 @@ class MaskParameter(_OneParameter):
     or_mask: U32
 
     def act(self, host: Host) -> bytes:
-        """Mask it, unless it is no LONG parameter."""
+        """Mask the parameter; PacketError if it is not LONG."""
         value = host.read_parameter(self.parameter)
         if not isinstance(value, int):
             raise PacketError(f"P{self.parameter} is not a LONG parameter")

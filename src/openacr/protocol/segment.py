@@ -27,7 +27,7 @@ class Segment:
         return self.at >= len(self.data)
 
     def take_keys(self) -> tuple[list[ControlKey], bool]:
-        """Take the control keys out of the rest, up to a packet; whether one begins there."""
+        """Remove the control keys up to the next packet; also whether a packet begins there."""
         rest = self.rest
         packet = next((place for place, byte in enumerate(rest) if byte in HEADER_IDS), len(rest))
         text = rest[:packet]

@@ -1,4 +1,4 @@
-"""The fast status over UDP: who asked for it, and what the datagrams hold.
+"""The fast status over UDP: its subscribers and its datagrams.
 
 The manuals do not describe this service; captures of real cards do. A host sends two words to
 port 5003, enable and interval in milliseconds; `0, 0` ends it. The card sends datagrams of 80
@@ -27,7 +27,7 @@ Endpoint: TypeAlias = tuple[str, int] | tuple[str, int, int, int]  # of IPv4, IP
 
 @dataclass(frozen=True, slots=True)
 class StatusRequest:
-    """Send the status every so many milliseconds, or no more."""
+    """A request to send the status at an interval in milliseconds, or to stop."""
 
     is_on: bool
     interval_ms: int = 0
@@ -53,7 +53,7 @@ class FastStatus:
 
     @classmethod
     def decode(cls, datagram: bytes) -> Self | None:
-        """What a datagram holds; None if it is no status."""
+        """The status in a datagram; None if it is not a status."""
         return cls(_DATAGRAM.unpack(datagram)) if len(datagram) == STATUS_BYTES else None
 
     def encode(self) -> bytes:
@@ -78,7 +78,7 @@ class _Subscription:
 
 @dataclass(slots=True)
 class Subscribers:
-    """Who gets the status, and when; times are seconds of any clock.
+    """The hosts subscribed to the status and their due times, in seconds of any clock.
 
     Addresses of datagrams can be forged. So nothing is sent in return for a request itself, the
     rate and the number of subscribers are limited, and a subscription ends LIFE_S after its
@@ -106,7 +106,7 @@ class Subscribers:
         return True
 
     def due(self, now_s: float, connected: set[str]) -> Iterator[Endpoint]:
-        """Who is to get a datagram now; intervals that were missed are not made up for."""
+        """The hosts to send a datagram now; missed intervals are skipped."""
         for endpoint, each in list(self._found.items()):
             if endpoint[0] in connected:
                 each.asked_s = now_s

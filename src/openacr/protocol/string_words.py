@@ -1,6 +1,6 @@
-"""Strings of the programs as 32-bit words, where address packets 06 ($V) and 07 ($A) lead.
+"""Strings of the programs as 32-bit words, addressed by address packets 06 ($V) and 07 ($A).
 
-The manual gives the count and says no more of strings; the rest follows what it says of arrays:
+The manual defines only the count of strings; the rest follows its description of arrays:
 
     $V        count, then the address of each string
     $A        count, then the address of each array, 0 while it has no strings;
@@ -26,11 +26,11 @@ class Strings(Protocol):
 
     @property
     def length(self) -> int:
-        """Characters each may have."""
+        """Capacity of each string in characters."""
 
     @property
     def values(self) -> Sequence[str]:
-        """What they hold."""
+        """The contents of the strings."""
 
 
 class ProgramStrings(Protocol):
@@ -46,17 +46,17 @@ class ProgramStrings(Protocol):
 
 
 def variables_address(program: int, strings: ProgramStrings) -> int:
-    """Where the $V of a program lie; 0 when it has none."""
+    """The address of the $V of a program; 0 if it has none."""
     return _base(program, 0) if strings.variables else 0
 
 
 def arrays_address(program: int, strings: ProgramStrings) -> int:
-    """Where the $A of a program lie; 0 when it has none."""
+    """The address of the $A of a program; 0 if it has none."""
     return _base(program, 1) if strings.arrays else 0
 
 
 def read(programs: Sequence[ProgramStrings], address: int, count: int) -> list[int]:
-    """That many words from an address on; MapError where no string lies."""
+    """Read `count` words from an address on; MapError outside the strings."""
     block, first = divmod(address - STRINGS, BLOCK_WORDS)
     program, is_array = divmod(block, _PER_PROGRAM)
     if not 0 <= program < len(programs):

@@ -1,9 +1,9 @@
-"""The line discipline of one stream: from bytes to lines, packets and control keys.
+"""The line discipline of one stream: turns bytes into lines, packets and control keys.
 
 Feed bytes with `receive_data(data, tick)`, then pull events with `next_event()` until it
-answers NEED_DATA. Act on each event before pulling the next: echo is produced as bytes
-are scanned, so the answer to a line then stands before the echo of the following one, and
-a changed ECHO or MODE counts from the next byte on.
+returns NEED_DATA. Act on each event before pulling the next: echo is produced as bytes
+are scanned, so the answer to a line then precedes the echo of the following one, and
+a changed ECHO or MODE applies from the next byte on.
 
 While a line is being executed the owner sets `busy`. Scanning goes on (control keys and
 packets never wait, typed characters are echoed), but complete lines queue up inside and
@@ -11,12 +11,12 @@ come out one by one after `busy` is cleared.
 
 What the bytes mean (for TERMINAL and SERIAL streams):
 
-    CR, LF, CR LF         end of line; the LF right behind a CR does nothing, however late
+    CR, LF, CR LF         end of line; an LF directly after a CR is ignored, however late
     BS, DEL               erase the last character
     Ctrl-X, Ctrl-Y, Ctrl-Z  act at once, leave the typed characters in place
     ESC                   ends listening; otherwise discards the typed characters
     XON, XOFF             serial only: resume, hold output
-    00 04 07 1C 1D 1F     start of a binary packet; a typed line goes on behind it
+    00 04 07 1C 1D 1F     start of a binary packet; a typed line continues after it
     other controls        ignored, except TAB
 """
 
@@ -53,7 +53,9 @@ from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
 log = logging.getLogger(__name__)
 
 BACKLOG_LIMIT_BYTES = 1 << 16
-RESUME_BYTES = BACKLOG_LIMIT_BYTES // 2  # so that a sender is not held and let go all the time
+RESUME_BYTES = (
+    BACKLOG_LIMIT_BYTES // 2
+)  # hysteresis: senders are not held and released all the time
 BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
 CRLF = b"\r\n"
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
@@ -62,7 +64,7 @@ LineBytes: TypeAlias = Annotated[bytes, Meta(max_length=LINE_LIMIT)]
 
 
 class TerminalState(Struct, frozen=True):
-    """What a snapshot keeps of a terminal; a line that was too long is None."""
+    """The state of a terminal in a snapshot; a line that was too long is None."""
 
     kind: StreamKind
     echo: Annotated[int, Meta(ge=0, le=7)]
@@ -104,7 +106,7 @@ class Terminal:
         self._keys = self._key_table()
 
     def _key_table(self) -> dict[int, Callable[[], Event | None]]:
-        """Bytes with an effect of their own while text is typed."""
+        """Bytes with a special effect while text is typed."""
         keys: dict[int, Callable[[], Event | None]] = {
             CR: self._carriage_return,
             LF: self._line_feed,
@@ -125,7 +127,7 @@ class Terminal:
             self._backlog += len(data)
 
     def next_event(self) -> Event | NeedData:
-        """The next event, or NEED_DATA when everything received has been dealt with."""
+        """The next event, or NEED_DATA when everything received has been processed."""
         if self._lines and not self.busy and self.attention is Attention.COMMANDS:
             return self._dequeue()
         while self._segments:
@@ -142,15 +144,15 @@ class Terminal:
 
     @property
     def has_next(self) -> bool:
-        """Whether `next_event` would go on with what was received."""
+        """Whether `next_event` could continue with received bytes."""
         takes_lines = not self.busy and self.attention is Attention.COMMANDS
         return bool(self._segments) or (takes_lines and bool(self._lines))
 
     def pause(self) -> list[ControlKey]:
-        """Pull no more events for now; the control keys in what was not scanned yet.
+        """Stop pulling events for now; returns the control keys in the bytes not scanned yet.
 
-        They act at once, whatever was typed before them. Behind the start of a packet a byte
-        may be anything: there nothing is taken out.
+        They act at once, whatever was typed before them. After the start of a packet a byte
+        may be anything: no keys are taken from there.
         """
         self._note_backlog()
         keys: list[ControlKey] = []
@@ -175,7 +177,7 @@ class Terminal:
 
     @property
     def accepts_input(self) -> bool:
-        """False while so much waits that the sender should be held back."""
+        """False while the backlog is so long that the sender should be held back."""
         return not self._is_full
 
     @property
@@ -233,7 +235,7 @@ class Terminal:
         try:
             return self._received(decode(whole), segment)
         except PacketError:
-            return None  # nobody could answer it
+            return None  # a broken packet gets no reply
 
     def _packet_byte(self, byte: int, segment: Segment) -> Event | None:
         if self.kind is StreamKind.SERIAL and byte in (XON, XOFF) and self.mode.prefixes:
@@ -241,7 +243,7 @@ class Terminal:
         try:
             packet = self._reader.feed(self._together(segment), segment.tick)
         except PacketError:
-            return None  # nobody could answer it
+            return None  # a broken packet gets no reply
         return None if packet is None else self._received(packet, segment)
 
     def _received(self, packet: Packet, segment: Segment) -> Received | None:
@@ -255,7 +257,7 @@ class Terminal:
         return Received(packet)
 
     def _refuse_override(self, packet: Override, rest: bytes, segment: Segment) -> None:
-        """Read again what a packet of the first edition has taken from the next one."""
+        """Read again the bytes that a packet of the first edition has taken from the next one."""
         if rest and not self._reader.short_overrides:
             again = encode_packet(rest, self.mode)
             segment.data, segment.at = again + segment.rest, 0
@@ -269,7 +271,7 @@ class Terminal:
             )
 
     def _together(self, segment: Segment) -> bytes:
-        """The byte just scanned and those behind it that surely belong to the packet."""
+        """The byte just scanned and those after it that certainly belong to the packet."""
         first = segment.at - 1
         data = segment.data[first : first + self._reader.whole_bytes]
         self._skip(segment, len(data) - 1)
