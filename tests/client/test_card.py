@@ -98,7 +98,7 @@ def test_arrays_of_a_program(card: Card) -> None:
     assert card.read_array(2, "la 0") == [0, 5, -6, 0]
     assert card.read_array(2, "LA0", range(1, 3)) == [5, -6]
     assert card.read_array(2, "DA0") == []
-    with pytest.raises(UserError, match="no numeric array"):
+    with pytest.raises(UserError, match="is not a numeric array"):
         card.read_array(2, "XA0")
 
 

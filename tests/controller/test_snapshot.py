@@ -246,7 +246,7 @@ def test_a_snapshot_of_another_model_or_machine_is_refused() -> None:
     world = parse_world(WORLD)
     with pytest.raises(StoreError, match="another machine connected"):
         Controller(world=world).restore(card.snapshot())
-    with pytest.raises(StoreError, match="another version of openacr"):
+    with pytest.raises(StoreError, match="a version of openacr with another memory layout"):
         card.restore(replace(card.snapshot(), layout="0"))
 
 
