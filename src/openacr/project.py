@@ -1,6 +1,6 @@
 """Find out what a user handed over: a project folder or one controller file.
 
-Everything is looked at before anything starts: a missing, unreadable, empty or binary file
+Everything is checked before anything starts: a missing, unreadable, empty or binary file
 is reported with its place, and no controller exists until the whole project is readable.
 """
 
@@ -17,7 +17,7 @@ from openacr.errors import SourceError, UserError, read_bytes, unreadable
 
 PROGRAM_COUNT = 16
 PLC_COUNT = 8
-PART_PROGRAM_SHARE = 4  # at least one line of so many is a block of G or M codes
+PART_PROGRAM_SHARE = 4  # at least one line in this many is a block of G or M codes
 
 _NUMBERED = re.compile(r"(prog|plc)(\d+)\.8k", re.IGNORECASE)
 _BLOCK = re.compile(r"(?:N\d+\s*)?[GM]\d+(?:\.\d)?(?![A-Za-z0-9]*\s*=)", re.IGNORECASE)
@@ -40,7 +40,7 @@ class Place(Enum):
 
 
 def _one_single_byte(error: UnicodeError) -> tuple[str, int]:
-    """Read the byte at which UTF-8 failed by itself; the bytes behind it get another chance."""
+    """Decode only the byte at which UTF-8 failed; decoding continues with the bytes after it."""
     if not isinstance(error, UnicodeDecodeError):
         raise error
     return _SINGLE_BYTES[error.object[error.start]], error.start + 1
@@ -83,7 +83,7 @@ class Project:
 
     @property
     def fingerprint(self) -> str:
-        """What tells whether two projects are the same: all their files but the scenario."""
+        """The identity of a project: all its files except the scenario."""
         found = blake2b(digest_size=16)
         machine = [read_bytes(self.machine)] if self.machine else []
         for data in [*machine, *(source.data for source in self.sources)]:
@@ -150,7 +150,7 @@ def _binary(controls: bytes) -> re.Pattern[bytes]:
 def require_text(
     path: Path, data: bytes, *, controls: bytes = b"", what: str = "controller files"
 ) -> None:
-    """Refuse what is no text; `controls`: characters that files of this kind may also hold."""
+    """Refuse data that is not text; `controls`: further characters allowed in such files."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         hint = "save it as UTF-8 or plain text"
         raise SourceError("the file is UTF-16", path=str(path), line=1, column=1, hint=hint)

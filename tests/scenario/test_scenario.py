@@ -411,7 +411,7 @@ def test_a_step_skipped_over_its_moment_is_made_up_for() -> None:
         ),
         (
             "duration_s = 2\n[[at]]\ntime_s = 3\nset = [1]",
-            "s.toml:3:1: 3 s lies behind the end of the run at 2 s",
+            "s.toml:3:1: 3 s is after the end of the run at 2 s",
         ),
         (
             "[[at]]\ntime_s = 0\ncheckpoint = 'a'\n[[at]]\ntime_s = 1\ncheckpoint = 'a'",

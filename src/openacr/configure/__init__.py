@@ -1,4 +1,4 @@
-"""Configuration code for a machine, made of the answers its builder gives in a file."""
+"""Configuration code for a machine, generated from the answers of its builder in a file."""
 
 from openacr.configure.answers import Answers
 from openacr.configure.files import code_files

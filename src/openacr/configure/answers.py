@@ -1,4 +1,4 @@
-"""What a configuration is made of: the card, its axes and its masters.
+"""The answers of a configuration: the card, its axes and its masters.
 
 Positions are in user units of their axis, gains in the units of their commands.
 """
@@ -13,7 +13,7 @@ from msgspec import Meta, Struct
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.schema import ModelName
 
-CARD_LIMITS_SINCE = (1, 18, 15)  # firmware that watches the limits itself
+CARD_LIMITS_SINCE = (1, 18, 15)  # first firmware that monitors the limits itself
 
 AxisNumber = Annotated[int, Meta(ge=0, le=15)]
 MasterNumber = Annotated[int, Meta(ge=0, le=15)]
@@ -41,7 +41,7 @@ class CanOpen(_Table, frozen=True):
 
 
 class CardAnswers(_Table, frozen=True):
-    """The card: `minimal` leaves out what a card without analog inputs and nodes can do without."""
+    """The card: `minimal` omits the settings of analog inputs and CANopen nodes."""
 
     model: ModelName = ModelName(DEFAULT_MODEL.name)
     option: str = ""
@@ -51,12 +51,12 @@ class CardAnswers(_Table, frozen=True):
 
     @property
     def hardware(self) -> Model:
-        """What the model has."""
+        """The hardware of the model."""
         return MODELS[self.model]
 
     @property
     def watches_limits(self) -> bool:
-        """Whether the firmware does what older ones leave to generated programs."""
+        """Whether the firmware monitors limits; older ones need generated programs."""
         return tuple(map(int, self.firmware.split("."))) >= CARD_LIMITS_SINCE
 
 
@@ -175,7 +175,7 @@ class Answers(_Table, frozen=True, kw_only=True):
 
 
 def warnings(answers: Answers) -> Iterator[str]:
-    """What works but is hardly meant."""
+    """Report valid answers that are probably mistakes."""
     for axis in answers.axis:
         if answers.master_of(axis) is None:
             yield f"axis {axis.name} has no master: it can jog, but takes part in no move"

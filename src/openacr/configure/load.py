@@ -1,4 +1,4 @@
-"""Read the answers; what is wrong is said with its line."""
+"""Read the answers; errors are reported with their line."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from openacr.plant.locate import Path as Steps
 
 
 def parse_answers(text: str, path: str = "configure.toml") -> Answers:
-    """Read the answers in a text; SourceError with everything that is wrong."""
+    """Read the answers in a text; SourceError with all errors found."""
     raw = toml_file.parse(text, path)
     answers, messages = toml_file.convert_all(raw, Answers)
     found = [
@@ -38,7 +38,7 @@ def _wrong(message: str, text: str, path: str) -> SourceError:
 
 
 def _contradictions(answers: Answers) -> Iterator[tuple[Steps, str]]:
-    """What does not fit together, or not on the card."""
+    """Report answers that contradict each other or exceed the card."""
     card = answers.card.hardware
     numbers: set[int] = set()
     names: set[str] = set()

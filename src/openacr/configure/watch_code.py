@@ -1,6 +1,6 @@
-"""Programs and PLCs that watch drives and limits, and the answers kept on the card.
+"""Programs and PLCs that monitor drives and limits, and the answers stored on the card.
 
-Firmware since 1.18.15 watches limits itself; there program 15 keeps the answers as remarks,
+Firmware since 1.18.15 monitors limits itself; there program 15 stores the answers as remarks,
 from which they can be read back. For older firmware PLC 5 (6 and 7, where one is not enough)
 latches the limit switches in flags; the flags of drives and axes themselves are beyond the
 reach of a PLC. Program 7 shows the state of the drives in flags and acts on limit switches,
@@ -17,7 +17,7 @@ from openacr.map.numbers import AX_ACTUAL_POSITION, AX_BASE, AX_PPU, AX_STRIDE
 ANSWER = "REM | "
 AXES_PER_PLC = 6
 
-# Flags of generated code: one per axis, those of axes 8 to 15 behind those of 0 to 7.
+# Flags of generated code: one per axis, those of axes 8 to 15 after those of 0 to 7.
 DRIVE_FAULTED, DRIVE_DISABLED, DRIVE_ENABLED = 1952, 1968, 1984
 SOFT_LIMIT_HIT, POSITIVE_LIMIT_HIT, NEGATIVE_LIMIT_HIT = 2000, 2016, 2032
 
@@ -33,7 +33,7 @@ def _not_excess_error(axis: AxisAnswers) -> int:
 
 
 def plc_codes(answers: Answers) -> list[list[str]]:
-    """The lines of PLC 5 and those behind it."""
+    """The lines of PLC 5 and of the PLCs after it."""
     axes = answers.axis
     groups = [axes[first : first + AXES_PER_PLC] for first in range(0, len(axes), AXES_PER_PLC)]
     return [list(_plc(group)) for group in groups]

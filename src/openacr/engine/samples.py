@@ -1,4 +1,4 @@
-"""Tell the engine which values a trace records beside the axes."""
+"""Select the values that a trace records in addition to the axes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,13 +20,13 @@ class Sample:
 
 
 def sample_of_flag(number: int) -> Sample:
-    """What records a flag."""
+    """The sample that records a flag."""
     row, mask = flag_place(number)
     return Sample(Watched.WORD, row, mask)
 
 
 def sample_of_parameter(memory: Memory, number: int) -> Sample | None:
-    """What records a parameter; None where the card has no such number.
+    """The sample that records a parameter; None if the card has no such number.
 
     A user variable (P0 to P4095) records 0 until it is dimensioned.
     """
@@ -35,7 +35,7 @@ def sample_of_parameter(memory: Memory, number: int) -> Sample | None:
 
 
 def set_samples(memory: Memory, samples: Sequence[Sample]) -> None:
-    """Record these, at most SAMPLES, in every row of a trace from now on."""
+    """Record these samples, at most SAMPLES, in every row of a trace from now on."""
     if len(samples) > SAMPLES:
         raise ValueError(f"{len(samples)} values cannot be recorded at once, at most {SAMPLES}")
     for index, sample in enumerate(samples):

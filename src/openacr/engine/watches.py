@@ -1,4 +1,4 @@
-"""Tell the engine what to watch, so that whoever waits for it need not look at every tick."""
+"""Select the values the engine watches, so that a caller need not poll in every tick."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ _watch_fired = pick(watch_cy.watch_fired)
 
 
 class Watched(Enum):
-    """Where a watched value is, and of what kind it is."""
+    """The location and kind of a watched value."""
 
     WORD = watch_cy.WATCH_WORD
     LONG = watch_cy.WATCH_LONG
@@ -37,7 +37,7 @@ _PLACES = {at.KIND_LONG: Watched.LONG, at.KIND_FP32: Watched.FP32, at.KIND_FP64:
 
 
 def parameter_place(memory: Memory, number: int) -> tuple[Watched, int] | None:
-    """Where a parameter is; None where the card has no such number."""
+    """The location of a parameter; None if the card has no such number."""
     place = _PLACES.get(kind_of(memory.I, number))
     if place is None:
         return None
@@ -56,7 +56,7 @@ class Watch:
 
 
 def set_watches(memory: Memory, watches: Sequence[Watch]) -> None:
-    """Watch these, at most WATCHES, from the present state on."""
+    """Watch these values, at most WATCHES, from the present state on."""
     rows = memory.I
     for index, watch in enumerate(watches):
         row = at.WATI_BASE + index * at.WATI_STRIDE
@@ -66,12 +66,12 @@ def set_watches(memory: Memory, watches: Sequence[Watch]) -> None:
         rows[row + at.WATI_IS_ABOVE] = watch.is_above
         memory.F[at.WATF_BASE + index * at.WATF_STRIDE + at.WATF_BOUND] = watch.bound
     rows[at.ENGI_BASE + at.ENGI_WATCH_COUNT] = len(watches)
-    _watch_fired(memory.F, memory.I, memory.S)  # takes note of the present states
+    _watch_fired(memory.F, memory.I, memory.S)  # records the present states
 
 
 @dataclass(frozen=True, slots=True)
 class Orders:
-    """What this process has asked of the engine; it is no part of the state of the card."""
+    """The requests of this process to the engine, which are not part of the card's state."""
 
     rows: tuple["memoryview[int]", ...]
     bounds: "memoryview[float]"
@@ -80,8 +80,8 @@ class Orders:
 def state_image(memory: Memory) -> bytearray:
     """A copy of the state of the card, without what belongs to this process.
 
-    That is what was asked of the engine, and where the code of programs lies: a card that is
-    restored in another process compiles it anew.
+    That is, without its requests to the engine and the location of compiled programs: a card
+    restored in another process compiles them again.
     """
     image = memory.image()
     rows = memoryview(image).cast("i")
@@ -94,7 +94,7 @@ def state_image(memory: Memory) -> bytearray:
 
 
 def take_orders(memory: Memory) -> Orders:
-    """Take all orders away; `give_orders` brings them back."""
+    """Remove all requests and return them; `give_orders` restores them."""
     taken = []
     in_tick = memory.I[_IN_TICK]
     for first, count in _ROWS:
@@ -108,7 +108,7 @@ def take_orders(memory: Memory) -> Orders:
 
 
 def give_orders(memory: Memory, orders: Orders) -> None:
-    """Bring back what `take_orders` has taken; how far a tick has got stays as it is."""
+    """Restore what `take_orders` removed; the progress within the tick is not changed."""
     in_tick = memory.I[_IN_TICK]
     for (first, count), part in zip(_ROWS, orders.rows, strict=True):
         memory.I[first : first + count] = part

@@ -1,4 +1,4 @@
-"""A log that no host can fill: lines of one kind are few in a minute, then they are counted."""
+"""Rate limit of log records, so that no host can fill the log: excess ones are counted."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -43,7 +43,7 @@ class Bounded(logging.Filter):
 
 @contextmanager
 def bounded(now_s: Callable[[], float], *loggers: logging.Logger) -> Iterator[None]:
-    """Bound what these loggers write meanwhile."""
+    """Limit the rate of these loggers inside a `with` block."""
     limit = Bounded(now_s)
     for logger in loggers:
         logger.addFilter(limit)

@@ -1,4 +1,4 @@
-"""What the servers need of a card: streams of bytes and ticks of time."""
+"""The interface of a card that the servers use: byte streams and ticks."""
 
 from typing import Protocol
 
@@ -13,22 +13,22 @@ class CardHost(Protocol):
         """Seconds of card time per tick."""
 
     def open_stream(self, kind: StreamKind) -> int:
-        """A stream for a new connection; NoFreeStreamError when all are taken."""
+        """Open a stream for a new connection; NoFreeStreamError if all are in use."""
 
     def close_stream(self, stream: int) -> None:
-        """The connection ended; motion and programs go on."""
+        """Close the stream of an ended connection; motion and programs continue."""
 
     def receive(self, stream: int, data: bytes) -> None:
-        """Bytes that arrived together, at the present tick."""
+        """Process bytes that arrived together at the present tick."""
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
 
     def replying(self, stream: int) -> bool:
-        """True while something received is on its way to an answer and not blocked."""
+        """True while received input is being processed and is not blocked."""
 
     def take_output(self, stream: int) -> bytes:
-        """The bytes of the next write, none when there is nothing to send."""
+        """Return the bytes of the next write, empty when there is nothing to send."""
 
     def advance(self, ticks: int) -> None:
         """Let card time pass."""

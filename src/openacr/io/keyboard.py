@@ -1,8 +1,8 @@
-"""What a person types, turned into what the card gets.
+"""Convert the keys of an operator into the bytes sent to the card.
 
-The card echoes and edits the line itself; the keyboard side only adds what the card has
-not: recalling earlier lines. A recalled line is typed by this program, after erasing what
-stands there, so that the card's own echo shows it exactly.
+The card echoes and edits the line itself; the keyboard side only adds the recall of earlier
+lines, which the card lacks. A recalled line is typed by this program, after erasing the
+current one, so that the card's own echo shows it exactly.
 """
 
 import re
@@ -65,7 +65,7 @@ class Keyboard:
         return bytes((key,))
 
     def _arrow(self, code: bytes) -> bytes:
-        """What to send for a key that sends a sequence: nothing but for up and down."""
+        """The bytes for a key that sends a sequence: none except for up and down."""
         if code not in UP + DOWN:
             return b""
         recalled = self.history.move(-1 if code in UP else 1)

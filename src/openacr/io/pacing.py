@@ -14,7 +14,7 @@ from openacr.errors import UserError
 
 log = logging.getLogger(__name__)
 
-BURST_S = 0.010  # card time advanced in one go, so that sockets are served in between
+BURST_S = 0.010  # card time advanced at once, so that sockets are served in between
 MAX_LAG_S = 0.25
 AHEAD_S = 0.002  # how far an answer may be fetched from the future
 BIN_S = 0.0001
@@ -23,13 +23,13 @@ BINS = 4096
 
 @dataclass(frozen=True, slots=True)
 class PacingReport:
-    """How far card time was from the wall clock, seen at every wake-up."""
+    """Deviation of card time from the wall clock, measured at every wake-up."""
 
     observations: int
     median_s: float
     p99_s: float
     worst_s: float
-    lost_s: float  # wall-clock time the card did not live through
+    lost_s: float  # wall-clock time the card has skipped
 
     def __str__(self) -> str:
         return (

@@ -1,8 +1,8 @@
-"""The far ends of the card's streams: TCP connections (serial ports: `serial_port`).
+"""The remote ends of the card's streams: TCP connections (serial ports: `serial_port`).
 
-A peer that does not read is never waited for. Once SEND_LIMIT_BYTES wait for it here, the rest
-stays in the card (`protocol.output` bounds that), with one warning per connection. A peer
-that floods is held back by not reading from it, and every read is small, so that the
+The server never waits for a peer that does not read. Once SEND_LIMIT_BYTES are queued here, the
+rest stays in the card (`protocol.output` limits it), with one warning per connection. A
+flooding peer is held back by not reading from it, and every read is small, so that the
 others get their turn.
 """
 
@@ -24,18 +24,18 @@ KEEPALIVE_IDLE_S, KEEPALIVE_INTERVAL_S, KEEPALIVE_PROBES = 30, 10, 3
 
 
 class Peer(Protocol):
-    """One far end with the stream of the card it talks to."""
+    """One remote end, with its stream of the card."""
 
     kind: StreamKind
     stream: int
-    host: str  # where it is; empty for a serial line
+    host: str  # its address; empty for a serial line
 
     @property
     def takes_output(self) -> bool:
-        """False while so much waits for it that more is better left in the card."""
+        """False while its queue is so long that further output should stay in the card."""
 
     def send(self, data: bytes) -> None:
-        """One write."""
+        """Send bytes in one write."""
 
     def hold(self, held: bool) -> None:
         """Stop or resume reading."""
@@ -147,7 +147,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         change()
 
     def close(self) -> None:
-        """End the connection; what is buffered for a peer that reads still goes out."""
+        """End the connection; buffered output for a peer that reads is still sent."""
         if self._transport is None:
             return
         if self._transport.get_write_buffer_size():
@@ -157,7 +157,7 @@ class TcpPeer(asyncio.BufferedProtocol):
 
 
 def _set_options(sock: socket.socket) -> None:
-    """No delay for small replies; notice peers that are gone without saying so."""
+    """Send small replies without delay; detect peers that disappear without closing."""
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
     for name, value in (

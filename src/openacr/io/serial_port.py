@@ -35,7 +35,7 @@ IS_MANUAL = 1 << 15
 
 @dataclass(frozen=True, slots=True)
 class LineSettings:
-    """How characters travel on a serial line."""
+    """The character format and speed of a serial line."""
 
     baud: int = 38400
     data_bits: int = 8
@@ -44,7 +44,7 @@ class LineSettings:
 
     @classmethod
     def of(cls, startup_mode: int) -> "LineSettings | None":
-        """What COM1/COM2 Startup Mode (P7013, P7029) says; None: detect the speed.
+        """The settings in COM1/COM2 Startup Mode (P7013, P7029); None: detect the speed.
 
         Baud rate / 300 in bits 0 to 7, data bits less 5 in 8 and 9, a second stop bit in
         10, parity in 11 and 12, settings valid at all in 15 (UG2, Appendix A).
@@ -76,7 +76,7 @@ def open_port(path: str, line: LineSettings) -> serial.Serial:
 
 
 class SerialPeer:
-    """The far end of a serial line."""
+    """The remote end of a serial line."""
 
     kind = StreamKind.SERIAL
 
@@ -97,7 +97,7 @@ class SerialPeer:
         self._open = True
 
     def start(self) -> None:
-        """Take a stream of the card and begin to listen."""
+        """Open a stream of the card and begin to read."""
         if not self._board.joined(self):
             self._port.close()
             raise UserError(f"no stream of the card is free for {self._path}")
@@ -110,12 +110,12 @@ class SerialPeer:
         return self._queued - self._sent < SLICE_BYTES
 
     def send(self, data: bytes) -> None:
-        """One write."""
+        """Send bytes in one write."""
         self._queued += len(data)
         self._outgoing.put(data)
 
     def hold(self, held: bool) -> None:
-        """Stop or resume reading, and tell the host with XOFF or XON."""
+        """Stop or resume reading, and signal this to the host with XOFF or XON."""
         if held != self._unheld.is_set():
             return
         if held:
@@ -163,7 +163,7 @@ class SerialPeer:
             self._failed(failure)
 
     def _failed(self, failure: Exception) -> None:
-        """The line broke: tell the loop, unless it is closing anyway."""
+        """Report a broken line to the loop, unless it is closing anyway."""
         if self._open and not self._loop.is_closed():
             log.warning("serial port %s failed: %s", self._path, failure)
             self._loop.call_soon_threadsafe(self.close)

@@ -35,7 +35,7 @@ OF_HOSTS = (log, *map(logging.getLogger, (peers.__name__, terminal.__name__)))
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """Where a port listens."""
+    """The address of a listening port."""
 
     host: str
     port: int
@@ -45,16 +45,16 @@ class Address:
 
     @property
     def is_loopback(self) -> bool:
-        """Only programs on this machine reach it."""
+        """Whether only programs on this machine can reach it."""
         return is_loopback(self.host)
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only programs on this machine reach an address or name."""
+    """Whether only programs on this machine can reach an address or name."""
     try:
         found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
     except OSError:
-        return True  # listening there will fail and say why
+        return True  # listening there will fail and report why
     return all(
         ipaddress.ip_address(str(address[0]).partition("%")[0]).is_loopback for *_, address in found
     )
@@ -62,7 +62,7 @@ def is_loopback(host: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Guests:
-    """The networks hosts may connect from; none named: any that reaches the port."""
+    """The networks hosts may connect from; without any, every host that reaches the port."""
 
     networks: tuple[ipaddress.IPv4Network | ipaddress.IPv6Network, ...] = ()
 
@@ -105,7 +105,7 @@ class CardServer:
     # --- set-up and end ---------------------------------------------------------------
 
     async def listen(self, kind: StreamKind, host: str, port: int) -> Address:
-        """Open one TCP port (0: any free one); UserError when that is impossible."""
+        """Open one TCP port (0: any free one); UserError if impossible."""
         option = "--ascii-port" if kind is StreamKind.TERMINAL else "--binary-port"
         sock = _bound_socket(host, port, socket.SOCK_STREAM, option)
         loop = asyncio.get_running_loop()
@@ -115,7 +115,7 @@ class CardServer:
         return Address(name[0], name[1])
 
     async def listen_status(self, host: str, port: int) -> Address:
-        """Open the UDP port of the fast status; UserError when that is impossible."""
+        """Open the UDP port of the fast status; UserError if impossible."""
         sock = _bound_socket(host, port, socket.SOCK_DGRAM, "--status-port")
         self._status = await open_status_port(self, self._now, sock)
         name = sock.getsockname()
@@ -126,7 +126,7 @@ class CardServer:
         SerialPeer(path, line, self, asyncio.get_running_loop()).start()
 
     async def run(self, stop: asyncio.Event) -> None:
-        """Keep card time with the wall clock until `stop` is set; then close everything."""
+        """Run the card in real time until `stop` is set; then close everything."""
         self._pacer.start(self._now())
         with bounded(self._now, *OF_HOSTS):
             await self._run(stop)
@@ -143,7 +143,7 @@ class CardServer:
             await self.close()
 
     def refused(self, name: str, why: str) -> None:
-        """A connection from `name` was refused; `why` completes the sentence."""
+        """Log that a connection from `name` was refused, with the reason."""
         log.warning("%s refused: %s", name, why)
 
     async def close(self) -> None:
@@ -157,7 +157,7 @@ class CardServer:
         await asyncio.sleep(0)  # lets the transports report their end
 
     def report(self) -> PacingReport:
-        """How well real time was kept so far."""
+        """The accuracy of real time so far."""
         return self._pacer.report()
 
     # --- time -------------------------------------------------------------------------
@@ -202,7 +202,7 @@ class CardServer:
         return True
 
     def received(self, peer: Peer, data: bytes) -> None:
-        """Feed what a peer sent and, if possible, answer it at once."""
+        """Pass received bytes to the card and, if possible, send the answer at once."""
         self._catch_up()
         self._card.receive(peer.stream, data)
         self._flush(peer)
@@ -212,7 +212,7 @@ class CardServer:
         peer.hold(not self._card.accepts_input(peer.stream))
 
     def left(self, peer: Peer) -> None:
-        """Free the stream of a peer that is gone."""
+        """Free the stream of a peer that has disconnected."""
         self._peers.remove(peer)
         self._card.close_stream(peer.stream)
 
@@ -238,7 +238,7 @@ def _bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) ->
 
 
 def _listen_failure(host: str, port: int, failure: OSError, option: str) -> str:
-    """What went wrong and what to do about it."""
+    """The reason why listening failed, with a hint."""
     if failure.errno == errno.EADDRINUSE:
         return (
             f"port {port} on {host} is in use (is another card running?); choose another"

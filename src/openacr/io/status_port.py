@@ -12,17 +12,17 @@ log = logging.getLogger(__name__)
 
 
 class StatusBoard(Protocol):
-    """What the port asks of the server."""
+    """The interface of the server that the port uses."""
 
     def admits(self, host: str) -> bool:
-        """Whether a host may ask at all."""
+        """Whether a host may send requests at all."""
 
     def hosts(self) -> set[str]:
         """The addresses of the hosts that are connected."""
 
 
 class StatusPort(asyncio.DatagramProtocol):
-    """Answers those who ask, and nobody else."""
+    """Sends the status to its subscribers only."""
 
     def __init__(self, board: StatusBoard, now_s: Callable[[], float]) -> None:
         self._board = board
@@ -36,7 +36,7 @@ class StatusPort(asyncio.DatagramProtocol):
         self._transport = cast(asyncio.DatagramTransport, transport)  # not all are instances of it
 
     def datagram_received(self, data: bytes, addr: Endpoint) -> None:
-        """A request; whatever else it is, is ignored."""
+        """Process a request; any other datagram is ignored."""
         request = StatusRequest.decode(data)
         if request is None or not self._board.admits(addr[0]):
             return
@@ -49,17 +49,17 @@ class StatusPort(asyncio.DatagramProtocol):
         return len(self._subscribers)
 
     def error_received(self, exc: Exception) -> None:
-        """Nobody listens there any more; the subscription ends by itself."""
+        """Ignore that a receiver is gone; its subscription expires."""
 
     def send_due(self, status: Callable[[], bytes]) -> None:
-        """Send the status to all whose time has come."""
+        """Send the status to all subscribers that are due."""
         if self._transport is None or not len(self):
             return
         for endpoint in self._subscribers.due(self._now_s(), self._board.hosts()):
             self._transport.sendto(status(), endpoint)
 
     def close(self) -> None:
-        """Give the port back."""
+        """Release the port."""
         if self._transport is not None:
             self._transport.close()
 

@@ -1,7 +1,7 @@
-"""Characters and the bytes a card has for them.
+"""Conversion between characters and the bytes of a card.
 
-Text inside the card has one character per byte. What a person writes in strings and remarks
-may be UTF-8: the card keeps and sends the bytes, and only who shows them needs to know.
+Text inside the card has one character per byte. Strings and remarks typed by a user may be
+UTF-8: the card stores and sends the bytes, and only their display decodes them.
 
 Everything a card or a file of it sends to a person's screen passes `readable`, or `Screen` where
 it comes in pieces: control characters are shown, not obeyed, so that no escape sequence
@@ -14,14 +14,14 @@ import codecs
 _TYPOGRAPHIC = str.maketrans("\x91\x92\x93\x94\x96\x97", "''\"\"--")
 
 
-# What a plain terminal obeys: BEL, BS, TAB, LF, CR. DEL and the controls above 127 are shown, too.
+# Controls a plain terminal obeys: BEL, BS, TAB, LF, CR. DEL and controls above 127 are shown.
 _OBEYED = frozenset((0x07, 0x08, 0x09, 0x0A, 0x0D))
 _SHOWN = {code: f"^{chr(code ^ 0x40)}" for code in (*range(0x20), 0x7F) if code not in _OBEYED}
 _SHOWN |= {code: f"<{code:02X}>" for code in range(0x80, 0xA0)}
 
 
 def readable(text: str) -> str:
-    """Text of the card as a person reads it: UTF-8 where it is, else a character per byte.
+    """Text of the card for display: decoded where it is UTF-8, else a character per byte.
 
     Control characters appear as `^[` or `<9B>`.
     """
@@ -46,7 +46,7 @@ def shown(text: str) -> str:
 
 
 def _as_single_byte(error: UnicodeError) -> tuple[str, int]:
-    """A byte that is no UTF-8, as the character it is in the Windows code page."""
+    """Decode a byte that is not UTF-8 with the Windows code page."""
     if not isinstance(error, UnicodeDecodeError):
         raise error
     return chr(error.object[error.start]).translate(_TYPOGRAPHIC), error.start + 1
@@ -56,7 +56,7 @@ codecs.register_error("openacr.single-byte", _as_single_byte)
 
 
 class Screen:
-    """As `readable`, for bytes that arrive in pieces of any size."""
+    """Like `readable`, for bytes that arrive in pieces of any size."""
 
     def __init__(self) -> None:
         self._decoder = codecs.getincrementaldecoder("utf-8")("openacr.single-byte")

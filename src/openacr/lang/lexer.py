@@ -19,13 +19,13 @@ LONG_LIMIT = 2147483647
 
 
 class TokenKind(IntEnum):
-    """What a token is."""
+    """The kind of a token."""
 
     WORD = 1
     NUMBER = 2
     STRING = 3
     OPERATOR = 4
-    LABEL = 5  # `_name`, and the name behind GOTO or GOSUB
+    LABEL = 5  # `_name`, and the name after GOTO or GOSUB
     REMARK = 6
     END = 7
 
@@ -33,7 +33,7 @@ class TokenKind(IntEnum):
 class Token(NamedTuple):
     """One token.
 
-    `text` is what stood there (words in upper case compare with `word`), `value` the
+    `text` is the source text (words in upper case compare with `word`), `value` the
     number, the content of the string, the name of the label or the text of the remark;
     for a word it is the upper-case form.
     """
@@ -46,7 +46,7 @@ class Token(NamedTuple):
 
     @property
     def span(self) -> Span:
-        """Where the token stands."""
+        """The position of the token."""
         return Span(self.line, self.column, len(self.text))
 
 
@@ -58,9 +58,9 @@ class LexError(CardError):
         self.span = span
 
 
-# An exponent belongs to a number only if E stands directly behind the digits and a
-# digit (or a signed one) directly behind the E: `5 DEC` and `X1ENC` hold none. The name
-# behind GOTO or GOSUB is one token even where it holds digits.
+# An exponent belongs to a number only if E directly follows the digits and a digit
+# (or a signed one) directly follows the E: `5 DEC` and `X1ENC` hold none. The name
+# after GOTO or GOSUB is one token even if it contains digits.
 _TOKEN = re.compile(
     r"""[ \t]*(?:
     (?P<remark>[Rr][Ee][Mm](?![A-Za-z$]).*)
@@ -136,7 +136,7 @@ def tokens(line: str | bytes, number: int = 1) -> list[Token]:
 def spelled(found: Iterable[Token]) -> str:
     """The line whose tokens these are, one character per byte, each in its column.
 
-    A comment behind an apostrophe is no token and is left out.
+    A comment after an apostrophe is not a token and is omitted.
     """
     text = ""
     for token in found:

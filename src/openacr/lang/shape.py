@@ -1,13 +1,13 @@
-"""The shape of a line: what is left of it when numbers, strings and remarks are blanked.
+"""The shape of a line: the line with its numbers, strings and remarks blanked.
 
-Lines of one shape are cut into tokens of the same kinds and are read by the parser in the
-same way; they differ in values only. A program of many thousand lines has few shapes, so
-who remembers what a shape means need not read every line.
+Lines of one shape have tokens of the same kinds and are parsed identically; they differ only
+in values. A program of many thousand lines has few shapes, so a caller that caches the
+meaning of a shape need not parse every line.
 
 Why equal shapes have equal tokens: the lexer reads from left to right, and what is blanked
 never decides how something is read. A run of up to nine digits stays a run of digits (ten
 could be a LONG or a float); a string stays a string; what follows REM or an apostrophe has
-no meaning. The first digit behind `#` is kept: it says whether there is such a device. A
+no meaning. The first digit after `#` is kept: it decides whether there is such a device. A
 line with longer runs of digits, `&` or characters beyond ASCII, one that is too long, one
 with an exponent of three digits, which no float may hold, and one where REM may be the name
 of a label are shapes of their own.
@@ -19,13 +19,13 @@ from collections.abc import Sequence
 from openacr.lang.lexer import LINE_LIMIT
 
 _STRING = re.compile(r'"[^"\n]*"')
-# The word begins at R: looking behind before it would test every character of the text.
+# The word begins at R: a lookbehind in front of it would test every character of the text.
 _REMARK = re.compile(r"[Rr](?<![\w$].)[Ee][Mm](?![A-Za-z$])[^\n]+")
 _COMMENT = re.compile(r"'[^\n]+")
 _DIGITS = re.compile(r"\d(?<!#.)\d{0,8}")
 _LONG_RUN = "00"  # all that longer runs can become
 _FAR_EXPONENT = re.compile(r"[eE](?<=[\d.].)[+-]?\d{3}")
-_REM_AS_NAME = re.compile(r"[_OoBb][ \t]+[Rr][Ee][Mm]")  # behind `_`, GOTO or GOSUB
+_REM_AS_NAME = re.compile(r"[_OoBb][ \t]+[Rr][Ee][Mm]")  # after `_`, GOTO or GOSUB
 
 
 def shape(line: str) -> str:

@@ -1,16 +1,16 @@
-"""Where something stands in a text."""
+"""Positions in a text."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A stretch of one line: `line` and `column` count from 1, `length` in characters."""
+    """A span of one line: `line` and `column` count from 1, `length` in characters."""
 
     line: int
     column: int
     length: int = 1
 
     def marker(self, text: str) -> str:
-        """The line with a row of carets under this stretch."""
+        """The line with a row of carets under this span."""
         return f"{text}\n{' ' * (self.column - 1)}{'^' * max(1, self.length)}"

@@ -1,4 +1,4 @@
-"""All networks of a card: what the engine calls when one of them needs the slow side."""
+"""All networks of a card, with the entry point for the engine when one needs service."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from openacr.network.drivetalk import service as drivetalk
 
 
 class Networks:
-    """The networks of one card; their whole state is in the map.
+    """The networks of one card; their entire state is in the map.
 
-    `deliver` gets what a drive has sent for a channel that talks to it.
+    `deliver` receives what a drive has sent for a channel connected to it.
     """
 
     def __init__(self, memory: Memory, deliver: Callable[[int, str], None]) -> None:
@@ -21,12 +21,12 @@ class Networks:
         self._deliver = deliver
 
     def power_up(self) -> None:
-        """Begin after switching the card on."""
+        """Initialize after switching the card on."""
         canopen.power_up(self._memory)
         self._set_due()
 
     def attend(self) -> None:
-        """Do everything that is due."""
+        """Perform all actions that are due."""
         canopen.attend(self._memory)
         drivetalk.attend(self._memory, self._deliver)
         self._set_due()

@@ -11,6 +11,6 @@ def tick_of(memory: Memory) -> int:
 
 
 def later_tk(memory: Memory, after_ms: float) -> int:
-    """The tick so much later, at least the next."""
+    """The tick `after_ms` later, at least the next one."""
     period_s = memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S]
     return tick_of(memory) + max(1, round(after_ms / 1000 / period_s))

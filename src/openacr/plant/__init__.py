@@ -1,1 +1,1 @@
-"""What is outside the card: motors, encoders, switches and wiring, as `machine.toml` says."""
+"""The simulated machine around the card: motors, encoders, switches, wiring (`machine.toml`)."""

@@ -1,4 +1,4 @@
-"""The terminals of the card's analog inputs, as the machine file and a scenario set them."""
+"""The terminals of the card's analog inputs, set by the machine file and by scenarios."""
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -10,7 +10,7 @@ _FIRST, _LAST = (at.ADC_BASE + n * at.ADC_STRIDE + at.ADC_ADC_INPUT for n in (0,
 
 
 def write_analogs(memory: Memory, world: World) -> None:
-    """Wire the analog inputs; the voltage of an axis is kept as that of its encoder count."""
+    """Wire the analog inputs; the voltage of an axis is stored per encoder count."""
     by_number = {axis.number: axis for axis in world.axis}
     for analog in world.analog:
         row = at.PLAF_BASE + analog.input * at.PLAF_STRIDE
@@ -32,14 +32,14 @@ def _follow(memory: Memory, row: int, analog: Analog, axis: Axis) -> None:
 
 
 def terminal(parameter: int) -> int | None:
-    """The analog input of the card whose own parameter this is, None if it is none."""
+    """The analog input of the card that a parameter shows; None for other parameters."""
     if not _FIRST <= parameter <= _LAST or (parameter - _FIRST) % at.ADC_STRIDE:
         return None
     return (parameter - _FIRST) // at.ADC_STRIDE
 
 
 def put_volts(memory: Memory, channel: int, volts: float) -> None:
-    """Bring a fixed voltage to an analog input, whatever was wired to it."""
+    """Apply a fixed voltage to an analog input, replacing what was wired to it."""
     row = at.PLAF_BASE + channel * at.PLAF_STRIDE
     wired = at.PLAI_BASE + channel * at.PLAI_STRIDE
     memory.F[row + at.PLAF_BASE_V] = volts

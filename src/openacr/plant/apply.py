@@ -1,11 +1,11 @@
-"""Write a world into the memory of a card, in the units the step works with.
+"""Write a machine description into the memory of a card, in the units of the simulation step.
 
 A motor is described in encoder counts (four per line) and seconds. Count 0 begins at the
-initial position, because an incremental encoder starts to count where it happens to stand:
+initial position, because an incremental encoder starts counting where the axis is at power-up:
 
     position_cnt = direction * (position_u - initial_u) * counts_per_rev / units_per_rev + 0.5
 
-(the half puts the motor into the middle of a count). Torques become accelerations: one
+(the half places the motor in the middle of a count). Torques become accelerations: one
 radian is counts_per_rev / 2 pi counts, so T newton metres on an inertia J give
 T / J * counts_per_rev / 2 pi counts/s^2. Borders of switches and regions are moved to the
 middle of the count they lie in, so that the count at an edge has no rounding in it.
@@ -61,7 +61,7 @@ FULL_DAC_BITS = 16
 
 
 def apply_world(world: World, memory: Memory) -> None:
-    """Give the card of `memory` the world outside it, at rest at its initial positions."""
+    """Connect a machine to the card of `memory`, at rest at its initial positions."""
     _clear(memory)
     memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
     for axis in world.axis:
@@ -97,7 +97,7 @@ _INTS = (
 
 
 def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
-    """The state of the world outside, which survives a restart of the card."""
+    """The state of the machine, which survives a restart of the card."""
     memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] = bus.now_s(memory)
     return (
         [list(memory.F[base : base + length]) for base, length in _REALS],
@@ -106,7 +106,7 @@ def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
 
 
 def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) -> None:
-    """Bring the world outside back; encoders count on from where the motors stand."""
+    """Restore the state of the machine; encoders continue from the motor positions."""
     for (base, _), reals in zip(_REALS, state[0], strict=True):
         for index, real in enumerate(reals, base):
             memory.F[index] = real
@@ -179,9 +179,10 @@ def _int_rows(axis: Axis) -> dict[int, int]:
 
 
 def _drive_rows(axis: Axis) -> dict[int, float]:
-    """Say what a volt does: an acceleration, or a speed with a lag and a peak acceleration.
+    """The effect of a volt: an acceleration, or a speed with a lag and a peak acceleration.
 
-    A stepper drive takes no voltage (`apply_stepper` writes its rows), an exact one any.
+    A stepper drive has no voltage input (`apply_stepper` writes its rows); an exact drive
+    ignores the value.
     """
     drive = axis.drive
     sign = 1 if axis.encoder_direction is Direction.UP else -1
@@ -209,7 +210,7 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
 
 
 def load_rows(axis: Axis) -> dict[int, float]:
-    """Friction per inertia, by row; some drives know no load."""
+    """Friction per inertia, by row; some drives have no load model."""
     if isinstance(axis.drive, LOADLESS):
         return {}
     load = axis.load
@@ -232,7 +233,7 @@ def _inertia_kgm2(axis: Axis) -> float:
 
 
 def accel_per_nm(axis: Axis) -> float:
-    """Counts/s^2 that a newton metre at the shaft of the motor gives."""
+    """Acceleration in counts/s^2 per newton metre at the motor shaft."""
     return axis.counts / (2 * math.pi * _inertia_kgm2(axis))
 
 

@@ -1,4 +1,4 @@
-"""Write CANopen nodes and talking drives of a world into the memory of a card."""
+"""Write the CANopen nodes and communicating drives of a machine into the memory of a card."""
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -44,7 +44,7 @@ INTS = (
 
 
 def write_nodes(memory: Memory, world: World) -> None:
-    """Put the nodes of a world on the bus, their outputs off."""
+    """Put the nodes of a machine on the bus, with outputs off."""
     if world.canopen is None:
         return
     memory.I[at.BUSI_BASE + at.BUSI_FITTED] = 1
@@ -116,7 +116,7 @@ def _write_signal(memory: Memory, place: int, signal: Signal, axes: dict[int, Ax
 
 
 def write_drives(memory: Memory, world: World) -> None:
-    """Put the talking drives of a world on their lines."""
+    """Connect the communicating drives of a machine to their lines."""
     axes = {axis.number: axis for axis in world.axis}
     for talking in world.drive:
         _write_drive(aries.Drive(memory, talking.axis), talking, axes[talking.axis])

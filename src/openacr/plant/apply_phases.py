@@ -10,8 +10,8 @@ from openacr.plant.schema import Axis, Direction, Motor, PhaseDrive
 def write_phases(memory: Memory, axis: Axis, drive: PhaseDrive) -> None:
     """Write the electrical angle of a rotor against the count of its encoder.
 
-    The middle of count 0 is where the axis stands at first; the angle goes with the motor,
-    whichever way its encoder counts.
+    The axis starts in the middle of count 0; the angle follows the motor, whatever the
+    counting direction of its encoder.
     """
     turn, zero, phases = _rotor(axis.motor)
     sign = 1 if axis.encoder_direction is Direction.UP else -1

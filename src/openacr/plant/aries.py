@@ -1,9 +1,9 @@
-"""Aries drives: what one knows of its motor and of itself.
+"""Aries drives: status, error log and settings.
 
-A drive knows the counts and the speed of its motor, the voltage of the command, whether it is
-enabled. The position error is the following error of the axis. A fault, a position error
+A drive measures the counts and the speed of its motor, the command voltage, and its enable
+input. Its position error is the following error of the axis. A fault, a position error
 beyond SMPER, wrong temperatures and a wrong bus voltage are its errors; those selected by
-ERRORL are logged. What it says on its serial port is in `aries_port`.
+ERRORL are logged. Its serial protocol is in `aries_port`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LOWEST_BUS_V, HIGHEST_BUS_V = 100.0, 400.0
 
 
 class Errors(IntEnum):
-    """What can be wrong with a drive: bits of TASX and of ERRORL."""
+    """Errors of a drive: bits of TASX and of ERRORL."""
 
     FAULT = 0
     POSITION = 1
@@ -79,7 +79,7 @@ class Drive:
 
     @property
     def powered_s(self) -> float | None:
-        """When it was powered up the last time; None without power."""
+        """Time of the latest power-up; None without power."""
         now, powered = now_s(self.memory), self.real(at.BUSDF_POWERED_S)
         if now >= self.real(at.BUSDF_BACK_S):
             powered = self.real(at.BUSDF_BACK_S)
@@ -89,13 +89,13 @@ class Drive:
 
     @property
     def hears(self) -> bool:
-        """Whether it listens to the line: connected first, powered up then."""
+        """Whether the drive listens to the line: it must be connected before it is powered up."""
         powered_s = self.powered_s
         return powered_s is not None and self.real(at.BUSDF_CONNECTED_S) <= powered_s < NEVER_S
 
 
 def drives(memory: Memory) -> list[Drive]:
-    """All drives that can talk."""
+    """All drives with a serial port."""
     found = (Drive(memory, axis) for axis in range(at.BUSD_COUNT))
     return [drive for drive in found if drive.whole(at.BUSDI_KIND) == ARIES]
 
@@ -108,29 +108,29 @@ def _speed(drive: Drive, counts_per_s: float) -> float:
 
 
 def commanded_speed(drive: Drive) -> float:
-    """The speed the voltage asks for, of a velocity drive."""
+    """The speed commanded by the voltage of a velocity drive [rev/s]."""
     return _speed(drive, drive.motor(at.PLF_VOLTS) * drive.motor(at.PLF_SPEED_PER_VOLT_CPS))
 
 
 def speed_error(drive: Drive) -> float:
-    """How much is missing to the commanded speed, of a velocity drive."""
+    """Commanded minus actual speed of a velocity drive [rev/s]."""
     has_velocity = drive.motor(at.PLF_SPEED_PER_VOLT_CPS) != 0.0
     return commanded_speed(drive) - velocity(drive) if has_velocity else 0.0
 
 
 def velocity(drive: Drive) -> float:
-    """Revolutions per second."""
+    """Actual speed of the motor [rev/s]."""
     return _speed(drive, drive.motor(at.PLF_VELOCITY_CPS))
 
 
 def current(drive: Drive) -> float:
-    """The current the voltage asks for, of a torque drive."""
+    """The current commanded by the voltage of a torque drive [A]."""
     peak = drive.setting(DMTIP)
     return min(max(drive.motor(at.PLF_VOLTS) * drive.setting(DMTSCL), -peak), peak)
 
 
 def torque(drive: Drive) -> float:
-    """The commanded torque in percent of the peak, of a torque drive."""
+    """The commanded torque of a torque drive, in percent of its peak."""
     peak = drive.setting(DMTIP)
     return 100.0 * current(drive) / peak if peak else 0.0
 
@@ -152,12 +152,12 @@ def age_s(drive: Drive) -> int:
 
 
 def is_enabled(drive: Drive) -> bool:
-    """Whether it holds its motor."""
+    """Whether the drive is enabled."""
     return bool(drive.motor_int(at.PLI_DRIVE_READY))
 
 
 def errors(drive: Drive) -> int:
-    """What is wrong now, as bits."""
+    """The present errors, as bits."""
     limit = drive.setting(SMPER)
     temperature, bus_v = drive.real(at.BUSDF_DRIVE_TEMP_C), drive.real(at.BUSDF_BUS_V)
     found = {
@@ -172,7 +172,7 @@ def errors(drive: Drive) -> int:
 
 
 def status(drive: Drive) -> int:
-    """TAS: 0 enabled, 1 moving, 2 in the negative direction, 3 something is wrong."""
+    """Status bits of TAS: 0 enabled, 1 moving, 2 in the negative direction, 3 any error."""
     speed = drive.motor(at.PLF_VELOCITY_CPS)
     bits = (is_enabled(drive), speed != 0.0, speed < 0.0, errors(drive) != 0)
     return sum(1 << bit for bit, is_set in enumerate(bits) if is_set)
@@ -182,7 +182,7 @@ def status(drive: Drive) -> int:
 
 
 def notice_errors(drive: Drive) -> None:
-    """Log errors that are new and selected; the oldest of eight entries makes room."""
+    """Log new errors that are selected; the oldest of eight entries is dropped."""
     now = errors(drive)
     new = now & ~drive.whole(at.BUSDI_ERRORS) & drive.whole(at.BUSDI_SELECTION)
     drive.put_whole(at.BUSDI_ERRORS, now)
@@ -216,7 +216,7 @@ def _clock(seconds: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """A setting; the row of the motor is proportional to it, None: it changes nothing there."""
+    """A setting; `row` of the motor is proportional to it, None: no effect on the motor."""
 
     word: str
     highest: float
@@ -224,7 +224,7 @@ class Setting:
 
 
 SETTINGS = (
-    Setting("DMODE", 0.0),  # follows from how the drive is built
+    Setting("DMODE", 0.0),  # determined by the type of drive
     Setting("ERES", 1e9),
     Setting("SMPER", 2147483647.0),
     Setting("DMTIP", 1e4, at.PLF_PEAK_ACCEL),
@@ -244,7 +244,7 @@ def change_setting(drive: Drive, index: int, value: float) -> bool:
         return False
     if setting.motor_row is not None:
         if not present or value < SMALLEST_SCALE:
-            return False  # nothing this kind of drive has
+            return False  # this kind of drive lacks it
         row = at.PLF_BASE + drive.axis * at.PLF_STRIDE + setting.motor_row
         drive.memory.F[row] *= value / present
     drive.put_real(at.BUSDF_SETTINGS + index, value)

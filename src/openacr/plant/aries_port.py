@@ -1,11 +1,11 @@
-"""The serial port of Aries drives: lines of text, and what comes back.
+"""The serial protocol of Aries drives: command lines and their answers.
 
     TPE          -> *2576            report a value
     DMODE        -> *2               report a setting
     SMPER4000    -> (empty line)     change it
     3_TPE        -> *2576            the same, for the drive with address 3
 
-Several commands of a line stand apart by colons.
+Several commands in a line are separated by colons.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def split_address(line: str) -> tuple[int | None, str]:
 
 
 def answer(drive: Drive, line: str) -> str:
-    """What the drive sends back for the commands of a line, without an address in front."""
+    """The drive's answer to the commands of a line, which has no address in front."""
     aries.notice_errors(drive)
     replies = [_reply(drive, part.strip().upper()) for part in line.split(":")]
     return "".join(f"{reply}\r\n" for reply in replies)
@@ -57,7 +57,7 @@ def bits_text(bits: int) -> str:
 
 
 def bits_of(text: str) -> int | None:
-    """The bits of such a text; None if it is none."""
+    """The bits of a text made by `bits_text`; None for any other text."""
     digits = text.replace("_", "")
     if len(digits) > WORD_BITS or not digits or set(digits) - {"0", "1"}:
         return None

@@ -1,7 +1,7 @@
-"""The CANopen nodes of the world: whether they have power, what they answer, what fails.
+"""The CANopen nodes of the machine: their power, their answers and their faults.
 
-All of it is in rows of the map. The functions here are what the network master of the card
-can reach over the bus; `now_s` is the age of the world, which no restart of the card changes.
+All state is in rows of the map. The functions here are what the network master of the card
+can access over the bus; `now_s` is the age of the machine, unaffected by restarts of the card.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ STRANGE_BIT_RATE = 0.2  # share of messages a node at another bit rate destroys
 
 
 class NodeState(IntEnum):
-    """What a node is doing."""
+    """The state of a node."""
 
     OFF = 0
     PRE_OPERATIONAL = 1
@@ -39,7 +39,7 @@ class Trouble(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What a node tells about itself when it is asked."""
+    """The equipment a node reports when queried."""
 
     digital_input_bytes: int
     digital_output_bytes: int
@@ -49,7 +49,7 @@ class Found:
 
 
 def now_s(memory: Memory) -> float:
-    """The age of the world in seconds."""
+    """The age of the machine in seconds."""
     return memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] + memory.F[at.SYSF_BASE + at.SYSF_TIME_S]
 
 
@@ -98,7 +98,7 @@ def next_change_s(memory: Memory) -> float | None:
 
 
 def follow_power(memory: Memory) -> None:
-    """Let nodes lose their power, or begin anew when it is back."""
+    """Switch nodes off when they lose power, and restart them when it is back."""
     for node in range(at.BUSN_COUNT):
         row = ints(node) + at.BUSNI_STATE
         is_off = has_fault(memory, Trouble.LOST, node)
@@ -138,7 +138,7 @@ def nodes(memory: Memory) -> Iterator[int]:
 
 
 def find(memory: Memory, identity: int, bit_rate: int) -> int | None:
-    """Find the node that answers to an id at a bit rate."""
+    """Find the node that answers for an id at a bit rate."""
     for node in nodes(memory):
         if memory.I[ints(node) + at.BUSNI_ID] == identity and answers(memory, node, bit_rate):
             return node
@@ -146,7 +146,7 @@ def find(memory: Memory, identity: int, bit_rate: int) -> int | None:
 
 
 def answers(memory: Memory, node: int, bit_rate: int) -> bool:
-    """Whether a node hears and answers messages at a bit rate."""
+    """Whether a node receives and answers messages at a bit rate."""
     rows = ints(node)
     return (
         memory.I[rows + at.BUSNI_STATE] != NodeState.OFF
@@ -156,7 +156,7 @@ def answers(memory: Memory, node: int, bit_rate: int) -> bool:
 
 
 def describe(memory: Memory, node: int) -> Found:
-    """Return what a node has; digital terminals come in bytes."""
+    """Return the equipment of a node; digital terminals are counted in bytes."""
     rows = ints(node)
     return Found(
         (memory.I[rows + at.BUSNI_DIGITAL_INPUTS] + 7) // 8,

@@ -1,4 +1,4 @@
-"""Contradictions that each single value of a `machine.toml` cannot show."""
+"""Check a `machine.toml` for contradictions between values that are valid separately."""
 
 from collections.abc import Callable, Iterator
 from difflib import get_close_matches
@@ -31,7 +31,7 @@ OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
 
 
 def contradictions(world: World) -> Iterator[Complaint]:
-    """Yield what does not fit together, in the order of the file."""
+    """Yield the contradictions, in the order of the file."""
     for check in CHECKS:
         yield from check(world)
 

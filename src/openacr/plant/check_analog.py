@@ -1,4 +1,4 @@
-"""Contradictions of what is wired to the analog inputs of the card."""
+"""Check the wiring of the card's analog inputs for contradictions."""
 
 from collections.abc import Iterator
 
@@ -7,7 +7,7 @@ from openacr.plant.schema import Analog, World
 
 
 def analog_faults(world: World) -> Iterator[Complaint]:
-    """Yield what does not fit together among the analog inputs."""
+    """Yield the contradictions among the analog inputs."""
     axes = {axis.number for axis in world.axis}
     taken: dict[int, int] = {}
     for index, analog in enumerate(world.analog):

@@ -1,4 +1,4 @@
-"""Contradictions in what a `machine.toml` says about CANopen nodes and talking drives."""
+"""Check the CANopen nodes and communicating drives of a `machine.toml` for contradictions."""
 
 from collections.abc import Callable, Iterator
 
@@ -39,7 +39,7 @@ def _ranges(world: World, first: int, count_of: Callable[[Node], int]) -> Iterat
 
 
 def canopen_faults(world: World) -> Iterator[Complaint]:
-    """Yield what does not fit together in `[canopen]`."""
+    """Yield the contradictions in `[canopen]`."""
     if world.canopen is None:
         return
     if not MODELS[world.card.model].has_canopen:
@@ -119,7 +119,7 @@ def _signal(path: Path, signal: Signal, world: World) -> Iterator[Complaint]:
 
 
 def drive_faults(world: World) -> Iterator[Complaint]:
-    """Yield what does not fit together in `[[drive]]`."""
+    """Yield the contradictions in `[[drive]]`."""
     axes, taken = {axis.number: axis.drive for axis in world.axis}, set[int]()
     for place, drive in enumerate(world.drive):
         path: Path = ("drive", place)

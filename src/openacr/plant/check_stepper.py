@@ -1,4 +1,4 @@
-"""Contradictions in what a `machine.toml` says about a stepper motor."""
+"""Check the stepper motors of a `machine.toml` for contradictions."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -7,7 +7,7 @@ from openacr.plant.schema import Axis, StepperDrive
 
 
 def stepper_faults(axis: Axis, drive: StepperDrive) -> Iterator[tuple[tuple[str, ...], str, str]]:
-    """Yield key, text and hint of everything that does not fit together."""
+    """Yield key, text and hint of every contradiction."""
     if axis.dac is not None:
         hint = "leave dac away; `output` of the drive names the stepper output"
         yield ("dac",), "a stepper drive takes pulses, no voltage", hint

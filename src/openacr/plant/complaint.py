@@ -1,4 +1,4 @@
-"""Something wrong in a `machine.toml`."""
+"""An error found in a `machine.toml`."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ __all__ = ["Complaint", "Path"]
 
 @dataclass(frozen=True, slots=True)
 class Complaint:
-    """Something wrong: where in the file, in words, and how to mend it."""
+    """An error: its path in the file, its text, and a hint how to correct it."""
 
     path: Path
     text: str

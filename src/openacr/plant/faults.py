@@ -1,7 +1,7 @@
-"""Faults of the machine around the card, put in and taken back while it runs.
+"""Faults of the machine around the card, injected and removed while it runs.
 
-Everything is kept in the rows of the world, so that snapshots, restarts of the card and replayed
-journals have it. What a fault has changed is written anew from the machine file when it ends.
+All state is in the rows of the machine, so that snapshots, restarts of the card and replayed
+journals include it. When a fault ends, the changed rows are rewritten from the machine file.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
 
 
 class MachineFault(StrEnum):
-    """What can go wrong with an axis of the machine."""
+    """The kinds of faults of an axis of the machine."""
 
     ENCODER_LOST = "encoder-lost"
     ENCODER_NOISE = "encoder-noise"
@@ -30,7 +30,7 @@ class MachineFault(StrEnum):
     FRICTION = "friction"
 
 
-# What the number of a fault says; the others have none.
+# The meaning of a fault's value; the other faults have no value.
 QUANTITIES = {MachineFault.OBSTACLE: "at", MachineFault.FRICTION: "torque_nm"}
 
 
@@ -55,7 +55,7 @@ class _Place:
 
 
 def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: float) -> None:
-    """Let something go wrong with an axis; UserError where it makes no sense.
+    """Cause a fault on an axis; UserError if the axis cannot have it.
 
     `value` is the position of an obstacle in units of the axis, or the torque of friction in Nm
     at the shaft of the motor.
@@ -64,7 +64,7 @@ def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: f
 
 
 def mend(world: World, memory: Memory, axis: int, kind: MachineFault | None = None) -> None:
-    """Take one kind of fault of an axis back, or all."""
+    """Remove one kind of fault of an axis, or all."""
     place = _place(world, memory, axis)
     for one in MachineFault if kind is None else (kind,):
         _END[one](place)
@@ -91,7 +91,7 @@ def _disturb_signals(place: _Place, _: float) -> None:
 
 def _needs_encoder(place: _Place) -> None:
     if not place.axis.has_encoder:
-        raise UserError(f"axis {place.axis.label}: it has no encoder that could fail")
+        raise UserError(f"axis {place.axis.label}: it has no encoder")
 
 
 def _repair(bit: int) -> Callable[[_Place], None]:

@@ -1,9 +1,9 @@
-"""Inputs by the flag that shows them: which there are, what drives them, and forcing their level.
+"""Inputs by flag number: which exist, what drives them, and forcing their level.
 
-A scenario or a test switches inputs with `switch`. An input that nothing in the world drives
-just takes the level. One that a limit switch, a region, an output or `[inputs]` drives is
-forced to it, as by a stuck contact or a cut wire, until `release`; meanwhile the world goes on
-behind it.
+A scenario or a test switches inputs with `switch`. An input that nothing in the machine drives
+simply takes the level. One that a limit switch, a region, an output or `[inputs]` drives is
+forced to it, as by a stuck contact or a cut wire, until `release`; the machine continues to
+drive the signal underneath.
 """
 
 from openacr.map import numbers as at
@@ -23,14 +23,14 @@ RANGES = tuple(sorted((*WIRED_RANGES, MISCELLANEOUS, *NODE_RANGES)))
 
 
 def input_place(flag: int) -> tuple[int, int]:
-    """Word and mask of what drives an input: of a node it is the level at its terminal."""
+    """Word and mask of the level of an input; for a node, of the level at its terminal."""
     terminal = terminals.input_terminal(flag)
     word, mask = flag_place(flag)
     return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
 
 
 def output_place(flag: int) -> tuple[int, int]:
-    """Word and mask of an output; of a node it is the level at its terminal."""
+    """Word and mask of an output; for a node, of the level at its terminal."""
     terminal = terminals.output_terminal(flag)
     word, mask = flag_place(flag)
     return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
@@ -56,7 +56,7 @@ def exists(memory: Memory, flag: int) -> bool:
 
 
 def switch(memory: Memory, flag: int, on: bool) -> None:
-    """Give an input a level; one that the world drives keeps it until it is released."""
+    """Set the level of an input; one driven by the machine keeps it until released."""
     word, mask = input_place(flag)
     slot = _driven(memory, word, mask)
     if slot is not None:
@@ -67,7 +67,7 @@ def switch(memory: Memory, flag: int, on: bool) -> None:
 
 
 def release(memory: Memory, flag: int) -> None:
-    """Let go of an input: it shows what drives it again, and is off where nothing does."""
+    """Release an input: the machine drives it again; off if nothing drives it."""
     word, mask = input_place(flag)
     slot = _driven(memory, word, mask)
     if slot is None:
@@ -80,12 +80,12 @@ def release(memory: Memory, flag: int) -> None:
 
 
 def is_driven(memory: Memory, flag: int) -> bool:
-    """Whether something in the world drives an input."""
+    """Whether the machine drives an input."""
     return _driven(memory, *input_place(flag)) is not None
 
 
 def _driven(memory: Memory, word: int, mask: int) -> int | None:
-    """The slot of an input that the world drives."""
+    """The slot of an input that the machine drives; None if not driven."""
     for slot in range(memory.I[at.PLGI_BASE + at.PLGI_WORDS]):
         row = word_row(slot)
         if memory.I[row + at.PLNI_WORD] == word and memory.I[row + at.PLNI_WIRED] & mask:

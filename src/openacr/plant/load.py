@@ -1,4 +1,4 @@
-"""Read a `machine.toml`; what is wrong is said with its line, its value and what is allowed."""
+"""Read a `machine.toml`; errors give the line, the value and the permitted values."""
 
 from collections.abc import Iterator
 from difflib import get_close_matches
@@ -14,15 +14,15 @@ from openacr.plant.schema import World
 
 
 def load_world(path: Path | str) -> World:
-    """Read the world described by the file at `path`."""
+    """Read the machine described by the file at `path`."""
     place = Path(path)
     return parse_world(toml_file.read_text(place), str(place))
 
 
 def parse_world(text: str, path: str = "machine.toml") -> World:
-    """Read the world described by `text`; if anything is wrong, SourceError with all of it.
+    """Read the machine described by `text`; SourceError with all errors found.
 
-    Values that are wrong by themselves come first: how they fit together is judged without any.
+    Contradictions between values are checked only once every single value is valid.
     """
     raw = toml_file.parse(text, path)
     world, messages = toml_file.convert_all(raw, World)
@@ -45,14 +45,14 @@ def _holds(path: locate.Path, inner: locate.Path) -> bool:
 
 
 def _not_finite(raw: dict[str, Any]) -> Iterator[Complaint]:
-    """Infinities and NaN are refused by name."""
+    """Report infinities and NaN by name."""
     for path in toml_file.not_finite(raw):
         what = f"{_name(path)} is {_value(path, raw)}; it must be a finite number"
         yield Complaint(path, what)
 
 
 def _explain(message: str, raw: dict[str, Any]) -> Complaint:
-    """Turn a message of the decoder into one that names key, value and what is allowed."""
+    """Turn a message of the decoder into one that names key, value and permitted values."""
     reason, path = toml_file.complaint_of(message)
     if unknown := toml_file.UNKNOWN.fullmatch(reason):
         return _unknown_key(path, unknown[1], raw)
@@ -133,7 +133,7 @@ def _inner(kind: inspect.Type, part: str | int) -> inspect.Type:
 
 
 def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
-    """Leave the `None` of optional keys away and choose the kind of drive by its mode."""
+    """Remove the `None` of optional keys and choose the kind of drive by its mode."""
     if not isinstance(kind, inspect.UnionType):
         return kind
     kinds = [one for one in kind.types if not isinstance(one, inspect.NoneType)]
@@ -144,7 +144,7 @@ def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
 
 
 def _allowed(path: locate.Path, raw: dict[str, Any]) -> str:
-    """Say in words what may stand at `path`."""
+    """Describe in words the values permitted at `path`."""
     if path[-1:] == ("mode",):
         return 'one of "torque", "velocity", "ideal", "phases", "stepper", "exact"'
     return _words(_type_at(path, raw))

@@ -1,7 +1,7 @@
-"""Find the line and column at which a key of a TOML text stands.
+"""Find the line and column of a key in a TOML text.
 
-The parser of the standard library gives places only for syntax errors. This scanner reads a
-text that is known to be valid TOML and notes where each key was written, which is all that
+The parser of the standard library gives positions only for syntax errors. This scanner reads a
+text known to be valid TOML and records where each key was written, which is all that
 messages about wrong values need.
 """
 

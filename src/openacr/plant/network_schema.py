@@ -1,4 +1,4 @@
-"""What a `machine.toml` may say about the networks of the card: CANopen nodes, talking drives.
+"""The network part of a `machine.toml`: CANopen nodes and communicating drives.
 
 The n-th node of the file is the one whose inputs scenarios and wires reach at the flags the
 card shows for its node n: digital inputs from 11520 + 1024 n on, digital outputs from
@@ -45,24 +45,24 @@ class BitRate(IntEnum):
 
 
 class Coupler(StrEnum):
-    """The bus coupler of a node; how fast it is depends on it."""
+    """The bus coupler of a node, which determines its speed."""
 
     PIO_337 = "PIO-337"
     PIO_347 = "PIO-347"
 
 
 class Health(StrEnum):
-    """How a node tells that it is alive."""
+    """How a node reports that it is alive."""
 
     HEARTBEAT = "heartbeat"
     GUARDING = "guarding"
 
 
 class FaultKind(StrEnum):
-    """What can go wrong on the bus."""
+    """The kinds of faults on the bus."""
 
-    SILENT = "silent"  # a node says nothing more; its outputs stay
-    LOST = "lost"  # a node without power: its outputs drop, it begins anew
+    SILENT = "silent"  # a node stops sending; its outputs stay
+    LOST = "lost"  # a node without power: its outputs drop, it restarts later
     NOISE = "noise"  # a share of all messages is destroyed
     CONTROLLER = "controller"  # the network hardware of the card is broken
     SOFTWARE_OVERFLOW = "software overflow"  # received messages are lost in the card
@@ -70,7 +70,7 @@ class FaultKind(StrEnum):
 
 
 class Node(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """One node: what it is, its switches, and how much is plugged into it."""
+    """One node: its coupler, its switches, and the terminals plugged into it."""
 
     id: NodeId
     name: str = ""
@@ -88,7 +88,7 @@ class Node(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class Fault(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Something goes wrong at a time, and is right again later if the file says so."""
+    """A fault that begins at a given time and ends at another, if given."""
 
     kind: FaultKind
     node: NodeId | None = None
@@ -98,7 +98,7 @@ class Fault(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class Signal(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """What comes to an analog input: the position of an axis or an analog output, scaled."""
+    """The source of an analog input: the position of an axis or an analog output, scaled."""
 
     input: Parameter
     axis: DriveAxis | None = None
@@ -108,7 +108,7 @@ class Signal(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class Canopen(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The CANopen bus; a card in whose file it does not stand has no controller for it."""
+    """The CANopen bus; without this table the card has no CANopen controller."""
 
     node: tuple[Node, ...] = ()
     fault: tuple[Fault, ...] = ()
@@ -140,7 +140,7 @@ class Baud(IntEnum):
 
 
 class TalkingDrive(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The serial side of the drive of an axis; what it drives is said at the axis."""
+    """The serial port of the drive of an axis; what it drives is defined at the axis."""
 
     axis: DriveAxis
     type: DriveType

@@ -1,4 +1,4 @@
-"""Rows of the world that name other rows: what a file says of them is checked here."""
+"""Check rows of the machine that refer to other rows, as read from a snapshot."""
 
 from openacr.errors import StoreError
 from openacr.map import numbers as at

@@ -1,4 +1,4 @@
-"""The RS-485 lines to the drives: everybody on a line hears everything that is sent on it."""
+"""The RS-485 lines to the drives: every drive on a line receives everything sent on it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CHARACTER_BITS = 10  # of drives: start bit, 8 data bits, no parity, stop bit
 def exchange(
     memory: Memory, port: int, baud: int, character_bits: int, line: str, axis: int | None = None
 ) -> list[str]:
-    """Send a line; what each drive that is meant sends back.
+    """Send a line; returns the answers of the addressed drives.
 
     With an address only the drive that has it answers. `axis`: sent on the connector of
     that axis alone, as for drives that have no address yet.

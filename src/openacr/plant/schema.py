@@ -1,4 +1,4 @@
-"""What a `machine.toml` may say: the card, the motors on it and the wiring around it.
+"""The schema of `machine.toml`: the card, its motors and the wiring.
 
 Positions are in user units of their axis (`units_per_rev` of them per motor revolution,
 counted from the machine's own zero), everything about motors and drives is in SI units.
@@ -58,7 +58,7 @@ class Contact(StrEnum):
 
 
 class Direction(StrEnum):
-    """Which way the encoder counts when a positive voltage turns the motor."""
+    """The counting direction of the encoder when a positive voltage turns the motor."""
 
     UP = "up"
     DOWN = "down"
@@ -86,11 +86,11 @@ class Card(_Table, frozen=True):
 
 
 class Motor(_Table, frozen=True):
-    """The motor: rotor inertia, torque per ampere (of a stepper the curve tells), resistance.
+    """The motor: rotor inertia, torque per ampere (steppers: from their curve), resistance.
 
-    A brushless motor has `pole_pairs` electrical turns in one of its own, and stands at
-    `electrical_zero_deg` of one at position 0; its torque is that of phase currents of the
-    amplitude of an ampere that go with the rotor.
+    A brushless motor has `pole_pairs` electrical turns per mechanical turn, and is at the
+    electrical angle `electrical_zero_deg` at position 0; its torque per ampere is that of
+    phase currents with an amplitude of one ampere aligned with the rotor.
     """
 
     inertia_kgm2: Inertia
@@ -102,7 +102,7 @@ class Motor(_Table, frozen=True):
 
 
 class Load(_Table, frozen=True):
-    """What the motor moves, as seen at its shaft."""
+    """The load of the motor, as seen at its shaft."""
 
     inertia_kgm2: LoadInertia = 0.0
     viscous_nms: Friction = 0.0
@@ -166,7 +166,7 @@ class StepperDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ste
 
 
 Drive = TorqueDrive | VelocityDrive | IdealDrive | PhaseDrive | StepperDrive | ExactDrive
-LOADLESS = (IdealDrive, ExactDrive)  # drives that know no load and need no motor
+LOADLESS = (IdealDrive, ExactDrive)  # drives without a load model, which need no motor
 
 
 class LimitSwitch(_Table, frozen=True):
@@ -215,7 +215,7 @@ class Axis(_Table, frozen=True):
 
     @property
     def has_encoder(self) -> bool:
-        """Whether something counts the turns of the motor."""
+        """Whether the axis has an encoder."""
         return self.counts_per_rev is not None or self.encoder_lines is not None
 
     @property
@@ -225,12 +225,12 @@ class Axis(_Table, frozen=True):
 
     @property
     def label(self) -> str:
-        """The name of the axis, or its number where it has none."""
+        """The name of the axis, or its number if it has no name."""
         return self.name or str(self.number)
 
 
 class Wire(_Table, frozen=True):
-    """Something else that drives an input: a region of space or an output of the card."""
+    """A further source of an input: a region of space or an output of the card."""
 
     input: FlagNumber
     name: str = ""
@@ -252,14 +252,14 @@ class Analog(_Table, frozen=True):
 
 
 class Inputs(_Table, frozen=True):
-    """Inputs that always have one level."""
+    """Inputs with a constant level."""
 
     on: tuple[FlagNumber, ...] = ()
     off: tuple[FlagNumber, ...] = ()
 
 
 class World(_Table, frozen=True):
-    """Everything outside the card, and which card it is."""
+    """The machine around the card, and the card model."""
 
     card: Card = Card()
     axis: tuple[Axis, ...] = ()
@@ -272,7 +272,7 @@ class World(_Table, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """A switch of an axis: on which key it stands, its input and where it is active."""
+    """A switch of an axis: its key in the file, its input and its active range."""
 
     key: str
     input: int
@@ -305,7 +305,7 @@ def _or(chosen: int | None, default: int) -> int:
     return default if chosen is None else chosen
 
 
-# What `openacr serve` runs where it is given no machine: exact axes with the switches on the inputs
+# The machine of `openacr serve` without a project: exact axes with the switches on the inputs
 # the manual names, so that a move ends on its target and homing finds its switch both ways.
 def exact_world(model: Model = DEFAULT_MODEL) -> World:
     """Build eight exact axes with limit and home switches, in revolutions of 4000 counts."""

@@ -49,7 +49,7 @@ def output_terminal(flag: int) -> tuple[int, int] | None:
 
 
 def analog_input(memory: Memory, parameter: int) -> int | None:
-    """Index (into F) of what is at the analog input a parameter shows; None if there is none."""
+    """Index (into F) of the value at the analog input a parameter shows; None if not one."""
     channel, offset = divmod(parameter - at.CANADC_BASE, at.CANADC_STRIDE)
     node, number = divmod(channel, at.BUSNF_MEASURED_SIZE)
     if offset != at.CANADC_ADC_INPUT_VALUE or not 0 <= node < at.BUSN_COUNT:
@@ -60,7 +60,7 @@ def analog_input(memory: Memory, parameter: int) -> int | None:
 
 
 def analog_output(memory: Memory, parameter: int) -> tuple[int, int] | None:
-    """Node and number of the analog output a parameter commands; None if there is none."""
+    """Node and number of the analog output a parameter commands; None if not one."""
     channel, offset = divmod(parameter - at.CANDAC_BASE, at.CANDAC_STRIDE)
     node, number = divmod(channel, at.BUSNI_CONVERTED_SIZE)
     if offset != at.CANDAC_DAC_OUTPUT_VALUE or not 0 <= node < at.BUSN_COUNT:
@@ -70,7 +70,7 @@ def analog_output(memory: Memory, parameter: int) -> tuple[int, int] | None:
 
 
 def follow_signals(memory: Memory) -> None:
-    """Bring to analog inputs what is wired to them."""
+    """Update the analog inputs from the signals wired to them."""
     for signal in range(at.BUSS_COUNT):
         rows = at.BUSSI_BASE + signal * at.BUSSI_STRIDE
         place, axis = memory.I[rows + at.BUSSI_INPUT], memory.I[rows + at.BUSSI_AXIS]
@@ -103,7 +103,7 @@ def _counts(share: float, bits: int) -> int:
 
 
 def set_outputs(memory: Memory, node: int, words: list[int], counts: list[int]) -> None:
-    """Put values out at all terminals of a node."""
+    """Set all output terminals of a node."""
     rows = ints(node)
     low, high = (memory.F[reals(node) + row] for row in (at.BUSNF_OUTPUT_LOW, at.BUSNF_OUTPUT_HIGH))
     for word, value in enumerate(words):
@@ -114,7 +114,7 @@ def set_outputs(memory: Memory, node: int, words: list[int], counts: list[int]) 
 
 
 def output_value(memory: Memory, node: int, channel: int) -> float:
-    """Return what an analog output puts out, in its unit."""
+    """Return the value of an analog output, in its unit."""
     counts = memory.I[ints(node) + at.BUSNI_CONVERTED + channel]
     high = memory.F[reals(node) + at.BUSNF_OUTPUT_HIGH]
     return counts / (FULL_SCALE if counts > 0 else -BOTTOM) * high

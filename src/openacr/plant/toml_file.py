@@ -1,4 +1,4 @@
-"""TOML files of users: read, converted, and what is wrong said with its place."""
+"""Read and convert TOML files of users; errors give their position in the file."""
 
 import math
 import re
@@ -18,7 +18,7 @@ from openacr.plant.locate import nearest, places
 MOST_MESSAGES = 100
 Kind = TypeVar("Kind")
 
-# What the converter says: a sentence and a path; some sentences are said better elsewhere.
+# Messages of the converter: a sentence and a path; some sentences are replaced elsewhere.
 UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 MISSING = re.compile(r"Object missing required field `(.*)`")
 _WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
@@ -27,7 +27,7 @@ _SYNTAX = re.compile(r"(.*?)(?: \(at line (\d+), column (\d+)\)| \(at end of doc
 
 
 def read_text(path: Path) -> str:
-    """The text of a file; UserError or SourceError if it cannot be read."""
+    """Read the text of a file; UserError or SourceError if impossible."""
     data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
@@ -37,7 +37,7 @@ def read_text(path: Path) -> str:
 
 
 def parse(text: str, path: str) -> dict[str, Any]:
-    """The tables of a text; SourceError where it is no TOML."""
+    """Parse the tables of a text; SourceError if it is not TOML."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -52,13 +52,13 @@ def parse(text: str, path: str) -> dict[str, Any]:
 
 
 def wrong(text: str, path: str, steps: Steps, what: str, hint: str = "") -> SourceError:
-    """What is wrong with a key or table, at the place where it stands."""
+    """An error of a key or table, at its position in the file."""
     line, column = nearest(places(text), steps)
     return SourceError(what, path=path, line=line, column=column, hint=hint)
 
 
 def refuse(found: Iterable[SourceError]) -> None:
-    """Raise everything that is wrong in a file together, or nothing."""
+    """Raise all errors found in a file together; return if there are none."""
     errors = list(dict.fromkeys(map(_key, found)))
     if len(errors) == 1:
         raise errors[0].error
@@ -136,7 +136,7 @@ def _path(steps: Steps) -> str:
 
 
 def not_finite(value: object, steps: Steps = ()) -> Iterator[Steps]:
-    """Where infinities and NaN stand: they pass every comparison of ranges."""
+    """The paths of infinities and NaN, which pass every comparison of ranges."""
     if isinstance(value, dict):
         for key, inner in value.items():
             yield from not_finite(inner, (*steps, key))
@@ -148,7 +148,7 @@ def not_finite(value: object, steps: Steps = ()) -> Iterator[Steps]:
 
 
 def complaint_of(message: str) -> tuple[str, Steps]:
-    """A message of the converter as its sentence and the steps to what it speaks of.
+    """Split a message of the converter into its sentence and the path it refers to.
 
     `[...]` (some value of a mapping) ends what is known of a path.
     """

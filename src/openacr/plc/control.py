@@ -22,7 +22,7 @@ _FIRST = at.PLF_PLC_RUNNING | at.PLF_FIRST_SCAN
 class Plcs:
     """The PLCs of a card; `text` gives the stored lines of one, with their numbers.
 
-    Whether a PLC runs is its flag, what is scanned lies in hidden rows: a snapshot of the
+    The run state of a PLC is its flag and its code is in hidden rows, so a snapshot of the
     memory holds all of it.
     """
 
@@ -31,11 +31,11 @@ class Plcs:
         self._text = text
 
     def is_running(self, plc: int) -> bool:
-        """Whether it is scanned."""
+        """Whether a PLC is running."""
         return bool(self._memory.I[at.PLF_WORD + plc] & at.PLF_PLC_RUNNING)
 
     def run(self, plc: int) -> None:
-        """RUN: the first scan is part of the next servo interrupt; CardError if it cannot be."""
+        """Start a PLC (RUN); first scan in the next servo interrupt, CardError if impossible."""
         compiled = compile_plc(self._text(plc))
         self._write_code(plc, compiled)
         for preload in compiled.preloads:
@@ -44,7 +44,7 @@ class Plcs:
         self._memory.I[at.PLF_WORD + plc] |= _FIRST
 
     def halt(self, plc: int) -> None:
-        """HALT: outputs stay as they are."""
+        """Stop a PLC (HALT); outputs stay as they are."""
         self._memory.I[at.PLF_WORD + plc] &= ~_FIRST
 
     def _write_code(self, plc: int, compiled: Compiled) -> None:

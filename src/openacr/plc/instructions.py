@@ -16,7 +16,7 @@ OBJECTS = at.PLC_COUNT  # timers, counters and latches
 
 
 class Operand(Enum):
-    """What an instruction works on."""
+    """The kind of operand of an instruction."""
 
     NONE = "none"
     FLAG = "flag"
@@ -32,9 +32,9 @@ class Operand(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Instruction:
-    """One instruction; `operation` is its number in the scan, None where there is nothing to do.
+    """One instruction; `operation` is its number in the scan, None for no operation.
 
-    `takes` saved results are used up; `is_output`: the next LD begins a new rung.
+    `takes` is the count of saved results it uses up; `is_output`: the next LD begins a rung.
     """
 
     words: tuple[str, ...]

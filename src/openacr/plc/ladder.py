@@ -4,7 +4,7 @@
            |  +--[2]--[3]---+
 
 `[n]` is a contact, `[/n]` an inverted one, `(n)` an output, `(S n)` and `(R n)` set and clear
-a flag. Outputs stand in series: the result goes on behind them, as in the text.
+a flag. Outputs are drawn in series: the result continues after them, as in the text.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """One behind the other."""
+    """Elements in series."""
 
     parts: tuple[Node, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Parallel:
-    """One below the other."""
+    """Elements in parallel."""
 
     branches: tuple[Node, ...]
 
@@ -60,14 +60,14 @@ Node: TypeAlias = Element | Series | Parallel | Gate
 
 @dataclass(slots=True)
 class Rung:
-    """What is drawn from one left rail to the next; `saved` are blocks not yet connected."""
+    """One rung, from its left rail on; `saved` are blocks not yet connected."""
 
     line: int
     present: Node
     saved: list[Node]
 
     def add(self, step: Step) -> None:
-        """Connect what an instruction stands for to what is there."""
+        """Connect the element of an instruction to the rung."""
         operation = (step.instruction.operation or 0) & ~scan.NEGATED
         if operation == scan.OP_LOAD:
             self.saved.append(self.present)

@@ -1,4 +1,4 @@
-"""Read a line of a PLC: any number of instructions, by blanks or colons apart."""
+"""Read a line of a PLC: any number of instructions, separated by blanks or colons."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from openacr.plc.instructions import (
 
 
 class PlcError(CardError):
-    """A PLC line that cannot be read, with the place where reading stopped."""
+    """A PLC line that cannot be read, with the position of the error."""
 
     def __init__(self, message: Message, span: Span) -> None:
         super().__init__(message)
@@ -39,13 +39,13 @@ class PlcError(CardError):
 
 
 class Names(Protocol):
-    """What words mean outside the PLC language."""
+    """The meaning of words that do not belong to the PLC language."""
 
     def number(self, name: str) -> int | None:
-        """The flag or whole number that an alias stands for."""
+        """The flag or whole number of an alias."""
 
     def is_command(self, word: str) -> bool:
-        """Whether AcroBASIC knows the word."""
+        """Whether the word is an AcroBASIC command."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class PlcLine:
 
 
 def read_line(found: Sequence[Token], names: Names) -> PlcLine | None:
-    """What the tokens of a line say; None if there is nothing to store."""
+    """Parse the tokens of a line; None if there is nothing to store."""
     return _Reader(found, names).line()
 
 
@@ -99,7 +99,7 @@ class _Reader:
         return token
 
     def accept(self, text: str) -> bool:
-        """Take the operator `text` if it stands here."""
+        """Accept the operator `text` if it is the next token."""
         if self.token.kind is not TokenKind.OPERATOR or self.token.value != text:
             return False
         self.position += 1

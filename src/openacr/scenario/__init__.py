@@ -1,4 +1,4 @@
-"""A scenario: what happens around the card while it runs, and what is expected of it.
+"""Scenarios: operator actions and machine events during a run, and expected results.
 
 A scenario file holds timed or conditional operator actions (`[[at]]`) and expectations
 (`[[expect]]`). It is checked completely before anything runs, played by the tick of the

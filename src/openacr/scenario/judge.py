@@ -1,4 +1,4 @@
-"""Judge one expectation: what was expected, what was found, and whether they agree."""
+"""Judge one expectation: compare the expected with the actual value."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """How one expectation came out."""
+    """The result of one expectation."""
 
     name: str
     ok: bool
@@ -54,7 +54,7 @@ def judge(
 
 
 def never(item: Expectation, moment: str) -> Verdict:
-    """Fail an expectation whose moment did not come."""
+    """Fail an expectation whose moment did not occur."""
     return Verdict(item.name, False, f"{expected_text(item)} {moment}", "that this never came")
 
 
@@ -124,7 +124,7 @@ def _position(item: Expectation, axis: int, world: "World") -> tuple[bool, str]:
 
 
 def _printed(texts: Sequence[str], printed: str) -> tuple[bool, str]:
-    """Look for the texts one behind the other; say where the search ended."""
+    """Search for the texts in order; report where the search ended."""
     at = 0
     for text in texts:
         found = printed.find(text, at)

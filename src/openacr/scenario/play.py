@@ -2,8 +2,8 @@
 
 `Play.step` is called with the card at rest between two ticks. It performs what is due,
 actions before expectations, each in the order of the file. `Play.next_tick` says how far
-the card may run before the next look at the latest; a change that may decide one of
-`Play.conditions` has to be followed by a look in the tick in which it happens.
+the card may run at most before the next call; a change that may decide one of
+`Play.conditions` must be followed by a call in the tick in which it occurs.
 """
 
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from openacr.scenario.schema import Action, Condition, Expectation, Scenario, St
 
 
 class World(Protocol):
-    """What a scenario sees of the card and its surroundings, and how it acts on them."""
+    """The interface through which a scenario reads and acts on the card and its machine."""
 
     @property
     def tick(self) -> int:
@@ -35,13 +35,13 @@ class World(Protocol):
         """Read the commanded position of an axis in units."""
 
     def program_state(self, program: int) -> State:
-        """Say what a program is doing."""
+        """Return the state of a program."""
 
     def set_input(self, bit: int, on: bool) -> None:
         """Switch one input; one that the machine drives is forced until it is released."""
 
     def release_input(self, bit: int) -> None:
-        """Let go of an input: off, or what the machine drives it to."""
+        """Release an input: off, or the level the machine drives it to."""
 
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream."""
@@ -50,10 +50,10 @@ class World(Protocol):
         """Move the load of an axis by hand, at once."""
 
     def set_analog(self, parameter: int, value: float) -> None:
-        """Bring a value to the analog input a parameter shows."""
+        """Apply a value to the analog input a parameter shows."""
 
     def fault(self, axis: int, kind: str, value: float) -> None:
-        """Let something go wrong with an axis of the machine."""
+        """Cause a fault on an axis of the machine."""
 
     def mend(self, axis: int, kind: str | None) -> None:
         """End one kind of fault of an axis, or all."""
@@ -61,7 +61,7 @@ class World(Protocol):
 
 @dataclass(slots=True, eq=False)
 class _Pending:
-    """One entry that has not happened yet, and how far it has come."""
+    """One entry that has not been performed yet, and its progress."""
 
     item: Action | Expectation
     due_tk: int | None = None
@@ -81,7 +81,7 @@ class _Pull:
 
 
 class Play:
-    """A scenario on its way through a run."""
+    """A scenario being played in a run."""
 
     def __init__(self, scenario: Scenario, period_s: float) -> None:
         self._period_s = period_s
@@ -109,24 +109,24 @@ class Play:
 
     @property
     def idle_actions(self) -> list[str]:
-        """Actions whose moment has not come."""
+        """Actions whose moment has not occurred."""
         waiting = (
             p.item for p in self._pending if isinstance(p.item, Action) and not p.is_repeated
         )
         return [_moment_text(action) for action in waiting]
 
     def heard(self, text: str) -> None:
-        """Take note of what the card printed."""
+        """Record text printed by the card."""
         self._printed += text
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
-        """What is waited for at present."""
+        """The conditions currently waited for."""
         whens = (p.item.when for p in self._pending if p.is_watched)
         return tuple(when for when in whens if when is not None)
 
     def next_tick(self, now_tk: int) -> int | None:
-        """Say at which tick to look again whatever happens; None when no time is known."""
+        """The tick of the next call if nothing happens earlier; None when no time is known."""
         if self._pulls:
             return now_tk + 1
         known = [p.due_tk for p in self._pending if p.due_tk is not None]
@@ -140,10 +140,10 @@ class Play:
             world.release_input(release[1])
         self._pull(world)
         while any(self._look(pending, world) for pending in self._pending):
-            pass  # looked at from the start again, so that the order of the file holds
+            pass  # evaluated from the start again, to keep the order of the file
 
     def finish(self, world: World) -> None:
-        """End the run: judge what belongs to the end and what never came."""
+        """End the run: judge expectations of the end and those that never occurred."""
         self.checkpoints[END] = world.tick
         for pending in self._pending:
             if isinstance(pending.item, Expectation):

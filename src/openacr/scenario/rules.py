@@ -1,4 +1,4 @@
-"""What the types of a scenario cannot say: which keys belong together."""
+"""Rules of a scenario beyond the types of single keys: which keys belong together."""
 
 from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
@@ -64,7 +64,7 @@ _ANY_SUBJECT = {"name", "time_s", "when", "after", "delay_s"}
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One contradiction: where it stands, what it is, what is allowed."""
+    """One contradiction: its place, its text, and what is allowed."""
 
     steps: tuple[Step, ...]
     text: str
@@ -72,7 +72,7 @@ class Problem:
 
 
 def allowed_keys(where: Sequence[Step]) -> list[str]:
-    """List the keys that may stand in the table at this place."""
+    """List the keys allowed in the table at this place."""
     name = next((step for step in reversed(where) if isinstance(step, str)), "")
     struct = STRUCT_OF_KEY.get(name, Scenario)
     return [field.encode_name for field in fields(struct)]
@@ -121,7 +121,7 @@ def _moment(
         hint = "`time_s`, `when` or `after`"
         yield Problem(where, "this entry does not say when it happens", hint)
     if item.time_s is not None and item.time_s > (scenario.duration_s or item.time_s):
-        text = f"{item.time_s:g} s lies behind the end of the run at {scenario.duration_s:g} s"
+        text = f"{item.time_s:g} s is after the end of the run at {scenario.duration_s:g} s"
         yield Problem((*where, "time_s"), text)
     if item.after is not None and item.after not in checkpoints - {END}:
         yield _unknown((*where, "after"), item.after, checkpoints - {END})
@@ -130,7 +130,7 @@ def _moment(
 
 
 def _exists(where: tuple[Step, ...], key: str, number: int | None) -> Iterator[Problem]:
-    """Look a parameter or flag number up: a wrong one would only be noticed in the run."""
+    """Check that a parameter or flag exists: otherwise only the run would show it."""
     if number is None:
         return
     try:

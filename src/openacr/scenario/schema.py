@@ -35,7 +35,7 @@ class Key(Enum):
 
 
 class State(Enum):
-    """What a program is doing."""
+    """The state of a program."""
 
     IDLE = "idle"
     RUNNING = "running"
@@ -70,7 +70,7 @@ class Drag(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Fault(Struct, frozen=True, forbid_unknown_fields=True):
-    """Let something go wrong with an axis of the machine, by its number in machine.toml."""
+    """Cause a fault on an axis of the machine, by its number in machine.toml."""
 
     axis: Sixteenth
     kind: MachineFault
@@ -91,7 +91,7 @@ class Mend(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Analog(Struct, frozen=True, forbid_unknown_fields=True):
-    """Bring a value to an analog input, named by the parameter that shows it."""
+    """Apply a value to an analog input, named by the parameter that shows it."""
 
     input: Parameter
     value: float

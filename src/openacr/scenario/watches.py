@@ -1,7 +1,7 @@
-"""What the engine has to watch so that a condition need not be looked at in every tick.
+"""The engine watches for a condition, so that it need not be evaluated in every tick.
 
-A watch fires whenever the condition may have become true or false; what it is now is judged
-by whoever looks (`Play.step`). A condition that cannot change needs no watch.
+A watch fires whenever the condition may have become true or false; the caller (`Play.step`)
+evaluates it. A condition that cannot change needs no watch.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ _STATES = (
 
 
 def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
-    """List what decides whether a condition holds; printed texts are heard, not watched."""
+    """List the watches that decide a condition; printed texts are captured, not watched."""
     if condition.bit is not None:
         yield Watch(Watched.WORD, *flag_place(condition.bit))
     elif condition.program is not None:

@@ -1,4 +1,4 @@
-"""What survives without power: named images of bytes, each checked, each save atomic."""
+"""Non-volatile storage: named images of bytes, each verified, each save atomic."""
 
 from openacr.store.database import Database
 from openacr.store.images import Image, Images, Scratch

@@ -19,7 +19,7 @@ from openacr.store.images import Image
 
 FILE_NAME = "card.db"
 FORMAT = 1
-APPLICATION_ID = 0x41435231  # marks the file as ours: "ACR1"
+APPLICATION_ID = 0x41435231  # identifies our files: "ACR1"
 DAMAGED_SUFFIX = ".damaged"
 
 _TABLE = """
@@ -33,7 +33,7 @@ _Result = TypeVar("_Result")
 
 
 class Database:
-    """The images of one card in a data folder, which is made if it is not there."""
+    """The images of one card in a data folder, which is created if absent."""
 
     is_durable = True
 
@@ -56,10 +56,10 @@ class Database:
 
     @classmethod
     def open(cls, folder: Path) -> tuple[Database, str | None]:
-        """The images of a folder; of a damaged file the whole ones, in a new file.
+        """Open the images of a folder; the intact ones of a damaged file go to a new file.
 
-        The second value says so, in a sentence, and where the old file is. A damaged file is not
-        written any more: a page that cannot be read would make every later save fail.
+        The second value reports the damage and the name of the old file. A damaged file is not
+        written again: a page that cannot be read would make every later save fail.
         """
         try:
             images = cls(folder)
@@ -92,7 +92,7 @@ class Database:
         run("COMMIT")
 
     def _examined(self) -> tuple[dict[str, Image], list[str]]:
-        """All whole images, and the names of the others; also what else is wrong with the file."""
+        """All intact images, the names of the others, and any other damage of the file."""
         run, names, lost = self._connection.execute, list[str](), list[str]()
         whole: dict[str, Image] = {}
         try:
@@ -117,12 +117,12 @@ class Database:
         return whole, lost
 
     def names(self) -> list[str]:
-        """What there is, damaged ones included."""
+        """The names of all images, including damaged ones."""
         rows = self._do(lambda: self._connection.execute("SELECT name FROM image").fetchall())
         return sorted(row[0] for row in rows)
 
     def read(self, name: str) -> Image | None:
-        """One image, None if there is none; StoreError if it is damaged."""
+        """Read one image, None if absent; StoreError if it is damaged."""
         return self._found(_SEEK, name)
 
     def _found(self, query: str, name: str) -> Image | None:
@@ -137,7 +137,7 @@ class Database:
         raise StoreError(f"the stored {name} in {self.path} is damaged")
 
     def write(self, changes: Mapping[str, Image | None], *, flush: bool = True) -> None:
-        """Store images and delete those given as None: all of them, or none at all."""
+        """Store images and delete those given as None: either all of them or none."""
         if flush != self._flushes:
             self._connection.execute(f"PRAGMA synchronous = {'FULL' if flush else 'NORMAL'}")
             self._flushes = flush
@@ -155,12 +155,12 @@ class Database:
         run("COMMIT")
 
     def close(self) -> None:
-        """Fold the log into the file and unlock it."""
+        """Merge the log into the file and unlock it."""
         with suppress(sqlite3.Error):
             self._connection.close()
 
     def _do(self, work: Callable[[], _Result]) -> _Result:
-        """Work on the file; what goes wrong is undone and said in a sentence."""
+        """Perform an operation on the file; a failure is rolled back and raised as StoreError."""
         try:
             return work()
         except sqlite3.Error as failure:
@@ -180,7 +180,7 @@ _MARKS = ("application_id", "user_version")
 
 
 class _UnreadableError(StoreError):
-    """The file as a whole is not a database (any more)."""
+    """The file as a whole is not a readable database."""
 
 
 def _explained(path: Path, failure: sqlite3.Error) -> StoreError:
@@ -193,7 +193,7 @@ def _explained(path: Path, failure: sqlite3.Error) -> StoreError:
 
 
 def _put_aside(path: Path) -> Path:
-    """Rename a file and what belongs to it, keeping every earlier one."""
+    """Rename a file and its companions, keeping all earlier ones."""
     number = 1
     while (aside := path.with_name(f"{path.name}{DAMAGED_SUFFIX}{number}")).exists():
         number += 1

@@ -1,4 +1,4 @@
-"""Images: what a card has stored, by name, whatever they are stored on."""
+"""Images: the stored data of a card by name, independent of the storage."""
 
 from __future__ import annotations
 
@@ -14,39 +14,39 @@ DIGEST_BYTES = 16
 
 @dataclass(frozen=True, slots=True)
 class Image:
-    """Stored bytes and the version of what they say."""
+    """Stored bytes and the version of their format."""
 
     version: int
     data: bytes
 
     @property
     def digest(self) -> bytes:
-        """Fingerprint by which damage is found."""
+        """Fingerprint that reveals damage."""
         head = self.version.to_bytes(8, "little", signed=True)
         return blake2b(head + self.data, digest_size=DIGEST_BYTES).digest()
 
 
 class Images(Protocol):
-    """Where images are kept."""
+    """A storage of images."""
 
     @property
     def is_durable(self) -> bool:
         """Whether they outlast the process."""
 
     def names(self) -> list[str]:
-        """What there is, damaged ones included."""
+        """The names of all images, including damaged ones."""
 
     def read(self, name: str) -> Image | None:
-        """One image, None if there is none; StoreError if it is damaged."""
+        """Read one image, None if absent; StoreError if it is damaged."""
 
     def write(self, changes: Mapping[str, Image | None], *, flush: bool = True) -> None:
-        """Store images and delete those given as None: all of them, or none at all.
+        """Store images and delete those given as None: either all of them or none.
 
-        Once this returns they outlast the end of the process, with `flush` also a power cut.
+        Once this returns they survive the end of the process, with `flush` also a power cut.
         """
 
     def close(self) -> None:
-        """Let go of what they are stored on."""
+        """Release the storage."""
 
 
 class Scratch:
@@ -58,11 +58,11 @@ class Scratch:
         self._images: dict[str, Image] = {}
 
     def names(self) -> list[str]:
-        """What there is."""
+        """The names of all images."""
         return sorted(self._images)
 
     def read(self, name: str) -> Image | None:
-        """One image, None if there is none."""
+        """Read one image, None if absent."""
         return self._images.get(name)
 
     def write(self, changes: Mapping[str, Image | None], *, flush: bool = True) -> None:
@@ -71,11 +71,11 @@ class Scratch:
         self._images = {name: image for name, image in merged.items() if image is not None}
 
     def close(self) -> None:
-        """Nothing has to be let go."""
+        """Do nothing: there is nothing to release."""
 
 
 def needs_version(name: str, image: Image, version: int) -> bytes:
-    """The bytes of an image of the version that can be read; StoreError for any other."""
+    """The bytes of an image; StoreError unless it has the supported version."""
     if image.version != version:
         raise StoreError(
             f"the stored {name} has format {image.version}, this program reads format {version}"

@@ -18,7 +18,7 @@ DESTROYED, WARNING, OFF = 8, 96, 256
 
 
 def begin(master: Master) -> None:
-    """Make the nodes operational; they tell their digital inputs at once."""
+    """Make the nodes operational; they send their digital inputs at once."""
     image.clear_moved(master)
     master.memory.F[at.NETMF_BASE + at.NETMF_ERRORS] = 0.0
     for slave in master.slaves():

@@ -46,7 +46,7 @@ def total_messages(nodes: Iterable[int]) -> int:
 
 
 def cycle_ms(messages: int, bit_rate: int) -> int:
-    """The shortest cycle in which so many messages fit, at a bit rate in kbit/s."""
+    """The shortest cycle for this number of messages, at a bit rate in kbit/s."""
     return -(-messages * MESSAGE_BITS // bit_rate)
 
 

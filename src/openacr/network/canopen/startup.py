@@ -48,7 +48,7 @@ def power_up(master: Master) -> None:
 
 
 def become_ready(master: Master) -> None:
-    """End power-up or reset: ready to start, or the state says why not."""
+    """End power-up or reset: ready to start, or a state with the reason why not."""
     master.enter(Phase.IDLE)
     master.stop_times()
     master.change_flags(clear=at.CANF_RESET_NETWORK)
@@ -56,7 +56,7 @@ def become_ready(master: Master) -> None:
 
 
 def verify(master: Master) -> BusState:
-    """Check the master id and the node ids; P32770 says how many of them count."""
+    """Check the master id and the node ids; P32770 is the number of ids in use."""
     if bus.has_fault(master.memory, bus.Trouble.CONTROLLER):
         return BusState.INTERNAL_ERROR
     own = master.setting(at.CAN_MASTER_NODE_ID)

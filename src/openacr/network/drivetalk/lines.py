@@ -35,7 +35,7 @@ class TalkLine:
 
     @property
     def due_tk(self) -> float:
-        """When the exchange under way is over; 0 if there is none."""
+        """End of the exchange in progress; 0 if there is none."""
         return self.memory.F[at.NETLF_BASE + self.port * at.NETLF_STRIDE + at.NETLF_DUE_TK]
 
     @due_tk.setter
@@ -56,7 +56,7 @@ class TalkLine:
 
     @property
     def is_busy(self) -> bool:
-        """Whether something is under way or asked for."""
+        """Whether an exchange is in progress or requested."""
         if self.due_tk or self.memory.I[FIRST_WORD + self.port] & at.DTSF_AUTO_ADDRESS_ALL:
             return True
         return any(pending(self.memory, axis) for axis in self.axes())
@@ -115,7 +115,7 @@ def open_line(memory: Memory, name: str, key: tuple[int, int], settings: tuple[i
 
 
 def close_line(memory: Memory, name: str) -> None:
-    """CLOSE: what is asked for from now on finds nobody."""
+    """Close the line (CLOSE): later requests find no drive."""
     if name in PORTS:
         line = TalkLine(memory, PORTS.index(name))
         for row in range(at.NETLI_STRIDE):

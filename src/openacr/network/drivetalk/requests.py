@@ -1,4 +1,4 @@
-"""What the card says to a drive to fulfil a request, and what it makes of the answers."""
+"""The lines a card sends to a drive for each request, and the use of the answers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Take = Callable[[str], bool]
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """A line for a drive; `take` says whether the answer is what was expected."""
+    """A line for a drive; `take` returns whether the answer is as expected."""
 
     text: str
     take: Take

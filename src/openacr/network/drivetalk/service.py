@@ -63,7 +63,7 @@ def _address_all(line: TalkLine) -> None:
 
 
 def _serve(line: TalkLine, deliver: Deliver) -> None:
-    """Finish the exchange under way if it is over, then begin what comes next."""
+    """Finish the exchange in progress if it is over, then begin the next one."""
     if line.due_tk and line.due_tk <= tick_of(line.memory):
         line.due_tk = 0.0
         _finish(line, deliver)
@@ -72,7 +72,7 @@ def _serve(line: TalkLine, deliver: Deliver) -> None:
 
 
 def _begin(line: TalkLine) -> bool:
-    """Begin an exchange of the request under way, or of the next; False if there is none."""
+    """Begin an exchange of the current request, or of the next; False if there is none."""
     if line.get(at.NETLI_REQUEST):
         return _begin_exchange(line)
     if line.get(at.NETLI_CHANNEL):
@@ -92,7 +92,7 @@ def _begin(line: TalkLine) -> bool:
 def _begin_exchange(line: TalkLine) -> bool:
     axis = line.get(at.NETLI_AXIS)
     if line.memory.I[at.DTK_BASE + axis * at.DTK_STRIDE + at.DTK_DRIVE_TYPE] != ARIES_TYPE:
-        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)  # whose language nobody knows
+        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)  # a drive with an unknown protocol
         _end(line)
     elif (exchange := _exchange(line)) is None:
         _end(line)
@@ -102,7 +102,7 @@ def _begin_exchange(line: TalkLine) -> bool:
 
 
 def _exchange(line: TalkLine) -> Exchange | None:
-    """The exchange that is next, or under way."""
+    """The exchange that is next, or in progress."""
     rows = (at.NETLI_AXIS, at.NETLI_REQUEST, at.NETLI_SELECTION)
     todo = exchanges(line.memory, *(line.get(row) for row in rows))
     place = line.get(at.NETLI_EXCHANGE)
@@ -139,7 +139,7 @@ def _send(line: TalkLine, text: str, axis: int | None = None) -> None:
 
 
 def _finish(line: TalkLine, deliver: Deliver) -> None:
-    """Use the answer, or say why there is none."""
+    """Use the answer, or report why there is none."""
     is_passed_on = line.get(at.NETLI_REQUEST) == PASSED_ON
     axis = line.get(at.NETLI_TALKS_TO if is_passed_on else at.NETLI_AXIS)
     text = line.text(at.NETLI_ANSWER, at.NETLI_LENGTH)
@@ -158,7 +158,7 @@ def _finish(line: TalkLine, deliver: Deliver) -> None:
 
 
 def _judge(line: TalkLine, axis: int) -> bool:
-    """Whether exactly one drive has answered; the flags of the stream tell what else it was."""
+    """Whether exactly one drive has answered; otherwise the stream flags show the reason."""
     answers, known = line.get(at.NETLI_ANSWERS), at.NETDI_BASE + axis * at.NETDI_STRIDE
     if answers > 1:
         line.flag(at.DTSF_STREAM_ADDRESS_ERROR)
@@ -200,7 +200,7 @@ _LOOK = at.NETF_BASE + at.NETF_LOOK_TK
 
 
 def _look_for_errors(memory: Memory) -> None:
-    """Let drives that log errors look for them every now and then."""
+    """Let drives that log errors check for them periodically."""
     logging = [drive for drive in aries.drives(memory) if drive.whole(at.BUSDI_SELECTION)]
     if memory.F[_LOOK] <= tick_of(memory):
         for drive in logging:
