@@ -120,6 +120,34 @@ def test_the_step_is_spread_over_10_ms() -> None:
     assert made.p(BACKLASH) == 0
 
 
+def test_by_direction_the_slack_is_taken_up_at_every_reversal_and_kept_at_rest() -> None:
+    made = Bench("X").all("PPU X1000", "BKL X0.01", "BKL DIR X1")
+    assert (made.type("BKL DIR X"), made.type("BKL DIR X2")) == ("1", "Invalid argument")
+    found = []
+    for place in (-500, -400, -400, -401, 300, 299, 299.0000005, 301):
+        at_place(made, place)
+        made.seconds(0.02)
+        found.append(made.p(BACKLASH))
+    assert found == [0, 10, 10, 0, 10, 0, 0, 10]
+    made.all("BKL X0.02").seconds(0.02)
+    assert made.p(BACKLASH) == 20
+    made.all("BKL X0").seconds(0.02)
+    assert made.p(BACKLASH) == 0
+
+
+def test_by_direction_a_reset_position_is_no_travel() -> None:
+    made = Bench("X").all("BKL X10", "BKL DIR X1")
+    at_place(made, 100)
+    made.seconds(0.02)
+    made.all("RES X500").seconds(0.02)
+    assert (made.p(PSP), made.p(BACKLASH), made.p(SSP)) == (500, 0, 500)
+    at_place(made, 1)
+    made.seconds(0.02)
+    assert (made.p(PSP), made.p(BACKLASH)) == (501, 10)
+    made.all("BKL DIR X0", "RES X-7").seconds(0.02)
+    assert (made.p(PSP), made.p(BACKLASH)) == (-7, 0)
+
+
 @pytest.mark.req("MILL-BSC-BACKLASH")
 def test_ballscrew_and_backlash_add_up() -> None:
     made = bench("BSC ON X", "BKL X7")

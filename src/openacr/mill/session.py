@@ -119,7 +119,7 @@ class MillSession:
         settings = Settings(cells)
         self._limits_found = [] if is_virtual else soft_limits.found(card, settings)
         tables = tables_of(cells, settings, folder)
-        depth = prepare(card, settings, tables)
+        depth = prepare(card, settings, tables, has_extensions=is_virtual)
         axes = [axis.index for axis in settings.axes]
         self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))

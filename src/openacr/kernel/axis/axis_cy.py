@@ -141,6 +141,7 @@ def axis_settled(F: F64, I: I32, n: int) -> None:
     F[axes.ssp_velocity_cps[n]] = 0.0
     F[axes.ssp_accel_cps2[n]] = 0.0
     F[axes.target_cnt[n]] = F[axes.position_cnt[n]]
+    F[followers.backlash_old_cnt[n]] = F[axes.psp_cnt[n]]  # a jump is no travel
     for other in range(axes.COUNT):  # axes locked to this one do not follow the jump
         if I[followers.leader[other]] == n + 1:
             F[followers.lock_old_cnt[other]] = F[axes.psp_cnt[n]]
@@ -158,6 +159,7 @@ def axis_preload(F: F64, I: I32, n: int, position_cnt: float) -> None:
     F[axes.cam_cnt[n]] = 0.0
     F[axes.ballscrew_cnt[n]] = 0.0
     F[axes.backlash_cnt[n]] = 0.0
+    F[followers.backlash_wanted_cnt[n]] = 0.0
     I[tables.running[axes.COUNT + n]] = 0  # look up the ballscrew anew
     axis_jog_set(F, I, n, 0.0)
     F[axes.error_old_cnt[n]] = 0.0

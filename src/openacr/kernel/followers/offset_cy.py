@@ -6,14 +6,20 @@ a parameter), so every delta arrives in n equal parts.
 Hand wheel: source counts move the target of the jog profiler, which chases it.
 
 Backlash: while the primary setpoint is positive the offset is +BKL, else 0; the step is
-spread evenly over 10 ms. BACKLASH_BY_DIRECTION = 1 takes the direction of travel instead.
+spread evenly over 10 ms. With BKL DIR 1 the direction of travel decides: +BKL from the first
+step forward, 0 from the first step back, kept at rest. RES begins at 0.
 
 Lock: the coordinated position of a locked axis follows the primary setpoint of its leader,
 unit for unit; the difference of the two following errors drives the outputs together.
 """
 
 from openacr.cmath import fabs, trunc
-from openacr.kernel.axis.axis_cy import axis_scale, axis_target_changed, limit_bars
+from openacr.kernel.axis.axis_cy import (
+    ROUNDING_CNT,
+    axis_scale,
+    axis_target_changed,
+    limit_bars,
+)
 from openacr.kernel.axis.feedback_cy import FROM_ENCODER
 from openacr.kernel.followers.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
 from openacr.kernel.followers.gear_cy import gear_halt, gear_step
@@ -46,7 +52,6 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["backlash_step", "filter_clear", "filter_halt", "followers_step"]
 
-BACKLASH_BY_DIRECTION = 0
 BACKLASH_SPREAD_S = 0.01
 AXES = 16
 ENCODERS = 24
@@ -158,23 +163,23 @@ def jog_time(F: F64, I: I32, n: int, period_s: float) -> float:
 # backlash
 
 
-def backlash_wanted(F: F64, S: F32, n: int, psp_cnt: float) -> float:
+def backlash_wanted(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> float:
     """The backlash offset that belongs to a primary setpoint."""
     full_cnt: float = S[axes.backlash_setting[n]] * axis_scale(S, n)
     if not fabs(full_cnt) < LARGEST_DELTA:
         full_cnt = 0.0
-    if BACKLASH_BY_DIRECTION:
+    if I[axes.backlash_by_direction[n]]:
         moved_cnt: float = psp_cnt - F[followers.backlash_old_cnt[n]]
+        if fabs(moved_cnt) <= ROUNDING_CNT:
+            return full_cnt if F[followers.backlash_wanted_cnt[n]] != 0.0 else 0.0
         F[followers.backlash_old_cnt[n]] = psp_cnt
-        if moved_cnt == 0.0:
-            return F[followers.backlash_wanted_cnt[n]]
         return full_cnt if moved_cnt > 0.0 else 0.0
     return full_cnt if psp_cnt > 0.0 else 0.0
 
 
-def backlash_step(F: F64, S: F32, n: int, psp_cnt: float, dt: float) -> None:
+def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt: float) -> None:
     """Bring the backlash offset of axis n to what it should be, a step taking 10 ms."""
-    wanted_cnt: float = backlash_wanted(F, S, n, psp_cnt)
+    wanted_cnt: float = backlash_wanted(F, I, S, n, psp_cnt)
     offset_cnt: float = F[axes.backlash_cnt[n]]
     if wanted_cnt != F[followers.backlash_wanted_cnt[n]]:
         F[followers.backlash_wanted_cnt[n]] = wanted_cnt
@@ -293,7 +298,7 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) ->
             filter_step(F, I, S, n)
         psp_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
         psp_cnt = psp_cnt + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
-        backlash_step(F, S, n, psp_cnt, dt)
+        backlash_step(F, I, S, n, psp_cnt, dt)
         ballscrew_step(F, I, S, n, psp_cnt)
     if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)

@@ -65,6 +65,7 @@ AXIS = HiddenBlock(
     ),
     ints=(
         "on",
+        "backlash_by_direction",  # BKL DIR: 1 while the axis travels forward, 0 by its sign
         "master",  # -1 none
         "slave",
         "position_source",  # see kernel/axis/feedback_cy.py

@@ -17,5 +17,5 @@ speed_cps = tuple(range(186481, 186833, 22))
 ACCEL_SIZE = 8
 accel = tuple(range(186489, 186841, 22))
 INTS_SIZE = 1
-ints = tuple(range(439324, 439340))
-points = tuple(range(439324, 439340))
+ints = tuple(range(439340, 439356))
+points = tuple(range(439340, 439356))

@@ -37,12 +37,24 @@ MODE_FLAGS, FLAGS_PER_MASTER = 2048, 32
 VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
 
 
-def prepare(card: Card, settings: Settings, tables: Mapping[int, Table] | None = None) -> int:
-    """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds."""
+def prepare(
+    card: Card,
+    settings: Settings,
+    tables: Mapping[int, Table] | None = None,
+    *,
+    has_extensions: bool = False,
+) -> int:
+    """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds.
+
+    `has_extensions`: a card of openacr itself, which takes up backlash at every reversal.
+    """
     user_variables(card)
     program = settings.master
     for line in lines(settings):
         card.command(line, program=program)
+    if has_extensions:
+        for axis in settings.axes:
+            card.command(f"AXIS{axis.index} BKL DIR 1", program=program)
     install(card, settings, tables or {})
     return _buffer(card, program)
 

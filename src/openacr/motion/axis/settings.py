@@ -56,6 +56,11 @@ def not_zero(value: float) -> bool:
     return value != 0.0
 
 
+def switch(value: float) -> bool:
+    """0 or 1."""
+    return value in (0.0, 1.0)
+
+
 def multiplier(value: float) -> bool:
     """What a quadrature counter can be set to."""
     return value in MULTIPLIERS
