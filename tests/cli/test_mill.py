@@ -139,7 +139,7 @@ def test_start_at_a_line_goes_there_first(tmp_path: Path) -> None:
     [
         (("check", "nowhere.nc"), "nowhere.nc: no such file"),
         (("run", "PART", "--answer", "size"), "write it as P200=1.5"),
-        (("check", "PART", "--dialect", "klingon"), "known are acromill"),
+        (("check", "PART", "--dialect", "klingon"), "choose one of acromill"),
     ],
 )
 def test_mistakes_of_the_user_are_said_in_one_line(
@@ -153,7 +153,7 @@ def test_mistakes_of_the_user_are_said_in_one_line(
 
 def test_the_dialect_may_stand_in_the_file(tmp_path: Path) -> None:
     _, text = mill("check", program(tmp_path, ";dialect elvish\nG1 X1\n"))
-    assert "dialect elvish: known are" in text
+    assert "unknown dialect elvish: choose one of" in text
 
 
 @pytest.mark.req("MILL-START-NOCARD")

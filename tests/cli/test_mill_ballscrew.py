@@ -52,7 +52,7 @@ def test_an_imported_table_acts_on_the_machine_and_is_exported_again(
 def test_a_table_with_a_bad_line_is_not_loaded(table: Path, own_store: Path) -> None:
     table.write_text(TABLE + "X3\n")
     code, text = ballscrew("import", "X", table)
-    assert (code, text) == (2, f"error: {table}:4: 'X3' is no line like X1E.00175\n")
+    assert (code, text) == (2, f"error: {table}:4: 'X3' is not like X1E.00175\n")
     with Store(own_store) as store:
         assert store.read(950_010) == 0
         assert store.read_text(950_020) == ""

@@ -12,7 +12,7 @@ from openacr.sysvar import Store
 FUSION = "%\n(Fusion 360)\nG90 G94\nG0 X1\nG1 X2 F10\nM30\n%\n"
 DIALECT = 700_005
 BY_SIGNS = (
-    "dialect rs274ngc by its signs: framed by % in line 1, post-processor Fusion 360 in line 2,"
+    "dialect rs274ngc by its features: framed by % in line 1, post-processor Fusion 360 in line 2,"
     " G94 in line 3, end M30 in line 6 (--dialect chooses another)"
 )
 
@@ -58,7 +58,7 @@ def test_the_setting_of_the_store_wins_and_the_doubt_is_said(store: Path) -> Non
     assert result.exit_code == 1
     said, *errors = result.stderr.splitlines()
     assert said == (
-        "a.nc: dialect acromill as Dialect (P700005) says, but it looks like rs274ngc: framed by %"
+        "a.nc: dialect acromill, set by Dialect (P700005), but it looks like rs274ngc: framed by %"
         " in line 1, post-processor Fusion 360 in line 2, G94 in line 3, end M30 in line 6"
         " (--dialect rs274ngc)"
     )
@@ -68,7 +68,7 @@ def test_the_setting_of_the_store_wins_and_the_doubt_is_said(store: Path) -> Non
     put(store, 1)
     assert mill("check", "a.nc").stderr == ""
     Path("b.nc").write_text("F10 G1 X1\nM2\n")
-    assert mill("dialect", "b.nc").stdout == "b.nc: dialect rs274ngc as Dialect (P700005) says\n"
+    assert mill("dialect", "b.nc").stdout == "b.nc: dialect rs274ngc, set by Dialect (P700005)\n"
 
 
 def test_auto_leaves_the_store_out_and_a_name_leaves_all_out(store: Path) -> None:
@@ -76,10 +76,12 @@ def test_auto_leaves_the_store_out_and_a_name_leaves_all_out(store: Path) -> Non
     put(store, 0)
     assert mill("dialect", "a.nc", "--dialect", "auto").stdout == f"a.nc: {BY_SIGNS}\n"
     told = mill("dialect", "a.nc", "--dialect", "RS274NGC").stdout
-    assert told == "a.nc: dialect rs274ngc as --dialect says\n"
+    assert told == "a.nc: dialect rs274ngc, set by --dialect\n"
     wrong = mill("dialect", "a.nc", "--dialect", "fanuc")
     assert wrong.exit_code == 2
-    assert wrong.stderr == "error: dialect fanuc: known are acromill, rs274ngc and auto\n"
+    assert (
+        wrong.stderr == "error: unknown dialect fanuc: choose one of acromill, rs274ngc or auto\n"
+    )
 
 
 def test_a_mark_in_the_file_wins_over_the_store_and_the_signs(store: Path) -> None:

@@ -70,8 +70,8 @@ def test_variables_of_the_store_are_shown_and_changed() -> None:
     assert mill("param", "P100") == (0, "P100 = 4.5\n")
     shown = mill("param")[1].splitlines()
     assert (shown[0], len(shown)) == ("P100 = 4.5", 100)
-    assert mill("param", "P5")[1] == "error: P5 is on the card: say which one with --host\n"
-    assert "none of P0 to P199" in mill("param", "P200=1")[1]
+    assert mill("param", "P5")[1] == "error: P5 is on the card: name the card with --host\n"
+    assert "not an operator variable: P0 to P199 are" in mill("param", "P200=1")[1]
     for wrong in ("P100=x", "P100=inf", "hello", "P100="):
         assert "write P5 to see it" in mill("param", wrong)[1]
 

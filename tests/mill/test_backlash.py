@@ -64,7 +64,7 @@ def reversals(wanted: list[float]) -> set[int]:
     [
         ("G1 F300 X1\nX0.5\nX0.7\nX-1\nX-0.5\nG4 F.1\nX-0.2\nX-0.3\nM2\n", (True, False, False)),
         (
-            "G1 F300 X.5 Z-.5\nG2 X.5 Y0 I.5 J0\nG3 X-.5 Y0 R.5\nZ.5\nG0 X0 Z0\nM2\n",
+            "G1 F300 X.5 Z-.5\nG2 X.5 Y0 I0 J0\nG3 X-.5 Y0 I0 J0\nG1 Z.5\nG0 X0 Z0\nM2\n",
             (True, True, True),
         ),
     ],

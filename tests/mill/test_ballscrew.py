@@ -32,10 +32,10 @@ def test_a_file_has_one_line_per_position() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("X0E.1\nX1\n", "table:2: 'X1' is no line like X1E.00175"),
+        ("X0E.1\nX1\n", "table:2: 'X1' is not like X1E.00175"),
         ("X0E.1\nX1E.2 X3E4\n", "table:2: 'X1E.2 X3E4' is no line"),
         ("X0E.1\nY1E.2\n", "table:2: axis Y, but the table is that of X"),
-        ("X0E.1\nX1E.2\nX0E.3\n", "table:3: position 0 is there twice"),
+        ("X0E.1\nX1E.2\nX0E.3\n", "table:3: position 0 occurs twice"),
         ("", "table: 0 entries; a table needs 2"),
         ("X0E.1\n", "table: 1 entries; a table needs 2"),
     ],
@@ -136,7 +136,7 @@ def test_a_position_may_have_its_measurements_in_several_lines(tmp_path: Path) -
         ("Mean\n0 0 0 0\n1 1.002 1.002 0\n", 0, "m.csv:3: the last two columns are not the mean"),
         ("Mean\n0 0 0 0\n1 1.002 1.003 -.003\n", 0, "m.csv:3: the last two columns are not"),
         ("Difference\n0 0 0\n1 1 0\n", 0, "m.csv:2: the last two columns are not the mean"),
-        ("0 0\n1 1\n", 7, "home 7 is not from 0 to 1"),
+        ("0 0\n1 1\n", 7, "home 7 is not between 0 and 1"),
         ("# nothing\n", 0, "0 positions; a table needs 2"),
     ],
 )

@@ -111,7 +111,7 @@ def test_moves_typed_by_another_host_are_noticed_at_the_end() -> None:
     shop.card.command("X9", program=0)
     shop.until(State.ALARM)
     assert details(shop)[0] == (
-        "Machine was moved by another program: axis X is at 9, the program led it to 0.9"
+        "Machine was moved by another program: axis X is at 9, its program position is 0.9"
     )
     assert codes(shop)[0] == 16
 
@@ -124,7 +124,7 @@ def test_a_jog_of_another_host_is_noticed_at_the_next_halt() -> None:
     shop.card.command("AXIS1 JOG INC 0.01", program=0)
     shop.until(State.ALARM)
     assert codes(shop) == [16]
-    assert "axis Y is at 0.01, the program led it to 0" in details(shop)[0]
+    assert "axis Y is at 0.01, its program position is 0" in details(shop)[0]
 
 
 def test_a_machine_in_its_place_is_not_noticed() -> None:
@@ -195,7 +195,7 @@ def test_axes_that_lost_their_reference_points_are_named() -> None:
     shop = MillSession.real(Controller(), store, said.append)
     shop.close()
     assert said == [
-        "axis X Z is not homed any more: the card was switched off or reset, and positions"
+        "axis X Z is no longer homed: the card was switched off or reset, and positions"
         " count from where it was switched on"
     ]
     assert store.read(HOMED) == 0

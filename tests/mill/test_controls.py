@@ -260,7 +260,7 @@ def test_the_wheel_ends_at_a_soft_limit_and_turns_back_from_it_at_once() -> None
 def test_one_hand_at_a_time() -> None:
     shop = handy()
     shop.runner.turn([0])
-    with pytest.raises(UserError, match="the hand wheel moves the machine"):
+    with pytest.raises(UserError, match="the hand wheel is in use"):
         shop.runner.jog(lambda jog: jog.hold(1, 1))
     with pytest.raises(UserError, match="being jogged"):
         shop.start(end())
@@ -275,7 +275,7 @@ def test_whoever_leaves_takes_the_wheel_along() -> None:
     shop = handy()
     shop.runner.turn([0])
     turn(shop, 3)
-    shop.runner.break_off()
+    shop.runner.bring_to_rest()
     shop.pass_time(0.5)
     assert not shop.runner.is_busy
     left = position(shop)

@@ -186,7 +186,7 @@ def test_the_next_transfer_uses_what_was_saved(sender: Sender) -> None:
 @pytest.mark.req("MILL-SYS-COMM-APPLY")
 def test_a_port_that_is_not_there_is_an_error() -> None:
     shop = Shop()
-    with pytest.raises(UserError, match="no serial port is set"):
+    with pytest.raises(UserError, match="no serial port is configured"):
         Line.of(shop.store).open()
     shop.store.write_text(750_000, "/dev/no-such-port")
     with pytest.raises(UserError, match="cannot open serial port /dev/no-such-port"):
@@ -210,7 +210,7 @@ def test_a_part_file_is_received_and_stored(sender: Sender, last: bytes, tmp_pat
 def test_a_silent_line_leaves_no_file(sender: Sender, tmp_path: Path) -> None:
     with (
         Line.of(Shop().store, sender.port).open(wait_s=0.1) as port,
-        pytest.raises(UserError, match="nothing was sent"),
+        pytest.raises(UserError, match="nothing was received"),
     ):
         receive(port, tmp_path / "PART.TXT")
     assert list(tmp_path.iterdir()) == []

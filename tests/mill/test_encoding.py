@@ -32,7 +32,7 @@ def planned(entries: Iterable[c.Line | c.Arc | c.Rapid], **cells: float) -> list
     for entry in entries:
         planner.add(coder.job(entry, begin))
         begin = entry.end
-    packets = (coder.packet(job) for job in planner.take(100, is_complete=True))
+    packets = (coder.packet(job) for job in planner.release(100, is_complete=True))
     return [packet for packet in packets if packet is not None]
 
 

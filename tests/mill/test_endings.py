@@ -61,7 +61,7 @@ def test_a_machine_that_does_not_come_to_rest_loses_its_drives(
     if kind is None:
         shop.runner.abort()
     else:
-        shop.runner._supervision.give(kind, "X")
+        shop.runner._supervision.raise_alarm(kind, "X")
     begin_s = shop.controller.time_s
     shop.until(State.ALARM)
     limit_s = shop.runner.settings.rest_s

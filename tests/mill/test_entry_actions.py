@@ -221,7 +221,7 @@ def test_a_variable_the_card_does_not_have_ends_the_program_with_its_name() -> N
     shop.load("P150=7\nG1 F600 X1\nT P150\nX2\nM2\n")
     shop.until(State.ALARM)
     (alarm,) = shop.runner.alarms.active
-    assert alarm.text == "Program error: line 3: T P150: the card has no P150; DIM P makes it"
+    assert alarm.text == "Program error: line 3: T P150: the card has no P150; DIM P creates it"
     assert shop.pulses()[0] == 10000
 
 

@@ -130,7 +130,7 @@ def test_homing_uses_its_own_ramps_and_gives_those_of_the_jog_back(world: Contro
 def test_an_axis_that_does_not_move_is_not_waited_for(world: Controller) -> None:
     shop = homing_shop(world, P150_000=0.0, P150_004=0.0, P150_007=0.0)
     assert home(shop, 0) is State.ALARM
-    assert "X: it does not move" in shop.runner.alarms.active[0].text
+    assert "X: no motion" in shop.runner.alarms.active[0].text
     assert shop.runner.run_s < 5.0
 
 

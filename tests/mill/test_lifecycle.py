@@ -130,7 +130,7 @@ def brought_to(state: State) -> Shop:
         shop.runner.stop()
         shop.pass_time(0.5)
     if state is State.ALARM:
-        shop.runner._supervision.give(alarms.TARGET_BEYOND, "X")
+        shop.runner._supervision.raise_alarm(alarms.TARGET_BEYOND, "X")
         shop.pass_time(0.005)
     assert shop.runner.state is state
     return shop
@@ -142,9 +142,9 @@ def cause(shop: Shop, event: Event) -> None:
     if event is Event.ABORT:
         shop.runner.abort()
     elif event is Event.FAULT:
-        supervision.give(alarms.NOT_MOVED, "")
+        supervision.raise_alarm(alarms.NOT_MOVED, "")
     elif event is Event.KILL:
-        supervision.give(alarms.DRIVE_FAULT, "X")
+        supervision.raise_alarm(alarms.DRIVE_FAULT, "X")
     elif event is Event.NO_REST:
         shop.runner.cut_power()
     elif event is Event.LINK_LOST:
@@ -235,13 +235,13 @@ def test_an_end_after_an_action_and_an_acknowledgement(fired: set[tuple[State, E
     shop.pass_time(0.1)
     shop.runner.abort()
     shop.until(State.IDLE)
-    shop.runner._supervision.give(alarms.NOT_MOVED, "")
+    shop.runner._supervision.raise_alarm(alarms.NOT_MOVED, "")
     shop.runner.acknowledge()
     assert (State.WAIT, Event.ABORT) in fired
     assert (State.IDLE, Event.ACKNOWLEDGE) in fired
     shop.runner.jog(lambda jogging: jogging.move(0, 20.0))
     shop.pass_time(0.1)
-    shop.runner._supervision.give(alarms.NOT_MOVED, "")
+    shop.runner._supervision.raise_alarm(alarms.NOT_MOVED, "")
     shop.pass_time(0.5)
     assert shop.until(State.ALARM) is State.ALARM
     assert shop.runner.acknowledge() == []

@@ -90,7 +90,7 @@ def test_packets_that_may_be_lost_are_sent_again(monkeypatch: pytest.MonkeyPatch
         nonlocal sent
         sent += 1
         if sent == 1:
-            machine._has_told = True
+            machine._has_sent = True
             shop.controller.bit[40] = False  # this one was lost, too
             shop.card._talk.connections += 1
         else:
@@ -121,7 +121,7 @@ def test_overrides_that_may_be_lost_are_sent_again() -> None:
     shop.card.command("ROV 1", program=0)
     shop.pass_time(0.5)
     assert [shop.card.read(FOV), shop.card.read(ROV)] == [1.0, 1.0]
-    shop.runner.machine._has_told = True
+    shop.runner.machine._has_sent = True
     shop.card._talk.connections += 1
     shop.pass_time(0.01)
     assert [shop.card.read(FOV), shop.card.read(ROV)] == wanted
@@ -133,7 +133,7 @@ def test_an_action_that_may_be_lost_ends_the_program(monkeypatch: pytest.MonkeyP
     shop = Shop(**{SPINDLE_CW: 40})
     shop.load("M3 S500\nG4 F10\nG1 F600 X5\nM2\n")
     shop.pass_time(0.5)
-    shop.runner.machine._has_told = True
+    shop.runner.machine._has_sent = True
     shop.card._talk.connections += 1
     shop.until(State.ALARM)
     assert (codes(shop), shop.outputs([40]), shop.pulses()) == ([3], [False], (0, 0, 0))
@@ -269,7 +269,7 @@ def test_a_trace_whose_moves_may_be_lost_ends_the_program_at_rest() -> None:
     shop.runner.trace(-1)
     shop.pass_time(0.2)
     assert codes(shop) == []
-    shop.runner.machine._has_told = True
+    shop.runner.machine._has_sent = True
     shop.card._talk.connections += 1
     shop.until(State.ALARM)
     place = shop.place()
@@ -282,7 +282,7 @@ def test_moves_are_never_sent_on_a_newer_connection_than_that_of_the_last_look()
     machine = shop.runner.machine
     machine.poll()
     shop.card._talk.connections += 1
-    with pytest.raises(ConnectionLostError, match="connected again since the last look"):
+    with pytest.raises(ConnectionLostError, match="connected again since the last poll"):
         machine.send([])
     machine.poll()
     machine.send([])

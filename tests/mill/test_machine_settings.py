@@ -129,7 +129,7 @@ def test_alarms_are_written_to_a_file_unless_that_is_disabled(
         store.write(250_118, is_disabled)
         card = Card.open(Controller())
         shop = MillSession(card, store, print, is_virtual=False, folder=tmp_path)
-        shop.runner.alarms.give(alarms.LUBRICATION, "", 0.0)
+        shop.runner.alarms.raise_alarm(alarms.LUBRICATION, "", 0.0)
         shop.close()
     log = tmp_path / "MILL.LOG"
     assert log.exists() != bool(is_disabled)

@@ -37,7 +37,7 @@ class Watched:
     def pass_time(self, seconds: float) -> list[int]:
         for _ in range(round(seconds / 0.01)):
             self.shop.pass_time(0.01)
-            self.messages.keep(self.shop.runner.machine.now_s)
+            self.messages.poll(self.shop.runner.machine.now_s)
         return [message.number for message in self.messages.shown]
 
 
@@ -109,11 +109,11 @@ def test_p_parm_shows_what_is_there_now_and_changes_it_at_once() -> None:
     values.write(199, -1)
     assert shop.store.read(199) == -1.0
     for n in (-1, 200, 4096):
-        with pytest.raises(UserError, match="none of P0 to P199"):
+        with pytest.raises(UserError, match="not an operator variable: P0 to P199 are"):
             values.read(n)
-        with pytest.raises(UserError, match="none of P0 to P199"):
+        with pytest.raises(UserError, match="not an operator variable: P0 to P199 are"):
             values.write(n, 1.0)
-    with pytest.raises(UserError, match="P5 is on the card: say which one with --host"):
+    with pytest.raises(UserError, match="P5 is on the card: name the card with --host"):
         OperatorParameters(shop.store).read(5)
 
 

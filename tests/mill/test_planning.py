@@ -115,8 +115,8 @@ def planned(chosen: Chosen, takes: int) -> list[PlannedMove]:
     for at, (direction, length, feed) in enumerate(chosen, start=1):
         planner.add(line(direction, length, feed))
         if at % takes == 0:
-            out += planner.take(10000, is_complete=False)
-    out += planner.take(10000, is_complete=True)
+            out += planner.release(10000, is_complete=False)
+    out += planner.release(10000, is_complete=True)
     return out
 
 
@@ -150,7 +150,7 @@ def test_as_many_moves_wait_as_were_asked_for() -> None:
     planner: Planner[PlannedMove] = Planner(CornerRules(), least_ahead=10)
     for _ in range(25):
         planner.add(line(0.0, length=100.0))
-    assert len(list(planner.take(10000, is_complete=False))) == 15
+    assert len(list(planner.release(10000, is_complete=False))) == 15
     assert len(planner) == 10
 
 
@@ -165,6 +165,6 @@ def test_the_longest_way_to_brake_is_that_of_the_moves_in_the_queue(
     takes = [*takes, 0]
     for k, (feed, ramp) in enumerate(moves):
         planner.add(replace(line(0.0, 0.5, feed), ramp_ups2=ramp))
-        list(planner.take(takes[k % len(takes)], is_complete=False))
+        list(planner.release(takes[k % len(takes)], is_complete=False))
         wanted = max(each.feed_ups**2 / (2.0 * each.ramp_ups2) for each in planner)
         assert planner._brakes[0] == wanted

@@ -94,7 +94,7 @@ def test_a_feed_that_no_move_of_a_way_reaches_is_told_once() -> None:
         line(5, at(0.01)),
     ]
     assert said(Shop(), *way) == [
-        "TEST.TXT:3:1: W402 feed never reached: 2 moves (line 5 comes to 10 % of F)"
+        "TEST.TXT:3:1: W402 feed never reached: 2 moves (line 5 reaches 10 % of F)"
     ]
 
 
@@ -105,5 +105,5 @@ def test_short_pieces_of_a_long_way_reach_their_feed() -> None:
 def test_a_feed_above_the_machine_is_never_reached() -> None:
     # 3000 per minute are 50 units/s, the machine makes 100 units/s, axis X 40 of them
     assert said(Shop(P200_015=2400.0), line(1, at(50), feed=3000.0)) == [
-        "TEST.TXT:1:1: W402 feed never reached: 1 move (line 1 comes to 80 % of F)"
+        "TEST.TXT:1:1: W402 feed never reached: 1 move (line 1 reaches 80 % of F)"
     ]

@@ -77,7 +77,7 @@ def test_an_input_that_does_not_capture_the_move_is_polled_and_that_is_said(
     point = tripped(shop)
     late = max(abs(a - b) for a, b in zip(point, contact, strict=True))
     assert late == pytest.approx(BLIND_S * FEED / 60.0, abs=0.01)
-    assert shop.said == [f"{reason}: the probe is polled, and less exact"]
+    assert shop.said == [f"{reason}: the probe is polled, which is less accurate"]
 
 
 def test_what_is_polled_is_said_once() -> None:
@@ -183,7 +183,7 @@ def test_the_check_warns_of_what_the_card_does_not_capture() -> None:
         str(finding) for finding in preflight.findings(lambda _: "") if finding.code == "W404"
     ] == [
         "TEST.TXT:5:1: W404 probe not captured by the card: input 24 captures X, and Z one of"
-        " 26, 18, 10, 2 (the probe is polled, and less exact)"
+        " 26, 18, 10, 2 (the probe is polled, which is less accurate)"
     ]
 
 

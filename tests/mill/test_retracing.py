@@ -143,7 +143,7 @@ def test_a_trace_needs_a_held_move() -> None:
     with pytest.raises(UserError, match="cannot trace the path: the state is IDLE"):
         shop.runner.trace(-1)
     paused(shop)
-    with pytest.raises(UserError, match="stands where it was held"):
+    with pytest.raises(UserError, match="is where it was held"):
         shop.runner.trace(1)
     shop.runner.trace(-1)
     with pytest.raises(UserError, match="being traced"):

@@ -111,7 +111,7 @@ def test_a_machine_that_another_program_moves_is_left_alone() -> None:
     running = Shop()
     running.load("F60\nG1 X10\nM2\n")
     running.pass_time(0.5)
-    with pytest.raises(UserError, match="the machine moves"):
+    with pytest.raises(UserError, match="the machine is moving"):
         MillSession.real(running.controller, Store(), say=print)
     assert running.until(State.IDLE) is State.IDLE
     assert running.pulses()[0] == 100_000

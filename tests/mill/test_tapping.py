@@ -66,7 +66,7 @@ def test_a_hold_on_the_way_down_waits_for_the_retract(
     shop.pass_time(0.5)
     assert shop.pulses() == (0, 0, LEVEL)
     said = [text for text in shop.said if "feed hold" in text]
-    assert said == ["feed hold: the tap comes out of its hole first"]
+    assert said == ["feed hold after the tap is out of its hole"]
     shop.runner.resume()
     shop.until(State.IDLE)
     assert shop.pulses() == (10_000, 0, 10_000)
@@ -136,7 +136,7 @@ def test_single_block_pressed_in_a_hole_stops_behind_the_hole() -> None:
 def test_a_line_that_breaks_in_a_hole_stops_feed_and_spindle_together() -> None:
     shop = tapping()
     down_to(shop, -2000)
-    shop.runner.machine._has_told = True
+    shop.runner.machine._has_sent = True
     shop.card._talk.connections += 1
     shop.until(State.ALARM)
     assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [3]

@@ -107,7 +107,7 @@ def test_a_machine_that_moves_or_has_an_alarm_gets_no_zero() -> None:
         lambda: set_zero(shop, AXES), lambda: clear_all(shop), lambda: gone(shop),
     ]  # fmt: skip
     for act in actions[:2]:
-        with pytest.raises(UserError, match="the machine moves: a zero is set at rest"):
+        with pytest.raises(UserError, match="is moving: a zero can be set only at rest"):
             act()
     while shop.runner.is_busy:
         shop.step()

@@ -1,1 +1,1 @@
-"""The machine tool: part programs run on a card, virtual or real, through its host interface."""
+"""Machine tool: runs part programs on a virtual or real card through its host interface."""

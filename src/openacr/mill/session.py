@@ -1,8 +1,8 @@
-"""A machine for one run: the card, the cells, the runner, and who watches it.
+"""Machine session: the card, the cells, the runner and the watchdog of one run.
 
-The virtual machine stands on its reference points and has nothing wired to it: inputs that
-the store names are left out, waits for relays are passed by, tools are there when they are
-asked for. A real one is everything the store says.
+The virtual machine is homed and has nothing wired to it: inputs configured in the store are
+ignored, waits for relays are skipped, requested tools are loaded at once. A real machine has
+everything configured in the store.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -57,7 +57,7 @@ POLL_S = 0.02
 SHORTEST_S = 0.001  # the clock of the card counts milliseconds
 MOTION = n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED | n.MF1_NOT_IN_POSITION
 ALL_AXES = 255
-# Inputs of the store that nothing is wired to on the virtual machine.
+# Inputs of the store that are not wired on the virtual machine.
 UNWIRED = (
     IO.block_skip,
     IO.optional_stop,
@@ -80,20 +80,20 @@ UNWIRED = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Start:
-    """How a program is to be run."""
+    """Options for starting a program."""
 
     dialect: str = "acromill"
     line: int = 1
     is_dry: bool = False
     is_skipping: bool = False
     stops_optionally: bool = False
-    is_repeated: bool = True  # where the store says Repeat Forever
+    is_repeated: bool = True  # if Repeat Forever is set in the store
     accepts_tool: bool = False  # start at a line although another tool is in the spindle
     safe_z: float | None = None  # machine position of Z where the tool is free, for a start line
 
 
 class MillSession:
-    """A card that is set up for the machine, and its runner."""
+    """A card set up for the machine, with its runner."""
 
     def __init__(
         self,
@@ -141,7 +141,7 @@ class MillSession:
             self._guard(say)
 
     def _guard(self, say: Callable[[str], None]) -> None:
-        """The watchdog on the card, unless the store does without."""
+        """Install the watchdog on the card, unless the store disables it."""
         if self.runner.settings.watchdog_program == NONE:
             say(NO_WATCHDOG)
             return
@@ -152,7 +152,7 @@ class MillSession:
 
     @classmethod
     def virtual(cls, store: Store, say: Callable[[str], None] = print) -> "MillSession":
-        """The virtual machine; what a program writes to the store is forgotten."""
+        """Create a virtual machine; a program's changes to the store are discarded."""
         from openacr.controller import Controller
 
         cells = Shadow(store)
@@ -173,7 +173,7 @@ class MillSession:
     def real(
         cls, target: str | Host, store: Store, say: Callable[[str], None] = print
     ) -> "MillSession":
-        """A card at the other end of a link; drives are left as they are."""
+        """Open a real card over a link; drives are left as they are."""
         settings = Settings(store)
         timeout_s = settings.link_timeout_s
         card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
@@ -189,24 +189,24 @@ class MillSession:
         try:
             tidy(card, settings, say, was_left=bool(owner.found))
             check_rest(card, settings)
-            homed.agree(card, store, say)  # before the set-up: tables act on homed axes alone
+            homed.agree(card, store, say)  # before the set-up: tables act only on homed axes
             return cls(card, store, say, is_virtual=False, folder=_folder_of(store), owner=owner)
         except BaseException:
             with suppress(*LINK_ERRORS):
-                owner.release(left=owner.found)  # what another watchdog still listens to
+                owner.release(left=owner.found)  # the value that an installed watchdog still polls
             card.close()
             raise
 
     def close(self) -> None:
-        """Let go of the card."""
+        """Close the link and release the machine."""
         if self._drip is not None:
-            self._drip.close()  # last of all that the machine was driven with
+            self._drip.close()  # the program source first
         if self._owner is not None:
             self._release(self._owner)
         self.card.close()
 
     def _release(self, owner: Owner) -> None:
-        """Take the watchdog off the card, unless it has stopped the machine, and let go of it."""
+        """Remove the watchdog, unless it has stopped the machine, and give up ownership."""
         if self.runner.is_out_of_reach:
             owner.forget()
             return
@@ -226,7 +226,7 @@ class MillSession:
 
     @property
     def block(self) -> tuple[int, str] | None:
-        """Line and text of the block that is executed."""
+        """Line and text of the executing block; None if nothing runs."""
         source = self.runner.source
         if source is None:
             return None
@@ -238,7 +238,7 @@ class MillSession:
         return start_at(self._interpreter(program, start), start.line, start.safe_z)
 
     def start(self, program: Program, start: Start, replay: Replay | None = None) -> None:
-        """Begin a program; at a later line behind the replay that was rehearsed and agreed to."""
+        """Start a program; at a later line after its replay, which the operator has accepted."""
         self.program = program
         options = Options(
             is_dry=start.is_dry,
@@ -248,18 +248,18 @@ class MillSession:
         if start.line > 1 and replay is None:
             replay = self.rehearse(program, start)
         if replay is not None and replay.needs_tool and not start.accepts_tool:
-            raise UserError("another tool is in the spindle; --any-tool starts all the same")
+            raise UserError("another tool is in the spindle; --any-tool starts anyway")
         reading = replay.run if replay is not None else self._interpreter(program, start)
         first: Callable[[], Iterator[c.Entry]] = replay.entries if replay else reading.entries
         passes = chain([first], repeat(reading.entries))
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
 
     def keep_drip(self, drip: Drip) -> None:
-        """Close this line when the machine is let go of, not before it is at rest."""
+        """Close this serial line with the session, not before the machine is at rest."""
         self._drip = drip
 
     def start_drip(self, drip: Drip, start: Start) -> None:
-        """Begin a program that is still arriving."""
+        """Start a program that is still arriving."""
         self.program, self._drip = drip.program, drip
         self.runner.stream.host.skips_always = start.is_skipping
         options = Options(start.is_dry, stops_optionally=start.stops_optionally, is_repeated=False)
@@ -272,19 +272,19 @@ class MillSession:
         return Interpreter(program, cells, self.runner.stream.host, start.dialect, reading)
 
     def _watched(self, entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
-        """The entries; on the virtual machine nobody has to be waited for."""
+        """Pass the entries on; on the virtual machine waits for inputs are skipped."""
         for entry in entries:
             if self.is_virtual and isinstance(entry, c.WaitBit):
-                yield c.Say(entry.source, f"passed by: {entry.reason}")
+                yield c.Say(entry.source, f"skipped: {entry.reason}")
             else:
                 yield entry
 
     def run_blocks(
         self, blocks: Iterable[str | None], dialect: str, attend: Callable[["MillSession"], None]
     ) -> Iterator[c.Point]:
-        """MDI: one block after the other; where the machine stands behind each.
+        """Run blocks one by one (MDI); yields the machine position after each.
 
-        While the next block is None, for it is still being typed, the machine is looked at.
+        While the next block is None (still being typed) the machine is polled.
         """
         host = self.runner.stream.host
         folders = folders_of(self.cells, self._folder)
@@ -305,14 +305,14 @@ class MillSession:
     def jog(
         self, distances: Iterable[tuple[str, float]], attend: Callable[["MillSession"], None]
     ) -> None:
-        """Move axes by hand, each by a distance."""
+        """Jog axes, each by a distance."""
         numbers = {axis.name: axis.index for axis in self.runner.settings.axes}
         for name, distance_u in distances:
             self.runner.jog(partial(Jogging.move, axis=numbers[name], distance_u=distance_u))
         self._finish(attend)
 
     def home(self, names: str, attend: Callable[["MillSession"], None]) -> list[str]:
-        """Find the reference points of the axes named, or of all that have a priority."""
+        """Home the named axes, or all that have a priority; returns the names of homed axes."""
         settings = self.runner.settings
         chosen = [settings.named(name) for name in names or settings.names()]
         self.runner.home([axis.index for axis in chosen])
@@ -325,19 +325,19 @@ class MillSession:
             attend(self)
 
     def step(self) -> None:
-        """Let a little time pass and do what is due."""
+        """Wait one poll period and do what is due."""
         self._pass_time()
         if self._drip is not None:
             self._drip.poll()
         self._keep_ownership()
         self.runner.step()
-        with suppress(*LINK_ERRORS):  # the next look tells
-            self.messages.keep(self.machine.now_s)
+        with suppress(*LINK_ERRORS):  # the next poll reports it
+            self.messages.poll(self.machine.now_s)
 
     def _pass_time(self) -> None:
-        """Until the next look: a poll, or to the end of a wait if that comes first.
+        """Wait until the next poll, or to the end of a running wait if that is earlier.
 
-        The virtual machine need not wait for the poll where motion begins or ends.
+        On the virtual machine a poll follows at once where motion begins or ends.
         """
         step_s = min(POLL_S, max(self.runner.wait_left_s, SHORTEST_S))
         card = self.virtual_card
@@ -351,22 +351,22 @@ class MillSession:
             card.watch()
 
     def _keep_ownership(self) -> None:
-        """Count on; before anything is sent, for this process may have been stopped for long."""
+        """Renew ownership before anything is sent: this process may have been suspended."""
         is_ours = True
         if self._owner is not None and not self.runner.is_out_of_reach:
-            with suppress(*LINK_ERRORS):  # the next look tells
-                is_ours = self._owner.keep(self.card.now_s())
+            with suppress(*LINK_ERRORS):  # the next poll reports it
+                is_ours = self._owner.beat(self.card.now_s())
         if not is_ours:
             self.runner.disown()
 
     def _note_message(self, message: Message, is_on: bool) -> None:
         if is_on and message.is_alarm:
             detail = f"{message.number}: {message.shown}"
-            self.runner.alarms.give(alarms.USER_MESSAGE, detail, self.machine.now_s)
+            self.runner.alarms.raise_alarm(alarms.USER_MESSAGE, detail, self.machine.now_s)
         self.show_message(message, is_on)
 
     def carry_on(self) -> None:
-        """What an operator does who never hesitates: starts again, confirms tools."""
+        """Act for an operator: continue after stops, confirm tools."""
         runner = self.runner
         runner.entry_actions.changer.confirm()
         if runner.state is State.HOLD:
@@ -389,12 +389,12 @@ def _error_log(cells: Cells, folder: Path | None) -> Path | None:
 
 
 def _given(entries: Iterator[c.Entry], _host: RunHost) -> Iterator[c.Entry]:
-    """Entries that are there already."""
+    """Entries that exist already."""
     return entries
 
 
 def _ended(entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
-    """The entries of a block, and an end behind it that switches nothing off."""
+    """The entries of a block, followed by an end that switches nothing off."""
     last = c.Source("MDI", 1, "")
     for entry in entries:
         last = getattr(entry, "source", last)

@@ -1,6 +1,6 @@
-"""SET ZERO, CLR ZERO and GOTO ZERO: the floating zero at the present position, gone, and reached.
+"""Floating zero: set at the present position, cleared, moved to (SET, CLR and GOTO ZERO).
 
-The shift is that of G92 (P800 to P832); it counts in every work system and is kept by the store.
+The shift is that of G92 (P800 to P832); it applies to every work system and is kept in the store.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -17,13 +17,13 @@ MDI_DIALECT = "acromill"
 
 
 def reader(shop: MillSession) -> Interpreter:
-    """An interpreter that stands where the machine does, with nothing chosen, as MDI begins."""
+    """An interpreter at the position of the machine, in the initial state of MDI."""
     program = load_blank(shop.cells, MDI_DIALECT, folders_of(shop.cells, None), name="ZERO")
     return Interpreter(program, shop.cells, shop.runner.stream.host, MDI_DIALECT)
 
 
 def set_zero(shop: MillSession, axes: Iterable[int]) -> Point:
-    """SET ZERO: these axes read 0 where they are; the program position. Nothing moves."""
+    """Set the floating zero of axes to their position (SET ZERO); returns the program position."""
     _require_rest(shop)
     run = reader(shop)
     with shop.cells.transaction():
@@ -32,7 +32,7 @@ def set_zero(shop: MillSession, axes: Iterable[int]) -> Point:
 
 
 def clear_all(shop: MillSession) -> Point:
-    """CLR ZERO: no axis has a floating zero any more; the program position. Nothing moves."""
+    """Clear the floating zero of all axes (CLR ZERO); returns the program position."""
     _require_rest(shop)
     run = reader(shop)
     with shop.cells.transaction():
@@ -43,7 +43,7 @@ def clear_all(shop: MillSession) -> Point:
 def goto_zero(
     shop: MillSession, axes: Iterable[int], attend: Callable[[MillSession], None]
 ) -> Iterator[Point]:
-    """GOTO ZERO: rapids to program 0; the program position behind each.
+    """Move axes to program 0 by rapids (GOTO ZERO); yields the program position after each.
 
     The tool axis goes first where that is upward, else last; the others go together.
     """
@@ -62,7 +62,7 @@ def _blocks(shop: MillSession, axes: set[int]) -> list[str]:
 
 
 def _require_rest(shop: MillSession) -> None:
-    """A zero is set where the machine rests, and nothing is wrong with it."""
+    """Refuse a zero while the machine moves or an alarm is active."""
     shop.runner.alarms.require_none()
     if shop.runner.is_busy or shop.machine.poll().is_moving or shop.machine.is_jogging():
-        raise UserError("the machine moves: a zero is set at rest")
+        raise UserError("the machine is moving: a zero can be set only at rest")

@@ -65,7 +65,7 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
     choice = choose(file, store, dialect)
     folder = store.path.parent if store.path else None
     program = load(file, store, choice.name, folders_of(store, folder))
-    if choice.is_worth_saying or (program.errors and choice.is_doubtful):
+    if choice.is_worth_reporting or (program.errors and choice.is_doubtful):
         typer.echo(f"{file}: {choice.text}", err=True)
     return program, choice.name
 

@@ -96,7 +96,7 @@ def _break_off(shop: "MillSession") -> None:
     from openacr.mill.card.driver import LINK_ERRORS
 
     with suppress(*LINK_ERRORS), deaf():
-        shop.runner.break_off()
+        shop.runner.bring_to_rest()
         end_s = shop.card.now_s() + REST_S
         while shop.runner.is_busy:
             if shop.card.now_s() > end_s:

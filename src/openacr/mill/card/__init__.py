@@ -1,1 +1,1 @@
-"""What is known of a card and commanded to it: inputs, outputs, set-up, alarms, ownership."""
+"""Access to a card from the machine side: inputs, outputs, set-up, alarms, ownership."""

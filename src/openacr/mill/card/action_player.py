@@ -1,4 +1,4 @@
-"""Plays an action: runs its steps as far as the card lets them, and counts time-outs."""
+"""Execution of actions: runs the steps of an action until one has to wait, and counts time-outs."""
 
 from math import inf
 
@@ -8,7 +8,7 @@ from openacr.mill.card.driver import CardState
 
 
 class ActionPlayer:
-    """What is being done at the moment, if anything."""
+    """Runs one action at a time."""
 
     def __init__(self) -> None:
         self._steps: Steps | None = None
@@ -17,35 +17,35 @@ class ActionPlayer:
 
     @property
     def is_active(self) -> bool:
-        """Whether something is being done."""
+        """Whether an action is running."""
         return self._steps is not None
 
     @property
     def reason(self) -> str:
-        """What is waited for."""
+        """What the running action waits for; empty if nothing."""
         return self._until.reason if self._until else ""
 
     @property
     def left_s(self) -> float:
-        """How long the wait may take still; infinite where nothing is waited for."""
+        """Time left until the wait times out; infinite without a wait."""
         return max(self._until.limit_s - self._waited_s, 0.0) if self._until else inf
 
     def begin(self, steps: Steps) -> None:
-        """Do this next; what was being done is broken off."""
+        """Start an action; one that is running is cancelled."""
         try:
             self.close()
         finally:
             self._steps = steps
 
     def close(self) -> None:
-        """Break off; the action puts back what it has to."""
+        """Cancel the action; its `finally` clauses restore what it has changed."""
         steps, self._steps, self._until = self._steps, None, None
         self._waited_s = 0.0
         if steps is not None:
             steps.close()
 
     def play(self, sample: CardState, step_s: float) -> None:
-        """Go on as far as possible; `is_active` is False afterwards when it is done."""
+        """Run the action as far as possible; `is_active` is False afterwards when it has ended."""
         steps = self._steps
         if steps is None:
             return
@@ -60,12 +60,12 @@ class ActionPlayer:
             raise
 
     def _forget(self, steps: Steps) -> None:
-        """These steps have ended; if they began others, those stay."""
+        """Drop steps that have ended, unless they have started others."""
         if self._steps is steps:
             self._steps, self._until = None, None
 
     def _is_over(self, until: Until, sample: CardState) -> bool:
-        """Whether a wait has ended; one that took too long is an alarm, if it has one."""
+        """Whether a wait has ended; AlarmError after its limit if it names an alarm."""
         if until.is_met(sample):
             return True
         if self._waited_s < until.limit_s:

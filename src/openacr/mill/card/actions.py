@@ -1,8 +1,8 @@
-"""What the machine does between moves: spindle, coolant, tool change, waits.
+"""Actions of the machine between moves: spindle, coolant, tool change, waits.
 
 An action is a generator. It switches something, then yields the condition that has to be
-met before it goes on; the runner looks at the card, shows the reason, counts the time-out
-and closes the action when the program is aborted (`finally` then puts things back).
+met before it continues; the runner polls the card, shows the reason, counts the time-out
+and closes the action when the program is aborted (`finally` then restores outputs).
 """
 
 from collections.abc import Callable, Generator
@@ -29,19 +29,19 @@ BIPOLAR, WAITS_FOR_SPEED, SPEED_LEVEL, WAITS_FOR_ZERO, ZERO_LEVEL = 1, 2, 4, 8, 
 
 @dataclass(frozen=True, slots=True)
 class Until:
-    """A condition the program waits for, and what happens when it does not come."""
+    """A condition the program waits for, with its time limit and the alarm after it."""
 
     reason: str
     is_met: Callable[[CardState], bool]
     limit_s: float = inf
-    alarm: Kind | None = None  # None: go on after the limit
+    alarm: Kind | None = None  # None: continue after the limit
 
 
 Steps: TypeAlias = Generator[Until, None, None]
 
 
 def pause(seconds: float, reason: str) -> Until:
-    """Let time pass."""
+    """A wait for a given time."""
     return Until(reason, lambda _sample: False, seconds)
 
 
@@ -57,40 +57,40 @@ class Spindle:
 
     @property
     def is_on(self) -> bool:
-        """Whether it turns, or is told to."""
+        """Whether the spindle turns or is commanded to turn."""
         return self.state != OFF
 
     def volts(self) -> float:
-        """What the DAC is at, from the speed, the scaling and the override."""
+        """The voltage of the DAC, from speed, scaling and override."""
         if self.state == OFF:
             return 0.0
         volts = min(self.rpm * self._row.volts_per_rpm * self.override, FULL_VOLTS)
         return -volts if self.state == CCW and self._row.code & BIPOLAR else volts
 
     def write(self) -> None:
-        """Put the voltage on the DAC."""
+        """Write the voltage to the DAC."""
         if self._row.dac != NONE:
             self._io.machine.write(DAC_VALUE + DAC_STRIDE * self._row.dac, self.volts())
 
     def set_speed(self, rpm: float) -> None:
-        """A new S word; a running spindle follows at once, without handshake."""
+        """Set the speed (S word); a running spindle follows at once, without handshake."""
         self.rpm = rpm
         if self.state != OFF:
             self.write()
 
     def set_override(self, factor: float) -> None:
-        """A new spindle override."""
+        """Set the spindle override, 1 = as programmed."""
         before, self.override = self.override, factor
         if factor == before:
             return
         try:
             self.set_speed(self.rpm)
         except ConnectionLostError:
-            self.override = before  # so that it is written once more
+            self.override = before  # so that it is written again
             raise
 
     def start(self, direction: int, rpm: float) -> Steps:
-        """M3 or M4."""
+        """Start the spindle (M3 or M4)."""
         row, io = self._row, self._io
         if self.state not in (OFF, direction):
             yield from self.stop()
@@ -103,23 +103,23 @@ class Spindle:
             yield from self._level(row.at_speed, bool(row.code & SPEED_LEVEL), "spindle at speed")
 
     def stop(self, *, always_waits: bool = False) -> Steps:
-        """M5; a tool change waits for the stop in any case."""
+        """Stop the spindle (M5); a tool change always waits until it is at rest."""
         self.switch_off()
         row = self._row
         if row.code & WAITS_FOR_ZERO or always_waits:
             yield from self._level(row.at_zero, bool(row.code & ZERO_LEVEL), "spindle at rest")
 
     def switch_off(self) -> None:
-        """Off at once, as ABORT and E-stop do it."""
+        """Switch the spindle off at once, as ABORT and E-stop do."""
         try:
             self._io.output(self._row.off, True)
         finally:
-            self._let_go()
+            self._remove_drive()
 
-    def _let_go(self) -> None:
-        """Driven in no direction any more."""
+    def _remove_drive(self) -> None:
+        """Remove the drive in both directions."""
         self.state = OFF
-        try:  # first what the card does not answer: no lost reply keeps it from being sent
+        try:  # flags first: they have no reply whose loss could keep the rest from being sent
             self._io.output(self._row.cw, False)
             self._io.output(self._row.ccw, False)
         finally:
@@ -133,9 +133,9 @@ class Spindle:
             yield Until(reason, is_met, limit_s, alarms.SPINDLE_TIME_OUT)
 
     def orient(self) -> Steps:
-        """Turn to the fixed angle of fine boring and hold it there."""
+        """Orient the spindle to the fixed angle of fine boring and hold it there."""
         row, io = self._row, self._io
-        self._let_go()
+        self._remove_drive()
         io.output(row.orient, True)
         if io.has_input(row.oriented):
             yield from self._level(row.oriented, True, "spindle oriented")
@@ -148,14 +148,14 @@ class Spindle:
 
 
 class Coolant:
-    """M7, M8, M9."""
+    """Mist and flood coolant (M7, M8, M9)."""
 
     def __init__(self, io: MachineIo) -> None:
         self._io = io
         self.has_mist = self.has_flood = False
 
     def set(self, mist: bool, flood: bool) -> None:
-        """Switch both; the off output is on while neither runs after an M9."""
+        """Switch both; the coolant-off output is on while neither runs."""
         row = self._io.settings.spindle
         self._io.output(row.mist, mist)
         self._io.output(row.flood, flood)
@@ -164,16 +164,16 @@ class Coolant:
 
 
 class ToolChanger:
-    """M6: ask for a tool and wait until it is there."""
+    """Tool change (M6): requests a tool and waits until it is loaded."""
 
     def __init__(self, io: MachineIo, spindle: Spindle) -> None:
         self._io = io
         self._spindle = spindle
-        self.wants_confirmation = False  # nothing but a key tells that the tool is there
+        self.wants_confirmation = False  # no input reports the tool: a key confirms it
         self._is_confirmed = False
 
     def change(self, tool: int, old: int) -> Steps:
-        """Load a tool. The old one stays if the action is closed on the way."""
+        """Load a tool; it counts as loaded only when the action completes."""
         wiring, io = self._io.settings.wiring, self._io
         yield from self._spindle.stop(always_waits=True)
         io.machine.write(TOOL_REQUESTED, tool)
@@ -189,7 +189,7 @@ class ToolChanger:
         io.machine.write(TOOL_LOADED, tool)
 
     def confirm(self) -> None:
-        """The confirmation key: the tool that is waited for is there."""
+        """Confirm that the requested tool is loaded (confirmation key)."""
         self._is_confirmed = True
 
     def _wait(self, tool: int) -> Steps:

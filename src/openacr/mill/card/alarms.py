@@ -1,7 +1,7 @@
-"""The alarms of the machine: what can go wrong in a run, what it does, when it may be cleared.
+"""Alarms of the machine: causes, texts, effects and acknowledgement.
 
-An alarm stays until its cause is gone and somebody has acknowledged it; one that is active
-bars START. The text, the effect and the number of each stand in one row here.
+An alarm stays active until its cause is gone and the operator has acknowledged it; an active
+alarm bars START. Number, text and effect of each alarm are one row of the table here.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ NO_ALARM = 0
 
 
 class Effect(Enum):
-    """What an alarm does to the machine."""
+    """Effect of an alarm on the machine."""
 
     HOLD = "feed hold, the program is paused"
     ABORT = "the program ends as by ABORT"
@@ -27,10 +27,10 @@ class Effect(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """One row of the table."""
+    """One row of the alarm table."""
 
     code: int
-    text: str  # {} stands for the axis, message or detail
+    text: str  # {} is the axis, message or detail
     effect: Effect
 
 
@@ -89,7 +89,7 @@ def kind(code: int) -> Kind:
 
 
 class AlarmError(UserError):
-    """An action cannot go on; the runner raises the alarm and takes its effect."""
+    """Failure of an action; the runner raises the alarm and applies its effect."""
 
     def __init__(self, what: Kind, detail: object = "") -> None:
         super().__init__(f"alarm {what.code}: {what.text.format(detail)}")
@@ -99,7 +99,7 @@ class AlarmError(UserError):
 
 @dataclass(frozen=True, slots=True)
 class Alarm:
-    """One alarm as it happened."""
+    """One alarm as it was raised."""
 
     kind: Kind
     detail: str
@@ -107,20 +107,20 @@ class Alarm:
 
     @property
     def text(self) -> str:
-        """What the operator reads."""
+        """The text for the operator."""
         return self.kind.text.format(self.detail)
 
 
 class Alarms:
-    """The alarms that are active, the last code, and the log of all of them."""
+    """Active alarms, the last alarm code, and the log of all alarms."""
 
     def __init__(self, log: Path | None = None) -> None:
         self.history: list[Alarm] = []
         self._active: dict[tuple[int, str], Alarm] = {}
         self._log = log
 
-    def give(self, what: Kind, detail: object, at_s: float) -> Alarm:
-        """An alarm comes up; one that is up already stays as it is."""
+    def raise_alarm(self, what: Kind, detail: object, at_s: float) -> Alarm:
+        """Raise an alarm; one that is active already stays as it is."""
         key = (what.code, str(detail))
         if key not in self._active:
             alarm = self._active[key] = Alarm(what, str(detail), at_s)
@@ -128,37 +128,37 @@ class Alarms:
             self._note(alarm)
         return self._active[key]
 
-    def is_up(self, what: Kind, detail: object) -> bool:
-        """Whether this alarm has not been cleared yet."""
+    def is_active(self, what: Kind, detail: object) -> bool:
+        """Whether this alarm is active."""
         return (what.code, str(detail)) in self._active
 
     @property
     def active(self) -> list[Alarm]:
-        """What is up, oldest first."""
+        """The active alarms, oldest first."""
         return list(self._active.values())
 
     @property
     def last_code(self) -> int:
-        """The code of the youngest alarm ever given, 0 before the first."""
+        """The code of the latest alarm, 0 before the first."""
         return self.history[-1].kind.code if self.history else NO_ALARM
 
     @property
     def bars_start(self) -> bool:
-        """Whether an alarm is up that a start has to wait for."""
+        """Whether an active alarm bars a start."""
         return any(alarm.kind.effect is not Effect.NONE for alarm in self._active.values())
 
     def error(self, what: Kind, at_s: float) -> AlarmError:
-        """Give an alarm, and the error that tells of it."""
-        self.give(what, "", at_s)
+        """Raise an alarm, and return the error that reports it."""
+        self.raise_alarm(what, "", at_s)
         return AlarmError(what)
 
     def require_none(self) -> None:
-        """Refuse what has to wait until no alarm bars it."""
+        """Raise AlarmError while an active alarm bars a start."""
         if self.bars_start:
             raise AlarmError(self.active[0].kind, self.active[0].detail)
 
     def acknowledge(self, is_gone: Callable[[Alarm], bool]) -> list[Alarm]:
-        """Clear every alarm whose cause is gone; those that stay."""
+        """Clear every alarm whose cause is gone; returns those that stay."""
         self._active = {key: one for key, one in self._active.items() if not is_gone(one)}
         return self.active
 

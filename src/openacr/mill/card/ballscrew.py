@@ -1,8 +1,8 @@
-"""Ballscrew tables: files, tables made of measurements, and tables on the card.
+"""Ballscrew compensation tables: in files, computed from measurements, and on the card.
 
 An entry is the primary setpoint minus the mean of what was measured there: what has to be
-added to the setpoint so that the axis arrives. Positions count from the reference point, so
-none in a file is negative: what lies behind the reference point follows at the end, as if
+added to the setpoint so that the axis arrives. Positions count from the reference point and
+are never negative in a file: entries below the reference point follow at the end, as if
 the screw closed on itself (`wrapped`). Between entries the card interpolates linearly.
 """
 
@@ -42,7 +42,7 @@ class Table:
 
     @property
     def period_u(self) -> float:
-        """The way after which a wrapped table begins anew."""
+        """The distance after which a wrapped table repeats."""
         (first, _), (second, _), (last, _) = self.entries[0], self.entries[1], self.entries[-1]
         return last - first + (second - first)
 
@@ -52,10 +52,10 @@ class Table:
         return "\n".join([*lines, ""])
 
     def along(self, limits: tuple[float, float] | None) -> Entries:
-        """The entries where the axis meets them, some of them at negative positions.
+        """The entries at positions of the axis, some of them negative.
 
-        `limits` are the soft limits, the positive one first: entries beyond it are those behind
-        the reference point. Without limits nobody knows, and the table is there twice.
+        `limits` are the soft limits, the positive one first: entries beyond it belong below
+        the reference point. Without limits that is unknown, and the table is laid out twice.
         """
         if self.entries[0][0] < 0.0:
             return self.entries
@@ -63,8 +63,8 @@ class Table:
         if limits is None:
             return (*back, *self.entries)
         high = limits[0] + SAME_U
-        behind = [low for low, (p, _) in zip(back, self.entries, strict=True) if p > high]
-        return (*behind, *(entry for entry in self.entries if entry[0] <= high))
+        below = [low for low, (p, _) in zip(back, self.entries, strict=True) if p > high]
+        return (*below, *(entry for entry in self.entries if entry[0] <= high))
 
 
 def _short(value: float, decimals: int) -> str:
@@ -72,7 +72,7 @@ def _short(value: float, decimals: int) -> str:
 
 
 def _fixed(error: float) -> str:
-    """An error as the files write it: five digits behind the point, none before it."""
+    """An error as the files write it: five digits after the point, no zero before it."""
     text = f"{error:.{DECIMALS}f}"
     if abs(float(text) - error) > SAME_U / 10.0:
         text = _short(error, 9)
@@ -83,14 +83,14 @@ def _fixed(error: float) -> str:
 
 
 def read(path: Path, letter: str) -> Table:
-    """The table of an axis in a file."""
+    """Read the table of an axis from a file."""
     return parse(_content(path), letter, str(path))
 
 
 def _content(path: Path) -> str:
     try:
         if path.stat().st_size > MOST_BYTES:
-            raise UserError(f"{path}: larger than {MOST_BYTES} bytes: no table of an axis")
+            raise UserError(f"{path}: larger than {MOST_BYTES} bytes: not a table of an axis")
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise UserError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
@@ -99,7 +99,7 @@ def _content(path: Path) -> str:
 
 
 def parse(text: str, letter: str, name: str = "table") -> Table:
-    """The table of an axis in a text; the first line that is wrong is named."""
+    """Parse the table of an axis; UserError names the first wrong line."""
     entries: list[tuple[float, float]] = []
     for number, line in enumerate(text.translate(MINUS_SIGNS).splitlines(), 1):
         if not line.strip():
@@ -107,12 +107,12 @@ def parse(text: str, letter: str, name: str = "table") -> Table:
         found = LINE.fullmatch(line)
         where = f"{name}:{number}"
         if found is None:
-            raise UserError(f"{where}: {line.strip()[:40]!r} is no line like {letter}1E.00175")
+            raise UserError(f"{where}: {line.strip()[:40]!r} is not like {letter}1E.00175")
         if found[1].upper() != letter.upper():
             raise UserError(f"{where}: axis {found[1].upper()}, but the table is that of {letter}")
         position = float(found[2])
         if any(abs(position - other) < SAME_U for other, _ in entries):
-            raise UserError(f"{where}: position {position:g} is there twice")
+            raise UserError(f"{where}: position {position:g} occurs twice")
         entries.append((position, float(found[3])))
     if len(entries) < LEAST_ENTRIES:
         raise UserError(f"{name}: {len(entries)} entries; a table needs {LEAST_ENTRIES}")
@@ -123,11 +123,11 @@ def parse(text: str, letter: str, name: str = "table") -> Table:
 
 
 def measured(path: Path, letter: str, home_u: float) -> Table:
-    """A table from a file of measurements: lines of a position and what was measured there.
+    """Compute a table from a file of measurements: lines of a position and its measured values.
 
     Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with # and
-    a headline are left out. A position may have several measurements, in one line or in lines
-    of their own, and behind them their mean and the difference, as the guide prints them
+    a heading are skipped. A position may have several measurements, in one line or in separate
+    lines, followed by their mean and the difference, as the guide prints them
     (Appendix A). Positions are physical, `home_u` is the reference point.
     """
     rows: dict[float, list[float]] = {}
@@ -138,12 +138,12 @@ def measured(path: Path, letter: str, home_u: float) -> Table:
     if len(rows) < LEAST_ENTRIES:
         raise UserError(f"{path}: {len(rows)} positions; a table needs {LEAST_ENTRIES}")
     if not min(rows) <= home_u <= max(rows):
-        raise UserError(f"{path}: home {home_u:g} is not from {min(rows):g} to {max(rows):g}")
+        raise UserError(f"{path}: home {home_u:g} is not between {min(rows):g} and {max(rows):g}")
     return wrapped(letter, {n: errors(n, values) for n, values in rows.items()}, home_u)
 
 
 def _measurements(path: Path) -> list[tuple[str, list[float]]]:
-    """Place, and position with its measurements, of every line."""
+    """Location of each line in the file, and its position with the measurements."""
     found: list[tuple[str, list[float]]] = []
     has_results = False
     for number, line in enumerate(_content(path).translate(MINUS_SIGNS).splitlines(), 1):
@@ -195,7 +195,7 @@ def errors(setpoint_u: float, values: Iterable[float]) -> float:
 
 
 def wrapped(letter: str, physical: Mapping[float, float], home_u: float) -> Table:
-    """A table from physical positions; those before home follow at the end."""
+    """A table from physical positions; those below home follow at the end."""
     places = sorted(physical)
     table = Table(letter, tuple((place - home_u, physical[place]) for place in places))
     period = table.period_u
@@ -207,7 +207,7 @@ def wrapped(letter: str, physical: Mapping[float, float], home_u: float) -> Tabl
 
 
 def tables_of(store: Store, settings: Settings, folder: Path | None) -> dict[int, Table]:
-    """The tables the store has switched on; names of files are relative to its folder."""
+    """Read the tables enabled in the store; file names are relative to its folder."""
     found = {}
     for axis in settings.axes:
         if not store.read(OFFSETS.ballscrew_on[axis.index]):
@@ -221,7 +221,7 @@ def tables_of(store: Store, settings: Settings, folder: Path | None) -> dict[int
 
 
 def install(card: Card, settings: Settings, tables: Mapping[int, Table]) -> None:
-    """Bring the tables to the card; one acts where the reference point is known."""
+    """Load the tables into the card; a table acts only on a homed axis."""
     program = settings.master
     for axis in settings.axes:
         card.command(f"BSC CLEAR {axis.name}", program=program)
@@ -247,7 +247,7 @@ def install(card: Card, settings: Settings, tables: Mapping[int, Table]) -> None
 
 
 class Compensation:
-    """The tables on the card, on where the reference point is known and off elsewhere."""
+    """Switches the tables on the card: on for homed axes, off for the others."""
 
     def __init__(self, card: Card, settings: Settings, axes: Iterable[int]) -> None:
         self._card = card
@@ -255,7 +255,7 @@ class Compensation:
         self._axes = frozenset(axes)
 
     def renew(self) -> None:
-        """Switch each table as it has to be: an axis was homed, or a kill was taken back."""
+        """Switch every table by its axis: after homing, and after a kill is cleared."""
         for axis in self._settings.axes:
             if axis.index in self._axes:
                 state = "ON" if self._settings.is_homed(axis.index) else "OFF"
@@ -273,7 +273,7 @@ def _pulses(axis: AxisSettings, table: Table) -> Entries:
 
 
 def _segments(axis: AxisSettings, table: Table) -> Iterator[tuple[float, list[int]]]:
-    """Runs of equal spacing: how many pulses each is long, and its points in pulses."""
+    """Segments of equal spacing: the length of each and its points, in pulses."""
     entries = _pulses(axis, table)
     runs: list[list[int]] = []
     for k, ((a, _), (b, _)) in enumerate(pairwise(entries)):

@@ -1,4 +1,4 @@
-"""Refuses the cards a machine cannot be run on: too old, too small, or moving."""
+"""Checks that refuse an unsuitable card: firmware too old, too few axes, or in motion."""
 
 from openacr.client import Card
 from openacr.errors import UserError
@@ -12,7 +12,7 @@ OLDEST_FIRMWARE = 11800
 
 
 def check_firmware(card: Card) -> None:
-    """Refuse a card that is older than what the packets of moves need."""
+    """Refuse a card whose firmware is too old for move packets."""
     version = int(card.read(n.P_FIRMWARE_VERSION))
     if version < OLDEST_FIRMWARE:
         raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
@@ -27,9 +27,9 @@ def check_axes(model: Model, settings: Settings) -> None:
 
 
 def check_rest(card: Card, settings: Settings) -> None:
-    """Refuse a machine that moves: setting it up would break off what another program does."""
+    """Refuse a machine in motion: the set-up would interrupt another program."""
     words = [n.MF1_WORD + settings.master, *(n.AF1_WORD + axis.index for axis in settings.axes)]
     master, *axes = map(int, card.read_many(words))
     is_moving = master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED)
     if is_moving or any(word & n.AF1_JOG_ACTIVE for word in axes):
-        raise UserError("the machine moves: another program runs it; wait for its end or stop it")
+        raise UserError("the machine is moving: another program runs it; wait or stop it")

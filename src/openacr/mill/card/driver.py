@@ -1,4 +1,4 @@
-"""The card as a run sees it: one look at a time, and the few things it is told.
+"""Driver of the card for a run: polls its state and sends commands.
 
 Everything goes through the host interface - packets, flags, lines of text - so that the
 same run drives the virtual card and a real one.
@@ -21,7 +21,7 @@ from openacr.protocol.override import FeedrateOverride, RapidOverride
 from openacr.protocol.packets import Packet
 
 LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
-CLEAR_S = 2.0  # longest time the card takes to clear a kill
+CLEAR_S = 2.0  # longest time the card needs to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
@@ -37,7 +37,7 @@ FIRST_MODULE_FLAG = (n.XIOI_WORD - n.FLAG_WORD_BASE) * BITS_PER_WORD
 
 @dataclass(frozen=True, slots=True)
 class CardState:
-    """The state of the card at one moment."""
+    """Sampled state of the card."""
 
     clock_ms: int
     master: int  # flag word of the master
@@ -46,34 +46,34 @@ class CardState:
     drives: tuple[int, ...]  # quaternary flag words of the axes in use
     limits: tuple[int, ...]  # quinary flag words
     modules: tuple[int, ...] = ()  # inputs of the expansion modules
-    was_reset: bool = False  # the clock of the card has begun anew
+    was_reset: bool = False  # the clock of the card has restarted
     has_tripped: bool = False  # the watchdog has stopped the machine
     is_guarded: bool = True  # the watchdog runs, where there is one
-    may_have_lost: bool = False  # something that was sent: the connection is a new one
+    may_have_lost: bool = False  # sent packets: the connection is a new one
 
     @property
     def is_moving(self) -> bool:
-        """A move is active or waits, also while held."""
+        """Whether a move is active, buffered or held."""
         return bool(self.master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED))
 
     @property
     def is_held(self) -> bool:
-        """The feed hold has come to rest."""
+        """Whether the feed hold has come to rest."""
         return bool(self.master & n.MF1_IN_FEEDHOLD)
 
     @property
     def is_in_position(self) -> bool:
-        """All axes of the master are inside their in-position band."""
+        """Whether all axes of the master are inside their in-position band."""
         return not self.master & n.MF1_NOT_IN_POSITION
 
     @property
     def is_within_error(self) -> bool:
-        """All axes of the master are inside their following error band."""
+        """Whether all axes of the master are inside their following-error band."""
         return bool(self.master & n.MF1_NOT_EXCESS_ERROR)
 
     @property
     def is_killed(self) -> bool:
-        """Moves of the master, or all motion of an axis, were killed and are barred by that."""
+        """Whether moves of the master or all motion of an axis are killed, which bars motion."""
         axes = (word & n.AF4_KILL_ALL_MOTION_REQUEST for word in self.drives)
         return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST) or any(axes)
 
@@ -86,12 +86,12 @@ class CardState:
 
 
 def flag_of(word: int, mask: int) -> int:
-    """The number of the flag that is this bit of a flag word."""
+    """The flag number of one bit of a flag word."""
     return (word - n.FLAG_WORD_BASE) * BITS_PER_WORD + mask.bit_length() - 1
 
 
 class StepLostError(ConnectionLostError):
-    """The connection broke in something that the next look repeats."""
+    """Connection lost in an operation that the next poll repeats."""
 
 
 class MachineDriver:
@@ -105,17 +105,17 @@ class MachineDriver:
         self.card = card
         self.axes = tuple(axes)
         self.master = master
-        self.rounds_corners = rounds_corners  # knows path tolerances: a card of ours alone
+        self.rounds_corners = rounds_corners  # supports path tolerances: only our own card does
         self._passed_ms = 0
         self._clock_ms: int | None = None
         self.is_dropping = False  # moves are killed on purpose
-        self._clear_by_s: float | None = None  # a kill that stays for longer is not ours
+        self._clear_by_s: float | None = None  # a kill that lasts longer is not our own
         self._modules = 0
         self._watchdog: int | None = None
         self._connections = card.connections
-        self._has_told = False  # since the last look
-        self._has_lost = False  # packets, or what was being sent when a connection broke
-        self._barred = ""  # why nothing is sent to the card any more
+        self._has_sent = False  # since the last poll
+        self._has_lost = False  # packets that were being sent when a connection broke
+        self._barred = ""  # why nothing more is sent to the card
 
     # --- seeing -----------------------------------------------------------------------
 
@@ -134,21 +134,21 @@ class MachineDriver:
         return n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
 
     def watch_modules(self, count: int) -> None:
-        """Look at the inputs of so many expansion modules, too; before the first look."""
+        """Include the inputs of `count` expansion modules; call before the first poll."""
         self._modules = count
         self.__dict__.pop("_watched", None)
 
     def watch_program(self, program: int) -> None:
-        """Look at the watchdog in this program of the card, too."""
+        """Include the watchdog in this program of the card in the poll."""
         self._watchdog = program
         self.__dict__.pop("_watched", None)
 
     def poll(self) -> CardState:
-        """Ask the card how it stands."""
+        """Read the state of the card."""
         clock, master, counter, inputs, *words = map(int, self._read_many(self._watched))
         is_new = self.card.connections != self._connections
-        self._has_lost = self._has_lost or (is_new and self._has_told)
-        self._connections, self._has_told = self.card.connections, False
+        self._has_lost = self._has_lost or (is_new and self._has_sent)
+        self._connections, self._has_sent = self.card.connections, False
         step_ms = 0 if self._clock_ms is None else (clock - self._clock_ms) % CLOCK_PERIOD_MS
         was_reset = step_ms > CLOCK_PERIOD_MS // 2  # backwards
         self._passed_ms += 0 if was_reset else step_ms
@@ -174,7 +174,7 @@ class MachineDriver:
 
     @property
     def now_s(self) -> float:
-        """Card time since the first look, as of the last one."""
+        """Card time of the last poll, counted from the first."""
         return self._passed_ms / 1000.0
 
     def pause(self, seconds: float) -> None:
@@ -183,11 +183,11 @@ class MachineDriver:
 
     def read(self, parameter: int) -> float:
         """A parameter of the card."""
-        self._require_hold()
+        self._require_attached()
         return float(self.card.read(parameter))
 
     def _read_many(self, parameters: list[int]) -> list[Number]:
-        self._require_hold()
+        self._require_attached()
         return self.card.read_many(parameters)
 
     def axis_values(self, *offsets: int) -> list[int]:
@@ -200,26 +200,26 @@ class MachineDriver:
         """One flag word of all axes in use, e.g. `AF1_WORD`."""
         return [int(each) for each in self._read_many([word + axis for axis in self.axes])]
 
-    # --- telling ----------------------------------------------------------------------
+    # --- commanding ----------------------------------------------------------------------
 
-    def let_go(self, reason: str) -> None:
-        """Exchange nothing with the card any more: every attempt is a ConnectionLostError."""
+    def detach(self, reason: str) -> None:
+        """Stop all exchange with the card: every later attempt is a ConnectionLostError."""
         self._barred = reason
 
-    def _tell(self, *packets: Packet) -> None:
-        self._require_hold()
-        self._has_told = True
+    def _transmit(self, *packets: Packet) -> None:
+        self._require_attached()
+        self._has_sent = True
         self.card.tell(*packets)
 
-    def _require_hold(self) -> None:
+    def _require_attached(self) -> None:
         if self._barred:
             raise ConnectionLostError(f"{self.card.name}: {self._barred}")
 
     @contextmanager
     def repeating(self) -> Iterator[None]:
-        """What is sent in here is sent again where the connection breaks: StepLostError.
+        """Context whose packets the caller sends again if the connection breaks (StepLostError).
 
-        The looks behind it tell `may_have_lost`, as for packets, which have no answer.
+        Later polls then report `may_have_lost`, because packets have no answer.
         """
         try:
             yield
@@ -228,55 +228,55 @@ class MachineDriver:
             raise StepLostError(str(lost)) from lost
 
     def forget_losses(self) -> None:
-        """What may have been lost is being sent again, or is not wanted any more."""
+        """Clear `may_have_lost`: what was lost is sent again or no longer needed."""
         self._has_lost = False
 
     def send(self, moves: Iterable[Move]) -> None:
-        """Moves for the buffer of the master, on the connection of the last look alone.
+        """Send moves to the buffer of the master, only on the connection of the last poll.
 
-        On a newer one they could follow moves that were lost.
+        On a newer connection they could follow moves that were lost.
         """
         if self._has_lost or self.card.connections != self._connections:
-            raise ConnectionLostError(f"{self.card.name}: connected again since the last look")
-        self._tell(*moves)
+            raise ConnectionLostError(f"{self.card.name}: connected again since the last poll")
+        self._transmit(*moves)
 
     def write(self, parameter: int, value: float) -> None:
         """Set a parameter of the card."""
-        self._require_hold()
+        self._require_attached()
         self.card.write(parameter, value)
 
     def set_flag(self, number: int, on: bool) -> None:
         """Set or clear a flag."""
-        self._tell(SetBit(number) if on else ClearBit(number))
+        self._transmit(SetBit(number) if on else ClearBit(number))
 
     def _request(self, mask: int, on: bool = True) -> None:
         self.set_flag(flag_of(n.MF1_WORD + self.master, mask), on)
 
     def hold(self) -> None:
-        """Feed hold."""
+        """Request a feed hold."""
         self._request(n.MF1_FEEDHOLD_REQUEST)
 
     def go_on(self) -> None:
-        """Cycle start; a feed hold that the card has not looked at yet is taken back."""
+        """Request a cycle start; a feed hold that is still pending is withdrawn."""
         self._request(n.MF1_FEEDHOLD_REQUEST, False)
         self._request(n.MF1_CYCLE_START_REQUEST)
 
     def stop(self) -> None:
-        """Feed hold, then drop all moves."""
+        """Request a feed hold, after which all moves are dropped."""
         self.is_dropping = True
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
 
     def bar(self) -> None:
-        """Kill all moves at rest; requests that still wait on the card are taken back."""
+        """Bar moves at rest by killing them; pending requests are withdrawn."""
         self._request(n.MF1_KILL_ALL_MOVES_REQUEST)
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
         self._request(n.MF1_FEEDHOLD_REQUEST, False)
 
     def clear_kill(self) -> None:
-        """Let the master move again.
+        """Clear the kill of the moves of the master.
 
-        A stop or a feed hold that was requested while moves were killed already waits on the
-        card, and would act on the next moves: both are taken back first.
+        A stop or feed hold requested while moves were killed is still pending on the card and
+        would act on the next moves: both are withdrawn first.
         """
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
         self._request(n.MF1_FEEDHOLD_REQUEST, False)
@@ -289,14 +289,14 @@ class MachineDriver:
         self._set_kills(True)
 
     def disable(self) -> None:
-        """Ctrl-Z: kill all motion and switch all drives off, which DRIVE OFF refuses in motion."""
-        self._require_hold()
+        """Kill all motion and switch all drives off (Ctrl-Z; DRIVE OFF is refused in motion)."""
+        self._require_attached()
         self.card.kill_all(disable=True)
 
     def release(self) -> None:
-        """Take a kill back: axes and master may move again; drives stay as they are.
+        """Clear a kill so that axes and master may move; drives stay as they are.
 
-        The card ramps killed motion down as a jog; what it went becomes position.
+        The card ramps killed motion down as a jog; that distance becomes position.
         """
         self.fold_jogs()
         self._set_kills(False)
@@ -307,34 +307,34 @@ class MachineDriver:
         self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
 
     def clear_limits(self) -> None:
-        """Forget limits that were met; an axis that goes on into one meets it again."""
+        """Clear the latches of limits; an axis that still moves into one sets it again."""
         for latch in LIMIT_LATCHES:
             self._set_of_axes(n.AF5_WORD, latch, False)
 
     def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
-        """One flag of every axis in use, all in one go."""
+        """Set or clear one flag of every axis in use, all at once."""
         flags = (flag_of(word + axis, mask) for axis in self.axes)
-        self._tell(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
+        self._transmit(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
 
     def is_jogging(self) -> bool:
-        """Whether an axis in use is jogged, or ramps down behind a kill."""
+        """Whether an axis in use is jogged or ramps down after a kill."""
         return any(word & n.AF1_JOG_ACTIVE for word in self.axis_flags(n.AF1_WORD))
 
     def fold_jogs(self) -> None:
-        """Make positions of the jog offsets of all axes; at rest."""
+        """Convert the jog offsets of all axes into position; call at rest."""
         self.type(f"AXIS{axis} JOG RES" for axis in self.axes)
 
     def override(self, feed: float, rapid: float) -> None:
-        """Feed and rapid override, 1 = as programmed."""
-        self._tell(FeedrateOverride.of([self.master], feed))
-        self._tell(RapidOverride.of([self.master], rapid))
+        """Send feed and rapid override, 1 = as programmed."""
+        self._transmit(FeedrateOverride.of([self.master], feed))
+        self._transmit(RapidOverride.of([self.master], rapid))
 
     def reset_counter(self) -> None:
-        """Count the packets from zero again."""
+        """Reset the packet counter to zero."""
         self.write(self.counter, 0)
 
     def type(self, lines: Iterable[str]) -> None:
-        """Lines of text at the program of the master."""
-        self._require_hold()
+        """Send lines of text to the program of the master."""
+        self._require_attached()
         for line in lines:
             self.card.command(line, program=self.master)

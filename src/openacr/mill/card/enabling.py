@@ -1,13 +1,13 @@
-"""The outputs of a machine before it moves: drives enabled, inverted outputs put to rest."""
+"""Outputs before the first motion: drives enabled, inverted outputs set to their inactive level."""
 
 from openacr.cnc.occupied import OUTPUTS_AT_REST
 from openacr.mill.card.machine_io import MachineIo
 
 
 def enable_drives(io: MachineIo) -> None:
-    """Switch the drive enable output on, before the first motion after it was off.
+    """Switch the drive enable output on before motion, if it is off.
 
-    Axes may have been turned by hand meanwhile: they stay where they are (REN).
+    Axes may have been turned by hand meanwhile: their positions are taken over (REN).
     """
     number = io.settings.wiring.drive_enable
     if number not in io.outputs or io.is_on(number):
@@ -17,9 +17,9 @@ def enable_drives(io: MachineIo) -> None:
 
 
 def rest_outputs(io: MachineIo) -> None:
-    """Put inverted outputs to rest, once after the card came on.
+    """Set inverted outputs to their inactive level, once after power-on of the card.
 
-    All outputs are off then, so those that act while they are off act.
+    All outputs are off at power-on, so inverted outputs would be active.
     """
     machine = io.machine
     if machine.card.read_bit(OUTPUTS_AT_REST):

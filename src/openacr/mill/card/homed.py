@@ -1,8 +1,8 @@
-"""Which axes know their reference point, as long as the card has not lost its position.
+"""Record of homed axes, kept in the store and on the card.
 
-The store remembers it between runs of the host; a user flag of the card for each axis, which
-is off when its power comes on, tells whether that is still true. Variables would not do:
-cards with a battery keep them, and count from 0 all the same.
+The store keeps the record between runs of the host. A user flag of the card for each axis,
+off at power-on, shows whether it still holds. Variables would not do: cards with a battery
+keep them although their positions start from 0.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from openacr.mill.config.settings import HOMED, Settings, Store
 
 
 def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: None) -> None:
-    """At the start: what the card has forgotten counts no more, and the operator is told."""
+    """Drop axes that the card no longer knows as homed, and report them to the operator."""
     flags = card.read_bits(range(FIRST_HOMED, FIRST_HOMED + HOMED_AXES))
     known = sum(1 << axis for axis, is_homed in enumerate(flags) if is_homed)
     mask = int(store.read(HOMED))
@@ -23,27 +23,27 @@ def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: N
         store.write(HOMED, mask & known)
         names = [axis.name for axis in Settings(store).axes if mask & ~known & 1 << axis.index]
         say(
-            f"axis {' '.join(names)} is not homed any more: the card was switched off or reset,"
+            f"axis {' '.join(names)} is no longer homed: the card was switched off or reset,"
             " and positions count from where it was switched on"
         )
 
 
 def note(io: MachineIo, axis: int, homed: bool) -> None:
-    """The reference point of an axis is known, or not any more."""
+    """Record that the reference point of an axis is known, or no longer known."""
     if not homed:
-        soft_limits.open_way(io, axis)
+        soft_limits.disable(io, axis)
     io.settings.mark_homed(axis, homed)
     io.machine.set_flag(FIRST_HOMED + axis, homed)
 
 
 def forget(io: MachineIo) -> None:
-    """The card was reset: no axis knows its reference point."""
+    """Mark all axes as not homed: the card was reset."""
     for axis in io.settings.axes:
         note(io, axis.index, False)
 
 
 def lose(io: MachineIo, name: str) -> None:
-    """An axis has lost its position, so also its reference point."""
+    """Mark an axis that has lost its position as not homed."""
     for axis in io.settings.axes:
         if axis.name == name:
             note(io, axis.index, False)

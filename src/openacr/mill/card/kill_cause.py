@@ -1,7 +1,7 @@
-"""Why all motion was killed, kept on the card for the next program until the kill is taken back.
+"""Cause of a kill of all motion, kept on the card until the kill is cleared.
 
-The inputs may have changed since: an emergency stop that was released is still what killed.
-Causes of a single axis need no memory, the card keeps their flags.
+The inputs may have changed since: a released emergency stop is still the cause.
+Causes of a single axis are not stored: the card keeps their flags.
 """
 
 from openacr.cnc.occupied import KILL_CAUSE
@@ -14,21 +14,21 @@ KEPT = {kind.code: kind for kind in (alarms.EMERGENCY_STOP, alarms.NO_REST)}
 
 
 def cause_of(io: MachineIo, sample: CardState) -> Kind | None:
-    """Why all motion is killed, or may not begin, to any program; None if it is not known."""
+    """The cause that all motion is killed or barred; None if unknown."""
     if io.is_in(sample, io.settings.wiring.emergency_stop):
         return alarms.EMERGENCY_STOP
     return KEPT.get(int(io.machine.read(KILL_CAUSE))) if sample.is_killed else None
 
 
 class Killed:
-    """What a kill is called that this program has not made."""
+    """Classifies a kill that this program has not requested."""
 
     def __init__(self, machine: MachineDriver) -> None:
         self._machine = machine
-        self._found: Kind | None = None  # None before the first look
+        self._found: Kind | None = None  # None before the first poll
 
     def kind(self, sample: CardState) -> Kind:
-        """The cause of a kill that was there at the first look; any later one is another's."""
+        """The alarm of a kill: its stored cause if present at the first poll, else alarm 14."""
         if self._found is None:
             code = int(self._machine.read(KILL_CAUSE))
             self._found = KEPT.get(code, alarms.MOVES_KILLED)
@@ -37,11 +37,11 @@ class Killed:
         return self._found
 
     def note(self, kind: Kind) -> None:
-        """Keep why all motion was killed here."""
+        """Store the cause of a kill requested here."""
         if kind in KEPT.values():
             self._machine.write(KILL_CAUSE, kind.code)
 
     def forget(self) -> None:
-        """The kill is taken back, or was by others."""
+        """Clear the stored cause: the kill was cleared, here or by another host."""
         self._machine.write(KILL_CAUSE, alarms.NO_ALARM)
         self._found = alarms.MOVES_KILLED

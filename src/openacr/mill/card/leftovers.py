@@ -1,4 +1,4 @@
-"""What a program that is gone has left on the machine: held moves, outputs that are on."""
+"""Cleanup after a program that ended without its shutdown: held moves, outputs that are on."""
 
 from collections.abc import Callable
 
@@ -11,23 +11,23 @@ from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.card.watchdog import left_text
 from openacr.mill.config.settings import NONE, Settings
 
-LIMIT_S = 5.0  # to drop moves that are held
+LIMIT_S = 5.0  # for dropping held moves
 
 
 def has_tripped(card: Card) -> bool:
-    """Whether the watchdog has stopped the machine, and nobody has acknowledged it."""
+    """Whether the watchdog has stopped the machine and this is not acknowledged."""
     return card.read_bit(TRIPPED)
 
 
 def machine_of(card: Card, settings: Settings) -> MachineDriver:
-    """The axes of the machine on this card."""
+    """The driver for the axes of the machine on this card."""
     return MachineDriver(card, [axis.index for axis in settings.axes], settings.master)
 
 
 def tidy(card: Card, settings: Settings, say: Callable[[str], None], *, was_left: bool) -> None:
-    """At the start: say what a program that is gone has left, and switch it off.
+    """Report and switch off what an earlier program left on; called before the set-up.
 
-    A machine that still moves is left alone, with its outputs.
+    A machine that still moves is left unchanged, with its outputs.
     """
     is_tripped = has_tripped(card)
     if not is_tripped and not was_left:
@@ -38,19 +38,19 @@ def tidy(card: Card, settings: Settings, say: Callable[[str], None], *, was_left
         say(f"the watchdog has stopped the machine: {text}")
     sample = machine.poll()
     if sample.is_moving and sample.is_held:
-        say("moves of a program that is gone are dropped")
+        say("held moves of an earlier program are dropped")
         machine.stop()
         if not card.wait(lambda: not machine.poll().is_moving, timeout_s=LIMIT_S):
-            raise UserError("moves of a program that is gone cannot be dropped: openacr mill stop")
+            raise UserError("held moves of an earlier program stay: use openacr mill stop")
         machine.clear_kill()
     elif sample.is_moving or machine.is_jogging():
-        return  # refused by the check that follows
+        return  # `check_rest` refuses it
     for text in switch_off(card, settings):
-        say(f"left on by a program that is gone, switched off: {text}")
+        say(f"left on by an earlier program, switched off: {text}")
 
 
 def switch_off(card: Card, settings: Settings) -> list[str]:
-    """Spindle, coolant and beam off; what was on."""
+    """Switch spindle, coolant and beam off; returns what was on."""
     io = MachineIo(machine_of(card, settings), settings)
     levels = io.safe_levels()
     before = card.read_bits([number for number, _ in levels])

@@ -1,7 +1,7 @@
-"""Inputs and outputs of the machine by the numbers of the store: inversion, and none at all.
+"""Inputs and outputs of the machine by their numbers in the store, with inversion.
 
 A number is that of the flag on the card: 0 to 31 and 32 to 63 on the card itself, 256 to 287
-and 288 to 319 on the first expansion module, 64 more on each one behind it.
+and 288 to 319 on the first expansion module, 64 more on each further one.
 """
 
 from collections.abc import Iterator
@@ -9,13 +9,13 @@ from collections.abc import Iterator
 from openacr.mill.card.driver import CardState, MachineDriver
 from openacr.mill.config.settings import Settings
 
-FIRST_OUTPUT, BEHIND_OUTPUTS = 32, 64
-INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, BEHIND_OUTPUTS)
+FIRST_OUTPUT, END_OUTPUTS = 32, 64
+INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, END_OUTPUTS)
 FIRST_EXPANSION, EXPANSION_FLAGS = 256, 64  # of each module: 32 inputs, then 32 outputs
 
 
 class MachineIo:
-    """What is wired to the card, and what was switched last."""
+    """Inputs and outputs of one machine, with the last commanded state of each output."""
 
     def __init__(self, machine: MachineDriver, settings: Settings) -> None:
         self.machine = machine
@@ -28,19 +28,19 @@ class MachineIo:
         self._inverted_in = {n for n in self.inputs if settings.is_input_inverted(n)}
 
     def output(self, number: int, on: bool) -> None:
-        """Switch an output; a number that is none does nothing."""
+        """Switch an output; a number that is not configured is ignored."""
         if number not in self.outputs:
             return
         self._out[number] = on
         self.machine.set_flag(number, on != self.settings.is_output_inverted(number))
 
     def renew(self) -> None:
-        """Switch every output once more as it was switched last."""
+        """Send the last commanded state of every output again."""
         for number, on in self._out.items():
             self.output(number, on)
 
     def safe_levels(self) -> list[tuple[int, bool]]:
-        """The outputs of spindle, coolant and beam, with their levels while all of it is off."""
+        """The outputs of spindle, coolant and beam, with their levels when switched off."""
         row, burning = self.settings.spindle, self.settings.burning
         ons = (row.cw, row.ccw, row.mist, row.flood, burning.plasma, burning.under_burn)
         off = [(number, False) for number in ons] + [(row.off, True), (row.coolant_off, True)]
@@ -51,16 +51,16 @@ class MachineIo:
         ]
 
     def is_on(self, number: int) -> bool:
-        """Whether an output acts, as the card has it."""
+        """Whether an output is active on the card."""
         bit = self.machine.card.read_bit(number)
         return bit != self.settings.is_output_inverted(number)
 
     def is_out(self, number: int) -> bool:
-        """Whether an output was switched on here."""
+        """Whether an output was last commanded on."""
         return self._out.get(number, False)
 
     def has_input(self, number: int) -> bool:
-        """Whether there is an input of this number."""
+        """Whether this input exists."""
         return number in self.inputs
 
     def is_inverted(self, number: int) -> bool:
@@ -68,7 +68,7 @@ class MachineIo:
         return number in self._inverted_in
 
     def is_in(self, sample: CardState, number: int) -> bool:
-        """Whether an input is active; one that is not there is not."""
+        """Whether an input is active; False if it does not exist."""
         return self.has_input(number) and sample.input(number) != (number in self._inverted_in)
 
     def is_key_turned(self, sample: CardState) -> bool:

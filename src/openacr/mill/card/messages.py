@@ -1,4 +1,4 @@
-"""User messages: texts of the store that are shown while an input, output or flag has a state."""
+"""User messages: texts shown while an input, output or flag has a given state."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from openacr.sysvar import Store as SysvarStore
 from openacr.sysvar.tabs import MESSAGES
 
 MOST = len(MESSAGES.defined)
-LOOK_S = 0.05
+POLL_S = 0.05
 WHITE, RED, LETTERS, LONGEST = 15, 4, 40, 132
 
 
@@ -29,7 +29,7 @@ class Message:
 
     @property
     def shown(self) -> str:
-        """The text in the length the record allows."""
+        """The text cut to the length set in the record."""
         return self.text[: self.size]
 
 
@@ -58,10 +58,10 @@ def free_number(store: Store) -> int:
 
 
 def define(store: SysvarStore, message: Message) -> None:
-    """Keep a message in the store."""
+    """Write a message to the store."""
     _require_number(message.number)
     if message.bit < 0:
-        raise UserError(f"bit {message.bit}: a message needs an input, output or flag from 0 on")
+        raise UserError(f"bit {message.bit}: a message needs an input, output or flag, 0 or higher")
     n = message.number
     store.write(MESSAGES.defined[n], 1)
     store.write(MESSAGES.bit[n], message.bit)
@@ -74,7 +74,7 @@ def define(store: SysvarStore, message: Message) -> None:
 
 
 def remove(store: Store, number: int) -> None:
-    """Forget a message."""
+    """Delete a message from the store."""
     _require_number(number)
     if not store.read(MESSAGES.defined[number]):
         raise UserError(f"message {number} is not defined")
@@ -88,7 +88,7 @@ def _require_number(number: int) -> None:
 
 @dataclass(slots=True)
 class Showing:
-    """A message that was shown; `until_s` stays None while it is."""
+    """One display of a message; `until_s` is None while it is shown."""
 
     message: Message
     at_s: float
@@ -97,7 +97,7 @@ class Showing:
 
 @dataclass(slots=True)
 class Messages:
-    """Watches the bits of all messages of a machine, in card time."""
+    """Polls the bits of all messages of a machine, in card time."""
 
     io: MachineIo
     defined: Sequence[Message]
@@ -108,14 +108,14 @@ class Messages:
 
     @property
     def shown(self) -> list[Message]:
-        """What is shown now, in the order of the numbers."""
+        """The messages shown now, by number."""
         return [self._shown[number].message for number in sorted(self._shown)]
 
-    def keep(self, now_s: float) -> None:
-        """Look at the bits when it is time to."""
+    def poll(self, now_s: float) -> None:
+        """Read the bits if the poll period has passed."""
         if not self.defined or now_s < self._due_s:
             return
-        self._due_s = now_s + LOOK_S
+        self._due_s = now_s + POLL_S
         states = self.io.machine.card.read_bits([each.bit for each in self.defined])
         for message, state in zip(self.defined, states, strict=True):
             is_on = (state != self._is_inverted(message.bit)) == message.is_shown_on
@@ -128,7 +128,7 @@ class Messages:
                 self.changed(message, False)
 
     def _is_inverted(self, bit: int) -> bool:
-        """Inputs and outputs count as the store inverts them."""
+        """Whether the store inverts an input or output."""
         settings = self.io.settings
         if self.io.has_input(bit):
             return settings.is_input_inverted(bit)

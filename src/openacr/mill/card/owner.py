@@ -1,10 +1,10 @@
-"""One program at a time drives a machine.
+"""Ownership of a machine: one program at a time drives it.
 
 Programs of one store are kept apart by a lock beside it, which ends with its process. For
-those of other stores and computers the card has a variable that its owner counts on as long
-as it runs: one that does not change was left by a program that is gone. It is taken by one
-line that compares and writes, which the card executes whole, and read back after a while:
-of two hosts that begin together only one finds its own number.
+those of other stores and computers the owner increments a variable of the card while it runs: a
+value that does not change was left by a program that has ended. Ownership is claimed by one
+line that compares and writes, which the card executes atomically, and read back after a delay:
+of two hosts that start together only one reads its own number.
 """
 
 from pathlib import Path
@@ -17,12 +17,12 @@ from openacr.locks import FileLock
 from openacr.sysvar.driven import machine_lock
 
 BEAT_S, LISTEN_S, SETTLE_S = 0.5, 1.6, 0.1
-TAKEN = "another program drives this machine: wait for its end, or end it"
+TAKEN = "another program drives this machine: wait until it ends, or end it"
 BEATS, OWNERS = 1 << 10, 1 << 20  # a value is owner * BEATS + beat: 30 bits
 
 
 class Owner:
-    """The ownership of a machine, until `release`; refused while another program has it."""
+    """Ownership of a machine until `release`; UserError while another program has it."""
 
     def __init__(
         self, card: Card, store: Path | None, *, program: int = 0, listen_s: float = LISTEN_S
@@ -34,8 +34,8 @@ class Owner:
         self._due_s = 0.0
         self._lock = None if store is None else FileLock(machine_lock(store), TAKEN)
         try:
-            self.found = self._require_silence(listen_s)  # left by a program that is gone
-            self._take()
+            self.found = self._require_silence(listen_s)  # left by a program that has ended
+            self._claim()
         except BaseException:
             self._unlock()
             raise
@@ -48,7 +48,7 @@ class Owner:
                 raise UserError(TAKEN)
         return before
 
-    def _take(self) -> None:
+    def _claim(self) -> None:
         self._exchange(self.found, self._value)
         self._card.pause(SETTLE_S)  # longer than the card takes between compare and write
         if not self.is_ours():
@@ -66,25 +66,23 @@ class Owner:
         self._card.command(line, program=self._program)
 
     def is_ours(self) -> bool:
-        """Whether no other program has taken the machine meanwhile."""
+        """Whether this program still owns the machine."""
         return self._read() // BEATS == self._number
 
-    def keep(self, now_s: float) -> bool:
-        """Count on when it is time to; False when another program has taken the machine."""
+    def beat(self, now_s: float) -> bool:
+        """Increment the heartbeat when due; False when another program has taken the machine."""
         if now_s < self._due_s:
             return True
         self._due_s = now_s + BEAT_S
         before = self._read()
         if before and before // BEATS != self._number:
             return False
-        self._beat += (
-            1  # 0 is not of another program: the card was reset, which the next look tells
-        )
+        self._beat += 1  # 0 is no other owner: the card was reset, which the next poll reports
         self._exchange(before, self._value)
         return True
 
     def release(self, *, left: int = 0) -> None:
-        """Let others have the machine; `left` is what is left in the variable."""
+        """Give up the machine; `left` is the final value of the variable."""
         try:
             before = self._read()
             if before // BEATS == self._number:
@@ -93,7 +91,7 @@ class Owner:
             self._unlock()
 
     def forget(self) -> None:
-        """Let others of this store have it, without a word to the card."""
+        """Release the lock of the store without sending anything to the card."""
         self._unlock()
 
     def _unlock(self) -> None:

@@ -1,4 +1,4 @@
-"""Whether the card is in reach: how long it has been silent, on the clock of the link."""
+"""Reachability of the card: how long it has not answered, by the clock of the link."""
 
 from openacr.client import Card
 
@@ -7,7 +7,7 @@ MOST_LOSSES = 8  # of a link that comes and goes, until it is given up
 
 
 class Reach:
-    """The link to one card, as far as its answers tell."""
+    """State of the link to one card, judged by its answers."""
 
     def __init__(self, card: Card, timeout_s: float) -> None:
         self._card = card
@@ -17,12 +17,12 @@ class Reach:
         self.is_lost = False
 
     def answer(self) -> None:
-        """The card has answered."""
+        """Record an answer of the card."""
         self._answered_s = self._card.now_s()
         self.is_lost = False
 
     def lose(self) -> bool:
-        """It did not answer, so that something may not have been done; whether that is new."""
+        """Record a missing answer; returns whether the link was up before."""
         is_new = not self.is_lost
         self._losses += is_new
         self.is_lost = True
@@ -30,12 +30,12 @@ class Reach:
 
     @property
     def is_overdue(self) -> bool:
-        """Whether it has been silent for longer than the link timeout."""
+        """Whether the card has been silent for longer than the link timeout."""
         return self._card.now_s() - self._answered_s > self._timeout_s
 
     @property
     def is_given_up(self) -> bool:
-        """Whether it is not to be asked again."""
+        """Whether the card is given up: nothing is sent to it again."""
         silent_s = self._card.now_s() - self._answered_s
         is_gone = self.is_lost and silent_s > PATIENCE * self._timeout_s
         return is_gone or self._losses >= MOST_LOSSES

@@ -1,4 +1,4 @@
-"""The lines that make a card fit the machine: sent before a run, never anything that moves.
+"""Set-up of a card for the machine: commands sent before a run, none of which causes motion.
 
 Axis order, axis index and slave index are the same, so that X, Y and Z are slaves 0, 1, 2:
 arc packets know only those. Drives are left as they are.
@@ -28,7 +28,7 @@ GAIN_WORDS = (
     "FBVEL",
 )
 DAC_GAIN = 3276.8  # counts per volt
-NO_TEST_U = 1e9  # a band nothing leaves
+NO_TEST_U = 1e9  # a band that is never exceeded
 USER_VARIABLES = 100
 MOVES = 200  # moves the card holds, where its memory allows
 MOVES_WITHOUT_MEMORY = 10
@@ -60,7 +60,7 @@ def prepare(
 
 
 def user_variables(card: Card) -> None:
-    """P0 to P99 of the card, where it has none or fewer."""
+    """Dimension P0 to P99 of the card if it has fewer."""
     try:
         card.ask(f"P{USER_VARIABLES - 1}")
     except RefusedError:
@@ -69,7 +69,7 @@ def user_variables(card: Card) -> None:
 
 
 def _buffer(card: Card, program: int) -> int:
-    """The longest buffer that fits: first with memory of the program, else the card's own."""
+    """Dimension the longest move buffer that fits; returns its depth in moves."""
     depth = MOVES_WITHOUT_MEMORY
     try:
         card.command(f"DIM MBUF({MOVES})", program=program)
@@ -84,7 +84,7 @@ def _buffer(card: Card, program: int) -> int:
 
 
 def lines(settings: Settings) -> Iterator[str]:
-    """The set-up of one program with its master, its axes and its servo loops."""
+    """The set-up commands of one program: master, axes and servo loops."""
     master = settings.master
     yield "DETACH"
     yield f"ATTACH MASTER{master}"
@@ -116,18 +116,18 @@ def _axis(axis: AxisSettings) -> Iterator[str]:
     yield f"{word} JOG ACC {_number(axis.jog_acc_ups2)}"
     yield f"{word} JOG DEC {_number(axis.jog_dec_ups2)}"
     yield f"{word} ON"
-    yield f"{word} JOG RES"  # a jog that nobody made position: its host was lost
+    yield f"{word} JOG RES"  # a jog offset left by a host that was lost
 
 
 def _spindle(settings: Settings) -> Iterator[str]:
-    """The DAC of the spindle is its alone: the axis of the same number would write to it, too."""
+    """Switch off the axis with the number of the spindle DAC: it would also write to that DAC."""
     dac = settings.spindle.dac
     if 0 <= dac < AXES and all(axis.index != dac for axis in settings.axes):
         yield f"AXIS{dac} OFF"
 
 
 def _modes(settings: Settings) -> Iterator[str]:
-    """Rapid modes and spirals on, kills stay until they are cleared, the speed limit."""
+    """Enable rapid modes and spirals, latch kills until cleared, set the speed limit."""
     base = MODE_FLAGS + FLAGS_PER_MASTER * settings.master
     yield f"SET {base + RAPID_MODES}"
     yield f"SET {base + SPIRAL}"

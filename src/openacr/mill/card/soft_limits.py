@@ -1,8 +1,8 @@
-"""Soft limits on the card: a second barrier, should the host send an axis beyond its limits.
+"""Soft limits on the card: a second barrier in case the host sends an axis beyond its limits.
 
-The host tests every move and jog before it is sent. The card (SLM) stops what gets past that,
+The host checks every move and jog before sending it. The card (SLM) stops what passes that check
 one pulse beyond the limit, so that a move exactly to the limit does not meet it. As on the
-host, the limits act on homed axes alone, and not while the maintenance key is turned.
+host, the limits act only on homed axes, and not while the maintenance key is turned.
 """
 
 from collections.abc import Iterable, Iterator
@@ -21,7 +21,7 @@ ENABLED = ENABLES[0] | ENABLES[1]
 
 
 def lines(axis: AxisSettings, dec_ups2: float) -> Iterator[str]:
-    """The limits of one axis and the ramp of a stop at them; they do not act yet."""
+    """Commands that set the limits of one axis and their stop ramp, without enabling them."""
     word = f"AXIS{axis.index}"
     yield f"{word} SLIM 0"
     if axis.soft_limits is None:
@@ -32,18 +32,18 @@ def lines(axis: AxisSettings, dec_ups2: float) -> Iterator[str]:
     yield f"{word} SLDEC {number_text(dec_ups2)}"
 
 
-def keep(io: MachineIo, sample: CardState) -> None:
-    """Let the limits of exactly those axes act that have some, are homed, and need the key."""
+def update(io: MachineIo, sample: CardState) -> None:
+    """Enable the limits of homed axes that have limits, unless the maintenance key is turned."""
     settings, is_turned = io.settings, io.is_key_turned(sample)
     for axis, word in zip(settings.axes, sample.limits, strict=True):
         is_limited = axis.soft_limits is not None and settings.is_homed(axis.index)
-        wanted = ENABLED if is_limited and not is_turned else 0
-        if word & ENABLED != wanted:
-            _switch(io, axis.index, bool(wanted))
+        required = ENABLED if is_limited and not is_turned else 0
+        if word & ENABLED != required:
+            _switch(io, axis.index, bool(required))
 
 
-def open_way(io: MachineIo, axis: int) -> None:
-    """Switch the limits of an axis off at once: its position counts no more."""
+def disable(io: MachineIo, axis: int) -> None:
+    """Disable the limits of an axis at once: its position is no longer valid."""
     _switch(io, axis, False)
 
 
@@ -53,7 +53,7 @@ def _switch(io: MachineIo, axis: int, on: bool) -> None:
 
 
 def found(card: Card, settings: Settings) -> list[str]:
-    """The lines that give the axes back the limits they have now."""
+    """Read the present limits as the commands that restore them."""
     program = settings.master
     return [
         f"AXIS{axis.index} {word} {_value(card, f'AXIS{axis.index} {word}', program)}"
@@ -68,6 +68,6 @@ def _value(card: Card, query: str, program: int) -> str:
 
 
 def restore(card: Card, settings: Settings, found_lines: Iterable[str]) -> None:
-    """Give the axes back the limits that were found before the set-up."""
+    """Restore the limits found before the set-up."""
     for line in found_lines:
         card.command(line, program=settings.master)

@@ -1,4 +1,4 @@
-"""Stops a machine whoever drives it: everything off, moves and jogs to rest, then barred."""
+"""Stop of a machine that any program may drive: outputs off, all motion to rest, then barred."""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -14,18 +14,18 @@ from openacr.mill.config.settings import Settings
 
 @dataclass(frozen=True, slots=True)
 class Stopped:
-    """What a stop has found and done."""
+    """Result of a stop."""
 
-    found: list[str]  # was on
-    rests: bool  # without losing its drives
-    cause: Kind | None  # why all motion had been killed before, where that is known
+    found: list[str]  # outputs that were on
+    rests: bool  # at rest without switching the drives off
+    cause: Kind | None  # of an earlier kill of all motion, where known
 
 
 def stop_all(card: Card, settings: Settings) -> Stopped:
-    """Bring the machine to rest with everything off.
+    """Stop the machine and switch spindle, coolant and beam off.
 
-    Needs no ownership. Moves stay killed, so that a host that still runs ends its program
-    and nothing moves before an acknowledgement.
+    Ownership is not required. Moves stay killed, so that a host that still runs ends its
+    program, and nothing moves before an acknowledgement.
     """
     machine = machine_of(card, settings)
     machine.hold()

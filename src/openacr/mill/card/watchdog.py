@@ -1,9 +1,9 @@
-"""The watchdog: a program on the card that stops the machine when its host is lost.
+"""Watchdog: a program on the card that stops the machine when its host is lost.
 
-The host counts in a variable of the card. When that has not changed for the link timeout the
-card itself sets feed hold, stops jogs, and switches spindle, coolant and beam off, again and
-again until the flag it sets is cleared by an acknowledgement. It is plain AcroBASIC in one of
-the programs 0 to 7, which have time slices of their own.
+The host increments a variable of the card. When that has not changed for the link timeout the
+card sets feed hold, stops jogs, and switches spindle, coolant and beam off, repeatedly until
+an acknowledgement clears its flag. It is plain AcroBASIC in one of the programs 0 to 7, which
+have time slices of their own.
 """
 
 from collections.abc import Iterator
@@ -24,11 +24,11 @@ TEXT_LENGTH = 80
 PROGRAM_CELL = CONTROL.watchdog_program
 NO_WATCHDOG = (
     f"no watchdog on the card (P{PROGRAM_CELL} is -1): if this host or its link is lost, the"
-    " machine ends the moves it has, and spindle, coolant and beam stay on"
+    " machine completes the moves it has, and spindle, coolant and beam stay on"
 )
 FLAGS_PER_MASTER, FEED_HOLD_REQUEST = 32, 520
 MS_PER_S = 1000
-PERIOD_S = 0.1  # its program has gone round once
+PERIOD_S = 0.1  # longest cycle of its program
 
 
 class Watchdog:
@@ -42,16 +42,16 @@ class Watchdog:
         if self.program == self._settings.master:
             raise UserError(
                 f"P{PROGRAM_CELL} {self.program}: the watchdog cannot be the program of the"
-                " master; 0 to 7 is allowed, -1 for none"
+                " master; allowed are 0 to 7, -1 for none"
             )
 
     def install(self) -> None:
-        """Store it and let it run; UserError where its program is in use or has no memory."""
+        """Store and start the watchdog; UserError where its program is in use or has no memory."""
         self._require_free_program()
         self._type("HALT", "NEW", "CLEAR")
         try:
             self._store()
-        except RefusedError:  # a card with dimensioned programs, and none for this one
+        except RefusedError:  # programs are dimensioned, but not this one
             self._dimension()
         self._type("RUN")
         self._card.pause(PERIOD_S)
@@ -59,19 +59,19 @@ class Watchdog:
             raise UserError(f"the watchdog does not run in program {self.program} of the card")
 
     def remove(self) -> None:
-        """Halt and erase it."""
+        """Halt and erase the watchdog."""
         self._type("HALT", "NEW", "CLEAR")
 
     def rearm(self) -> None:
-        """Watch again, after it has stopped the machine or was halted."""
+        """Restart the watchdog after it has stopped the machine or was halted."""
         self._io.machine.set_flag(TRIPPED, False)
-        self._card.pause(PERIOD_S)  # it may be setting its feed hold once more just now
+        self._card.pause(PERIOD_S)  # it may just be setting its feed hold again
         if not self.is_running:
             self.install()
 
     @property
     def is_running(self) -> bool:
-        """Whether its program runs."""
+        """Whether the watchdog program runs."""
         flags = int(self._card.read(n.PF_WORD + self.program))
         return bool(flags & n.PF_PROGRAM_RUNNING)
 
@@ -84,7 +84,7 @@ class Watchdog:
             )
 
     def _dimension(self) -> None:
-        """Give the program memory, and store it once more; what had room before is erased."""
+        """Dimension memory for the program and store it again."""
         self._type("NEW")
         try:
             self._card.command("SYS")
@@ -94,7 +94,7 @@ class Watchdog:
             self._type("NEW")
             raise UserError(
                 f"no memory for the watchdog on the card: {refused}; free {MEMORY_BYTES} bytes"
-                f" for program {self.program}, or do without it (P{PROGRAM_CELL} = -1)"
+                f" for program {self.program}, or disable it (P{PROGRAM_CELL} = -1)"
             ) from None
 
     def _store(self) -> None:
@@ -108,9 +108,9 @@ class Watchdog:
     # --- the program ------------------------------------------------------------------
 
     def lines(self) -> list[str]:
-        """Its lines; the first one has the number 10, each next one 10 more."""
+        """The program lines, without their numbers 10, 20, 30 ..."""
         timeout_s = self._settings.link_timeout_s
-        first, wait, trip = 50, 70, 150  # numbers of the lines that are gone to
+        first, wait, trip = 50, 70, 150  # line numbers that are jumped to
         clock = f"P{n.P_GLOBAL_SYSTEM_CLOCK}"
         begin = [
             NAME,
@@ -132,7 +132,7 @@ class Watchdog:
         return [*begin, *self._stop(), *end]
 
     def _stop(self) -> Iterator[str]:
-        """Feed hold and jogs to rest, then spindle, coolant and beam off."""
+        """Commands for feed hold, jogs off, then spindle, coolant and beam off."""
         settings = self._settings
         yield f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * settings.master}"
         for axis in settings.axes:
@@ -144,7 +144,7 @@ class Watchdog:
 
 
 def left_text(card: Card, program: int) -> str:
-    """What a watchdog that has stopped the machine left to be read; empty if there is nothing."""
+    """The message left by a watchdog that has stopped the machine; empty if there is none."""
     try:
         return " ".join(card.command("?$V0", program=program)).strip()
     except RefusedError:

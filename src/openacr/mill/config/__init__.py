@@ -1,1 +1,1 @@
-"""What the store says about the machine: axes, wiring, speeds, formats, languages."""
+"""Machine configuration read from the store: axes, wiring, speeds, formats, languages."""

@@ -1,4 +1,4 @@
-"""The serial line of part programs: drip feed and LINK, as the COMMUNICATIONS tab says."""
+"""Serial line for part programs (drip feed and LINK), configured by the COMMUNICATIONS tab."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +17,7 @@ PART, SILENCE_S = ".part", 3.0
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """How characters travel."""
+    """Parameters of the serial line."""
 
     port: str
     baud: int
@@ -28,7 +28,7 @@ class Line:
 
     @classmethod
     def of(cls, store: Store, port: str = "") -> "Line":
-        """What the store says now; `port` for another one than it names."""
+        """Parameters of the store as they are now; `port` overrides the port of the store."""
 
         def number(n: int) -> int:
             return int(store.read(n))
@@ -43,13 +43,15 @@ class Line:
         )
 
     def open(self, wait_s: float = 0.0) -> serial.SerialBase:
-        """The port; reading waits so long at most. UserError when it cannot be had.
+        """Open the port with a read time-out of `wait_s`; UserError when it cannot be opened.
 
-        With RTS/CTS the driver takes the signals down when its buffer is full; XON and XOFF
-        are sent by whoever reads.
+        With RTS/CTS the driver clears the signals when its buffer is full; XON and XOFF
+        are sent by the caller that reads.
         """
         if not self.port:
-            raise UserError(f"no serial port is set: P{COMMUNICATIONS.port}, or name one")
+            raise UserError(
+                f"no serial port is configured: set P{COMMUNICATIONS.port}, or name a port"
+            )
         try:
             return serial.serial_for_url(
                 self.port,
@@ -66,9 +68,9 @@ class Line:
 
 
 def receive(port: serial.SerialBase, target: Path, silence_s: float = SILENCE_S) -> int:
-    """LINK: store a part program that is sent as a file; its size in bytes.
+    """Store a part program that is sent as a file (LINK); returns its size in bytes.
 
-    It ends with Ctrl-Z, or when nothing comes any more. The file is there when all of it is.
+    It ends with Ctrl-Z, or when nothing more arrives. The file appears only when complete.
     """
     data = bytearray()
     try:
@@ -77,7 +79,7 @@ def receive(port: serial.SerialBase, target: Path, silence_s: float = SILENCE_S)
             if not more and data:
                 break
             if not more:
-                raise UserError(f"nothing was sent to {port.port}")
+                raise UserError(f"nothing was received on {port.port}")
             data += more
             port.timeout = silence_s
     except (serial.SerialException, OSError) as failure:

@@ -1,4 +1,4 @@
-"""Which language a part program is written in: an option, the file, the store, or its signs."""
+"""Choice of the part-program language: by option, by the file, by the store, or by its features."""
 
 import re
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ BY_WORDS = {
     "store": f"Dialect (P{COMPATIBILITY.dialect})",
 }
 HEAD_LINES = 10
-HEAD_BYTES = 1 << 18  # where signs are looked for
+HEAD_BYTES = 1 << 18  # searched for features of a dialect
 _MARK = re.compile(r"\s*[;(]\s*dialect\s+(\w+)", re.IGNORECASE)
 
 
@@ -34,34 +34,34 @@ class Choice:
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether the signs of the file point to another dialect."""
+        """Whether the features of the file point to another dialect."""
         return self.likely != self.name and bool(self.reasons)
 
     @property
-    def is_worth_saying(self) -> bool:
-        """Whether signs chose another than the usual one, or the store another than they."""
+    def is_worth_reporting(self) -> bool:
+        """Whether to report the choice: unusual, or from the store and contradicted by the file."""
         if self.by == "signs":
             return self.name != ACROMILL
         return self.by == "store" and self.is_doubtful
 
     @property
     def text(self) -> str:
-        """What was chosen and why, and how to choose otherwise, as one line."""
+        """The choice, its reason, and how to choose otherwise, as one line."""
         why = ", ".join(self.reasons)
         if self.by == "signs":
             if not why:
                 return f"dialect {self.name}: nothing in the file points to another one"
-            return f"dialect {self.name} by its signs: {why} (--dialect chooses another)"
-        chosen = f"dialect {self.name} as {BY_WORDS[self.by]}"
+            return f"dialect {self.name} by its features: {why} (--dialect chooses another)"
+        chosen = f"dialect {self.name}, set by {BY_WORDS[self.by]}"
         if not self.is_doubtful:
-            return f"{chosen} says"
-        return f"{chosen} says, but it looks like {self.likely}: {why} (--dialect {self.likely})"
+            return chosen
+        return f"{chosen}, but it looks like {self.likely}: {why} (--dialect {self.likely})"
 
 
 def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice:
-    """The dialect: `wanted`, a `;dialect NAME` in the first lines, P700005, or the likely one.
+    """Choose the dialect: `wanted`, a `;dialect NAME` near the top, P700005, or the likely one.
 
-    `wanted` "auto" leaves the store out. Without a file nothing is likely: `acromill`.
+    `wanted` "auto" ignores the store. Without a file the dialect is `acromill`.
     """
     lines = _head(file) if file else []
     found = likely(lines, int(cells.read(CONTROL.ij_inversion)))
@@ -85,12 +85,12 @@ def dialect_of(file: Path | None, cells: Cells, wanted: str | None = None) -> st
 
 def _known(name: str) -> str:
     if name.lower() not in DIALECTS:
-        raise UserError(f"dialect {name}: known are {', '.join(DIALECTS)} and {AUTO}")
+        raise UserError(f"unknown dialect {name}: choose one of {', '.join(DIALECTS)} or {AUTO}")
     return name.lower()
 
 
 def _head(file: Path) -> list[str]:
-    """The first lines of a file, whole ones."""
+    """The complete lines at the start of a file."""
     with file.open("rb") as opened:
         data = opened.read(HEAD_BYTES)
     lines = data.decode("latin-1").splitlines()

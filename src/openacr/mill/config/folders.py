@@ -1,4 +1,4 @@
-"""Where the files of a machine lie: its own M codes beside the store, the library of parts."""
+"""Folders of a machine: its own M codes beside the store, the library of parts."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Feed, rapid and spindle override: the click of a switch, and what it means in percent."""
+"""Feed, rapid and spindle override: switch positions (clicks) and their percentages."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,21 +41,21 @@ class Overrides:
         }
 
     def factor(self, which: Override) -> float:
-        """What the present click means."""
+        """The factor of the present click; 1 is 100 percent."""
         switch = self._switches[which]
         return switch.table[switch.click] / 100.0
 
     def choose(self, which: Override, click: int) -> None:
-        """Set the click on the screen; refused where a switch on the panel sets it."""
+        """Set the click on the screen; refused where a panel switch sets it."""
         switch = self._switches[which]
         if switch.first_input != NONE:
-            raise UserError(f"{which.name} override is set by the switch on the panel")
+            raise UserError(f"{which.name} override is set by its switch on the panel")
         if not 0 <= click < CLICKS:
-            raise UserError(f"click {click}: 0..{CLICKS - 1} are there")
+            raise UserError(f"click {click}: allowed are 0..{CLICKS - 1}")
         switch.click = click
 
     def read(self, is_on: Callable[[int], bool]) -> None:
-        """Take the click of each switch from its four inputs, lowest bit first."""
+        """Read the click of each switch from its four inputs, lowest bit first."""
         for switch in self._switches.values():
             if switch.first_input != NONE:
                 bits = (is_on(switch.first_input + bit) << bit for bit in range(SWITCH_INPUTS))

@@ -1,4 +1,4 @@
-"""P PARM: the variables an operator may see and change - P0..P99 on the card, P100..P199 here."""
+"""Operator variables of the P PARM screen: P0..P99 on the card, P100..P199 in the store."""
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
@@ -9,7 +9,7 @@ ON_CARD, LAST = range(100), 199
 
 
 class OperatorParameters:
-    """Reads and writes them where they live; every reading is the value of that moment."""
+    """Reads and writes operator variables on the card or in the store; nothing is cached."""
 
     def __init__(self, store: Store, card: Card | None = None) -> None:
         self._store = store
@@ -36,14 +36,17 @@ class OperatorParameters:
 
     def _at(self, n: int) -> Card:
         if self._card is None:
-            raise UserError(f"P{n} is on the card: say which one with --host")
+            raise UserError(f"P{n} is on the card: name the card with --host")
         return self._card
 
     def _offered(self, n: int) -> int:
         if not 0 <= n <= LAST:
-            raise UserError(f"P{n} is none of P0 to P{LAST} (`openacr sysvar` has the others)")
+            raise UserError(
+                f"P{n} is not an operator variable: P0 to P{LAST} are"
+                " (`openacr sysvar` has the others)"
+            )
         return n
 
 
 def _undimensioned(n: int) -> UserError:
-    return UserError(f"P{n}: the card has no such variable (DIM P({len(ON_CARD)}) makes it)")
+    return UserError(f"P{n}: the card has no such variable (DIM P({len(ON_CARD)}) creates it)")

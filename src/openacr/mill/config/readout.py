@@ -1,4 +1,4 @@
-"""Positions as the operator reads them, in the formats of the DISPLAY tab."""
+"""Positions formatted for the operator, in the formats of the DISPLAY tab."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,19 +14,19 @@ SIGN_AND_POINT = 2
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """How many digits stand left and right of the point."""
+    """Numbers of digits left and right of the decimal point."""
 
     left: int
     right: int
 
     @classmethod
     def of(cls, value: float) -> "Format":
-        """The format a cell holds as digits.digits: 3.4 is three and four."""
+        """The format encoded in a cell as digits.digits: 3.4 is three and four."""
         tenths = round(10.0 * value)
         return cls(tenths // 10, tenths % 10)
 
     def text(self, value: float) -> str:
-        """A number of this width; one with more digits is shown whole, never cut."""
+        """A number padded to this format; one with more digits is shown whole, never cut."""
         width = self.left + self.right + SIGN_AND_POINT
         shown = f"{value:.{self.right}f}"
         if float(shown) == 0.0:
@@ -58,5 +58,5 @@ class Readout:
         return self.format(axis, is_metric=unit).text(value_u)
 
     def line(self, axes: Sequence[int], place: Sequence[float]) -> str:
-        """Several axes beside each other."""
+        """The positions of several axes on one line."""
         return " ".join(f"{self._names[axis]}{self.text(axis, place[axis])}" for axis in axes)

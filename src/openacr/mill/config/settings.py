@@ -1,4 +1,4 @@
-"""What the system parameters of the store say about the machine, as the runner needs it.
+"""Machine settings: the system parameters of the store, converted for the runner.
 
 Feeds are per minute in the store and per second here.
 """
@@ -137,7 +137,7 @@ class Settings:
         return self._store.read(n)
 
     def home(self, a: int) -> HomeSettings:
-        """How axis `a` is homed."""
+        """The home settings of axis `a`."""
         return HomeSettings(
             is_negative=bool(self._int(HOME.direction[a])),
             preset_u=self._real(HOME.preset[a]),
@@ -221,7 +221,7 @@ class Settings:
 
     @property
     def rest_s(self) -> float:
-        """How long the machine may take to come to rest: twice its longest ramp, and a little."""
+        """Longest time to come to rest: twice the longest ramp plus a margin."""
         speeds = self.speeds
         ramps = [each for each in (speeds.rapid_acc_ups2, speeds.feed_acc_ups2) if each > 0.0]
         ramp_s = speeds.max_ups / min(ramps) if ramps else 0.0
@@ -229,9 +229,9 @@ class Settings:
 
     @property
     def buffered_s(self) -> float:
-        """Motion that may wait on the card: what a lost host has sent must not go on for long.
+        """Longest motion buffered on the card: without its host it must soon stop.
 
-        It is longer than the link timeout, so that the watchdog holds a path before it ends.
+        It is longer than the link timeout, so that the watchdog holds the path before it ends.
         """
         return self.link_timeout_s + BUFFERED_S
 
@@ -267,14 +267,14 @@ class Settings:
         for one in self.axes:
             if one.name == name:
                 return one
-        raise UserError(f"axis {name} is not configured: {' '.join(self.names())} are")
+        raise UserError(f"axis {name} is not configured; configured are {' '.join(self.names())}")
 
     def is_homed(self, axis: int) -> bool:
         """Whether the reference point of an axis is known."""
         return bool(int(self._store.read(HOMED)) >> axis & 1)
 
     def mark_homed(self, axis: int, homed: bool) -> None:
-        """Note that the reference point of an axis is known, or not any more."""
+        """Record that the reference point of an axis is known, or no longer known."""
         before = int(self._store.read(HOMED))
         self._store.write(HOMED, before | 1 << axis if homed else before & ~(1 << axis))
 

@@ -1,7 +1,7 @@
-"""What a machine is like: the tabs of the system parameters as rows of values.
+"""Records of machine settings, one for each tab of the system parameters.
 
-Speeds are per second here and per minute in the store; inputs and outputs are -1 where there
-is none. `settings` fills the rows.
+Speeds are per second here and per minute in the store; inputs and outputs are -1 where not
+configured. `settings` fills the records.
 """
 
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class AxisSettings:
 
 @dataclass(frozen=True, slots=True)
 class HomeSettings:
-    """How one axis finds its reference point."""
+    """Settings of one axis for finding its reference point."""
 
     is_negative: bool
     preset_u: float
@@ -58,7 +58,7 @@ class HomeSettings:
 
 @dataclass(frozen=True, slots=True)
 class Speeds:
-    """The SPEEDS tab and what CONTROL says about corners."""
+    """The SPEEDS tab and the corner angles of the CONTROL tab."""
 
     max_ups: float
     trial_ups: float
@@ -79,7 +79,7 @@ class Speeds:
 
 @dataclass(frozen=True, slots=True)
 class SpindleSettings:
-    """The SPINDLE tab; inputs, outputs and the DAC are -1 where there is none."""
+    """The SPINDLE tab; inputs, outputs and the DAC are -1 where not configured."""
 
     code: int
     volts_per_rpm: float
@@ -118,7 +118,7 @@ class Wiring:
     probe: int
     is_probe_trailing: bool
     is_probe_software: bool
-    is_probe_on_each: bool  # on the capture input of every axis, not of one
+    is_probe_on_each: bool  # wired to the capture input of every axis, not of one
     probe_back_ups: float
     is_probe_checked: bool
     reference_s: float
@@ -130,7 +130,7 @@ class Wiring:
 
 @dataclass(frozen=True, slots=True)
 class Burning:
-    """Outputs of burning machines, -1 where there is none."""
+    """Outputs of burning machines, -1 where not configured."""
 
     plasma: int
     plasma_percent: float

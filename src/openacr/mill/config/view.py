@@ -1,4 +1,4 @@
-"""How tool paths are drawn: colours and directions of the DISPLAY, TOOL and CONTROL tabs."""
+"""View of a tool path: colours and directions of the DISPLAY, TOOL and CONTROL tabs."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ LIGHT_GREEN = 10
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """Colours are numbers of `COLORS`; flips and exchange act on the drawing alone."""
+    """View settings; colours are indices of `COLORS`, flips affect only the drawing."""
 
     has_tool_colors: bool = False
     path_color: int = LIGHT_GREEN
@@ -30,7 +30,7 @@ class View:
 
     @classmethod
     def of(cls, store: Store, tools: Iterable[int], *, by_tool: bool = False) -> "View":
-        """What the store says; `by_tool` asks for the colours of tools in any case."""
+        """The view configured in the store; `by_tool` forces a colour for each tool."""
         return cls(
             has_tool_colors=by_tool or bool(store.read(DISPLAY.color_via_d_codes)),
             path_color=int(store.read(CONTROL.path_color)),
@@ -41,15 +41,15 @@ class View:
         )
 
     def color(self, tool: int) -> str:
-        """The colour of a path that is cut with a tool."""
+        """The colour of a path cut with a tool."""
         number = self.tool_colors.get(tool, tool) if self.has_tool_colors else self.path_color
         return COLORS[number % len(COLORS)]
 
     @property
     def matrix(self) -> npt.NDArray[np.float64]:
-        """From the axes of the machine to those of the screen: seen = points @ matrix.
+        """Matrix from machine axes to screen axes: seen = points @ matrix.
 
-        Flips turn axes of the machine round; then X and Y change places.
+        Flips reverse machine axes; then X and Y are exchanged.
         """
         flips = np.diag([-1.0 if self.flips_x else 1.0, -1.0 if self.flips_y else 1.0, 1.0])
         return flips[:, [1, 0, 2]] if self.exchanges else flips

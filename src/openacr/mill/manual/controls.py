@@ -1,7 +1,7 @@
-"""Who holds which axis: keys of screens, a joystick, anything that jogs while it is held.
+"""Jog controls held by operators: screen keys, a joystick, any control that jogs while held.
 
-A control moves its axis until it is released, or until the one who holds it is not heard
-of any more: whoever is at the other end of a link says so several times a second.
+A control moves its axis until it is released, or until its holder is silent: a holder at the
+other end of a link renews its hold several times a second.
 """
 
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import NONE
 from openacr.mill.manual.jogging import Jogging
 
-SILENCE_S = 0.5  # longest time without a word from somebody who holds a control
+SILENCE_S = 0.5  # longest time between renewals of a held control
 JOYSTICK = "joystick"
 STICK = ((0, 1), (0, -1), (1, 1), (1, -1))  # axis of the machine and direction of each input
 
@@ -23,53 +23,53 @@ Jog = Callable[[Callable[[Jogging], object]], None]
 
 @dataclass(slots=True)
 class _Grip:
-    """One control in somebody's hand."""
+    """A held control."""
 
     direction: int
     until_s: float
 
 
 class Controls:
-    """The controls of one machine that are held now."""
+    """The held controls of one machine."""
 
     def __init__(self, io: MachineIo, jogging: Jogging, jog: Jog) -> None:
         self._io = io
         self._jogging = jogging
         self._jog = jog
-        self._grips: dict[tuple[str, int], _Grip] = {}  # by who holds it, and axis
-        self._stick: list[bool] | None = None  # the inputs at the last look
+        self._grips: dict[tuple[str, int], _Grip] = {}  # by holder and axis
+        self._stick: list[bool] | None = None  # the inputs at the last poll
 
-    def press(self, who: str, axis: int, direction: int, *, fast: bool = False) -> None:
-        """`who` holds the plus or minus control of an axis; to be repeated or renewed."""
-        grip = self._grips.get((who, axis))
+    def press(self, holder: str, axis: int, direction: int, *, fast: bool = False) -> None:
+        """Hold the plus or minus control of an axis; to be repeated or renewed."""
+        grip = self._grips.get((holder, axis))
         if grip is None or grip.direction != direction:
             self._jog(lambda jogging: jogging.hold(axis, direction, fast=fast))
-        self._grips[who, axis] = _Grip(direction, self._io.machine.now_s + SILENCE_S)
+        self._grips[holder, axis] = _Grip(direction, self._io.machine.now_s + SILENCE_S)
 
-    def renew(self, who: str) -> None:
-        """`who` is still there."""
+    def renew(self, holder: str) -> None:
+        """Renew all holds of one holder."""
         for (one, _), grip in self._grips.items():
-            if one == who:
+            if one == holder:
                 grip.until_s = self._io.machine.now_s + SILENCE_S
 
-    def release(self, who: str, axis: int) -> None:
-        """`who` lets a control go; one that is not held is none."""
-        if self._grips.pop((who, axis), None) is not None:
+    def release(self, holder: str, axis: int) -> None:
+        """Release a control; one that is not held is ignored."""
+        if self._grips.pop((holder, axis), None) is not None:
             self._jogging.release(axis)
 
-    def drop(self, who: str) -> None:
-        """`who` is gone, and with him every control he held."""
+    def drop(self, holder: str) -> None:
+        """Release every control of a holder that has gone."""
         for one, axis in list(self._grips):
-            if one == who:
+            if one == holder:
                 self.release(one, axis)
 
-    def keep(self, sample: CardState) -> None:
-        """Read the joystick, and let go what nobody is heard of."""
+    def poll(self, sample: CardState) -> None:
+        """Read the joystick, and release controls holderse holder is silent."""
         self._read_stick(sample)
         now_s = self._io.machine.now_s
-        for (who, axis), grip in list(self._grips.items()):
+        for (holder, axis), grip in list(self._grips.items()):
             if now_s > grip.until_s:
-                self.release(who, axis)
+                self.release(holder, axis)
 
     # --- joystick ---------------------------------------------------------------------
 
@@ -88,16 +88,16 @@ class Controls:
             if is_on:
                 self._push(axis, direction)
             else:
-                self._let_go(axis, direction)
+                self._release_stick(axis, direction)
 
     def _push(self, axis: int, direction: int) -> None:
         try:
             self.press(JOYSTICK, axis, direction)
         except UserError:
-            return  # it may not move now: the stick has no effect
+            return  # the axis may not move now: the stick has no effect
         self._grips[JOYSTICK, axis].until_s = inf
 
-    def _let_go(self, axis: int, direction: int) -> None:
+    def _release_stick(self, axis: int, direction: int) -> None:
         grip = self._grips.get((JOYSTICK, axis))
         if grip is not None and grip.direction == direction:
             self.release(JOYSTICK, axis)

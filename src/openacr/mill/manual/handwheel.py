@@ -1,9 +1,9 @@
-"""The hand wheel: a pulse generator whose clicks move the chosen axes.
+"""Hand wheel: a pulse generator whose clicks move the selected axes.
 
-At every look the way turned since the last one is added to the target of each chosen axis,
-which follows as a jog, at the jog speed and at most to its soft limit. What is turned beyond
-a limit is lost, so that turning back moves the axis at once. When the wheel is let go of,
-the way becomes position.
+At every poll the distance turned since the last one is added to the target of each selected axis,
+which follows as a jog, at the jog speed and at most to its soft limit. Turns beyond
+a limit are discarded, so that turning back moves the axis at once. When the wheel is released,
+the distance becomes position.
 """
 
 from collections.abc import Iterable
@@ -24,7 +24,7 @@ WRAP = 1 << 32
 
 @dataclass(slots=True)
 class _Follower:
-    """One axis that follows its wheel."""
+    """An axis that follows its wheel."""
 
     row: AxisSettings
     encoder: int
@@ -49,19 +49,19 @@ class HandWheel:
         return [one.row.index for one in self._followers]
 
     def select(self, axes: Iterable[int]) -> None:
-        """These axes follow the wheel, and no others, until `leave`.
+        """Select the axes that follow the wheel until `leave`; no others do.
 
-        Refused as a whole when one of them has no wheel, or may not move.
+        UserError or AlarmError, with no change, if one of them has no wheel or may not move.
         """
         self._followers = [self._follower(axis) for axis in axes]
         self._is_left = False
 
     def leave(self) -> None:
-        """The wheel has no effect any more; the axes arrive where it has sent them."""
+        """Disconnect the wheel; the axes still move to their targets."""
         self._is_left = True
 
     def follow(self) -> Steps:
-        """As long as axes are chosen; at the end all is at rest and position."""
+        """Follow the wheel until `leave`, then settle all axes at rest."""
         yield Until("hand wheel", lambda _sample: self._is_left or self._turned())
         self._followers = []
         yield from self._jogging.settle()
@@ -80,7 +80,7 @@ class HandWheel:
         return int(self._machine.read(n.ENC_BASE + encoder * n.ENC_STRIDE))
 
     def _turned(self) -> bool:
-        """Send every axis on by what its wheel was turned; never the end of it."""
+        """Move every axis by the turn of its wheel; always False, so that the wait continues."""
         for one in self._followers:
             now = self._counts(one.encoder)
             path = (now - one.counts + WRAP // 2) % WRAP - WRAP // 2

@@ -1,7 +1,7 @@
-"""Finding the reference point of axes: switch, release, marker, back to the marker.
+"""Homing of axes: to the switch, off it, to the encoder marker, back to the marker.
 
-Every axis goes its own way through the same steps; those of one priority go together. An
-axis that does not get there stays un-homed and gives alarm 34.
+Every axis runs through the same steps independently; axes of one priority run at once. An
+axis that fails stays un-homed and raises alarm 34.
 
 The axis moves as a jog, whose ramps and speeds belong to homing for that time only. At the
 end the jog offset is folded into the position and the position is set to Home Preset.
@@ -25,14 +25,14 @@ from openacr.mill.config.tabs import AxisSettings, HomeSettings
 
 FIRST_MARKER = 0  # INTCAP mode: rising edge of the marker of the axis' own encoder
 TRAVEL_SHARE, TRAVEL_U = 1.1, 1000.0
-BEYOND_SHARE = 1.05  # of the longest travel an axis is sent
-STALLED_MS = 3000  # an axis that is told to move and does not
+BEYOND_SHARE = 1.05  # of the longest travel: the distance an axis is sent
+STALLED_MS = 3000  # longest standstill of an axis that is commanded to move
 
 Condition: TypeAlias = Callable[[CardState], bool]
 
 
 def groups(io: MachineIo, axes: Iterable[int]) -> Iterator[list[int]]:
-    """The chosen axes by ascending priority; priority 0 is left out."""
+    """Group axes by ascending priority; priority 0 is left out."""
     priority = {axis: io.settings.home(axis).priority for axis in axes}
     chosen = sorted((axis for axis in priority if priority[axis] > 0), key=priority.__getitem__)
     for _, group in groupby(chosen, priority.__getitem__):
@@ -40,22 +40,22 @@ def groups(io: MachineIo, axes: Iterable[int]) -> Iterator[list[int]]:
 
 
 class _Side:
-    """One of several actions that go on side by side."""
+    """One of several actions that run in parallel."""
 
     def __init__(self, path: Steps) -> None:
         self.path = path
         self.until = next(path, None)
 
     def advance(self, sample: CardState) -> bool:
-        """Go on as far as the card lets it; whether it is done."""
+        """Run the action until it has to wait; returns whether it has ended."""
         while self.until is not None and self.until.is_met(sample):
             self.until = next(self.path, None)
         return self.until is None
 
 
-def together(distances: Iterable[Steps], reason: str) -> Steps:
-    """Several actions side by side, done when all of them are."""
-    sides = [_Side(path) for path in distances]
+def together(actions: Iterable[Steps], reason: str) -> Steps:
+    """Run several actions in parallel, until all of them have ended."""
+    sides = [_Side(path) for path in actions]
     try:
         yield Until(reason, lambda sample: not sum(not side.advance(sample) for side in sides))
     finally:
@@ -65,7 +65,7 @@ def together(distances: Iterable[Steps], reason: str) -> Steps:
 
 
 class Axis:
-    """One axis on its way to the reference point."""
+    """Homing of one axis."""
 
     def __init__(self, io: MachineIo, axis: AxisSettings) -> None:
         self._machine = io.machine
@@ -75,20 +75,20 @@ class Axis:
 
     @property
     def outlook(self) -> str:
-        """Where the axis is going to go, for whoever stands beside it."""
-        path, sign = BEYOND_SHARE * self._longest_u(), "-" if self._row.is_negative else "+"
+        """Announcement of the direction and longest travel, for the operator."""
+        distance_u, sign = BEYOND_SHARE * self._longest_u(), "-" if self._row.is_negative else "+"
         switch = f"its switch at input {self._row.switch_input}"
-        return f"{self._axis.name}: {sign} to {switch}, at most {path:g} units"
+        return f"{self._axis.name}: {sign} to {switch}, at most {distance_u:g} units"
 
     def home(self) -> Steps:
-        """All steps; the axis is at rest and its position is known at the end."""
+        """Home the axis: at the end it is at rest and its position is set."""
         if not self._io.has_input(self._row.switch_input):
-            raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no switch input")
+            raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no switch input configured")
         self._ramps(self._row.acc_ups2, self._row.dec_ups2)
         try:
             yield from self._switch()
             yield from self._marker()
-        except BaseException:  # broken off: by STOP, ABORT, or because nothing was found
+        except BaseException:  # cancelled by STOP or ABORT, or failed
             try:
                 self._ramps(self._row.acc_ups2, self._row.stp_ups2)
             finally:
@@ -125,14 +125,14 @@ class Axis:
         self._type(f"JOG INC {self._axis.name}{number_text(back_u)}")
         yield self._rest()
 
-    # --- pieces -----------------------------------------------------------------------
+    # --- helpers -----------------------------------------------------------------------
 
     def _until(self, what: str, *, is_on: bool) -> Until:
         number = self._row.switch_input
         return self._supervised(what, lambda sample: self._io.is_in(sample, number) == is_on)
 
     def _supervised(self, what: str, is_met: Condition) -> Until:
-        """A condition that has to come within the longest travel, and while the axis moves."""
+        """A wait for a condition, limited to the longest travel and to a moving axis."""
         start = last = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
         longest = self._longest_u() * self._axis.pulses_per_unit
         moved_ms: int | None = None
@@ -148,14 +148,15 @@ class Axis:
                 last, moved_ms = actual, sample.clock_ms
             elif sample.clock_ms - moved_ms > STALLED_MS:
                 raise AlarmError(
-                    alarms.HOMING_FAILED, f"{self._axis.name}: it does not move (is its drive on?)"
+                    alarms.HOMING_FAILED,
+                    f"{self._axis.name}: no motion (is its drive on?)",
                 )
             return False
 
         return Until(f"homing {self._axis.name}: {what}", check, inf)
 
     def _is_barred(self, sample: CardState) -> bool:
-        """The card has stopped the axis, at a limit or by a kill."""
+        """Whether the card has stopped the axis, at a limit or by a kill."""
         word = sample.drives[self._machine.axes.index(self._axis.index)]
         return bool(word & n.AF4_KILL_ALL_MOTION_REQUEST)
 
@@ -175,8 +176,8 @@ class Axis:
     def _jog(self, speed_ups: float) -> None:
         """Jog at a signed speed; 0 ramps down.
 
-        The way is little more than the longest travel: the axis stops by itself when the
-        host or the link to it is lost.
+        The distance is slightly more than the longest travel: the axis stops by itself when
+        the host or the link is lost.
         """
         name = self._axis.name
         if speed_ups == 0.0:
@@ -202,20 +203,20 @@ class Axis:
 def home(
     io: MachineIo, axes: Iterable[int], compensation: Compensation, say: Callable[[str], None]
 ) -> Steps:
-    """Home the chosen axes, priority after priority; the store learns which are homed.
+    """Home the selected axes in order of priority, and record in the store which are homed.
 
-    How far each of them may go is said before: its switch may not be wired to anything.
+    The longest travel of each is announced first, since its switch may not be wired.
     """
     for group in groups(io, axes):
         homing = [Axis(io, io.settings.axis(axis)) for axis in group]
         for each in homing:
             say(each.outlook)
-        distances = [each.home() for each in homing]
+        actions = [each.home() for each in homing]
         for axis in group:
             homed.note(io, axis, False)
         compensation.renew()
         names = " ".join(io.settings.axis(axis).name for axis in group)
-        yield from together(distances, f"homing {names}")
+        yield from together(actions, f"homing {names}")
         for axis in group:
             homed.note(io, axis, True)
         compensation.renew()

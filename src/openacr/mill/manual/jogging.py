@@ -1,13 +1,12 @@
-"""Moving axes by hand: as long as a control is held, or by one increment.
+"""Jogging of axes: while a control is held, or by one increment.
 
 A jog is an offset on the card; when it has ended the offset becomes position, so that the
-machine position is one number again. Where soft limits hold, a held jog goes to the limit
-and no further.
+machine position is one number again. Where soft limits are active, a held jog stops at the
+limit.
 
-While a control is held the card never has more than `LEASH_S` of way ahead at full speed,
-besides what it takes to ramp down; the target is moved on as long as somebody looks. So an
-axis comes to rest by itself when the host or the link to it is lost: nothing ever has to
-be stopped in time.
+While a control is held, the target is at most `LEASH_S` of travel ahead at full speed plus the
+braking distance; it advances only while the host polls. So an axis comes to rest by itself
+when the host or the link is lost: no stop has to be sent in time.
 """
 
 from collections.abc import Iterable
@@ -34,16 +33,16 @@ LEASH_S, RENEW_S = 0.5, 0.1
 
 @dataclass(slots=True)
 class _Held:
-    """An axis on its way: as long as a control is held, or to the end of an increment."""
+    """A jog in progress: while a control is held, or to the end of an increment."""
 
     direction: int
-    reach_u: float  # way ahead of the axis
+    reach_u: float  # distance of the target ahead of the axis
     renewed_s: float
     end_u: float | None = None  # of an increment: machine position
 
 
 class Jogging:
-    """Jogs of the axes of one machine."""
+    """Jogs the axes of one machine."""
 
     def __init__(self, io: MachineIo) -> None:
         self._io = io
@@ -54,13 +53,13 @@ class Jogging:
 
     @property
     def is_active(self) -> bool:
-        """Whether an axis was set moving and is not known to be at rest."""
+        """Whether an axis was moved and is not known to be at rest."""
         return bool(self._moving)
 
     def hold(self, axis: int, direction: int, *, fast: bool = False) -> None:
-        """A control is held: the axis moves until `release`, at most to its soft limit."""
+        """Jog an axis until `release`, at most to its soft limit."""
         row, speed_ups = self.ready(axis, fast=fast)
-        direction = direction if not self._is_turned(axis) else -direction
+        direction = direction if not self._is_reversed(axis) else -direction
         if self._is_at_limit(row, direction):
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
         self._lead(row, direction, speed_ups, None)
@@ -74,21 +73,21 @@ class Jogging:
         self._aim(row, self._held[row.index])
 
     def release(self, axis: int) -> None:
-        """The control is let go: the axis ramps to rest."""
+        """Ramp an axis to rest: its control is released."""
         self._held.pop(axis, None)
         self._type(f"JOG OFF {self._io.settings.axis(axis).name}")
 
     def increment(self, axis: int, direction: int, preset: int, *, fast: bool = False) -> float:
-        """Exactly one of the five increments, as Jog Direction turns it; how far that is."""
+        """Move by one of the five increments, in the sense of Jog Direction; returns its size."""
         if not 1 <= preset <= INCREMENTS:
-            raise UserError(f"increment {preset}: 1..{INCREMENTS} are there")
+            raise UserError(f"increment {preset}: allowed are 1..{INCREMENTS}")
         size = self._io.settings.real(JOG.increments[preset - 1][axis])
-        forward = (direction > 0) is not self._is_turned(axis)
+        forward = (direction > 0) is not self._is_reversed(axis)
         self.move(axis, size if forward else -size, fast=fast)
         return size
 
     def move(self, axis: int, distance_u: float, *, fast: bool = False) -> None:
-        """By a distance, refused where it leads beyond a soft limit."""
+        """Move by a distance; AlarmError if it ends beyond a soft limit."""
         row, speed_ups = self.ready(axis, fast=fast)
         limit = self.limit(row, 1 if distance_u > 0 else -1)
         end = self.position(row) + distance_u
@@ -97,15 +96,15 @@ class Jogging:
         self._lead(row, 1 if distance_u > 0 else -1, speed_ups, end)
 
     def settle(self) -> Steps:
-        """Wait for rest, then make positions of the offsets."""
-        yield Until("jog", lambda _sample: not self._is_going_on())
+        """Wait for rest, then convert jog offsets to positions."""
+        yield Until("jog", lambda _sample: not self._is_still_moving())
         self._rest_by_s = None
         for axis in sorted(self._moving):
             self._type(f"JOG RES {self._io.settings.axis(axis).name}")
         self._moving.clear()
 
     def stop_all(self) -> None:
-        """Every axis ramps to rest on its stop ramp: STOP, or an alarm is up."""
+        """Ramp every axis to rest on its stop ramp, for STOP or an alarm."""
         if self._rest_by_s is None:
             self._rest_by_s = self._machine.now_s + self._rest_s()
         with ExitStack() as each:  # all of them, even if the card refuses to stop one
@@ -113,7 +112,7 @@ class Jogging:
                 each.callback(self._stop, axis)
 
     def _rest_s(self) -> float:
-        """How long axes may take to come to rest: twice the longest ramp, and a little."""
+        """Longest time for axes to come to rest: twice the longest ramp plus a margin."""
         rows = (self._io.settings.axis(axis) for axis in self._moving)
         ramps_s = (max(row.jog_ups, row.jog_rapid_ups) / _ramp(row) for row in rows if _ramp(row))
         return min(REST_S + 2.0 * max(ramps_s, default=0.0), LONGEST_REST_S)
@@ -125,14 +124,14 @@ class Jogging:
         finally:
             self.release(axis)
 
-    def let_go(self) -> None:
-        """Nothing is held any more; what has stopped the axes is stronger than a jog."""
+    def drop_held(self) -> None:
+        """Drop all held jogs: a kill has stopped the axes."""
         self._held.clear()
 
-    # --- pieces -----------------------------------------------------------------------
+    # --- helpers -----------------------------------------------------------------------
 
     def _aim(self, row: AxisSettings, held: _Held) -> None:
-        """Move the target of a jog on, at most to its end or the soft limit."""
+        """Advance the target of a jog, at most to its end or the soft limit."""
         here = self.position(row)
         end = self.limit(row, held.direction) if held.end_u is None else held.end_u
         target = here + held.direction * held.reach_u
@@ -140,12 +139,12 @@ class Jogging:
             beyond = held.end_u is None and (here - end) * held.direction > 0.0
             target = here if beyond else end
             if held.end_u is not None:
-                del self._held[row.index]  # the card knows the end now
+                del self._held[row.index]  # the card has the end as its target now
         self.aim(row, target)
         held.renewed_s = self._machine.now_s
 
     def aim(self, row: AxisSettings, target_u: float) -> None:
-        """Set the machine position an axis is to go to."""
+        """Command the target of an axis, in machine position."""
         self._moving.add(row.index)
         self._start(row, f"JOG ABS {row.name}{number_text(target_u - self._current(row))}")
 
@@ -158,8 +157,8 @@ class Jogging:
                 raise
             raise AlarmError(alarms.HARDWARE_LIMIT, row.name) from refused
 
-    def _is_going_on(self) -> bool:
-        """Whether axes are on their way; those of held controls get more of it."""
+    def _is_still_moving(self) -> bool:
+        """Whether axes still move; advances the targets of held jogs."""
         for axis, held in list(self._held.items()):
             row = self._io.settings.axis(axis)
             if self._machine.now_s < held.renewed_s + RENEW_S:
@@ -168,17 +167,21 @@ class Jogging:
                 del self._held[axis]
             else:
                 self._aim(row, held)
-        is_going_on = bool(self._held) or self._is_moving()
-        if is_going_on and self._rest_by_s is not None and self._machine.now_s > self._rest_by_s:
+        is_still_moving = bool(self._held) or self._is_moving()
+        if (
+            is_still_moving
+            and self._rest_by_s is not None
+            and self._machine.now_s > self._rest_by_s
+        ):
             raise AlarmError(alarms.NO_REST)
-        return is_going_on
+        return is_still_moving
 
     def _is_at_limit(self, row: AxisSettings, direction: int) -> bool:
         limit = self.limit(row, direction)
         return limit is not None and (limit - self.position(row)) * direction <= 0.0
 
     def ready(self, axis: int, *, fast: bool) -> tuple[AxisSettings, float]:
-        """Set the speed and ramps of jogs for an axis that may move; the speed."""
+        """Set jog speed and ramps of an axis that may move; returns its row and speed."""
         settings = self._io.settings
         row = settings.axis(axis)
         if row.is_home_required and not settings.is_homed(axis):
@@ -193,15 +196,15 @@ class Jogging:
         return row, speed
 
     def _is_key_turned(self) -> bool:
-        """Whether the maintenance key is turned: no soft limits, but never fast."""
+        """Whether the maintenance key is turned: no soft limits, no rapid jog."""
         return self._io.is_key_turned(self._machine.poll())
 
-    def _is_turned(self, axis: int) -> bool:
-        """Whether Jog Direction turns the controls of an axis around."""
+    def _is_reversed(self, axis: int) -> bool:
+        """Whether Jog Direction reverses the controls of an axis."""
         return bool(self._io.settings.real(JOG.direction[axis]))
 
     def limit(self, row: AxisSettings, direction: int) -> float | None:
-        """How far an axis may be moved by hand, None for as far as it goes."""
+        """The limit of an axis when jogged, as machine position; None without limit."""
         if row.soft_limits is None or not self._io.settings.is_homed(row.index):
             return None
         if self._is_key_turned():
@@ -210,12 +213,12 @@ class Jogging:
         return high if direction > 0 else low
 
     def position(self, row: AxisSettings) -> float:
-        """Where the axis is commanded to stand, with the jog that is not position yet."""
+        """The commanded machine position including the jog offset."""
         offset = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_JOG_OFFSET)
         return self._current(row) + offset / row.pulses_per_unit
 
     def _current(self, row: AxisSettings) -> float:
-        """Where the axis stands without the jog."""
+        """The commanded position without the jog offset."""
         pulses = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_CURRENT_POSITION)
         return pulses / row.pulses_per_unit
 
@@ -228,21 +231,23 @@ class Jogging:
 
 
 def _ramp(row: AxisSettings) -> float:
-    """The ramp of a stop, never softer than the one the way to a soft limit was planned with."""
+    """The stop ramp, never softer than the ramp used to plan the path to a soft limit."""
     return max(row.jog_stp_ups2, row.jog_dec_ups2)
 
 
 def distances(texts: Iterable[str], names: Iterable[str]) -> list[tuple[str, float]]:
-    """Distances as `X0.5 Y-1`: axis and way of each."""
+    """Parse distances such as `X0.5 Y-1`: axis name and distance of each."""
     known = set(names)
     found = []
     for text in texts:
         name, rest = text[:1].upper(), text[1:]
         try:
-            path = float(rest)
+            distance = float(rest)
         except ValueError:
             raise UserError(f"{text}: write a distance as X0.5") from None
         if name not in known:
-            raise UserError(f"axis {name} is not configured: {' '.join(sorted(known))} are")
-        found.append((name, path))
+            raise UserError(
+                f"axis {name} is not configured; configured are {' '.join(sorted(known))}"
+            )
+        found.append((name, distance))
     return found

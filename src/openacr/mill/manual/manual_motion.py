@@ -1,4 +1,4 @@
-"""Axes moved by hand: jogs, keys and joystick, the hand wheel; one of them at a time."""
+"""Manual motion: jogs, keys and joystick, hand wheel; one of them at a time."""
 
 from collections.abc import Callable, Sequence
 
@@ -12,31 +12,31 @@ from openacr.mill.manual.jogging import Jogging
 
 
 class ManualMotion:
-    """Everything that moves the axes of one machine by hand."""
+    """Manual motion of the axes of one machine."""
 
     def __init__(self, io: MachineIo, make_free: Callable[[str], None]) -> None:
         self.jogging = Jogging(io)
         self.controls = Controls(io, self.jogging, self.jog)
         self._wheel = HandWheel(io, self.jogging)
         self._player = ActionPlayer()
-        self._make_free = make_free  # nothing else may move the machine
+        self._make_free = make_free  # checks that nothing else may move the machine
 
     @property
     def is_active(self) -> bool:
-        """Whether an axis is moved, or may be at any time."""
+        """Whether an axis is moved by hand, or may be at any time."""
         return self._player.is_active
 
     def jog(self, move: Callable[[Jogging], object]) -> None:
-        """Let somebody move axes."""
+        """Start a jog; UserError while the hand wheel is in use."""
         self._make_free("jog")
         if self._wheel.axes:
-            raise UserError("cannot jog: the hand wheel moves the machine")
+            raise UserError("cannot jog: the hand wheel is in use")
         move(self.jogging)
         if not self._player.is_active:
             self._player.begin(self.jogging.settle())
 
     def turn(self, axes: Sequence[int]) -> None:
-        """Let the hand wheel move these axes, and no others; none ends it."""
+        """Select the axes the hand wheel moves; an empty selection ends it."""
         if not axes:
             self._wheel.leave()
             return
@@ -47,21 +47,21 @@ class ManualMotion:
         self._player.begin(self._wheel.follow())
 
     def stop(self) -> None:
-        """Axes moved by hand ramp to rest."""
+        """Ramp axes moved by hand to rest."""
         self._wheel.leave()
         self.jogging.stop_all()
 
-    def let_go(self) -> None:
-        """All motion was killed: what has come to rest becomes position."""
+    def drop_held(self) -> None:
+        """Drop held jogs and the wheel: all motion was killed."""
         self._wheel.leave()
-        self.jogging.let_go()
+        self.jogging.drop_held()
 
     def close(self) -> None:
-        """The card is out of reach: axes stop by themselves, nothing more is known of them."""
+        """Drop all manual motion without commands: a card out of reach stops its axes itself."""
         self._player.close()
-        self.let_go()
+        self.drop_held()
 
     def play(self, sample: CardState, step_s: float) -> None:
-        """Let go what nobody holds, and go on with what is moved."""
-        self.controls.keep(sample)
+        """Poll the controls, and continue the motion in progress."""
+        self.controls.poll(sample)
         self._player.play(sample, step_s)

@@ -1,10 +1,10 @@
-"""G31: a move that ends where the probe trips, and what was captured there.
+"""Probing (G31): a move that ends where the probe trips, with the captured position.
 
-The input is watched in every mode: a contact that the hardware does not capture stops the
-move at once, and is alarm 36 then.
+The input is polled in every mode: a contact that the hardware does not capture stops the
+move at once and raises alarm 36.
 
-Every wait for the card has a limit. The two moves have none, for their feed may be overridden:
-they end with their motion, and one that the card does not begin is alarm 18.
+Every wait for the card has a limit. The two moves have none, because their feed may be overridden:
+they end with their motion, and a move that the card does not start is alarm 18.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from openacr.mill.plan.encoding import Job
 
 
 class Probing:
-    """Probing moves of one machine; `point` is where the last one tripped, None if nowhere."""
+    """Runs probing moves of one machine; `point` is where the last one tripped, None if nowhere."""
 
     def __init__(
         self,
@@ -36,11 +36,11 @@ class Probing:
         self._send = send
         self._position = position  # where the axes have come to rest
         self._say = say
-        self._said = ""
+        self._reported = ""
         self.point: Point | None = None
 
     def steps(self, job: Job, job_to: Callable[[Line, Point], Job]) -> Steps:
-        """The move, and if the probe trips, back to the point of the trip at feed."""
+        """Make the move and, if the probe trips, return to the trip point at feed."""
         wiring = self._io.settings.wiring
         self.point = None
         is_away = isinstance(job.entry, Probe) and job.entry.is_away
@@ -51,7 +51,7 @@ class Probing:
         has_tripped = False
 
         def is_done(sample: CardState) -> bool:
-            nonlocal has_tripped  # a contact that is seen once counts, also if it is lost again
+            nonlocal has_tripped  # a contact counts even if it is lost again
             is_at_end = is_over(sample, job)
             has_tripped = has_tripped or self._has_tripped(sample, capture, is_contact)
             return has_tripped or is_at_end
@@ -76,18 +76,18 @@ class Probing:
         yield Until("back to the probed point", lambda sample: is_over(sample, returning))
 
     def _is_at(self, sample: CardState, is_contact: bool) -> bool:
-        """Whether the input is as it is after the probe has tripped."""
+        """Whether the input has the level of a tripped probe."""
         return self._io.is_in(sample, self._io.settings.wiring.probe) == is_contact
 
     def _armed(self, job: Job, is_contact: bool) -> Capture:
-        """Arm the capture; what is polled although hardware is wanted is said once."""
+        """Arm the capture; report once if it falls back from hardware to polling."""
         probe = self._io.settings.wiring.probe
         is_rising = is_contact != self._io.is_inverted(probe)
         travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
         capture = capture_of(self._io.settings, travel_u, is_rising=is_rising)
-        if capture.reason and capture.reason != self._said:
-            self._said = capture.reason
-            self._say(f"{capture.reason}: the probe is polled, and less exact")
+        if capture.reason and capture.reason != self._reported:
+            self._reported = capture.reason
+            self._say(f"{capture.reason}: the probe is polled, which is less accurate")
         self._machine.type(f"INTCAP {axis.name} {capture.mode}" for axis in capture.axes)
         return capture
 
@@ -106,26 +106,30 @@ class Probing:
         return is_changed or self._is_captured(capture)
 
     def _captured(self, job: Job, capture: Capture) -> Point:
-        """The positions at the trip; an axis without capture gets its share of the line."""
+        """The positions at the trip; an axis without capture is interpolated along the line."""
         pulses = dict(
             zip(self._machine.axes, self._machine.axis_values(n.AX_HARDWARE_CAPTURE), strict=True)
         )
         travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
-        caught = {axis.index: pulses[axis.index] / axis.pulses_per_unit for axis in capture.axes}
-        longest = max(caught, key=lambda axis: abs(travel_u[axis]))
+        captured_u = {
+            axis.index: pulses[axis.index] / axis.pulses_per_unit for axis in capture.axes
+        }
+        longest = max(captured_u, key=lambda axis: abs(travel_u[axis]))
         share = 0.0
         if travel_u[longest]:
-            share = (caught[longest] - job.begin[longest]) / travel_u[longest]
-        along = [begin + share * path for begin, path in zip(job.begin, travel_u, strict=True)]
-        return tuple(caught.get(axis, value) for axis, value in enumerate(along))
+            share = (captured_u[longest] - job.begin[longest]) / travel_u[longest]
+        along = [
+            begin + share * distance for begin, distance in zip(job.begin, travel_u, strict=True)
+        ]
+        return tuple(captured_u.get(axis, value) for axis, value in enumerate(along))
 
 
 def is_over(sample: CardState, job: Job) -> bool:
-    """A move that was sent has started and ended."""
+    """Whether a move that was sent has started and ended."""
     return sample.counter >= job.count and not sample.is_moving
 
 
 def _pace_back(job: Job, back_ups: float) -> Pace:
-    """The feed of the way back: that of the program unless the store has its own."""
+    """The feed of the return move: of the store if configured, else of the program."""
     feed_upm = back_ups * S_PER_MIN or job.feed_ups * S_PER_MIN
     return Pace(feed_upm, PathMode.EXACT)

@@ -1,4 +1,4 @@
-"""TEACH: where the machine stands becomes the zero of a work coordinate system."""
+"""TEACH: set the zero of a work coordinate system to the present position."""
 
 from collections.abc import Iterable
 
@@ -13,17 +13,17 @@ SYSTEMS = dict(zip(CODES, CELLS.work_systems, strict=True))
 
 
 def teach(store: Cells, settings: Settings, code: str, here: Point, axes: Iterable[int]) -> None:
-    """The machine position `here` reads 0 in a work system, along these axes.
+    """Set the offsets of a work system so that machine position `here` reads 0 along these axes.
 
-    The common shift goes on counting: the offset is what is left of the position behind it.
-    All axes are stored together.
+    The common shift stays in effect: it is subtracted from the position.
+    All axes are stored in one transaction.
     """
     if code.upper() not in SYSTEMS:
         raise UserError(f"{code}: work systems are {' '.join(SYSTEMS)}")
     chosen = [settings.axis(axis) for axis in axes]
     for axis in chosen:
         if axis.is_home_required and not settings.is_homed(axis.index):
-            raise UserError(f"axis {axis.name} is not homed: its position means nothing yet")
+            raise UserError(f"axis {axis.name} is not homed: its position is not valid yet")
     system = SYSTEMS[code.upper()]
     with store.transaction():
         for axis in chosen:

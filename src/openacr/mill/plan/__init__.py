@@ -1,1 +1,1 @@
-"""The mathematics of part programs without a card: geometry, speeds, limits, times, pictures."""
+"""Planning of part programs without a card: geometry, speeds, limits, times, pictures."""

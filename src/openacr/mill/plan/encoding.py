@@ -1,4 +1,4 @@
-"""Canonical moves as packets: what the planner needs to know of a move, and its bytes.
+"""Encoding of canonical moves: the data the planner needs of a move, and its packet.
 
 A packet never depends on the one before it: velocity and ramp are sent with every move,
 targets and centres are absolute pulses. They are whole numbers, because a single-precision
@@ -18,7 +18,7 @@ from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
 
 Motion = Rapid | Line | Arc | Probe
-Pulses = Sequence[int]  # of a machine position, one value per axis that is there
+Pulses = Sequence[int]  # of a machine position, one value per configured axis
 LONG_MAX = (1 << 31) - 1
 
 # How a move ends, in the two mode bits of header code 0 (Enable Rapid Move Modes is set).
@@ -33,22 +33,22 @@ CARD_PLANE_AXES = (0, 1, 2)
 
 @dataclass(slots=True, kw_only=True)
 class Job(PlannedMove):
-    """One move on its way to the card: how it is planned, and where it goes."""
+    """One move to be sent to the card: its plan and its end points."""
 
     entry: Motion
     begin: Point  # machine positions
     finish: Point
     begin_cnt: Pulses
     finish_cnt: Pulses
-    count: int = 0  # the number of its packet, 0 while it has none
+    count: int = 0  # the number of its packet, 0 until it is sent
     block: int = 0  # blocks that end before it
 
 
 class Encoder:
-    """Jobs and packets for the axes of one machine."""
+    """Converts canonical moves to jobs and packets, for the axes of one machine."""
 
     def __init__(self, settings: Settings, *, is_dry: bool = False, rounds: bool = False) -> None:
-        """`rounds`: the card knows path tolerances, an extension that real cards have not."""
+        """`rounds`: the card supports path tolerances, an extension that real cards lack."""
         self._settings = settings
         self._speeds = settings.speeds
         self._geometry = Geometry(settings)
@@ -62,7 +62,7 @@ class Encoder:
     # --- planning ---------------------------------------------------------------------
 
     def jobs(self, entry: Motion | Polyline, begin: Point) -> Iterator[Job]:
-        """A canonical move as the moves that the card will make."""
+        """Split a canonical move into the moves that the card executes."""
         if isinstance(entry, Polyline):
             yield from self._lines(entry, begin)
             return
@@ -90,7 +90,7 @@ class Encoder:
             begin, begin_cnt = line.end, finish_cnt
 
     def job(self, entry: Motion, begin: Point) -> Job:
-        """One move as the planner sees it."""
+        """Describe one move for the planner."""
         shape = self._shape(entry, begin)
         is_rapid = isinstance(entry, Rapid)
         ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
@@ -118,7 +118,7 @@ class Encoder:
         )
 
     def _place(self, counts: Pulses) -> Point:
-        """The machine position the card understands."""
+        """The machine position of whole pulses."""
         point = [0.0] * len(self._scale)
         for axis, count in zip(self._axes, counts, strict=True):
             point[axis] = count / self._scale[axis]
@@ -134,29 +134,29 @@ class Encoder:
         """Units per second (degrees where only rotary axes move), within all limits."""
         speeds = self._speeds
         if isinstance(entry, Rapid):
-            wanted = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
+            speed = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
         else:
-            wanted = self._line_speed(entry.pace)
+            speed = self._line_speed(entry.pace)
         if isinstance(entry, Arc):
-            # An arc needs v^2 / r across: it may not be more than the machine gives.
+            # The centripetal acceleration v^2 / r must not exceed that of the machine.
             radius = min(entry.start_radius, entry.end_radius)
-            wanted = min(wanted, math.sqrt(speeds.arc_acc_ups2 * radius))
-        return min(wanted, self._geometry.speed_limit(shape))
+            speed = min(speed, math.sqrt(speeds.arc_acc_ups2 * radius))
+        return min(speed, self._geometry.speed_limit(shape))
 
     def _tolerance(self, pace: Pace) -> float:
-        """How far the card may leave the corners between straight moves."""
+        """The largest deviation of the path at corners between straight moves."""
         if not self._rounds or pace.is_confirmed or pace.mode is not PathMode.FREE:
             return 0.0
         return pace.tolerance_u
 
     def _line_speed(self, pace: Pace) -> float:
-        """The speed a feed move asks for."""
+        """The programmed speed of a feed move."""
         return self._speeds.trial_ups if self._is_dry else pace.feed_upm / S_PER_MIN
 
     # --- packets ----------------------------------------------------------------------
 
     def packet(self, job: Job) -> Move | None:
-        """The bytes of a move; None when it ends on the pulse where it begins."""
+        """Encode the packet of a move; None when it ends on the pulse where it begins."""
         entry = job.entry
         ends = zip(self._axes, job.begin_cnt, job.finish_cnt, strict=True)
         in_plane = (entry.plane.first, entry.plane.second) if isinstance(entry, Arc) else ()
@@ -188,7 +188,7 @@ class Encoder:
         return PLANES[entry.plane] | turn, centre
 
     def pulses(self, point: Point) -> Pulses:
-        """A machine position in pulses of the axes that are there."""
+        """Convert a machine position to pulses of the configured axes."""
         return [self._pulse(axis, point[axis]) for axis in self._axes]
 
     def _pulse(self, axis: int, position_u: float) -> int:
@@ -197,16 +197,16 @@ class Encoder:
         return nearest if exact >= 0 else -nearest
 
     def beyond_pulses(self, job: Job) -> str | None:
-        """The axis and position that do not fit the 32 bits a packet has for pulses."""
+        """The axis and position that exceed the 32 bits of a packet for pulses; None if all fit."""
         for axis, end in zip(self._axes, job.finish_cnt, strict=True):
             if abs(end) > LONG_MAX:
                 return f"axis {axis}: {job.finish[axis]:g}"
         return None
 
-    # --- forms the card knows ---------------------------------------------------------
+    # --- forms the card supports ---------------------------------------------------------
 
     def _pieces(self, entry: Motion, begin: Point) -> Iterator[Motion]:
-        """A canonical move in forms the card can run: arcs it does not know become chords."""
+        """Convert a canonical move to forms the card can run: other arcs become chords."""
         if isinstance(entry, Arc) and not self._runs(entry):
             yield from self._chords(entry, begin)
         else:
@@ -215,8 +215,8 @@ class Encoder:
     def _runs(self, arc: Arc) -> bool:
         """Whether the card can run an arc: X Y Z with equal pulses per unit in the plane."""
         first, second = arc.plane.first, arc.plane.second
-        known = first in CARD_PLANE_AXES and second in CARD_PLANE_AXES
-        return known and self._scale[first] == self._scale[second]
+        is_supported = first in CARD_PLANE_AXES and second in CARD_PLANE_AXES
+        return is_supported and self._scale[first] == self._scale[second]
 
     def _chords(self, arc: Arc, begin: Point) -> Iterator[Line]:
         """Straight pieces whose height over the arc stays within the chord tolerance."""
@@ -231,7 +231,7 @@ class Encoder:
 
 
 def along(arc: Arc, begin: Point, share: float) -> Point:
-    """The point of an arc behind a share 0..1 of its sweep."""
+    """The point of an arc at a share 0..1 of its sweep."""
     first, second = arc.plane.first, arc.plane.second
     start = math.atan2(begin[second] - arc.centre[1], begin[first] - arc.centre[0])
     angle = start + share * arc.sweep_rad

@@ -1,4 +1,4 @@
-"""Canonical moves as the planner sees them: length, tangents, the speeds that limits allow.
+"""Geometry of canonical moves: length, tangents, and the speeds that axis limits allow.
 
 The feed counts along the linear axes X Y Z U V; rotary axes follow, and a move of rotary
 axes alone has its length in degrees of the fastest one.
@@ -17,7 +17,7 @@ Point = Sequence[float]  # machine position, one value per axis 0..7
 
 @dataclass(frozen=True, slots=True)
 class MoveShape:
-    """The shape of one move: `share` is how far each axis goes per unit of its length."""
+    """Shape of one move: `share` is the travel of each axis per unit of path length."""
 
     length_u: float
     start: Direction | None
@@ -31,7 +31,7 @@ def linear_axes(settings: Settings) -> list[int]:
 
 
 class Geometry:
-    """Lengths and limits for one set of axes."""
+    """Computes lengths and limits for one set of axes."""
 
     def __init__(self, settings: Settings) -> None:
         self._axes = settings.axes
@@ -40,7 +40,7 @@ class Geometry:
         self._rotary = [one.index for one in settings.axes if not one.is_linear]
 
     def line(self, start: Point, end: Point) -> MoveShape:
-        """A straight way; its length is 0 when no axis moves."""
+        """The shape of a straight move; its length is 0 when no axis moves."""
         delta = [b - a for a, b in zip(start, end, strict=True)]
         length = math.sqrt(sum(delta[axis] ** 2 for axis in self._linear))
         direction = None
@@ -59,9 +59,9 @@ class Geometry:
         centre: tuple[float, float],
         sweep_rad: float,
     ) -> MoveShape:
-        """An arc from `start` to `end`; positive sweeps turn from the first axis to the second.
+        """The shape of an arc; positive sweeps turn from the first axis of the plane to the second.
 
-        A radius that changes along the way (a spiral) counts with its mean; other linear
+        A radius that changes along the path (a spiral) counts as its mean; other linear
         axes are added as on a helix.
         """
         first, second = plane
@@ -69,14 +69,14 @@ class Geometry:
             math.dist((start[first], start[second]), centre)
             + math.dist((end[first], end[second]), centre)
         )
-        bow = radius * abs(sweep_rad)
+        arc_u = radius * abs(sweep_rad)
         rise = {axis: end[axis] - start[axis] for axis in self._linear if axis not in plane}
-        length = math.sqrt(bow * bow + sum(d * d for d in rise.values()))
+        length = math.sqrt(arc_u * arc_u + sum(d * d for d in rise.values()))
         if length == 0.0:
             return MoveShape(0.0, None, None, (0.0,) * len(start))
         share = [abs(b - a) / length for a, b in zip(start, end, strict=True)]
-        share[first] = share[second] = bow / length
-        turn = math.copysign(1.0, sweep_rad) * bow / length
+        share[first] = share[second] = arc_u / length
+        turn = math.copysign(1.0, sweep_rad) * arc_u / length
         tangents = [
             self._tangent(point, plane, centre, turn, rise, length) for point in (start, end)
         ]
@@ -100,11 +100,11 @@ class Geometry:
         return tuple(parts[axis] for axis in self._linear)
 
     def is_linear(self, shape: MoveShape) -> bool:
-        """Whether linear axes move alone."""
+        """Whether only linear axes move."""
         return shape.start is not None and not any(shape.share[axis] for axis in self._rotary)
 
     def speed_limit(self, shape: MoveShape) -> float:
-        """The highest vector speed that no axis limit forbids, units/s."""
+        """The highest vector speed within all axis limits, units/s."""
         limits = [self._speeds.max_ups] if shape.start is not None else []
         limits += _per_axis(((one, one.max_speed_ups) for one in self._axes), shape)
         if self._speeds.rotary_max > 0.0:
@@ -113,9 +113,9 @@ class Geometry:
         return min(limits, default=math.inf)
 
     def ramp_limit(self, shape: MoveShape, ramp_ups2: float, *, rounds: bool = False) -> float:
-        """The vector acceleration that no axis limit forbids, units/s2.
+        """The highest vector acceleration within all axis limits, units/s2.
 
-        In a rounded corner it has any direction: there it may not exceed the limit of any axis.
+        In a rounded corner it can have any direction, so it is within the limit of every axis.
         """
         if rounds:
             own = [one.max_acceleration_ups2 for one in self._axes if shape.share[one.index] > 0.0]
@@ -125,7 +125,7 @@ class Geometry:
 
 
 def _per_axis(limits: Iterable[tuple[AxisSettings, float]], shape: MoveShape) -> list[float]:
-    """The limits of axes as limits of the vector; 0 is no limit."""
+    """Convert axis limits to limits of the vector; 0 is no limit."""
     return [
         limit / shape.share[axis.index]
         for axis, limit in limits

@@ -1,18 +1,18 @@
-r"""How fast the tool may pass from one move to the next.
+r"""Look-ahead planning of the speed from one move to the next.
 
-The card plans inside a move; what it cannot see is the corner behind the last move it was
-given. So every move is sent with the speed it has to end with (FVEL), and that speed is
+The card plans inside a move; what it cannot see is the corner after the last move it was
+sent. So every move is sent with the speed it has to end with (FVEL), and that speed is
 planned here over the moves that are known:
 
     corner     the lower feed, slowed by the angle between the tangents (G62), by the
                velocity step an axis would make there (Corner Step), 0 for exact stops
     backward   v_end(i)^2 <= v_end(i+1)^2 + 2 A L(i+1), the last known move ends at rest
 
-The backward pass makes each speed one the moves behind it can brake from. It only rises
-when more moves become known, so a move that was sent stays right.
+The backward pass limits each speed to one that the following moves can brake from. It only
+rises when more moves become known, so a move that was sent stays valid.
 
-Moves with a path tolerance are joined: the card rounds the corner between them and finds its
-speeds itself. Here the same speeds are foreseen, for the moves around them and the run time.
+Moves with a path tolerance are joined: the card rounds the corner between them and computes its
+speeds itself. Here the same speeds are predicted, for the moves around them and the run time.
 """
 
 import math
@@ -31,7 +31,7 @@ MOST_AHEAD = 4000  # moves held back at most, however short they are
 
 @dataclass(frozen=True, slots=True)
 class CornerRules:
-    """What the CONTROL and SPEEDS tabs say about corners; speeds in units/s."""
+    """Corner settings of the CONTROL and SPEEDS tabs; speeds in units/s."""
 
     angle1_deg: float = 0.0
     angle2_deg: float = 0.0
@@ -52,7 +52,7 @@ class CornerRules:
 
 @dataclass(slots=True, kw_only=True)
 class PlannedMove:
-    """One move as the planner sees it; `start`/`end` are None where no linear axis moves."""
+    """One move in the planner; `start`/`end` are None where no linear axis moves."""
 
     length_u: float
     feed_ups: float
@@ -62,14 +62,14 @@ class PlannedMove:
     mode: PathMode = PathMode.FREE
     is_rapid: bool = False
     tolerance_u: float = 0.0  # of the corner at its end, towards another move with one
-    is_joined: bool = False  # the card plans through its end
-    corner: Corner | None = None  # that it rounds there; None is straight on
-    corner_ups: float = 0.0  # highest speed at its end, whatever comes later
+    is_joined: bool = False  # rounded into the next move by the card
+    corner: Corner | None = None  # rounded corner at its end; None is straight on
+    corner_ups: float = 0.0  # highest speed at its end, regardless of later moves
     exit_ups: float = 0.0  # speed at its end
 
 
 def turn_deg(before: Direction, after: Direction) -> float:
-    """The angle between two unit tangents, 0 straight on, 180 reversal.
+    """The angle between two unit tangents in degrees, 0 straight on, 180 reversal.
 
     atan2 of the half-angle chords keeps full accuracy near 0 and 180, where acos of the
     dot product loses half the digits.
@@ -80,7 +80,7 @@ def turn_deg(before: Direction, after: Direction) -> float:
 
 
 def _by_angle(turn: float, feed_ups: float, rules: CornerRules) -> float:
-    """G62: full feed up to angle 1, then linearly down to the slowest speed, 0 from angle 2."""
+    """The corner speed of G62: feed up to angle 1, then linearly to the slowest, 0 from angle 2."""
     first, second = rules.angle1_deg, rules.angle2_deg
     if (first == 0.0 and second == 0.0) or turn <= first:
         return feed_ups
@@ -91,7 +91,7 @@ def _by_angle(turn: float, feed_ups: float, rules: CornerRules) -> float:
 
 
 def _by_step(before: Direction, after: Direction, rules: CornerRules) -> float:
-    """The speed at which no axis jumps by more than Corner Step."""
+    """The speed at which the velocity step of every axis is within Corner Step."""
     if rules.step_ups <= 0.0:
         return math.inf
     jump = max(abs(a - b) for a, b in zip(before, after, strict=True))
@@ -111,7 +111,7 @@ def corner_speed(before: PlannedMove, after: PlannedMove, rules: CornerRules) ->
 
 
 def join(before: PlannedMove, after: PlannedMove, rules: CornerRules) -> None:
-    """Note how one move passes into the next."""
+    """Set the corner between two moves: its speed limit, and whether it is rounded."""
     before.corner, before.is_joined = None, False
     if before.end is None or after.start is None or not before.tolerance_u or not after.tolerance_u:
         before.corner_ups = corner_speed(before, after, rules)
@@ -128,7 +128,7 @@ def join(before: PlannedMove, after: PlannedMove, rules: CornerRules) -> None:
 
 @dataclass(frozen=True, slots=True)
 class SquaredSpeeds:
-    """The speeds squared that a move may have: at its start, behind the corner, before the next."""
+    """Highest squared speeds of a move: at its start, and between its entry and exit corners."""
 
     start: float
     line: float
@@ -136,7 +136,7 @@ class SquaredSpeeds:
 
 
 def backward_pass(move: PlannedMove, entry_corner: Corner | None) -> SquaredSpeeds:
-    """The backward pass through one move, from the speed it ends with."""
+    """Compute the backward pass through one move, from the speed it ends with."""
     top, ramp = move.feed_ups**2, move.ramp_ups2
     ahead = min(move.exit_ups**2, top)
     shape = move.length_u
@@ -154,18 +154,18 @@ Moves = TypeVar("Moves", bound=PlannedMove)
 
 
 def _brake_u(move: PlannedMove) -> float:
-    """The way from the feed of a move to rest; through rounded corners it is longer."""
+    """The distance to brake from the feed of a move to rest; longer through rounded corners."""
     return move.feed_ups**2 / ((1.0 if move.tolerance_u else 2.0) * move.ramp_ups2)
 
 
 class Planner(Generic[Moves]):
-    """A queue of moves; they leave it with the speed they end with."""
+    """Queue of moves that plans the end speed of each."""
 
     def __init__(self, rules: CornerRules, least_ahead: int = 0) -> None:
         self._rules = rules
         self._least_ahead = least_ahead
         self._moves: deque[Moves] = deque()
-        self._brakes: deque[float] = deque()  # longest ways to brake from each move on
+        self._brakes: deque[float] = deque()  # longest braking distances from each move on
 
     def __len__(self) -> int:
         return len(self._moves)
@@ -174,49 +174,49 @@ class Planner(Generic[Moves]):
         return iter(self._moves)
 
     def add(self, move: Moves) -> None:
-        """One more move behind the last one."""
+        """Append a move."""
         if self._moves:
             join(self._moves[-1], move, self._rules)
         move.corner, move.is_joined = None, False
         self._moves.append(move)
-        way_u = _brake_u(move)
-        while self._brakes and self._brakes[-1] < way_u:
+        distance_u = _brake_u(move)
+        while self._brakes and self._brakes[-1] < distance_u:
             self._brakes.pop()
-        self._brakes.append(way_u)
+        self._brakes.append(distance_u)
 
-    def _leave(self) -> Moves:
-        """The first move goes; the longest way to brake goes with it if it was its own."""
+    def _pop_first(self) -> Moves:
+        """Remove the first move, and the longest braking distance if it was its own."""
         move = self._moves.popleft()
         if self._brakes[0] == _brake_u(move):
             self._brakes.popleft()
         return move
 
     def ready(self) -> int:
-        """How many moves may leave although more will come."""
+        """The count of moves that may be sent although more will follow."""
         return len(self._moves) - self._ahead() if self._moves else 0
 
-    def take(self, room: int, *, is_complete: bool) -> Iterator[Moves]:
-        """At most `room` moves that may be sent now.
+    def release(self, room: int, *, is_complete: bool) -> Iterator[Moves]:
+        """Remove and yield at most `room` moves that may be sent now.
 
-        `is_complete` says that nothing comes behind them for the moment: then the last one
-        ends at rest and all may leave.
+        `is_complete`: no move follows for the moment; the last one ends at rest, and all may
+        be sent.
         """
         if not self._moves or room <= 0:
             return
         self._plan()
-        may = len(self._moves) if is_complete else len(self._moves) - self._ahead()
-        for _ in range(min(room, may)):
-            yield self._leave()
+        count = len(self._moves) if is_complete else len(self._moves) - self._ahead()
+        for _ in range(min(room, count)):
+            yield self._pop_first()
 
     def clear(self) -> list[Moves]:
-        """Take all moves back, planned or not."""
+        """Remove and return all moves."""
         moves = list(self._moves)
         self._moves.clear()
         self._brakes.clear()
         return moves
 
     def _plan(self) -> None:
-        """The backward pass over all moves that are still here."""
+        """Run the backward pass over all queued moves."""
         after: Moves | None = None
         for move in reversed(self._moves):
             move.exit_ups = 0.0
@@ -230,15 +230,15 @@ class Planner(Generic[Moves]):
             after = move
 
     def _ahead(self) -> int:
-        """How many of the last moves have to wait for what comes behind them.
+        """The count of last moves that have to wait for the moves that follow.
 
-        As many as it takes to brake from the feed of the last one, so that their end
-        speeds do not suffer from the unknown; never fewer than asked for.
+        As many as needed to brake to rest, so that the speeds of released moves do not depend
+        on unknown moves; never fewer than `least_ahead`.
         """
-        brake_u, way_u = self._brakes[0], 0.0
+        brake_u, distance_u = self._brakes[0], 0.0
         for count, move in enumerate(reversed(self._moves), start=1):
-            way_u += move.length_u
-            if way_u >= brake_u and count >= self._least_ahead:
+            distance_u += move.length_u
+            if distance_u >= brake_u and count >= self._least_ahead:
                 return count
             if count >= MOST_AHEAD:
                 return count

@@ -1,7 +1,7 @@
-"""Many straight moves at once: a polyline as jobs, computed column by column.
+"""Vectorized planning data of a polyline: many straight moves computed at once.
 
-The formulas are those of `geometry` and `encoding`, for n moves in one go: programs of
-free-formed surfaces are millions of short lines.
+The formulas are those of `geometry` and `encoding`, for n moves at once: programs of
+free-form surfaces are millions of short lines.
 """
 
 from collections.abc import Iterator, Sequence
@@ -21,14 +21,14 @@ MOST_PULSES = float(1 << 62)  # beyond any card; keeps the conversion to integer
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """What is planned of n straight moves, one row each."""
+    """Planning data of n straight moves, one row each."""
 
     length_u: Column
     feed_ups: Column
     ramp_ups2: Column
     direction: NDArray[np.float64]  # n x linear axes; unit vectors, 0 without linear motion
     tolerance_u: Column  # of the corners at their ends
-    pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, from the beginning on
+    pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, start first
 
 
 def columns(
@@ -73,9 +73,9 @@ def columns(
 def _as_sent(
     delta: NDArray[np.float64], axes: Sequence[AxisSettings]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """The directions of moves as the card will have them, between whole pulses; which have one.
+    """Directions of moves between whole pulses, as the card makes them; and which have one.
 
-    In short moves that makes corners that the program has not.
+    In short moves rounding creates corners that the program does not have.
     """
     linear = delta[:, [axis.is_linear for axis in axes]]
     length = np.linalg.norm(linear, axis=1)
@@ -84,7 +84,7 @@ def _as_sent(
 
 
 def _limited(vector: Column, limit: float, share: Column) -> Column:
-    """A speed or ramp along the path that gives an axis no more than its limit; 0 is none."""
+    """Limit a speed or ramp along the path by the limit of an axis; 0 is no limit."""
     if limit <= 0.0:
         return vector
     with np.errstate(divide="ignore"):
@@ -92,7 +92,7 @@ def _limited(vector: Column, limit: float, share: Column) -> Column:
 
 
 def lines(polyline: Polyline) -> Iterator[Line]:
-    """The moves one by one; their text can be read again from the file."""
+    """Yield the moves one by one; their text can be read from the file."""
     file, pace = polyline.source.file, polyline.pace
     for end, line in zip(polyline.ends.tolist(), polyline.lines.tolist(), strict=True):
         yield Line(Source(file, line, ""), tuple(end), pace)

@@ -1,4 +1,4 @@
-r"""How long a program takes, from the plan alone.
+r"""Prediction of the run time of a program from its plan, without a card.
 
 The card runs each move from the speed the move before it ended with, up to its feed and
 down to the speed it was sent with, at constant acceleration a. Over a length L
@@ -7,9 +7,9 @@ down to the speed it was sent with, at constant acceleration a. Over a length L
     peak     vp = min(feed, sqrt((2 a L + v0^2 + v1^2) / 2))
     time     (vp - v0)/a + (vp - v1)/a + (L - ramps)/vp
 
-so the sum over all moves is the run time, without a card and without its ticks. Corners that
-the card rounds are passed in two halves at a constant acceleration each, the line between two
-of them as above. Waits for people and signals count as nothing.
+so the sum over all moves is the run time, without the ticks of a card. Corners that the card
+rounds are passed in two halves at a constant acceleration each, the line between two of them
+as above. Waits for the operator and for signals count as zero.
 """
 
 import math
@@ -25,14 +25,14 @@ from openacr.mill.plan.rounding import Corner
 
 TOGETHER = 512  # moves planned at once
 # Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
-# tuples, as every move of a program has three of them.
+# tuples, because every move of a program has three of them.
 Phases = list[tuple[float, float, float]]
 MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe
 
 
 @dataclass(slots=True)
 class Prediction:
-    """Seconds by kind; dwells are waits."""
+    """Run time in seconds by kind of motion, and the count of moves."""
 
     rapid_s: float = 0.0
     feed_s: float = 0.0
@@ -41,25 +41,25 @@ class Prediction:
 
     @property
     def time_s(self) -> float:
-        """All of it."""
+        """The whole run time."""
         return self.rapid_s + self.feed_s + self.dwell_s
 
 
 class Reader(Protocol):
-    """A caller that reads the moves while their times are added up."""
+    """Observer of the moves while their times are added up."""
 
     def read(self, job: Job) -> None:
-        """A move of the program, not planned yet."""
+        """Receive a move that is not planned yet."""
 
     def passed(self, job: Job, phases: Phases) -> None:
-        """A move that is planned, and the phases in which it is made."""
+        """Receive a planned move and its phases."""
 
     def rested(self, seconds: float) -> None:
-        """The machine is at rest, for the time of a dwell or for none."""
+        """Receive a stop, with the time of its dwell or 0."""
 
 
 class Predictor:
-    """Adds up the times of moves as they would be sent."""
+    """Adds up the times of moves, planned as in a run."""
 
     def __init__(
         self,
@@ -70,18 +70,18 @@ class Predictor:
         rounds: bool = True,
         reader: Reader | None = None,
     ) -> None:
-        """`rounds`: of the virtual machine, which knows path tolerances."""
+        """`rounds`: as on the virtual machine, which supports path tolerances."""
         self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
         rules = CornerRules.of(settings.speeds)
         self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
         self._position = begin
         self._speed_ups = 0.0
-        self._behind: Corner | None = None
+        self._entry_corner: Corner | None = None
         self._reader = reader
         self.found = Prediction()
 
     def add(self, entry: c.Entry) -> None:
-        """One more entry of the program."""
+        """Add the next entry of the program."""
         if isinstance(entry, MOTIONS):
             for job in self._encoder.jobs(entry, self._position):
                 self._move(job)
@@ -99,20 +99,20 @@ class Predictor:
         if job.length_u > 0.0:
             self._planner.add(job)
         if self._planner.ready() >= TOGETHER:
-            self._take(is_complete=False)
+            self._release(is_complete=False)
 
     def rest(self, dwell_s: float = 0.0) -> None:
-        """The machine comes to rest here, and stays for a time."""
-        self._take(is_complete=True)
-        self._speed_ups, self._behind = 0.0, None
+        """Add a stop with a dwell."""
+        self._release(is_complete=True)
+        self._speed_ups, self._entry_corner = 0.0, None
         self.found.dwell_s += dwell_s
         if self._reader is not None:
             self._reader.rested(dwell_s)
 
-    def _take(self, *, is_complete: bool) -> None:
-        for job in self._planner.take(1 << 30, is_complete=is_complete):
-            phases = travel(job, self._speed_ups, self._behind)
-            self._speed_ups, self._behind = phases[-1][2], job.corner
+    def _release(self, *, is_complete: bool) -> None:
+        for job in self._planner.release(1 << 30, is_complete=is_complete):
+            phases = travel(job, self._speed_ups, self._entry_corner)
+            self._speed_ups, self._entry_corner = phases[-1][2], job.corner
             if self._reader is not None:
                 self._reader.passed(job, phases)
             seconds = sum(seconds_of(*phase) for phase in phases)
@@ -124,7 +124,7 @@ class Predictor:
 
 
 def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Phases:
-    """How a move is made that begins at a speed, and at a rounded corner if there was one."""
+    """The phases of a move that begins at a speed, after a rounded corner if there is one."""
     a, rest_u = job.ramp_ups2, job.length_u
     begin = min(begin_ups, job.feed_ups)
     may = backward_pass(job, entry_corner)
@@ -144,7 +144,7 @@ def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Ph
 
 
 def _straight(length: float, begin: float, end: float, feed: float, a: float) -> Phases:
-    """A straight part: up to the peak, along at it, down to the end."""
+    """The phases of a straight part: up to the peak speed, constant, down to the end speed."""
     end = min(end, math.sqrt(begin * begin + 2.0 * a * length))
     peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
     up = (peak * peak - begin * begin) / (2.0 * a)
@@ -153,7 +153,7 @@ def _straight(length: float, begin: float, end: float, feed: float, a: float) ->
 
 
 def seconds_of(length: float, begin: float, end: float) -> float:
-    """The time of one phase: its mean speed is that of begin and end."""
+    """The time of one phase at constant acceleration."""
     return 2.0 * length / (begin + end) if length > 0.0 else 0.0
 
 
@@ -165,7 +165,7 @@ def predicted(
     is_dry: bool = False,
     rounds: bool = True,
 ) -> Prediction:
-    """The run time of a whole program."""
+    """Predict the run time of a whole program."""
     predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds)
     for entry in entries:
         predictor.add(entry)

@@ -1,7 +1,7 @@
-"""What a machine would refuse, or do slower, found in a program before any machine is there.
+"""Preflight check of a program: moves a machine would refuse or make slower than programmed.
 
-The moves are those a run would send. Soft limits act on homed axes only while a machine runs;
-at the desk every axis is tested as if it were homed, and one warning names those that are not.
+The moves are those a run would send. On a machine soft limits act only on homed axes; here every
+axis is checked as if it were homed, and one warning names those that are not.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,12 +15,12 @@ from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.plan.predicting import Phases
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
 
-REACHED = 1.0 - 1e-6  # of the feed; the speeds of the plan come out of square roots
+REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
 
 
 @dataclass(slots=True)
 class Beyond:
-    """All moves beyond one limit: the first, the last, the farthest and how many."""
+    """All moves beyond one limit: the first, the last, the farthest and their count."""
 
     first: Job
     excess: Excess  # of the first
@@ -30,7 +30,7 @@ class Beyond:
     cnt: int = 1
 
     def add(self, job: Job, excess: Excess) -> None:
-        """One more point beyond the same limit."""
+        """Add a point beyond the same limit."""
         if job is not self.last:
             self.cnt += 1
             self.last = job
@@ -39,7 +39,7 @@ class Beyond:
 
     @property
     def hint(self) -> str:
-        """What is to be said of the other moves."""
+        """The hint of the finding, which summarizes the other moves."""
         if self.cnt == 1:
             return ""
         return f"{self.cnt} moves, line {self.farthest_line} by {self.farthest.beyond_u:.6g}"
@@ -47,7 +47,7 @@ class Beyond:
 
 @dataclass(slots=True)
 class Slow:
-    """Feed moves in one go, from rest to rest or to another feed: the highest speed of all."""
+    """A chain of feed moves up to rest or another feed, with its highest speed."""
 
     source: Source
     feed_ups: float
@@ -56,12 +56,12 @@ class Slow:
 
     @property
     def share(self) -> float:
-        """How much of the feed is reached."""
+        """The reached share of the feed, 0..1."""
         return self.top_ups / self.feed_ups
 
 
 class Preflight:
-    """Looks at the moves of a program as they are read and planned; memory does not grow."""
+    """Checks the moves of a program as they are read and planned, in constant memory."""
 
     def __init__(self, settings: Settings) -> None:
         self._encoder = Encoder(settings)
@@ -82,7 +82,7 @@ class Preflight:
     # --- moves ------------------------------------------------------------------------
 
     def read(self, job: Job) -> None:
-        """A move of the program: where it goes."""
+        """Check the path of a move."""
         if self._limited:
             for excess in excesses(job, self._limited):
                 self._note(job, excess)
@@ -95,7 +95,7 @@ class Preflight:
             self._unsayable = job.entry.source, text
 
     def _note_probe(self, job: Job) -> None:
-        """Whether the card captures the positions of a probing move."""
+        """Note a probing move whose positions the card cannot capture."""
         travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
         capture = capture_of(self._settings, travel_u, is_rising=True)
         if capture.reason:
@@ -111,17 +111,17 @@ class Preflight:
             self._beyond[key] = Beyond(job, excess, job, excess, line)
 
     def _miss(self, job: Job) -> None:
-        """Note the first move of an axis whose limits would not act."""
+        """Note the first move of an axis whose limits would not be active."""
         for axis, name in list(self._unhomed.items()):
             if job.begin[axis] != job.finish[axis]:
                 self._untested[name] = job.entry.source
                 del self._unhomed[axis]
 
     def rested(self, seconds: float) -> None:
-        """The machine rests: nothing is to be tested."""
+        """Ignore a stop: there is nothing to check."""
 
     def passed(self, job: Job, phases: Phases) -> None:
-        """A planned move: how fast it gets."""
+        """Check the speed of a planned move."""
         entry = job.entry
         if isinstance(entry, Rapid):
             return
@@ -136,7 +136,7 @@ class Preflight:
             self._close()
 
     def _close(self) -> None:
-        """Moves in one go are over; note them if none reached the feed."""
+        """End a chain of moves; note it if it did not reach the feed."""
         chain, self._chain = self._chain, None
         if chain is None or chain.top_ups >= REACHED * chain.feed_ups:
             return
@@ -148,7 +148,7 @@ class Preflight:
     # --- findings ---------------------------------------------------------------------
 
     def findings(self, text_of: Callable[[Source], str]) -> list[Finding]:
-        """What was found, when the program has been read to its end."""
+        """The findings, after the whole program has been read."""
         self._close()
         return [
             found(code, source.file, source.line, 1, detail, hint, text_of(source))
@@ -156,7 +156,7 @@ class Preflight:
         ]
 
     def _all(self) -> Iterator[tuple[str, Source, str, str]]:
-        """Codes with their places, details and hints."""
+        """Codes with their sources, details and hints."""
         for beyond in self._beyond.values():
             yield "E401", beyond.first.entry.source, str(beyond.excess), beyond.hint
         if self._unsayable is not None:
@@ -166,10 +166,10 @@ class Preflight:
             source = next(iter(self._untested.values()))
             yield "W403", source, f"{names} not homed", "tested as if homed"
         for reason, source in self._polled.items():
-            yield "W404", source, reason, "the probe is polled, and less exact"
+            yield "W404", source, reason, "the probe is polled, which is less accurate"
         if self._first_slow is not None and self._slow is not None:
             slow = self._slow
-            worst = f"line {slow.source.line} comes to {100.0 * slow.share:.3g} % of F"
+            worst = f"line {slow.source.line} reaches {100.0 * slow.share:.3g} % of F"
             yield "W402", self._first_slow, _moves(self._slow_cnt), worst
 
 

@@ -1,7 +1,7 @@
-"""Corners that the card rounds within a path tolerance, as the planner and the prediction see them.
+"""Corners rounded within a path tolerance, for the planner and the prediction.
 
-The card plans such corners itself (kernel/path/round_law_cy.py); what it will do is computed here
-by the same functions: a corner is entered and left within `reach_u` of the programmed one, its
+The card plans such corners itself (kernel/path/round_law_cy.py); its result is computed here
+by the same functions: a corner is entered and left within `reach_u` of the programmed one, and its
 two halves are passed at a constant acceleration each.
 """
 
@@ -22,7 +22,7 @@ _brake = pick(round_law_cy.round_brake)
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """A rounded corner: the size of its turn, how far it reaches, its highest speed."""
+    """A rounded corner: the size of its turn, its reach along the path, its highest speed."""
 
     turn: float  # length of the difference of the two unit tangents
     reach_u: float
@@ -32,7 +32,7 @@ class Corner:
     def between(
         cls, before: Direction, after: Direction, tolerance_u: float, shorter_u: float, ramp: float
     ) -> "Corner | None":
-        """The corner between two straight moves, the shorter one so long; None: straight on."""
+        """The corner between two straight moves, the shorter `shorter_u` long; None: straight."""
         turn = math.dist(before, after)
         if turn <= round_law_cy.STRAIGHT:
             return None
@@ -40,11 +40,11 @@ class Corner:
         return cls(turn, reach, _cap(turn, reach, ramp, NO_JERK))
 
     def before2(self, w: float, ramp: float) -> float:
-        """Speed squared at one end of a half from which the other is left with `w`."""
+        """The highest squared speed at one end of a half whose other end has `w`."""
         return min(_ramp2(self.turn, self.reach_u, ramp, NO_JERK, w), self.cap_ups**2)
 
     def pass2(self, w: float, goal: float, ramp: float) -> float:
-        """Speed squared behind a half that is entered with `w` and may end with `goal`."""
+        """The squared speed after a half entered with `w` that may end with `goal`."""
         if goal <= w:
             return goal
         top = min(goal, _ramp2(self.turn, self.reach_u, ramp, NO_JERK, w))

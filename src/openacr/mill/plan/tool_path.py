@@ -1,7 +1,7 @@
-"""What a picture of a part program shows: every move as points in space, with its kind.
+"""Tool path of a part program for drawing: every move as points in space, with its kind.
 
 Canonical entries come in one by one (`ToolPath.add`); arcs become chords that follow them
-closely. Three axes are drawn, X, Y and Z where they are configured; others only move along.
+closely. Three axes are drawn, X, Y and Z where they are configured; others are not shown.
 """
 
 import math
@@ -18,13 +18,13 @@ Array = npt.NDArray[np.float64]
 Index = npt.NDArray[np.intp]
 
 DRAWN_CNT = 3
-MOST_POINTS = 2_000_000  # of one picture, about 100 MB; what follows is left out
-AT_ONCE = 4096  # points that are kept as they come, before they are put into an array
+MOST_POINTS = 2_000_000  # of one picture, about 100 MB; later moves are left out
+AT_ONCE = 4096  # points collected before they are put into an array
 FINEST_RAD, COARSEST_RAD = math.radians(1.0), math.radians(5.0)
 
 
 class Kind(IntEnum):
-    """What a move is drawn as."""
+    """Kind of a move in a drawing."""
 
     RAPID = 0
     FEED = 1
@@ -34,11 +34,11 @@ class Kind(IntEnum):
 
 @dataclass(slots=True)
 class ToolPath:
-    """The way of the tool, and the contours it was compensated from.
+    """The path of the tool, and the contours it was compensated from.
 
     `tolerance` is how far chords may be off their arcs, in units of length; very large and
-    very small arcs get chords of 1 to 5 degrees. Without `has_tools` no tool is told from
-    another.
+    very small arcs get chords of 1 to 5 degrees. Without `has_tools` tools are not
+    distinguished.
     """
 
     axes: tuple[int, ...]
@@ -54,10 +54,10 @@ class ToolPath:
     _kind: Kind = Kind.RAPID
     _cnt: int = 0
 
-    # --- what comes in -------------------------------------------------------------------
+    # --- input -------------------------------------------------------------------
 
     def add(self, entry: Entry) -> None:
-        """The next entry of a program; nothing where the picture is full."""
+        """Add the next entry of a program; ignored when the picture is full."""
         if self.is_full:
             return
         match entry:
@@ -95,7 +95,7 @@ class ToolPath:
         return self._cnt >= MOST_POINTS
 
     def _close(self) -> None:
-        """Moves of one kind and tool have come together."""
+        """Store the collected moves of one kind and tool."""
         if self._ends:
             lines = np.array(self._lines, dtype=np.int64)
             drawn = self._drawn(np.array(self._ends))
@@ -105,10 +105,10 @@ class ToolPath:
     def _arc(self, arc: Arc) -> list[Point]:
         return chords(self._at, arc.end, arc.plane, arc.centre, arc.sweep_rad, self.tolerance)
 
-    # --- as Watch of the compensation -----------------------------------------------------
+    # --- observer of the compensation -----------------------------------------------------
 
     def contour(self, element: Element) -> None:
-        """An element of a programmed contour; nothing where the picture is full."""
+        """Add an element of a programmed contour; ignored when the picture is full."""
         if self.is_full:
             return
         self._cnt += 1
@@ -129,15 +129,15 @@ class ToolPath:
             )
 
     def centre_path(self, element: Element, radius: float) -> None:
-        """The tool's way comes as canonical entries."""
+        """Ignored: the path of the tool is taken from the canonical entries."""
 
     def end(self) -> None:
-        """The next contour begins anew where it does not go on."""
+        """Ignored: a contour that does not continue the last one starts a new one."""
 
-    # --- what is drawn -------------------------------------------------------------------
+    # --- output -------------------------------------------------------------------
 
     def finished(self) -> "Drawing":
-        """Everything as arrays."""
+        """Return the whole path as arrays."""
         self._close()
         parts = self._parts
         ends = [drawn for drawn, _, _, _ in parts]
@@ -152,7 +152,7 @@ class ToolPath:
         )
 
     def _drawn(self, points: Array) -> Array:
-        """The axes of the picture; a machine without Z stays at height 0."""
+        """Select the drawn axes; a machine without Z is drawn at height 0."""
         flat = np.zeros((len(points), DRAWN_CNT))
         flat[:, : len(self.axes)] = points[:, list(self.axes)]
         return flat
@@ -174,7 +174,7 @@ def chords(
     sweep_rad: float,
     tolerance: float,
 ) -> list[Point]:
-    """Points along an arc, spiral or helix, behind its start, up to its end.
+    """Points along an arc, spiral or helix, after its start, up to its end.
 
     A chord over the angle s keeps within R (1 - cos s/2) of its arc.
     """
@@ -223,7 +223,7 @@ class Drawing:
         return [(Kind(kind), int(tool)) for kind, tool in pairs.tolist()]
 
     def style_numbers(self) -> Index:
-        """For every move, which of the styles it has."""
+        """For every move, the index of its style."""
         numbers = np.unique(self._pairs(), axis=0, return_inverse=True)[1]
         return np.asarray(numbers, dtype=np.intp).ravel()
 
@@ -232,9 +232,9 @@ class Drawing:
         return np.column_stack([self.kinds, np.where(has_tool, self.tools, 0)])
 
     def strokes(self, kind: Kind, tool: int, band: int = 0, bands: int = 1) -> Array:
-        """All moves of a style, one behind the other, with NaN where the pen is lifted.
+        """All moves of a style, one after the other, with NaN where the pen is lifted.
 
-        With bands, those whose middle lies in one of so many equal ranges of height.
+        With `bands` > 1, only moves whose middle is in range `band` of that many equal heights.
         """
         pairs = self._pairs()
         chosen = (pairs[:, 0] == kind) & (pairs[:, 1] == tool)
@@ -257,9 +257,9 @@ class Drawing:
 
 
 def thinned(points: Array, step: float) -> Array:
-    """The same strokes without points that fall into the cell of the one before.
+    """Drop points of strokes that fall into the same cell as the previous point.
 
-    What is left draws the same picture as long as a cell is smaller than a pixel.
+    The rest draws the same picture as long as a cell is smaller than a pixel.
     """
     if len(points) < DRAWN_CNT:
         return points

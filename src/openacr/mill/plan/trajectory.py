@@ -1,12 +1,12 @@
-"""The setpoints of a planned program over time, without a card.
+"""Setpoints of a planned program over time, without a card.
 
 A move runs through phases of constant acceleration (see `predicting`): t seconds after the begin
-of one that takes T seconds from speed v0 to v1 the tool has gone
+of one that takes T seconds from speed v0 to v1 the tool has travelled
 
     s = v0 t + (v1 - v0) t^2 / (2 T)
 
-Where that is, the shape of the move says; beside a rounded corner the path leaves the programmed
-one towards the other move, by the law of the card (kernel/path/corner_cy.py).
+The shape of the move gives the position; at a rounded corner the path leaves the programmed one
+towards the other move, by the law of the card (kernel/path/corner_cy.py).
 """
 
 import math
@@ -26,7 +26,7 @@ from openacr.plant import schema
 
 Rows = NDArray[np.float64]
 PERIOD_S = schema.Card().period_s  # of the virtual machine
-TOGETHER = 4096  # rows given away at once
+TOGETHER = 4096  # rows passed to `write` at once
 ROUNDING = 1e-9  # of a period: a sample at the very end of a move belongs to it
 
 
@@ -38,7 +38,7 @@ class Trajectory:
 
     def __init__(self, settings: Settings, period_s: float, write: Callable[[Rows], None]) -> None:
         self._axes = [axis.index for axis in settings.axes]
-        self._linear = linear_axes(settings)  # those that tangents have a component for
+        self._linear = linear_axes(settings)  # axes for which tangents have a component
         self._period_s = period_s
         self._write = write
         self._rows: list[list[float]] = []
@@ -49,30 +49,30 @@ class Trajectory:
         self._before: Job | None = (
             None  # the last move sampled, where a corner joins it to the next
         )
-        self._next: tuple[Job, Phases] | None = None  # waits for the direction of the one after it
+        self._next: tuple[Job, Phases] | None = None  # waits for the direction of its successor
 
     def read(self, job: Job) -> None:
-        """A move that is not planned yet."""
+        """Ignore a move that is not planned yet."""
 
     def passed(self, job: Job, phases: Phases) -> None:
-        """A planned move: the one before it can be sampled, as its corner is known now."""
+        """Receive a planned move; the one before it is sampled, because its corner is now known."""
         self._sample(job)
         self._next = job, phases
 
     def rested(self, seconds: float) -> None:
-        """The machine stays where it is for a time."""
+        """Sample a stop and its dwell."""
         self._sample(None)
         self._before = None
         self._until(self._time_s + seconds, lambda _now_s: self._place)
 
     def close(self) -> None:
-        """Sample the rest, with the end of the program as last row."""
+        """Sample the remaining move, with the end of the program as last row."""
         self.rested(0.0)
         self._add(self._time_s, self._place)
-        self._give()
+        self._flush()
 
     def _sample(self, following: Job | None) -> None:
-        """Sample the move that waits."""
+        """Sample the waiting move."""
         if self._next is None:
             return
         job, phases = self._next
@@ -86,22 +86,24 @@ class Trajectory:
             k = min(int(np.searchsorted(ends_s, now_s - begin_s, "right")) - 1, len(phases) - 1)
             _, v0, v1 = phases[k]
             t, whole = now_s - begin_s - ends_s[k], ends_s[k + 1] - ends_s[k]
-            gone = starts_u[k] + v0 * t + (0.5 * (v1 - v0) * t * t / whole if whole > 0.0 else 0.0)
-            return self._at(job, before, following, min(float(gone), job.length_u))
+            travelled = (
+                starts_u[k] + v0 * t + (0.5 * (v1 - v0) * t * t / whole if whole > 0.0 else 0.0)
+            )
+            return self._at(job, before, following, min(float(travelled), job.length_u))
 
         self._until(begin_s + float(ends_s[-1]), place)
         self._place, self._before = job.finish, job
 
-    def _at(self, job: Job, before: Job | None, following: Job | None, gone_u: float) -> Point:
-        share = gone_u / job.length_u
+    def _at(self, job: Job, before: Job | None, following: Job | None, travelled_u: float) -> Point:
+        share = travelled_u / job.length_u
         if isinstance(job.entry, Arc):
             point = list(along(job.entry, job.begin, share))
         else:
             point = [a + share * (b - a) for a, b in zip(job.begin, job.finish, strict=True)]
         if before is not None and before.corner is not None:
-            self._lift_off(point, before.corner, before, job, gone_u)
+            self._lift_off(point, before.corner, before, job, travelled_u)
         if following is not None and job.corner is not None:
-            self._lift_off(point, job.corner, job, following, job.length_u - gone_u)
+            self._lift_off(point, job.corner, job, following, job.length_u - travelled_u)
         return tuple(point)
 
     def _lift_off(
@@ -115,7 +117,7 @@ class Trajectory:
             point[axis] += lift * (b - a)
 
     def _until(self, end_s: float, place: Callable[[float], Point]) -> None:
-        """Take the samples up to a time."""
+        """Add the samples up to a time."""
         last = math.floor(end_s / self._period_s + ROUNDING)
         while self._count <= last:
             now_s = self._count * self._period_s
@@ -128,9 +130,9 @@ class Trajectory:
             return
         self._rows.append([now_s, *(point[axis] for axis in self._axes), self._line])
         if len(self._rows) >= TOGETHER:
-            self._give()
+            self._flush()
 
-    def _give(self) -> None:
+    def _flush(self) -> None:
         if self._rows:
             self._write(np.array(self._rows))
             self._rows = []

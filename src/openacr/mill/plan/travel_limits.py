@@ -1,4 +1,4 @@
-"""Soft limits: the end of a move and the outermost points of its arc, before it is sent."""
+"""Soft-limit check of moves before they are sent: end points and extremes of arcs."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -22,7 +22,7 @@ class Excess:
 
     @property
     def beyond_u(self) -> float:
-        """How far it is beyond the limit."""
+        """The distance beyond the limit."""
         return abs(self.at_u - self.limit_u)
 
     def __str__(self) -> str:
@@ -33,7 +33,7 @@ class Excess:
 
 
 def first_excess(job: Job, settings: Settings) -> Excess | None:
-    """The first axis a move takes beyond its soft limits; un-homed axes have none."""
+    """The first point of a move beyond a soft limit; limits of un-homed axes do not count."""
     acting = [axis for axis in limited(settings) if settings.is_homed(axis.index)]
     return next(excesses(job, acting), None)
 
@@ -44,7 +44,7 @@ def limited(settings: Settings) -> list[AxisSettings]:
 
 
 def excesses(job: Job, axes: Sequence[AxisSettings]) -> Iterator[Excess]:
-    """Every point of a move where it takes one of these axes beyond a soft limit."""
+    """Every end or extreme point of a move where one of these axes is beyond a soft limit."""
     for point in outermost(job.entry, job.begin):
         for axis in axes:
             if axis.soft_limits is None:
@@ -61,7 +61,7 @@ def _excess(axis: AxisSettings, at_u: float, high_u: float, low_u: float) -> Exc
 
 
 def unhomed(job: Job, settings: Settings) -> AxisSettings | None:
-    """An axis that moves although it must be homed first."""
+    """The first axis that moves although it must be homed first; None if there is none."""
     for axis in settings.axes:
         moves = job.begin[axis.index] != job.finish[axis.index]
         if moves and axis.is_home_required and not settings.is_homed(axis.index):
@@ -70,7 +70,7 @@ def unhomed(job: Job, settings: Settings) -> AxisSettings | None:
 
 
 def outermost(entry: Motion, begin: Point) -> Iterator[Point]:
-    """The end of a move and, on arcs, every point where an axis of the plane turns back.
+    """The end of a move and, on arcs, every point where an axis of the plane reverses.
 
     Those are the quarter points of the circle, at whole multiples of 90 degrees.
     """

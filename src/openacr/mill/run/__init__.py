@@ -1,1 +1,1 @@
-"""Part programs on a card: the life cycle of a run, from its start to rest."""
+"""Execution of part programs on a card: the life cycle of a run, from its start to rest."""

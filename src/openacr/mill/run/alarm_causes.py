@@ -1,4 +1,4 @@
-"""What the runner looks for at every look: causes of alarms, and the switches of the panel."""
+"""Checks at every poll: causes of alarms, and edges of panel switches."""
 
 from collections.abc import Callable, Iterator
 
@@ -17,7 +17,7 @@ Cause = tuple[Kind, str]
 
 
 class Watch:
-    """The causes of alarms that the card and its inputs show."""
+    """Detects causes of alarms in the sampled state of the card."""
 
     def __init__(self, io: MachineIo) -> None:
         self._io = io
@@ -26,19 +26,19 @@ class Watch:
         self._has_error_band = any(axis.excess_error_u > 0.0 for axis in io.settings.axes)
 
     def causes(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
-        """Everything that is wrong now; `spins` says that the spindle is on."""
+        """Yield every present cause of an alarm; `spins`: the spindle is on."""
         killed_by = self.killed.kind(sample)
         yield from self._present(sample, spins=spins)
         if self._is_killed(sample):
             yield killed_by, ""
 
     def _is_killed(self, sample: CardState) -> bool:
-        """Whether moves were killed by another; a soft limit that was crossed kills them, too."""
+        """Whether moves were killed by another host or the card, not by a crossed soft limit."""
         is_crossed = any(word & SOFT_LIMIT for word in sample.limits)
         return sample.is_killed and not is_crossed and not self._io.machine.is_dropping
 
     def _present(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
-        """What is wrong now, besides a kill."""
+        """Yield the present causes other than a kill."""
         wiring, spindle = self._io.settings.wiring, self._io.settings.spindle
         if self._io.is_in(sample, wiring.emergency_stop):
             yield alarms.EMERGENCY_STOP, ""
@@ -69,14 +69,14 @@ class Watch:
                 yield alarms.LIMIT_CROSSED, name
 
     def _in_error(self) -> Iterator[str]:
-        """The axes outside their band, asked for only when the master says there are some."""
+        """The axes outside their error band, read only when the master reports one."""
         words = self._io.machine.axis_flags(n.AF1_WORD)
         for axis, word in zip(self._io.settings.axes, words, strict=True):
             if axis.excess_error_u > 0.0 and not word & n.AF1_NOT_EXCESS_ERROR:
                 yield axis.name
 
     def is_gone(self, sample: CardState, *, spins: bool) -> Callable[[Alarm], bool]:
-        """Whether the cause of an alarm is no longer there; a kill is one as long as it lasts."""
+        """A test whether the cause of an alarm is gone; a kill is present as long as it lasts."""
         present = {(kind.code, detail) for kind, detail in self._present(sample, spins=spins)}
         if self._is_killed(sample):
             present.add((alarms.MOVES_KILLED.code, ""))
@@ -84,14 +84,14 @@ class Watch:
 
 
 class Edges:
-    """Inputs that act when they come on."""
+    """Detects rising edges of inputs."""
 
     def __init__(self, io: MachineIo) -> None:
         self._io = io
         self._before: dict[int, bool] = {}
 
     def rose(self, sample: CardState, number: int) -> bool:
-        """Whether an input came on since the last look; at the first one it did not."""
+        """Whether an input came on since the last poll; False at the first poll."""
         now = self._io.is_in(sample, number)
         before, self._before[number] = self._before.get(number, True), now
         return now and not before

@@ -1,8 +1,8 @@
-"""Outputs of burning machines: hi/lo of a plasma source, height sensing near the end of a cut.
+"""Outputs of burning machines: plasma Hi/Lo, and Under Burn near the end of a cut.
 
-Plasma Hi/Lo is on while the tool cuts at least at its percentage of the programmed feed.
+Plasma Hi/Lo is on while the tool cuts at its percentage of the programmed feed or faster.
 The Under Burn output is on along every cut, a chain of lines and arcs, and goes off when
-less than Under Burn Distance of the chain is left.
+less than Under Burn Distance of the chain remains.
 """
 
 from collections.abc import Iterator
@@ -19,7 +19,7 @@ PERCENT = 0.01
 
 
 class Burner:
-    """The two outputs of one machine; those that are none are left alone."""
+    """Switches the two outputs of one machine, as far as they are configured."""
 
     def __init__(self, io: MachineIo, stream: ProgramStream) -> None:
         self._io = io
@@ -28,8 +28,8 @@ class Burner:
         base = n.MA_BASE + io.settings.master * n.MA_STRIDE
         self._rows = (base + n.MA_FRACTION_INTO_MOVE, base + n.MA_VECTOR_VELOCITY)
 
-    def keep(self, sample: CardState, *, is_cutting: bool) -> None:
-        """Switch both as the tool moves now; off unless a program cuts."""
+    def update(self, sample: CardState, *, is_cutting: bool) -> None:
+        """Switch both outputs for the present motion; off unless a program cuts."""
         if self._row.plasma == NONE and self._row.under_burn == NONE:
             return
         job = self._stream.tracker.current if is_cutting and sample.is_moving else None
@@ -44,14 +44,14 @@ class Burner:
 
     def _is_near_end(self, left_u: float) -> bool:
         """Whether the chain is known to end within the distance."""
-        for job in self._behind():
+        for job in self._following():
             if left_u >= self._row.under_burn_u or not isinstance(job.entry, Line | Arc):
                 return left_u < self._row.under_burn_u
             left_u += job.length_u
         return left_u < self._row.under_burn_u and self._stream.is_read_up
 
-    def _behind(self) -> Iterator[Job]:
-        """The moves behind the present one."""
+    def _following(self) -> Iterator[Job]:
+        """The moves after the present one."""
         moves = self._stream.ahead()
         next(moves, None)
         return moves

@@ -1,4 +1,4 @@
-"""The console beside the program: override switches, and what others read of the run."""
+"""Console of a run: override switches, and the status published to other programs."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,7 @@ OVERRIDES_S, PUBLISH_S = 0.05, 0.5
 
 
 class Console:
-    """Reads the override switches and tells the world about the run."""
+    """Reads the override switches and publishes the status of the run."""
 
     def __init__(self, io: MachineIo, spindle: Spindle, store: Store) -> None:
         self.overrides = Overrides(io.settings)
@@ -32,10 +32,10 @@ class Console:
         self._spindle = spindle
         self._published = Published(store, io.machine)
         self._factors = (1.0, 1.0)
-        self._state: int | None = None  # published last
+        self._state: int | None = None  # last published
 
-    def keep(self, sample: CardState, times: Times, facts: Callable[[], Facts]) -> None:
-        """Do what is due at this look."""
+    def update(self, sample: CardState, times: Times, facts: Callable[[], Facts]) -> None:
+        """Do what is due at this poll."""
         if times.is_due("overrides", OVERRIDES_S):
             self._send_overrides(sample)
         now = facts()
@@ -44,11 +44,11 @@ class Console:
             self._publish(now)
 
     def renew(self) -> None:
-        """Send the overrides once more: the packets with them may be lost."""
+        """Send the overrides again: their packets may be lost."""
         self._io.machine.override(*self._factors)
 
     def count_part(self, passes: int) -> None:
-        """One more end of the program."""
+        """Publish the count of completed passes."""
         self._published.cell(PARTS, passes)
 
     def _send_overrides(self, sample: CardState) -> None:

@@ -1,8 +1,8 @@
-"""Drip feed: a program that is run while it arrives over a serial line.
+"""Drip feed: runs a program while it arrives over a serial line.
 
-The sender is held back while enough of the program waits to be read, and let go on when it
-runs short. When he stalls the machine comes to rest on its path, and goes on with the next
-lines; M2, Ctrl-Z, or a line that breaks down ends the program.
+The sender is held back while enough of the program waits to be read, and released when it
+runs low. When the sender stalls, the machine comes to rest on its path and continues with the
+next lines; M2, Ctrl-Z or a failure of the line ends the program.
 """
 
 from collections.abc import Callable, Iterator
@@ -26,14 +26,14 @@ from openacr.mill.run.feeding import Starved
 from openacr.mill.run.run_host import RunHost
 
 XON, XOFF = b"\x11", b"\x13"
-FULL, LOW = 16_384, 4_096  # unread bytes that hold the sender back, and let him go on
+FULL, LOW = 16_384, 4_096  # unread bytes at which the sender is held back, and released
 NAME = "DRIP"
 
 Entries: TypeAlias = Iterator[c.Entry | Starved]
 
 
 class Drip:
-    """One program on its way in over a serial port."""
+    """A program that arrives over a serial port."""
 
     def __init__(
         self,
@@ -56,11 +56,11 @@ class Drip:
             self._send(XON)
 
     def close(self) -> None:
-        """Let go of the port."""
+        """Close the port."""
         self._port.close()
 
     def poll(self) -> None:
-        """Take what has arrived, as much as is wanted."""
+        """Read what has arrived, up to `FULL` unread bytes."""
         try:
             while not self.text.is_complete and self.text.unread < FULL:
                 data = self._port.read(min(self._port.in_waiting, FULL))
@@ -68,7 +68,7 @@ class Drip:
                     break
                 self.text.add(data)
         except (serial.SerialException, OSError):
-            self.text.complete()  # the line is broken: what has arrived is all there is
+            self.text.complete()  # the line has failed: nothing more arrives
             return
         self._hold_back()
 
@@ -91,10 +91,10 @@ class Drip:
     # --- entries ----------------------------------------------------------------------
 
     def entries(self, host: RunHost) -> Entries:
-        """The program as far as it is there; `Starved` where it is not."""
+        """Yield the entries that have arrived, and `Starved` while more are missing."""
         reading = Reading(is_dry=self._is_dry, has_block_ends=True)
         run = Interpreter(self.program, self._store, host, self._dialect, reading)
-        Mdi(run)  # the supplied cycles are there without $I
+        Mdi(run)  # makes the supplied cycles available without $I
         source: Callable[[], Iterator[c.Entry]] = run.entries
         while True:
             self.poll()
@@ -109,7 +109,7 @@ class Drip:
             source = run.go_on
 
     def _refuse_open_macros(self, run: Interpreter) -> None:
-        """The text of a macro has to be there when it is called."""
+        """Refuse a call of a macro whose text has not arrived completely."""
         if any(frame.level is not Level.SUB for frame in run.flow.frames):
             raise self._too_early(run)
 
@@ -119,7 +119,7 @@ class Drip:
         return BlockError(found("E108", NAME, line, 1, "the macro has not arrived"))
 
     def _unreached(self, error: BlockError) -> BlockError:
-        """A label that is not there yet cannot be jumped to."""
+        """Report a jump to a label that has not arrived."""
         if error.finding.code != "E220":
             return error
         return BlockError(replace(error.finding, code="E108", hint="it has not arrived"))

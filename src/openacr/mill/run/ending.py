@@ -1,8 +1,8 @@
-"""The ends of a program: the last block, ABORT or an alarm, and the kill of all motion.
+"""Endings of a program: its last block, ABORT or an alarm, and the kill of all motion.
 
-However a program ends, spindle, coolant and beam are switched off first; nothing waits for
-the machine to come to rest before that. Every wait of an ending has a limit, and a machine
-that does not come to rest within it loses its drives (alarm 15).
+However a program ends, spindle, coolant and beam are switched off first; this does not wait
+for the machine to come to rest. Every wait of an ending has a limit; if the machine does not
+come to rest within it, its drives are switched off (alarm 15).
 """
 
 from contextlib import ExitStack
@@ -18,7 +18,7 @@ from openacr.mill.run.program_stream import ProgramStream
 
 
 class Ending:
-    """Ends what runs on one machine."""
+    """Ends the program of one machine."""
 
     def __init__(
         self,
@@ -38,17 +38,17 @@ class Ending:
         self._lifecycle = lifecycle
 
     def finish(self) -> None:
-        """All is done and at rest; blocks typed one by one leave on what is on."""
+        """End a completed program at rest; blocks typed one by one leave outputs on."""
         if not self._lifecycle.options.is_mdi:
             self._entry_actions.off()
         self._leave()
 
     def abort(self) -> None:
-        """To rest, moves dropped, everything off.
+        """Bring the machine to rest, drop its moves, switch everything off.
 
-        The hold is requested at once: a host that ends may never poll the card again.
+        The hold is requested at once: a host that exits may never poll the card again.
         """
-        with ExitStack() as then:  # each of these even if the one before it fails; last one first
+        with ExitStack() as then:  # all of these, even if one fails; in reverse order
             then.callback(self._player.begin, self._to_rest())
             then.callback(self._leave)
             if not self._lifecycle.options.is_dry:
@@ -56,8 +56,8 @@ class Ending:
             then.callback(self._machine.hold)
 
     def kill(self) -> None:
-        """All motion is killed, drives and spindle go off, the program is over."""
-        with ExitStack() as then:  # each of these even if the one before it fails; last one first
+        """Kill all motion, switch drives and spindle off, end the program."""
+        with ExitStack() as then:  # all of these, even if one fails; in reverse order
             then.callback(self._player.close)
             then.callback(self._leave)
             then.callback(self._entry_actions.off)
@@ -65,7 +65,7 @@ class Ending:
             self._machine.kill()
 
     def cut_power(self) -> None:
-        """The last resort, when nothing brings the machine to rest: kill, and all drives off."""
+        """Kill all motion and switch all drives off, if the machine does not come to rest."""
         with ExitStack() as then:
             then.callback(self._machine.disable)
             then.callback(self.kill)
@@ -84,5 +84,5 @@ class Ending:
             self._io.settings.rest_s,
             alarms.NO_REST,
         )
-        self._machine.fold_jogs()  # of a homing that was broken off
-        self._machine.go_on()  # nothing is left to move: a hold must not outlast its program
+        self._machine.fold_jogs()  # of a cancelled homing
+        self._machine.go_on()  # no move is left: a hold must not outlast its program

@@ -1,4 +1,4 @@
-"""What each canonical entry that is no move makes the machine do, at rest and in order."""
+"""Actions of canonical entries other than moves, executed at rest and in order."""
 
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -26,7 +26,7 @@ PULSES_OFF = 2.0  # what the check of a reference point allows
 
 
 class EntryActions:
-    """Spindle, coolant, tools, outputs and waits of one machine."""
+    """Executes entries: spindle, coolant, tools, outputs and waits of one machine."""
 
     def __init__(self, io: MachineIo, store: Store, say: Callable[[str], None]) -> None:
         self._io = io
@@ -35,12 +35,12 @@ class EntryActions:
         self.spindle = Spindle(io)
         self.coolant = Coolant(io)
         self.changer = ToolChanger(io, self.spindle)
-        self.is_tapping = False  # a tap may be in its hole
+        self.is_tapping = False  # a tap may be in the hole
 
     def off(self) -> None:
-        """Spindle, coolant and beam off, as ABORT and E-stop want it; each for itself."""
+        """Switch spindle, coolant and beam off, each even if another fails."""
         burning = self._io.settings.burning
-        with ExitStack() as each:  # last one first
+        with ExitStack() as each:  # in reverse order
             each.callback(self.spindle.switch_off)
             each.callback(self.coolant.set, mist=False, flood=False)
             for beam in (burning.plasma, burning.under_burn):
@@ -48,7 +48,7 @@ class EntryActions:
 
     @singledispatchmethod
     def steps(self, halt: Halt) -> Steps:
-        """The steps of one entry; those that only end or hold a program have none."""
+        """The steps of one entry; none for entries that only end or hold a program."""
         yield from ()
 
     @steps.register
@@ -122,7 +122,7 @@ class EntryActions:
             self._io.machine.write(entry.parameter, entry.value)
         except (MapError, RefusedError):
             name, line = f"P{entry.parameter}", entry.source.line
-            detail = f"line {line}: T {name}: the card has no {name}; DIM P makes it"
+            detail = f"line {line}: T {name}: the card has no {name}; DIM P creates it"
             raise AlarmError(alarms.PROGRAM_ERROR, detail) from None
         yield from ()
 
@@ -144,7 +144,7 @@ class EntryActions:
             yield from self._at_reference(entry)
 
     def _reference_input(self) -> Steps:
-        """G27: the switch has to answer; the output stays on where it does not."""
+        """Check the reference switch (G27); the output stays on if the switch does not respond."""
         wiring, io = self._io.settings.wiring, self._io
         io.output(wiring.g27_output, True)
 
@@ -155,7 +155,7 @@ class EntryActions:
         io.output(wiring.g27_output, False)
 
     def _at_reference(self, entry: c.Confirm) -> Steps:
-        """G28, G30: the axes have to stand on the point, once they have settled."""
+        """Check that the axes have settled at the reference point (G28, G30)."""
         yield Until("reference point", lambda _sample: not self._missed(entry), SETTLED_S)
         missed, wiring = self._missed(entry), self._io.settings.wiring
         if missed:
@@ -164,7 +164,7 @@ class EntryActions:
             raise AlarmError(alarms.POINT_MISSED, missed)
 
     def _missed(self, entry: c.Confirm) -> str:
-        """The first axis that does not stand on its reference point, and how far off."""
+        """The first axis off its reference point and its deviation, as text; empty if none."""
         machine = self._io.machine
         counts = dict(zip(machine.axes, machine.axis_values(AX_ACTUAL_POSITION), strict=True))
         for index in entry.axes:

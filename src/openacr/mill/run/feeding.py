@@ -1,7 +1,7 @@
-"""From canonical entries to moves ready to be sent, and the things that wait for rest.
+"""Feed of a program: converts canonical entries to planned moves and to halts at rest.
 
-The feed reads ahead of the machine: moves go through the planner, everything else is a
-halt - it acts when all moves before it are done - or a note, which takes effect in passing.
+The feed reads ahead of the machine: moves go through the planner; everything else is a
+halt, which acts when all moves before it are done, or a note, which acts without a stop.
 """
 
 from collections import deque
@@ -37,7 +37,7 @@ READ_TOGETHER = 32
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """What ends the program where it was found: before its block acts."""
+    """An alarm found in reading; it ends the program before its block acts."""
 
     kind: Kind
     detail: str
@@ -46,14 +46,14 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class InPosition:
-    """The wait of G9 and G61 behind a move."""
+    """The in-position wait of G9 and G61 after a move."""
 
     source: Source
 
 
 @dataclass(frozen=True, slots=True)
 class Starved:
-    """Nothing more of the program has arrived."""
+    """Marker: no more of the program has arrived."""
 
 
 Halt = Entry | Fault | InPosition
@@ -61,14 +61,14 @@ Halt = Entry | Fault | InPosition
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """What takes effect in passing, when the moves up to a number are done."""
+    """An entry that acts without a stop, when the move before it is done."""
 
     entry: Say | SetCell | Output | Coolant
-    behind: Job | None  # the move before it
+    after: Job | None  # the move before it
 
 
 class Feed:
-    """The way of one program's entries to the card."""
+    """Reads the entries of one program and plans its moves."""
 
     def __init__(
         self, entries: Iterator[Entry | Starved], begin: Point, settings: Settings, encoder: Encoder
@@ -82,20 +82,20 @@ class Feed:
         self._waits = any(axis.in_position_u > 0.0 for axis in settings.axes)
         self._has_begun = False
         self._last: Job | None = None
-        self.position = begin  # behind everything read so far
+        self.position = begin  # after everything read so far
         self.block = 0  # blocks read
         self.halt: Halt | None = None
         self.notes: deque[Note] = deque()
-        self._lines: Iterator[Job] = iter(())  # of the polyline that is being read
-        self._again: deque[Job] = deque()  # taken back from the card, still to be made
-        self._halt_behind: Halt | None = None
+        self._lines: Iterator[Job] = iter(())  # of the current polyline
+        self._again: deque[Job] = deque()  # withdrawn from the card, to be sent again
+        self._next_halt: Halt | None = None
         self.is_single = False
         self.is_starved = False
 
     # --- reading ----------------------------------------------------------------------
 
     def read(self, room: int) -> None:
-        """Read on until `room` moves may leave, or something has to wait for rest."""
+        """Read until `room` moves may be sent, or a halt is reached."""
         self.is_starved = False
         while self.halt is None and not self.is_starved and self._wants_more(room):
             for _ in range(READ_TOGETHER):
@@ -117,13 +117,13 @@ class Feed:
             self._read_entry()
 
     def _repeat(self, job: Job) -> None:
-        """A move that was taken back; in single block every block stops once more."""
+        """Plan a withdrawn move again; in single block every block stops again."""
         self._planner.add(job)
         is_last = not self._again
         if self.is_single and (is_last or self._again[0].block != job.block):
             self.halt = BlockEnd(job.entry.source)
         elif is_last:
-            self.halt, self._halt_behind = self._halt_behind, None
+            self.halt, self._next_halt = self._next_halt, None
 
     def _read_entry(self) -> None:
         try:
@@ -154,15 +154,15 @@ class Feed:
 
     def _move(self, entry: Rapid | Line | Arc) -> None:
         for job in self._encoder.jobs(entry, self.position):
-            self._take_up(job)
+            self._accept(job)
             if self.halt is not None:
                 return
         if isinstance(entry, Line | Arc):
             self._confirm(entry)
 
     def _read_line(self, job: Job) -> None:
-        """One line of a polyline: a block of its own."""
-        self._take_up(job)
+        """Read one line of a polyline, which is a block of its own."""
+        self._accept(job)
         self.block += 1
         if self.halt is None and isinstance(job.entry, Line):
             self._confirm(job.entry)
@@ -171,15 +171,15 @@ class Feed:
             if self.halt is None:
                 self.halt = end
             else:
-                self._halt_behind = end
+                self._next_halt = end
 
     def _confirm(self, entry: Line | Arc) -> None:
-        """G9 and G61 wait until all axes are in position, where a band says what that is."""
+        """Add the in-position wait of G9 and G61, if an in-position band is configured."""
         if self._waits and entry.pace.is_confirmed:
             self.halt = InPosition(entry.source)
 
-    def _take_up(self, job: Job) -> None:
-        """One more move, or why it may not be made."""
+    def _accept(self, job: Job) -> None:
+        """Plan a move, or set its fault as the halt."""
         self.halt = self._fault(job)
         if self.halt is not None:
             return
@@ -190,7 +190,7 @@ class Feed:
             self._planner.add(job)
 
     def _fault(self, job: Job) -> Fault | None:
-        """Why a move may not be made at all."""
+        """The fault that bars a move; None if it may be made."""
         source = job.entry.source
         axis = unhomed(job, self._settings)
         if axis is not None:
@@ -205,16 +205,16 @@ class Feed:
         return None
 
     def probe(self, entry: Probe) -> Job:
-        """The job of a probing move; it is sent by itself."""
+        """The job of a probing move, which is sent separately."""
         return self._encoder.job(entry, self.position)
 
-    # --- leaving ----------------------------------------------------------------------
+    # --- sending ----------------------------------------------------------------------
 
-    def take(self, room: int, *, is_urgent: bool = False) -> Iterator[Job]:
-        """Moves to be sent now, with the speed they end with.
+    def release(self, room: int, *, is_urgent: bool = False) -> Iterator[Job]:
+        """Yield moves to be sent now, with their end speeds.
 
-        `is_urgent`: the card runs out of moves, and nothing more arrives. The way ends at
-        rest then, as far as it is known, and goes on from there.
+        `is_urgent`: the card runs out of moves and no more arrive. The known path then ends
+        at rest, and continues from there.
         """
         is_complete = self.halt is not None
         is_urgent = is_urgent and self.is_starved and self._has_begun
@@ -222,62 +222,62 @@ class Feed:
             self._has_begun = len(self._planner) >= self._settings.drip_threshold
         if self._has_begun or is_complete:
             self._has_begun = True
-            yield from self._planner.take(room, is_complete=is_complete or is_urgent)
+            yield from self._planner.release(room, is_complete=is_complete or is_urgent)
 
     def jobs(self) -> Iterator[Job]:
-        """The moves that have been read and have not left yet."""
+        """The moves that were read and are not sent yet."""
         yield from self._planner
         yield from self._again
 
     @property
     def is_empty(self) -> bool:
-        """Every move read so far has left."""
+        """Whether every move read so far is sent."""
         return not len(self._planner)
 
     def passed(
         self, tracker: Tracker, *, is_at_rest: bool
     ) -> Iterator[Say | SetCell | Output | Coolant]:
-        """The notes whose moment has come."""
-        while self.notes and tracker.is_done(self.notes[0].behind, is_at_rest=is_at_rest):
+        """Yield the notes whose moves are done."""
+        while self.notes and tracker.is_done(self.notes[0].after, is_at_rest=is_at_rest):
             yield self.notes[0].entry
-            self.notes.popleft()  # not before it has taken effect
+            self.notes.popleft()  # only after it has taken effect
 
     def go_on(self) -> None:
-        """The halt is over; one that was set aside for a stop behind a block comes next."""
+        """End the halt; one deferred by a single-block stop comes next."""
         if self._again:
             self.halt = None
         else:
-            self.halt, self._halt_behind = self._halt_behind, None
+            self.halt, self._next_halt = self._next_halt, None
 
-    # --- another way ------------------------------------------------------------------
+    # --- changed path ------------------------------------------------------------------
 
     def replace(self, jobs: list[Job]) -> None:
-        """Make these moves, then those that have been read and have not left yet."""
+        """Insert moves before those that were read and are not sent yet."""
         self._again = deque([*jobs, *self._planner.clear(), *self._again])
         self._has_begun = True
         if not self._again:
-            return  # a halt that waits for rest is still what comes next
-        if self._halt_behind is None:
-            self._halt_behind = self.halt
+            return  # a pending halt still comes next
+        if self._next_halt is None:
+            self._next_halt = self.halt
         self.halt = None
 
-    def count_anew(self, jobs: list[Job], held: Job | None, rest: Job | None) -> None:
-        """The card counts from zero: `rest` is left of the held move, `jobs` come behind it."""
+    def restart_count(self, jobs: list[Job], held: Job | None, rest: Job | None) -> None:
+        """Restart packet numbers at zero: `rest` remains of the held move, `jobs` follow it."""
         for job in jobs:
             job.count = 0
         for _ in range(len(self.notes)):
             note = self.notes.popleft()
-            is_held = held is not None and note.behind is held
-            self.notes.append(Note(note.entry, rest if is_held else _if_ahead(note.behind)))
+            is_held = held is not None and note.after is held
+            self.notes.append(Note(note.entry, rest if is_held else _if_ahead(note.after)))
 
 
 def _if_ahead(job: Job | None) -> Job | None:
-    """A move that has no number of a packet, so it is not done."""
+    """The move if it is still to be sent, that is, has no packet number."""
     return job if job is not None and not job.count else None
 
 
 def _fault_of(error: BlockError) -> Fault:
-    """An error of a block; codes `Ann` are alarms of their own, all others are alarm 60."""
+    """The fault of a block error: code `Ann` is alarm nn, every other code alarm 60."""
     finding = error.finding
     if finding.code.startswith("A"):
         return Fault(alarms.kind(int(finding.code[1:])), f"line {finding.line}")

@@ -1,10 +1,9 @@
-"""The life cycle of a run: its states, what may happen in each of them, and what follows.
+"""Life cycle of a run: states, events, and the transitions between them.
 
-`TRANSITIONS` is the whole of it: a pair of state and event that is not in the table is refused
-and changes nothing. A row names the next state and the action that leads there. An action that
-refuses leaves the state as it is; an ending is entered even where its action fails half done,
-for what has failed once must not be taken for running. `docs/run-life-cycle.md` is drawn from
-the table.
+`TRANSITIONS` is complete: an event that the table does not list for a state is refused and
+changes nothing. A row names the next state and the action of the transition. If an action
+refuses, the state stays; an ending is entered even if its action fails halfway, because a
+failed run must not count as running. `docs/run-life-cycle.md` is generated from the table.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -16,12 +15,12 @@ from openacr.errors import UserError
 
 
 class State(Enum):
-    """What a machine is doing; `cell` is the value of P244."""
+    """State of a machine; `cell` is its value in P244."""
 
-    IDLE = "nothing runs"
+    IDLE = "no program runs"
     RUN = "a program runs"
     WAIT = "an action of the program waits for the machine"
-    HOMING = "reference points are being found"
+    HOMING = "axes are being homed"
     PAUSED = "feed hold"
     HOLD = "the program has stopped itself: M0, M1, single block, hand retract"
     ALARM = "an alarm has ended what ran"
@@ -44,11 +43,11 @@ CELLS = {
 
 
 class Event(Enum):
-    """What happens to a machine; commands of an operator read as in "cannot home: ..."."""
+    """Event of a machine; the values of operator commands read as in "cannot home: ..."."""
 
     LOAD = "start a program"
     HOME = "home"
-    HOMED = "find the last reference point"
+    HOMED = "finish homing"
     ACTION = "wait for an action"
     ACTION_DONE = "end an action"
     PROGRAM_STOP = "stop a program"
@@ -67,25 +66,25 @@ class Event(Enum):
 
 
 class Action(Enum):
-    """What is done in a transition."""
+    """Action of a transition."""
 
     NOTHING = "nothing"
-    BEGIN = "the program is read from its first block"
-    SEEK = "the axes move to their reference points"
-    HOLD = "feed hold: the moves ramp to rest on their path"
-    REJOIN = "back to the path where it was left, and on"
-    TRACE = "back along the path, or forward again"
-    CONTINUE = "on from where the stop came to rest"
-    FINISH = "spindle, coolant and beam off, unless blocks were typed"
-    REST = "feed hold; spindle, coolant and beam off; moves dropped; until all axes are at rest"
-    KILL = "all motion killed; drive enable, spindle, coolant and beam off"
-    CUT_POWER = "the kill, then all drives off"
-    ABANDON = "nothing more is sent to the card"
-    TAKE_BACK = "the kill is taken back"
+    BEGIN = "start reading the program at its first block"
+    SEEK = "home the axes"
+    HOLD = "feed hold: moves ramp to rest on their path"
+    REJOIN = "return to the path where it was left, and continue"
+    TRACE = "move back along the path, or forward again"
+    CONTINUE = "continue from where the stop came to rest"
+    FINISH = "switch spindle, coolant and beam off, except after MDI"
+    REST = "feed hold; spindle, coolant and beam off; drop moves; wait until all axes rest"
+    KILL = "kill all motion; switch drive enable, spindle, coolant and beam off"
+    CUT_POWER = "kill all motion, then switch all drives off"
+    ABANDON = "send nothing more to the card"
+    CLEAR_KILL = "clear the kill"
 
 
 class Transition(NamedTuple):
-    """The next state, and the action that leads there."""
+    """The next state and the action of a transition."""
 
     state: State
     action: Action
@@ -106,7 +105,7 @@ def _rows() -> Iterable[tuple[Event, tuple[State, ...], State, Action]]:
     yield Event.RESUME, (State.PAUSED,), State.RUN, Action.REJOIN
     yield Event.TRACE, (State.PAUSED,), State.PAUSED, Action.TRACE
     yield Event.END, active, State.IDLE, Action.FINISH
-    # What was ended may still come to rest, and axes may be moved by hand: in IDLE and ALARM, too.
+    # IDLE and ALARM have rows as well: an ended run may still ramp down, an axis may be jogged.
     yield Event.ABORT, (State.IDLE, *begun), State.IDLE, Action.REST
     yield Event.ABORT, (State.ALARM,), State.ALARM, Action.REST
     yield Event.FAULT, every, State.ALARM, Action.REST
@@ -114,7 +113,7 @@ def _rows() -> Iterable[tuple[Event, tuple[State, ...], State, Action]]:
     yield Event.NO_REST, every, State.ALARM, Action.CUT_POWER
     yield Event.LINK_LOST, every, State.ALARM, Action.NOTHING
     yield Event.DISOWNED, every, State.ALARM, Action.ABANDON
-    yield Event.ACKNOWLEDGE, (State.IDLE, State.ALARM), State.IDLE, Action.TAKE_BACK
+    yield Event.ACKNOWLEDGE, (State.IDLE, State.ALARM), State.IDLE, Action.CLEAR_KILL
 
 
 TRANSITIONS: dict[tuple[State, Event], Transition] = {
@@ -128,37 +127,37 @@ ENDINGS = frozenset({Action.FINISH, Action.REST, Action.KILL, Action.CUT_POWER, 
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a program is run."""
+    """Options of a run."""
 
     is_dry: bool = False
     is_single: bool = False
     stops_optionally: bool = False
-    is_repeated: bool = True  # where the store says Repeat Forever
-    is_mdi: bool = False  # blocks typed one by one: what is on stays on after them
+    is_repeated: bool = True  # if Repeat Forever is set in the store
+    is_mdi: bool = False  # blocks typed one by one: outputs stay on after them
 
 
 @dataclass(slots=True)
 class Lifecycle:
-    """What a machine is doing now, and how its program is run."""
+    """State of a machine, and the options of its program."""
 
-    has_operator: bool = True  # an operator answers and starts again
+    has_operator: bool = True  # an operator is present to answer and continue
     options: Options = field(default_factory=Options)
     state: State = field(default=State.IDLE, init=False)
     reason: str = field(default="", init=False)  # what a WAIT or HOLD is for
-    holds_later: bool = field(default=False, init=False)  # a feed hold waits for a tap to be out
+    holds_later: bool = field(default=False, init=False)  # feed hold pending during a tap
     _actions: Mapping[Action, Callable[[], None]] = field(default_factory=dict, init=False)
 
     def bind(self, actions: Mapping[Action, Callable[[], None]]) -> None:
-        """Say what each action does; every action but NOTHING needs one."""
+        """Bind actions to functions; every action but NOTHING needs one."""
         missing = set(Action) - {Action.NOTHING} - set(actions)
         if missing:
             raise ValueError(f"actions without a function: {sorted(one.name for one in missing)}")
         self._actions = {**actions, Action.NOTHING: lambda: None}
 
     def fire(self, event: Event, reason: str = "") -> None:
-        """Let an event happen: the action of its row, then the next state; UserError if refused.
+        """Fire an event: run the action of its row, enter the next state; UserError if refused.
 
-        `reason` says what a WAIT or HOLD that is entered is for.
+        `reason` is shown for a WAIT or HOLD that is entered.
         """
         self.require(event)
         following, action = TRANSITIONS[self.state, event]
@@ -172,13 +171,13 @@ class Lifecycle:
             self._enter(following, reason)
 
     def require(self, event: Event) -> None:
-        """Refuse an event that this state does not know."""
+        """Raise UserError if the present state does not allow an event."""
         if (self.state, event) not in TRANSITIONS:
             states = " or ".join(state.name for state, one in TRANSITIONS if one is event)
             raise UserError(f"cannot {event.value}: the state is {self.state.name}, not {states}")
 
     def _enter(self, state: State, reason: str) -> None:
-        if state is not State.PAUSED:  # an action that waits goes on waiting after it
+        if state is not State.PAUSED:  # a waiting action continues to wait afterwards
             self.reason = reason
         if state not in (State.RUN, State.WAIT):
             self.holds_later = False
@@ -186,10 +185,10 @@ class Lifecycle:
 
     @property
     def is_under_way(self) -> bool:
-        """Whether a program or a homing goes on by itself."""
+        """Whether a program or homing is running."""
         return self.state in (State.RUN, State.WAIT, State.HOMING)
 
     @property
     def is_over(self) -> bool:
-        """Whether nothing is left to be ended."""
+        """Whether no run is left to be ended."""
         return self.state in (State.IDLE, State.ALARM)

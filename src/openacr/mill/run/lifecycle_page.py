@@ -1,4 +1,4 @@
-"""The page of the life cycle: `python -m openacr.mill.run.lifecycle_page FILE`."""
+"""Generator of the life cycle page: `python -m openacr.mill.run.lifecycle_page FILE`."""
 
 import sys
 from collections.abc import Iterator
@@ -15,17 +15,17 @@ A machine is in one of these states. Other programs read the number in P244.
 
 """
 PICTURE = """
-## How one follows from another
+## Transitions between states
 
-The endings, which every state knows, are left out of the picture; they are in the table.
+Endings, which are possible in every state, are omitted here; the table has them.
 
 """
 TABLE = """
-## Every transition
+## All transitions
 
-A pair of state and event that is not here is refused and changes nothing. Where an action
-refuses, the state stays; endings (bold) are entered even where their action fails half done.
-A feed hold while reference points are being found is alarm 34, which is `FAULT`.
+An event that is not listed for a state is refused and changes nothing. If an action refuses,
+the state stays; endings (bold) are entered even if their action fails halfway.
+A feed hold during homing raises alarm 34, which is `FAULT`.
 
 """
 

@@ -1,4 +1,4 @@
-"""Passes of a program: once, or over and over where the store says so."""
+"""Passes of a program: one, or repeated if the store enables Repeat Forever."""
 
 from openacr.errors import UserError
 from openacr.mill.card.machine_io import MachineIo
@@ -8,7 +8,7 @@ from openacr.mill.run.program_stream import Entries, ProgramStream
 
 
 class Passes:
-    """The passes of what runs on one machine."""
+    """Counts and repeats the passes of a program."""
 
     def __init__(
         self, io: MachineIo, stream: ProgramStream, console: Console, lifecycle: Lifecycle
@@ -21,11 +21,11 @@ class Passes:
         self._entries: Entries | None = None
 
     def load(self, entries: Entries) -> None:
-        """Take a program; its first pass begins with `begin`."""
+        """Load a program; `begin` starts its first pass."""
         self._entries = entries
 
     def finish(self) -> None:
-        """M2 or the end: over, or once more."""
+        """End a pass (M2 or the last block): finish, or start the next."""
         options = self._lifecycle.options
         if not options.is_mdi:
             self.count += 1
@@ -36,7 +36,7 @@ class Passes:
             self._lifecycle.fire(Event.END)
 
     def begin(self) -> None:
-        """Begin the program from its first block on."""
+        """Start a pass at the first block."""
         if self._entries is None:
             raise UserError("no program is loaded")
         options = self._lifecycle.options

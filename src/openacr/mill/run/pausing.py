@@ -1,4 +1,4 @@
-"""A program in a feed hold: where it came to rest, the way back along its path, and on again."""
+"""Feed hold of a program: its rest position, tracing of the path, and resume."""
 
 from openacr.cnc.canonical import Point
 from openacr.errors import UserError
@@ -29,31 +29,31 @@ class Pausing:
         self._player = player
         self._lifecycle = lifecycle
         self.direction = -1  # of a trace: back (-1) or forward (1)
-        self._rest: Point | None = None  # where the hold has come to rest
-        self._left: Place | None = None  # that place on the path, once a move was made
+        self._rest: Point | None = None  # where the hold came to rest
+        self._left: Place | None = None  # its place on the path, None before the first move
 
     @property
     def has_rested(self) -> bool:
-        """Whether the hold has come to rest: axes may be moved by hand only then."""
+        """Whether the hold has come to rest, which jogging requires."""
         return self._rest is not None
 
     def begin(self) -> None:
-        """Feed hold: the moves ramp to rest on their path."""
+        """Hold the feed: moves ramp to rest on their path."""
         self._machine.hold()
 
     def note_place(self, sample: CardState) -> None:
-        """Where a feed hold has come to rest on the path."""
+        """Record where a feed hold came to rest on the path."""
         if self._lifecycle.state is State.PAUSED and self._rest is None and sample.is_held:
             self._rest, self._left = self._stream.host.position(), self._stream.place()
 
     def trace(self) -> None:
-        """Go back along the path, or forward again, as `direction` says."""
+        """Move back along the path or forward again, by `direction`."""
         if self._left is None or self._player.is_active:
             raise UserError("no move is held")
         self._retrace.begin(self.direction, self._left)
 
     def resume(self) -> None:
-        """The way goes on where it was held; a refusal changes nothing."""
+        """Continue the path where it was held; a refusal changes nothing."""
         if self._io.is_in(self._machine.poll(), self._io.settings.wiring.feed_hold):
             raise UserError("the feed hold input is active")
         left = self._retrace.left or self._left
@@ -62,29 +62,29 @@ class Pausing:
         if is_off and self._player.is_active:
             raise UserError("the machine was moved while an action waits: move it back, or abort")
         if point is not None and is_off:
-            self._stream.require_way_back(point)
+            self._stream.require_return_path(point)
         self._go_on(point if is_off else None, left)
         self._rest = self._left = None
 
     def _go_on(self, target: Point | None, left: Place | None) -> None:
-        """On along the path: as it is held, back from a trace, or first back to `target`."""
-        is_taken_back = self._retrace.left is not None
+        """Continue along the path: as held, after a trace, or first back to `target`."""
+        is_traced = self._retrace.left is not None
         self._retrace.finish()
         if target is not None:
             self._player.begin(self._stream.rejoin(target, left))
-        elif is_taken_back or self._stream.is_retaking:
-            return  # the card holds no move that goes on, or none that shall
-        elif self._reads_again and not self._player.is_active:
+        elif is_traced or self._stream.is_retaking:
+            return  # the card holds no move to continue, or none that should
+        elif self._must_reread and not self._player.is_active:
             self._player.begin(self._stream.retake())
         else:
             self._machine.go_on()
 
     @property
-    def _reads_again(self) -> bool:
-        """Whether the moves of the card are not simply gone on with."""
+    def _must_reread(self) -> bool:
+        """Whether moves are read again instead of continuing those on the card."""
         return self._lifecycle.options.is_single or self._stream.may_lack_moves
 
     def close(self) -> None:
-        """The program is over: there is nothing to come back to."""
+        """Forget the held position: the program has ended."""
         self._retrace.close()
         self._rest = self._left = None

@@ -1,4 +1,4 @@
-"""What waits for rest: actions, questions, stops and ends of a program."""
+"""Halts of a program: actions, questions, stops and ends, executed at rest."""
 
 from openacr.cnc import canonical as c
 from openacr.mill.card import alarms
@@ -13,7 +13,7 @@ from openacr.mill.run.program_stream import ProgramStream
 
 
 class ProgramStops:
-    """Takes up what a program of one machine halts for."""
+    """Executes the halts of a program."""
 
     def __init__(
         self,
@@ -32,13 +32,13 @@ class ProgramStops:
         self._rest: c.Point | None = None  # where a stop of the program came to rest
 
     def steps(self, halt: Halt) -> Steps:
-        """What to do for a halt; the program goes on behind it unless it holds or ends."""
+        """The steps of a halt; the program continues after it unless it stops or ends."""
         if isinstance(halt, c.Probe):
             yield from self._stream.probe(halt)
         elif isinstance(halt, c.Ask):
             yield from self._asked(halt)
         elif isinstance(halt, c.Stop | c.BlockEnd):
-            if not self._passes_by(halt):
+            if not self._is_ignored(halt):
                 self._hold(halt)
                 return
         elif isinstance(halt, c.End):
@@ -51,15 +51,15 @@ class ProgramStops:
         self._stream.go_on()
 
     def go_on(self) -> None:
-        """Cycle Start after a stop: from where it came to rest; a refusal changes nothing."""
+        """Continue after a stop, from where it came to rest; a refusal changes nothing."""
         if self._rest is not None:
-            self._stream.require_way_back(self._rest)
+            self._stream.require_return_path(self._rest)
         self._stream.go_on()
         if self._rest is not None:
             self._stream.come_back(self._rest)
 
     def _asked(self, ask: c.Ask) -> Steps:
-        """INPUT: until the operator has answered; alarm 61 where nobody can."""
+        """Wait for the operator's answer (INPUT); alarm 61 without an operator."""
         answers = self._stream.host.answers
         if ask.parameter not in answers and not self._lifecycle.has_operator:
             raise AlarmError(alarms.ANSWER_MISSING, f"P{ask.parameter} {ask.text}")
@@ -69,7 +69,7 @@ class ProgramStops:
         finally:
             self.asking = None
 
-    def _passes_by(self, halt: c.Stop | c.BlockEnd) -> bool:
+    def _is_ignored(self, halt: c.Stop | c.BlockEnd) -> bool:
         """Whether a stop has no effect: M1 without the switch, single block switched off."""
         if isinstance(halt, c.BlockEnd):
             return not self._lifecycle.options.is_single

@@ -1,7 +1,6 @@
-"""One pass of a program on its way to the card: what was sent, what comes next.
+"""Stream of a program to the card: the moves that were sent and those that follow.
 
-The course knows the moves; what the runner decides (hold, go on, take back, join again)
-happens to them here.
+It executes the decisions of the runner (hold, continue, withdraw, rejoin) on the moves.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -22,34 +21,34 @@ from openacr.mill.run.rejoin import Place, first_of, lead_in, pace_of, place, re
 from openacr.mill.run.run_host import RunHost
 from openacr.mill.run.tracking import Tracker, time_s
 
-SHORT_S = 0.3  # of motion left in the card, when nothing more of the program arrives
-KILL_S = 0.5  # longest wait for a card at rest to take notice
-PULSES_OFF = 2.0  # further away the machine has been moved
+SHORT_S = 0.3  # motion left on the card at which a starved program is brought to rest
+KILL_S = 0.5  # longest reaction time of a card at rest
+PULSES_OFF = 2.0  # larger deviations mean that the machine was moved
 Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
 
 
 class ProgramStream:
-    """The moves of one machine, from the entries of a program to the buffer of the card."""
+    """Sends the moves of a program to the buffer of the card."""
 
     def __init__(self, io: MachineIo, entry_actions: EntryActions, depth: int) -> None:
         self.settings = io.settings
         self.host = RunHost(io.machine, io.settings, lambda: self._probing.point)
         self.tracker = Tracker()
         self.moves = 0  # moves sent
-        self.is_retaking = False  # the card is on its way to rest, to give its moves back
-        self.may_lack_moves = False  # some that were sent in a pause's beginning may be lost
+        self.is_retaking = False  # moves are being withdrawn from the card
+        self.may_lack_moves = False  # moves sent at the beginning of a pause may be lost
         self._machine = io.machine
         self._entry_actions = entry_actions
         self._depth = depth
         self._probing = Probing(io, self._send, self.host.position, entry_actions.say)
         self._encoder = Encoder(io.settings)
         self._feed: Feed | None = None
-        self._excused: Job | None = None  # a last move whose end the machine has left on purpose
+        self._excused: Job | None = None  # a last move whose end the machine left on purpose
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
-        self._rapid_level: float | None = None  # the highest its rapids brought the tool to
+        self._rapid_level: float | None = None  # highest tool level of its rapids
 
     def begin(self, entries: Entries, *, is_dry: bool, is_single: bool) -> None:
-        """A program from its first block on."""
+        """Start a pass of a program at its first block."""
         self._machine.reset_counter()
         self.tracker.reset()
         self.tracker.trail.restart([])
@@ -60,47 +59,47 @@ class ProgramStream:
         self._feed.is_single = is_single
 
     def end(self) -> None:
-        """No program any more."""
+        """Drop the program."""
         self._feed = None
 
     @property
     def has_program(self) -> bool:
-        """Whether a program is on its way."""
+        """Whether a program is being sent."""
         return self._feed is not None
 
     @property
     def is_read_up(self) -> bool:
-        """Whether nothing comes behind the moves that are known, before the machine rests."""
+        """Whether no move follows the known ones before the machine rests."""
         return self._feed is None or self._feed.halt is not None
 
     def ahead(self) -> Iterator[Job]:
-        """The move that is executed, and those known to come behind it."""
+        """The executing move and those known to follow it."""
         yield from self.tracker.jobs()
         if self._feed is not None:
             yield from self._feed.jobs()
 
     def set_single(self, on: bool) -> None:
-        """Whether every block is followed by a stop."""
+        """Switch single block on or off."""
         if self._feed is not None:
             self._feed.is_single = on
 
     # --- forward ----------------------------------------------------------------------
 
     def advance(self, sample: CardState) -> Halt | None:
-        """Read and send as far as there is room; what the program has come to at rest."""
+        """Read and send as far as there is room; returns the halt reached at rest, if any."""
         feed = self._feed
         if feed is None:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
-        jobs = feed.take(room, is_urgent=feed.is_starved and self._is_short())
+        jobs = feed.release(room, is_urgent=feed.is_starved and self._is_short())
         is_at_rest = False
         with self._machine.repeating():
             self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
             is_at_rest = self.tracker.is_at_end(sample)
             for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
                 for _ in self._entry_actions.steps(note):
-                    pass  # none of them waits
+                    pass  # no note waits
         halt = feed.halt if feed.is_empty and is_at_rest else None
         if halt is not None and (moved := self._moved_by_others()):
             return Fault(alarms.NOT_IN_PLACE, moved)
@@ -109,11 +108,11 @@ class ProgramStream:
         return halt
 
     def excuse(self) -> None:
-        """The machine leaves the end of its last move on purpose: by hand, or in probing."""
+        """Accept that the machine leaves the end of its last move, by jogging or probing."""
         self._excused = next(reversed(self.tracker.jobs()), None)
 
     def _moved_by_others(self) -> str:
-        """At rest behind moves: the axis that is not where they led to; empty if all are."""
+        """The axis that is not at the end of the last move, as text; empty if all are."""
         jobs = self.tracker.jobs()
         if not jobs or jobs[-1] is self._excused:
             return ""
@@ -124,13 +123,13 @@ class ProgramStream:
         ):
             if abs(at + jog - end) > PULSES_OFF:
                 at_u, end_u = (at + jog) / axis.pulses_per_unit, end / axis.pulses_per_unit
-                return f"axis {axis.name} is at {at_u:.6g}, the program led it to {end_u:.6g}"
+                return f"axis {axis.name} is at {at_u:.6g}, its program position is {end_u:.6g}"
         return ""
 
     def _is_short(self) -> bool:
-        """Whether the card soon has no moves any more."""
-        behind = self.tracker.jobs()[1:]
-        return sum(map(time_s, behind)) < SHORT_S
+        """Whether the card soon runs out of moves."""
+        following = self.tracker.jobs()[1:]
+        return sum(map(time_s, following)) < SHORT_S
 
     @property
     def is_starved(self) -> bool:
@@ -138,7 +137,7 @@ class ProgramStream:
         return self._feed is not None and self._feed.is_starved
 
     def go_on(self) -> None:
-        """What the program had come to is done."""
+        """Continue after a halt."""
         if self._feed is not None:
             self._feed.go_on()
 
@@ -157,17 +156,17 @@ class ProgramStream:
             self.moves += len(packets)
 
     def probe(self, entry: c.Probe) -> Steps:
-        """G31, from rest to rest."""
+        """Make a probing move (G31), from rest to rest."""
         feed = self._feed
         if feed is not None:
             yield from self._probing.steps(feed.probe(entry), self._encoder.job)
             feed.position = self.host.position()
             self.excuse()
 
-    # --- back and again ---------------------------------------------------------------
+    # --- withdrawing and rejoining ---------------------------------------------------------------
 
     def place(self) -> Place | None:
-        """Where a held machine stands on its path."""
+        """The place of a held machine on its path."""
         job = self.tracker.current
         return place(job, self.host.position()) if job else None
 
@@ -176,7 +175,7 @@ class ProgramStream:
         return bool(self._moved_axes(self.host.position(), point))
 
     def _moved_axes(self, here: c.Point, point: c.Point) -> set[int]:
-        """The axes that are not at a point any more."""
+        """The axes that are no longer at a point."""
         return {
             axis.index
             for axis in self.settings.axes
@@ -184,15 +183,15 @@ class ProgramStream:
             > max(axis.in_position_u, PULSES_OFF / axis.pulses_per_unit)
         }
 
-    def require_way_back(self, point: c.Point) -> None:
-        """Refuse to come back to a point over a part: it is not known where the tool is free."""
+    def require_return_path(self, point: c.Point) -> None:
+        """UserError if returning to a point may cross the part: no clear level is known."""
         self._level(self.host.position(), point)
 
     def _level(self, here: c.Point, target: c.Point) -> float:
-        """The level of the tool axis at which the tool goes over to a point.
+        """The level of the tool axis at which the tool travels to a point.
 
-        A tool that was only moved along its axis needs none. Any other goes up to the highest
-        level of the rapids of this program, or where it was raised to by hand.
+        A tool that was only moved along its axis needs no level. Otherwise it is the highest
+        level of the rapids of this program, or the one it was raised to by hand.
         """
         moved, axis = self._moved_axes(here, target), c.TOOL_AXIS
         high = max(here[axis], target[axis])
@@ -203,14 +202,14 @@ class ProgramStream:
         if axis in moved and here[axis] > target[axis]:
             return high
         raise UserError(
-            "the tool was moved beside its path, and the program has not said yet at which"
-            f" level it is free: raise {self.settings.axis(axis).name} by hand first"
+            "the tool was moved off its path, and no rapid of the program has shown a clear"
+            f" level yet: raise {self.settings.axis(axis).name} by hand first"
         )
 
     def retake(self) -> Steps:
-        """Stop, take every move back that is not done, and read them again.
+        """Stop, withdraw every unfinished move, and read them again.
 
-        It may be broken off anywhere, and begun once more.
+        It may be cancelled anywhere, and started again.
         """
         if self._feed is None:
             return
@@ -219,12 +218,12 @@ class ProgramStream:
             with self._machine.repeating():
                 self._machine.hold()
                 yield self.stops()
-                yield from self.put_back(self.host.position())
+                yield from self.withdraw(self.host.position())
         finally:
             self.is_retaking = False
 
     def stops(self) -> Until:
-        """The wait for the rest of a feed hold; alarm 15 if it does not come."""
+        """Wait until a feed hold is at rest; alarm 15 if it does not come to rest."""
         return Until(
             "stops",
             lambda sample: sample.is_held or not sample.is_moving,
@@ -232,29 +231,29 @@ class ProgramStream:
             alarms.NO_REST,
         )
 
-    def put_back(self, here: c.Point) -> Steps:
-        """Take the rest of the way back from the card, for a machine that is held at `here`."""
-        self.make_first(self._taken_back(here))
+    def withdraw(self, here: c.Point) -> Steps:
+        """Withdraw the rest of the path from the card, for a machine held at `here`."""
+        self.insert_first(self._withdrawn(here))
         yield from self.drop_moves()
 
-    def make_first(self, jobs: list[Job]) -> None:
-        """These moves come before everything the program still has to make."""
+    def insert_first(self, jobs: list[Job]) -> None:
+        """Insert moves before all remaining moves of the program."""
         if self._feed is not None:
             self._feed.replace(jobs)
 
     def rejoin(self, target: c.Point, left: Place | None) -> Steps:
-        """Back to where the machine was held, then the rest of the path."""
+        """Return to where the machine was held, then continue the path."""
         feed = self._feed
         if feed is None:
             return
         here = self.host.position()
         leading = self._leading(here, target, left)
-        jobs = self._taken_back(target)
+        jobs = self._withdrawn(target)
         yield from self.drop_moves()
         feed.replace([*leading, *jobs])
 
     def _leading(self, here: c.Point, target: c.Point, left: Place | None) -> list[Job]:
-        """The moves back to where the machine was held: on an arc where there is one to be had."""
+        """The moves back to where the machine was held, with a lead-in arc where possible."""
         if left is None:
             return self._straight_back(here, target)
         level_u = self._level(here, target)
@@ -266,7 +265,7 @@ class ProgramStream:
         return leading
 
     def come_back(self, target: c.Point) -> None:
-        """Back to a point the machine rested at, straight, before anything else."""
+        """Insert straight moves back to a point where the machine rested."""
         jobs = self._straight_back(self.host.position(), target)
         if self._feed is not None and jobs:
             self._feed.replace(jobs)
@@ -278,7 +277,7 @@ class ProgramStream:
         return self._jobs(straight_back(source, here, target, level_u, pace), here)
 
     def return_to_begin(self) -> Steps:
-        """Straight to where the program was started, where the tool can be raised before."""
+        """Return straight to where the program was started, if a clear tool level is known."""
         try:
             jobs = self._straight_back(self.host.position(), self._begin)
         except UserError as refused:
@@ -288,10 +287,10 @@ class ProgramStream:
         yield Until("back to the start", self.tracker.is_at_end)
 
     def drop_moves(self) -> Steps:
-        """Drop what the card holds and count from zero again; alarm 15 if it moves on.
+        """Drop the moves on the card and reset the counter; alarm 15 if motion continues.
 
-        A kill that cannot be cleared was set by another host or by the card: it is alarm 14
-        from then on.
+        A kill that cannot be cleared was set by another host or by the card; it then raises
+        alarm 14.
         """
         self._machine.stop()
         limit_s = self.settings.rest_s
@@ -301,7 +300,7 @@ class ProgramStream:
         self._machine.reset_counter()
         self.tracker.reset()
         self.may_lack_moves = False
-        # What was seen before the counter was reset must not pass for the end of new moves.
+        # A state sampled before the counter reset must not count as the end of new moves.
         yield Until(
             "kill is cleared", lambda sample: not sample.is_killed and sample.counter == 0, CLEAR_S
         )
@@ -313,9 +312,9 @@ class ProgramStream:
             begin = entry.end
         return [job for job in jobs if job.length_u > 0.0]
 
-    def _taken_back(self, here: c.Point) -> list[Job]:
-        """The rest of the move that is held at `here`, and those behind it."""
-        jobs, held, rest = self.tracker.take_back(), None, []
+    def _withdrawn(self, here: c.Point) -> list[Job]:
+        """The rest of the move held at `here`, and the moves after it."""
+        jobs, held, rest = self.tracker.withdraw(), None, []
         if jobs and 0 < jobs[0].count <= self.tracker.started:
             held = jobs.pop(0)
             first = first_of(held.entry, held.begin, here)
@@ -323,11 +322,11 @@ class ProgramStream:
                 self.tracker.trail.add(piece)
             rest = self.pieces_of(held, rest_of(held.entry, held.begin, here), here)
         if self._feed is not None:
-            self._feed.count_anew(jobs, held, rest[0] if rest else None)
+            self._feed.restart_count(jobs, held, rest[0] if rest else None)
         return rest + jobs
 
     def pieces_of(self, whole: Job, entry: Motion, begin: c.Point) -> list[Job]:
-        """A part of a move as a move of its own, or nothing where it has no length."""
+        """A part of a move as a separate move; empty if it has no length."""
         part = self._encoder.job(entry, begin)
         part.block = whole.block
         return [part] if part.length_u > 0.0 else []

@@ -1,4 +1,4 @@
-"""What other programs read of a run: cells of the store and variables of the card."""
+"""Status of a run for other programs: cells of the store and variables of the card."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -13,7 +13,7 @@ LAST_ALARM, FEED_PERCENT, RUN_TIME = CELLS.last_alarm, CELLS.fov_percent, CELLS.
 
 
 class Facts(NamedTuple):
-    """What there is to be read of a run."""
+    """Published facts of a run."""
 
     line: float
     state: int
@@ -22,7 +22,7 @@ class Facts(NamedTuple):
 
 
 class Published:
-    """Writes what has changed, and nothing else."""
+    """Writes published values when they change."""
 
     def __init__(self, store: Store, machine: MachineDriver) -> None:
         self._store = store
@@ -30,14 +30,14 @@ class Published:
         self._written: dict[tuple[bool, int], float] = {}
 
     def cell(self, n: int, value: float) -> None:
-        """A cell of the store."""
-        self._keep((False, n), value, self._store.write)
+        """Publish a cell of the store."""
+        self._write_changed((False, n), value, self._store.write)
 
     def variable(self, n: int, value: float) -> None:
-        """A variable of the card."""
-        self._keep((True, n), value, self._machine.write)
+        """Publish a variable of the card."""
+        self._write_changed((True, n), value, self._machine.write)
 
-    def _keep(self, place: tuple[bool, int], value: float, write: Write) -> None:
+    def _write_changed(self, place: tuple[bool, int], value: float, write: Write) -> None:
         if self._written.get(place) != value:
             write(place[1], value)
-            self._written[place] = value  # one that failed is written again
+            self._written[place] = value  # a failed write is repeated

@@ -1,15 +1,15 @@
-r"""Back to a path that was left: what is left of a move, and how it is joined.
+r"""Return to a path that was left: the rest of a move, and the moves that rejoin it.
 
-After a stop the machine may have been moved by hand. A tool that was only raised comes
-straight down where it left the path, at the point P. One that was moved beside the path
-first goes up to where it is free, over, and down at feed. Where cutter radius compensation
-says on which side of the path the part is not (+1 left, -1 right), it comes down there and
-joins the path on a quarter arc that touches it at P:
+After a stop the machine may have been moved by hand. A tool that was only raised goes
+straight down where it left the path, at the point P. One that was moved off the path first
+goes up to a clear level, across, and down at feed. Where cutter radius compensation gives the
+side of the path that is free of the part (+1 left, -1 right), it goes down on that side and
+joins the path on a quarter arc tangent at P:
 
     centre  C = P + s r n,  s = side, n = t turned by +90 degrees
     start   E = C - r t,    from E the arc turns through 90 degrees into P
 
-Everywhere else it comes down at P itself: no other place is known to be free.
+Otherwise it goes down at P itself: no other place is known to be free.
 """
 
 import math
@@ -35,7 +35,7 @@ Path = TypeVar("Path", bound=Motion)
 
 
 def first_of(entry: Path, begin: Point, here: Point) -> Path:
-    """A move up to a point on it."""
+    """The part of a move before a point on it."""
     if not isinstance(entry, Arc):
         return replace(entry, end=here)
     first, second = entry.plane.first, entry.plane.second
@@ -44,27 +44,27 @@ def first_of(entry: Path, begin: Point, here: Point) -> Path:
 
 
 def rest_of(entry: Path, begin: Point, here: Point) -> Path:
-    """A move from a point on it on."""
+    """The part of a move after a point on it."""
     if not isinstance(entry, Arc):
         return entry
     first, second = entry.plane.first, entry.plane.second
-    gone = _turned(entry, begin, here)
+    turned = _turned(entry, begin, here)
     radius = math.dist((here[first], here[second]), entry.centre)
-    return replace(entry, sweep_rad=entry.sweep_rad - gone, start_radius=radius)
+    return replace(entry, sweep_rad=entry.sweep_rad - turned, start_radius=radius)
 
 
 def _turned(arc: Arc, begin: Point, here: Point) -> float:
-    """How far an arc has got: the angle between two points, in its direction."""
+    """The angle between two points of an arc, in its direction."""
     first, second = arc.plane.first, arc.plane.second
     angles = [
         math.atan2(point[second] - arc.centre[1], point[first] - arc.centre[0])
         for point in (begin, here)
     ]
     turn = math.copysign(1.0, arc.sweep_rad)
-    gone = (turn * (angles[1] - angles[0])) % (2.0 * math.pi)
-    if gone > abs(arc.sweep_rad):  # a little in front of the beginning, by rounding
-        gone = 0.0 if gone > math.pi + 0.5 * abs(arc.sweep_rad) else abs(arc.sweep_rad)
-    return turn * gone
+    turned = (turn * (angles[1] - angles[0])) % (2.0 * math.pi)
+    if turned > abs(arc.sweep_rad):  # slightly before the beginning, by rounding
+        turned = 0.0 if turned > math.pi + 0.5 * abs(arc.sweep_rad) else abs(arc.sweep_rad)
+    return turn * turned
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,9 +94,9 @@ def _tangent(job: Job, here: Point) -> tuple[float, float] | None:
 
 
 def lead_in(left: Place, here: Point, level_u: float, radius_u: float) -> Iterator[Motion]:
-    """The moves from where the machine is now to the place where it left the path.
+    """The moves from the present position to the place where the path was left.
 
-    `level_u` is where the tool is free, above both; a `radius_u` of 0 wants no arc.
+    `level_u` is a clear level above both; a `radius_u` of 0 means no arc.
     """
     source, target, pace = left.job.entry.source, left.point, pace_of(left.job)
     if pace is None or pace.side == 0 or left.tangent is None or radius_u <= 0.0:
@@ -117,7 +117,7 @@ def lead_in(left: Place, here: Point, level_u: float, radius_u: float) -> Iterat
 def straight_back(
     source: Source, here: Point, target: Point, level_u: float, pace: Pace | None
 ) -> Iterator[Rapid | Line]:
-    """Up to a level, over, and down to a point: in rapids, the last one at a pace if there is."""
+    """Moves up to a level, across, and down to a point: rapids, the last one at `pace` if given."""
     yield Rapid(source, _with(here, TOOL_AXIS, level_u), is_inserted=True)
     yield Rapid(source, _with(target, TOOL_AXIS, level_u), is_inserted=True)
     if pace is None:
@@ -127,7 +127,7 @@ def straight_back(
 
 
 def pace_of(job: Job) -> Pace | None:
-    """How a tool comes down to a move: at its feed, None for at rapid."""
+    """The pace for going down to a move: its feed, None for a rapid."""
     if isinstance(job.entry, Rapid):
         return None
     return replace(job.entry.pace, mode=PathMode.FREE, is_confirmed=False)

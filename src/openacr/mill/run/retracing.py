@@ -1,12 +1,12 @@
-"""Back along the path that has been cut, and forward again, in a pause.
+"""Tracing of the path in a pause: back along the cut path and forward again.
 
 While a line or an arc is held the tool may go back over the moves before it, as far as the
 last rapid, tool change or beginning of the program, and forward to the point where it was
-held. Those moves run at Forward Backward Speed, spindle, coolant and outputs stay as they
-are. RESUME makes the way from wherever the tool is then, at the feed of the program.
+held. Those moves run at Forward Backward Speed; spindle, coolant and outputs stay as they
+are. RESUME continues the path from the position of the tool, at the feed of the program.
 
-The path is two lists of moves, both written forward: those behind the tool and those ahead
-of it. Wherever a trace stops, the move it stopped in is cut in two at that point.
+The path is two lists of moves, both in forward direction: those before the tool and those
+after it. The move in which a trace stops is split at that point.
 """
 
 from collections import deque
@@ -28,7 +28,7 @@ from openacr.mill.run.tracking import Tracker
 
 
 class Retrace:
-    """The way back and forward of one machine in a pause."""
+    """Traces the path of one machine back and forward in a pause."""
 
     def __init__(self, io: MachineIo, stream: ProgramStream, depth: int) -> None:
         self._machine = io.machine
@@ -39,13 +39,13 @@ class Retrace:
         self._player = ActionPlayer()
         self._tracker = Tracker()
         self._is_stopping = False
-        self._behind: list[Job] = []
+        self._done: list[Job] = []
         self._ahead: list[Job] = []
-        self._left: Place | None = None  # where the tool stands on the path now
+        self._left: Place | None = None  # where the tool is on the path now
 
     @property
     def is_active(self) -> bool:
-        """Whether the tool is on its way back or forward."""
+        """Whether a trace is in progress."""
         return self._player.is_active
 
     @property
@@ -55,12 +55,12 @@ class Retrace:
 
     @property
     def left(self) -> Place | None:
-        """Where on the path the tool stands, once a trace has begun in this pause."""
+        """The place of the tool on the path, None before the first trace of a pause."""
         return self._left
 
     @property
     def source(self) -> Source | None:
-        """The block the tool is on in a trace."""
+        """The block of the tool in a trace."""
         if self.is_active:
             return self._tracker.source
         return self._left.job.entry.source if self._left else None
@@ -75,7 +75,7 @@ class Retrace:
         if self._stream.is_off(here.point):
             raise UserError("the machine was moved off its path: resume first")
         if direction > 0 and self._left is None:
-            raise UserError("the tool stands where it was held")
+            raise UserError("the tool is where it was held: nothing to trace forward")
         self._is_stopping = False
         self._player.begin(self._steps(direction, left))
 
@@ -86,21 +86,21 @@ class Retrace:
             self._machine.hold()
 
     def play(self, sample: CardState, step_s: float) -> None:
-        """Go on with a trace as far as the card lets it."""
+        """Continue a trace until it has to wait."""
         self._player.play(sample, step_s)
 
     def close(self) -> None:
-        """The program is over: there is nothing to be traced any more."""
+        """Drop the trace: the program has ended."""
         self._player.close()
-        self._behind, self._ahead, self._left = [], [], None
+        self._done, self._ahead, self._left = [], [], None
 
     def finish(self) -> None:
-        """Leave the rest of the way, if it was taken over, to the program again."""
+        """Return the rest of the path to the program."""
         if self._left is not None:
             self._left = None
-            self._stream.tracker.trail.restart(self._behind)
-            self._stream.make_first(self._ahead)
-            self._behind, self._ahead = [], []
+            self._stream.tracker.trail.restart(self._done)
+            self._stream.insert_first(self._ahead)
+            self._done, self._ahead = [], []
 
     # --- one trace --------------------------------------------------------------------
 
@@ -111,28 +111,28 @@ class Retrace:
         is_forward = direction > 0
         path = self._forward() if is_forward else self._backward()
         yield self._all_of(path, "forward" if is_forward else "backward")
-        count, present = self._gone(path)
+        count, present = self._finished(path)
         here = self._stream.host.position()
         yield from self._stream.drop_moves()
         if is_forward:
-            self._behind += self._ahead[:count]
+            self._done += self._ahead[:count]
             self._ahead = self._ahead[count:]
         else:
-            kept = len(self._behind) - count
-            self._ahead = self._behind[kept:] + self._ahead
-            self._behind = self._behind[:kept]
+            kept = len(self._done) - count
+            self._ahead = self._done[kept:] + self._ahead
+            self._done = self._done[:kept]
         if present is not None:
             self._cut(here, is_forward=is_forward)
         self._left = self._place(left, here)
 
     def _take_over(self, left: Place) -> Steps:
-        """Take the moves of the program back from the card; the path so far lies behind."""
-        yield from self._stream.put_back(left.point)
-        self._behind = self._stream.tracker.trail.path()
+        """Withdraw the moves of the program from the card, and take over the path so far."""
+        yield from self._stream.withdraw(left.point)
+        self._done = self._stream.tracker.trail.path()
         self._ahead = []
 
     def _all_of(self, path: list[Job], reason: str) -> Until:
-        """Send moves as there is room for them, until all are made or a stop has come to rest."""
+        """Send moves while there is room, until all are made or a stop is at rest."""
         tracker = self._tracker = Tracker()
         queue, planner = deque(path), Planner[Job](CornerRules.of(self._settings.speeds))
 
@@ -143,7 +143,7 @@ class Retrace:
             room = self._depth - tracker.waiting
             while queue and planner.ready() < room:
                 planner.add(queue.popleft())
-            jobs = planner.take(room, is_complete=not queue)
+            jobs = planner.release(room, is_complete=not queue)
             self._send(tracker.bounded(jobs, self._settings.buffered_s))
             return not queue and not planner and tracker.is_at_end(sample)
 
@@ -156,8 +156,8 @@ class Retrace:
             if packet is not None:
                 self._machine.send([packet])
 
-    def _gone(self, path: list[Job]) -> tuple[int, Job | None]:
-        """How many moves of a way are done, and the one a stop came to rest in."""
+    def _finished(self, path: list[Job]) -> tuple[int, Job | None]:
+        """The count of finished moves of a path, and the move in which a stop came to rest."""
         current = self._tracker.current
         if not self._is_stopping or not self._machine.poll().is_held:
             return (len(path), None) if path and current is path[-1] else (0, None)
@@ -171,11 +171,11 @@ class Retrace:
         return [self._job(job.begin, _entry(job), job.mode) for job in self._ahead]
 
     def _backward(self) -> list[Job]:
-        """The moves behind, turned round; a corner keeps the mode it has forward."""
-        modes = [PathMode.EXACT, *(job.mode for job in self._behind)]
+        """The moves before the tool, reversed; a corner keeps its forward mode."""
+        modes = [PathMode.EXACT, *(job.mode for job in self._done)]
         turned = [
-            self._job(job.finish, _turned_round(job), mode)
-            for job, mode in zip(self._behind, modes, strict=False)
+            self._job(job.finish, _reversed(job), mode)
+            for job, mode in zip(self._done, modes, strict=False)
         ]
         return turned[::-1]
 
@@ -184,26 +184,26 @@ class Retrace:
         return self._encoder.job(replace(entry, pace=Pace(speed_upm, mode)), begin)
 
     def _cut(self, here: Point, *, is_forward: bool) -> None:
-        """Cut the move the tool stands in: its parts end the one list and begin the other."""
-        job = self._ahead.pop(0) if is_forward else self._behind.pop()
+        """Split the move at the tool: its parts end one list and begin the other."""
+        job = self._ahead.pop(0) if is_forward else self._done.pop()
         first, rest = first_of(_entry(job), job.begin, here), rest_of(_entry(job), job.begin, here)
-        self._behind += self._stream.pieces_of(job, first, job.begin)
+        self._done += self._stream.pieces_of(job, first, job.begin)
         self._ahead = self._stream.pieces_of(job, rest, here) + self._ahead
 
     def _place(self, left: Place, here: Point) -> Place:
-        """Where the tool is left: on the move ahead of it, or where the trace began."""
+        """The place of the tool: on the move after it, or where the trace began."""
         return place(self._ahead[0], here) if self._ahead else replace(left, point=here)
 
 
 def _entry(job: Job) -> Line | Arc:
-    """The move of a job of the path, which holds nothing but lines and arcs."""
+    """The move of a job of the path, which has only lines and arcs."""
     if isinstance(job.entry, Line | Arc):
         return job.entry
     raise UserError("only lines and arcs are traced")
 
 
-def _turned_round(job: Job) -> Line | Arc:
-    """A move from its end to its beginning."""
+def _reversed(job: Job) -> Line | Arc:
+    """A move reversed."""
     entry = _entry(job)
     if isinstance(entry, Line):
         return replace(entry, end=job.begin)

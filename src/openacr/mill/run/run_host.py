@@ -1,4 +1,4 @@
-"""The machine as the interpreter asks for it: always behind a Sync, when all is at rest."""
+"""Machine access for the interpreter, always after a Sync, with the machine at rest."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ from openacr.mill.config.settings import Settings
 
 
 class RunHost:
-    """`cnc.hosts.MachineDriver` for a card. `answers` are what the operator said, by parameter."""
+    """`cnc.hosts.MachineDriver` for a card. `answers` of the operator are kept by parameter."""
 
     def __init__(
         self, machine: MachineDriver, settings: Settings, tripped: Callable[[], Point | None]
@@ -34,7 +34,7 @@ class RunHost:
         return self._machine.card.read_bit(n)
 
     def position(self) -> Point:
-        """Where the axes are commanded to stand."""
+        """The commanded machine position."""
         counts = self._machine.axis_values(AX_CURRENT_POSITION)
         point = [0.0] * AXES
         for axis, count in zip(self._settings.axes, counts, strict=True):
@@ -46,11 +46,11 @@ class RunHost:
         return self._tripped()
 
     def answer(self, parameter: int) -> float | None:
-        """What the operator said, once."""
+        """The operator's answer, removed when read; None if absent."""
         return self.answers.pop(parameter, None)
 
     def is_homed(self, axis: int) -> bool:
-        """Whether an axis knows its reference point."""
+        """Whether an axis is homed."""
         return self._settings.is_homed(axis)
 
     def has_probe(self) -> bool:
@@ -58,5 +58,5 @@ class RunHost:
         return self._settings.wiring.probe >= 0
 
     def is_block_skip_on(self) -> bool:
-        """The switch, or the button on the screen."""
+        """Whether block skip is on, by the switch or the screen button."""
         return self.is_skipping or self.skips_always

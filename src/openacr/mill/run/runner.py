@@ -1,6 +1,6 @@
-"""Runs a part program on a card: states, commands, and one step after the other.
+"""Runner of part programs on a card: states, commands, and the step of each poll.
 
-`step()` looks at the card once and does what is due; whoever drives it lets time pass in
+`step()` polls the card once and does what is due; the caller lets time pass in
 between. Nothing here sleeps or knows the wall clock, so the same run takes an hour on a real
 machine and seconds on a virtual one.
 """
@@ -41,7 +41,7 @@ from openacr.mill.run.times import Times
 
 
 class Runner:
-    """One machine and the program that runs on it."""
+    """Runs programs on one machine."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class Runner:
         say: Callable[[str], None] = lambda _text: None,
         alarm_list: Alarms | None = None,
         *,
-        has_operator: bool = True,  # somebody answers and starts again
+        has_operator: bool = True,  # an operator is present to answer and continue
         compensated: Iterable[int] = (),  # axes with a ballscrew table on the card
     ) -> None:
         self.machine = machine
@@ -96,35 +96,35 @@ class Runner:
                 Action.KILL: ending.kill,
                 Action.CUT_POWER: ending.cut_power,
                 Action.ABANDON: self._supervision.abandon,
-                Action.TAKE_BACK: self._supervision.take_back_kill,
+                Action.CLEAR_KILL: self._supervision.clear_kill,
             }
         )
 
-    # --- what is known of the run -----------------------------------------------------
+    # --- status -----------------------------------------------------
 
     @property
     def state(self) -> State:
-        """What the machine is doing."""
+        """The state of the machine."""
         return self._lifecycle.state
 
     @property
     def reason(self) -> str:
-        """What a WAIT or HOLD is for."""
+        """The reason of a WAIT or HOLD."""
         return self._lifecycle.reason
 
     @property
     def options(self) -> Options:
-        """How the program is run."""
+        """The options of the run."""
         return self._lifecycle.options
 
     @property
     def passes(self) -> int:
-        """Ends of the program reached."""
+        """The count of completed passes."""
         return self._passes.count
 
     @property
     def asking(self) -> c.Ask | None:
-        """What the operator has to answer."""
+        """The question for the operator; None if there is none."""
         return self._program_stops.asking
 
     @property
@@ -144,7 +144,7 @@ class Runner:
 
     @property
     def is_busy(self) -> bool:
-        """A program runs, waits, is held or being ended, or an axis is moved by hand."""
+        """Whether a program runs, waits, is held or being ended, or an axis is moved by hand."""
         return self._supervision.is_busy
 
     @property
@@ -154,7 +154,7 @@ class Runner:
 
     @property
     def source(self) -> c.Source | None:
-        """The block that is executed."""
+        """The executing block."""
         return self.retrace.source or self.stream.tracker.source
 
     @property
@@ -164,11 +164,11 @@ class Runner:
 
     @property
     def wait_left_s(self) -> float:
-        """How long what is waited for takes at most, 0 or more; infinite without a limit."""
+        """The time until the present wait times out, s; infinite without a limit."""
         return self._player.left_s
 
     def _facts(self) -> Facts:
-        """What other programs may read of the run."""
+        """The facts published to other programs."""
         line = float(self.source.line) if self.source else 0.0
         return Facts(line, self.state.cell, self.alarms.last_code, self.run_s)
 
@@ -184,7 +184,7 @@ class Runner:
         self._times.restart()
 
     def home(self, axes: Sequence[int]) -> None:
-        """HOME: find the reference points of axes, priority after priority."""
+        """Home axes in order of priority (HOME)."""
         self._make_ready(Event.HOME)
         self._homing_axes = axes
         self._lifecycle.fire(Event.HOME)
@@ -194,15 +194,15 @@ class Runner:
         self._player.begin(home(self.io, self._homing_axes, self._compensation, self._say))
 
     def jog(self, move: Callable[[Jogging], object]) -> None:
-        """Let somebody move axes by hand: in IDLE, or while a program is held."""
+        """Jog axes, in IDLE or while a program is held."""
         self._manual.jog(move)
 
     def turn(self, axes: Sequence[int]) -> None:
-        """Let the hand wheel move these axes, and no others; none ends it."""
+        """Select the axes the hand wheel moves; an empty selection ends it."""
         self._manual.turn(axes)
 
     def start(self) -> None:
-        """START, Cycle Start: go on from a pause or hold."""
+        """Continue from a pause or hold (START, Cycle Start)."""
         if self.state is State.PAUSED:
             self.resume()
             return
@@ -212,7 +212,7 @@ class Runner:
         self._lifecycle.fire(Event.CYCLE_START)
 
     def stop(self) -> None:
-        """STOP: feed hold; axes moved by hand ramp to rest."""
+        """Hold the feed; axes moved by hand ramp to rest (STOP)."""
         if self._manual.is_active:
             self._manual.stop()
             return
@@ -221,14 +221,14 @@ class Runner:
         self._supervision.pause()
 
     def resume(self) -> None:
-        """RESUME: the way goes on where it was held."""
+        """Continue the path where it was held (RESUME)."""
         self._lifecycle.require(Event.RESUME)
         self.alarms.require_none()
         self._require_rest()
         self._lifecycle.fire(Event.RESUME)
 
     def trace(self, direction: int) -> None:
-        """In a pause: back along the path (-1), forward again (1), or to rest (0)."""
+        """Trace the path in a pause: back (-1), forward (1), or stop (0)."""
         if direction == 0:
             self.retrace.stop()
             return
@@ -238,7 +238,7 @@ class Runner:
         self._lifecycle.fire(Event.TRACE)
 
     def abort(self) -> None:
-        """ABORT: the program ends, moves are dropped, spindle and coolant go off."""
+        """End the program, drop its moves, switch spindle and coolant off (ABORT)."""
         if not self.is_busy:
             raise UserError("no program runs")
         self.was_aborted = True
@@ -246,34 +246,34 @@ class Runner:
         self._lifecycle.fire(Event.ABORT)
 
     def guard(self, rearm: Callable[[], None]) -> None:
-        """A watchdog runs on the card; `rearm` starts it again when an alarm is acknowledged."""
+        """Register the watchdog on the card; `rearm` restarts it on acknowledgement."""
         self._supervision.rearm = rearm
 
     def disown(self) -> None:
-        """Another program drives the machine: nothing is sent any more. AlarmError."""
-        self.machine.let_go("another program drives the machine")
+        """Give up the machine to another program: send nothing more, raise AlarmError."""
+        self.machine.detach("another program drives the machine")
         self._supervision.leave()
         raise self.alarms.error(alarms.NOT_OWNER, self.machine.now_s)
 
     def cut_power(self) -> None:
-        """The last resort where nothing brings rest: kill, all drives off, alarm 15."""
-        self._supervision.give(alarms.NO_REST, "")
+        """Kill all motion and switch all drives off (alarm 15), as the last resort."""
+        self._supervision.raise_alarm(alarms.NO_REST, "")
 
-    def break_off(self) -> None:
-        """Whoever drives the machine leaves: everything that moves comes to rest."""
+    def bring_to_rest(self) -> None:
+        """Bring everything that moves to rest: the caller leaves the machine."""
         if self._manual.is_active:
             self._manual.stop()
         if not self._lifecycle.is_over:
             self.abort()
 
     def answer(self, value: float) -> None:
-        """What the operator says to the question that is asked."""
+        """Answer the question that is asked."""
         if self.asking is None:
             raise UserError("nothing is asked")
         self.stream.host.answers[self.asking.parameter] = value
 
     def block(self, on: bool) -> None:
-        """BLOCK: stop behind every block, also behind the one that is being executed."""
+        """Switch single block on or off (BLOCK); it applies from the executing block."""
         self._lifecycle.options = replace(self.options, is_single=on)
         self.stream.set_single(on)
         is_free = self.state is State.RUN and not self._supervision.is_tapping
@@ -281,30 +281,30 @@ class Runner:
             self._player.begin(self.stream.retake())
 
     def acknowledge(self) -> list[Alarm]:
-        """Clear the alarms whose cause is gone; those that stay."""
+        """Clear the alarms whose cause is gone; returns those that stay."""
         return self._supervision.acknowledge()
 
-    # --- what bars a command ----------------------------------------------------------
+    # --- interlocks of commands ----------------------------------------------------------
 
     def _make_ready(self, event: Event) -> None:
-        """Enable the drives for a program or a homing, if it may begin."""
+        """Enable the drives for a program or homing, if it may start."""
         self._require_idle(event)
         enable_drives(self.io)
 
     def _make_free(self, what: str) -> None:
-        """Enable the drives for axes moved by hand, if they may be."""
+        """Enable the drives for manual motion, if it is allowed."""
         self._require_free(what)
         enable_drives(self.io)
 
     def _require_idle(self, event: Event) -> None:
-        """No alarm is up and nothing is under way."""
+        """Require that no alarm is active and nothing runs."""
         self.alarms.require_none()
         self._lifecycle.require(event)
         self._require_ended(event.value)
         self._require_rest()
 
     def _require_free(self, what: str) -> None:
-        """Nothing else may move the machine, and nothing may be wrong."""
+        """Require that nothing else moves the machine and no alarm is active."""
         if self.state not in (State.IDLE, State.PAUSED, State.HOLD):
             raise UserError(f"cannot {what}: the state is {self.state.name}")
         if self.retrace.is_active:
@@ -315,12 +315,12 @@ class Runner:
         sample = self.machine.poll()
         if self.io.is_in(sample, self.settings.wiring.feed_hold):
             raise UserError(f"cannot {what}: the feed hold input is active")
-        soft_limits.keep(self.io, sample)
+        soft_limits.update(self.io, sample)
         self.alarms.require_none()
         self.stream.excuse()
 
     def _require_ended(self, what: str) -> None:
-        """What was aborted has come to rest, and nothing of it is still to be done."""
+        """Require that an aborted program has come to rest."""
         if self._lifecycle.is_over and self._player.is_active:
             raise UserError(f"cannot {what}: the last program is still being ended")
 
@@ -333,7 +333,7 @@ class Runner:
     # --- one step ---------------------------------------------------------------------
 
     def step(self) -> None:
-        """Look at the card and do what is due."""
+        """Poll the card and do what is due."""
         try:
             sample = self.machine.poll()
         except LINK_ERRORS as failure:
@@ -346,15 +346,15 @@ class Runner:
         except LINK_ERRORS:
             self._supervision.lose_link()
         except StoreError as error:
-            self._supervision.give(alarms.STORE_FAILED, error)
+            self._supervision.raise_alarm(alarms.STORE_FAILED, error)
 
     def _do(self, sample: CardState) -> None:
         self._times.advance_to(self.machine.now_s)
         self.stream.tracker.update(sample.counter)
         with self.machine.repeating():
-            soft_limits.keep(self.io, sample)
-        self._supervision.keep(sample, self._times.step_s)
-        self._switches.keep(sample, pause=self._supervision.pause, start=self.start)
+            soft_limits.update(self.io, sample)
+        self._supervision.check(sample, self._times.step_s)
+        self._switches.poll(sample, pause=self._supervision.pause, start=self.start)
         self._pausing.note_place(sample)
         for play in (self._manual.play, self.retrace.play):
             self._supervision.guard(partial(play, sample, self._times.step_s))
@@ -364,16 +364,16 @@ class Runner:
             self._advance(sample)
         is_cutting = not self.options.is_dry and not self.retrace.is_active
         with self.machine.repeating():
-            self._burner.keep(sample, is_cutting=is_cutting and self.stream.has_program)
-            self._console.keep(sample, self._times, self._facts)
+            self._burner.update(sample, is_cutting=is_cutting and self.stream.has_program)
+            self._console.update(sample, self._times, self._facts)
 
     @property
     def _is_reading(self) -> bool:
-        """Whether the program itself goes on, and not an action of it."""
+        """Whether the program itself runs, not one of its actions."""
         return self.state is State.RUN and not self._player.is_active
 
     def _advance(self, sample: CardState) -> None:
-        """Read, send, and take up what waits for rest."""
+        """Read, send, and start halts that are reached."""
         while self._is_reading:
             halt, passes = self.stream.advance(sample), self.passes
             if halt is None:
@@ -381,4 +381,4 @@ class Runner:
             self._player.begin(self._program_stops.steps(halt))
             self._supervision.play(sample, self._times.step_s)
             if self.passes != passes:
-                return  # another pass counts from zero: this look is of the old one
+                return  # the next pass counts from zero: this sample is of the old one

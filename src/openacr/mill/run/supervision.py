@@ -1,4 +1,4 @@
-"""Alarms while a machine is driven: each is given once, and does to the machine what it must."""
+"""Supervision of a machine: raises each alarm once and applies its effect."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -24,7 +24,7 @@ from openacr.mill.run.tracking import Stall
 
 
 class Supervision:
-    """Watches one machine and takes the effects of its alarms."""
+    """Checks one machine for alarms and applies their effects."""
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class Supervision:
 
     @property
     def is_busy(self) -> bool:
-        """A program runs, waits, is held or being ended, or an axis is moved by hand."""
+        """Whether a program runs, waits, is held or being ended, or an axis is moved by hand."""
         is_moved = self._player.is_active or self._manual.is_active
         return not self._lifecycle.is_over or is_moved or self._owes_rest
 
@@ -70,8 +70,8 @@ class Supervision:
         """Whether the card has not answered for so long that nothing more is sent to it."""
         return self._reach.is_given_up
 
-    def keep(self, sample: CardState, step_s: float) -> None:
-        """Alarms for what is wrong, each once until it is acknowledged."""
+    def check(self, sample: CardState, step_s: float) -> None:
+        """Raise alarms for present causes, each once until it is acknowledged."""
         self._reach.answer()
         self._io.machine.forget_losses()
         if self._owes_rest:
@@ -81,20 +81,20 @@ class Supervision:
             with self._io.machine.repeating():
                 self._renew()
         if step_s > self._io.settings.link_timeout_s and self.is_busy:
-            self.give(alarms.HOST_AWAY, f"{step_s:.1f}")
+            self.raise_alarm(alarms.HOST_AWAY, f"{step_s:.1f}")
         if self._does_not_begin(sample):
-            self.give(alarms.NOT_MOVED, "")
+            self.raise_alarm(alarms.NOT_MOVED, "")
         for kind, detail in self._watch.causes(sample, spins=self._spindle.is_on):
-            self.give(kind, detail)
+            self.raise_alarm(kind, detail)
 
     def _does_not_begin(self, sample: CardState) -> bool:
-        """Whether moves of the program, or of a trace in a pause, were sent and are not made."""
+        """Whether moves of the program or of a trace were sent and are not executed."""
         tracker = self._retrace.tracker if self._retrace.is_active else self._stream.tracker
         is_stalled = self._stall.has_come(tracker, sample, self._io.machine.now_s)
         return is_stalled and not self._lifecycle.is_over
 
     def play(self, sample: CardState, step_s: float) -> None:
-        """Go on with what is being done as far as the card lets it."""
+        """Continue the present action until it has to wait."""
         lifecycle, player = self._lifecycle, self._player
         self.guard(partial(player.play, sample, step_s))
         if lifecycle.holds_later and not self.is_tapping:
@@ -109,17 +109,17 @@ class Supervision:
             lifecycle.fire(Event.HOMED if is_homing else Event.ACTION_DONE)
 
     def guard(self, do: Callable[[], None]) -> None:
-        """Do something; an alarm it ends with takes effect."""
+        """Call a function; an AlarmError from it raises that alarm."""
         try:
             do()
         except AlarmError as error:
-            self.give(error.kind, error.detail)
+            self.raise_alarm(error.kind, error.detail)
 
-    def give(self, kind: Kind, about: object) -> None:
-        """An alarm comes up, and takes effect unless it was up before."""
+    def raise_alarm(self, kind: Kind, about: object) -> None:
+        """Raise an alarm; it takes effect unless it was active before."""
         detail = str(about)
-        is_new = not self._alarms.is_up(kind, detail)
-        self._alarms.give(kind, detail, self._io.machine.now_s)
+        is_new = not self._alarms.is_active(kind, detail)
+        self._alarms.raise_alarm(kind, detail, self._io.machine.now_s)
         if not is_new or kind.effect is Effect.NONE:
             return
         if kind is alarms.CARD_RESET:
@@ -128,7 +128,7 @@ class Supervision:
             homed.lose(self._io, detail)
         if kind.effect is Effect.KILL:
             self._lifecycle.fire(Event.NO_REST if kind is alarms.NO_REST else Event.KILL)
-            self._manual.let_go()
+            self._manual.drop_held()
             self._watch.killed.note(kind)
             return
         self._take_effect(kind.effect)
@@ -142,36 +142,36 @@ class Supervision:
             self.pause()
 
     def miss_poll(self, failure: Exception) -> None:
-        """The card has not answered a look: nothing is sent before it does.
+        """Handle a failed poll: nothing is sent before the card answers.
 
-        A connection that is broken and comes back within the link timeout goes on.
+        A connection that returns within the link timeout is tolerated.
         """
         if isinstance(failure, ConnectionLostError) and not self._reach.is_overdue:
             return
         self.lose_link()
 
     def lose_link(self) -> None:
-        """The card does not answer: alarm 3, and the program is over.
+        """Handle the loss of the link: raise alarm 3 and end the program.
 
-        Nothing is sent before the card has answered a look again, for every attempt would
-        cost a time-out; then it is brought to rest. One that stays away is given up: its own
-        watch stops it.
+        Nothing is sent before the card answers a poll again, because every attempt would cost
+        a time-out; then it is brought to rest. A card that stays silent is given up: its own
+        watchdog stops it.
         """
         if self._reach.lose():
             self._owes_rest = self.is_busy
-            self._alarms.give(alarms.LINK_LOST, "", self._io.machine.now_s)
+            self._alarms.raise_alarm(alarms.LINK_LOST, "", self._io.machine.now_s)
             self._lifecycle.fire(Event.LINK_LOST)
             self._say("alarm 3: Link lost; trying to reach the card")
         if self.is_out_of_reach:
-            self._io.machine.let_go("it does not answer")
+            self._io.machine.detach("it does not answer")
             self.leave()
 
     def leave(self) -> None:
-        """End what runs here; nothing is sent to the card."""
+        """End the run without sending anything to the card."""
         self._lifecycle.fire(Event.DISOWNED)
 
     def abandon(self) -> None:
-        """Forget what ran here."""
+        """Drop the run without sending anything to the card."""
         self._owes_rest = False
         self._stream.end()
         for close in (self._player.close, self._manual.close, self._retrace.close):
@@ -179,10 +179,10 @@ class Supervision:
                 close()
 
     def _renew(self) -> None:
-        """Packets sent before a new connection may be lost: send again what the card has to know.
+        """Send outputs, overrides and moves again: packets before a new connection may be lost.
 
-        Moves are taken back and sent once more from where the machine comes to rest; an
-        action or a trace that has begun cannot be repeated, so it ends the program.
+        Moves are withdrawn and sent again from where the machine comes to rest; an action or
+        a trace in progress cannot be repeated, so the program ends.
         """
         self._io.renew()
         self._console.renew()
@@ -196,33 +196,33 @@ class Supervision:
             self._player.begin(self._stream.retake())
 
     def _bring_to_rest(self) -> None:
-        """Everything off, moves and jogs to rest: the card answers again."""
+        """Switch everything off and bring moves and jogs to rest: the card answers again."""
         self._lifecycle.fire(Event.FAULT)
         self._manual.stop()
         self._retrace.stop()
 
     def pause(self) -> None:
-        """Feed hold; a homing fails by it, for it cannot be resumed.
+        """Hold the feed; homing fails, because it cannot be resumed.
 
-        A tap comes out of its hole first: its feed never rests while the spindle turns.
+        A tap is first withdrawn from its hole: its feed never stops while the spindle turns.
         """
         if self._lifecycle.state is State.HOMING:
-            self.give(alarms.HOMING_FAILED, "stopped")
+            self.raise_alarm(alarms.HOMING_FAILED, "stopped")
         elif not self.is_tapping:
             self._lifecycle.fire(Event.FEED_HOLD)
         elif not self._lifecycle.holds_later:
             self._lifecycle.holds_later = True
-            self._say("feed hold: the tap comes out of its hole first")
+            self._say("feed hold after the tap is out of its hole")
 
     @property
     def is_tapping(self) -> bool:
-        """Whether a turning tap may be in its hole."""
+        """Whether a turning tap may be in a hole."""
         return self._entry_actions.is_tapping and not self._lifecycle.options.is_dry
 
     def acknowledge(self) -> list[Alarm]:
-        """Clear the alarms whose cause is gone; those that stay.
+        """Clear the alarms whose cause is gone; returns those that stay.
 
-        With the last of them a kill is taken back, also one that nobody here asked for.
+        With the last of them the kill is cleared, even one set by another host.
         """
         machine, is_over = self._io.machine, self._lifecycle.is_over
         if is_over and (self._player.is_active or machine.is_jogging()):
@@ -239,8 +239,8 @@ class Supervision:
             self._lifecycle.fire(Event.ACKNOWLEDGE)
         return left
 
-    def take_back_kill(self) -> None:
-        """No alarm is left that bars a start: the kill is taken back."""
+    def clear_kill(self) -> None:
+        """Clear the kill: no active alarm bars a start."""
         self._io.machine.release()
         self._watch.killed.forget()
         self._compensation.renew()

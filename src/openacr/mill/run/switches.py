@@ -1,4 +1,4 @@
-"""The switches and buttons of the panel that steer a run: hold, start, block skip."""
+"""Panel switches that control a run: hold, start, block skip."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from openacr.mill.run.run_host import RunHost
 
 
 class Switches:
-    """What is switched at one machine; commands that do not fit its state are only said."""
+    """Polls the panel switches of one machine; a refused command is only reported."""
 
     def __init__(
         self,
@@ -33,13 +33,13 @@ class Switches:
         self._say = say
         self._edges = Edges(io)
 
-    def keep(
+    def poll(
         self, sample: CardState, *, pause: Callable[[], None], start: Callable[[], None]
     ) -> None:
-        """Do what the switches say at this look."""
+        """Apply the switches as sampled."""
         wiring = self._io.settings.wiring
         self._host.is_skipping = self._io.is_in(sample, wiring.block_skip)
-        # Every look counts: a button that is held down when a hold ends starts nothing.
+        # Edges are tracked at every poll: a button held down when a hold ends starts nothing.
         is_started = self._edges.rose(sample, wiring.cycle_start)
         is_held_now = self._edges.rose(sample, wiring.feed_hold)
         if self._io.is_in(sample, wiring.feed_hold):

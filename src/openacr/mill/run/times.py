@@ -1,25 +1,25 @@
-"""Card time as a run counts it: since its start, since the last look, since something was due."""
+"""Clocks of a run in card time: since its start, since the last poll, and periods."""
 
 
 class Times:
-    """Clocks of one run; all of them follow the clock of the card."""
+    """Clocks of one run, advanced by the clock of the card."""
 
     def __init__(self) -> None:
-        self.step_s = 0.0  # between the last two looks
+        self.step_s = 0.0  # between the last two polls
         self._now_s = self._start_s = 0.0
         self._due: dict[str, float] = {}
 
     def restart(self) -> None:
-        """A run begins now."""
+        """Start the clock of a run."""
         self._start_s = self._now_s
 
     def advance_to(self, now_s: float) -> None:
-        """The card was looked at."""
+        """Advance to the card time of a poll."""
         self.step_s, self._now_s = now_s - self._now_s, now_s
 
     @property
     def run_s(self) -> float:
-        """Since the run began."""
+        """Time since the run began, s."""
         return self._now_s - self._start_s
 
     def is_due(self, what: str, every_s: float) -> bool:

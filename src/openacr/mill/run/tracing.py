@@ -1,8 +1,8 @@
-"""The setpoints of a run on the virtual machine, servo period after servo period.
+"""Recording of the setpoints of a run on the virtual machine, per servo period.
 
-The card records its setpoints and its count of packets; which line a packet belongs to, the
-moves that were sent say. Between two polls of the machine no packet leaves, so the moves known at
-one poll explain all rows up to the next.
+The card records its setpoints and its count of packets; the moves that
+were sent give the line of each packet. Between two polls of the machine no packet is sent, so
+the moves known at one poll explain all rows up to the next.
 """
 
 from bisect import bisect_right
@@ -21,7 +21,7 @@ Rows = NDArray[np.float64]
 
 
 class RunTrace:
-    """Records a run; `note` after every step of it.
+    """Records a run; call `note` after every step.
 
     `write` gets rows of time since the begin [s], the setpoint of each axis [units of the machine]
     and the line.
@@ -30,21 +30,21 @@ class RunTrace:
     def __init__(
         self, card: Controller, runner: Runner, every_s: float | None, write: Callable[[Rows], None]
     ) -> None:
-        """`every_s`: time between two rows, to the servo period; None: every period."""
+        """`every_s`: time between rows, rounded to the servo period; None: every period."""
         self._card, self._runner, self._write = card, runner, write
         self._begin_s = card.time_s
         every_tk = 1 if every_s is None else round(every_s / card.period_s)
         if every_tk < 1:
             raise UserError(
                 f"a row every {every_s:g} s: the servo period is {card.period_s:g} s, "
-                "no trace has more rows than that"
+                "a trace has at most one row per period"
             )
         card.record(every_tk, samples=(Sample(Watched.LONG, runner.machine.counter),))
         self._counts: list[int] = []  # of the packets, ascending
         self._lines: list[int] = []  # of their moves
 
     def note(self) -> None:
-        """Give away the rows recorded since the last call."""
+        """Write the rows recorded since the last call."""
         found = self._card.take_trace()
         axes = [axis.index for axis in self._runner.settings.axes]
         columns = [found.time_s - self._begin_s, *(found.axes[k].commanded_u for k in axes)]
