@@ -33,7 +33,7 @@ def test_a_file_has_one_line_per_position() -> None:
     ("text", "said"),
     [
         ("X0E.1\nX1\n", "table:2: 'X1' is not like X1E.00175"),
-        ("X0E.1\nX1E.2 X3E4\n", "table:2: 'X1E.2 X3E4' is no line"),
+        ("X0E.1\nX1E.2 X3E4\n", "table:2: 'X1E.2 X3E4' is not like"),
         ("X0E.1\nY1E.2\n", "table:2: axis Y, but the table is that of X"),
         ("X0E.1\nX1E.2\nX0E.3\n", "table:3: position 0 occurs twice"),
         ("", "table: 0 entries; a table needs 2"),
