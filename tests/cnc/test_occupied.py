@@ -29,16 +29,16 @@ def test_the_table_has_every_number_once() -> None:
 @pytest.mark.parametrize("first", [5, 9, 14])
 def test_a_number_that_is_taken_is_refused(first: int) -> None:
     table = Occupied()
-    table.take(Kind.FLAG, 9, "lamps", "of the door", 6)
+    table.reserve(Kind.FLAG, 9, "lamps", "of the door", 6)
     with pytest.raises(ValueError, match=f"BIT{first} to BIT{first + 4} horn: BIT9 to BIT14 is"):
-        table.take(Kind.FLAG, first, "horn", "", 5)
+        table.reserve(Kind.FLAG, first, "horn", "", 5)
 
 
 @pytest.mark.parametrize(("kind", "first"), [(Kind.FLAG, 8), (Kind.FLAG, 15), (Kind.VARIABLE, 9)])
 def test_a_number_beside_it_or_of_another_kind_is_free(kind: Kind, first: int) -> None:
     table = Occupied()
-    table.take(Kind.FLAG, 9, "lamps", "of the door", 6)
-    assert table.take(kind, first, "horn", "") == first
+    table.reserve(Kind.FLAG, 9, "lamps", "of the door", 6)
+    assert table.reserve(kind, first, "horn", "") == first
     assert len(list(table)) == 2
 
 

@@ -1,7 +1,7 @@
 """What the CNC front end occupies on a card: variables, user flags, a program.
 
-Every module names these numbers from here, so a number is given away once: a second use is a
-ValueError at import. The page of all codes prints the table.
+Every module imports these numbers from here, and no number is reserved twice: a second use is
+a ValueError at import. The page of all codes prints the table.
 """
 
 from collections.abc import Iterator
@@ -10,7 +10,7 @@ from enum import Enum
 
 
 class Kind(Enum):
-    """What a number is of; the value is its name on the card."""
+    """The kind of a number; the value is its name on the card."""
 
     VARIABLE = "P"
     FLAG = "BIT"
@@ -19,7 +19,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One or several numbers in a row and what they are for."""
+    """One number or several consecutive ones, and their use."""
 
     kind: Kind
     numbers: range
@@ -34,7 +34,7 @@ class Row:
 
 
 class Occupied:
-    """The rows that were given away."""
+    """The reserved numbers."""
 
     def __init__(self) -> None:
         self._rows: list[Row] = []
@@ -44,12 +44,12 @@ class Occupied:
         kinds = list(Kind)
         return iter(sorted(self._rows, key=lambda row: (kinds.index(row.kind), row.numbers[0])))
 
-    def take(self, kind: Kind, first: int, name: str, meaning: str, count: int = 1) -> int:
-        """Occupy `count` numbers; the first of them. ValueError if one of them is taken."""
+    def reserve(self, kind: Kind, first: int, name: str, meaning: str, count: int = 1) -> int:
+        """Reserve `count` numbers and return the first; ValueError if one is already reserved."""
         new = Row(kind, range(first, first + count), name, meaning)
         for row in self._rows:
             if row.kind is kind and not set(row.numbers).isdisjoint(new.numbers):
-                raise ValueError(f"{new.shown} {name}: {row.shown} is that of {row.name} already")
+                raise ValueError(f"{new.shown} {name}: {row.shown} is already used by {row.name}")
         self._rows.append(new)
         return first
 
@@ -57,33 +57,33 @@ class Occupied:
 TABLE = Occupied()
 _P, _BIT, _PROG = Kind.VARIABLE, Kind.FLAG, Kind.PROGRAM
 
-TOOL_REQUESTED = TABLE.take(_P, 90, "tool requested", "the tool an M6 asks for")
-TOOL_LOADED = TABLE.take(_P, 91, "tool in the spindle", "the tool that was loaded last")
-CARD_SPEED = TABLE.take(_P, 92, "spindle speed", "the S word in effect, rev/min")
-CARD_SPINDLE = TABLE.take(_P, 93, "spindle state", "3 clockwise, 4 counterclockwise, 5 off")
-CARD_LINE = TABLE.take(_P, 94, "executing line", "the line of the program that is executed")
-CARD_STATE = TABLE.take(
+TOOL_REQUESTED = TABLE.reserve(_P, 90, "tool requested", "the tool an M6 asks for")
+TOOL_LOADED = TABLE.reserve(_P, 91, "tool in the spindle", "the tool that was loaded last")
+CARD_SPEED = TABLE.reserve(_P, 92, "spindle speed", "the S word in effect, rev/min")
+CARD_SPINDLE = TABLE.reserve(_P, 93, "spindle state", "3 clockwise, 4 counterclockwise, 5 off")
+CARD_LINE = TABLE.reserve(_P, 94, "executing line", "the line of the program that is executed")
+CARD_STATE = TABLE.reserve(
     _P, 95, "run state", "0 idle, 1 run, 2 paused, 3 wait, 4 hold, 5 alarm; as P244 of the store"
 )
-HEARTBEAT = TABLE.take(
+HEARTBEAT = TABLE.reserve(
     _P, 96, "heartbeat", "changes twice a second while a host drives the machine; 0: none does"
 )
-KILL_CAUSE = TABLE.take(
+KILL_CAUSE = TABLE.reserve(
     _P, 97, "cause of a kill", "the alarm that killed all motion, until the kill is taken back"
 )
 RELAYS = 100
-FIRST_RELAY = TABLE.take(
+FIRST_RELAY = TABLE.reserve(
     _BIT, 128, "relays", "what M100 to M199 wait for to be on, M200 to M299 to be off", RELAYS
 )
-OUTPUTS_AT_REST = TABLE.take(
+OUTPUTS_AT_REST = TABLE.reserve(
     _BIT, 246, "outputs at rest", "inverted outputs were put to rest since the card came on"
 )
-TRIPPED = TABLE.take(_BIT, 247, "watchdog tripped", "the watchdog has stopped the machine")
+TRIPPED = TABLE.reserve(_BIT, 247, "watchdog tripped", "the watchdog has stopped the machine")
 HOMED_AXES = 8
-FIRST_HOMED = TABLE.take(
+FIRST_HOMED = TABLE.reserve(
     _BIT, 248, "homed axes", "axis 0 to 7 knows its reference point", HOMED_AXES
 )
-WATCHDOG_PROGRAM = TABLE.take(
+WATCHDOG_PROGRAM = TABLE.reserve(
     _PROG,
     7,
     "watchdog",

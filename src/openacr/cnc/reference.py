@@ -1,4 +1,4 @@
-"""Write the page of all codes from their tables: `python -m openacr.cnc.reference FILE`."""
+"""Write the page of all codes from the tables: `python -m openacr.cnc.reference FILE`."""
 
 import sys
 from collections.abc import Iterable, Iterator
@@ -14,8 +14,8 @@ from openacr.cnc.reading.refusals import other_dialect
 MADE_BY = "Written by `make docs` from the tables of `openacr.cnc`; do not edit."
 LETTERS = "Words that act by themselves. Other letters are data of the codes of their block."
 REFUSED = (
-    "What programs of other controls write and this dialect has not, with the hint of the error."
-    " Values beyond their limits, and the errors at the end of this page, come on top."
+    "What other controls accept and this dialect refuses, with the hint of the error."
+    " In addition there are limits of values, and the errors at the end of this page."
 )
 OCCUPIED = (
     "Programs of the card, part programs and other hosts leave these alone; part programs may read"
@@ -50,7 +50,7 @@ STEPS = {step: step.name.lower().replace("_", " ") for step in Step}
 
 
 def page() -> str:
-    """The whole page."""
+    """The page as Markdown."""
     parts = ["# Codes of part programs", MADE_BY]
     for dialect in DIALECTS.values():
         parts += _dialect(dialect)
@@ -79,7 +79,7 @@ def _dialect(dialect: Dialect) -> Iterator[str]:
 
 
 def _refused(dialect: Dialect) -> Iterator[tuple[str, ...]]:
-    """What the dialect refuses with a reason, then the codes other dialects have alone."""
+    """Rows of what the dialect refuses with a reason, then of codes only other dialects have."""
     refusals = dialect.grammar.refusals
     for row in refusals.rows:
         yield row.shown, row.error, row.reason
@@ -96,7 +96,7 @@ def _refused(dialect: Dialect) -> Iterator[tuple[str, ...]]:
 
 
 def _codes(codes: Iterable[Code], *, has_groups: bool) -> str:
-    """Codes of one function stand in one row."""
+    """Rows of codes; codes of one function share a row."""
     ordered = sorted(codes, key=lambda code: code.number)
     head = ("code", "group", "words", "meaning") if has_groups else ("code", "words", "meaning")
     rows = []

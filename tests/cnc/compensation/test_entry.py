@@ -135,7 +135,7 @@ def test_arcs_that_cannot_be_ways_in_are_refused(text: str, code: str) -> None:
 def test_a_tool_that_does_not_come_in_is_named() -> None:
     error = run("G41.1 D3 F10\nG3 X1 Y1 I0 J1", dialect="rs274ngc").error
     assert error is not None
-    assert str(error) == "PROGRAM:2:1: E313 the tool, radius 1.5, does not come in along this arc"
+    assert str(error) == "PROGRAM:2:1: E313 the tool, radius 1.5, cannot lead in along this arc"
 
 
 def test_the_way_in_begins_where_the_tool_is_after_a_chain_without_a_way_out() -> None:

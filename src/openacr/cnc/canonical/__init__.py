@@ -5,8 +5,8 @@ run-time estimate, checks and card driver read nothing else. Positions are machi
 positions in default units (degrees for rotary axes), feeds default units per minute,
 angles radians, times seconds.
 
-The list is pulled: an entry has happened when its reader asks for the one behind
-`Sync`, not before. Whoever only reads (check, plot) goes straight on.
+The list is pulled: entries before a `Sync` are done when the reader asks for the one after
+it, not before. A reader without a machine (check, plot) continues at once.
 """
 
 from openacr.cnc.canonical.actions import (

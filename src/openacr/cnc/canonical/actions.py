@@ -171,7 +171,7 @@ class SetCell:
 
 @dataclass(frozen=True, slots=True)
 class Sync:
-    """Nothing behind this is interpreted before the machine is at rest and all is done."""
+    """Nothing after this is interpreted before the machine is at rest and all is done."""
 
     source: Source
 

@@ -12,7 +12,7 @@ TOOL_AXIS = 2
 
 
 class PathMode(Enum):
-    """How a move meets the one behind it."""
+    """How a move joins the next one."""
 
     EXACT = "G61"
     CORNER = "G62"

@@ -1,4 +1,4 @@
-"""What a block does, decided once: codes found, words checked, acts in their order."""
+"""Plans of blocks: codes found, words checked, acts in their order."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Plan:
         return any(code.letter == "MOTION" for code in self.acts)
 
     def column(self, letter: str) -> int:
-        """Where a word stands; 1 without."""
+        """The column of a word; 1 where it is absent."""
         word = self.words.get(letter)
         return word.column if word else (self.block.words[0].column if self.block.words else 1)
 

@@ -5,7 +5,7 @@ which words it uses and between which values. Checks, the order of action and th
 in the reference are derived from these rows.
 
     @gcode(4, step=Step.DWELL, takes="F", limits=(Limit("F", 0.1, 999.9, "E240"),))
-    def dwell(run: Run, b: Turn) -> None:
+    def dwell(run: Run, b: BlockContext) -> None:
         \"\"\"Rest for F seconds.\"\"\"
 """
 
@@ -139,7 +139,7 @@ class Code:
 
 @dataclass(slots=True)
 class Table:
-    """Codes by number, letters by name; a name twice is a mistake of ours."""
+    """Codes by number, letters by name; ValueError for a name registered twice."""
 
     gcodes: dict[float, Code] = field(default_factory=dict)
     mcodes: dict[float, Code] = field(default_factory=dict)
@@ -216,7 +216,7 @@ class Table:
 
         return register
 
-    def take(
+    def include(
         self,
         other: Table,
         *,
@@ -224,7 +224,7 @@ class Table:
         mcodes: tuple[float, ...] = (),
         letters: str = "",
     ) -> None:
-        """Rows of another table, as they are there."""
+        """Include rows of another table unchanged."""
         for number in gcodes:
             self.add(other.gcodes[number])
         for number in mcodes:

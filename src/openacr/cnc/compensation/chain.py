@@ -1,4 +1,4 @@
-"""The elements between the way in and the way out, and the tool's way beside them."""
+"""The elements between lead-in and lead-out, and the tool path beside them."""
 
 from typing import Generic, TypeVar
 
@@ -30,25 +30,27 @@ from openacr.cnc.compensation.join_cy import (
     ROUND,
 )
 from openacr.cnc.compensation.lead import begin_lead_in, end_lead_in
-from openacr.cnc.compensation.moves import at_place, inserted, tool_way
+from openacr.cnc.compensation.moves import at_place, inserted, tool_move
 from openacr.cnc.compensation.rows import Piece, Table, fit, lay, meet, place
 from openacr.cnc.compensation.rules import Report, Rules, Watch
 from openacr.cnc.geometry.elements import Element
 
 Held = TypeVar("Held")
 
-HELD_CNT = 100  # things that may wait for the end of an element
-LEFT_OUT_CNT = 5  # elements in a row that may be left out
+HELD_CNT = 100  # most entries that wait for the end of an element
+LEFT_OUT_CNT = 5  # most consecutive elements that may be left out
 
 
 class Chain(Generic[Held]):
-    """Pieces that are not issued yet, the last with an open end, and what was issued."""
+    """The pieces that are not issued yet, the last one without an end."""
 
     def __init__(self, rules: Rules, report: Report, watch: Watch | None) -> None:
         self.away = 0.0  # signed distance for the elements to come
-        self.news: list[tuple[str, str]] = []  # findings about the next element
+        self.news: list[tuple[str, str]] = []  # findings to report with the next element
         self.ready: list[Held | Element] = []
-        self.at: tuple[float, float] | None = None  # where the tool is, if not as programmed
+        self.at: tuple[float, float] | None = (
+            None  # where the tool is, if not at the programmed point
+        )
         self._rules = rules
         self._tolerances = (rules.epsilon, rules.sweep_epsilon)
         self._root = rules.root
@@ -60,16 +62,16 @@ class Chain(Generic[Held]):
         self._axes = (0, 1)
         self._chain: list[Piece[Held]] = []
         self._last: Piece[Held] | None = None  # issued last
-        self._is_inside = False  # something in front of the next element was left out
+        self._is_inside = False  # an element before the next one was left out
 
     def drain(self) -> list[Held | Element]:
-        """What was issued since the last call."""
+        """Return what was issued since the last call."""
         ready = self.ready
         self.ready = []
         return ready
 
     def forget(self) -> None:
-        """The chain has ended."""
+        """Clear the chain at its end."""
         if self._watch:
             self._watch.end()
         self._last = None
@@ -77,28 +79,28 @@ class Chain(Generic[Held]):
         self._is_inside = False
         self.news.clear()
 
-    def tell(self, element: Element) -> None:
-        """Report what was to be said about the next element."""
+    def report_pending(self, element: Element) -> None:
+        """Report the pending findings at the next element."""
         for code, text in self.news:
             self._report(code, text, element)
         self.news.clear()
 
     def rest(self, thing: Held | Element) -> None:
-        """Issue something where the tool is."""
+        """Issue an entry where the tool is."""
         if self.at is None or not isinstance(thing, Element):
             self.ready.append(thing)
         elif (element := at_place(thing, self.at)) is not None:
             self.ready.append(element)
 
     def begin(self, element: Element) -> None:
-        """The way in: a line from where the tool is to beside the start of the next element."""
+        """Begin with a lead-in: a line from the tool to beside the start of the next element."""
         self._laid_out(element)
         lead = Piece[Held](element, self._table.keep(), is_lead_in=True)
         begin_lead_in(self._table.F, lead)
         self._chain = [lead]
 
     def begin_with_arc(self, contour: Element) -> None:
-        """The way in along an arc: the tool is beside its start."""
+        """Begin with a lead-in along an arc: the tool is beside its start."""
         self._laid_out(contour)
         if self._watch:
             self._watch.contour(contour)
@@ -127,13 +129,13 @@ class Chain(Generic[Held]):
         )
 
     def follow(self, element: Element) -> None:
-        """The next element."""
+        """Add the next element."""
         found = self._laid_out(element)
         if found == NOTHING:
             self.hold(element, False)
             return
         if self.news:
-            self.tell(element)
+            self.report_pending(element)
         if self._watch:
             self._watch.contour(element)
         if found & UNEQUAL:
@@ -169,7 +171,7 @@ class Chain(Generic[Held]):
         last.fits, last.meets = divmod(found, FIT_STEP)
 
     def _restart(self, piece: Piece[Held]) -> None:
-        """Go on behind a chain that was broken: from where the tool rests to the new start."""
+        """Continue after a broken chain: from where the tool rests to the new start."""
         last = self._last
         if last is None or self.at is None:
             return
@@ -207,7 +209,7 @@ class Chain(Generic[Held]):
             bad = before
 
     def _take_out(self, before: Piece[Held], bad: Piece[Held]) -> None:
-        """What waited for the end of the bad piece waits for that of the one before it."""
+        """Remove a piece; what waited for its end now waits for that of the one before it."""
         before.left_out_cnt += 1 + bad.left_out_cnt
         waiting = [*(before.held or ()), *(bad.held or ()), *(bad.held_behind or ())]
         before.held = waiting or None
@@ -225,7 +227,7 @@ class Chain(Generic[Held]):
     # --- issuing ------------------------------------------------------------------------
 
     def hold(self, thing: Held | Element, is_behind: bool) -> None:
-        """Let something wait for the end of the last element."""
+        """Hold an entry until the end of the last element."""
         if not self._chain:
             self.rest(thing)
             return
@@ -260,9 +262,9 @@ class Chain(Generic[Held]):
             self._issue(piece, chain[0] if chain else None)
 
     def _issue(self, piece: Piece[Held], following: Piece[Held] | None) -> None:
-        way = tool_way(self._table.F, piece)
-        if way is not None:
-            self.issue_way(way, self._table.F[piece.row + AWAY])
+        move = tool_move(self._table.F, piece)
+        if move is not None:
+            self.issue_tool_move(move, self._table.F[piece.row + AWAY])
         self._last = piece
         if piece.held or following is None:
             self._rest_at(piece.row + BX, piece.held)
@@ -281,12 +283,12 @@ class Chain(Generic[Held]):
         F = self._table.F
         if meets == GAP or meets == FORCED:
             lines = f"lines {piece.element.source.line} and {following.element.source.line}"
-            text = f"geometry adjusted: the ways beside {lines} do not cross"
+            text = f"geometry adjusted: the paths beside {lines} do not cross"
             self._report("W320", text, following.element)
         for element in inserted(F, piece, following, meets):
-            self.issue_way(element, F[following.row + AWAY])
+            self.issue_tool_move(element, F[following.row + AWAY])
 
-    def issue_way(self, element: Element, away: float) -> None:
+    def issue_tool_move(self, element: Element, away: float) -> None:
         """Issue a move of the tool."""
         self.ready.append(element)
         if self._watch:

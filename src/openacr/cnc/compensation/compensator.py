@@ -1,4 +1,4 @@
-"""G40, G41 and G42: the phases a compensated contour goes through."""
+"""G40, G41 and G42: the phases of a compensated contour."""
 
 from enum import Enum, auto
 from typing import Generic
@@ -11,16 +11,16 @@ from openacr.cnc.geometry.elements import Element
 
 
 class Phase(Enum):
-    """Where in a contour the program is."""
+    """The phase of the contour the program is in."""
 
     OFF = auto()
     LEADING_IN = auto()  # G41 or G42 was read, nothing has moved yet
     ON = auto()
-    LEADING_OUT = auto()  # G40 was read, the tool stands beside the last element
+    LEADING_OUT = auto()  # G40 was read, the tool is beside the last element
 
 
 class Compensator(Generic[Held]):
-    """Takes elements in program order, gives those of the tool's centre.
+    """Turns elements of the contour into those of the tool's centre, in program order.
 
     Every method returns what can be issued by now, in order. An element is issued when the
     next one is known; where elements may be left out (Gouge Stop off), five more wait.
@@ -44,7 +44,7 @@ class Compensator(Generic[Held]):
         return self._chain.at
 
     def switch(self, side: Side | None, radius: float = 0.0) -> list[Held | Element]:
-        """G40 (no side), G41, G42, or another radius for the elements to come."""
+        """Switch to G40 (no side), G41, G42, or to another radius for the next elements."""
         if side is None:
             self._switch_off()
         else:
@@ -70,7 +70,7 @@ class Compensator(Generic[Held]):
             self._phase = Phase.OFF if self._chain.at is None else Phase.LEADING_OUT
 
     def add(self, element: Element) -> list[Held | Element]:
-        """The next element of the program."""
+        """Add the next element of the program."""
         chain = self._chain
         if self._phase is Phase.ON:
             chain.follow(element)
@@ -85,20 +85,20 @@ class Compensator(Generic[Held]):
         return chain.drain()
 
     def hold(self, thing: Held, *, is_behind: bool = False) -> list[Held | Element]:
-        """Something between two elements: issued where the first one ends.
+        """Hold an entry between two elements: it is issued where the first one ends.
 
-        `is_behind`: behind the moves that are inserted at the corner.
+        `is_behind`: after the moves that are inserted at the corner.
         """
         self._chain.hold(thing, is_behind)
         return self._chain.drain()
 
     def flush(self) -> list[Held | Element]:
-        """Issue all: what follows has to wait until the machine is at rest."""
+        """Issue everything, because the next entry waits for rest."""
         self._chain.finish()
         return self._chain.drain()
 
     def stop(self) -> list[Held | Element]:
-        """M2, ABORT: issue all; compensation is off without a move."""
+        """Issue everything and switch compensation off without a move (M2, ABORT)."""
         self._chain.finish()
         self._phase = Phase.OFF
         self._chain.forget()
@@ -106,7 +106,7 @@ class Compensator(Generic[Held]):
 
     def _lead_in(self, element: Element) -> None:
         chain = self._chain
-        chain.tell(element)
+        chain.report_pending(element)
         if element.centre is None:
             chain.begin(self._from_here(element))
         elif (contour := self._entry_arc(element)) is not None:
@@ -117,7 +117,7 @@ class Compensator(Generic[Held]):
         self._phase = Phase.ON
 
     def _entry_arc(self, element: Element) -> Element | None:
-        """The contour of an arc as way in; None, with a report, where it cannot be one."""
+        """The contour of an arc as lead-in; None, with a report, if it cannot be one."""
         if not self._has_entry_arcs:
             self._report("E313", "compensation cannot begin with an arc", element)
             return None
@@ -125,14 +125,14 @@ class Compensator(Generic[Held]):
         here = self._chain.at or (element.start[plane.first], element.start[plane.second])
         contour = entry_arc(element, away, here)
         if contour is None:
-            text = f"the tool, radius {abs(away):g}, does not come in along this arc"
+            text = f"the tool, radius {abs(away):g}, cannot lead in along this arc"
             self._report("E313", text, element)
         return contour
 
     def _lead_out(self, element: Element) -> None:
         if element.centre is not None:
             self._report("E313", "compensation cannot end with an arc", element)
-        self._chain.issue_way(self._from_here(element), self._chain.away)
+        self._chain.issue_tool_move(self._from_here(element), self._chain.away)
         self._phase = Phase.OFF
         self._chain.forget()
 

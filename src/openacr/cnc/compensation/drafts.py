@@ -1,4 +1,4 @@
-"""Elements made in a fifth of the time.
+"""Elements created in a fifth of the time of their constructor.
 
 A frozen dataclass sets its fields through `object.__setattr__`, which is most of the time a
 compensated element takes. A draft has the same slots and is not frozen; renamed to Element

@@ -1,6 +1,6 @@
-"""An arc as the way in: from where the tool is to beside the end of the programmed arc.
+"""An arc as lead-in: from where the tool is to beside the end of the programmed arc.
 
-LinuxCNC begins compensation with arcs like this: the tool leaves where it stands, on an arc
+LinuxCNC begins compensation with arcs like this: the tool starts from where it is, on an arc
 that ends beside the end of the programmed one, with the same tangent there.
 """
 
@@ -11,7 +11,7 @@ from openacr.cnc.geometry.elements import Element
 
 
 def entry_arc(element: Element, away: float, start: tuple[float, float]) -> Element | None:
-    """The arc beside which the tool comes in; None where there is none.
+    """The arc beside which the tool leads in; None if no such arc exists.
 
     `start` is where the tool is, `away` the signed radius, left positive. What is returned is
     the contour of the tool's arc: the tool touches it all the way, and its end is that of

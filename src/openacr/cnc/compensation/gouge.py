@@ -1,4 +1,4 @@
-"""What is said about an element that the tool cannot reach."""
+"""Findings about elements that the tool cannot reach."""
 
 from itertools import pairwise
 from math import copysign
@@ -12,7 +12,7 @@ HALVINGS = 24
 
 
 def report_small(report: Report, piece: Piece[object], table: Table, rules: Rules) -> None:
-    """An arc that the tool does not fit into."""
+    """Report an arc that the tool does not fit into."""
     radius, away = table.F[piece.row + RADIUS], abs(table.F[piece.row + AWAY])
     text = f"arc of radius {radius:g} is not larger than the tool radius {away:g}"
     if rules.gouge_stop:
@@ -22,7 +22,7 @@ def report_small(report: Report, piece: Piece[object], table: Table, rules: Rule
 
 
 def report_apart(report: Report, piece: Piece[object], after: Piece[object], table: Table) -> None:
-    """The ways beside two elements do not meet."""
+    """Report two elements whose tool paths do not meet."""
     line, away = after.element.source.line, abs(table.F[piece.row + AWAY])
     report("E321", f"no intersection with line {line} at radius {away:g}", piece.element)
 
@@ -34,7 +34,7 @@ def gouge_text(
     after: Piece[object] | None,
     rules: Rules,
 ) -> str:
-    """The line, the radius, and which one would fit."""
+    """The text of a gouge: the line, the radius, and the largest that would fit."""
     line, away = piece.element.source.line, abs(table.F[piece.row + AWAY])
     largest = largest_radius(table, before, piece, after, rules)
     return (

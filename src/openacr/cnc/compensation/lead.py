@@ -1,4 +1,4 @@
-"""The way in: what may be wrong with it."""
+"""The lead-in, and what may be wrong with it."""
 
 from math import cos, hypot, radians
 
@@ -26,7 +26,7 @@ ON_COURSE = cos(radians(45.0))
 
 
 def begin_lead_in(F: F64, lead: Piece[object]) -> None:
-    """Let it start where the tool is."""
+    """Let the lead-in start where the tool is."""
     row = lead.row
     F[row + AX] = F[row + X0]
     F[row + AY] = F[row + Y0]
@@ -35,7 +35,7 @@ def begin_lead_in(F: F64, lead: Piece[object]) -> None:
 def end_lead_in(
     F: F64, lead: Piece[object], piece: Piece[object], report: Report, epsilon: float
 ) -> None:
-    """Let it end beside the start of the next element.
+    """Let the lead-in end beside the start of the next element.
 
     W311 where it is shorter than the radius, unless it runs on into an arc of approach. W312
     where it comes from the material.
@@ -57,7 +57,7 @@ def end_lead_in(
 def _runs_on(F: F64, i: int, j: int) -> bool:
     """Whether an arc follows that the lead-in runs into within 45 degrees.
 
-    The arc brings the tool to the part: nothing is cut on the way to its start.
+    The arc brings the tool to the part: nothing is cut before its start.
     """
     course = F[i + T1X] * F[j + T0X] + F[i + T1Y] * F[j + T0Y]
     return F[j + SWEEP] != 0.0 and course >= ON_COURSE

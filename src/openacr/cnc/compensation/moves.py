@@ -1,4 +1,4 @@
-"""From the rows of a chain back to elements: what is issued for a piece and between pieces."""
+"""Elements from the rows of a chain: the moves of a piece, and those between pieces."""
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
@@ -39,8 +39,8 @@ def moved(point: Point, plane: Plane, x: float, y: float) -> Point:
     return tuple(values)
 
 
-def tool_way(F: F64, piece: Piece[object]) -> Element | None:
-    """The move of the tool beside an element; None where nothing is left of it."""
+def tool_move(F: F64, piece: Piece[object]) -> Element | None:
+    """The move of the tool beside an element; None if nothing is left of it."""
     element, row = piece.element, piece.row
     plane = element.plane
     ax, ay, bx, by, sweep = F[row + AX : row + ROLL].tolist()
@@ -62,7 +62,7 @@ def tool_way(F: F64, piece: Piece[object]) -> Element | None:
 def inserted(
     F: F64, piece: Piece[object], following: Piece[object], meets: int
 ) -> Sequence[Element]:
-    """The moves between the end of a piece and the start of the one behind it."""
+    """The moves between the end of a piece and the start of the next one."""
     if meets in (JOINED, CROSSING, FORCED):
         return ()
     i, j = piece.row, following.row
@@ -85,7 +85,7 @@ def _between(
     centre: Place | None = None,
     sweep: float = 0.0,
 ) -> Element:
-    """An inserted move; axes outside the plane rest where the element behind it starts."""
+    """An inserted move; axes outside the plane stay where the next element starts."""
     plane, point = element.plane, element.start
     first, last = moved(point, plane, *start), moved(point, plane, *end)
     return tool_element(element.source, plane, first, last, pace, centre, sweep, True)
@@ -103,7 +103,7 @@ def _around(start: Place, corner: Place, sweep: float) -> Iterator[Place]:
 
 
 def at_place(element: Element, place: tuple[float, float]) -> Element | None:
-    """An element without motion in the plane, where the tool stands; None without any."""
+    """An element without motion in the plane, at the tool's position; None if nothing moves."""
     start, end = (
         moved(element.start, element.plane, *place),
         moved(element.end, element.plane, *place),

@@ -1,4 +1,4 @@
-"""What compensation goes by: the side of the tool, the tolerances, and where findings go."""
+"""Settings of compensation: side of the tool, tolerances, receivers of findings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,20 +12,20 @@ Report = Callable[[str, str, Element], None]
 
 
 class Watch(Protocol):
-    """Whoever looks at whole chains (`ChainCheck`)."""
+    """An observer of whole chains (`ChainCheck`)."""
 
     def contour(self, element: Element) -> None:
-        """An element of the programmed contour."""
+        """Receive an element of the programmed contour."""
 
     def centre_path(self, element: Element, radius: float) -> None:
-        """A move of the tool."""
+        """Receive a move of the tool."""
 
     def end(self) -> None:
-        """The chain has ended."""
+        """Receive the end of the chain."""
 
 
 class Side(Enum):
-    """Where the tool is, seen along its way."""
+    """The side of the contour the tool is on, seen in the direction of travel."""
 
     LEFT = "G41"
     RIGHT = "G42"
@@ -35,11 +35,11 @@ class Side(Enum):
 class Rules:
     """The tolerances of system parameters 250101..250103, and Gouge Stop (P250130)."""
 
-    epsilon: float = 0.002  # what is nearer is joined; units of length
+    epsilon: float = 0.002  # ends closer than this are joined; units of length
     sweep_epsilon: float = 0.01  # the smallest arc, radians
     root_epsilon: int = -4  # exponent of ten: negative squares that count as 0
     gouge_stop: bool = True  # elements that cannot be reached are errors
-    has_entry_arcs: bool = False  # the way in may be an arc
+    has_entry_arcs: bool = False  # the lead-in may be an arc
 
     @property
     def root(self) -> float:

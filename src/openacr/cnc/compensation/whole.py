@@ -18,9 +18,9 @@ LEAST_SINE = 1e-9  # of the angle of two lines that cross
 class ChainCheck:
     """Collects a chain, and at its end reports moves nearer than the radius: W323.
 
-    Neighbours are looked after while a chain is made; this finds narrow places between
-    elements that are far from each other in the program. Where a contour closes on itself, or
-    its first and last line cross, what leads to it and away from it is no edge of the part.
+    Neighbours are checked while a chain is made; this finds narrow places between elements
+    far from each other in the program. Where a contour closes on itself, or its first and
+    last line cross, the leads to it and away from it are not edges of the part.
     """
 
     def __init__(self, epsilon: float, report: Report) -> None:

@@ -1,4 +1,4 @@
-"""Ways into and out of closed chains for a tool with a radius.
+"""Leads into and out of closed chains for a tool with a radius.
 
 The contour is entered and left by quarters of a circle that touch it in the middle of a
 segment. With the tool on side s (+1 left), the direction t there and n its left normal,
@@ -36,7 +36,7 @@ class Led:
 
 
 def led(chain: Chain, edges: Edges, *, is_hole: bool, radius: float, lead: float) -> Led | None:
-    """The best way in for a tool of a radius; None where there is no room.
+    """The best lead-in for a tool of a radius; None where there is no room.
 
     `lead` is the radius of the circle where it fits, else a smaller one.
     """

@@ -1,4 +1,4 @@
-"""The ways a tool takes through the chains of a drawing: insides first, compensated or not."""
+"""Tool paths through the chains of a drawing: insides first, compensated or not."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

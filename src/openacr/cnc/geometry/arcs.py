@@ -9,7 +9,7 @@ from openacr.cnc.canonical import Plane, Point
 from openacr.cnc.geometry.coordinates import Coordinates
 from openacr.cnc.program.block_context import BlockContext
 
-SAME = 1e-6  # units: nearer points are one
+SAME = 1e-6  # units: points closer than this are equal
 NO_TURN = 1e-12  # radians
 CENTRE_WORDS = "IJK"  # of axes 0, 1, 2
 Pair = tuple[float, float]
@@ -35,7 +35,7 @@ def arc_geometry(
     epsilon: float,
     lengths: dict[str, float],
 ) -> ArcGeometry:
-    """The arc of a block; `lengths` are its words I J K R in default units."""
+    """Compute the arc of a block; `lengths` are its words I J K R in default units."""
     first, second = plane.first, plane.second
     for letter in CENTRE_WORDS:
         if letter in lengths and CENTRE_WORDS.index(letter) not in (first, second):
@@ -53,7 +53,7 @@ def arc_geometry(
 def centre_by_words(
     b: BlockContext, plane: Plane, start: Pair, reading: int, lengths: dict[str, float]
 ) -> Pair:
-    """The centre I, J, K mean: start minus words (0), start plus words (1), a position (2)."""
+    """The centre by I, J, K: start minus words (0), start plus words (1), a position (2)."""
     letters = CENTRE_WORDS[plane.first], CENTRE_WORDS[plane.second]
     if not any(letter in lengths for letter in letters):
         raise b.fault("E231", hint="I, J, K or R")

@@ -6,9 +6,9 @@
     4 (cutter radius compensation works on p2)
     5-8 shift   p3 = p2 + common + work + local + floating zero + fixture + length
 
-Steps 5 to 8 are one vector, built anew when a part of it changes. The machine position is
-what stays then: the program position is computed back from it. In the machine system (G53)
-there is step 1 alone; everything else comes back with the next work system.
+Steps 5 to 8 are one vector, computed again when a part of it changes. The machine position
+does not change then: the program position is computed from it. In the machine system (G53)
+only step 1 applies; the others apply again with the next work system.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.modal import Modal
 
 LAST_SYSTEM, NINTH_SYSTEM = 8, 840
-HOLE = 10  # numbers from one system to the next
+HOLE = 10  # distance of the cells of one system from the next
 LENGTH_SIGN = {43: 1.0, 44: -1.0, 49: 0.0}
 ORIGIN: Point = (0.0,) * AXES
 
@@ -43,17 +43,17 @@ class Scale:
 
 @dataclass(frozen=True, slots=True)
 class Rotation:
-    """G68: a turn in a plane."""
+    """G68: a rotation in a plane."""
 
     plane: Plane
     centre: tuple[float, float]
     degrees: float
 
     def turned(self, p: list[float], degrees: float) -> None:
-        """Turn a point in place."""
+        """Rotate a point in place."""
         first, second = self.plane.first, self.plane.second
         sine, cosine = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
-        if degrees % 90.0 == 0.0:  # exact where it is exact
+        if degrees % 90.0 == 0.0:  # without rounding errors
             sine, cosine = round(sine), round(cosine)
         x, y = p[first] - self.centre[0], p[second] - self.centre[1]
         p[first] = self.centre[0] + x * cosine - y * sine
@@ -61,7 +61,7 @@ class Rotation:
 
 
 class Coordinates:
-    """The chain between what a program says and where the machine goes."""
+    """The transformation between program and machine coordinates."""
 
     def __init__(self, cells: Cells, letters: dict[str, int]) -> None:
         self._cells = cells
@@ -79,12 +79,12 @@ class Coordinates:
         return self.scale is None and self.rotation is None
 
     def clear(self) -> None:
-        """No scaling, no rotation, no added length."""
+        """Remove scaling, rotation and added lengths."""
         self.chosen_scale = self.chosen_rotation = None
         self.added = ORIGIN
 
     def refresh(self, modal: Modal) -> None:
-        """Take over what was chosen, and build the shift of steps 5 to 8 from the cells."""
+        """Apply what was chosen, and compute the shift of steps 5 to 8 from the cells."""
         if modal.work == 0:
             self.scale = self.rotation = None
             self.shift = ORIGIN
@@ -101,7 +101,7 @@ class Coordinates:
         self.shift = tuple(shift) if any(shift) else ORIGIN
 
     def offsets(self, modal: Modal) -> Point:
-        """Steps 7 and 8: fixture and length."""
+        """The offsets of steps 7 and 8: fixture and length."""
         read = self._cells.read
         vector = [0.0] * AXES
         if modal.fixture:
@@ -112,12 +112,12 @@ class Coordinates:
         return tuple(v + a for v, a in zip(vector, self.added, strict=True))
 
     def add_length(self, length: float) -> None:
-        """One more length on Z."""
+        """Add a length to Z."""
         z = self._z
         self.added = (*self.added[:z], self.added[z] + length, *self.added[z + 1 :])
 
     def forward(self, program: Point) -> Point:
-        """Steps 2 and 3."""
+        """Scale and rotate: steps 2 and 3."""
         if self.scale is None and self.rotation is None:
             return program
         p = list(program)
@@ -129,7 +129,7 @@ class Coordinates:
         return tuple(p)
 
     def backward(self, placed: Point) -> Point:
-        """Steps 3 and 2 undone."""
+        """Undo rotation and scaling: steps 3 and 2."""
         if self.scale is None and self.rotation is None:
             return placed
         p = list(placed)
@@ -141,11 +141,11 @@ class Coordinates:
         return tuple(p)
 
     def to_machine(self, placed: Point) -> Point:
-        """Steps 5 to 8."""
+        """Add the shift of steps 5 to 8."""
         if self.shift is ORIGIN:
             return placed
         return tuple(map(add, placed, self.shift))
 
     def from_machine(self, machine: Point) -> Point:
-        """Steps 8 to 5 undone."""
+        """Subtract the shift of steps 5 to 8."""
         return tuple(x - s for x, s in zip(machine, self.shift, strict=True))

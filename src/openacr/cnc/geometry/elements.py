@@ -1,8 +1,7 @@
-"""Elements: straight and circular moves as cutter radius compensation takes and gives them.
+"""Elements: straight and circular moves, the input and output of cutter radius compensation.
 
-Scaling and rotation are behind them. Offsets only shift, so that it makes no difference to
-the compensation whether elements are in front of those or, as the interpreter makes them,
-in machine coordinates.
+Scaling and rotation are already applied. Offsets only shift, so the compensation works the
+same before them and, as the interpreter uses it, in machine coordinates.
 """
 
 from dataclasses import dataclass

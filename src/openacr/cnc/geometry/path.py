@@ -1,9 +1,9 @@
-"""Where the program is, and the moves it makes from there.
+"""The point a program has reached, and its moves from there.
 
-Three views of one point: `program` as the words say, `placed` after scaling and rotation,
-`target` in machine coordinates. What lies between the last two only shifts, so that the
-cutter radius compensation may take machine points: elements that wait in it stay where
-they are when an offset changes.
+Three forms of one point: `program` as given by the words, `placed` after scaling and
+rotation, `target` in machine coordinates. The last two differ by a shift only, so cutter
+radius compensation can work on machine points: elements that wait in it keep their
+positions when an offset changes.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ FREE_SIDES = {41: 1, 42: -1}
 
 
 class Path:
-    """The point the program has reached, in its three views."""
+    """The point the program has reached, in its three forms."""
 
     def __init__(
         self, cells: Cells, modal: Modal, letters: dict[str, int], emit: Callable[[Entry], None]
@@ -84,12 +84,12 @@ class Path:
         self._pace = None
 
     def pace(self, b: BlockContext) -> Pace:
-        """How a feed move of this block runs."""
+        """The pace of a feed move of this block."""
         pace = self._pace or self.plain_pace()
         return replace(pace, is_confirmed=True) if b.is_confirmed else pace
 
     def plain_pace(self) -> Pace:
-        """How feed moves run now."""
+        """The present pace of feed moves."""
         pace = self._pace
         if pace is None:
             modal = self._modal
@@ -101,7 +101,7 @@ class Path:
         return pace
 
     def _side(self) -> int:
-        """The side of the path that is free; a negative radius leaves open where the part is."""
+        """The side of the path away from the part, 0 if unknown (negative radius)."""
         modal = self._modal
         radius = self._cells.read(RADIUS) + self._cells.read(RADIUS_WEAR)
         is_known = modal.plane_axes is Plane.XY and radius >= 0.0
@@ -110,7 +110,7 @@ class Path:
     # --- places ------------------------------------------------------------------------
 
     def end(self, b: BlockContext) -> Point:
-        """The program point the axis words of a block mean."""
+        """The program point given by the axis words of a block."""
         p = list(self.program)
         times, per = self.times, self.per
         words = b.words
@@ -133,43 +133,43 @@ class Path:
         return math.hypot(*linear) or max(map(abs, delta))
 
     def begin(self, machine: Point) -> None:
-        """The machine stands here."""
+        """Start at this machine point."""
         self.coordinates.refresh(self._modal)
         self.stand(machine)
 
     def refresh(self) -> None:
-        """Offsets have changed: the same machine point reads anew."""
+        """Recompute the program point after a change of offsets."""
         self.coordinates.refresh(self._modal)
         self.stand(self.target)
 
     # --- moves -------------------------------------------------------------------------
 
     def rapid(self, b: BlockContext, end: Point) -> None:
-        """A rapid move to a program point."""
+        """Move to a program point at rapid speed."""
         self._straight(b, end, self.coordinates.forward(end), None)
 
     def line(self, b: BlockContext, end: Point, pace: Pace) -> None:
-        """A feed move to a program point."""
+        """Move to a program point at feed."""
         self._straight(b, end, self.coordinates.forward(end), pace)
 
     def place(self, b: BlockContext, placed: Point, pace: Pace | None) -> None:
-        """A straight move to a point behind scaling and rotation."""
+        """Move straight to a point given after scaling and rotation."""
         self._straight(b, self.coordinates.backward(placed), placed, pace)
 
     def go_machine(self, b: BlockContext, target: Point, pace: Pace | None = None) -> None:
-        """A straight move to a machine point."""
+        """Move straight to a machine point."""
         if target != self.target:
             self._issue_straight(b.source, target, pace)
         self.stand(target)
 
     def stand(self, target: Point) -> None:
-        """The machine stands there."""
+        """Take over a machine point without a move."""
         self.target = self.issued = target
         self.placed = self.coordinates.from_machine(target)
         self.program = self.coordinates.backward(self.placed)
 
     def jump(self, program: Point) -> None:
-        """Straight moves have ended here, without scaling and rotation."""
+        """Take over the end of plain lines, without scaling and rotation."""
         self.program = self.placed = program
         self.target = self.issued = self.coordinates.to_machine(program)
 
@@ -202,7 +202,7 @@ class Path:
             self._emit(Line(source, target, pace, is_inserted, is_compensated))
 
     def arc(self, b: BlockContext, end: Point, bow: ArcGeometry, pace: Pace) -> None:
-        """An arc; `bow` and `end` are given behind scaling and rotation and in front of it."""
+        """Move along an arc given after scaling and rotation; `end` is the program point."""
         b.has_moved = True
         self.program = end
         self.placed = self.coordinates.forward(end)
@@ -247,7 +247,7 @@ class Path:
         )
 
     def issue(self, element: Element) -> None:
-        """A compensated element as a canonical move."""
+        """Issue a compensated element as a canonical move."""
         flags = element.is_inserted, element.is_compensated
         if element.centre is None or element.pace is None:
             self._issue_straight(element.source, element.end, element.pace, *flags)

@@ -1,7 +1,7 @@
-"""Blocks in action: line after line of a program, each checked as a whole before it acts.
+"""Execution of blocks: each line is checked as a whole before it acts.
 
 Where a value depends on the machine, reading it raises `NotAtRestError`: a `Sync` is handed
-out, and the block is asked again when the machine is at rest.
+out, and the block is evaluated again when the machine is at rest.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Execution:
                 if not self._is_done(node, block.quick):
                     yield from run.sync(node.source)
                     self._is_done(node, block.quick)
-            elif block.is_plain and (b := self._turn(node, block)) is not None:
+            elif block.is_plain and (b := self._context(node, block)) is not None:
                 waiting = self._act(b, block.acts)
                 if waiting is not None:
                     yield from waiting
@@ -114,14 +114,14 @@ class Execution:
     # --- which line -------------------------------------------------------------------
 
     def _scan(self) -> bool:
-        """Take the plain lines that come next; False where there are none."""
+        """Read the plain lines that come next; False if there are none."""
         flow = self._flow
         if flow.next is not None or not self.scanner.is_free:
             return False
         place = flow.ahead()
         if place is None:
             return False
-        polyline, behind = self.scanner.take(place)
+        polyline, behind = self.scanner.read_moves(place)
         if behind is place:
             return False
         flow.go_place(behind)
@@ -130,9 +130,9 @@ class Execution:
         return True
 
     def _race(self, frame: Frame | None) -> bool:
-        """Do assignments and jumps that are known already, one after another.
+        """Execute prepared assignments and jumps, one after another.
 
-        They are the greater part of loops. False where the frame was left.
+        They are the greater part of loops. False if the frame was left.
         """
         flow, done = self._flow, self.idle_cnt
         node = flow.next
@@ -161,7 +161,7 @@ class Execution:
     def _fetch(self) -> Node | None:
         """The next line with an effect; None where a replay has arrived.
 
-        Behind the last line the program has ended, and the line says nothing.
+        After the last line the program has ended: an empty line is returned.
         """
         run, flow = self._run, self._flow
         while True:
@@ -190,7 +190,7 @@ class Execution:
     # --- one block --------------------------------------------------------------------
 
     def _is_done(self, node: Node, work: Quick) -> bool:
-        """Do it at once; False where a value needs the machine at rest."""
+        """Execute at once; False if a value needs the machine at rest."""
         try:
             work.now(node)
         except NotAtRestError:
@@ -199,7 +199,7 @@ class Execution:
             raise _undefined(error) from None
         return True
 
-    def _turn(self, node: Node, block: Ready) -> BlockContext | None:
+    def _context(self, node: Node, block: Ready) -> BlockContext | None:
         """The words as numbers; None where a value needs the machine at rest."""
         try:
             return BlockContext(node, block.plan, block.plan.numbers or values_of(block))
@@ -251,7 +251,7 @@ class Execution:
     def _go_on(
         self, waiting: Iterator[Entry], b: BlockContext, acts: tuple[Code, ...]
     ) -> Iterator[Entry]:
-        """What a code waits for, then the codes behind it."""
+        """The entries of a code that waits, then those of the codes after it."""
         yield from waiting
         if not self._run.is_ended:
             left = self._act(b, acts)

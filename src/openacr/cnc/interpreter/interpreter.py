@@ -2,7 +2,7 @@
 
 The entries are pulled. A block is checked as a whole before anything of it acts; what it
 says acts in the order of the dialect (`execution.py`). Where a value depends on the machine,
-a `Sync` is handed out first: when the reader asks for the entry behind it, the machine is at
+a `Sync` is handed out first: when the reader asks for the entry after it, the machine is at
 rest.
 """
 
@@ -67,10 +67,10 @@ class Options:
     """How a program is run."""
 
     is_dry: bool = False  # DRY RUN: standard M codes do nothing
-    has_block_ends: bool = False  # BlockEnd behind every block with effect
+    has_block_ends: bool = False  # BlockEnd after every block with effect
     is_service: bool = False  # system parameters may be assigned
     is_library_part: bool = False  # I, J, K by the setting for library parts
-    collects_errors: bool = False  # go on behind errors of the geometry, to find them all
+    collects_errors: bool = False  # continue after errors of the geometry, to find them all
     watch: Watch | None = None  # sees compensated contours; else, collecting, they are checked
 
 
@@ -115,7 +115,7 @@ class Interpreter:
 
     @property
     def is_replaying(self) -> bool:
-        """Whether lines in front of a start line are being replayed."""
+        """Whether lines before a start line are being replayed."""
         return self.execution.until != 0
 
     @property
@@ -153,7 +153,7 @@ class Interpreter:
         try:
             yield from self._guarded(self.execution.single(node))
         except BlockError:
-            self.modal.take(modal)
+            self.modal.restore(modal)
             self.motions, self.macro, self.drilling, parameters.names = kept
             parameters.swap(values)
             self.o_words.reset()
@@ -196,7 +196,7 @@ class Interpreter:
             self.execution.idle_cnt = 0
 
     def flush(self) -> Iterator[Entry]:
-        """Hand out what has come together."""
+        """Hand out the collected entries."""
         yield from self.out
         self.out.clear()
 
@@ -223,7 +223,7 @@ class Interpreter:
             self.warnings.append(finding)
 
     def complain(self, code: str, text: str, source: Source) -> None:
-        """Something about the geometry: a warning is noted, an error ends the program."""
+        """Report a finding of the geometry: a warning is noted, an error ends the program."""
         finding = Finding(code, text, source.file, source.line, 1, "", source.text)
         if not finding.is_error:
             self.warnings.append(finding)
@@ -235,12 +235,12 @@ class Interpreter:
     # --- state ------------------------------------------------------------------------
 
     def power_up(self) -> None:
-        """Nothing chosen, nothing active; the machine stands where it is."""
+        """Set the state of power-up; the machine keeps its position."""
         self._reset()
         self.path.begin(self.machine.position() or ORIGIN)
 
     def begin(self) -> None:
-        """The start set, at the first line."""
+        """Set the state at the start of a program, at its first line."""
         self._reset()
         if self.options.is_library_part:
             self.modal.centres = int(self.cells.read(LIBRARY_CENTRES))
@@ -274,14 +274,14 @@ class Interpreter:
         self.path.refresh()
 
     def abort(self) -> None:
-        """The state behind ABORT and emergency stop."""
+        """Set the state after ABORT and emergency stop."""
         self.offset_path.begin()
         self._reset(is_abort=True)
         self.flow.start()
         self.out.clear()
 
     def reload_offsets(self) -> None:
-        """Offsets were written: those in use are taken over."""
+        """Apply offsets that were written."""
         modal = self.modal
         for target, source, n in (
             (LENGTH, LENGTHS, modal.length_number),
@@ -295,7 +295,7 @@ class Interpreter:
         self.offsets_changed()
 
     def offsets_changed(self, cell: int = 0) -> None:
-        """Offsets were written: the machine stays, the program position follows."""
+        """Recompute the program position after offsets were written."""
         if cell in (RADIUS, RADIUS_WEAR):
             self.offset_path.change_radius()
         else:
@@ -309,7 +309,7 @@ class Interpreter:
         self.is_ended = True
 
     def language(self, part: Part) -> tuple[Dialect, BlockPlanner]:
-        """In what a text is written: cycles have their own."""
+        """The dialect and planner of a text; the cycles have their own."""
         if part.is_cycles and self.dialect.has_own_cycles:
             return self._cycle_language
         return self.dialect, self.planner

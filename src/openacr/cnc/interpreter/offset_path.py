@@ -1,6 +1,6 @@
-"""Cutter radius compensation as the interpreter uses it: switched, fed, emptied.
+"""Cutter radius compensation in the interpreter: switching, adding moves, flushing.
 
-Between G41 and the move behind G40 every move goes through the compensator, and whatever
+Between G41 and the move after G40 every move goes through the compensator, and whatever
 else the program says waits there for its place between two moves.
 """
 
@@ -71,7 +71,7 @@ class OffsetPath:
     def refuse(self, b: BlockContext, code: str) -> None:
         """An error while compensation is on.
 
-        Behind a G40 that nothing has moved after, the program goes on from where the tool is.
+        After a G40 without a move, the program continues from where the tool is.
         """
         if self._run.modal.compensation != OFF:
             raise b.fault(code)

@@ -1,8 +1,8 @@
 """Start at line N: the lines before it are interpreted without motion.
 
-What they leave behind - modal state, offsets, parameters, the position, outputs - is
-collected, compared with how the machine stands, and put in place by the entries of
-`approach` before the program goes on at line N.
+Their results - modal state, offsets, parameters, the position, outputs - are collected,
+compared with the state of the machine, and applied by the entries of `approach` before the
+program continues at line N.
 
 The tool may be deep in a part: a program is started again after an emergency stop in the
 cut. So the approach retracts it along the tool axis to a safe level before anything else
@@ -121,7 +121,7 @@ class Reached:
 
 @dataclass(slots=True)
 class Replay:
-    """The state in front of line N; `entries` begin with the approach."""
+    """The state before line N; `entries` begin with the approach."""
 
     run: Interpreter
     line: int
@@ -185,7 +185,7 @@ def _at_level(point: Point, level: float) -> Point:
 
 
 def start_at(run: Interpreter, line: int, level: float | None = None) -> Replay:
-    """Replay everything in front of a line; StartError where it is never reached.
+    """Replay everything before a line; StartError if it is never reached.
 
     `level`: the machine position of the tool axis at which the tool is free, in default units;
     StartError where the approach needs one and neither it nor the lines name it.

@@ -1,4 +1,4 @@
-"""Runs of plain lines, taken from the text many at a time.
+"""Runs of plain lines, read from the text many at a time.
 
 Where nothing but the position depends on a line - straight feed moves without scaling,
 rotation, compensation, macros, single block - the compiled scanner reads the bytes and
@@ -30,7 +30,7 @@ _scan_lines = pick(scan.scan_lines)
 
 
 class Scanner:
-    """Takes runs of plain lines for an interpreter."""
+    """Reads runs of plain lines for an interpreter."""
 
     def __init__(self, run: Interpreter) -> None:
         self._run = run
@@ -55,8 +55,8 @@ class Scanner:
             and not run.is_replaying
         )
 
-    def take(self, start: Place) -> tuple[Polyline | None, Place]:
-        """The moves of the lines from a place on, and the place behind them.
+    def read_moves(self, start: Place) -> tuple[Polyline | None, Place]:
+        """The moves of the lines from a position on, and the position after them.
 
         Nothing is taken where there are only a few.
         """

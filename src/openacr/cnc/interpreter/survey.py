@@ -82,7 +82,7 @@ class Survey:
         return [finding for finding in self.findings if not finding.is_error]
 
     def add(self, findings: Iterable[Finding]) -> None:
-        """What somebody else found in the program."""
+        """Add findings from outside the survey."""
         self.findings += findings
         _sort(self.findings)
 

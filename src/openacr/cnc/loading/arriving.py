@@ -1,8 +1,8 @@
 """The text of a part program that is still arriving.
 
-A line can be read when the one behind it has begun to be known, so that calls know where
-they come back to; the block that ends the program is read at once. Where nothing can be
-read yet, `NotYetError` is raised: the interpreter goes on from there when more has come.
+A line can be read when the next line has begun to arrive, so that calls know where to
+return; the block that ends the program is read at once. `NotYetError` is raised while
+nothing can be read: the interpreter continues from there when more has arrived.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _LINE_END = re.compile(rb"\r\n|\n|\r(?=.)", re.DOTALL)
 
 
 class NotYetError(Exception):
-    """The line that comes next has not arrived."""
+    """The next line has not arrived yet."""
 
 
 class ArrivingText(Text):
@@ -30,42 +30,42 @@ class ArrivingText(Text):
         self._data = bytearray()
         self._labels = labels
         self._part: Part | None = None
-        self._known = 0  # behind the last whole line
+        self._known = 0  # offset after the last whole line
         self._line_cnt = 0
         self._percents = 0
         self._held: tuple[int, Place] | None = None  # label of a line that may not be read yet
-        self.read_to = 0  # as far as anybody has looked
+        self.read_to = 0  # offset up to which the text was read
         self.is_complete = False
 
     def of_part(self, part: Part) -> None:
-        """Labels lead into this part."""
+        """Set the part whose lines the labels name."""
         self._part = part
 
     @property
     def unread(self) -> int:
-        """Bytes that have arrived and that nobody has looked at."""
+        """The count of bytes that have arrived and were not read."""
         return len(self._data) - self.read_to
 
     def add(self, data: bytes) -> None:
-        """More has come; Ctrl-Z or the second % is the end of it."""
+        """Append data that has arrived, up to Ctrl-Z or the second %."""
         if self.is_complete:
             return
         text, mark, _ = data.partition(CONTROL_Z)
         self._data += text
         while not self.is_complete and (found := _LINE_END.search(self._data, self._known)):
-            self._take(found.start(), found.end())
+            self._release_line(found.start(), found.end())
         if mark:
             self.complete()
 
     def complete(self) -> None:
-        """Nothing more will come."""
+        """Mark the text as complete."""
         if not self.is_complete:
             self.is_complete = True
             self.end = len(self._data)
             self._free_label()
 
-    def _take(self, stop: int, after: int) -> None:
-        """A line is whole: the one before it may be read, or this one if it ends all."""
+    def _release_line(self, stop: int, after: int) -> None:
+        """Release the line before a complete one, or this one if it ends the program."""
         line = decoded(bytes(self._data[self._known : stop]))
         self._line_cnt += 1
         self._free_label()
@@ -81,18 +81,18 @@ class ArrivingText(Text):
         self._known = after
 
     def _free_label(self) -> None:
-        """What can be read, can be jumped to."""
+        """Add the label of the released line, which may now be a target of jumps."""
         if self._held is not None:
             self._labels.add(*self._held)
             self._held = None
 
     def window(self, offset: int) -> tuple[bytes, int]:
-        """All whole lines from a place on."""
+        """All whole lines from an offset on."""
         self.read_to = max(self.read_to, self.end)
         return bytes(self._data[offset : self.end]), 0
 
     def line(self, offset: int) -> tuple[bytes, int] | None:
-        """The line at a place; None behind the last one of a complete text."""
+        """The line at an offset; None after the last line of a complete text."""
         if offset >= self.end:
             if self.is_complete:
                 return None

@@ -4,8 +4,8 @@
     PLATE.TXT  L3      three times
     "LONG NAME.TXT"
 
-One program per line, relative to the batch file; `Ln` behind the name repeats it; the rest
-of a line behind `;` and blank lines count for nothing.
+One program per line, relative to the batch file; `Ln` after the name repeats it; `;`
+begins a comment, and blank lines are ignored.
 """
 
 import os
@@ -19,7 +19,7 @@ from openacr.errors import UserError
 
 MOST_REPEATS = 9999
 _LINE = re.compile(r'\s*(?:"([^"]*)"|(.*?))(?:\s+[Ll]\s*(\d+))?\s*')
-_BYTES_READ = 1 << 20  # a batch file is small; whatever is larger is something else
+_BYTES_READ = 1 << 20  # a larger file is not a batch file
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Entry:
 
 
 class BatchError(UserError):
-    """A batch that cannot be run; nothing of it has been started."""
+    """A batch that cannot be run; none of it was started."""
 
     def __init__(self, findings: tuple[Finding, ...]) -> None:
         self.findings = findings
@@ -48,11 +48,11 @@ class Batch:
 
     @property
     def programs(self) -> tuple[Path, ...]:
-        """Every program once: what is checked before the first one starts."""
+        """Every program once, to be checked before the first one starts."""
         return tuple(dict.fromkeys(entry.path for entry in self.entries))
 
     def runs(self) -> Iterator[Entry]:
-        """The runs in their order, each as often as it is wanted."""
+        """The runs in their order, with repetitions."""
         for entry in self.entries:
             for _ in range(entry.repeat_cnt):
                 yield entry

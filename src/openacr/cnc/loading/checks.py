@@ -1,4 +1,4 @@
-"""What is found wrong or doubtful with lines while a program is loaded."""
+"""Checks of lines while a program is loaded."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from openacr.sysvar.tabs import TOOL
 
 
 class Report:
-    """Findings, each at the line that is read."""
+    """Findings, each at the present line."""
 
     def __init__(self) -> None:
         self.findings: list[Finding] = []
@@ -25,12 +25,12 @@ class Report:
         self.warned: set[str] = set()
 
     def warn(self, code: str, column: int, detail: str = "") -> None:
-        """Something doubtful in this line."""
+        """Report a warning at the present line."""
         name, line, raw = self.where
         self.findings.append(found(code, name, line, column, detail, "", raw))
 
     def warn_once(self, code: str, column: int) -> None:
-        """The same, only the first time."""
+        """Report a warning only the first time."""
         if code not in self.warned:
             self.warned.add(code)
             self.warn(code, column)
@@ -38,7 +38,7 @@ class Report:
 
 @dataclass(slots=True)
 class Seen:
-    """What the lines so far have said."""
+    """What was found in the lines so far."""
 
     motion: float = 1
     has_feed: bool = False
@@ -48,12 +48,12 @@ class Seen:
     has_end: bool = False
     last: Plan | None = None
     last_place: tuple[int, str] = (0, "")
-    asks_for_cycles: bool = False  # by $I, be it in vain
-    cycle: tuple[str, int, str] | None = None  # where the first canned cycle stands
+    asks_for_cycles: bool = False  # by $I, even if the file is missing
+    cycle: tuple[str, int, str] | None = None  # position of the first canned cycle
 
 
 class Checks:
-    """Checks line after line; what they have said so far is `seen`."""
+    """Checks of line after line; `seen` is what they found so far."""
 
     def __init__(self, report: Report, cells: Cells, dialect: Dialect) -> None:
         self._report = report
@@ -63,7 +63,7 @@ class Checks:
         self.seen = Seen(has_feed=cells.read(START_FEED) > 0.0)
 
     def values(self, block: Block, plan: Plan) -> None:
-        """Parameters written as numbers: known, and writable where they are assigned."""
+        """Check that parameters given by number exist, and may be assigned where they are."""
         if plan.numbers is not None and not (block.assignments or block.statement):
             return
         for node, column in _formulas(block):
@@ -93,7 +93,7 @@ class Checks:
             self._report.warn(home.write_warning, column, f"P{index.number:g}")
 
     def doubts(self, plan: Plan) -> None:
-        """What may not be meant as it is written."""
+        """Warn of what may not be meant as written."""
         seen = self.seen
         seen.has_speed |= "S" in plan.words
         for act in plan.codes:
@@ -121,10 +121,10 @@ class Checks:
         return read(TOOL.manual_tool_change) == 0.0 and read(TOOL.changed_input) < 0.0
 
     def end(self, name: str, *, has_cycles: bool) -> None:
-        """The last line of the main text was read."""
+        """Check the whole, after the last line of the main text."""
         if self.seen.cycle is not None and not has_cycles:
             file, line, raw = self.seen.cycle
-            hint = "$I CYCLES.TXT behind M2"
+            hint = "$I CYCLES.TXT after M2"
             self._report.findings.append(found("E251", file, line, 1, "", hint, raw))
         last = self.seen.last
         is_m30 = last is not None and any(code.name == "M30" for code in last.codes)
@@ -137,7 +137,7 @@ class Checks:
 
 
 def _is_plain(plan: Plan) -> bool:
-    """Whether the axis words of a block belong to the motion that is active."""
+    """Whether the axis words of a block belong to the active motion."""
     return any(act.letter == "MOTION" for act in plan.acts)
 
 
@@ -148,7 +148,7 @@ def _shown(parameter: Parameter) -> str:
 
 
 def _formulas(block: Block) -> Iterator[tuple[Node, int]]:
-    """Every expression of a block and the column of what it belongs to."""
+    """Every expression of a block with the column of its word or statement."""
     for word in block.words:
         yield word.value, word.column
     for assignment in block.assignments:

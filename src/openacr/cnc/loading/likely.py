@@ -1,4 +1,4 @@
-"""Which language a part program is probably written in, by what only one of them has.
+"""Recognise the dialect of a part program by signs that only one dialect has.
 
 Signs are codes that one dialect has and the other has not, statements and expressions, names of
 post-processors in remarks, and centres of arcs that fit one reading of I and J alone. Each
@@ -56,7 +56,7 @@ _PATTERNS: tuple[tuple[str, int, str, re.Pattern[str]], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Sign:
-    """Something one dialect has, and the line where it was first seen."""
+    """A sign of one dialect, and the line where it was first found."""
 
     dialect: str
     weight: int
@@ -74,12 +74,12 @@ class Likely:
     signs: list[Sign] = field(default_factory=list)
 
     def weight(self, dialect: str) -> int:
-        """The sum for a dialect."""
+        """The sum of the weights for a dialect."""
         return sum(sign.weight for sign in self.signs if sign.dialect == dialect)
 
     @property
     def dialect(self) -> str:
-        """The likely one."""
+        """The recognised dialect."""
         other = self.weight(RS274NGC)
         return RS274NGC if other >= ENOUGH and other > self.weight(ACROMILL) else ACROMILL
 
@@ -92,12 +92,12 @@ class Likely:
 
 
 def likely(lines: Iterable[str], centres: int = 2) -> Likely:
-    """The signs of the lines; `centres` is how acromill reads I and J at the start (G200)."""
+    """Collect the signs of lines; `centres` is how acromill reads I and J at first (G200)."""
     found: dict[tuple[str, str], Sign] = {}
     arcs = _Arcs()
     for number, raw in enumerate(lines, start=1):
         text = raw.upper()
-        arcs.take(number, text)
+        arcs.read_line(number, text)
         for dialect, weight, what in _signs(text):
             found.setdefault((dialect, what), Sign(dialect, weight, what, number))
     result = Likely(list(found.values()))
@@ -124,7 +124,7 @@ def _signs(text: str) -> Iterator[tuple[str, int, str]]:
 
 
 def _code_sign(letter: str, number: float) -> Iterator[tuple[str, int, str]]:
-    """A code that one dialect alone has."""
+    """The sign of a code that only one dialect has."""
     own, other = DIALECTS[ACROMILL].table, DIALECTS[RS274NGC].table
     rows = (own.gcodes, other.gcodes) if letter == "G" else (own.mcodes, other.mcodes)
     weight = CLEAR if letter == "G" else FAINT
@@ -142,8 +142,8 @@ class _Arcs:
         self._is_elsewhere = False  # another plane, or places that are not written
         self._fits: dict[int, list[int]] = {1: [], 2: []}  # lines, by reading
 
-    def take(self, line: int, text: str) -> None:
-        """One line in capitals."""
+    def read_line(self, line: int, text: str) -> None:
+        """Read one line, in capitals."""
         code = _REMARK.sub(" ", text)
         words = _WORD.findall(code)
         values = {letter: float(digits) for letter, digits in words if letter in "XYIJ"}
@@ -197,7 +197,7 @@ class _Arcs:
             self._fits[fit[0]].append(line)
 
     def signs(self, centres: int) -> Iterator[Sign]:
-        """What the arcs say, if they agree."""
+        """The sign of the arcs, if they agree."""
         distances, positions = self._fits[1], self._fits[2]
         if distances and not positions and centres != 1:
             yield Sign(RS274NGC, CLEAR, "I and J from the start of the arc", distances[0])

@@ -1,7 +1,7 @@
-"""Loading: every line read once, all errors found, labels and added texts noted.
+"""Load a program: read every line once, report all errors, collect labels and included texts.
 
-A program with an error cannot be started. What only shows when it runs - jumps that are
-computed, values of expressions, geometry - is found then.
+A program with an error cannot be started. Errors of computed jumps, values of expressions
+and geometry are found when it runs.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ DEEPEST_INCLUDE = 8
 
 @dataclass(frozen=True, slots=True)
 class Folders:
-    """Where added texts are looked for, behind the folder of the program."""
+    """Folders searched for included texts, after the folder of the program."""
 
     library: Path | None = None
     customs: Path | None = None  # Mnnn.TXT
 
 
 def axes_of(cells: Cells) -> dict[str, int]:
-    """Letters of the configured axes."""
+    """Axis numbers by letter, of the configured axes."""
     found: dict[str, int] = {}
     for axis in range(len(AXIS_LETTERS)):
         if cells.read(AXIS.configured[axis]):
@@ -56,7 +56,7 @@ def load(
     folders: Folders | None = None,
     name: str = "PROGRAM",
 ) -> Program:
-    """Read a program from a file, or from text."""
+    """Load a program from a file or from text."""
     if isinstance(source, Path):
         text, folder = Text.file(source), source.parent
     else:
@@ -67,12 +67,12 @@ def load(
 def load_blank(
     cells: Cells, dialect: str = "acromill", folders: Folders | None = None, name: str = "PROGRAM"
 ) -> Program:
-    """A program without lines, for blocks that come one by one: all M codes of files are known."""
+    """Load a program without lines, for single blocks; all M codes of files are known."""
     return Loader(cells, DIALECTS[dialect], folders or Folders()).load_blank(Text.of(b"", name))
 
 
 def planner_of(cells: Cells, dialect: Dialect, program: Program | None = None) -> BlockPlanner:
-    """Plans for the axes of these cells and the M codes of a program."""
+    """Make the planner for the axes of a store and the M codes of a program."""
     planner = BlockPlanner(dialect, axes_of(cells), dialect.table.letters.get("CUSTOM"))
     if program is not None:
         planner.customs.update(program.customs)
@@ -99,7 +99,7 @@ class Loader:
         self._targets = Targets(self._report)
 
     def load(self, text: Text, folder: Path | None) -> Program:
-        """The program of a text."""
+        """Load the program in a text."""
         program = Program(Part(text), folder)
         self._program = program
         self._read(program.main, depth=0)
@@ -117,7 +117,7 @@ class Loader:
         return program
 
     def load_blank(self, text: Text) -> Program:
-        """The program of an empty text, with the M codes of all files in their folder."""
+        """Load an empty text, with all M codes of the files in their folder."""
         program = self.load(text, None)
         for number in custom_numbers(self._custom_folder()) if self._dialect.has_custom else ():
             self._read_custom(number)
@@ -143,7 +143,7 @@ class Loader:
         part.line_cnt = line
 
     def _skim(self, part: Part, offset: int, line: int) -> tuple[int, int]:
-        """Pass over plain lines: nothing can be wrong with them but their labels."""
+        """Skip plain lines, which can have no error except in their labels."""
         count, after = self._skimmer.skim(part.text, offset)
         if not count:
             return 0, offset
@@ -187,10 +187,10 @@ class Loader:
         if block.label is None or not self._dialect.labels:
             return
         is_own = self._program.has_cycles and not place.part.is_cycles
-        self._targets.keep(block.label, place, is_barred=is_own)
+        self._targets.add_label(block.label, place, is_barred=is_own)
 
     def _planner_plan(self, block: Block, place: Place) -> Plan:
-        """The plan of a block; M codes of the user are read from their files first."""
+        """Plan a block, after loading the files of its user M codes."""
         for word in block.words:
             if word.letter == "M" and self._dialect.has_custom:
                 self._custom(word)
@@ -208,7 +208,7 @@ class Loader:
             self._read_custom(word.value.number)
 
     def _read_custom(self, code: float) -> None:
-        """The file of an M code, unless the dialect has the code or the file was read before."""
+        """Load the file of an M code, unless the dialect has the code or it is already loaded."""
         number, folder = int(code), self._custom_folder()
         if code in self._dialect.table.mcodes or number in self._program.customs or folder is None:
             return
@@ -243,7 +243,7 @@ class Loader:
             self._include(statement, place, after, depth)
 
     def _calls(self, plan: Plan, place: Place) -> None:
-        """Labels and texts the codes of a block need."""
+        """Note the labels and texts that the codes of a block need."""
         for code in plan.codes:
             label = plan.words.get("P")
             is_call = code.letter == "G" and code.takes_all
@@ -257,12 +257,12 @@ class Loader:
         self._seen.asks_for_cycles |= is_cycles
         is_main = place.part is self._program.main
         if is_main and not self._seen.has_end:
-            raise CodeError("E262", statement.column, "it has to stand behind M2")
+            raise CodeError("E262", statement.column, "it has to come after M2")
         if depth >= DEEPEST_INCLUDE:
             raise CodeError("E262", statement.column, "nested deeper than 8")
         text = self._text_named(statement.name)
         if text is None:
-            raise CodeError("E262", statement.column, f"{statement.name} is not there")
+            raise CodeError("E262", statement.column, f"{statement.name} does not exist")
         part = Part(text, place.part.labels, behind=Place(place.part, after, place.line + 1))
         part.is_cycles = is_cycles
         self._program.has_cycles |= part.is_cycles
@@ -279,7 +279,7 @@ class Loader:
         return supplied_cycles() if Path(name).name.upper() == CYCLES_FILE else None
 
     def _add_subroutines(self) -> None:
-        """Subroutines that are called and stand in files of their own, `name.ngc`."""
+        """Load subroutines that are called and have files of their own, `name.ngc`."""
         asked: set[str] = set()
         while names := set(missing(self._program)) - asked:
             asked |= names

@@ -1,4 +1,4 @@
-"""Plain lines passed over at load: how many, their labels, and the last motion in them."""
+"""Skip plain lines at load: their count, their labels, and the last motion in them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _skim_lines = pick(scan.skim_lines)
 
 
 class Tables:
-    """The rows the scanner works on."""
+    """The arrays the scanner works on."""
 
     def __init__(self, axes: dict[str, int]) -> None:
         self.W = np.zeros(scan.W_SIZE)
@@ -34,7 +34,7 @@ class Tables:
         self._bytes = memoryview(bytearray(1))
 
     def bytes(self, text: Text, offset: int) -> tuple[memoryview, int]:
-        """Whole lines from a window of the text, and where the offset is in them."""
+        """Whole lines around an offset of the text, and the position of the offset in them."""
         window, place = text.window(offset)
         if window is not self._window:
             self._window = window
@@ -43,7 +43,7 @@ class Tables:
 
 
 class Skimmer:
-    """Passes over the plain lines of a text at load."""
+    """Skips the plain lines of a text at load."""
 
     def __init__(self, axes: dict[str, int]) -> None:
         self._tables = Tables(axes)
@@ -52,7 +52,7 @@ class Skimmer:
         self.labels: Rows = np.zeros((0, 3), np.int64)  # label, line from 0, offset from here
 
     def skim(self, text: Text, offset: int) -> tuple[int, int]:
-        """How many plain lines stand here, and the offset behind them."""
+        """Skip the plain lines at an offset; returns their count and the offset after them."""
         if offset >= text.end:
             return 0, offset
         data, place = self._tables.bytes(text, offset)

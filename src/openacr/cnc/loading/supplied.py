@@ -1,4 +1,4 @@
-"""Texts that come with the package, and files found whatever the case of their names."""
+"""The supplied cycles, and files found without regard to the case of their names."""
 
 import re
 from importlib.resources import files
@@ -21,7 +21,7 @@ def cycle_part() -> Part:
 
 
 def add_labels(part: Part) -> None:
-    """Note the labels of a text that is known to be right."""
+    """Add the labels of a text that is known to be free of errors."""
     grammar = DIALECTS["acromill"].grammar
     offset, line = part.text.begin, 0
     while (taken := part.text.line(offset)) is not None:
@@ -39,7 +39,7 @@ def supplied_cycles() -> Text:
 
 
 def found_in(folder: Path, name: str) -> Path | None:
-    """A file of a folder, whatever the case of its name."""
+    """Find a file in a folder, ignoring the case of its name."""
     path = folder / name
     if path.is_file():
         return path

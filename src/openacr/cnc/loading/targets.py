@@ -1,4 +1,4 @@
-"""Labels and the jumps to them, as they are noted while a program is loaded."""
+"""Labels and the jumps to them, collected while a program is loaded."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ FIRST_CYCLE_LABEL = 70_000
 
 
 class Targets:
-    """Where jumps go, and whether they find something there."""
+    """The labels and jumps of a program, to find jumps without a target."""
 
     def __init__(self, report: Report) -> None:
         self._report = report
         self._jumps: list[tuple[Part, int, str, int, int]] = []
 
-    def keep(self, label: int, place: Place, *, is_barred: bool) -> None:
-        """One more label; with the cycles included, high ones are barred."""
+    def add_label(self, label: int, place: Place, *, is_barred: bool) -> None:
+        """Add a label; `is_barred`: labels of the cycles are refused."""
         labels = place.part.labels
         first = labels.get(label)
         if first is not None:
@@ -34,18 +34,18 @@ class Targets:
         labels.add(label, place)
 
     def make_room(self, part: Part, count: int, line: int) -> None:
-        """So many labels of plain lines follow."""
+        """Check that `count` more labels of plain lines fit."""
         if len(part.labels) + count > MOST_LABELS and "E270" not in self._report.warned:
             self._report.warned.add("E270")
             self._report.findings.append(found("E270", part.text.name, line))
 
     def jump(self, place: Place, column: int, label: int) -> None:
-        """A label is wanted by the line that is read."""
+        """Add a jump of the present line to a label."""
         _, line, raw = self._report.where
         self._jumps.append((place.part, line, raw, column, label))
 
     def missed(self) -> Iterator[Finding]:
-        """Jumps that find no label, or one of the cycles, which are for the cycles alone."""
+        """Jumps without a label, or to a label that belongs to the cycles."""
         for part, line, raw, column, label in self._jumps:
             place = part.labels.get(label)
             if place is None or (place.part.is_cycles and not part.is_cycles):
@@ -54,7 +54,7 @@ class Targets:
 
 
 def double_labels(parts: list[Part]) -> Iterator[Finding]:
-    """Labels of plain lines, of which whole blocks are taken over unseen."""
+    """Labels that plain lines define twice."""
     for part in {id(part.labels): part for part in parts}.values():
         for label, first, second in part.labels.doubles():
             text = second.part.text
@@ -71,5 +71,5 @@ def labels_of_cycles(labels: Labels) -> Iterator[Finding]:
 
 
 def first_at(place: Place) -> str:
-    """Where a label was met first."""
+    """The hint that names the first definition of a label."""
     return f"first in line {place.line} of {place.part.text.name}"

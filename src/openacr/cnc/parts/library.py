@@ -44,7 +44,7 @@ DIGITS = 12
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """A part with its sizes: what is set before it starts, and the text that then runs."""
+    """A part with its sizes: the cells to set before it starts, and its text."""
 
     part: Part
     values: Mapping[int, float]  # cells, lengths in the active unit
@@ -55,7 +55,7 @@ class Ready:
 
     @property
     def program(self) -> str:
-        """Everything as one part program that runs by itself."""
+        """The part and its sizes as one part program."""
         lines = [f"; {self.part.name}", "G21" if self.is_metric else "G20"]
         lines += [f"G200 F{self.ij_code}", f"F{_plain(self.feed)}"]
         if self.d_number:
@@ -92,7 +92,7 @@ def _is_part(path: Path) -> bool:
 
 
 def part_named(name: str, folder: Path = FOLDER) -> Part:
-    """The part of a name, whatever its case."""
+    """The part with a name, ignoring case."""
     wanted = name.strip().upper().removesuffix(SUFFIX)
     for path in _files(folder):
         if path.stem.upper() == wanted and _is_part(path):
@@ -112,7 +112,7 @@ def prepared(
     d_number: int = 0,
     feed: float | None = None,
 ) -> Ready:
-    """The part with these sizes (in their own units), the others as they are by default.
+    """Prepare a part with these sizes (in their own units), and defaults for the others.
 
     `is_metric` is the active unit; without `feed` (in it) the one of the run set-up holds, or
     Cut Speed. PartError with code E222 if a size is out of range or a condition does not hold.
@@ -174,7 +174,7 @@ def _broken(part: Part, rule: Rule, values: Mapping[int, float], cells: Cells) -
 
 
 class _Sizes:
-    """What conditions may ask for: sizes and cells of the store."""
+    """The operands of conditions: sizes and cells of the store."""
 
     def __init__(self, values: Mapping[int, float], cells: Cells) -> None:
         self._values, self._cells = values, cells
@@ -201,7 +201,7 @@ class _Sizes:
         return False
 
     def read_input(self, n: float) -> float:
-        """No input has a say in what a part can be."""
+        """Refuse inputs: conditions may use parameters only."""
         raise CodeError("E108", hint="a CHECK knows parameters alone")
 
     read_output = read_bit = read_input

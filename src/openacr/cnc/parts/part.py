@@ -30,7 +30,7 @@ _HEAD = re.compile(r";\s*(PART|PARAM|CHECK|START)\b\s*(.*)", re.IGNORECASE)
 
 
 class PartError(UserError):
-    """A part that cannot be used, or sizes it cannot have."""
+    """An error in a part, or sizes it does not allow."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(findings)
@@ -80,11 +80,11 @@ class Part:
 
     @property
     def name(self) -> str:
-        """What it is called for."""
+        """The name by which the part is chosen."""
         return self.path.stem.upper()
 
     def size(self, wanted: str) -> Size:
-        """A size by its cell or its words."""
+        """A size by its cell or its name."""
         word = wanted.strip().casefold()
         for size in self.sizes:
             if word in (f"p{size.cell}", size.text.casefold()):
@@ -97,7 +97,7 @@ class Part:
 
 
 def read_part(path: Path) -> Part:
-    """The part in a file; PartError with all that is wrong in its head."""
+    """Read a part from a file; PartError with all errors of its head."""
     text = text_of(path)
     findings: list[Finding] = []
     title, start = "", ""

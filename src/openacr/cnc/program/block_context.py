@@ -1,4 +1,4 @@
-"""A block in action: its words as numbers, and its place in the program."""
+"""The block that is executed: its words as numbers, and its position in the program."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class BlockWords(Protocol):
 
     @property
     def modal_words(self) -> tuple[str, ...]:
-        """Letters left for the motion or cycle that is active."""
+        """Letters left for the active motion or cycle."""
 
     @property
     def code_names(self) -> list[str]:
@@ -44,7 +44,7 @@ class BlockWords(Protocol):
 
 
 class BlockContext:
-    """What a handler is given of its block."""
+    """The block as a handler sees it."""
 
     __slots__ = ("has_moved", "is_confirmed", "node", "number", "plan", "words")
 
@@ -66,7 +66,7 @@ class BlockContext:
         return self.words.get(letter, default)
 
     def whole(self, letter: str, default: int = 0, code: str = "E204") -> int:
-        """The value of a word that has to be a whole number."""
+        """The value of a word, which has to be a whole number."""
         value = self.words.get(letter)
         if value is None:
             return default
@@ -81,5 +81,5 @@ class BlockContext:
         return [(axis, letter, self.words[letter]) for axis, letter in self.plan.axes]
 
     def fault(self, code: str, letter: str = "", detail: str = "", hint: str = "") -> CodeError:
-        """An error at a word of the block."""
+        """Make an error at a word of the block."""
         return CodeError(code, self.plan.column(letter), detail, hint)

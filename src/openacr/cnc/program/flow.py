@@ -1,4 +1,4 @@
-"""Which line comes next: jumps, calls and the levels of calls."""
+"""The order of lines: jumps, calls and the levels of calls."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Level(Enum):
 
 @dataclass(slots=True, eq=False)
 class Frame:
-    """One call; a GOSUB goes back to a line, the others to whoever called."""
+    """One call; a GOSUB returns to a line, the others to the calling function."""
 
     level: Level
     back: Node | None = None
@@ -40,24 +40,24 @@ class Flow:
         self._program = program
         self._nodes = Nodes(program)
         self.next: Node | None = None
-        # Where `next` has yet to be looked for: behind a line, or at a place.
+        # How to find `next` when it is needed: after a line, or at a position.
         self.last: Node | None = None
         self.place: Place | None = None
         self.frames: list[Frame] = []
         self.jumped: Callable[[], None] | None = None  # sees every jump that may be a loop
 
     def start(self) -> None:
-        """At the first line, in no call."""
+        """Go to the first line, outside of calls."""
         self.frames.clear()
         self.go_place(self._program.main.start)
 
     def leave(self) -> None:
-        """In no program."""
+        """Leave the program: no line comes next."""
         self.frames.clear()
         self.next = self.last = self.place = None
 
     def pass_by(self, node: Node) -> None:
-        """The line behind this one comes next."""
+        """Go to the line after this one."""
         self.next = node.next
         self.last = node if node.next is None else None
         self.place = None
@@ -73,13 +73,13 @@ class Flow:
         return self.next
 
     def behind(self, node: Node) -> Node | None:
-        """The line behind another one."""
+        """The line after another one."""
         if node.next is None:
             node.next = self._nodes.behind(node)
         return node.next
 
     def ahead(self) -> Place | None:
-        """The place of a line that was not looked at yet, in the same text; else None."""
+        """The position of the next line in the same text if it was not read yet; else None."""
         last = self.last
         if last is None:
             return self.place
@@ -88,24 +88,24 @@ class Flow:
         return Place(last.part, last.after, last.line + 1)
 
     def go_place(self, place: Place) -> None:
-        """Go on at a place."""
+        """Continue at a position."""
         self.next, self.last, self.place = None, None, place
 
     def at(self, place: Place) -> Node | None:
-        """The line at a place."""
+        """The line at a position."""
         return self._nodes.at(place)
 
     # --- jumps ------------------------------------------------------------------------
 
     def labelled(self, label: int, node: Node, column: int) -> Node:
-        """The line with a label, seen from another line."""
+        """The line with a label that another line jumps to."""
         found = self.find(label, node.part, column)
         if found.part.is_cycles and not node.part.is_cycles:
             raise CodeError("E264", column, f"N{label}")
         return found
 
     def find(self, label: int, part: Part, column: int = 0) -> Node:
-        """The line with a label among the texts that belong together."""
+        """The line with a label, in the texts that share their labels."""
         place = part.labels.get(label)
         node = self._nodes.at(place) if place else None
         if node is None:
@@ -113,29 +113,29 @@ class Flow:
         return node
 
     def go(self, node: Node | None) -> None:
-        """Go on there, or end the program."""
+        """Continue at a line; None ends the program."""
         self.next, self.last, self.place = node, None, None
 
     def jump(self, node: Node) -> None:
-        """GOTO."""
+        """Jump to a line (GOTO)."""
         if self.jumped is not None:
             self.jumped()
         self.go(node)
 
     def call_sub(self, node: Node) -> None:
-        """GOSUB."""
+        """Call a line (GOSUB)."""
         self.enter(Frame(Level.SUB, self.following()))
         self.go(node)
 
     def enter(self, frame: Frame) -> None:
-        """One level deeper; cycles do not count."""
+        """Enter a call; E260 if nested too deep (cycles do not count)."""
         counted = [one for one in self.frames if one.level is not Level.CYCLE]
         if frame.level is not Level.CYCLE and len(counted) >= DEEPEST:
             raise CodeError("E260")
         self.frames.append(frame)
 
     def go_back(self, column: int) -> None:
-        """RET."""
+        """Return from a call (RET)."""
         if not self.frames:
             raise CodeError("E261", column)
         frame = self.frames.pop()

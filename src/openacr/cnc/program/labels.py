@@ -1,7 +1,7 @@
-"""Where the labels of a program stand.
+"""The labels of a program and the lines they name.
 
-Lines that are read one by one bring them one by one; plain lines, of which there can be
-hundreds of thousands, as rows of numbers that are sorted when the first one is wanted.
+Labels of parsed lines are added one by one; those of plain lines, of which there can be
+hundreds of thousands, as arrays that are sorted when the first label is looked up.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Rows = NDArray[np.int64]  # label, line, offset
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A line of a text."""
+    """The position of a line in a text."""
 
     part: Part
     offset: int
@@ -29,7 +29,7 @@ class Place:
 
 
 class Labels:
-    """The labels of texts that belong together."""
+    """The labels of texts that share them."""
 
     def __init__(self) -> None:
         self._places: dict[int, Place] = {}
@@ -41,16 +41,16 @@ class Labels:
         return len(self._places) + self._row_cnt
 
     def add(self, label: int, place: Place) -> None:
-        """One label; the first of two stays."""
+        """Add a label; the first definition stays."""
         self._places.setdefault(label, place)
 
     def add_rows(self, part: Part, rows: Rows) -> None:
-        """Labels of many lines of a text."""
+        """Add the labels of many lines of a text."""
         self._rows.append((part, rows))
         self._row_cnt += len(rows)
 
     def get(self, label: int) -> Place | None:
-        """Where a label stands."""
+        """The line with a label."""
         place = self._places.get(label)
         if place is not None or not self._row_cnt:
             return place
@@ -77,7 +77,7 @@ class Labels:
                 yield label, Place(part, offset, line)
 
     def doubles(self) -> Iterator[tuple[int, Place, Place]]:
-        """Labels of rows that stand somewhere else too: the earlier and the later place."""
+        """Labels defined twice, with the earlier and the later line."""
         known: list[tuple[Part, Rows]] = []
         for part, rows in self._in_order():
             for k in np.flatnonzero(rows[1:, 0] == rows[:-1, 0]).tolist():

@@ -1,4 +1,4 @@
-"""A loaded program: its texts, where labels stand, and what was found wrong with it."""
+"""A loaded program: its texts, labels and findings."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Part:
     text: Text
     labels: Labels = field(default_factory=Labels)
     is_cycles: bool = False
-    behind: Place | None = None  # where an included text goes on
+    behind: Place | None = None  # where to continue after an included text
     line_cnt: int = 0
 
     @property
@@ -31,7 +31,7 @@ class Part:
         return Place(self, self.text.begin, 1)
 
     def line(self, number: int) -> str:
-        """A line by its number; empty behind the last one."""
+        """A line by its number; empty after the last one."""
         found, after = None, self.text.begin
         for _ in range(number):
             found = self.text.line(after)
@@ -42,7 +42,7 @@ class Part:
 
 
 class Node:
-    """One line in use: its text, what it does once that is known, and the line behind it."""
+    """One line in use: its text, its prepared block, and the next line."""
 
     __slots__ = ("after", "is_include", "line", "next", "part", "raw", "ready", "source")
 
@@ -53,13 +53,13 @@ class Node:
         self.after = after  # offset of the next line
         self.is_include = False  # another text follows
         self.next: Node | None = None
-        self.ready: Any = None  # what the interpreter made of it
+        self.ready: Any = None  # the block prepared by the interpreter
         self.source = Source(part.text.name, line, raw)
 
 
 @dataclass(frozen=True, slots=True)
 class OPlace:
-    """An O-word and where it stands."""
+    """An O-word and its position."""
 
     kind: str
     place: Place
@@ -81,7 +81,7 @@ class Program:
 
     @property
     def errors(self) -> list[Finding]:
-        """Why it cannot be started."""
+        """The errors, for which the program cannot be started."""
         return [finding for finding in self.findings if finding.is_error]
 
     @property
@@ -95,7 +95,7 @@ class Program:
         return self.main.line_cnt
 
     def text_of(self, source: Source) -> str:
-        """The line an entry comes from; entries of long ways do not carry it."""
+        """The text of the line an entry comes from; entries of polylines do not carry it."""
         if source.text:
             return source.text
         for part in (self.main, *self.parts):
@@ -112,13 +112,13 @@ class Nodes:
         self._kept: dict[tuple[int, int], Node] = {}
 
     def at(self, place: Place) -> Node | None:
-        """The line at a place; None behind the last one of a program."""
+        """The line at a position; None after the last line of a program."""
         key = (id(place.part), place.offset)
         node = self._kept.get(key)
         if node is None:
             node = self._made(place)
             if node is not None:
-                self._keep(key, node)
+                self._cache(key, node)
         return node
 
     def _made(self, place: Place) -> Node | None:
@@ -130,7 +130,7 @@ class Nodes:
         node.is_include = (place.part.text.name, place.line) in self._program.includes
         return node
 
-    def _keep(self, key: tuple[int, int], node: Node) -> None:
+    def _cache(self, key: tuple[int, int], node: Node) -> None:
         if len(self._kept) >= MANY:
             for kept in self._kept.values():
                 kept.next = None
@@ -138,7 +138,7 @@ class Nodes:
         self._kept[key] = node
 
     def behind(self, node: Node) -> Node | None:
-        """The line that follows, in the text added here where one is."""
+        """The next line, which is in the included text after an $I."""
         part = self._program.includes.get((node.part.text.name, node.line))
         if part is not None:
             return self.at(part.start)

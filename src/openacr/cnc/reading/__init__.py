@@ -1,1 +1,1 @@
-"""The text of part programs: lines, words, expressions, statements, and what is wrong with them."""
+"""The text of part programs: lines, words, expressions, statements and findings."""

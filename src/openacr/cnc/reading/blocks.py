@@ -1,4 +1,4 @@
-"""A block as read: words, assignments, a statement, messages, each with its column."""
+"""A parsed block: words, assignments, a statement and messages, each with its column."""
 
 from dataclasses import dataclass, field
 
@@ -35,7 +35,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class Goto:
-    """Go on at a label."""
+    """GOTO: continue at a label."""
 
     label: Node
     column: int
@@ -43,7 +43,7 @@ class Goto:
 
 @dataclass(frozen=True, slots=True)
 class Gosub:
-    """Call a label."""
+    """GOSUB: call a label."""
 
     label: Node
     column: int
@@ -51,7 +51,7 @@ class Gosub:
 
 @dataclass(frozen=True, slots=True)
 class Return:
-    """Go back behind the call."""
+    """RET: return to the line after the call."""
 
     column: int
 
@@ -66,7 +66,7 @@ class InputTest:
 
 @dataclass(frozen=True, slots=True)
 class If:
-    """Do something if a condition holds."""
+    """IF: execute a jump or call if a condition holds."""
 
     condition: Node
     then: Goto | Gosub | Return
@@ -76,7 +76,7 @@ class If:
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """Show texts and values."""
+    """PRINT: show texts and values."""
 
     items: tuple[str | Node, ...]
     column: int
@@ -84,7 +84,7 @@ class Print:
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """Ask the operator for the value of a parameter."""
+    """INPUT: ask the operator for the value of a parameter."""
 
     text: str
     parameter: Node
@@ -94,7 +94,7 @@ class Input:
 
 @dataclass(frozen=True, slots=True)
 class Include:
-    """`$I file`."""
+    """`$I file`: include a file."""
 
     name: str
     column: int
@@ -131,5 +131,5 @@ class Block:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing but a label, a title or comments."""
+        """Whether the block has nothing but a label, a title or comments."""
         return not (self.words or self.assignments or self.statement or self.messages)

@@ -1,4 +1,4 @@
-"""Expressions: text to formulas, by precedence climbing.
+"""Parse expressions into formulas, by precedence climbing.
 
     expression = prefix { operator prefix }        tighter levels first
     prefix     = [NOT] [+|-] operand
@@ -26,7 +26,7 @@ BLANKS = " \t\x0b\x0c"
 
 
 class ExpressionReader:
-    """A place in the text of one line, and the expressions that begin there."""
+    """A reader at a position in one line, and of the expressions that begin there."""
 
     def __init__(self, raw: str, grammar: Grammar) -> None:
         self.raw = raw
@@ -44,11 +44,11 @@ class ExpressionReader:
 
     @property
     def column(self) -> int:
-        """Where we are, from 1."""
+        """The present column, from 1."""
         return self.pos + 1
 
     def fault(self, code: str, detail: str = "", hint: str = "") -> CodeError:
-        """An error at this place."""
+        """Make an error at the present column."""
         return CodeError(code, self.column, detail, hint)
 
     def blanks(self) -> None:
@@ -59,12 +59,12 @@ class ExpressionReader:
         self.pos = pos
 
     def peek(self) -> str:
-        """The next character behind blanks; empty at the end."""
+        """The next character after blanks; empty at the end."""
         self.blanks()
         return self.text[self.pos] if self.pos < len(self.text) else ""
 
     def match(self, wanted: str) -> bool:
-        """Take a literal if it comes next."""
+        """Consume a literal if it comes next."""
         self.blanks()
         if not self.text.startswith(wanted, self.pos):
             return False
@@ -77,7 +77,7 @@ class ExpressionReader:
             self.comment()
 
     def comment(self) -> str:
-        """Take a comment; its text without parentheses."""
+        """Consume a comment; returns its text without parentheses."""
         end = self.text.find(")", self.pos)
         if end < 0:
             raise self.fault("E103")
@@ -106,7 +106,7 @@ class ExpressionReader:
             left = Call(operator.function, (left, self.expression(operator.level + 1)))
 
     def operator(self) -> str:
-        """The operator that comes next, not taken."""
+        """The next operator, without consuming it."""
         operators = self.grammar.operators
         text, pos = self.text, self.pos
         for size in (3, 2, 1):
@@ -115,7 +115,7 @@ class ExpressionReader:
         return ""
 
     def prefix(self) -> Node:
-        """An operand with its signs, or NOT and what it reaches to."""
+        """Read an operand with its signs, or NOT and the operands it applies to."""
         if self.grammar.not_level and self.match("NOT"):
             self.deeper()
             inner = self.expression(self.grammar.not_level + 1)
@@ -197,7 +197,7 @@ class ExpressionReader:
         return Number(float(self.integer()))
 
     def name(self) -> str:
-        """`<name>`, whatever its case and blanks."""
+        """Read `<name>`, ignoring case and blanks."""
         found = _NAME.match(self.text, self.pos)
         if not found:
             raise self.fault("E106")
@@ -271,7 +271,7 @@ class ExpressionReader:
 
 
 def negative(operand: Node) -> Node:
-    """The operand with the other sign."""
+    """The negated operand."""
     if isinstance(operand, Number):
         return Number(-operand.number)
     return Call(NEGATE, (operand,))

@@ -1,4 +1,4 @@
-"""What is wrong, or doubtful, in a part program: code, place and words."""
+"""Findings of part programs: code, position and text of errors, warnings and alarms."""
 
 from dataclasses import dataclass
 
@@ -113,14 +113,14 @@ class Finding:
 
 
 class CodeError(Exception):
-    """Something wrong in the block at hand: its code and column; who knows the line adds it."""
+    """An error in the present block: code and column; the caller adds file and line."""
 
     def __init__(self, code: str, column: int = 0, detail: str = "", hint: str = "") -> None:
         super().__init__(code, detail)
         self.code, self.column, self.detail, self.hint = code, column, detail, hint
 
     def at(self, file: str, line: int, block: str) -> Finding:
-        """The fault with its place."""
+        """The finding for this error, with its position."""
         return found(self.code, file, line, self.column, self.detail, self.hint, block)
 
 
@@ -133,13 +133,13 @@ def found(
     hint: str = "",
     block: str = "",
 ) -> Finding:
-    """A finding in the words of its code; `detail` says more."""
+    """Make a finding with the text of its code and an optional detail."""
     text = f"{TEXTS[code]}: {detail}" if detail else TEXTS[code]
     return Finding(code, text, file, line, max(1, column), hint, block)
 
 
 class BlockError(UserError):
-    """A block cannot act; nothing of it has happened."""
+    """A block that cannot be executed; nothing of it has been done."""
 
     def __init__(self, finding: Finding) -> None:
         super().__init__(str(finding))

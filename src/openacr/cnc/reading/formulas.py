@@ -1,8 +1,8 @@
-"""Expressions as trees: what they are worth, and the same as Python source.
+"""Expressions as trees: their values, and the same as Python source.
 
-A tree is evaluated as it stands at first; a formula that is used again and again is
-written as one Python expression and compiled, which makes it several times faster. Both
-forms call the same functions, so that they give the same number.
+A tree is evaluated directly at first; a formula that is used often is written as one
+Python expression and compiled, which makes it several times faster. Both forms call the
+same functions, so that they give the same number.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from typing import Any, Protocol
 from openacr.cnc.reading.functions import NAMES, Function
 
 LOCALS = 33  # parameters of a call
-NEAR = 1e-4  # how far from a whole number a whole number may be
+NEAR = 1e-4  # tolerance of whole numbers
 HOT = 16  # uses after which a formula is compiled
 
 
@@ -42,11 +42,11 @@ class Sources(Protocol):
 
 
 class Names(Sources, Protocol):
-    """The same for compiled formulas."""
+    """Sources of operands for compiled formulas."""
 
     @property
     def last_local(self) -> int:
-        """#1 to this one belong to the call in force."""
+        """The last of the locals #1, #2, ... of the present call; 0 outside calls."""
 
     def is_plain_cell(self, n: float) -> bool:
         """Whether a parameter is nothing but a cell of the store."""
@@ -55,21 +55,21 @@ class Names(Sources, Protocol):
         """Whether a parameter is a variable of the card that programs may write."""
 
     def names_of_formulas(self) -> dict[str, object]:
-        """What compiled formulas call by name."""
+        """Functions that compiled formulas call by name."""
 
 
 class Node(Protocol):
     """A part of a formula."""
 
     def value(self, at: Sources) -> float:
-        """What it is worth now."""
+        """The value now."""
 
     def source(self, at: Names) -> str:
-        """The same in Python; operands come from `at`."""
+        """The expression as Python source; operands come from `at`."""
 
     @property
     def is_constant(self) -> bool:
-        """Whether it is always worth the same."""
+        """Whether the value never changes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class Parameter:
 
 
 def _read(n: float, at: Names, is_hash: bool) -> str:
-    """The shortest way to a parameter."""
+    """The fastest Python expression that reads a parameter."""
     if at.is_plain_cell(n):
         return f"cell({int(n)})"
     if at.is_card_cell(n):
@@ -137,7 +137,7 @@ class Named:
     is_test: bool = False
 
     def value(self, at: Sources) -> float:
-        """What it holds, or whether there is one."""
+        """The value, or with EXISTS whether the name is defined."""
         return float(at.has_named(self.name)) if self.is_test else at.read_named(self.name)
 
     def source(self, at: Names) -> str:
@@ -164,7 +164,7 @@ class State:
         return read(self.index.value(at))
 
     def source(self, at: Names) -> str:
-        """A question to the machine."""
+        """A read of the state, as Python."""
         return f"{_READS[self.kind]}({self.index.source(at)})"
 
     @property
@@ -198,7 +198,7 @@ class Call:
 
 
 class Formula:
-    """A formula in use: counts how often, and is compiled when that pays."""
+    """A formula that counts its uses and is compiled after `HOT` of them."""
 
     __slots__ = ("_at", "_uses", "node", "now")
 
@@ -219,11 +219,11 @@ class Formula:
 
 
 def compiled(node: Node, at: Names) -> Callable[[], float]:
-    """The formula as one Python function of nothing."""
+    """Compile a formula into one Python function without arguments."""
     work: Callable[[], float] = eval(f"lambda: {node.source(at)}", names_for(at))
     return work
 
 
 def names_for(at: Names) -> dict[str, Any]:
-    """Everything compiled formulas call by name."""
+    """All functions that compiled formulas call by name."""
     return NAMES | at.names_of_formulas()

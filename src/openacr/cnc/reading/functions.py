@@ -1,4 +1,4 @@
-"""Functions and operators of formulas: what they do, and how compiled formulas write them."""
+"""Functions and operators of formulas: their values, and their form in compiled formulas."""
 
 import math
 from collections.abc import Callable
@@ -21,7 +21,7 @@ _COSINES |= {-x: y for x, y in _COSINES.items()}
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """What a function or operator does, and how Python writes it."""
+    """A function or operator: how it is computed, and its form as Python source."""
 
     work: Callable[..., float]
     template: str
@@ -40,7 +40,7 @@ def cosine(x: float) -> float:
 
 
 def tangent(x: float) -> float:
-    """Tangent of degrees; none at 90 and 270."""
+    """Tangent of degrees; ArithmeticError at 90 and 270."""
     turned = math.fmod(x, 180.0)
     if abs(turned) == 90.0:
         raise ArithmeticError("TAN of a right angle")
@@ -48,7 +48,7 @@ def tangent(x: float) -> float:
 
 
 def arc_tangent(x: float) -> float:
-    """Angle in degrees whose tangent this is."""
+    """Arc tangent in degrees."""
     return math.degrees(math.atan(x))
 
 
@@ -58,12 +58,12 @@ def arc_tangent2(y: float, x: float) -> float:
 
 
 def arc_sine(x: float) -> float:
-    """Angle in degrees whose sine this is."""
+    """Arc sine in degrees."""
     return math.degrees(math.asin(x))
 
 
 def arc_cosine(x: float) -> float:
-    """Angle in degrees whose cosine this is."""
+    """Arc cosine in degrees."""
     return math.degrees(math.acos(x))
 
 

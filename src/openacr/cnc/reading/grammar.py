@@ -1,4 +1,4 @@
-"""What differs between the languages of part programs, as tables for one parser."""
+"""Grammars of the dialects: their differences as tables for one parser."""
 
 from dataclasses import dataclass
 
@@ -29,7 +29,7 @@ class Grammar:
     has_names: bool  # #<name> and EXISTS
     has_o_words: bool
     not_level: int  # operands of NOT reach to operators of this level; 0: no NOT
-    refusals: Refusals  # what other controls have
+    refusals: Refusals  # forms of other controls
     pairs: frozenset[str] = frozenset()  # functions written F[y]/[x]
 
 

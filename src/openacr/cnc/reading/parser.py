@@ -1,10 +1,10 @@
-"""Blocks: one line of text to words, assignments and a statement.
+"""Parse a line of a part program into words, assignments and a statement.
 
     block     = [ "/" [digit] ] [ "N" integer ] { item } [ comment ]
     item      = word | assignment | statement
     statement = IF | GOTO | GOSUB | RET | PRINT | INPUT | "$I" file     alone in its block
 
-Nothing is decided here about what words mean together.
+What words mean together is decided later, by `cnc.codes.block_plan`.
 """
 
 import re
@@ -37,7 +37,7 @@ _LETTERS = "ABCDEFGHIJKLMPQRSTUVWXYZ"  # all but N, O
 def parse(raw: str, grammar: Grammar) -> Block:
     """The block of one line; CodeError with the column of the first wrong character.
 
-    The hint says what is known of a form that the dialect refuses.
+    The hint explains forms of other controls that the dialect refuses.
     """
     if len(raw) > LONGEST:
         raise CodeError("E101", LONGEST + 1)
@@ -49,7 +49,7 @@ def parse(raw: str, grammar: Grammar) -> Block:
 
 
 def _plain(raw: str) -> Block | None:
-    """The block of a line of words with numbers, which most lines are; None for others."""
+    """The block of a line with nothing but words and numbers; None for other lines."""
     found = _PLAIN_LINE.fullmatch(raw)
     if found is None:
         return None
@@ -127,7 +127,7 @@ class _Parser(StatementReader):
         return True
 
     def _o_name(self, rest: str) -> tuple[str, Node | None]:
-        """The name of an O-word, or the formula that gives it."""
+        """The name of an O-word, or the formula that computes it."""
         found = _O_NAME.match(rest)
         if found:
             self.pos += found.end()
@@ -151,7 +151,7 @@ class _Parser(StatementReader):
         return True
 
     def _plain_word(self, block: Block) -> bool:
-        """A word with a number, if that is what comes next."""
+        """Read a word with a number, if one comes next."""
         found = _PLAIN_WORDS.match(self.text, self.pos)
         if found is None or self.text[found.end() : found.end() + 1] in (".", "="):
             return False

@@ -2,7 +2,7 @@
 
 A row is the hint of the error that refuses it, and a row of the page of codes; `lines` shows
 each of its codes, words or forms once. Codes that only the other dialect has are not listed:
-the tables of both say so.
+they follow from the tables of both.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ MOST_SHOWN = 20  # codes of one row that are named one by one
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """What is refused: codes by number, a word beside codes, or a form of writing."""
+    """A refused code, word or form, with the reason."""
 
-    shown: str  # as the page names it
+    shown: str  # as named on the page of codes
     reason: str
     error: str
     lines: tuple[str, ...]
     codes: frozenset[str] = ANY  # as `G5.1`
     words: str = ""  # letters
-    beside: frozenset[str] = ANY  # codes the words are refused with; none: wherever they stand
+    beside: frozenset[str] = ANY  # codes beside which the words are refused; empty: everywhere
     form: re.Pattern[str] | None = None
 
 
@@ -36,17 +36,17 @@ class Refusals:
     rows: tuple[Refusal, ...] = ()
 
     def of_code(self, name: str) -> str:
-        """Why a code (`G5.1`) is refused; empty where nothing is known of it."""
+        """The reason why a code (`G5.1`) is refused; empty if there is no row for it."""
         return next((row.reason for row in self.rows if name in row.codes), "")
 
     def of_word(self, letter: str, beside: Iterable[str]) -> str:
-        """Why a word is refused beside codes; empty where nothing is known of it."""
+        """The reason why a word is refused beside codes; empty if there is no row for it."""
         names = set(beside)
         rows = (row for row in self.rows if letter in row.words)
         return next((row.reason for row in rows if not row.beside or row.beside & names), "")
 
     def of_form(self, raw: str, column: int) -> str:
-        """Why the reader stopped at a column (from 1) of a line; empty where nothing is known."""
+        """The reason for a syntax error at a column (from 1); empty if there is no row for it."""
         text, at = raw.upper(), column - 1
         for row in self.rows:
             found = row.form.finditer(text) if row.form else ()
@@ -56,7 +56,7 @@ class Refusals:
 
 
 def other_dialect(name: str) -> str:
-    """What is said of a code that another dialect has."""
+    """The hint for a code that another dialect has."""
     return f"a code of the dialect {name}: --dialect {name}"
 
 
@@ -83,13 +83,13 @@ _AXES = "axes are X Y Z A B C U V"
 _TURNS = "an arc has one turn at most; write further turns as arcs of their own"
 _DWELL = "a dwell moves nothing: write the axis words in a block of their own"
 _LATHES = (
-    _codes("G7 G8", "diameter and radius mode are of lathes; leave the code out"),
+    _codes("G7 G8", "diameter and radius mode are for lathes; leave the code out"),
     _codes("G33 G33.1", "no motion is synchronised with the spindle; G84 and G74 tap at feed"),
-    _codes("G96", "constant surface speed is of lathes; write S in turns per minute"),
+    _codes("G96", "constant surface speed is for lathes; write S in rev/min"),
 )
 _CURVES = _codes(
     "G5 G5.1 G5.2 G5.3",
-    "curves of blocks are not interpolated; let the post-processor write lines or arcs",
+    "splines are not interpolated; let the post-processor write lines or arcs",
 )
 _FEED_PER_TURN = _codes("G95", "no feed per turn of the spindle; write F in units per minute")
 _POCKETS = _codes("G12 G13", "no circular pockets; `openacr mill part` writes them")
@@ -147,8 +147,8 @@ RS274NGC = Refusals((
     _codes("G54.1", "work systems are G54 to G59.3"),
     _codes("G68 G69", "nothing is rotated in this dialect, only in acromill"),
     _TILTED,
-    _codes("G70 G71 G71.1 G71.2 G72 G72.1 G72.2", "turning cycles are of lathes"),
-    _codes("G76", "threading is of lathes; boring with a shift is G76 of acromill"),
+    _codes("G70 G71 G71.1 G71.2 G72 G72.1 G72.2", "turning cycles are for lathes"),
+    _codes("G76", "threading is for lathes; boring with a shift is G76 of acromill"),
     _codes("G87 G88", "no back boring and no boring with a retract by hand in this dialect"),
     _FEED_PER_TURN,
     _codes("M19", "the spindle is not brought to an angle in this dialect"),
@@ -162,7 +162,7 @@ RS274NGC = Refusals((
     _words("XYZABCUV", "G4", "E206", "G4 P1 _1", _DWELL),
     _words("F", "G4", "E222", "G4 F1", "seconds are P here; G4 F is of the dialect acromill"),
     _words("R", "G10", "E241", "G10 L2 P1 R30", "work systems are not rotated"),
-    _words("IJQ", "G10", "E206", "G10 L1 P1 _1", "angles and orientation are of lathe tools"),
+    _words("IJQ", "G10", "E206", "G10 L1 P1 _1", "angles and orientation are for lathe tools"),
     _words("P", "G30", "E206", "G30 P2 X1", "there is one second reference point; leave P out"),
     _words("E", "M66", "E206", "M66 E0 L0", "programs do not read analog inputs"),
     _words("E", "M67 M68", "E205", "M67 E0 Q1", "programs do not write analog outputs"),

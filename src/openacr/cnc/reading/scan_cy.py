@@ -5,8 +5,8 @@ each once, with numbers of at most 15 digits. Such a number is the quotient of t
 a double holds exactly, so that it comes out as `float` reads it. Everything else is left
 to the parser.
 
-`K` (integers): 0..25 the axis of a letter, -1 none; then what the line said. `W` (doubles):
-values of the line, the program position, the factor of the active unit.
+`K` (integers): 0..25 the axis of a letter, -1 if absent; then results of the line. `W` (doubles):
+values of the line, program position and factor of the active unit.
 """
 
 from openacr.views import F64, I32, U8
@@ -15,8 +15,8 @@ K_LABEL = 26  # N, 0 none
 K_CODE = 27  # G, -1 none
 K_HAS_FEED = 28
 K_AXES = 29  # mask of the axes named
-K_LINES = 30  # lines taken
-K_NEXT = 31  # where the first line stands that was not taken
+K_LINES = 30  # count of lines read
+K_NEXT = 31  # offset of the first line that was not read
 K_IS_INCREMENTAL = 32
 K_LABELS = 33  # labels found
 K_MOTION = 34  # the last of G0 and G1, -1 none
@@ -44,14 +44,14 @@ __all__ = ["scan_lines", "skim_lines"]
 
 
 def scan_blanks(data: U8, pos: int, stop: int) -> int:
-    """The place behind blanks."""
+    """Skip blanks; returns the position after them."""
     while pos < stop and (data[pos] == 32 or data[pos] == 9):
         pos += 1
     return pos
 
 
 def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
-    """A number with its sign to W[W_VALUE]; the place behind it, -1 where none is plain."""
+    """Read a signed number to W[W_VALUE]; returns the position after it, -1 if not plain."""
     is_negative: bool = False
     if pos < stop and (data[pos] == 45 or data[pos] == 43):
         is_negative = data[pos] == 45
@@ -82,7 +82,7 @@ def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
 
 
 def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
-    """A word at `pos`; the place behind it, -1 where it is not plain."""
+    """Read the word at `pos`; returns the position after it, -1 if it is not plain."""
     letter: int = data[pos]
     if 97 <= letter <= 122:
         letter -= 32
@@ -119,7 +119,7 @@ def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
 
 
 def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
-    """The line at `pos`; the place of the next one, -1 where the line is not plain."""
+    """Read the line at `pos`; returns the position of the next one, -1 if it is not plain."""
     K[K_LABEL] = 0
     K[K_CODE] = -1
     K[K_HAS_FEED] = 0
@@ -159,10 +159,9 @@ def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
 
 def scan_lines(data: U8, pos: int, stop: int, W: F64, K: I32, ends: F64, lines: I32,
                most: int) -> int:  # fmt: skip
-    """Feed moves to `ends` (8 values each) and the numbers of their lines, counted from 0.
+    """Write feed moves to `ends` (8 values each) and their line numbers (from 0) to `lines`.
 
-    Ends at a line that is not plain, has G0, or another feed than those before it; the
-    number of rows is returned.
+    Ends at a line that is not plain, has G0, or changes the feed. Returns the count of rows.
     """
     row: int = 0
     line: int = 0
@@ -199,9 +198,9 @@ def scan_lines(data: U8, pos: int, stop: int, W: F64, K: I32, ends: F64, lines: 
 
 
 def skim_lines(data: U8, pos: int, stop: int, W: F64, K: I32, labels: I32, most: int) -> int:
-    """Pass over plain lines; labels go to `labels` as (label, line, place), lines from 0.
+    """Skip plain lines; writes labels as (label, line from 0, position) to `labels`.
 
-    The number of lines is returned.
+    Returns the count of lines.
     """
     line: int = 0
     count: int = 0

@@ -1,4 +1,4 @@
-"""Statements: what their keywords are followed by.
+"""Parse statements: the keyword and what follows it.
 
 IF condition THEN GOTO n     GOTO n     GOSUB n     RET
 PRINT item; item             INPUT "text", Pn       $I file
@@ -33,7 +33,7 @@ class StatementReader(ExpressionReader):
     """Reads statements and comments."""
 
     def remark(self, block: Block) -> None:
-        """A comment; some are messages."""
+        """Read a comment; `(MSG, text)` and the like are messages."""
         text = self.comment()
         kind, comma, rest = text.partition(",")
         kind = kind.strip().upper()
@@ -41,13 +41,13 @@ class StatementReader(ExpressionReader):
             block.messages.append(Message(rest.strip(), kind != "MSG"))
 
     def statement(self, block: Block) -> bool:
-        """A statement, if one comes next; it stands alone in its block."""
+        """Read a statement, if one comes next; it has to be alone in its block."""
         if self.text[self.pos] not in _FIRST_LETTERS:
             return False
         for keyword, read in _STATEMENTS:
             if keyword in self.grammar.statements and self.text.startswith(keyword, self.pos):
                 if block.words or block.assignments:
-                    raise self.fault("E108", hint="a statement stands alone in its block")
+                    raise self.fault("E108", hint="a statement has to be alone in its block")
                 at = self.column
                 self.pos += len(keyword)
                 block.statement = read(self, at)
@@ -56,7 +56,7 @@ class StatementReader(ExpressionReader):
         return False
 
     def end(self, block: Block) -> None:
-        """Nothing but comments may follow."""
+        """Refuse anything but comments after a statement."""
         while self.peek() == "(":
             self.remark(block)
         if self.peek() not in ("", ";"):

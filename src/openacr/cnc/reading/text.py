@@ -1,4 +1,4 @@
-"""The text of a part program: lines by their place in a file of any size.
+"""The text of a part program: lines by offset, in files of any size.
 
 Only a window of the file is in memory. Lines end in CR, LF or CR LF; NUL and DEL are
 dropped; Ctrl-Z ends the text. Each line is UTF-8, or else Latin-1.
@@ -21,12 +21,12 @@ SHORTER = "the file has become shorter since it was opened"
 
 
 class Bytes(Protocol):
-    """Something with bytes at places."""
+    """A source of bytes that can be read at any offset."""
 
     size: int
 
     def read(self, offset: int, size: int) -> bytes:
-        """Bytes from a place on; fewer at the end."""
+        """Read bytes from an offset on; fewer at the end."""
 
 
 class Kept:
@@ -42,7 +42,7 @@ class Kept:
 
 
 class OnDisk:
-    """Bytes of a file, read when they are wanted."""
+    """Bytes of a file, read on demand."""
 
     def __init__(self, path: Path) -> None:
         self._file = path.open("rb", buffering=0)
@@ -72,17 +72,17 @@ class Text:
 
     @classmethod
     def of(cls, text: str | bytes, name: str = "PROGRAM") -> Text:
-        """A text in memory."""
+        """Make a text from memory."""
         data = text.encode("utf-8", "surrogateescape") if isinstance(text, str) else text
         return cls(name, Kept(data))
 
     @classmethod
     def file(cls, path: Path) -> Text:
-        """A text on disk."""
+        """Make a text from a file."""
         return cls(path.name, OnDisk(path))
 
     def window(self, offset: int) -> tuple[bytes, int]:
-        """Bytes of whole lines that contain this place, and where the place is in them."""
+        """Bytes of whole lines around an offset, and the position of the offset in them."""
         place = offset - self._start
         if not 0 <= place < len(self._window):
             self._load(offset, WINDOW)
@@ -90,7 +90,7 @@ class Text:
         return self._window, place
 
     def _load(self, offset: int, size: int) -> None:
-        """A window from a place on, cut behind its last whole line."""
+        """Load a window from an offset on, cut after its last whole line."""
         while True:
             wanted = min(size, self.end - offset)
             data = self._bytes.read(offset, wanted)
@@ -110,7 +110,7 @@ class Text:
             return
 
     def line(self, offset: int) -> tuple[bytes, int] | None:
-        """The bytes of the line at a place, and where the next one begins; None at the end."""
+        """The bytes of the line at an offset, and the offset of the next one; None at the end."""
         if offset >= self.end:
             return None
         data, place = self.window(offset)

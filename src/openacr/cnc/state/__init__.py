@@ -1,1 +1,1 @@
-"""What an interpreter keeps and asks: modal state, parameters, cells of the store, the machine."""
+"""State of an interpreter: modal state, parameters, cells of the store, the machine."""

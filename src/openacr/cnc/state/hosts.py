@@ -1,4 +1,4 @@
-"""What the interpreter needs from the world: cells, card and machine.
+"""Interfaces of the interpreter to the outside: cells, card and machine.
 
 `Cells` is the SYSVAR store (P100..P4095, P100000..P1003424), `Machine` everything that
 only a machine knows. `VirtualMachine` answers for checks and previews, where nothing moves.
@@ -12,7 +12,7 @@ from openacr.cnc.canonical import Point
 
 
 class Home(Protocol):
-    """Where a parameter lives and who may use it."""
+    """Where a parameter is kept and who may use it."""
 
     @property
     def is_on_card(self) -> bool:
@@ -53,7 +53,7 @@ class Cells(Protocol):
 
 
 class Machine(Protocol):
-    """The card and what is wired to it; asked only behind a Sync."""
+    """The card and what is wired to it; asked only after a Sync."""
 
     def read_parameter(self, n: int) -> float:
         """A card parameter (P0..P99, P4096..P20487)."""
@@ -85,7 +85,7 @@ class Machine(Protocol):
 
 @dataclass
 class VirtualMachine:
-    """A machine for reading programs: cells of its own, nothing trips, nobody answers."""
+    """A machine for checks and previews: own cells, no probe trips, no answers."""
 
     is_skipping: bool = False
     is_probed: bool = True
@@ -113,7 +113,7 @@ class VirtualMachine:
         return None
 
     def answer(self, parameter: int) -> float | None:
-        """Nobody answers."""
+        """None: there is no operator."""
         return None
 
     def is_block_skip_on(self) -> bool:

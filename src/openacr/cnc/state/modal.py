@@ -65,11 +65,11 @@ class Modal:
     memory: dict[int, float] = field(default_factory=dict)  # G28: axis to machine position
 
     def copy(self) -> Self:
-        """A snapshot."""
+        """Make a snapshot."""
         return replace(self, memory=dict(self.memory))
 
-    def take(self, other: Modal) -> None:
-        """Become as a snapshot says."""
+    def restore(self, other: Modal) -> None:
+        """Restore the state of a snapshot."""
         for name in self.__slots__:
             setattr(self, name, getattr(other, name))
 
@@ -130,7 +130,7 @@ def always(value: object) -> Rule:
 
 @dataclass(frozen=True, slots=True)
 class Reset:
-    """What becomes of a field: at power-up, at the start and end of programs, at ABORT."""
+    """The values of a field at power-up, at the start and end of programs, at ABORT."""
 
     field: str
     power_up: Rule
@@ -179,7 +179,7 @@ RESETS = (
 
 
 def reset(modal: Modal, cells: Cells, *, is_abort: bool = False) -> None:
-    """Put the fields back that a program start, its end or ABORT puts back."""
+    """Reset the fields for a program start, its end or ABORT."""
     is_chosen = cells.read(START_CHOSEN) != 0.0
     for row in RESETS:
         if row.at_abort or not is_abort:

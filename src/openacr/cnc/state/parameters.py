@@ -1,8 +1,8 @@
-"""Parameters as programs use them: each number at its home.
+"""Parameters of programs: every number is read and written where it is kept.
 
-Cells of the card and states of the machine can only be read at rest: whoever reads one
-before that gets `NotAtRestError`, waits and asks again. Some numbers of the store show the
-modal state as it is where the program is read, not where the machine is.
+Cells of the card and states of the machine can only be read at rest: an earlier read raises
+`NotAtRestError`, and the caller waits and repeats it. Some numbers of the store show the
+modal state where the program is read, not where the machine is.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ FEED_CELL = CELLS.feed
 
 
 class NotAtRestError(Exception):
-    """A value is wanted that is only known when the machine is at rest."""
+    """A read of a value that is known only when the machine is at rest."""
 
 
 class Positions(Protocol):
@@ -152,7 +152,7 @@ class Parameters:
         return self.values[0] != 0.0
 
     def swap(self, values: list[float]) -> list[float]:
-        """Other locals; those that were in force."""
+        """Replace the locals of the call; returns the previous ones."""
         kept = self.values[:]
         self.values[:] = values
         return kept
@@ -234,7 +234,7 @@ class Parameters:
             raise CodeError("E211", 0, f"P{k}") from None
 
     def rest(self) -> None:
-        """What follows needs the machine at rest."""
+        """Raise NotAtRestError unless the machine is at rest."""
         if not self._run.is_rested:
             raise NotAtRestError
 

@@ -1,4 +1,4 @@
-"""Cells whose changes stay apart until they are wanted: for checks, previews and replays."""
+"""Cells whose changes are kept apart until committed: for checks, previews and replays."""
 
 from contextlib import AbstractContextManager, nullcontext
 
@@ -29,7 +29,7 @@ class Shadow:
         return found
 
     def write(self, n: int, value: float) -> None:
-        """Keep a number; behind `commit` it goes to the cells at once."""
+        """Keep a number; after `commit` it is written to the cells at once."""
         if self._is_open:
             self._cells.write(n, value)
         else:
@@ -44,7 +44,7 @@ class Shadow:
         return self._cells.transaction(is_durable=is_durable) if self._is_open else nullcontext()
 
     def commit(self) -> None:
-        """Write everything that was kept, and from now on all of it at once."""
+        """Write all kept numbers, and from now on every number at once."""
         with self._cells.transaction():
             for n, value in self.written.items():
                 self._cells.write(n, value)

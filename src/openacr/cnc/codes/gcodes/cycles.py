@@ -47,7 +47,7 @@ def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Drill, tap or bore at X Y from level R to Z; the cycle stays active until G80."""
     run.offset_path.refuse(b, "E312")
     if not (run.program.has_cycles or run.dialect.has_own_cycles):
-        raise b.fault("E251", hint="$I CYCLES.TXT behind M2")
+        raise b.fault("E251", hint="$I CYCLES.TXT after M2")
     is_first = run.modal.cycle == NONE or run.drilling is None
     if run.drilling is None or is_first:
         run.drilling = Drilling()

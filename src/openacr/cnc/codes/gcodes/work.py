@@ -48,7 +48,7 @@ def select(run: Run, system: int) -> None:
 def local_shift(run: Run, b: BlockContext) -> None:
     """Shift the zero of the active work system."""
     if not run.modal.has_work:
-        raise b.fault("E245", hint="behind G54 to G59.2 only")
+        raise b.fault("E245", hint="after G54 to G59.2 only")
     with run.cells.transaction(is_durable=False):
         for axis, letter, value in b.axes:
             run.cells.write(LOCAL + axis, length_of(run, letter, value))

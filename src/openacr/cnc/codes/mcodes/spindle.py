@@ -24,7 +24,7 @@ def spindle_on(run: Run, b: BlockContext) -> None:
 
 @mcode(5, step=Step.SPINDLE_OFF, acts_dry=False)
 def spindle_off(run: Run, b: BlockContext) -> None:
-    """Spindle off, behind the motion of the block."""
+    """Spindle off, after the motion of the block."""
     run.modal.spin = Spin.OFF
     run.tell(Spindle(b.source, Spin.OFF, run.modal.speed))
 
@@ -45,7 +45,7 @@ def flood_on(run: Run, b: BlockContext) -> None:
 
 @mcode(9, step=Step.COOLANT_OFF, acts_dry=False)
 def coolant_off(run: Run, b: BlockContext) -> None:
-    """All coolant off, behind the motion of the block."""
+    """All coolant off, after the motion of the block."""
     run.modal.mist = run.modal.flood = False
     _coolant(run, b)
 

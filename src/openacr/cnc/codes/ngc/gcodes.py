@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 gcode = RS274NGC.gcode
 REFERENCE_CELLS = {28: CELLS.reference_point_1, 30: CELLS.reference_point_2}
-RS274NGC.take(
+RS274NGC.include(
     ACROMILL,
     gcodes=(17, 18, 19, 20, 21, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
     letters="F S T D MOTION CUSTOM",

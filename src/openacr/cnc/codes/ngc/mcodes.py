@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 mcode = RS274NGC.mcode
 FIRST_OUTPUT = 32
 WAITS = {3: True, 4: False}  # L of M66: until on, until off
-RS274NGC.take(ACROMILL, mcodes=(0, 1, 2, 3, 4, 5, 6, 7, 8, 9))
+RS274NGC.include(ACROMILL, mcodes=(0, 1, 2, 3, 4, 5, 6, 7, 8, 9))
 _NUMBER = Limit("P", 0, 31, "E222", is_needed=True, is_whole=True)
 
 mcode(30, step=Step.STOP)(stops.end)
