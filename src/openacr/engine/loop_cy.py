@@ -1,9 +1,9 @@
-"""Run the card for a number of ticks, as long as nothing needs Python.
+"""Run the card for a number of ticks, until Python is needed.
 
-One tick: the world outside moves for one servo period, the servo interrupt runs, then the
+One tick: the machine moves for one servo period, the servo interrupt runs, then the
 background (programs and command channels) until it has nothing more to do in this tick.
-Whoever calls deals with the reason for coming back and calls again; the work goes on at
-the same place of the same tick.
+The caller handles the reason for the return and calls again; the work continues at
+the same point of the same tick.
 """
 
 from openacr.basic.vm.scheduler_cy import scheduler_step
@@ -65,18 +65,18 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["engine_run"]
 
-# Reasons for coming back; THREAD + t: thread t needs Python.
+# Reasons for returning; THREAD + t: thread t needs Python.
 DONE = 0
 UNTIL_MET = 1
 TRACE_FULL = 2
-REQUESTS = 3  # control flags of a program, PLC or channel want something
-STOPPED = 4  # the tick is over at whose end somebody wanted to look
-WATCH = 5  # something watched has changed in the tick that is over
+REQUESTS = 3  # control flags of a program, PLC or channel request something
+STOPPED = 4  # the end of a tick at which the caller wanted to be called
+WATCH = 5  # a watched value has changed in the completed tick
 ROOM = 6  # binary moves wait, and the buffer of their master has room
-NETWORKS = 7  # something on a network is due
+NETWORKS = 7  # a network needs service
 THREAD = 16
 
-# How far the present tick has got (row in_tick); 0: not begun.
+# Progress within the current tick (row in_tick); 0: not begun.
 SERVO_DONE = 1
 NETWORKS_DONE = 2
 REQUESTS_DONE = 3
@@ -106,7 +106,7 @@ def until_met(I: I32) -> bool:
 
 
 def requests_pending(I: I32) -> bool:
-    """Whether, in this slow scan, the flags of a program, PLC or channel want something."""
+    """Whether, in this slow scan, flags of a program, PLC or channel request something."""
     if I[SYSI_BASE + SYSI_SLOW_PHASE]:
         return False
     if (I[W_FIFO] | I[W_COM1] | I[W_COM2] | I[W_DPCB]) & CHANNEL_REQUESTS:
@@ -141,7 +141,7 @@ def room_made(I: I32) -> bool:
 
 
 def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
-    """Run until the ticks asked for are done or somebody is needed; return the reason."""
+    """Run until the requested ticks are done or Python is needed; return the reason."""
     e: int = ENGI_BASE
     axes: int = I[KRI_BASE + KRI_AXES]
     while True:

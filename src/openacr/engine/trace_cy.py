@@ -83,7 +83,7 @@ def trace_rates(F: F64, I: I32, trace: F64, low: int, high: int, first: bool) ->
 
 
 def trace_tick(F: F64, I: I32, S: F32, trace: F64) -> None:
-    """Record this tick if it is its turn.
+    """Record this tick if a sample is due.
 
     To keep the peaks, rows are written in pairs for twice the time between two samples. The
     positions are those of the begin and the middle of that time; velocity and following

@@ -1,4 +1,4 @@
-"""Values that are watched, so that a caller that waits for them need not poll in every tick."""
+"""Watched values, so that a caller waiting for them need not poll in every tick."""
 
 from openacr.map.numbers import (
     AX_ACTUAL_POSITION,
@@ -60,7 +60,7 @@ def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
 
 
 def watch_fired(F: F64, I: I32, S: F32) -> bool:
-    """Whether something watched has changed since the last look."""
+    """Whether a watched value has changed since the last call."""
     fired: bool = False
     count: int = min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)
     for n in range(count):

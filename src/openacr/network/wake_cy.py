@@ -1,4 +1,4 @@
-"""Whether the networks need the slow side in this tick; everything they do is done there."""
+"""Decide in each tick whether the networks need service; the work is done in Python."""
 
 from openacr.map.numbers import (
     BUSNI_BASE,
@@ -60,7 +60,7 @@ def networks_due(F: F64, I: I32, number: int) -> bool:
 
 
 def inputs_changed(F: F64, I: I32) -> bool:
-    """Whether a live node has an input to tell that it has not told."""
+    """Whether a live node has a changed input that it has not sent yet."""
     count: int = min(I[NETMI_BASE + NETMI_SLAVES], NETS_COUNT)
     for slave in range(count):
         s: int = NETSI_BASE + slave * NETSI_STRIDE
@@ -74,7 +74,7 @@ def inputs_changed(F: F64, I: I32) -> bool:
 
 
 def requests_set(I: I32) -> bool:
-    """Whether the user asks the networks for something; looked at in the slow scan."""
+    """Whether a request flag of the networks is set; polled in the slow scan."""
     if I[W_CAN] & (CANF_START_NETWORK | CANF_RESET_NETWORK):
         return True
     for axis in range(DTK_COUNT):

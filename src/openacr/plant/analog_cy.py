@@ -1,4 +1,4 @@
-"""Voltages at the analog inputs of the card: fixed, of an axis, of an analog output."""
+"""Voltages at the analog inputs of the card: fixed, from an axis, from an analog output."""
 
 from openacr.map.numbers import (
     PLA_COUNT,
@@ -21,7 +21,7 @@ from openacr.views import F32, F64, I32
 
 
 def analogs_follow(F: F64, I: I32, S: F32) -> None:
-    """Bring the voltages of this tick to all terminals."""
+    """Update the voltages at all terminals for this tick."""
     for c in range(PLA_COUNT):
         f: int = PLAF_BASE + c * PLAF_STRIDE
         i: int = PLAI_BASE + c * PLAI_STRIDE

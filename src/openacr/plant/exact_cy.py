@@ -30,7 +30,7 @@ from openacr.map.numbers import (
 )
 from openacr.views import F64, I32
 
-RAW_COUNTS = 4.0  # of a line; MULT counts as many of them
+RAW_COUNTS = 4.0  # raw counts per encoder line; MULT selects how many of them count
 FROM_ENCODER = 0
 
 

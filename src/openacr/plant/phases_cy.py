@@ -1,4 +1,4 @@
-"""Brushless motors whose phases the card drives: the commutator is felt.
+"""Brushless motors commutated by the card: torque of the phase currents.
 
 Two voltages command the currents of two windings. Of three phases in star the third carries
 back what the others bring: c = -(a + b). The rotor, at the electrical angle
@@ -12,8 +12,8 @@ makes a torque with each winding, and they add up to that of the one voltage
 
 on a drive with one: a = v sin(theta), b = v sin(theta + 90 or 120) gives u = v at any angle. A
 field that is d degrees off leaves v cos(d): less torque, none at 90 degrees, and a motor that
-runs away beyond. A field that turns the wrong way, or not at all, makes the rotor settle where
-the torque is zero. The drive limits the amplitude of the currents, not each of them.
+runs away beyond. A field that turns in the wrong direction, or not at all, lets the rotor settle
+where the torque is zero. The drive limits the amplitude of the currents, not each of them.
 """
 
 from openacr.cmath import cos, sin, sqrt

@@ -4,10 +4,10 @@ For every modelled axis: digital-to-analog converter, drive, friction, hard stop
 marker; then the inputs that switches, regions of space and outputs drive.
 
 **Sign.** A positive output voltage accelerates the motor in the direction in which its
-encoder counts up. The servo's output is PGAIN * (setpoint - position), so an encoder that
-is turned upwards by hand makes a negative voltage that drives it back: with positive MULT
-and DAC GAIN the loop is stable; one of them negative, or an encoder that counts the other
-way, makes the axis run away, as on the machine.
+encoder counts up. The servo's output is PGAIN * (setpoint - position), so turning an encoder
+up by hand gives a negative voltage that drives it back: with positive MULT and DAC GAIN the
+loop is stable; if one of them is negative, or the encoder counts in the other direction, the
+axis runs away, as on the real machine.
 """
 
 from openacr.cmath import fabs

@@ -9,7 +9,7 @@ limited to A(v), the pull-out torque at the speed v of the rotor as an accelerat
 the second part is the damping of drive and motor. A load that asks for more slips into another of
 the stable positions, or out of step altogether: the field passes by, its torque averages out, and
 friction brings the rotor to rest. It falls into step again once the field is slow enough. What was
-lost stays lost: nothing tells the card, unless an encoder counts the shaft.
+lost stays lost: the card cannot detect it, unless an encoder counts the shaft.
 
 The motion is integrated in steps that are short against the oscillation of the rotor.
 """

@@ -1,7 +1,7 @@
 """Switches, regions of space, markers and outputs: what drives the inputs of the card.
 
-Switches and markers are looked at only when a motor passes the border of one. Edges are
-noted with the fraction of the tick at which they happened, so that a position capture is
+Switches and markers are evaluated only when a motor passes the border of one. Edges are
+recorded with the fraction of the tick at which they occurred, so that a position capture is
 exact to the count at any speed.
 """
 
@@ -67,8 +67,8 @@ NO_BORDER_CNT = 1e18
 def motor_borders(F: F64, I: I32, n: int) -> None:
     """Find the nearest borders on both sides of motor n, and whether the marker is present.
 
-    As long as the motor stays between them nothing can change, which is all the step has to
-    look at; a border belongs to what lies above it.
+    As long as the motor stays between them nothing can change, so the step checks only these
+    two; a border belongs to the range above it.
     """
     f: int = PLF_BASE + n * PLF_STRIDE
     w: int = 0
@@ -103,7 +103,7 @@ def _marker_below(F: F64, f: int, at: float, shift: float) -> float:
 
 
 def marker_edges(F: F64, I: I32, f: int, i: int) -> None:
-    """Record the first edges of the marker within the tick, with the count just behind them.
+    """Record the first edges of the marker within the tick, with the count just after them.
 
     The marker is present during one count, between a start and start + 1. Moving up it rises
     at a start and falls one count later; moving down it rises at start + 1 and falls at start.
@@ -135,14 +135,14 @@ def marker_edges(F: F64, I: I32, f: int, i: int) -> None:
 
 
 def _border_passed(old: float, new: float, border: float) -> int:
-    """1 if the border lies between two positions; it belongs to what lies above it."""
+    """1 if the border is between two positions; it belongs to the range above it."""
     if (old < border) != (new < border):
         return 1
     return 0
 
 
 def read_boxes(F: F64, I: I32) -> None:
-    """See which boxes the motors entered or left, and where within the tick.
+    """Find which boxes the motors entered or left, and when within the tick.
 
     During one tick the motors move on a straight line. Each side of a box holds during one
     interval of that line, the box during the intersection of these intervals (the method of
@@ -213,7 +213,7 @@ def _box_edges(F: F64, I: I32, w: int, inside: int, enter: float, leave: float) 
 
 
 def _wire_edge(F: F64, I: I32, w: int, active: int, fraction: float) -> None:
-    """Note the new level of the input a wire drives and, for onboard inputs, the moment."""
+    """Record the new level of the input a wire drives and, for onboard inputs, the moment."""
     r: int = PLWI_BASE + w * PLWI_STRIDE
     slot: int = PLNI_BASE + I[r + PLWI_SLOT] * PLNI_STRIDE
     level: int = slot + PLNI_LEVEL
@@ -252,7 +252,7 @@ def follow_outputs(F: F64, I: I32, dt: float) -> None:
 
 
 def write_wired_inputs(I: I32) -> None:
-    """Wired inputs show their wires, or what they are forced to; the others are left alone."""
+    """Set wired inputs from their wires or forced levels; other inputs are not changed."""
     k: int = 0
     r: int = 0
     word: int = 0

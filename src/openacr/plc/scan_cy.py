@@ -204,7 +204,7 @@ def plc_latch(I: I32, n: int) -> None:
 
 
 def plc_step(F: F64, I: I32) -> None:
-    """Timers, counters and latches, then the scans due; at rest a look at a few rows."""
+    """Update timers, counters and latches, then run the scans due; idle, only a few reads."""
     running: int = 0
     for n in range(PLC_COUNT):
         flags: int = I[PLF_WORD + n]
