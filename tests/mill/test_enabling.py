@@ -105,5 +105,5 @@ def test_a_machine_with_two_purposes_of_one_output_is_not_run(
     monkeypatch.setattr(
         Store, "read", lambda store, n: 41.0 if n in (800_009, FLOOD) else read(store, n)
     )
-    with pytest.raises(SettingError, match="output 41 is that of"):
+    with pytest.raises(SettingError, match="output 41 is already used by"):
         MillSession.real(Controller(), Store(), say=print)

@@ -107,7 +107,7 @@ def test_at_the_level_of_the_cut_the_tool_does_not_go_back_over_the_part() -> No
     shop = Shop()
     left = held(shop, line(1, at(10, 0)))
     jogged(shop, 0.0, 1.0, 0.0)
-    with pytest.raises(UserError, match=r"beside its path.*raise Z by hand first"):
+    with pytest.raises(UserError, match=r"off its path.*raise Z by hand first"):
         shop.runner.resume()
     shop.pass_time(0.5)
     assert (shop.runner.state, shop.place()) == (State.PAUSED, (left[0], 1.0, 0.0))

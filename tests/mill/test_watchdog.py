@@ -65,7 +65,7 @@ def test_a_program_with_too_little_memory_is_said_and_left_empty() -> None:
         opened(controller)
     text = str(refused.value)
     assert text.startswith("no memory for the watchdog on the card: DIM PROG7(4096): Re-dim")
-    assert text.endswith("; free 4096 bytes for program 7, or do without it (P250125 = -1)")
+    assert text.endswith("; free 4096 bytes for program 7, or disable it (P250125 = -1)")
     assert (listed(controller), controller.p[HEARTBEAT]) == ([], 0)
     opened(controller, P250125=-1).close()
 

@@ -8,7 +8,7 @@ from openacr.errors import SourceError, UserError
 from openacr.project import Place
 from openacr.source_check import check, check_text
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def places(path: Path, text: str) -> list[tuple[str, int, int, str]]:
