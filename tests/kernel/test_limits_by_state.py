@@ -316,3 +316,16 @@ def test_homing_between_two_active_limits_fails_where_it_is() -> None:
     rig.ticks(20)
     assert (rig.bit(HOMING), rig.bit(FAILED), rig.bit(KAMR)) == (False, True, True)
     assert rig.real("psp_cnt") == 0.0
+
+
+@pytest.mark.parametrize("ppu", [0.5, 1.0, -0.5, -1.0])
+@pytest.mark.parametrize("side", [1, -1])
+def test_an_axis_with_few_pulses_per_unit_stops_at_its_software_limits(
+    ppu: float, side: int
+) -> None:
+    rig = soft(20.0, -20.0, ppu=ppu)
+    jog.continuous(rig.card, 0, side)
+    rig.seconds(4.0)
+    place_u = rig.F[at.AXF_BASE + at.AXF_JOG_CNT] / ppu
+    assert 20.0 <= side * place_u <= 20.0 + 10.0 * 2 * 0.0005
+    assert rig.bit(POSITIVE_SOFT_MET) is (side > 0)
