@@ -1,5 +1,6 @@
 """Backlash of the OFFSETS tab: where the table is, on a machine whose screws have play."""
 
+from contextlib import closing
 from itertools import pairwise
 
 import pytest
@@ -8,6 +9,9 @@ from tests.mill.shop import Shop
 from openacr.mill.card.setup import prepare
 from openacr.mill.config.settings import Settings
 from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
+from openacr.sysvar import Store
+from openacr.sysvar.tabs import OFFSETS
 
 SLACK_PULSES = (200.0, 0.0, 300.0)  # .02, 0 and .03 units
 PRIMARY, SECONDARY, STRIDE = 12294, 12295, 256
@@ -90,7 +94,18 @@ def test_by_the_sign_of_the_setpoint_the_table_is_off_by_the_slack() -> None:
     """As cards of the family do it: right on one side of a position only."""
     shop = Shop(P950000=0.02)
     table = Table(200.0, 0.0)
-    shop.run_text("G1 F300 X1\nX0.5\nM2\n")
-    assert shop.controller.p[SECONDARY] - shop.controller.p[PRIMARY] == 200
-    table.follow(10_200.0)
-    assert table.follow(5_200.0) == 5_200.0
+    for text in ("G1 F300 X1\nM2\n", "G1 F300 X0.5\nM2\n"):
+        shop.run_text(text)
+        shop.pass_time(0.02)
+        table.follow(float(shop.controller.p[SECONDARY]))
+    assert (shop.controller.p[PRIMARY], shop.controller.p[SECONDARY]) == (5000, 5200)
+    assert table.place == 5200.0
+
+
+def test_the_virtual_machine_takes_backlash_up_by_direction_and_other_cards_by_the_sign() -> None:
+    store = Store()
+    store.write(OFFSETS.backlash[0], 0.02)
+    with closing(MillSession.virtual(store, lambda _text: None)) as session:
+        assert session.card.command("AXIS0 BKL DIR", program=0) == ["1"]
+        assert session.card.command("AXIS0 BKL", program=0) == ["0.02"]
+    assert Shop(P950000=0.02).card.command("AXIS0 BKL DIR", program=0) == ["0"]
