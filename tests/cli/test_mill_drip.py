@@ -94,7 +94,7 @@ def test_the_console_says_what_it_does_not_know_and_ends_when_it_is_left(tmp_pat
     assert "fly: no such command" in said
     assert "start 3: no such command" in said
     assert "back: cannot trace the path: the state is" in said
-    assert "M0: nobody is at the console to go on" in said
+    assert "M0: no operator is at the console to go on" in said
     assert code != 0
 
 

@@ -147,7 +147,7 @@ def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -
     with open(os.devnull) as nobody:
         bench.attend = Attendant(nobody)
         bench.start("M0\nG1 F600 X1\nM2\n")
-        with pytest.raises(UserError, match="M0: nobody is at the terminal"):
+        with pytest.raises(UserError, match="M0: no operator is at the terminal"):
             bench.steps()
 
 
@@ -241,7 +241,7 @@ def test_a_start_at_a_line_is_not_agreed_to_where_nobody_is(card: Controller, pa
     code, text = mill("run", part, "--line", "7")
     assert (code, card.p[12288], card.p[12800]) == (2, 40000, -10000)
     assert "spindle: now 5, at the line 3" in text
-    assert "nobody is at the terminal to agree to it; use --yes" in text
+    assert "no operator is at the terminal to agree to it; use --yes" in text
 
 
 def test_a_level_that_only_the_operator_knows_is_asked_for(card: Controller, part: str) -> None:

@@ -193,7 +193,7 @@ async def serve_card(
 
 
 async def _listen_status(server: "CardServer", ports: Ports) -> "Address | None":
-    """Open the UDP port; a card nobody asked to have one goes on without."""
+    """Open the UDP port; the card goes on without it unless it was asked for."""
     if ports.status is None:
         return None
     try:

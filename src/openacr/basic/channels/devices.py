@@ -140,7 +140,7 @@ class Devices:
         return line
 
     def take_begun_line(self, key: Key) -> str:
-        """The characters behind the last line end: nobody will read them here."""
+        """The characters after the last line end, which no program will read."""
         data = self._queues[key].data
         begin = max(data.rfind(CR), data.rfind(LF)) + 1
         begun = data[begin:].decode("latin-1")

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Listeners:
-    """Delivers what programs say; nobody listening, it is lost."""
+    """Delivers the output of programs; without a listener it is lost."""
 
     def __init__(self, sessions: Mapping[str, Session]) -> None:
         self._sessions = sessions

@@ -241,7 +241,7 @@ class Session:
     # output
 
     def write(self, text: str) -> None:
-        """Queue text for the host; nobody connected, nothing kept."""
+        """Queue text for the host; without a host it is dropped."""
         if self.is_connected:
             self._output += text.encode("latin-1", errors="replace")
 

@@ -49,7 +49,7 @@ class Aliases:
 
     `capacity()` is the number DIM DEF has reserved. Names are case-sensitive, but none may
     spell like a keyword; newer models allow digits in them. `nodes` is what a line is parsed
-    with; a mapping handed out never changes, so whoever keeps one keeps the meaning of that
+    with; a mapping handed out never changes, so a caller that keeps one keeps the meaning of that
     moment.
     """
 

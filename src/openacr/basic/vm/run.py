@@ -78,7 +78,7 @@ class Run:
     """The context of one executing command.
 
     `program` is the program whose axes and locals are meant (None at SYS), `stored`
-    whether that program itself executes the command (else somebody typed it).
+    whether that program itself executes the command (otherwise it was typed).
     """
 
     card: Card

@@ -87,7 +87,7 @@ def _interactive(link: "Wire") -> None:
 def _exchange(link: "Wire", keyboard: "Keyboard") -> None:
     """Keys to the card, its output to the screen; the card sends its prompt first.
 
-    A card greets nobody: ESC drops what may be typed already, an empty line shows the prompt.
+    A card sends no greeting: ESC drops what may be typed already, an empty line shows the prompt.
     """
     link.write(ESC + b"\r")
     stdin, stdout, screen = sys.stdin.fileno(), sys.stdout.fileno(), Screen()

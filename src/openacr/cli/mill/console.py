@@ -17,7 +17,7 @@ STEP_S = 0.05
 
 
 class Console:
-    """Takes the lines somebody types, one command each."""
+    """Executes the lines an operator types, one command each."""
 
     def __init__(self, source: TextIO | None = None, lines: Lines | None = None) -> None:
         self._lines = lines or Lines(source)
@@ -29,7 +29,7 @@ class Console:
             self._do(shop.runner, line)
         self._show(shop.runner)
         if self._lines.are_over:
-            self._require_nobody(shop.runner)
+            self._require_unattended(shop.runner)
         if shop.is_virtual:
             shop.runner.entry_actions.changer.confirm()
             time.sleep(STEP_S)
@@ -43,7 +43,7 @@ class Console:
         except UserError as error:
             typer.echo(f"{line}: {error}", err=True)
 
-    def _require_nobody(self, runner: "Runner") -> None:
+    def _require_unattended(self, runner: "Runner") -> None:
         """Behind the last line, the program has to run by itself."""
         from openacr.mill.run.lifecycle import State
 
@@ -52,7 +52,7 @@ class Console:
         if is_held or is_asking:
             reason = runner.reason or runner.state.name
             runner.abort()
-            raise UserError(f"{reason}: nobody is at the console to go on")
+            raise UserError(f"{reason}: no operator is at the console to go on")
 
     def _show(self, runner: "Runner") -> None:
         up = "; ".join(alarm.text for alarm in runner.alarms.active)

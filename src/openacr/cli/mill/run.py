@@ -74,8 +74,8 @@ def run_program(
 ) -> None:
     """Run a part program on the virtual machine, or on a card.
 
-    The virtual machine stands on its reference points, runs as fast as it can and waits for
-    nobody. On a card Ctrl-C is a feed hold and ends the program; stops ask on the terminal.
+    The virtual machine is at its reference points, runs as fast as it can and waits for
+    no operator. On a card Ctrl-C is a feed hold and ends the program; stops ask on the terminal.
     """
     from openacr.mill.session import Start
 
@@ -90,7 +90,7 @@ def run_program(
         is_dry=is_dry,
         is_skipping=is_skipping,
         stops_optionally=stops_optionally,
-        is_repeated=host is not None,  # on the virtual machine nobody would end it
+        is_repeated=host is not None,  # on the virtual machine no operator would end it
         accepts_tool=accepts_tool,
         safe_z=safe_z,
     )
@@ -232,7 +232,9 @@ def _rehearsed(
     if terminal is not None and not shop.is_virtual:
         level = _numbers(replay.safe_level())
         text = f"line {start.line}: Z to {level}, then over it and down at feed: start?"
-        require_yes(shop, terminal, text, "nobody is at the terminal to agree to it; use --yes")
+        require_yes(
+            shop, terminal, text, "no operator is at the terminal to agree to it; use --yes"
+        )
     return replay
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from openacr.sysvar import Store
 
 FAILED, INTERRUPTED = 1, 130
-REST_S = 90.0  # longer than any wait of an ending: the card does not do what it is told
+REST_S = 90.0  # longer than any wait of an ending: the card does not do what is commanded
 LEFT_ALONE = "its watchdog stops it, if it has one; else it ends the moves it has, outputs stay on"
 
 ToHost = Annotated[
@@ -69,7 +69,7 @@ def workshop(
         except LINK_ERRORS as lost:
             raise UserError(f"{AlarmError(LINK_LOST)} ({lost}); {LEFT_ALONE}") from None
         finally:
-            with deaf():  # also for whoever presses Ctrl-C once more
+            with deaf():  # also for one more Ctrl-C
                 try:
                     _break_off(shop)
                 finally:

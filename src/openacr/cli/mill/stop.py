@@ -1,4 +1,4 @@
-"""`openacr mill stop`: the machine to rest and everything off, whoever drives it."""
+"""`openacr mill stop`: the machine to rest and everything off, whichever program drives it."""
 
 import typer
 

@@ -1,6 +1,6 @@
-"""Who answers for a machine: nobody at a virtual one, the terminal at a real one.
+"""The operator of a machine: absent at a virtual one, at the terminal of a real one.
 
-Lines are read beside the run. While somebody thinks about an answer the machine is looked
+Lines are read beside the run. While the operator thinks about an answer the machine is looked
 at as always: its emergency stop does not wait for a key.
 """
 
@@ -24,7 +24,7 @@ YES = frozenset({"", "y", "yes"})
 
 
 class Lines:
-    """The lines somebody types, as they come."""
+    """The lines an operator types, as they come."""
 
     def __init__(self, source: TextIO | None = None) -> None:
         self._lines: SimpleQueue[str] = SimpleQueue()
@@ -52,11 +52,11 @@ class Lines:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What the machine waits for somebody to say."""
+    """A question of the machine to its operator."""
 
     text: str
     answer: Callable[[str], object]  # UserError for an answer that is none
-    nobody: str  # what is said where there is no terminal
+    unattended: str  # the error where no terminal is connected
 
 
 class Attendant:
@@ -68,7 +68,7 @@ class Attendant:
         self._asked = ""
 
     def __call__(self, shop: "MillSession") -> None:
-        """Answer for the machine where it waits for somebody."""
+        """Answer the machine where it waits for its operator."""
         if shop.is_virtual:
             shop.carry_on()
             return
@@ -77,7 +77,7 @@ class Attendant:
             self._asked = ""
             return
         try:
-            line = self.answer(question.text, question.nobody)
+            line = self.answer(question.text, question.unattended)
             if line is not None:
                 self._asked = ""  # what it leads to may be the same question once more
                 question.answer(line)
@@ -89,13 +89,13 @@ class Attendant:
 
     @property
     def is_there(self) -> bool:
-        """Whether somebody sits at a terminal."""
+        """Whether an operator is at a terminal."""
         return (self._source or sys.stdin).isatty()
 
-    def answer(self, text: str, nobody: str) -> str | None:
+    def answer(self, text: str, unattended: str) -> str | None:
         """What was typed for a question that is put once; None while nothing was."""
         if not self.is_there or (self._lines is not None and self._lines.are_over):
-            raise UserError(nobody)
+            raise UserError(unattended)
         lines = self.lines
         if text != self._asked:
             while lines.take() is not None:
@@ -115,10 +115,10 @@ class Attendant:
         return self._lines
 
 
-def require_yes(shop: "MillSession", terminal: Attendant, text: str, nobody: str) -> None:
+def require_yes(shop: "MillSession", terminal: Attendant, text: str, unattended: str) -> None:
     """Ask before something dangerous: only a y goes on; the machine is watched meanwhile."""
     while True:
-        line = terminal.answer(f"{text} [y/N]", nobody)
+        line = terminal.answer(f"{text} [y/N]", unattended)
         if line is not None:
             if line.lower() in YES - {""}:
                 return
@@ -127,7 +127,7 @@ def require_yes(shop: "MillSession", terminal: Attendant, text: str, nobody: str
 
 
 def _question(runner: "Runner") -> Question | None:
-    """What the machine waits for somebody to say, if it does."""
+    """The question that the machine waits with, if it does."""
     from openacr.mill.run.lifecycle import State
 
     reason = runner.reason
@@ -140,7 +140,7 @@ def _question(runner: "Runner") -> Question | None:
         return Question(
             f"{ask.text}:",
             lambda line: runner.answer(number_in(line)),
-            f"nobody is at the terminal to answer {ask.text!r}; use --answer",
+            f"no operator is at the terminal to answer {ask.text!r}; use --answer",
         )
     if runner.entry_actions.changer.wants_confirmation:
         return _yes_or_no(runner, f"{reason}: done?", runner.entry_actions.changer.confirm, reason)
@@ -156,7 +156,7 @@ def _yes_or_no(runner: "Runner", text: str, yes: Callable[[], object], reason: s
         else:
             raise UserError(f"{line}: say y or n")
 
-    return Question(f"{text} [Y/n]", answer, f"{reason}: nobody is at the terminal to go on")
+    return Question(f"{text} [Y/n]", answer, f"{reason}: no operator is at the terminal to go on")
 
 
 def _resumes(runner: "Runner") -> Callable[[], None]:
@@ -168,7 +168,7 @@ def _resumes(runner: "Runner") -> Callable[[], None]:
 
 
 def number_in(line: str) -> float:
-    """The number somebody typed."""
+    """The number that was typed."""
     try:
         return float(line)
     except ValueError:

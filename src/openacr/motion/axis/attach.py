@@ -143,7 +143,7 @@ def detach_slave(card: Card, program: int, number: int) -> None:
 
 
 def detach_master(card: Card, number: int) -> None:
-    """DETACH MASTER: free a master and its slaves, whoever has them."""
+    """DETACH MASTER: free a master and its slaves, whichever program attached them."""
     program = card.attachments.program(number)
     if program is not None:
         detach(card, program)

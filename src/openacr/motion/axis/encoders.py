@@ -21,7 +21,7 @@ def position(card: Card, number: int) -> int:
 
 
 def reset(card: Card, number: int, position_cnt: float) -> None:
-    """ENC RES: set the position and clear the signal fault flags; no axis is told."""
+    """ENC RES: set the position and clear the signal fault flags; no axis follows."""
     if not abs(position_cnt) <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
     _encoder_set(card.memory.F, card.memory.I, number, int(position_cnt))

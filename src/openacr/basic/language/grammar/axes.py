@@ -42,7 +42,7 @@ class AxisList(Form):
         return p.prefix is not None or p.at_axis or p.at_unknown_word
 
     def missing(self, p: Parser) -> Message:
-        """An unknown word is a symbol nobody defined."""
+        """An unknown word is an undefined symbol."""
         return UNDEFINED_SYMBOL if p.at_unknown_word else SYNTAX_ERROR
 
     def parse(self, p: Parser) -> tuple[AxisItem, ...]:
@@ -151,7 +151,7 @@ class AxisTargets(Form):
         return p.at_axis and not p.is_word("AXIS")
 
     def missing(self, p: Parser) -> Message:
-        """An unknown axis is a symbol nobody defined."""
+        """An unknown axis is an undefined symbol."""
         return UNDEFINED_SYMBOL if p.at_unknown_word or p.at_axis else SYNTAX_ERROR
 
     def parse(self, p: Parser) -> tuple[TargetItem, ...]:
