@@ -249,7 +249,7 @@ def test_an_end_after_an_action_and_an_acknowledgement(fired: set[tuple[State, E
     assert shop.until(State.IDLE) is State.IDLE
 
 
-def test_a_homing_ends_by_itself_or_by_a_feed_hold_with_an_alarm(
+def test_a_homing_that_is_held_ends_with_an_alarm(
     fired: set[tuple[State, Event]],
 ) -> None:
     shop = brought_to(State.HOMING)

@@ -4,7 +4,7 @@
     secondary setpoint = primary + ballscrew + backlash
 
 All parts are float64 pulses inside; the LONG parameters show them rounded. A shown value
-that differs from what was last shown has been written by somebody and replaces the part.
+that differs from what was last shown was written by a program or host and replaces the part.
 """
 
 from openacr.cmath import fabs

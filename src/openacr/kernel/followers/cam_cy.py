@@ -8,7 +8,7 @@ tick, so changed points act at once. With total length L and p = index + FLZ
     cam offset = base + y * SCALE + OFFSET * PPU + shift.
 
 The index counts source pulses from 0 at CAM ON; `base` makes the offset begin where it was,
-and takes up whatever somebody writes into the shown offset. A table whose last value
+and adopts a value written into the shown offset. A table whose last value
 differs from its first is incremental: every cycle passed adds (last - first) * SCALE to the
 shift, with the table and the scale of that moment.
 

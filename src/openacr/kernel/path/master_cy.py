@@ -234,7 +234,7 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         length_u = F[moves.length_u[record]]
         move_shape(F, I, S, m, record, False)
         if F[moves.length_u[record]] != length_u:
-            I[masters.look_dirty[m]] = 1  # somebody has moved its start
+            I[masters.look_dirty[m]] = 1  # its start was moved
         turn_deg: float = F[moves.turn_deg[record]]
         S[masters.look_ahead_vector_angle[m]] = turn_deg
 

@@ -6,7 +6,7 @@ Each user of a source has a tap. Once per tick the tap reads its source and keep
 
 so a counter may run over without a jump. Choosing another source only reads `old` anew.
 Deltas are float64: a fraction of a pulse (the clock has 1000 pulses per second) is carried
-by whoever adds them up. A value that is no finite number counts as standing still.
+by the caller that adds them up. A value that is no finite number counts as standing still.
 
 A trigger says when a follower engages: when a parameter passes a setpoint, or at an edge
 captured as INTCAP does, of the signals of the source or of another encoder. `over_cnt` is then
