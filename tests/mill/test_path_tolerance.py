@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.mill.prediction import predicted
 from tests.mill.shop import PULSES, Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
@@ -16,7 +17,6 @@ from openacr.controller import Controller
 from openacr.map import numbers as n
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.predicting import predicted
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store

@@ -4,11 +4,11 @@ import math
 import random
 
 import pytest
+from tests.mill.prediction import predicted
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.predicting import predicted
 
 
 def of(shop: Shop, *entries: c.Entry) -> float:

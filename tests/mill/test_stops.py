@@ -1,13 +1,13 @@
 """What stops of a program cost on the virtual machine: hardly more than their own time."""
 
 import pytest
+from tests.mill.prediction import predicted
 
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.predicting import predicted
 from openacr.mill.session import POLL_S, MillSession, Start
 from openacr.sysvar import Store
 

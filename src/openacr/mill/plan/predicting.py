@@ -13,7 +13,6 @@ as above. Waits for the operator and for signals count as zero.
 """
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -155,19 +154,3 @@ def _straight(length: float, begin: float, end: float, feed: float, a: float) ->
 def seconds_of(length: float, begin: float, end: float) -> float:
     """The time of one phase at constant acceleration."""
     return 2.0 * length / (begin + end) if length > 0.0 else 0.0
-
-
-def predicted(
-    entries: Iterable[c.Entry],
-    settings: Settings,
-    begin: c.Point,
-    *,
-    is_dry: bool = False,
-    rounds: bool = True,
-) -> Prediction:
-    """Predict the run time of a whole program."""
-    predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds)
-    for entry in entries:
-        predictor.add(entry)
-    predictor.rest()
-    return predictor.found
