@@ -8,6 +8,8 @@
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages anew
+#   make web-lint   type-check and lint the screens' JavaScript (needs Node)
+#   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
 #   make site    the documentation as web pages with a search, in build/site
 #   make clean   remove everything that can be made again (also .venv)
 #
@@ -17,7 +19,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak lowest mutate docs site clean
+.PHONY: help setup demo test lint bench soak lowest mutate docs web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -38,7 +40,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,13s/^# *//p' Makefile
+	@sed -n '3,15s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -108,6 +110,21 @@ docs: $(BUILT)
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 	$(PY) -m openacr.mill.run.lifecycle_page docs/run-life-cycle.md
+
+# The libraries of the panel's screens come bundled; Node is needed only to change or to check them.
+WEB := web-bundle
+WEB_TOOLS := $(WEB)/node_modules/.package-lock.json
+NPM := npm --prefix $(WEB) --no-audit --no-fund --silent
+$(WEB_TOOLS): $(WEB)/package-lock.json
+	@command -v npm >/dev/null || { echo "error: npm is needed (Node 20 or newer)"; exit 2; }
+	$(NPM) ci --ignore-scripts
+	@touch $@
+
+web-lint: $(WEB_TOOLS)
+	$(NPM) run lint
+
+web-bundle: $(WEB_TOOLS)
+	$(NPM) run bundle
 
 # The pages of docs/ and the Python interface with a search, in build/site; a broken link ends it.
 site: $(BUILT)

@@ -1,0 +1,2 @@
+// Curves of the scope.
+export { default as uPlot } from "uplot";
