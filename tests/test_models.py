@@ -50,6 +50,9 @@ def test_what_only_some_models_have() -> None:
     assert {row.name: row.lines for row in rows if row.lines != 32} == {"ACR2000": 16}
     assert {row.name for row in rows if row.has_battery} == {"ACR1505", "ACR8020"}
     assert {row.name for row in rows if row.has_digits_in_names} == {"ACR7000"}
+    assert {row.name: str(row.lacks) for row in rows if row.lacks} == {
+        "ACR1500": "no NURBs and no look-ahead"
+    }
     fixed = {row.name for row in rows if row.has_fixed_adc_mode}
     assert fixed == {"ACR7000", "ACR9000", "ACR9030", "ACR9040"}
 

@@ -6,8 +6,24 @@ the family (20 encoders, 16 analog outputs and inputs).
 """
 
 from dataclasses import dataclass
+from enum import Flag
 
 SYSTEM_MEMORY_BYTES = 1 << 20
+
+
+class Feature(Flag):
+    """What commands need and some models lack."""
+
+    NONE = 0
+    NURBS = 1
+    LOOK_AHEAD = 2
+
+    def __str__(self) -> str:
+        """Name the features as a sentence does: `no NURBs and no look-ahead`."""
+        return " and ".join(f"no {_TITLES[one]}" for one in self)
+
+
+_TITLES = {Feature.NURBS: "NURBs", Feature.LOOK_AHEAD: "look-ahead"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +51,7 @@ class Model:
     has_digits_in_names: bool = False  # of aliases
     has_battery: bool = False  # keeps programs and variables without power
     has_canopen: bool = False
+    lacks: Feature = Feature.NONE
     system_memory_bytes: int = SYSTEM_MEMORY_BYTES
     firmware: str = "1.18.06"
     update: int = 15
@@ -66,9 +83,13 @@ _NETWORK = ("STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 _CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
 _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
-# Boards of the front end's guide; what is not written here they have like the others.
+# Boards of the front end's guide; what is not written here they have like the others. NURBs and
+# look-ahead are missing on "less expensive controllers like the ACR1500", the only one it names.
 ACR1200 = Model(name="ACR1200", axes=8, connectors=2, masters=8, streams=_BOX_STREAMS)
-ACR1500 = Model(name="ACR1500", axes=8, connectors=4, masters=8, streams=_CARD_STREAMS)
+ACR1500 = Model(
+    name="ACR1500", axes=8, connectors=4, masters=8, streams=_CARD_STREAMS,
+    lacks=Feature.NURBS | Feature.LOOK_AHEAD,
+)  # fmt: skip
 ACR2000 = Model(name="ACR2000", axes=8, lines=16, connectors=4, masters=8, streams=_CARD_STREAMS)
 ACR8000 = Model(name="ACR8000", axes=8, masters=8, streams=_CARD_STREAMS)
 ACR8010 = Model(name="ACR8010", axes=8, masters=8, streams=_CARD_STREAMS)

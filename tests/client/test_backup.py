@@ -146,6 +146,17 @@ def test_a_backup_of_another_model_changes_nothing(tmp_path: Path, line: str, te
     assert card.p["axis0.ppu"] == 5
 
 
+def test_a_backup_with_look_ahead_changes_nothing_on_a_model_without_it(tmp_path: Path) -> None:
+    backup = small_backup(tmp_path / "b", "LOOK MINVEL 5")
+    card = Card.open(Controller("ACR1500"))
+    card.p["axis0.ppu"] = 5
+    with pytest.raises(DownloadError) as refused:
+        card.restore(backup)
+    assert refused.value.text == "the card does not know LOOK MINVEL: Not supported"
+    assert refused.value.hint == "nothing was changed"
+    assert card.p["axis0.ppu"] == 5
+
+
 def test_a_card_that_refuses_a_line_gets_its_former_contents_back(tmp_path: Path) -> None:
     backup = small_backup(tmp_path / "b")
     (backup / "prog0.8k").write_text("PROGRAM\nX1\nFOO BAR 1\nENDP\n")

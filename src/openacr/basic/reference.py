@@ -30,6 +30,7 @@ from openacr.lang.lexer import Token, tokens
 from openacr.map import flags, parameters
 from openacr.map.lookup import Flag, Parameter
 from openacr.messages import MESSAGES
+from openacr.models import MODELS
 
 _ANY_AXES = frozenset(("X", "Y", "Z", "A", "B", "C"))
 MADE_BY = "Written by `make docs` from the rows of the registry; do not edit."
@@ -91,6 +92,8 @@ def _facts(row: Command, example: str) -> Iterator[str]:
         yield "* Part of the coordinated move of its block"
     if row.saved:
         yield "* Kept by ESAVE"
+    if without := [model.name for model in MODELS.values() if row.needs & model.lacks]:
+        yield f"* Not on the {', '.join(without)}: `Not supported`"
     if row.is_extension:
         yield "* An extension of openacr: real cards refuse it"
     elif row.ref:

@@ -19,12 +19,12 @@ from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report, download
 from openacr.errors import UserError
-from openacr.messages import INVALID_ARGUMENT, SYNTAX_ERROR, UNKNOWN_COMMAND
+from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED, SYNTAX_ERROR, UNKNOWN_COMMAND
 
 _SETTING = re.compile(r"(?P<query>.+?) (?:\([^()]*\)|-?[\d.]+(?:[Ee][-+]?\d+)?)")
 _AXIS = re.compile(r"AXIS\d+ ")
 _OBJECT = re.compile(r"([A-Z]+)\d+ ")
-_UNKNOWN = (UNKNOWN_COMMAND, SYNTAX_ERROR, INVALID_ARGUMENT)
+_UNKNOWN = (UNKNOWN_COMMAND, SYNTAX_ERROR, INVALID_ARGUMENT, NOT_SUPPORTED)
 
 
 def restore(talk: Talk, files: Files, progress: Progress | None = None) -> Op[list[Report]]:

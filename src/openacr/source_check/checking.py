@@ -82,8 +82,7 @@ def _reader(home: Project) -> Reader:
     model = MODELS[card.model]
     return Reader(
         room=Room(Storage(Memory(), streams=model.streams)),
-        has_digits_in_names=model.has_digits_in_names,
-        axis_count=model.axes,
+        model=model,
         cutoffs=Cutoffs(card.period_s),
     )
 

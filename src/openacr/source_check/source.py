@@ -25,7 +25,8 @@ from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.source import Span
-from openacr.messages import UNKNOWN_COMMAND
+from openacr.messages import NOT_SUPPORTED, UNKNOWN_COMMAND
+from openacr.models import ACR8020, Model
 from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
@@ -39,7 +40,6 @@ from openacr.source_check.sizes import Sizes, undimensioned, variable
 from openacr.source_check.structure import Structure
 from openacr.source_check.texts import Finding, Text, TextLine, label_of
 
-MOST_AXES = 16
 EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
@@ -67,8 +67,7 @@ class Reader:
     level: Level = Level.SYS
     number: int = 0
     is_capturing: bool = False
-    axis_count: int = MOST_AXES  # of the card
-    has_digits_in_names: bool = False  # of aliases, as the model has it
+    model: Model = ACR8020  # of the card; this one has the most axes
     _path: str = ""
     _originals: list[str] = field(default_factory=list)
     _captured: Text = field(default_factory=Text)
@@ -158,7 +157,8 @@ class Reader:
 
     def _scope(self, *, stored: bool) -> Scope:
         axes = frozenset(self.axes.get(self.number, ()) if self.level is Level.PROG else ())
-        return Scope(self.level, stored, axes, self.aliases, numbered_names(self.aliases))
+        numbered = numbered_names(self.aliases)
+        return Scope(self.level, stored, axes, self.aliases, numbered, self.model.lacks)
 
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
@@ -211,7 +211,7 @@ class Reader:
             self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
         for item in arguments:
             if isinstance(item, Definition) and item.target is not None:
-                check_name(item.name, has_digits=self.has_digits_in_names)
+                check_name(item.name, has_digits=self.model.has_digits_in_names)
                 self.aliases = self.aliases | {item.name: item.target}
 
     def _check(self, level: Level, number: int) -> None:
@@ -225,7 +225,7 @@ class Reader:
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
             for line in text.in_order():
-                is_doubtful = numbers.is_doubtful(line.place.text, self.axis_count)
+                is_doubtful = numbers.is_doubtful(line.place.text, self.model.axes)
                 if line.outline.is_judged or is_doubtful:
                     self._judge(line.place, line.tokens, self._tree_of(line))
         elif not text.lost:
@@ -243,7 +243,7 @@ class Reader:
     def _judge(self, line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...]) -> None:
         """What is wrong with a line that can be read."""
         self.cutoffs.note(line, tuple(found), blocks)
-        for finding in numbers.missing(line, found, blocks, self.axis_count):
+        for finding in numbers.missing(line, found, blocks, self.model.axes):
             self._report(finding)
         self._warn(line, blocks)
 
@@ -272,6 +272,8 @@ class Reader:
     def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
         span: Span | None = getattr(error, "span", None)
         names = {*self.axes.get(self.number, ()), *self.aliases}
+        if error.message is NOT_SUPPORTED and not hint:
+            hint = f"the {self.model.name} has {self.model.lacks}"
         hint = hint or hint_for(error.message, line.text, span, self.level, names)
         self._add(self._place(line, span), error.text, hint, "error")
 

@@ -14,6 +14,7 @@ from openacr.map.numbers import (
     MSI_QUEUED,
     STI_MBUF_COUNT,
 )
+from openacr.models import Feature
 from openacr.motion.axis.settings import of_master, of_master_real
 from openacr.motion.path import buffer, corners
 from openacr.motion.row_index import master_ints
@@ -46,7 +47,7 @@ def mbuf(run: Run, word: str | None) -> Wait | None:
 
 @command(
     "LOOK", group=GROUP, levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),), ref=REF,
-    default="OFF", saved=True,
+    default="OFF", saved=True, needs=Feature.LOOK_AHEAD,
 )  # fmt: skip
 def look(run: Run, word: str | None) -> None:
     """Look ahead over the buffered moves: merge them, and slow down before corners."""
@@ -66,6 +67,7 @@ def look(run: Run, word: str | None) -> None:
     units="degrees",
     default="0,90",
     saved=True,
+    needs=Feature.LOOK_AHEAD,
 )
 def look_ang(run: Run, angles: tuple[float, ...] | None) -> None:
     """Set the turns up to which corners are free, and from which on they are slowest."""
@@ -83,6 +85,7 @@ master_values(
     ),
     group=GROUP,
     ref=REF,
+    needs=Feature.LOOK_AHEAD,
 )  # fmt: skip
 
 master_values(
@@ -93,4 +96,5 @@ master_values(
     ),
     group=GROUP,
     ref=EXTENSION,
+    needs=Feature.LOOK_AHEAD,
 )  # fmt: skip

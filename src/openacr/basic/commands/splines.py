@@ -12,6 +12,7 @@ from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run, Wait
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
+from openacr.models import Feature
 from openacr.motion.path import curve_modes, curve_moves, curve_points
 from openacr.motion.path.curve_modes import Family
 
@@ -42,13 +43,16 @@ def sk(run: Run, knot: float) -> tuple[Given, ...]:
     return (MoveOptions(knot=knot, family=Family.SPLINE),)
 
 
-@command("NURB", group=GROUP, levels=BY_OBJECT, ref=REF)
+@command("NURB", group=GROUP, levels=BY_OBJECT, ref=REF, needs=Feature.NURBS)
 def nurb(run: Run) -> None:
     """Report the mode of NURBs."""
     _report(run, Family.NURB)
 
 
-@command("NURB MODE", group=GROUP, levels=BY_OBJECT, grammar=(Int("mode"),), ref=REF)
+@command(
+    "NURB MODE", group=GROUP, levels=BY_OBJECT, grammar=(Int("mode"),), ref=REF,
+    needs=Feature.NURBS,
+)  # fmt: skip
 def nurb_mode(run: Run, mode: int) -> None:
     """Let moves be control points: by time (0), with the profile (1), slower in bends (4)."""
     curve_modes.begin(run.card, run.master(), Family.NURB, mode)
@@ -61,6 +65,7 @@ def nurb_mode(run: Run, mode: int) -> None:
     grammar=(Int("order", low=2, high=HIGHEST_RANK, optional=True),),
     ref=REF,
     default="4",
+    needs=Feature.NURBS,
 )
 def nurb_rank(run: Run, order: int | None) -> None:
     """Set the order of NURBs: how many control points act on a place of the curve."""
@@ -73,19 +78,24 @@ def nurb_rank(run: Run, order: int | None) -> None:
     curve_points.set_rank(run.card, master, order)
 
 
-@command("NURB END", group=GROUP, levels=PROG, ref=REF)
+@command("NURB END", group=GROUP, levels=PROG, ref=REF, needs=Feature.NURBS)
 def nurb_end(run: Run) -> Wait | None:
     """Repeat the last knot and end the NURB; moves are moves again."""
     return _end(run, Family.NURB)
 
 
-@command("NK", group=GROUP, levels=PROG, grammar=(Num("knot"),), ref=REF, move=True)
+@command(
+    "NK", group=GROUP, levels=PROG, grammar=(Num("knot"),), ref=REF, move=True, needs=Feature.NURBS
+)
 def nk(run: Run, knot: float) -> tuple[Given, ...]:
     """Set the knot of this control point or, alone, give a further one; a negative one ends."""
     return (MoveOptions(knot=knot, family=Family.NURB),)
 
 
-@command("NW", group=GROUP, levels=PROG, grammar=(Num("weight"),), ref=REF, default="1", move=True)
+@command(
+    "NW", group=GROUP, levels=PROG, grammar=(Num("weight"),), ref=REF, default="1", move=True,
+    needs=Feature.NURBS,
+)  # fmt: skip
 def nw(run: Run, weight: float) -> tuple[Given, ...]:
     """Set the weight of this control point."""
     return (MoveOptions(weight=weight),)

@@ -18,6 +18,7 @@ from openacr.basic.memory.saving import keep
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
+from openacr.models import Feature
 from openacr.motion.axis.settings import Setting
 from openacr.motion.card import Card
 
@@ -95,6 +96,7 @@ def put(
     ref: str,
     levels: Level,
     saved: bool,
+    needs: Feature = Feature.NONE,
 ) -> None:
     """Enter the handler made for a row."""
     handler.__doc__ = row.doc
@@ -107,6 +109,7 @@ def put(
         units=row.units,
         default=row.default,
         saved=saved,
+        needs=needs,
     )(handler)
 
 
@@ -191,12 +194,15 @@ def _axis_band(row: Band) -> Callable[..., None]:
     return handler
 
 
-def master_values(rows: Iterable[Value], *, group: str, ref: str) -> None:
+def master_values(
+    rows: Iterable[Value], *, group: str, ref: str, needs: Feature = Feature.NONE
+) -> None:
     """Register commands `WORD {value}` of the program's master or that of `MASTERm`."""
     for row in rows:
         form = Num("value", optional=True)
         handler = _master_value(row)
-        put(row, handler, form, group=group, ref=ref, levels=BY_OBJECT, saved=row.saved)
+        kept = row.saved
+        put(row, handler, form, group=group, ref=ref, levels=BY_OBJECT, saved=kept, needs=needs)
         if row.saved:
             keep(row.words, row.setting, count=_masters, then=row.then)
 

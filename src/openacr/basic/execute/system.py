@@ -131,7 +131,7 @@ class System:
         )
         self.programs = ProgramStore(self.storage)
         self.known_lines = KnownLines()
-        self._last_scope = Scope()
+        self._last_scope = Scope(lacks=card.model.lacks)
         self.sessions = {
             name: Session(name, index, self)
             for index, name in enumerate(STREAMS)
@@ -151,7 +151,9 @@ class System:
         is_level = last.level is level and last.stored is stored
         if is_level and last.aliases is nodes and last.axes is axes:
             return last  # line after line
-        self._last_scope = Scope(level, stored, axes, nodes, self.aliases.numbered)
+        self._last_scope = Scope(
+            level, stored, axes, nodes, self.aliases.numbered, self.card.model.lacks
+        )
         return self._last_scope
 
     def read_stored(

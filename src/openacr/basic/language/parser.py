@@ -19,6 +19,7 @@ from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.messages import (
+    NOT_SUPPORTED,
     NOT_VALID_AT_THIS_LEVEL,
     SYNTAX_ERROR,
     UNDEFINED_SYMBOL,
@@ -222,6 +223,8 @@ class Parser(ExpressionParser):
             raise
         if needs_object and not self.names_object:
             raise self._unknown(row, column)
+        if row.needs & self.scope.lacks:
+            raise StatementError(NOT_SUPPORTED, Span(self.token.line, column, len(row.words[0])))
         return Statement(row, arguments, indices, self.prefix, column)
 
     def _unknown(self, row: Command, column: int) -> StatementError:

@@ -13,6 +13,8 @@ from enum import Flag, auto
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from openacr.models import Feature
+
 if TYPE_CHECKING:
     from openacr.basic.language.grammar import Form
 
@@ -69,6 +71,7 @@ class Command:
     saved: bool = False  # kept by ESAVE
     synonyms: tuple[tuple[str, ...], ...] = ()
     lacks: str = ""  # what no modelled card has, so that the command cannot do its work
+    needs: Feature = Feature.NONE  # what some models lack: they refuse the command
 
     @property
     def name(self) -> str:
@@ -169,6 +172,7 @@ def command(
     saved: bool = False,
     typed: bool = True,
     lacks: str = "",
+    needs: Feature = Feature.NONE,
 ) -> Callable[[_Handler], _Handler]:
     """Enter the decorated function as the command `words` (and under the names in `also`).
 
@@ -178,7 +182,7 @@ def command(
     def enter(handler: _Handler) -> _Handler:
         row = Command(
             tuple(words.split()), group, levels, use, grammar, handler, ref, units, default,
-            move, emit, saved, tuple(tuple(name.split()) for name in also), lacks,
+            move, emit, saved, tuple(tuple(name.split()) for name in also), lacks, needs,
         )  # fmt: skip
         if row.name in _commands:
             raise ValueError(f"{row.name} is registered twice")

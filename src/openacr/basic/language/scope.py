@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.registry import Level
 from openacr.lang.lexer import Token, TokenKind
+from openacr.models import Feature
 
 _NAME_PARTS = frozenset((TokenKind.WORD, TokenKind.NUMBER))
 
@@ -16,7 +17,8 @@ _NAME_PARTS = frozenset((TokenKind.WORD, TokenKind.NUMBER))
 class Scope:
     """What a line may refer to: the level, the program's axes and all aliases.
 
-    `stored` lines belong to a program, others are executed at once.
+    `stored` lines belong to a program, others are executed at once. Commands that need what the
+    card `lacks` are refused.
     """
 
     level: Level = Level.PROG
@@ -24,6 +26,7 @@ class Scope:
     axes: frozenset[str] = frozenset()
     aliases: Mapping[str, Expr] = field(default_factory=dict)
     numbered: frozenset[str] = frozenset()  # the aliases that hold digits
+    lacks: Feature = Feature.NONE
 
 
 def join_names(found: list[Token], names: frozenset[str]) -> None:

@@ -169,7 +169,8 @@ class Sources:
     def _scope(self, state: ScopeState) -> Scope:
         names = self.names[state.names]
         numbered = self._aliases.numbered_in(names)
-        return Scope(Level[state.level], state.stored, frozenset(state.axes), names, numbered)
+        axes, lacks = frozenset(state.axes), self._system.card.model.lacks
+        return Scope(Level[state.level], state.stored, axes, names, numbered, lacks)
 
     def _line(self, state: LineState) -> StoredLine:
         scope = self._scopes[state.scope]

@@ -13,6 +13,7 @@ from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
+from openacr.models import Feature
 from openacr.sysvar.schema import AXES
 
 GAIN_WORDS = (
@@ -98,7 +99,8 @@ def lines(settings: Settings) -> Iterator[str]:
     yield "FOV 1"
     yield "ROV 1"
     yield f"JRK {_number(settings.speeds.jerk_ups3)}"
-    yield "LOOK OFF"
+    if Feature.LOOK_AHEAD not in settings.model.lacks:
+        yield "LOOK OFF"  # the front end plans the corners
     yield from _modes(settings)
 
 

@@ -15,6 +15,7 @@ from openacr.mill.config.tabs import (
     SpindleSettings,
     Wiring,
 )
+from openacr.models import MODELS
 from openacr.sysvar.schema import AXES
 from openacr.sysvar.tabs import (
     AXIS,
@@ -71,6 +72,7 @@ class Settings:
 
     def __init__(self, store: Store) -> None:
         self._store = store
+        self.model = MODELS[store.read_text(GENERAL.card_model)]
         self.master = self._int(GENERAL.master_program)
         self.axes = tuple(self._axis(a) for a in range(AXES) if self._is_configured(a))
         if not self.axes:

@@ -20,7 +20,13 @@ from openacr.kernel.path.path_cy import (
 )
 from openacr.map.rows import masters, moves
 from openacr.map.words import mf2
-from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED, UNDEFINED_SYMBOL
+from openacr.messages import (
+    INVALID_ARGUMENT,
+    NO_MASTER_ATTACHED,
+    NOT_SUPPORTED,
+    UNDEFINED_SYMBOL,
+)
+from openacr.models import Feature
 from openacr.motion.card import Card
 from openacr.motion.interlocks import (
     master_moving,
@@ -141,6 +147,8 @@ def issue(card: Card, move: HostMove) -> None:
 
 def take_point(card: Card, point: HostPoint) -> None:
     """Take a point of a curve, which it begins in mode 0 if no command has; as with `issue`."""
+    if point.family is curve_modes.Family.NURB and Feature.NURBS in card.model.lacks:
+        raise CardError(NOT_SUPPORTED)
     program = _program(card, point.master)
     needs_moves(card, point.master)
     here = not master_moving(card, point.master)
