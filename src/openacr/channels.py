@@ -14,12 +14,12 @@ class BinaryMode(IntFlag):
 
     @property
     def prefixes(self) -> bool:
-        """Control characters travel behind a `#`."""
+        """Control characters travel after a `#`."""
         return int.__and__(self, 1) == 1  # asked for every byte: an enum would be slow
 
     @property
     def strips(self) -> bool:
-        """Bytes above 0x7F travel behind an `&`."""
+        """Bytes above 0x7F travel after an `&`."""
         return self.prefixes and bool(self & BinaryMode.STRIP_HIGH_BIT)
 
 

@@ -18,7 +18,7 @@ class InUseError(StoreError):
 class FileLock:
     """The ownership of what a file stands for, until `release`; InUseError if another has it.
 
-    The file holds nothing and stays behind. `taken` is said when another process is the owner.
+    The file is empty and is not removed. `taken` is the error when another process is the owner.
     """
 
     def __init__(self, path: Path, taken: str) -> None:

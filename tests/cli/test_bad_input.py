@@ -144,7 +144,7 @@ def test_escape_sequences_of_a_scenario_are_shown_not_obeyed(tmp_path: Path) -> 
         (("status", "127.0.0.1:1"), "cannot connect to 127.0.0.1:1"),
         (("monitor", "127.0.0.1:1", "P0"), "cannot connect to 127.0.0.1:1"),
         (("sysvar", "get", "P999999999"), "P999999999 is not in the store"),
-        (("sysvar", "list", "NOTAB"), "there is no tab NOTAB"),
+        (("sysvar", "list", "NOTAB"), "unknown tab NOTAB"),
         (("mill", "check", "nowhere.nc"), "nowhere.nc: no such file"),
         (("mill", "time", "nowhere.nc"), "nowhere.nc: no such file"),
         (("mill", "run", "nowhere.nc"), "nowhere.nc: no such file"),

@@ -86,7 +86,7 @@ def test_a_misspelt_alias_is_suggested(tmp_path: Path) -> None:
         ),
         ("IF (P0)\nSET 32", "2:1: IF without ENDIF (still open at the end)"),
         ("_a\n_a", "3:1: Duplicate label: a (the first is in line 2)"),
-        ("X1,2", "2:3: Syntax error (behind a target come other axes, a command or `:`)"),
+        ("X1,2", "2:3: Syntax error (after a target come other axes, a command or `:`)"),
         ("P0 = SQRT 4", "2:11: Syntax error (written: SQRT(number))"),
         ('P0 = LEN(MID$("a"))', "2:10: Syntax error (written: MID$(string, number, {number}))"),
         ("PRINT SIN(COS(1),2)", "2:7: Syntax error (written: SIN(number))"),

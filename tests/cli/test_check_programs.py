@@ -79,8 +79,8 @@ def test_a_line_number_out_of_range_is_refused(tmp_path: Path) -> None:
 def test_a_goto_out_of_a_block_is_a_warning(tmp_path: Path) -> None:
     lines = ("_Top", "WHILE (P0)", "IF (P1)", "GOTO Inner", "GOTO Top", "ENDIF", "_Inner", "WEND")
     assert faults(tmp_path, *lines) == [
-        "5:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump behind it)",
-        "6:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump behind it)",
+        "5:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump past it)",
+        "6:6: warning: GOTO out of the IF of line 4 (let ENDIF close the block and jump past it)",
     ]
 
 
@@ -303,7 +303,7 @@ def test_options_without_a_meaning_are_refused(tmp_path: Path) -> None:
     whole = check(tmp_path, "--program", "0")
     assert (both.exit_code, whole.exit_code) == (2, 2)
     assert "--program and --plc exclude each other" in both.output
-    assert "a folder says itself" in whole.output
+    assert "do not apply to a folder" in whole.output
 
 
 def room(folder: Path, *setup: str, **files: str) -> list[str]:

@@ -72,7 +72,10 @@ def test_a_table_is_made_of_measurements(tmp_path: Path) -> None:
 
 def test_what_is_not_there_is_named(tmp_path: Path, table: Path, own_store: Path) -> None:
     assert ballscrew("export", "X")[1].startswith("error: axis X has no ballscrew table (P950020)")
-    assert ballscrew("import", "W", table)[1] == "error: axis W is not configured: X Y Z are\n"
+    assert (
+        ballscrew("import", "W", table)[1]
+        == "error: axis W is not configured; configured are X Y Z\n"
+    )
     assert "no such file" in ballscrew("import", "X", tmp_path / "none")[1]
     with Store(own_store) as store:
         store.write(950_011, 1)

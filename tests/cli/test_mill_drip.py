@@ -91,10 +91,10 @@ def test_the_console_says_what_it_does_not_know_and_ends_when_it_is_left(tmp_pat
     file = tmp_path / "PART.TXT"
     file.write_text("G90 F600\nG1 X.2\nM0\nX.3\nM2\n")
     code, said = run("run", str(file), "--console", typed="fly\nstart 3\nback\nfov 15\n")
-    assert "fly: no such command" in said
-    assert "start 3: no such command" in said
+    assert "fly: unknown command" in said
+    assert "start 3: unknown command" in said
     assert "back: cannot trace the path: the state is" in said
-    assert "M0: no operator is at the console to go on" in said
+    assert "M0: no operator at the console to continue" in said
     assert code != 0
 
 
@@ -110,12 +110,12 @@ def test_the_help_of_a_run_lists_every_command_of_its_console() -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("fov", "fov: no such command; there are stop, resume, start, abort, acknowledge, confirm,"
-         " block, back, forward, halt, answer VALUE, fov CLICK, rov CLICK, sov CLICK"),
-        ("fov 1 2", "fov 1 2: no such command"),
-        ("abort now", "abort now: no such command"),
+        ("fov", "fov: unknown command; commands are stop, resume, start, abort, acknowledge,"
+         " confirm, block, back, forward, halt, answer VALUE, fov CLICK, rov CLICK, sov CLICK"),
+        ("fov 1 2", "fov 1 2: unknown command"),
+        ("abort now", "abort now: unknown command"),
         ("fov x", "fov x: a click of the switch is a whole number from 0"),
-        ("answer x", "answer x: x: a number is asked for"),
+        ("answer x", "answer x: x: enter a number"),
         ("answer 1", "answer 1: nothing is asked"),
     ],
 )  # fmt: skip

@@ -33,7 +33,7 @@ def run(*arguments: str) -> Result:
 def test_path_or_drill_pattern_can_be_chosen_and_success_is_said(square: Path) -> None:
     result = run(str(square))
     assert result.exit_code == 0
-    assert "SQUARE.TXT: 1 chains (1 closed) of 1 entities, in inch" in result.output
+    assert "SQUARE.TXT: 1 chain (1 closed) of 1 entity, in inch" in result.output
     assert "not used: 2 POINT" in result.output
     assert "G1 X2 Y2" in square.with_suffix(".TXT").read_text()
     holes = square.with_name("HOLES.TXT")
@@ -55,7 +55,7 @@ def test_settings_come_from_the_store_and_options_go_before_them(square: Path) -
 
 def test_the_depth_of_a_path_is_an_option_and_a_cut_at_the_surface_is_said(square: Path) -> None:
     program = square.with_suffix(".TXT")
-    note = "note: the path is cut at Z0: --cut-z says how deep\n"
+    note = "note: the path is cut at Z0: set the depth with --cut-z\n"
     assert note in run(str(square)).output
     assert program.read_text().count("G1 Z0\n") == 1
     assert note not in run(str(square), "--force", "--cut-z", "0").output
@@ -113,7 +113,10 @@ def test_json_says_what_was_done(square: Path) -> None:
     record = json.loads(run(str(square), "--json").output)
     assert record["pattern"] == "path"
     assert record["unit"] == "inch"
-    assert record["notes"] == ["not used: 2 POINT", "the path is cut at Z0: --cut-z says how deep"]
+    assert record["notes"] == [
+        "not used: 2 POINT",
+        "the path is cut at Z0: set the depth with --cut-z",
+    ]
 
 
 def test_without_a_name_the_drawings_of_the_folder_are_listed(
@@ -136,7 +139,7 @@ def test_the_name_of_the_program_is_asked_with_those_that_are_there(square: Path
     words = ["mill", "import", str(square), "--ask"]
     result = CliRunner().invoke(app, words, input="COVER\n")
     assert result.exit_code == 0
-    assert "there are: PLATE.TXT" in result.output
+    assert "existing: PLATE.TXT" in result.output
     assert "Name of the program [SQUARE.TXT]" in result.output
     assert "G1 X2 Y2" in square.with_name("COVER.TXT").read_text()
     result = CliRunner().invoke(app, words, input="PLATE.TXT\n")

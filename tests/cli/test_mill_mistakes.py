@@ -30,7 +30,7 @@ def mill(*words: str) -> tuple[int, str]:
 @pytest.mark.parametrize("command", READERS)
 def test_files_that_are_none(command: str) -> None:
     assert mill(command, "NONE.NC") == (2, "error: NONE.NC: no such file\n")
-    assert mill(command, "FOLDER") == (2, "error: FOLDER: it is a folder, not a part program\n")
+    assert mill(command, "FOLDER") == (2, "error: FOLDER: this is a folder, not a part program\n")
 
 
 @pytest.mark.parametrize("command", READERS)
@@ -70,8 +70,8 @@ def test_looking_makes_no_store(command: str, folder: Path) -> None:
         ),
         (["plot", "OK.NC", "none/x.png"], "there is no folder none"),
         (["plot", "OK.NC", "FOLDER"], "pictures end in .png, .svg or .html"),
-        (["message", "set", "", "--bit", "5"], "a message needs a text of one line"),
-        (["message", "set", "x" * 133, "--bit", "5"], "133 letters: a message has 132 at most"),
+        (["message", "set", "", "--bit", "5"], "a message must be one line of printable text"),
+        (["message", "set", "x" * 133, "--bit", "5"], "133 characters: a message has at most 132"),
         (["part", "SLOT", "--set", "P200=99999"], "0.05 to 200 in"),
         (["batch", "BIN.NC"], "BIN.NC: this is no batch file"),
     ],

@@ -147,7 +147,7 @@ def test_a_flat_part_needs_no_view_from_the_front(tmp_path: Path) -> None:
 def test_a_program_without_moves_has_no_picture(tmp_path: Path) -> None:
     part = tmp_path / "EMPTY.NC"
     part.write_text("M2\n")
-    assert plotted(part, tmp_path / "empty.png") == (2, f"error: {part}: nothing moves\n")
+    assert plotted(part, tmp_path / "empty.png") == (2, f"error: {part}: no moves to draw\n")
 
 
 def test_other_forms_are_refused_before_anything_is_read(part: Path, tmp_path: Path) -> None:

@@ -80,7 +80,7 @@ def test_a_stop_is_asked_once_and_only_a_yes_goes_on(
     bench = Bench(*wires)
     bench.start("G1 F600 X.1\nM0\nG1 X.2\nM2\n")
     bench.steps()
-    assert capsys.readouterr().err == "M0: go on? [Y/n] "
+    assert capsys.readouterr().err == "M0: continue? [Y/n] "
     bench.type("what")
     assert "what: say y or n" in capsys.readouterr().err
     assert bench.shop.runner.state is State.HOLD
@@ -119,7 +119,7 @@ def test_an_input_takes_a_number_and_nothing_else(
     bench.start('INPUT "depth",P200\nM2\n')
     bench.steps()
     bench.type("deep")
-    assert "deep: a number is asked for" in capsys.readouterr().err
+    assert "deep: enter a number" in capsys.readouterr().err
     bench.type("1.5")
     assert bench.shop.cells.read(200) == 1.5
 
@@ -147,7 +147,7 @@ def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -
     with open(os.devnull) as nobody:
         bench.attend = Attendant(nobody)
         bench.start("M0\nG1 F600 X1\nM2\n")
-        with pytest.raises(UserError, match="M0: no operator is at the terminal"):
+        with pytest.raises(UserError, match="M0: no operator at a terminal"):
             bench.steps()
 
 
@@ -241,7 +241,7 @@ def test_a_start_at_a_line_is_not_agreed_to_where_nobody_is(card: Controller, pa
     code, text = mill("run", part, "--line", "7")
     assert (code, card.p[12288], card.p[12800]) == (2, 40000, -10000)
     assert "spindle: now 5, at the line 3" in text
-    assert "no operator is at the terminal to agree to it; use --yes" in text
+    assert "no operator at a terminal to confirm; use --yes" in text
 
 
 def test_a_level_that_only_the_operator_knows_is_asked_for(card: Controller, part: str) -> None:

@@ -106,7 +106,7 @@ def test_rows_are_as_far_apart_as_asked(command: str, file: str, tmp_path: Path)
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--every", "0.1"), "--every: it is the time between two rows of a trace"),
+        (("--every", "0.1"), "--every is the time between rows of a trace"),
         (("--trace", "t.csv", "--every", "0"), "--every 0: give a number of seconds above 0"),
         (("--trace", "t.xls"), "t.xls: traces end in .csv or .parquet"),
         (("--trace", "no/t.csv"), "t.csv: cannot be written: there is no folder no"),

@@ -53,7 +53,7 @@ def test_a_run_names_the_unit_of_its_places(store: Path) -> None:
 
 
 def test_a_time_without_the_path_jerk_of_the_machine_says_so(store: Path) -> None:
-    note = "note: the time is that without Path jerk (P650015); the run takes longer\n"
+    note = "note: the time does not include Path jerk (P650015); the run takes longer\n"
     for command in ("check", "time"):
         assert mill(command, "a.nc").stderr == ""
         assert json.loads(mill(command, "a.nc", "--json").stdout)["time_without"] == []

@@ -236,7 +236,7 @@ def test_files_are_written_once_and_read_back_from_the_card(tmp_path: Path) -> N
     assert runner.invoke(app, ["configure", source, str(tmp_path)]).exit_code == 0
     again = runner.invoke(app, ["configure", source, str(tmp_path)])
     assert again.exit_code == 2
-    assert "is there already; --force replaces it" in again.output
+    assert "exists; --force replaces it" in again.output
     kept = str(tmp_path / "prog15.8k")
     other = tmp_path / "other"
     assert runner.invoke(app, ["configure", kept, str(other)]).exit_code == 0

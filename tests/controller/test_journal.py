@@ -266,7 +266,7 @@ def test_a_ring_keeps_the_last_stretches_and_each_can_be_replayed(tmp_path: Path
     for _ in range(2):  # the second card goes on counting where the first one stopped
         host = at_axes()
         card = host.card
-        card.recorder = Ring(card, folder, stretch_s=2.0, files=3)
+        card.recorder = Ring(card, folder, file_s=2.0, files=3)
         store(host, "_L", "PRINT 1", "DWL 0.3", "GOTO L")
         host.type("LRUN")
         for _ in range(6):
@@ -304,7 +304,7 @@ def test_a_folder_that_goes_away_leaves_the_card_without_a_journal_for_a_while(
 ) -> None:
     card = Controller()
     folder = tmp_path / "ring"
-    card.recorder = Ring(card, folder, stretch_s=2.0)
+    card.recorder = Ring(card, folder, file_s=2.0)
     folder.rename(tmp_path / "away")
     card.advance(seconds=3.1)
     assert card.send("?1\r").endswith("1\r\nSYS>")

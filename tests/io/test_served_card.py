@@ -211,7 +211,7 @@ def test_it_warns_when_other_machines_can_reach_it() -> None:
         code, error = served.end()
         assert code == 0
         assert "WARNING" in error
-        assert "anyone who connects can move axes" in error
+        assert "every host that connects can move axes" in error
 
 
 def test_the_warning_says_who_may_connect() -> None:
@@ -224,7 +224,7 @@ def test_the_warning_says_who_may_connect() -> None:
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (("--host", "0.0.0.0"), "--allow 192.168.10.0/24, or --insecure"),
+        (("--host", "0.0.0.0"), "--allow 192.168.10.0/24, or allow all with --insecure"),
         (("--host", "0.0.0.0", "--allow", "10.0.0.0/8", "--insecure"), "exclude each other"),
         (("--allow", "10.0.0.0/99"), "write networks like"),
     ],

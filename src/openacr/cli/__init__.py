@@ -1,1 +1,1 @@
-"""The command line of openacr: thin shells around the layers below."""
+"""The command line of openacr: thin wrappers of the layers below."""

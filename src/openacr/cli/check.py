@@ -1,4 +1,4 @@
-"""`openacr list` and `openacr check`: a controller file as the card would read it."""
+"""`openacr list` and `openacr check`: controller files as a card would read them."""
 
 import json
 from dataclasses import asdict
@@ -45,7 +45,7 @@ def check_file(
         bool, typer.Option("--json", help="Print the errors as a JSON array.")
     ] = False,
 ) -> None:
-    """Find every error in a controller file.
+    """Find all errors in a controller file.
 
     A project folder is checked as a whole: machine file, scenario and all controller files.
     --program and --plc say for which one a file is whose name does not, as for download.
@@ -66,13 +66,13 @@ def check_file(
 
 
 def _place(file: Path, program: int | None, plc: int | None) -> tuple[Place, int] | None:
-    """What a file is for by the options; UserError where they have no meaning."""
+    """The purpose of a file by the options; UserError if they do not apply."""
     if program is None and plc is None:
         return None
     if program is not None and plc is not None:
         raise UserError("--program and --plc exclude each other")
     if file.is_dir():
-        raise UserError(f"{file}: a folder says itself for what its files are")
+        raise UserError(f"{file}: --program and --plc do not apply to a folder")
     if program is not None:
         return Place.PROGRAM, program
     return Place.PLC, plc or 0

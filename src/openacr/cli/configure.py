@@ -1,4 +1,4 @@
-"""`openacr configure`: controller files made of the answers to a few questions."""
+"""`openacr configure`: controller files generated from configuration answers."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,18 +13,16 @@ def configure(
         Path,
         typer.Argument(
             metavar="ANSWERS",
-            help="Answers (.toml), or a listing of the program in which a card keeps them (.8k).",
+            help="Answers (.toml), or the listing of a card's program that holds them (.8k).",
         ),
     ],
     folder: Annotated[
         Path | None,
-        typer.Argument(help="Project folder for the files; without it they are shown."),
+        typer.Argument(help="Project folder for the files; default: print them."),
     ] = None,
-    is_forced: Annotated[
-        bool, typer.Option("--force", help="Replace files that are there already.")
-    ] = False,
+    is_forced: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
 ) -> None:
-    """Make the configuration code of a machine from answers in a file.
+    """Generate the configuration code of a machine from answers in a file.
 
     A set-up file and, for older firmware, limit code; a program keeps the answers on the card.
     """
@@ -50,7 +48,7 @@ def configure(
 def _write(folder: Path, files: dict[str, str], *, is_forced: bool) -> None:
     there = [name for name in files if (folder / name).exists()]
     if there and not is_forced:
-        raise UserError(f"{folder / there[0]} is there already; --force replaces it")
+        raise UserError(f"{folder / there[0]} exists; --force replaces it")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, code in files.items():

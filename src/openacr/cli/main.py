@@ -24,7 +24,7 @@ INTERRUPTED = 130
 
 
 class Entry(NamedTuple):
-    """Where a sub-command is."""
+    """Location of a sub-command in the source."""
 
     module: str
     function: str
@@ -94,7 +94,7 @@ COMMANDS: dict[str, Entry | Family] = {
             "part": Entry("mill.part", "make_part"),
             "param": Entry("mill.param", "operate_parameters"),
             "message": Family(
-                "Texts that are shown while an input, output or flag has a state.",
+                "Texts shown while an input, output or flag has a given state.",
                 {
                     "list": Entry("mill.message", "list_messages"),
                     "set": Entry("mill.message", "set_message"),
@@ -102,7 +102,7 @@ COMMANDS: dict[str, Entry | Family] = {
                 },
             ),
             "ballscrew": Family(
-                "Tables that compensate what the screws of a machine get wrong.",
+                "Tables that compensate errors of ballscrews.",
                 {
                     "import": Entry("mill.ballscrew", "import_table"),
                     "export": Entry("mill.ballscrew", "export_table"),
@@ -129,10 +129,10 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class SubCommand(TyperCommand):
-    """A sub-command: with --json also what was wrong with its input is an object on stdout."""
+    """Sub-command; with --json, input errors are also reported as an object on stdout."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the words; a name with a minus in front that a file has is that file."""
+        """Parse the words; the error hints at a file whose name begins with a minus."""
         words = list(args)
         while True:
             try:
@@ -157,7 +157,7 @@ class SubCommand(TyperCommand):
 
 
 def _refused_word(words: Sequence[str], option: str) -> int | None:
-    """Which word is no option but may be a name, `-part.nc`; None for a slip in an option."""
+    """The word that may be a file name such as `-part.nc`; None for a mistyped option."""
     if not option:
         return None
     before = list(words[: words.index("--")] if "--" in words else words)
@@ -175,7 +175,7 @@ class LazyGroup(TyperGroup):
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         names: dict[str, Any] = dict.fromkeys(self.table)
-        self.commands.update(names)  # for suggestions after a slip
+        self.commands.update(names)  # for suggestions after a typing error
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""
@@ -212,16 +212,16 @@ def _group(name: str, family: Family) -> Any:
 
 
 def _nothing() -> None:
-    """A family does nothing by itself."""
+    """Do nothing: a family only groups sub-commands."""
 
 
 class Commands(LazyGroup):
-    """All sub-commands; turns errors a user can cause into one line and exit code 2."""
+    """Group of all sub-commands; reports a user's errors in one line with exit code 2."""
 
     table = COMMANDS
 
     def invoke(self, ctx: Any) -> Any:
-        """Run a sub-command; what the user got wrong is said in one line."""
+        """Run a sub-command; report a user's error in one line."""
         try:
             return super().invoke(ctx)
         except OpenacrError as error:
@@ -275,14 +275,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _open_closed_streams() -> None:
-    """Connect standard streams that were closed before the start (`>&-`) with nothing.
+    """Connect standard streams that were closed at the start (`>&-`) to the null device.
 
     Python gives None for them; and the next file that is opened would get their descriptor.
     """
     for descriptor, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
             mode = "r" if descriptor == 0 else "w"
-            setattr(sys, name, open(_at(descriptor), mode))  # for the whole life
+            setattr(sys, name, open(_at(descriptor), mode))  # for the life of the process
 
 
 def _at(descriptor: int) -> int:
@@ -295,7 +295,7 @@ def _at(descriptor: int) -> int:
 
 
 def _silence(stream: TextIO) -> None:
-    """Let the rest of the output go nowhere: the interpreter would fail on it once more."""
+    """Discard the rest of the output: flushing it at exit would fail again."""
     with open(os.devnull, "w") as nowhere:
         os.dup2(nowhere.fileno(), stream.fileno())
 

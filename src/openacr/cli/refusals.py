@@ -1,4 +1,4 @@
-"""What was wrong with the input of a command, as JSON."""
+"""Input errors of a command as JSON."""
 
 import json
 from collections.abc import Sequence
@@ -8,7 +8,7 @@ from openacr.errors import OpenacrError, SourceError
 
 
 def parts_of(error: OpenacrError) -> Sequence[OpenacrError]:
-    """The single errors of one that stands for several."""
+    """The single errors of a combined error."""
     return error.errors if isinstance(error, SourceError) else (error,)
 
 

@@ -37,30 +37,32 @@ def serve(
         typer.Option(metavar="CIDR,...", help="Networks that may connect: 192.168.10.0/24"),
     ] = None,
     insecure: Annotated[
-        bool, typer.Option("--insecure", help="Let every machine that reaches the port connect.")
+        bool, typer.Option("--insecure", help="Let every host that reaches the port connect.")
     ] = False,
     ascii_port: Annotated[
-        int, typer.Option(help="Terminal and packets; 0: any free.")
+        int, typer.Option(help="Port for terminal and packets; 0: any free.")
     ] = ASCII_PORT,
-    binary_port: Annotated[int, typer.Option(help="Packets only; 0: any free.")] = BINARY_PORT,
+    binary_port: Annotated[
+        int, typer.Option(help="Port for packets only; 0: any free.")
+    ] = BINARY_PORT,
     status_port: Annotated[
         int | None,
         typer.Option(
-            help="Fast status over UDP; 0: any free; default: 5003 beside 5002, else none."
+            help="UDP port for fast status; 0: any free; default: 5003 beside 5002, else off."
         ),
     ] = None,
     serial: Annotated[str | None, typer.Option(help="Serial port to serve as well.")] = None,
     baud: Annotated[
         int | None,
-        typer.Option(min=1, help="Speed of the serial port; default: as P7013 says, else 38400."),
+        typer.Option(min=1, help="Baud rate of the serial port; default: P7013, else 38400."),
     ] = None,
-    speed: Annotated[float, typer.Option(help="Card time per real time.")] = 1.0,
+    speed: Annotated[float, typer.Option(help="Ratio of card time to real time.")] = 1.0,
     data: Annotated[
-        Path | None, typer.Option(help="Folder for what the card keeps without power.")
+        Path | None, typer.Option(help="Folder for the nonvolatile memory of the card.")
     ] = None,
     journal: Annotated[
         Path | None,
-        typer.Option(help="Folder for the last minutes, to replay; default: in that of --data."),
+        typer.Option(help="Folder for the journal of the last minutes; default: inside --data."),
     ] = None,
     no_journal: Annotated[
         bool, typer.Option("--no-journal", help="Keep no journal of the last minutes.")
@@ -68,7 +70,7 @@ def serve(
 ) -> None:
     """Run a card in real time and let hosts talk to it over TCP and serial lines.
 
-    With --data saved parameters, user flash and battery-backed memory outlast the process.
+    With --data saved parameters, user flash and battery-backed memory survive the process.
     The journal of the last minutes can be replayed with `openacr replay`.
     """
     guests = _guests(host, allow, is_open=insecure)
@@ -92,7 +94,7 @@ def serve(
 
 @dataclass(frozen=True, slots=True)
 class Ports:
-    """Where a card can be reached."""
+    """Addresses of a served card."""
 
     host: str = "127.0.0.1"
     ascii: int = 0
@@ -104,7 +106,7 @@ class Ports:
 
 
 def _line(card: "Controller", baud: int | None) -> "LineSettings":
-    """The settings of the serial port: an option, else what the card has for COM1."""
+    """The settings of the serial port: an option, else those of COM1 on the card."""
     from openacr.io.serial_port import LineSettings
     from openacr.map.numbers import P_COM1_STARTUP_MODE
 
@@ -114,7 +116,7 @@ def _line(card: "Controller", baud: int | None) -> "LineSettings":
 
 
 def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
-    """Who may connect; an address that others reach wants a word about them."""
+    """The hosts that may connect; a non-loopback address requires --allow or --insecure."""
     from openacr.io.server import Guests, is_loopback
 
     if allow is not None:
@@ -123,14 +125,14 @@ def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
         return Guests.of(allow)
     if not is_open and not is_loopback(host):
         raise UserError(
-            f"other machines reach {host}, and the card's protocols have no passwords: say who"
-            " may connect with --allow 192.168.10.0/24, or --insecure for everybody"
+            f"other machines reach {host}, and the card's protocols have no passwords: restrict"
+            " hosts with --allow 192.168.10.0/24, or allow all with --insecure"
         )
     return Guests()
 
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
-    """Keep the last minutes in a folder, else in one of the user's that no other card uses."""
+    """Keep the journal in a folder; default: one of the user's that no other card uses."""
     from openacr.cli.run.journals import ring_root
     from openacr.controller.ring import Ring, own_ring
 

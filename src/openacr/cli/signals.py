@@ -1,4 +1,4 @@
-"""Being told to end: a polite kill is as good as Ctrl-C."""
+"""Termination signals: SIGTERM and SIGHUP act like Ctrl-C."""
 
 import signal
 import threading
@@ -14,12 +14,12 @@ def endings() -> list[int]:
 
 
 def terminations_as_interrupts() -> AbstractContextManager[None]:
-    """SIGTERM and SIGHUP raise KeyboardInterrupt in here, so that everything can be tidied up."""
+    """Context in which SIGTERM and SIGHUP raise KeyboardInterrupt, so that cleanup runs."""
     return _handling(endings(), _interrupt)
 
 
 def deaf() -> AbstractContextManager[None]:
-    """Ctrl-C, SIGTERM and SIGHUP are not heard in here: this has to be done to its end."""
+    """Context in which Ctrl-C, SIGTERM and SIGHUP are ignored, for work that must complete."""
     return _handling([signal.SIGINT, *endings()], signal.SIG_IGN)
 
 

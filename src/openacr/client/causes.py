@@ -12,7 +12,9 @@ NO_RESPONSE = "11010: wrong cable, or wrong address of the card"
 REFUSED = "10061: another device has this address, or no card listens there"
 NOT_REACHABLE = "17080: the card cannot be reached"
 
-_NO_WAY = frozenset((errno.EHOSTUNREACH, errno.ENETUNREACH, errno.ENETDOWN, errno.EADDRNOTAVAIL))
+_UNREACHABLE = frozenset(
+    (errno.EHOSTUNREACH, errno.ENETUNREACH, errno.ENETDOWN, errno.EADDRNOTAVAIL)
+)
 
 
 def network_cause(failure: Exception) -> str:
@@ -21,7 +23,7 @@ def network_cause(failure: Exception) -> str:
         return REFUSED
     if isinstance(failure, TimeoutError):
         return NO_RESPONSE
-    if isinstance(failure, socket.gaierror) or getattr(failure, "errno", None) in _NO_WAY:
+    if isinstance(failure, socket.gaierror) or getattr(failure, "errno", None) in _UNREACHABLE:
         return WRONG_NETWORK
     return NOT_REACHABLE
 

@@ -279,10 +279,10 @@ class Session:
     def _followed(self, is_silent: bool) -> Event:
         """Text of the followed program; an Answer when it has ended."""
         if not self._is_echoed:
-            _, end, behind = bytes(self._received).partition(CRLF)
+            _, end, rest = bytes(self._received).partition(CRLF)
             if not end:
                 return NEED_DATA
-            self._is_echoed, self._received = True, bytearray(behind)
+            self._is_echoed, self._received = True, bytearray(rest)
         text = self.received
         prompt = _AT_LINE_START.search(text) if self.has_prompts else None
         if prompt is not None:

@@ -34,12 +34,12 @@ class Ring:
         card: Controller,
         folder: Path,
         *,
-        stretch_s: float = 300.0,
+        file_s: float = 300.0,
         files: int = 3,
         most_bytes: int = 1 << 25,
     ) -> None:
         self._card, self._folder, self._files = card, folder, files
-        self._stretch_tk = round(stretch_s / card.period_s)
+        self._file_tk = round(file_s / card.period_s)
         self._most_bytes = most_bytes
         self._lock = FolderLock(folder)
         self._number = max(map(_number_of, journals(folder)), default=0)
@@ -88,7 +88,7 @@ class Ring:
 
     def _begin(self) -> Recorder:
         self._number += 1
-        self._end_tk = self._card.lived_tk + self._stretch_tk
+        self._end_tk = self._card.lived_tk + self._file_tk
         for path in journals(self._folder)[: -self._files + 1 or None]:
             path.unlink(missing_ok=True)
         return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}")

@@ -54,7 +54,7 @@ class Switchboard(Protocol):
         """A connection was turned away."""
 
     def joined(self, peer: Peer) -> bool:
-        """Give the peer a stream; False when there is none left."""
+        """Give the peer a stream; False when no stream is free."""
 
     def received(self, peer: Peer, data: bytes) -> None:
         """Bytes arrived."""
@@ -74,7 +74,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
         self._held = self._joined = False
-        self._was_behind = False
+        self._was_full = False
         self._name = ""
         self._opening = Opening()
 
@@ -125,11 +125,11 @@ class TcpPeer(asyncio.BufferedProtocol):
         """False while the peer has too much unread."""
         if self._transport is None:
             return False
-        is_behind = self._transport.get_write_buffer_size() >= SEND_LIMIT_BYTES
-        if is_behind and not self._was_behind:
-            self._was_behind = True
+        is_full = self._transport.get_write_buffer_size() >= SEND_LIMIT_BYTES
+        if is_full and not self._was_full:
+            self._was_full = True
             log.warning("%s does not read what it is sent; its output waits", self._name)
-        return not is_behind
+        return not is_full
 
     def send(self, data: bytes) -> None:
         """One write."""

@@ -68,7 +68,7 @@ class Guests:
 
     def __str__(self) -> str:
         named = [str(network) for network in self.networks if not network.is_loopback]
-        return f"every host in {', '.join(named)}" if named else "anyone who connects"
+        return f"every host in {', '.join(named)}" if named else "every host that connects"
 
     @classmethod
     def of(cls, text: str) -> "Guests":

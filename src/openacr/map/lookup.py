@@ -120,7 +120,7 @@ def flags_of(number: int) -> list[Flag]:
 
 @cache
 def packet_groups() -> dict[tuple[int, int], tuple[int | None, ...]]:
-    """Numbers behind the eight mask bits of every packet group code and index."""
+    """Parameter numbers of the eight mask bits of every packet group code and index."""
     groups: dict[tuple[int, int], list[int | None]] = {}
     for found in parameters().values():
         if found.packet:

@@ -32,13 +32,13 @@ class Cutoffs:
     _found: list[_Cutoff] = field(default_factory=list)
 
     def note(self, line: FileLine, found: Iterable[Token], blocks: Iterable[Block]) -> None:
-        """Take note of the LOPASS and PERIOD commands of a line, those behind THEN included."""
+        """Take note of the LOPASS and PERIOD commands of a line, those after THEN included."""
         numbers = [token for token in found if token.kind is TokenKind.NUMBER]
         for statement in statements(blocks):
             words, arguments = statement.command.words, statement.arguments
             if words == ("LOPASS",) and arguments:
-                behind = [token for token in numbers if token.column > statement.column]
-                self._found += _cutoffs(line, behind, arguments[0])
+                after = [token for token in numbers if token.column > statement.column]
+                self._found += _cutoffs(line, after, arguments[0])
             elif words == ("PERIOD",) and arguments and (period_s := _number(arguments[0])):
                 self.period_s = period_s
 
@@ -53,7 +53,7 @@ class Cutoffs:
 
 
 def statements(blocks: Iterable[Block]) -> Iterator[Statement]:
-    """The statements of a line, those behind THEN included."""
+    """The statements of a line, those after THEN included."""
     for block in blocks:
         for statement in block:
             if isinstance(statement, Statement):

@@ -19,7 +19,7 @@ from openacr.messages import (
 )
 
 MOST_NAMES = 5
-BEHIND_A_TARGET = "behind a target come other axes, a command or `:`"
+AFTER_A_TARGET = "after a target come other axes, a command or `:`"
 TEXT_AND_NUMBER = "STR$ makes text of a number, VAL a number of text"
 _WORDS = (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE)
 
@@ -65,7 +65,7 @@ def _usage(text: str, span: Span, names: Collection[str]) -> str:
     row = command_before(found, span.column)
     if row is not None:
         return f"written: {syntax(row)}"
-    return BEHIND_A_TARGET if _begins_with_axis(found, names) else ""
+    return AFTER_A_TARGET if _begins_with_axis(found, names) else ""
 
 
 def _begins_with_axis(found: list[Token], names: Collection[str]) -> bool:
@@ -95,6 +95,6 @@ def names_like(name: str, known: Iterable[str], what: str) -> str:
 def lines_near(number: int, known: Iterable[int]) -> str:
     """The lines around one that does not exist."""
     before = max((each for each in known if each < number), default=None)
-    behind = min((each for each in known if each > number), default=None)
-    there = [str(each) for each in (before, behind) if each is not None]
+    after = min((each for each in known if each > number), default=None)
+    there = [str(each) for each in (before, after) if each is not None]
     return f"the nearest: {' and '.join(there)}" if there else "there are no other lines"

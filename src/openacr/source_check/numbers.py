@@ -78,8 +78,8 @@ def _nodes(item: object) -> Iterator[object]:
 def _place(found: list[Token], statement: Statement, number: int) -> Span:
     """Where the number is written in its statement or, as a prefix, before it."""
     places = [token for token in found if token.kind is TokenKind.NUMBER and token.value == number]
-    behind = [token for token in places if token.column > statement.column]
-    token = next(iter(behind or places[-1:]), None)
+    after = [token for token in places if token.column > statement.column]
+    token = next(iter(after or places[-1:]), None)
     if token is None:
         return Span(1, statement.column, len(statement.command.name))
     return Span(1, token.column, len(token.text))

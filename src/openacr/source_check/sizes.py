@@ -50,7 +50,7 @@ class Sizes:
         return self.counts.get((0 if kind == GLOBAL else program, kind), 0)
 
     def note(self, program: int, blocks: Iterable[Block]) -> None:
-        """Take note of the DIM commands of a line, those behind THEN included."""
+        """Take note of the DIM commands of a line, those after THEN included."""
         for block in blocks:
             for statement in block:
                 if isinstance(statement, Statement):
@@ -125,14 +125,14 @@ def _variables(
     found: tuple[Token, ...], names: Mapping[str, tuple[str, int]]
 ) -> Iterator[tuple[Token, str, int]]:
     """Variables written with a literal number, or by an alias."""
-    for token, behind in pairwise(found):
+    for token, following in pairwise(found):
         if token.kind is not TokenKind.WORD:
             continue
         if token.text in names:
             yield token, *names[token.text]
         elif token.value in STORED_KINDS:
-            number = behind.value if behind.kind is TokenKind.NUMBER else 0
-            is_system = token.value == GLOBAL and behind.kind is not TokenKind.NUMBER
+            number = following.value if following.kind is TokenKind.NUMBER else 0
+            is_system = token.value == GLOBAL and following.kind is not TokenKind.NUMBER
             if isinstance(number, int) and not is_system and not _is_parameter(token, number):
                 yield token, str(token.value), number
 

@@ -130,20 +130,20 @@ class Reader:
                 self.is_capturing, self._known = False, {}
         elif found[0].kind is TokenKind.NUMBER:
             self._store(line, found)
-        elif (behind := opens_capture(line.text)) is not None:
-            self._open(line, behind)
+        elif (rest := opens_capture(line.text)) is not None:
+            self._open(line, rest)
         else:
             self.is_capturing = False
             self._immediate(line, found)
 
-    def _open(self, line: FileLine, behind: str) -> None:
+    def _open(self, line: FileLine, rest: str) -> None:
         """PROGRAM: everything up to ENDP is stored."""
         self._captured = self._text()
         self._captured.clear()
         self.is_capturing = True
         self._store(line, tokens("PROGRAM", 1))
-        if behind.startswith("_"):
-            self._store(line, tokens(behind, 1))
+        if rest.startswith("_"):
+            self._store(line, tokens(rest, 1))
 
     def _text(self) -> Text:
         """The text that lines of the present level belong to."""
@@ -289,7 +289,7 @@ class Reader:
         shift = len(original) - len(line.text) if original.endswith(line.text) else 0
         column = max(begin, span.column + shift) if span else begin
         length = span.length if span else len(original)
-        # Behind the end of the line stands what was joined to it.
+        # Text that was joined to the line lies beyond its end.
         return line.number, min(column, len(original) + 1), length
 
 

@@ -16,8 +16,8 @@ from openacr.source_check.texts import Finding, Text, TextLine, label_of
 _JUMPS = frozenset(("GOTO", "GOSUB"))
 _LEVEL_WORDS = frozenset((*KINDS, "ELSE", "ELSEIF"))
 _NAMES = {flow.FLOW_IF: "IF", flow.FLOW_FOR: "FOR", flow.FLOW_WHILE: "WHILE"}
-_WAYS_OUT = {
-    flow.FLOW_IF: "let ENDIF close the block and jump behind it",
+_EXIT_HINTS = {
+    flow.FLOW_IF: "let ENDIF close the block and jump past it",
     flow.FLOW_FOR: "BREAK leaves a loop",
     flow.FLOW_WHILE: "BREAK leaves a loop",
 }
@@ -75,7 +75,7 @@ class Structure:
             self._jumps += [_Jump(word, target, line, level) for word, target in found]
 
     def _follow(self, line: TextLine, event: FlowEvent) -> None:
-        """Let a word act on the levels; one that lacks its end is left out of the way."""
+        """Let a word act on the levels; one without its end is skipped."""
         try:
             follow(self._levels, event, line.number)
         except CompileError as error:
@@ -132,14 +132,14 @@ class Structure:
     def _warn(self, jump: _Jump, level: Level) -> None:
         text = f"GOTO out of the {_NAMES[level.kind]} of line {self._place_of(level)}"
         self.findings.append(
-            Finding(jump.line.place, None, jump.target.span, text, _WAYS_OUT[level.kind])
+            Finding(jump.line.place, None, jump.target.span, text, _EXIT_HINTS[level.kind])
         )
 
 
 def _jumps(found: tuple[Token, ...]) -> Iterator[tuple[str, Token]]:
-    """Find what stands behind GOTO and GOSUB, computed jumps left out."""
-    for word, target, behind in zip(found, found[1:], (*found[2:], found[-1]), strict=False):
+    """Find the targets of GOTO and GOSUB, except computed ones."""
+    for word, target, following in zip(found, found[1:], (*found[2:], found[-1]), strict=False):
         if word.kind is TokenKind.WORD and word.value in _JUMPS:
-            is_whole = behind.kind in (TokenKind.END, TokenKind.REMARK) or behind.value == ":"
+            is_whole = following.kind in (TokenKind.END, TokenKind.REMARK) or following.value == ":"
             if target.kind is TokenKind.LABEL or (target.kind is TokenKind.NUMBER and is_whole):
                 yield str(word.value), target

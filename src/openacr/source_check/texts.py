@@ -30,7 +30,7 @@ class Finding:
 
 
 class TextLine(NamedTuple):
-    """A stored line, where it stands in the file, and behind which column it begins there.
+    """A stored line, its place in the file, and the column before which it begins there.
 
     `rung` is what the line of a PLC means; `scope` is what the line of a program refers to.
     """

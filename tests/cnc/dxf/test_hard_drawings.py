@@ -43,7 +43,7 @@ def test_a_map_of_tiny_lines_is_cut_to_its_full_length(tmp_path: Path) -> None:
         document.modelspace().add_line(line.start, line.end)
     result = converted(document, tmp_path, is_metric=True)
     assert result.notes == ()
-    assert result.summary == "1 chains (1 closed) of 2000 entities"
+    assert result.summary == "1 chain (1 closed) of 2000 entities"
     assert trace(result.text).length == pytest.approx(3.0, rel=0.02)
 
 
@@ -77,7 +77,7 @@ def test_what_vanishes_in_a_joint_is_told(tmp_path: Path) -> None:
     space.add_line((2, 1.001), (3, 3))
     result = converted(document, tmp_path)
     assert result.notes == ("shorter than epsilon inside a joint, left out: 2",)
-    assert result.summary == "1 chains (0 closed) of 5 entities"
+    assert result.summary == "1 chain (0 closed) of 5 entities"
 
 
 def test_short_lines_drawn_twice_are_left_out_once(tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ class Waiting(Struct, frozen=True):
 
 @dataclass(slots=True)
 class _Queue:
-    """Bytes received and not read; behind a line ended by CR an LF ends no second one."""
+    """Bytes received and not read; an LF after the CR of a line does not end a second one."""
 
     data: bytearray = field(default_factory=bytearray)
     after_cr: bool = False

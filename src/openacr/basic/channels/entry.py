@@ -37,8 +37,8 @@ class Entry:
         found = tokens(text)
         if found[0].kind is TokenKind.NUMBER:
             self._numbered(self._level_owner(), found, text)
-        elif (behind := opens_capture(text)) is not None:
-            self._open(self._level_owner(), behind)
+        elif (rest := opens_capture(text)) is not None:
+            self._open(self._level_owner(), rest)
         else:
             return found
         return None
@@ -58,18 +58,18 @@ class Entry:
             begin = found[0].column - 1 + len(found[0].text)
             self._store(owner, number, " " * begin + plain(text)[begin:], found[1:])
 
-    def _open(self, owner: int, behind: str) -> None:
+    def _open(self, owner: int, rest: str) -> None:
         """PROGRAM: erase the old text and store everything from here on."""
         if self.system.control.is_running(owner):
             raise CardError(PROGRAM_IS_RUNNING)
-        has_label = behind.startswith("_")
-        if behind and not has_label and not behind.startswith("'") and not _REMARK.match(behind):
+        has_label = rest.startswith("_")
+        if rest and not has_label and not rest.startswith("'") and not _REMARK.match(rest):
             raise CardError(SYNTAX_ERROR)
         self.store.erase(owner)
         self.session.capture = owner
-        self._append(owner, "PROGRAM" if has_label else f"PROGRAM {behind}")
+        self._append(owner, "PROGRAM" if has_label else f"PROGRAM {rest}")
         if has_label:
-            self._append(owner, behind)
+            self._append(owner, rest)
 
     def _captured(self, owner: int, text: str) -> list[Token] | None:
         """A line between PROGRAM and ENDP: stored, unless it ends the capture."""
@@ -121,31 +121,31 @@ class Entry:
 
 
 def split_at_level(found: list[Token]) -> tuple[list[Token], list[Token]]:
-    """A typed line up to its first SYS, PROG n or PLC n, and what stands behind that.
+    """A typed line up to its first SYS, PROG n or PLC n, and what follows it.
 
-    Such a command begins a block; behind THEN it is a part of the IF.
+    Such a command begins a block; after THEN it is a part of the IF.
     """
     begins_block = True
     for place, token in enumerate(found):
         if token.value == "THEN":
             break
         if begins_block and token.kind is TokenKind.WORD and token.value in LEVEL_WORDS:
-            behind = _behind_level(found, place)
-            if found[behind].kind is not TokenKind.END:
-                return [*found[:behind], found[-1]], found[behind:]
+            rest = _after_level(found, place)
+            if found[rest].kind is not TokenKind.END:
+                return [*found[:rest], found[-1]], found[rest:]
         begins_block = token.kind is TokenKind.OPERATOR and token.value == ":"
     return found, []
 
 
-def _behind_level(found: list[Token], place: int) -> int:
-    """The place behind a level command: PROG and PLC have a number, or `(expr)`."""
-    behind = place + 1
+def _after_level(found: list[Token], place: int) -> int:
+    """Index of the first token after a level command: PROG and PLC have a number, or `(expr)`."""
+    rest = place + 1
     if found[place].value == "SYS":
-        return behind
+        return rest
     depth = 0
-    while found[behind].kind is not TokenKind.END:
-        depth += (found[behind].value == "(") - (found[behind].value == ")")
-        behind += 1
+    while found[rest].kind is not TokenKind.END:
+        depth += (found[rest].value == "(") - (found[rest].value == ")")
+        rest += 1
         if depth <= 0:
             break
-    return behind
+    return rest

@@ -83,7 +83,7 @@ class Channels:
     lowest: int
 
     def read(self, card: Card, number: int) -> int:
-        """The channel of an input, GROUND if it is none."""
+        """Channel number of an analog input; GROUND for any other number."""
         channel = card.memory.I[self.word] >> BITS_EACH * number & ONES
         return GROUND if channel == ONES else channel
 

@@ -34,7 +34,7 @@ CONFIG_NOTICE = "CONFIG acts after ESAVE and REBOOT"
 
 
 class Modules(Form):
-    """Four words, each with a number directly behind: `ENC8 DAC4 NONE ADC8`."""
+    """Four words, each directly followed by a number: `ENC8 DAC4 NONE ADC8`."""
 
     def starts(self, p: Parser) -> bool:
         """Whether a word stands here."""

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class InputItem:
-    """INPUT as written: `;` directly behind the word, device, prompt, variables."""
+    """INPUT as written: `;` directly after the word, device, prompt, variables."""
 
     keeps_line: bool
     device: int

@@ -104,7 +104,7 @@ def at_separator(p: Parser) -> bool:
 
 
 def read_device(p: Parser) -> int:
-    """`#d` with the separator behind it."""
+    """`#d` with the separator after it."""
     p.expect("#")
     token = p.advance()
     if token.kind is not TokenKind.NUMBER or token.value not in range(DEVICES + 1):
@@ -115,7 +115,7 @@ def read_device(p: Parser) -> int:
 
 
 class Report(Command):
-    """A command behind PRINT, whose report is printed; functions come first."""
+    """A command after PRINT, whose report is printed; functions come first."""
 
     def starts(self, p: Parser) -> bool:
         """Whether a command word stands here, and no function is called."""

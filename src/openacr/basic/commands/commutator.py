@@ -76,7 +76,7 @@ object_values(
         ObjectValue("CMT # SHIFT", _long(at.CMT_PHASEMARKEROFFSET), commutators,
                     "Set the encoder counts from the marker to the zero of phase A.", "counts"),
         ObjectValue("CMT # MAXRPM", _fp32(at.CMT_MAXMOTORRPM), commutators,
-                    "Set the speed that turns a commutator off; 0 is none.", "1/min"),
+                    "Set the speed that turns a commutator off; 0 never turns it off.", "1/min"),
         ObjectValue("CMT # MAXAMP", _fp32(at.CMT_MAXMOTORCURRENT), commutators,
                     "Set the highest current of the phases; 0 is no limit.", "A"),
         ObjectValue("CMT # HSEN", _long(at.CMT_HALLEFFECTCHANNEL), commutators,

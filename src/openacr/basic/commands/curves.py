@@ -25,7 +25,7 @@ class CurveTargets(AxisTargets):
         self.count = count
 
     def parse(self, p: Parser) -> tuple[TargetItem, ...]:
-        """Read the axes; those behind them belong to the straight part of the block."""
+        """Read the axes of the curve; axes after them belong to the straight part of the block."""
         found = [self._target(p)]
         while len(found) < self.count or (not self.count and self._goes_on(p)):
             if not self.starts(p):

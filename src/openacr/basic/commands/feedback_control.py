@@ -42,7 +42,7 @@ axis_values(
     (
         Value("PPU", of_axis(AX_PPU, not_zero), "Set the pulses per unit.", "pulses/unit", "1"),
         Value("ROTARY", of_axis_real(AXF_ROTARY_U, not_negative),
-              "Set the length of a turn: absolute moves take the shorter way; 0 is linear.",
+              "Set the length of a turn: absolute moves take the shorter direction; 0 is linear.",
               "units"),
     ),
     group=GROUP,

@@ -34,7 +34,7 @@ CaptureRead: TypeAlias = "tuple[Expr, tuple[Expr, bool] | None, Expr | None]"
 
 @dataclass(frozen=True, slots=True)
 class Passing:
-    """A parameter passing a setpoint, upwards or `below`; a timeout of 0 is none."""
+    """A parameter passing a setpoint, upwards or `below`; a timeout of 0 never expires."""
 
     parameter: int
     setpoint: float

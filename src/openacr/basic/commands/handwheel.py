@@ -34,9 +34,9 @@ axis_values(
         Value("HDW RATIO", Setting(FP64, HWF_BASE + HWF_RATIO, HWF_STRIDE),
               "Set the travel of an axis per turn unit of its hand wheel.", "units", "1"),
         Value("HDW VEL", Setting(FP64, HWF_BASE + HWF_VEL_UPS, HWF_STRIDE, not_negative),
-              "Set the highest speed behind a hand wheel; 0 is JOG VEL.", "units/s"),
+              "Set the highest speed of axes moved by a hand wheel; 0 is JOG VEL.", "units/s"),
         Value("HDW ACC", Setting(FP64, HWF_BASE + HWF_ACC_UPS2, HWF_STRIDE, not_negative),
-              "Set the ramps behind a hand wheel; 0 is JOG ACC and JOG DEC.", "units/s2"),
+              "Set the ramps of axes moved by a hand wheel; 0 is JOG ACC and JOG DEC.", "units/s2"),
     ),
     group=GROUP,
     ref=REF,
@@ -69,7 +69,7 @@ def hdw_on(run: Run, axes: tuple[Axis, ...]) -> None:
 
 @command("HDW OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
 def hdw_off(run: Run, axes: tuple[Axis, ...]) -> None:
-    """Disconnect hand wheels; the way already turned is still travelled."""
+    """Disconnect hand wheels; the distance already turned is still travelled."""
     for axis in axes:
         objects.wheel_on(run.card, axis.number, False)
 

@@ -59,7 +59,7 @@ object_values(
         ObjectValue("RATCH # MODE", Setting(LONG, at.RTI_BASE + at.RTI_MODE, at.RTI_STRIDE, mode),
                     eight, "Choose what a ratchet does with positive and negative counts."),
         ObjectValue("LIMIT # FREQ", real(at.LTF_BASE + at.LTF_FREQ_HZ, at.LTF_STRIDE, not_negative),
-                    eight, "Set the highest rate of a limiter; 0 is none.", "pulses/s"),
+                    eight, "Set the highest rate of a limiter; 0 is no limit.", "pulses/s"),
         ObjectValue("LIMIT # MULT", real(at.LTF_BASE + at.LTF_MULT, at.LTF_STRIDE),
                     eight, "Multiply the counts of a limiter.", "", "1"),
         ObjectValue("PLS # MASK", Setting(LONG, at.PSI_BASE + at.PSI_MASK, at.PSI_STRIDE),
@@ -171,8 +171,8 @@ def pls_res(run: Run, number: int, index: float | None) -> None:
     memory = run.card.memory
     row = at.PSF_BASE + number * at.PSF_STRIDE
     now = sources.value(run.card, SWITCH_TAPS + number)
-    behind = (index or 0.0) / memory.F[row + at.PSF_RATIO]
-    memory.F[row + at.PSF_BASE_CNT] = now + memory.F[row + at.PSF_FLZ_CNT] - behind
+    offset = (index or 0.0) / memory.F[row + at.PSF_RATIO]
+    memory.F[row + at.PSF_BASE_CNT] = now + memory.F[row + at.PSF_FLZ_CNT] - offset
 
 
 @command("PLS # ON", group=GROUP, levels=ANY, ref=REF)

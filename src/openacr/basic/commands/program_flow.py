@@ -123,12 +123,12 @@ def goto(run: Run, *_: object) -> None:
     emit=emit_jump(vm.DO_GOSUB, vm.DO_GOSUB_LINE),
 )
 def gosub(run: Run, *_: object) -> None:
-    """Execute a subroutine; RETURN comes back behind this statement."""
+    """Execute a subroutine; RETURN continues after this statement."""
 
 
 @command("RETURN", group=GROUP, levels=PROG, use=PROGRAM, ref=REF, emit=emit_op(vm.DO_RETURN))
 def return_(run: Run) -> None:
-    """Go back behind the latest GOSUB."""
+    """Continue after the latest GOSUB."""
 
 
 @command("END", group=GROUP, levels=PROG, use=PROGRAM, ref=REF, emit=emit_op(vm.DO_END))

@@ -39,7 +39,7 @@ def spline_end(run: Run) -> Wait | None:
 
 @command("SK", group=GROUP, levels=PROG, grammar=(Num("seconds"),), ref=REF, units="s", move=True)
 def sk(run: Run, knot: float) -> tuple[Given, ...]:
-    """Set the time of the way to this point of a spline; a negative one ends it."""
+    """Set the time of the segment to this point of a spline; a negative one ends it."""
     return (MoveOptions(knot=knot, family=Family.SPLINE),)
 
 

@@ -18,7 +18,7 @@ def own(run: Run) -> int | None:
 
 
 def needed_own(run: Run) -> int:
-    """The same; at SYS there is none and the command is unknown."""
+    """The program or PLC whose prompt this is; `Unknown command` at SYS."""
     owner = own(run)
     if owner is None:
         raise CardError(UNKNOWN_COMMAND)
@@ -34,7 +34,7 @@ def named(target: ObjectRef) -> int:
 
 
 def owners(run: Run, target: ObjectRef | None) -> tuple[int, ...]:
-    """Everybody a command acts on, lowest first."""
+    """All programs and PLCs a command acts on, lowest number first."""
     if target is None:
         return (needed_own(run),)
     if target.word == "ALL":

@@ -57,14 +57,14 @@ def trg_off(run: Run) -> None:
     units="units",
 )
 def hsint(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
-    """Move to a target; a capture in the window leads to a way behind it instead."""
+    """Move to a target; a capture in the window replaces it by a distance from the capture."""
     program = run.needed_program()
     master = moves.needed_master(run.card, program)
     if len(axes) != 1:
         raise CardError(INVALID_ARGUMENT)
     (item,) = axes
     left_out = (0.0, 0.0, float(NO_FLAG))
-    mode, target, way, window, start, abort = item.values + left_out[len(item.values) - 3 :]
+    mode, target, distance, window, start, abort = item.values + left_out[len(item.values) - 3 :]
     if not 0 <= mode <= LAST_CAPTURE_MODE or window < 0 or start < 0:
         raise CardError(INVALID_ARGUMENT)
     if not moves.has_room(run.card, master):
@@ -74,7 +74,7 @@ def hsint(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
         program,
         Target(item.axis.number, target),
         int(mode),
-        way,
+        distance,
         (window, start),
         None if abort == NO_FLAG else flag_state(run, BitState(whole(abort))),
     )

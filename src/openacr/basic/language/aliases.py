@@ -110,7 +110,7 @@ def read_target(p: Parser) -> Expr:
 def check_name(name: str, *, has_digits: bool = False) -> None:
     """Refuse a name that is too long, not of letters only, or a word of the language.
 
-    With digits behind the first letter a name may not read as a word and its number, as
+    With digits after the first letter a name may not read as a word and its number, as
     `P12` and `SET32` do.
     """
     allowed = name.isalnum() and name[0].isalpha() if has_digits else name.isalpha()

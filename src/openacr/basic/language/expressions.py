@@ -69,7 +69,7 @@ class ExpressionParser:
         return self.tokens[self.position]
 
     def ahead(self, count: int) -> Token:
-        """The token `count` places behind the cursor."""
+        """The token `count` places after the cursor."""
         return self.tokens[min(self.position + count, len(self.tokens) - 1)]
 
     def advance(self) -> Token:
@@ -273,15 +273,17 @@ class ExpressionParser:
             return Number(token.value)
         return self._subscript()
 
-    # values behind a command word
+    # values after a command word
 
     @property
     def at_value(self) -> bool:
         """Whether a number, a signed number, a variable or `(expr)` begins here."""
         if self.token.kind is TokenKind.OPERATOR and self.token.value in ("-", "+"):
-            behind = self.ahead(1)
+            following = self.ahead(1)
             return (
-                behind.kind is TokenKind.NUMBER or behind.value == "(" or self._names_number(behind)
+                following.kind is TokenKind.NUMBER
+                or following.value == "("
+                or self._names_number(following)
             )
         return self.at_object_index or self._names_number(self.token)
 

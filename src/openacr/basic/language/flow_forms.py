@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Conditional:
-    """What stands behind THEN."""
+    """The rest of the line after THEN."""
 
     blocks: tuple[Block, ...]
 

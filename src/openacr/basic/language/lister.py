@@ -1,7 +1,7 @@
 """Write stored lines as LIST shows them: from their tokens, in one spelling for all.
 
 Reading a listed line gives the same tokens again. Words of the language are upper case
-with one blank behind, axes and variables stand before their value without one, numbers
+followed by one blank, axes and variables stand before their value without one, numbers
 keep their value, remarks and strings stay as they were typed.
 """
 
@@ -190,7 +190,7 @@ def _depth_change(tokens: Iterable[Token]) -> int:
 
 @lru_cache(maxsize=1)
 def _vocabulary_of(commands: int) -> tuple[frozenset[str], frozenset[str]]:
-    """The vocabulary while there are so many commands."""
+    """The vocabulary, cached until the number of commands changes."""
     return _vocabulary()
 
 

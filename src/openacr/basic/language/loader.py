@@ -122,27 +122,27 @@ def _numbered(text: str) -> list[FileLine]:
 def _joined(lines: list[FileLine]) -> list[FileLine]:
     """Lines that a page width has broken, put together again."""
     joined: list[FileLine] = []
-    behind = 0
-    while behind < len(lines):
-        line, behind = _whole(lines, behind)
+    following = 0
+    while following < len(lines):
+        line, following = _whole(lines, following)
         joined.append(line)
     return joined
 
 
 def _whole(lines: list[FileLine], first: int) -> tuple[FileLine, int]:
-    """A line with its rest, and the place of the line behind it.
+    """A line with its rest, and the index of the line after it.
 
     What stays open however many lines are added was not broken: it is a mistake of its line.
     """
     begun = lines[first]
-    text, behind, is_open = begun.text, first + 1, _role(begun.shape).is_open
-    while is_open and behind < len(lines) and _continues(text, lines[behind].text):
-        text = f"{text} {lines[behind].text.lstrip()}"
-        behind += 1
+    text, following, is_open = begun.text, first + 1, _role(begun.shape).is_open
+    while is_open and following < len(lines) and _continues(text, lines[following].text):
+        text = f"{text} {lines[following].text.lstrip()}"
+        following += 1
         is_open = _scan(text).is_open
-    if is_open or behind == first + 1:
+    if is_open or following == first + 1:
         return begun, first + 1
-    return FileLine(begun.number, text, shape(text)), behind
+    return FileLine(begun.number, text, shape(text)), following
 
 
 def _continues(text: str, following: str) -> bool:
@@ -197,7 +197,7 @@ def _is_program_text(code: str) -> bool:
 
 
 def _flow_blocks(code: str) -> list[str]:
-    """The blocks of a line, those behind THEN excluded: they belong to the one-line IF."""
+    """The blocks of a line, those after THEN excluded: they belong to the one-line IF."""
     match = _ONE_LINE_IF.search(code)
     return (code[: match.start()] if match else code).split(":")
 

@@ -201,7 +201,7 @@ class Prefix:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """One command with what was written behind it, as its grammar read it."""
+    """One command with its arguments, as its grammar read them."""
 
     command: Command
     arguments: tuple[object, ...] = ()

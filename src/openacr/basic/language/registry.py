@@ -270,7 +270,7 @@ def keywords() -> frozenset[str]:
 
 @lru_cache(maxsize=1)
 def _keywords(command_words: int, function_words: int) -> frozenset[str]:
-    """The keywords while there are so many commands and functions."""
+    """The keywords, cached until the number of commands or functions changes."""
     first = {word for word in root.children if word.isalpha()}
     return frozenset(first | set(functions) | VARIABLES | OPERATORS | CLAUSES)
 

@@ -34,12 +34,12 @@ def join_names(found: list[Token], names: frozenset[str]) -> None:
     for at, first in enumerate(found):
         if first.kind is not TokenKind.WORD:
             continue
-        run, name, behind = "", "", at
+        run, name, stop = "", "", at
         for end in range(at, len(found)):
             if found[end].kind not in _NAME_PARTS or found[end].column != first.column + len(run):
                 break
             run += found[end].text
             if run in names:  # the longest counts
-                name, behind = run, end + 1
+                name, stop = run, end + 1
         if name:
-            found[at:behind] = [Token(TokenKind.WORD, name, name.upper(), first.line, first.column)]
+            found[at:stop] = [Token(TokenKind.WORD, name, name.upper(), first.line, first.column)]

@@ -15,7 +15,7 @@ _CODE = re.compile(r"`([^`]+)`")
 
 
 def syntax(row: Command) -> str:
-    """The words of a command and what stands behind them; `{}` may be left out."""
+    """The words of a command and its arguments; `{}` may be left out."""
     words = " ".join("n" if word == INDEX else word for word in row.words)
     parts = [words, *(_optional(form) for form in row.grammar)]
     return re.sub(r"\b([A-Z]+) n\b", r"\1n", " ".join(part for part in parts if part))
@@ -88,7 +88,7 @@ def form(each: forms.Form) -> str:
             target = form(each.group) if each.group else "{/}target"
             return f"axis{target} ..."
         case forms.AxisList():
-            return f"axis{_behind(each.each)} ..."
+            return f"axis{_argument(each.each)} ..."
         case forms.Bits():
             return "bit ..."
         case forms.Bit() | forms.ParameterName():
@@ -150,7 +150,7 @@ def _optional(each: forms.Form) -> str:
     return f"{{{text}}}" if each.optional else text
 
 
-def _behind(each: forms.Form | None) -> str:
+def _argument(each: forms.Form | None) -> str:
     if each is None:
         return ""
     return (

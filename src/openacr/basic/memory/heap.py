@@ -63,7 +63,7 @@ ARRAYS = (
 
 @dataclass(frozen=True, slots=True, order=True)
 class _Block:
-    """A used stretch of the heap, in words."""
+    """A used block of the heap, in words."""
 
     start: int
     words: int
@@ -166,7 +166,7 @@ class Heap:
         return self.row(program, kind.base_row) + index
 
     def _allocate(self, words: int, *, phase: int, step: int) -> int:
-        """First zeroed stretch of `words` whose start is `phase` modulo `step`."""
+        """First zeroed block of `words` whose start is `phase` modulo `step`."""
         start = _FIRST + (phase - _FIRST) % step
         for block in sorted(self._blocks()):
             if start + words <= block.start:

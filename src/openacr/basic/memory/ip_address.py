@@ -46,13 +46,13 @@ class IpAddress:
 
     @property
     def is_mask(self) -> bool:
-        """Whether no one stands behind a zero."""
+        """Whether no one bit follows a zero bit."""
         zeros = self.number ^ 0xFFFFFFFF
         return zeros & zeros + 1 == 0
 
     @property
     def is_private(self) -> bool:
-        """Whether the address is free for everybody's own network."""
+        """Whether the address belongs to a range for private networks."""
         return any(self.number >> 32 - bits == network for network, bits in _PRIVATE)
 
     def subnet(self, mask: IpAddress) -> str:

@@ -219,6 +219,6 @@ def line_number(token: Token) -> int:
 
 
 def opens_capture(text: str) -> str | None:
-    """What stands behind PROGRAM on the line that opens free-form entry; None for others."""
+    """The rest after PROGRAM on a line that opens free-form entry; None for other lines."""
     match = _PROGRAM.fullmatch(text.strip())
     return match[1] if match else None

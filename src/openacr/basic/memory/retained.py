@@ -6,9 +6,9 @@ from openacr.map.memory import Memory
 LONG_VARIABLES = (at.USRI_BASE, at.USRS_BASE + at.USRS_COUNT)  # LONG, then FP32
 _WORD_BYTES = 4
 
-# Stretches of the I view: user variables, their count, dimensions, and the heap with
+# Ranges of the I view: user variables, their count, dimensions, and the heap with
 # everything programs have dimensioned.
-_STRETCHES = (
+_RANGES = (
     LONG_VARIABLES,
     (2 * at.USER_BASE, 2 * (at.USER_BASE + at.USER_COUNT)),
     (at.SYSI_BASE + at.SYSI_P_COUNT, at.SYSI_BASE + at.SYSI_P_COUNT + 1),
@@ -20,10 +20,10 @@ _STRETCHES = (
 
 def take(memory: Memory) -> list[memoryview]:
     """A copy of what is kept."""
-    return [memoryview(memory.I[a:b].tobytes()).cast("i") for a, b in _STRETCHES]
+    return [memoryview(memory.I[a:b].tobytes()).cast("i") for a, b in _RANGES]
 
 
 def put_back(memory: Memory, kept: list[memoryview]) -> None:
     """Write it into the memory of the restarted card."""
-    for (a, b), content in zip(_STRETCHES, kept, strict=True):
+    for (a, b), content in zip(_RANGES, kept, strict=True):
         memory.I[a:b] = content

@@ -2,7 +2,7 @@
 
 A program is compiled as a whole when it is started: labels, line numbers and the levels
 of IF, FOR and WHILE are tied together then, and what does not fit together is reported
-with its line. A line typed at a prompt takes the same way.
+with its line. A line typed at a prompt is compiled in the same way.
 """
 
 from __future__ import annotations

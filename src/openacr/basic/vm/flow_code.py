@@ -17,10 +17,10 @@ def emit_if(e: Emitter, statement: Statement) -> None:
     """IF: with THEN a conditional rest of the line, else the beginning of a level."""
     condition, then = statement.arguments
     if isinstance(then, Conditional):
-        behind = e.place()
-        _condition(e, condition, behind)
+        after_line = e.place()
+        _condition(e, condition, after_line)
         e.blocks(then.blocks)
-        e.put(behind)
+        e.put(after_line)
         return
     level = e.open(flow.FLOW_IF)
     e.op(vm.DO_ENTER, flow.FLOW_IF, level.start, level.stop)
@@ -36,7 +36,7 @@ def _condition(e: Emitter, condition: Any, otherwise: Any) -> None:
 
 
 def _next_branch(e: Emitter, *, is_last: bool) -> CodeLevel:
-    """End one branch of an IF: jump behind the level, and begin the next branch."""
+    """End one branch of an IF: jump past the level, and begin the next branch."""
     level = e.levels.branch(e.line_number, is_last=is_last)
     e.op(vm.DO_JUMP, level.stop)
     if level.next_branch is not None:

@@ -80,7 +80,7 @@ def unwind(I: I32, rows: int, target: int) -> None:
 
 
 def return_level(I: I32, rows: int) -> int:
-    """Pop up to the latest GOSUB and give the place behind it, or -1."""
+    """Pop up to the latest GOSUB and give the place after it, or -1."""
     depth: int = I[rows + THI_DEPTH] - 1
     while depth >= 0:
         if I[rows + THI_FLOW_KIND + depth] == FLOW_GOSUB:

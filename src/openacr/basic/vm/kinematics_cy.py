@@ -1,4 +1,4 @@
-"""INVK: the joints of a master, computed by a program of the user behind every tick.
+"""INVK: the joints of a master, computed by a user program after every tick.
 
 The path of the master is that of the tool. Whenever it has moved, the coordinated
 positions of the slaves go to their INVK Input in units, the program runs once from its

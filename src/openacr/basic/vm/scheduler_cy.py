@@ -132,7 +132,7 @@ def scheduler_step(F: F64, I: I32, S: F32, code: I32, nums: F64, tick: int) -> i
 
 
 def begin_slice(F: F64, I: I32) -> None:
-    """Choose who owns the next slice and give everybody fresh statements."""
+    """Choose who owns the next slice and give every thread fresh statements."""
     thread: int = next_owner(I)
     I[SCHI_BASE + SCHI_TICKS_LEFT] = slice_ticks(F[SYSF_BASE + SYSF_PERIOD_S])
     I[SCHI_BASE + SCHI_THREAD] = thread

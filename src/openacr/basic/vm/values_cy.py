@@ -107,7 +107,7 @@ def element_place(I: I32, program: int, kind: int, array: float, index: float) -
     """Where an array element lies in the view of its kind, or minus an error number.
 
     The table of references leads to a header that holds the number of elements; they
-    follow behind it, those of DA aligned for the float64 view.
+    follow it, those of DA aligned for the float64 view.
     """
     rows: int = STI_BASE + program * STI_STRIDE
     which: int = whole_index(array)

@@ -55,7 +55,7 @@ def _bytes(text: str) -> bytes:
 def _packets(
     data: bytes, mode: BinaryMode, *, is_reply: bool
 ) -> Iterator[tuple[Packet, list[Part]]]:
-    """The packets that stand one behind the other in `data`."""
+    """The packets in `data`, one directly after the other."""
     at = 0
     while at < len(data):
         packet, used = _first(data, at, mode)

@@ -104,15 +104,15 @@ def lines_of(found: list[Loop], width: int) -> list[str]:
     lines: list[str] = []
     first = 0
     while first < len(columns):
-        behind = first + 1
-        while behind < len(columns) and LABELS + sum(widths[first : behind + 1]) <= width:
-            behind += 1
+        stop = first + 1
+        while stop < len(columns) and LABELS + sum(widths[first : stop + 1]) <= width:
+            stop += 1
         for row, name in enumerate(("", *NAMES)):
-            cells = zip(columns[first:behind], widths[first:behind], strict=True)
+            cells = zip(columns[first:stop], widths[first:stop], strict=True)
             shown = "".join(f"{column[row]:>{room}}" for column, room in cells)
             lines.append(f"{name:<{LABELS}}{shown}")
         lines.append("")
-        first = behind
+        first = stop
     lines += [f"axis {one.axis} has no output: {one.no_output}" for one in found if one.no_output]
     return lines
 

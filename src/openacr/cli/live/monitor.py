@@ -32,7 +32,7 @@ def monitor(
     axis: Annotated[list[int] | None, typer.Option(min=0, max=AXES - 1, help="An axis.")] = None,
     every: Annotated[float, typer.Option(min=0.0, help="Time between samples [s].")] = 0.2,
     duration: Annotated[
-        float | None, typer.Option("--for", metavar="SECONDS", help="End after so many seconds.")
+        float | None, typer.Option("--for", metavar="SECONDS", help="End after this time [s].")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object per sample.")] = False,
     baud: Baud = 38400,

@@ -121,7 +121,7 @@ def _limit(word: int, first: int, side: int, name: str, is_on: bool) -> Limit:
 
 
 def _encoder(card: "Card", axis: int) -> int:
-    """The encoder that tells the position of an axis; its own number where it is none."""
+    """The encoder attached as position feedback of an axis; without one, the axis number."""
     words = next(
         (line.split() for line in card.command("ATTACH") if line.startswith(f"ATTACH AXIS{axis} ")),
         ["", "", ""],

@@ -20,6 +20,7 @@ from openacr.cli.live.online import (
     progress_bar,
 )
 from openacr.errors import UserError, unwritable
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.client import Card, Level
@@ -94,4 +95,4 @@ def _write(path: Path, text: str) -> None:
         path.write_text(text, encoding="latin-1", newline="\n")
     except OSError as failure:
         raise unwritable(path, failure) from None
-    typer.echo(f"{path}: {len(text.splitlines())} lines")
+    typer.echo(f"{path}: {counted(len(text.splitlines()), 'line')}")

@@ -1,1 +1,1 @@
-"""`openacr mill ...`: part programs checked, drawn, timed and run; the machine by hand."""
+"""`openacr mill ...`: check, draw, time and run part programs; operate the machine by hand."""

@@ -1,4 +1,4 @@
-"""`openacr mill ballscrew`: tables that compensate what the screws of a machine get wrong."""
+"""`openacr mill ballscrew`: tables that compensate errors of ballscrews."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -8,6 +8,7 @@ import typer
 from openacr.cli.mill.check import AtStore
 from openacr.cli.sysvar.change import Password, require_service
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.mill.card.ballscrew import Table
@@ -22,7 +23,7 @@ def import_table(
     store: AtStore = None,
     password: Password = None,
 ) -> None:
-    """Check the table of an axis, keep it beside the store and switch it on."""
+    """Check the table of an axis, copy it beside the store and switch it on."""
     from openacr.cli.run.output import require_writable, write_text
     from openacr.mill.card.ballscrew import read
     from openacr.sysvar.location import open_to_write
@@ -38,17 +39,17 @@ def import_table(
         with cells.transaction():
             cells.write_text(OFFSETS.ballscrew_file[number], kept.name)
             cells.write(OFFSETS.ballscrew_on[number], 1)
-    typer.echo(f"{kept}: {_summary(table)}; it acts from the next start")
+    typer.echo(f"{kept}: {_summary(table)}; active from the next start")
 
 
 def export_table(
     axis: OfAxis,
     file: Annotated[
-        Path | None, typer.Argument(metavar="[FILE]", help="File; else standard output.")
+        Path | None, typer.Argument(metavar="[FILE]", help="Output file; default: standard output.")
     ] = None,
     store: AtStore = None,
 ) -> None:
-    """Write the table of an axis, which the store names, to a file."""
+    """Write the ballscrew table of an axis to a file."""
     from openacr.mill.card.ballscrew import read
     from openacr.sysvar.location import open_to_read
     from openacr.sysvar.tabs import OFFSETS
@@ -68,19 +69,20 @@ def make_table(
     axis: OfAxis,
     file: Annotated[
         Path,
-        typer.Argument(metavar="MEASURED", help="Lines of a position and what was measured there."),
+        typer.Argument(
+            metavar="MEASURED", help="File of positions, each with its measured values."
+        ),
     ],
-    home: Annotated[
-        float, typer.Option("--home", help="Where the reference point lies among the positions.")
-    ] = 0.0,
+    home: Annotated[float, typer.Option("--home", help="Position of the reference point.")] = 0.0,
     out: Annotated[
-        Path | None, typer.Option("--out", "-o", metavar="FILE", help="File; else standard output.")
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE", help="Output file; default: standard output."),
     ] = None,
     store: AtStore = None,
 ) -> None:
-    """Make the table of an axis from measurements of its positions.
+    """Compute the table of an axis from measured positions.
 
-    An entry is the setpoint minus the mean of what was measured there.
+    An entry is the setpoint minus the mean of its measured values.
     """
     from openacr.mill.card.ballscrew import measured
     from openacr.sysvar.location import open_to_read
@@ -97,7 +99,7 @@ def _axis(cells: "Store", axis: str) -> tuple[int, str]:
     letters = axes_of(cells)
     name = axis.strip().upper()
     if name not in letters:
-        raise UserError(f"axis {axis} is not configured: {' '.join(letters)} are")
+        raise UserError(f"axis {axis} is not configured; configured are {' '.join(letters)}")
     return letters[name], name
 
 
@@ -119,5 +121,6 @@ def _give(table: "Table", file: Path | None) -> None:
 
 def _summary(table: "Table") -> str:
     first, last = table.entries[0][0], table.entries[-1][0]
+    positions = counted(len(table.entries), "position")
     largest = max(abs(error) for _, error in table.entries)
-    return f"{len(table.entries)} positions from {first:g} to {last:g}, largest error {largest:g}"
+    return f"{positions} from {first:g} to {last:g}, largest error {largest:g}"

@@ -1,4 +1,4 @@
-"""`openacr mill check` and `time`: what a part program does, without a machine."""
+"""`openacr mill check` and `time`: analysis of a part program without a machine."""
 
 import json as json_format
 from contextlib import contextmanager
@@ -10,6 +10,7 @@ import typer
 from openacr.cli.mill.trace import Every, ToTrace, require_trace, trace_file
 from openacr.errors import UserError, unreadable
 from openacr.project import require_text
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 FAILED = 1
 S_PER_MIN = 60
 CONTEXT_COLUMNS = 72
-BEGINNING_BYTES = 65536  # what is looked at to tell text from other files
+BEGINNING_BYTES = 65536  # examined to tell text from other files
 TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
 
 PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
@@ -32,12 +33,12 @@ AtStore = Annotated[
     typer.Option(
         "--store",
         metavar="PATH",
-        help="File of the store (else OPENACR_STORE, else in the data folder of the user).",
+        help="File of the store; default: OPENACR_STORE, then the data folder of the user.",
     ),
 ]
 Dialect = Annotated[
     str | None,
-    typer.Option(help="acromill, rs274ngc or auto; else as the file, the store or its signs say."),
+    typer.Option(help="acromill, rs274ngc or auto; default: from the file, the store or features."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes without effect.")]
@@ -45,7 +46,7 @@ Dry = Annotated[bool, typer.Option("--dry", help="DRY RUN: trial speed, M codes 
 
 @contextmanager
 def opened_store(path: Path | None, *, is_written: bool = False) -> "Iterator[Store]":
-    """The store a machine is described by; made where it is not there only to be written."""
+    """Open the store of a machine; it is created only for writing."""
     from openacr.sysvar.location import open_to_read, open_to_write
 
     with (open_to_write if is_written else open_to_read)(path) as store:
@@ -53,9 +54,9 @@ def opened_store(path: Path | None, *, is_written: bool = False) -> "Iterator[St
 
 
 def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", str]:
-    """A program with everything that belongs to it, and the name of its dialect.
+    """Load a program with its macros; returns it and the name of its dialect.
 
-    A dialect that was chosen by the signs in the file is said on the error output.
+    An unusual dialect found by the features of the file is reported on standard error.
     """
     from openacr.cnc.loading.load import load
     from openacr.mill.config.dialects import choose
@@ -73,7 +74,7 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
 def require_file(file: Path) -> None:
     """Refuse a part program that cannot be read."""
     if file.is_dir():
-        raise UserError(f"{file}: it is a folder, not a part program")
+        raise UserError(f"{file}: this is a folder, not a part program")
     if not file.exists():
         raise UserError(f"{file}: no such file")
     try:
@@ -85,7 +86,7 @@ def require_file(file: Path) -> None:
 
 
 def printable(text: str) -> str:
-    """A line as a terminal may show it: what would steer the terminal is a question mark."""
+    """A line safe for a terminal: control characters become question marks."""
     return "".join(letter if letter.isprintable() else "?" for letter in text.expandtabs(1))
 
 
@@ -106,7 +107,7 @@ def check_program(
     dialect: Dialect = None,
     as_json: AsJson = False,
 ) -> None:
-    """Find every error of a part program, and say what it does."""
+    """Find all errors of a part program, and summarize what it does."""
     with opened_store(store) as cells:
         left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
@@ -129,13 +130,13 @@ def time_program(
     dialect: Dialect = None,
     is_dry: Dry = False,
     is_exact: Annotated[
-        bool, typer.Option("--exact", help="G64 P goes exactly through corners, as on a real card.")
+        bool, typer.Option("--exact", help="Ignore the tolerance of G64 P, as a real card does.")
     ] = False,
     as_json: AsJson = False,
     trace: ToTrace = None,
     every_s: Every = None,
 ) -> None:
-    """Predict how long a part program runs, from the plan of its moves."""
+    """Predict the run time of a part program from the plan of its moves."""
     require_trace(trace, every_s)
     with opened_store(store) as cells:
         left_out = _left_out(cells)
@@ -162,7 +163,7 @@ def time_program(
 
 @contextmanager
 def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Iterator[Reader | None]":
-    """What samples the plan of a program into a trace, where one is wanted."""
+    """A sampler that writes the plan of a program to a trace, if one is requested."""
     if path is None:
         yield None
         return
@@ -177,7 +178,7 @@ def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Itera
 
 
 def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey, Prediction]":
-    """A program read once, with what the machine of the store would say to its moves."""
+    """Read a program once, and check its moves against the machine of the store."""
     from openacr.mill.config.settings import Settings
     from openacr.mill.plan.preflight import Preflight
 
@@ -221,7 +222,7 @@ def _times(prediction: "Prediction") -> dict[str, float]:
 
 
 def _left_out(cells: "Store") -> dict[str, list[str]]:
-    """Settings of the machine that the prediction of the time leaves out."""
+    """Machine settings that the predicted time does not include."""
     from openacr.sysvar.tabs import SPEEDS
 
     jerk = f"Path jerk (P{SPEEDS.path_jerk})"
@@ -230,7 +231,7 @@ def _left_out(cells: "Store") -> dict[str, list[str]]:
 
 def _note_left_out(record: dict[str, list[str]]) -> None:
     for name in record["time_without"]:
-        typer.echo(f"note: the time is that without {name}; the run takes longer", err=True)
+        typer.echo(f"note: the time does not include {name}; the run takes longer", err=True)
 
 
 def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:
@@ -242,13 +243,27 @@ def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:
 def _show_survey(survey: "Survey", prediction: "Prediction") -> None:
     counts = survey.move_cnts
     typer.echo(
-        f"{survey.line_cnt} lines, {len(survey.errors)} errors, {len(survey.warnings)} warnings"
+        ", ".join(
+            (
+                counted(survey.line_cnt, "line"),
+                counted(len(survey.errors), "error"),
+                counted(len(survey.warnings), "warning"),
+            )
+        )
     )
     if survey.errors:
         return
     typer.echo(
-        f"moves: {counts['feed']} lines, {counts['arc']} arcs, {counts['rapid']} rapids,"
-        f" {counts['dwell']} dwells"
+        "moves: "
+        + ", ".join(
+            counted(counts[kind], noun)
+            for kind, noun in (
+                ("feed", "line"),
+                ("arc", "arc"),
+                ("rapid", "rapid"),
+                ("dwell", "dwell"),
+            )
+        )
     )
     lengths, unit = survey.shown_lengths, survey.unit
     typer.echo(
@@ -264,7 +279,7 @@ def _show_survey(survey: "Survey", prediction: "Prediction") -> None:
 
 
 def clock(seconds: float) -> str:
-    """A time as people read it."""
+    """A time as h:mm:ss or m:ss."""
     minutes, rest = divmod(round(seconds), S_PER_MIN)
     hours, minutes = divmod(minutes, S_PER_MIN)
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

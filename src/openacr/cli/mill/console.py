@@ -17,14 +17,14 @@ STEP_S = 0.05
 
 
 class Console:
-    """Executes the lines an operator types, one command each."""
+    """Executes the commands typed at the console, one per line."""
 
     def __init__(self, source: TextIO | None = None, lines: Lines | None = None) -> None:
         self._lines = lines or Lines(source)
         self._shown = ""
 
     def attend(self, shop: "MillSession") -> None:
-        """Do what was typed, say what changed; the virtual machine runs in real time."""
+        """Execute typed commands and report changes; the virtual machine runs in real time."""
         while (line := self._lines.take()) is not None:
             self._do(shop.runner, line)
         self._show(shop.runner)
@@ -44,7 +44,7 @@ class Console:
             typer.echo(f"{line}: {error}", err=True)
 
     def _require_unattended(self, runner: "Runner") -> None:
-        """Behind the last line, the program has to run by itself."""
+        """Check after the last line that the program needs no operator."""
         from openacr.mill.run.lifecycle import State
 
         is_asking = runner.asking is not None or runner.entry_actions.changer.wants_confirmation
@@ -52,7 +52,7 @@ class Console:
         if is_held or is_asking:
             reason = runner.reason or runner.state.name
             runner.abort()
-            raise UserError(f"{reason}: no operator is at the console to go on")
+            raise UserError(f"{reason}: no operator at the console to continue")
 
     def _show(self, runner: "Runner") -> None:
         up = "; ".join(alarm.text for alarm in runner.alarms.active)
@@ -72,29 +72,31 @@ class Row(NamedTuple):
 
 COMMANDS = {
     "stop": Row("", "feed hold", lambda runner, _: runner.stop()),
-    "resume": Row("", "go on with the path where it was held", lambda runner, _: runner.resume()),
-    "start": Row("", "go on from a hold or a pause", lambda runner, _: runner.start()),
+    "resume": Row("", "continue the path where it was held", lambda runner, _: runner.resume()),
+    "start": Row("", "continue from a hold or a pause", lambda runner, _: runner.start()),
     "abort": Row("", "end the program", lambda runner, _: runner.abort()),
     "acknowledge": Row("", "clear alarms", lambda runner, _: runner.acknowledge()),
     "confirm": Row(
-        "", "the tool is changed", lambda runner, _: runner.entry_actions.changer.confirm()
+        "", "confirm the tool change", lambda runner, _: runner.entry_actions.changer.confirm()
     ),
     "block": Row(
         "",
-        "stop behind every block, or not",
+        "switch single block on or off",
         lambda runner, _: runner.block(not runner.options.is_single),
     ),
-    "back": Row("", "held: back along the path", lambda runner, _: runner.trace(-1)),
-    "forward": Row("", "held: forward again", lambda runner, _: runner.trace(1)),
-    "halt": Row("", "held: come to rest on the path", lambda runner, _: runner.trace(0)),
-    "answer": Row("VALUE", "to an INPUT", lambda runner, value: runner.answer(number_in(value))),
+    "back": Row("", "in a pause: back along the path", lambda runner, _: runner.trace(-1)),
+    "forward": Row("", "in a pause: forward again", lambda runner, _: runner.trace(1)),
+    "halt": Row("", "in a pause: stop on the path", lambda runner, _: runner.trace(0)),
+    "answer": Row(
+        "VALUE", "answer an INPUT", lambda runner, value: runner.answer(number_in(value))
+    ),
     "fov": Row("CLICK", "feed override", lambda runner, value: _choose(runner, "FEED", value)),
     "rov": Row("CLICK", "rapid override", lambda runner, value: _choose(runner, "RAPID", value)),
     "sov": Row(
         "CLICK", "spindle override", lambda runner, value: _choose(runner, "SPINDLE", value)
     ),
 }
-"""What may be typed, by name."""
+"""The console commands, by name."""
 
 COMMAND_LIST = ", ".join(
     f"{f'{name} {row.value}'.strip()} ({row.meaning})" for name, row in COMMANDS.items()
@@ -110,11 +112,11 @@ def _choose(runner: "Runner", name: str, click: str) -> None:
 
 
 def command(words: list[str]) -> Callable[["Runner"], object]:
-    """What a line means: a command, with its value where it has one: fov 7."""
+    """Parse a line: a command, with its value if it takes one, such as fov 7."""
     name, *rest = words
     row = COMMANDS.get(name)
     if row is None or len(rest) != bool(row.value):
         known = ", ".join(f"{name} {row.value}".strip() for name, row in COMMANDS.items())
-        raise UserError(f"no such command; there are {known}")
+        raise UserError(f"unknown command; commands are {known}")
     value = rest[0] if rest else ""
     return lambda runner: row.act(runner, value)

@@ -1,4 +1,4 @@
-"""`openacr mill dialect`: which language a part program is read in, and why."""
+"""`openacr mill dialect`: the dialect of a part program, and the reason."""
 
 import json as json_format
 
@@ -10,7 +10,7 @@ from openacr.cli.mill.check import AsJson, AtStore, Dialect, PartProgram, opened
 def show_dialect(
     file: PartProgram, store: AtStore = None, dialect: Dialect = None, as_json: AsJson = False
 ) -> None:
-    """Say in which dialect a part program would be read, and what points to it."""
+    """Show the dialect in which a part program would be read, and the reason."""
     from openacr.mill.config.dialects import choose
 
     require_file(file)

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from openacr.cnc.dxf import Conversion, Options
     from openacr.sysvar import Store
 
-NO_DEPTH = "the path is cut at Z0: --cut-z says how deep"
+NO_DEPTH = "the path is cut at Z0: set the depth with --cut-z"
 
 
 class Direction(StrEnum):
-    """The way around closed chains, by name or as the guide numbers it."""
+    """Direction around closed chains, by name or by its number in the guide."""
 
     CW = "cw"
     CCW = "ccw"
@@ -32,21 +32,25 @@ def import_drawing(
         Path | None,
         typer.Argument(
             metavar="[FILE.dxf]",
-            help="A drawing; without it those here are listed.",
+            help="Drawing; without it the drawings here are listed.",
         ),
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", "-o", metavar="FILE.TXT", help="Program; else beside the drawing."),
+        typer.Option(
+            "--out", "-o", metavar="FILE.TXT", help="Program; default: beside the drawing."
+        ),
     ] = None,
     is_drill: Annotated[
-        bool, typer.Option("--drill", help="Drill points and circle centres; else cut the path.")
+        bool, typer.Option("--drill", help="Drill points and circle centres instead of cutting.")
     ] = False,
     direction: Annotated[
         Direction,
-        typer.Option("--direction", help="Of closed chains: 0 = cw, 1 = ccw.", show_choices=True),
+        typer.Option(
+            "--direction", help="Direction of closed chains: 0 = cw, 1 = ccw.", show_choices=True
+        ),
     ] = Direction.CW,
-    layer: Annotated[str, typer.Option("--layer", help="One layer alone; else all.")] = "",
+    layer: Annotated[str, typer.Option("--layer", help="Only this layer; default: all.")] = "",
     epsilon: Annotated[
         float | None, typer.Option("--epsilon", help="Ends closer than this are joined.")
     ] = None,
@@ -54,7 +58,7 @@ def import_drawing(
         float | None, typer.Option("--safe-height", help="Z between chains and holes.")
     ] = None,
     cut_z: Annotated[
-        float | None, typer.Option("--cut-z", help="Z of the path; else 0, the surface.")
+        float | None, typer.Option("--cut-z", help="Z of the path; default: 0, the surface.")
     ] = None,
     drill_z: Annotated[float | None, typer.Option("--drill-z", help="Bottom of holes.")] = None,
     drill_r: Annotated[float | None, typer.Option("--drill-r", help="R level of holes.")] = None,
@@ -63,10 +67,10 @@ def import_drawing(
     ] = None,
     tool: Annotated[
         int,
-        typer.Option("--tool", metavar="D", help="Compensate closed chains for radius D; 0: not."),
+        typer.Option("--tool", metavar="D", help="Compensate closed chains for radius D; 0: off."),
     ] = 0,
     lead: Annotated[
-        float | None, typer.Option("--lead", help="Radius of ways in and out, with --tool.")
+        float | None, typer.Option("--lead", help="Radius of lead-in and lead-out, with --tool.")
     ] = None,
     store: Annotated[
         Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
@@ -75,11 +79,11 @@ def import_drawing(
         bool, typer.Option("--ask", help="Ask for the name of the program.")
     ] = False,
     is_forced: Annotated[
-        bool, typer.Option("--force", help="Overwrite a program that is there.")
+        bool, typer.Option("--force", help="Overwrite an existing program.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Say what was done as JSON.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
 ) -> None:
-    """Make a part program of a DXF drawing: a path, or holes to drill."""
+    """Convert a DXF drawing to a part program: a path, or holes to drill."""
     from openacr.cli.run.output import require_absent, require_writable, write_text
     from openacr.cnc.dxf import Options, Pattern, convert
     from openacr.cnc.parts.library import tool_radius
@@ -135,10 +139,10 @@ def _list_drawings(as_json: bool) -> None:
 
 
 def _asked(target: Path) -> Path:
-    """The name the user gives the program, with those that are there before his eyes."""
+    """Ask for the name of the program, after listing the existing ones."""
     there = sorted(path.name for path in _files(target.parent, ".TXT"))
     if there:
-        typer.echo(f"there are: {', '.join(there)}", err=True)
+        typer.echo(f"existing: {', '.join(there)}", err=True)
     name = typer.prompt("Name of the program", default=target.name, err=True)
     return target.with_name(name if Path(name).suffix else f"{name}.TXT")
 

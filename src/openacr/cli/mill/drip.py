@@ -1,4 +1,4 @@
-"""`openacr mill drip` and `receive`: part programs that come over a serial line."""
+"""`openacr mill drip` and `receive`: part programs received over a serial line."""
 
 import time
 from pathlib import Path
@@ -18,7 +18,7 @@ STARVED_S = 0.02
 FIRST_BYTE_S = 30.0
 
 FromPort = Annotated[
-    str, typer.Option("--port", metavar="SERIAL", help="Serial port, else that of the store.")
+    str, typer.Option("--port", metavar="SERIAL", help="Serial port; default: that of the store.")
 ]
 
 
@@ -32,7 +32,7 @@ def drip_program(
     """Run a part program while it arrives over a serial line.
 
     Line and handshake are those of P750000 and up. The machine starts when DripFeed
-    Threshold blocks are there, waits on its path for a sender who stalls, and ends with M2
+    Threshold blocks have arrived, waits on its path while the sender stalls, and ends with M2
     or Ctrl-Z.
     """
     from openacr.mill.config.communications import Line
@@ -62,16 +62,16 @@ def _run(shop: "MillSession") -> None:
 
 
 def receive_program(
-    file: Annotated[Path, typer.Argument(metavar="FILE.TXT", help="Where it is stored.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE.TXT", help="File for the program.")],
     port: FromPort = "",
     store: AtStore = None,
     replaces: Annotated[bool, typer.Option("--force", help="Replace a file.")] = False,
 ) -> None:
-    """LINK: receive a part program over a serial line and store it as a file."""
+    """Receive a part program over a serial line and store it as a file (LINK)."""
     from openacr.mill.config.communications import Line, receive
 
     if file.exists() and not replaces:
-        raise UserError(f"{file} is there already; --force replaces it")
+        raise UserError(f"{file} exists; --force replaces it")
     with opened_store(store) as cells:
         line = Line.of(cells, port)
     with line.open(wait_s=FIRST_BYTE_S) as opened:

@@ -1,4 +1,4 @@
-"""`openacr mill mdi`, `jog`, `home`, `acknowledge`: what is done by hand."""
+"""`openacr mill mdi`, `jog`, `home`, `acknowledge`: manual operation of the machine."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -34,16 +34,18 @@ def jog_axes(
 def run_blocks(
     blocks: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[BLOCK]...", help='"G0 X1" "M3 S500"; without any they are read.'),
+        typer.Argument(
+            metavar="[BLOCK]...", help='"G0 X1" "M3 S500"; default: from standard input.'
+        ),
     ] = None,
     host: ToHost = None,
     store: AtStore = None,
     dialect: Dialect = None,
     save: Annotated[
-        Path | None, typer.Option("--save", metavar="FILE", help="Keep the blocks as a program.")
+        Path | None, typer.Option("--save", metavar="FILE", help="Save the blocks as a program.")
     ] = None,
 ) -> None:
-    """MDI: run single blocks on the virtual machine, or on a card.
+    """Run single blocks on the virtual machine or on a card (MDI).
 
     Blocks are those of the command line, or lines of the terminal until an empty one.
     """
@@ -75,7 +77,7 @@ def _piped() -> "Iterator[str]":
 
 
 def _typed(attend: Attendant) -> "Iterator[str | None]":
-    """Lines of the terminal until an empty one; None while the next one is not there."""
+    """Lines of the terminal until an empty one; None while the next one is not typed yet."""
     while True:
         try:
             line = attend.answer("MDI:", "")
@@ -89,11 +91,11 @@ def _typed(attend: Attendant) -> "Iterator[str | None]":
 def home_axes(
     host: AtHost,
     axes: Annotated[
-        str, typer.Option("--axes", help="Names of the axes, e.g. XYZ; else all with a priority.")
+        str, typer.Option("--axes", help="Axis names, e.g. XYZ; default: all with a priority.")
     ] = "",
     store: AtStore = None,
 ) -> None:
-    """Find the reference points of axes on a card."""
+    """Home axes of a card."""
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         homed = shop.home(axes, _telling(Attendant()))
         typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
@@ -101,9 +103,9 @@ def home_axes(
 
 
 def acknowledge_alarms(host: AtHost, store: AtStore = None) -> None:
-    """Acknowledge the alarms of a card: what is over is cleared, kills are taken back.
+    """Acknowledge the alarms of a card: clear alarms whose cause is gone, clear kills.
 
-    Nothing moves by it, and drives stay as they are. Exit code 1 when an alarm stays.
+    Nothing moves, and drives stay as they are. Exit code 1 if an alarm stays active.
     """
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
         shop.step()
@@ -117,7 +119,7 @@ def acknowledge_alarms(host: AtHost, store: AtStore = None) -> None:
 
 
 def _telling(attend: "Callable[[MillSession], None]") -> "Callable[[MillSession], None]":
-    """Attend, and say each time what is waited for now."""
+    """Attend the machine, and report each new wait."""
     shown = ""
 
     def watch(shop: "MillSession") -> None:

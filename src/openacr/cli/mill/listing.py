@@ -46,7 +46,7 @@ def list_program(file: PartProgram, store: AtStore = None, dialect: Dialect = No
 def inserted_lines(
     program: "Program", cells: "Store", dialect: str
 ) -> "tuple[dict[int, list[str]], list[Finding]]":
-    """What is inserted, by the lines it belongs to, as far as the program can be read."""
+    """Inserted moves by line, as far as the program can be read."""
     from openacr.cnc.canonical import Arc, Line, Rapid
     from openacr.cnc.compensation import listing
     from openacr.cnc.interpreter.interpreter import Interpreter, Options

@@ -9,6 +9,7 @@ import typer
 from openacr.cli.mill.check import AsJson, AtStore
 from openacr.cli.sysvar.change import Password, require_service
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.mill.card.messages import Message
@@ -23,7 +24,7 @@ COLORS = (
 
 
 def show_message(message: "Message", is_on: bool, *, to_stderr: bool = False) -> None:
-    """Show a message in its colours, or say that it is over."""
+    """Show a message in its colours, or report its end."""
     text = f"message {message.number}: "
     if is_on:
         shown = typer.style(
@@ -66,27 +67,25 @@ def list_messages(store: AtStore = None, as_json: AsJson = False) -> None:
 
 
 def set_message(
-    text: Annotated[str, typer.Argument(metavar="TEXT", help="What is shown.")],
+    text: Annotated[str, typer.Argument(metavar="TEXT", help="Text of the message.")],
     bit: Annotated[
         int, typer.Option("--bit", help="Input (0-31), output (32-63) or other flag of the card.")
     ],
     number: Annotated[
-        int | None, typer.Option("--number", help="0 to 31; else the first that is free.")
+        int | None, typer.Option("--number", help="0 to 31; default: the lowest free number.")
     ] = None,
     is_shown_off: Annotated[
-        bool, typer.Option("--off", help="Shown while the bit is off; else while it is on.")
+        bool, typer.Option("--off", help="Show while the bit is off instead of on.")
     ] = False,
-    text_color: Annotated[
-        int | None, typer.Option("--color", help="Of the letters, 0 to 15.")
-    ] = None,
+    text_color: Annotated[int | None, typer.Option("--color", help="Text colour, 0 to 15.")] = None,
     back_color: Annotated[
-        int | None, typer.Option("--back", help="Behind the letters, 0 to 15.")
+        int | None, typer.Option("--back", help="Background colour, 0 to 15.")
     ] = None,
-    is_alarm: Annotated[bool, typer.Option("--alarm", help="It is alarm 50, too.")] = False,
+    is_alarm: Annotated[bool, typer.Option("--alarm", help="Also raise alarm 50.")] = False,
     store: AtStore = None,
     password: Password = None,
 ) -> None:
-    """Define a message, or change it."""
+    """Define or change a message."""
     from openacr.mill.card.messages import Message, define, free_number
     from openacr.sysvar.location import open_to_write
 
@@ -107,27 +106,27 @@ def set_message(
 
 
 def remove_message(
-    number: Annotated[int, typer.Argument(metavar="NUMBER", help="0 to 31.")],
+    number: Annotated[int, typer.Argument(metavar="NUMBER", help="Message number, 0 to 31.")],
     store: AtStore = None,
     password: Password = None,
 ) -> None:
-    """Forget a message."""
+    """Remove a message."""
     from openacr.mill.card.messages import remove
     from openacr.sysvar.location import open_to_write
 
     with open_to_write(store) as cells:
         _require_service(cells, password)
         remove(cells, number)
-    typer.echo(f"message {number} is removed")
+    typer.echo(f"message {number} removed")
 
 
 def _require_text(text: str) -> None:
     from openacr.mill.card.messages import LONGEST
 
     if not text.strip() or not text.isprintable():
-        raise UserError(f"{text!r}: a message needs a text of one line")
+        raise UserError(f"{text!r}: a message must be one line of printable text")
     if len(text) > LONGEST:
-        raise UserError(f"{len(text)} letters: a message has {LONGEST} at most")
+        raise UserError(f"{counted(len(text), 'character')}: a message has at most {LONGEST}")
 
 
 def _require_flag(bit: int) -> None:

@@ -17,28 +17,34 @@ FIRST_IN_STORE, LAST = 100, 199
 def operate_parameters(
     settings: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[P5|P5=VALUE]...", help="Shown, or changed; else all of them."),
+        typer.Argument(
+            metavar="[P5|P5=VALUE]...", help="Variables to show or change; default: show all."
+        ),
     ] = None,
     host: Annotated[
         str | None,
-        typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="The card, for P0 to P99."),
+        typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="Card for P0 to P99."),
     ] = None,
-    store: Annotated[Path | None, typer.Option("--store", metavar="PATH", help="Of P100.")] = None,
+    store: Annotated[
+        Path | None, typer.Option("--store", metavar="PATH", help="Store for P100 and up.")
+    ] = None,
 ) -> None:
     """Show and change P0 to P99 of a card and P100 to P199 of the store."""
     from openacr.mill.config.pparm import OperatorParameters
     from openacr.sysvar.location import open_to_read, open_to_write
 
-    wanted = [_parsed(text) for text in settings or ()]
-    changes = any(value is not None for _, value in wanted)
+    requested = [_parsed(text) for text in settings or ()]
+    changes = any(value is not None for _, value in requested)
     with ExitStack() as stack:
         cells = stack.enter_context((open_to_write if changes else open_to_read)(store))
         card = stack.enter_context(_card(host)) if host is not None else None
         values = OperatorParameters(cells, card)
-        for n, value in wanted:
+        for n, value in requested:
             if value is not None:
                 values.write(n, value)
-        numbers = [n for n, _ in wanted] or range(FIRST_IN_STORE if card is None else 0, LAST + 1)
+        numbers = [n for n, _ in requested] or range(
+            FIRST_IN_STORE if card is None else 0, LAST + 1
+        )
         for n in numbers:
             typer.echo(f"P{n} = {values.read(n):.10g}")
 

@@ -1,4 +1,4 @@
-"""`openacr mill part`: the parts of the library, with sizes to choose."""
+"""`openacr mill part`: part programs from the parts library."""
 
 import json as json_format
 from pathlib import Path
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from openacr.cnc.parts.part import Part
 
 INCH, MM = "inch", "mm"
-# Cells of the store that say in which unit programs begin.
+# Cells of the store with the default unit of programs.
 G21 = 21
 
 
 def complete_part(incomplete: str) -> list[str]:
-    """Parts of the supplied library that begin like this."""
+    """Names of supplied parts with this beginning, for completion."""
     from openacr.cnc.parts.library import names
 
     return [name for name in names() if name.startswith(incomplete.upper())]
@@ -29,7 +29,7 @@ def make_part(
         str | None,
         typer.Argument(
             metavar="[NAME]",
-            help="A part; without it all are listed.",
+            help="Part; without it all parts are listed.",
             autocompletion=complete_part,
         ),
     ] = None,
@@ -41,16 +41,17 @@ def make_part(
         bool, typer.Option("--show", help="Describe the sizes instead of printing the program.")
     ] = False,
     is_asked: Annotated[
-        bool, typer.Option("--ask", help="Ask for every size that is not --set.")
+        bool, typer.Option("--ask", help="Ask for every size not given with --set.")
     ] = False,
     out: Annotated[
-        Path | None, typer.Option("--out", "-o", metavar="FILE.TXT", help="Write it to a file.")
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE.TXT", help="Write the program to a file."),
     ] = None,
     tool: Annotated[
-        int, typer.Option("--tool", metavar="D", help="Radius offset D; 0: that of CMP RAD.")
+        int, typer.Option("--tool", metavar="D", help="Radius offset D; 0: from CMP RAD.")
     ] = 0,
     feed: Annotated[
-        float | None, typer.Option("--feed", help="F; else that of the run set-up, or Cut Speed.")
+        float | None, typer.Option("--feed", help="F; default: from the run set-up, or Cut Speed.")
     ] = None,
     unit: Annotated[
         str | None, typer.Option("--unit", metavar="inch|mm", help="Unit of the program.")
@@ -61,14 +62,12 @@ def make_part(
     store: Annotated[
         Path | None, typer.Option("--store", metavar="PATH", help="Store with the defaults.")
     ] = None,
-    is_forced: Annotated[
-        bool, typer.Option("--force", help="Overwrite a file that is there.")
-    ] = False,
+    is_forced: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Parts, sizes or values as JSON.")
+        bool, typer.Option("--json", help="Print parts, sizes or values as JSON.")
     ] = False,
 ) -> None:
-    """List the parts of the library, or make the program of one of them."""
+    """List the parts of the library, or generate the program of one."""
     from openacr.cli.run.output import require_absent, require_writable
     from openacr.cnc.parts.library import FOLDER, names, part_named
 
@@ -141,7 +140,7 @@ def _given(part: "Part", text: str) -> tuple[int, float]:
 
 
 def _asked(part: "Part", given: dict[int, float]) -> dict[int, float]:
-    """What the user says for the sizes that were not given; wrong answers are asked again."""
+    """Ask for the sizes that were not given; a wrong answer is asked again."""
     answers = {}
     for size in part.sizes:
         while size.cell not in given and size.cell not in answers:
@@ -166,7 +165,7 @@ def _list(parts: list["Part"], as_json: bool) -> None:
     from rich.box import SIMPLE
     from rich.table import Table
 
-    table = Table("Part", "What it is", "Sizes", box=SIMPLE)
+    table = Table("Part", "Description", "Sizes", box=SIMPLE)
     for part in parts:
         table.add_row(part.name, part.title, str(len(part.sizes)))
     _print(table)
@@ -182,7 +181,7 @@ def _show(part: "Part", as_json: bool) -> None:
     typer.echo(f"{part.name}: {part.title}")
     if part.start:
         typer.echo(f"starts at: {part.start}")
-    table = Table("Cell", "Size", "Default", "Takes", box=SIMPLE)
+    table = Table("Cell", "Size", "Default", "Allowed", box=SIMPLE)
     for size in part.sizes:
         table.add_row(f"P{size.cell}", size.text, f"{size.default:g}", size.accepted)
     _print(table)

@@ -15,6 +15,7 @@ from openacr.cli.mill.check import (
     show_findings,
 )
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,14 +33,12 @@ def plot_program(
     file: PartProgram,
     picture: Annotated[
         Path | None,
-        typer.Argument(
-            metavar="[PICTURE]", help="PNG, SVG or HTML file; else FILE.html beside FILE."
-        ),
+        typer.Argument(metavar="[PICTURE]", help="PNG, SVG or HTML file; default: FILE.html."),
     ] = None,
     store: AtStore = None,
     dialect: Dialect = None,
     by_tool: Annotated[
-        bool, typer.Option("--by-tool", help="Each tool in its colour, as Color via D Codes.")
+        bool, typer.Option("--by-tool", help="One colour per tool, as Color via D Codes.")
     ] = False,
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom."""
@@ -58,13 +57,14 @@ def plot_program(
     if not len(scene.drawing.kinds):
         if survey.errors:
             raise typer.Exit(FAILED)
-        raise UserError(f"{file}: nothing moves")
+        raise UserError(f"{file}: no moves to draw")
     if scene.is_cut:
         typer.echo(
             f"note: the picture shows the first {len(scene.drawing.kinds):,} points", err=True
         )
     write_whole(target, lambda partial: draw_path(scene, partial))
-    typer.echo(f"{target}: {sum(survey.move_cnts.values()) - survey.move_cnts['dwell']} moves")
+    move_cnt = sum(survey.move_cnts.values()) - survey.move_cnts["dwell"]
+    typer.echo(f"{target}: {counted(move_cnt, 'move')}")
     if survey.errors:
         raise typer.Exit(FAILED)
 
@@ -72,7 +72,7 @@ def plot_program(
 def scene_of(
     program: "Program", cells: "Store", dialect: str, *, by_tool: bool = False
 ) -> "tuple[Scene, Survey]":
-    """The picture of a program, and what was found while it was read."""
+    """The picture of a program, and the survey from reading it."""
     from openacr.cli.plots.toolpath import Scene
     from openacr.cnc.loading.load import axes_of
     from openacr.mill.config.readout import Readout
@@ -104,7 +104,7 @@ def scene_of(
 
 
 def _of_axes(values: "Sequence[float]", axes: tuple[int, ...]) -> tuple[float, ...]:
-    """Three values for a picture; a machine without Z stays at height 0."""
+    """Three values for a picture; a machine without Z is at height 0."""
     return (*(values[axis] for axis in axes), 0.0)[:3]
 
 

@@ -48,20 +48,24 @@ def run_program(
     ] = False,
     safe_z: Annotated[
         float | None,
-        typer.Option("--safe-z", metavar="Z", help="Machine position of Z where the tool is free."),
+        typer.Option(
+            "--safe-z", metavar="Z", help="Machine position of Z where the tool is clear."
+        ),
     ] = None,
     is_agreed: Annotated[
-        bool, typer.Option("--yes", help="Start at a line without a question.")
+        bool, typer.Option("--yes", help="Start at a line without asking.")
     ] = False,
     is_skipping: Annotated[
-        bool, typer.Option("--block-skip", help="Leave blocks with a slash out.")
+        bool, typer.Option("--block-skip", help="Skip blocks with a slash.")
     ] = False,
     stops_optionally: Annotated[bool, typer.Option("--optional-stop", help="Stop at M1.")] = False,
     answers: Annotated[
         list[str] | None, typer.Option("--answer", metavar="Pn=VALUE", help="Answer to an INPUT.")
     ] = None,
     as_json: AsJson = False,
-    is_quiet: Annotated[bool, typer.Option("--quiet", help="No progress, no table.")] = False,
+    is_quiet: Annotated[
+        bool, typer.Option("--quiet", help="Show no progress and no summary.")
+    ] = False,
     has_console: Annotated[
         bool,
         typer.Option(
@@ -72,7 +76,7 @@ def run_program(
     trace: ToTrace = None,
     every_s: Every = None,
 ) -> None:
-    """Run a part program on the virtual machine, or on a card.
+    """Run a part program on the virtual machine or on a card.
 
     The virtual machine is at its reference points, runs as fast as it can and waits for
     no operator. On a card Ctrl-C is a feed hold and ends the program; stops ask on the terminal.
@@ -83,7 +87,7 @@ def run_program(
     if trace is not None and host is not None:
         raise UserError(
             "--trace: only the virtual machine records the setpoints of every servo period; "
-            "on a card SAMP does"
+            "on a card use SAMP"
         )
     start = Start(
         line=line,
@@ -109,7 +113,7 @@ def run_program(
 
 
 def run_batch(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Names of programs, one a line.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Program names, one per line.")],
     host: ToHost = None,
     store: AtStore = None,
     dialect: Dialect = None,
@@ -134,14 +138,14 @@ def run_batch(
 
 
 def _runs(batch: "Batch", *, repeats: bool) -> "Iterator[Entry]":
-    """The runs of a batch, over and over where the store says so."""
+    """The runs of a batch, repeated if the store enables Repeat Forever."""
     yield from batch.runs()
     while repeats:
         yield from batch.runs()
 
 
 def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program, str]":
-    """A program without errors, or the end with exit code 1."""
+    """Load a program; exit with code 1 if it has errors."""
     program, name = loaded(path, cells, dialect)
     if program.errors:
         show_findings(program.errors)
@@ -201,7 +205,7 @@ def _traced(
     every_s: float | None,
     keep: "Callable[[MillSession], None]",
 ) -> "Iterator[Callable[[MillSession], None]]":
-    """What is done after every step of a run: `keep`, and rows of a trace where one is wanted."""
+    """The function called after every step: `keep`, and the trace if one is requested."""
     if path is None or shop.virtual_card is None:
         yield keep
         return
@@ -220,7 +224,7 @@ def _traced(
 def _rehearsed(
     shop: "MillSession", program: "Program", start: "Start", terminal: Attendant | None
 ) -> "Replay":
-    """The lines before a start line: differences are shown, and a real machine asks to start."""
+    """Rehearse the lines before a start line, show differences, and ask on a real machine."""
     replay = shop.rehearse(program, start)
     for warning in replay.warnings:
         typer.echo(f"warning: {warning}", err=True)
@@ -228,18 +232,16 @@ def _rehearsed(
         now, then = _numbers(each.present), _numbers(each.wanted)
         typer.echo(f"{each.name}: now {now}, at the line {then}", err=True)
     if replay.needs_tool and not start.accepts_tool:
-        raise UserError("another tool is in the spindle; --any-tool starts all the same")
+        raise UserError("another tool is in the spindle; --any-tool starts anyway")
     if terminal is not None and not shop.is_virtual:
         level = _numbers(replay.safe_level())
-        text = f"line {start.line}: Z to {level}, then over it and down at feed: start?"
-        require_yes(
-            shop, terminal, text, "no operator is at the terminal to agree to it; use --yes"
-        )
+        text = f"line {start.line}: Z to {level}, across, then down at feed: start?"
+        require_yes(shop, terminal, text, "no operator at a terminal to confirm; use --yes")
     return replay
 
 
 def _numbers(value: object) -> str:
-    """Numbers as a person writes them; those of axes beside each other."""
+    """Numbers without trailing zeros; those of axes on one line."""
     if isinstance(value, tuple):
         return " ".join(map(_numbers, value))
     return f"{value + 0.0:.4f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)

@@ -1,4 +1,4 @@
-"""The machine of a command: opened, and at rest behind it however the command ends."""
+"""Machine of a command: opened for it, and brought to rest however it ends."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -16,14 +16,16 @@ if TYPE_CHECKING:
 
 FAILED, INTERRUPTED = 1, 130
 REST_S = 90.0  # longer than any wait of an ending: the card does not do what is commanded
-LEFT_ALONE = "its watchdog stops it, if it has one; else it ends the moves it has, outputs stay on"
+LEFT_ALONE = "its watchdog stops it, if installed; else it completes its moves and outputs stay on"
 
 ToHost = Annotated[
     str | None,
-    typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="A real card; else a virtual one."),
+    typer.Option(
+        "--host", metavar="HOST[:PORT]|SERIAL", help="A real card; default: a virtual one."
+    ),
 ]
 AtHost = Annotated[
-    str, typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="The card of the machine.")
+    str, typer.Option("--host", metavar="HOST[:PORT]|SERIAL", help="Card of the machine.")
 ]
 
 
@@ -31,7 +33,7 @@ AtHost = Annotated[
 def workshop(
     host: str | None, cells: "Store", *, to_stderr: bool = False
 ) -> "Iterator[MillSession]":
-    """The machine of a command; it comes to rest however the command ends."""
+    """Open the machine of a command; it comes to rest however the command ends."""
     from openacr.cli.signals import deaf, terminations_as_interrupts
     from openacr.client import ConnectionLostError
     from openacr.mill.card.alarms import LINK_LOST, NO_CARD, AlarmError
@@ -56,28 +58,28 @@ def workshop(
         shop.show_message = partial(show_message, to_stderr=to_stderr)
         try:
             if host is not None:
-                shop.step()  # what is wrong with the machine is known before anything is asked
+                shop.step()  # alarms are known before any question
             yield shop
         except KeyboardInterrupt:
-            _break_off(shop)
+            _end_at_rest(shop)
             typer.echo(_at_rest(shop), err=True)
             raise typer.Exit(INTERRUPTED) from None
         except AlarmError as error:
             is_up = shop.runner.alarms.bars_start
-            hint = "; `openacr mill acknowledge` clears what is over" if is_up else ""
+            hint = "; `openacr mill acknowledge` clears alarms whose cause is gone" if is_up else ""
             raise UserError(f"{error}{hint}") from None
         except LINK_ERRORS as lost:
             raise UserError(f"{AlarmError(LINK_LOST)} ({lost}); {LEFT_ALONE}") from None
         finally:
             with deaf():  # also for one more Ctrl-C
                 try:
-                    _break_off(shop)
+                    _end_at_rest(shop)
                 finally:
                     shop.close()
 
 
 def _at_rest(shop: "MillSession") -> str:
-    """What is known of a machine whose command was broken off."""
+    """The report after an interrupted command."""
     from openacr.mill.card.driver import LINK_ERRORS
 
     try:
@@ -87,10 +89,10 @@ def _at_rest(shop: "MillSession") -> str:
     return f"interrupted: the machine is at rest at {place}"
 
 
-def _break_off(shop: "MillSession") -> None:
-    """However the command ends, the machine does not go on moving by itself.
+def _end_at_rest(shop: "MillSession") -> None:
+    """Bring the machine to rest at the end of a command.
 
-    Whoever presses Ctrl-C once more does not keep the spindle from being switched off.
+    Another Ctrl-C does not prevent the spindle from being switched off.
     """
     from openacr.cli.signals import deaf
     from openacr.mill.card.driver import LINK_ERRORS
@@ -108,7 +110,7 @@ def _break_off(shop: "MillSession") -> None:
 
 
 def place_text(shop: "MillSession", place: tuple[float, ...]) -> str:
-    """A place as the read-out of the machine shows it."""
+    """A position as text, in the formats of the machine."""
     from openacr.mill.config.readout import Readout
 
     axes = [axis.index for axis in shop.runner.settings.axes]
@@ -117,7 +119,7 @@ def place_text(shop: "MillSession", place: tuple[float, ...]) -> str:
 
 
 def end_with_alarms(shop: "MillSession", *, is_shown: bool = True) -> None:
-    """Say what went wrong; exit code 1 when anything did."""
+    """Report alarms; exit code 1 if there are any."""
     active = shop.runner.alarms.active
     block = shop.block
     for alarm in active if is_shown else ():

@@ -10,10 +10,10 @@ FAILED = 1
 
 
 def stop_machine(host: AtHost, store: AtStore = None) -> None:
-    """Stop a machine and switch everything off, whichever program drives it.
+    """Stop a machine and switch everything off, even if another program drives it.
 
-    Feed hold, jogs off, then spindle, coolant and beam off; a machine that does not come to
-    rest loses its drives (exit code 1). Nothing moves before `openacr mill acknowledge`.
+    Feed hold, jogs off, then spindle, coolant and beam off; if it does not come to
+    rest, its drives go off (exit code 1). Nothing moves before `openacr mill acknowledge`.
     """
     from openacr.cli.signals import deaf
     from openacr.client import Card, Options

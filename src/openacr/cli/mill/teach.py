@@ -1,4 +1,4 @@
-"""`openacr mill teach`: the position of the machine as the zero of a work system."""
+"""`openacr mill teach`: set the zero of a work system to the present position."""
 
 from typing import Annotated
 
@@ -11,10 +11,10 @@ from openacr.cli.mill.shop import AtHost, workshop
 def teach_system(
     code: Annotated[str, typer.Argument(metavar="G54..G59.2", help="Work system.")],
     host: AtHost,
-    axes: Annotated[str, typer.Option("--axes", help="Names of the axes, e.g. XY; else all.")] = "",
+    axes: Annotated[str, typer.Option("--axes", help="Axis names, e.g. XY; default: all.")] = "",
     store: AtStore = None,
 ) -> None:
-    """TEACH: where the machine stands becomes the zero of a work system."""
+    """Set the zero of a work system to the present position (TEACH)."""
     from openacr.mill.manual.teaching import teach
 
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:

@@ -24,7 +24,7 @@ YES = frozenset({"", "y", "yes"})
 
 
 class Lines:
-    """The lines an operator types, as they come."""
+    """Lines typed at the terminal, as they arrive."""
 
     def __init__(self, source: TextIO | None = None) -> None:
         self._lines: SimpleQueue[str] = SimpleQueue()
@@ -38,7 +38,7 @@ class Lines:
         self._is_left = True
 
     def take(self) -> str | None:
-        """The next line, None while there is none."""
+        """The next line; None while none is available."""
         try:
             return self._lines.get_nowait()
         except Empty:
@@ -46,7 +46,7 @@ class Lines:
 
     @property
     def are_over(self) -> bool:
-        """Whether nothing comes any more."""
+        """Whether input has ended."""
         return self._is_left and self._lines.empty()
 
 
@@ -55,7 +55,7 @@ class Question:
     """A question of the machine to its operator."""
 
     text: str
-    answer: Callable[[str], object]  # UserError for an answer that is none
+    answer: Callable[[str], object]  # UserError for an invalid answer
     unattended: str  # the error where no terminal is connected
 
 
@@ -68,7 +68,7 @@ class Attendant:
         self._asked = ""
 
     def __call__(self, shop: "MillSession") -> None:
-        """Answer the machine where it waits for its operator."""
+        """Answer the question the machine waits on."""
         if shop.is_virtual:
             shop.carry_on()
             return
@@ -79,7 +79,7 @@ class Attendant:
         try:
             line = self.answer(question.text, question.unattended)
             if line is not None:
-                self._asked = ""  # what it leads to may be the same question once more
+                self._asked = ""  # the answer may lead to the same question again
                 question.answer(line)
         except UserError as error:
             if not self.is_there:
@@ -89,17 +89,17 @@ class Attendant:
 
     @property
     def is_there(self) -> bool:
-        """Whether an operator is at a terminal."""
+        """Whether input is a terminal."""
         return (self._source or sys.stdin).isatty()
 
     def answer(self, text: str, unattended: str) -> str | None:
-        """What was typed for a question that is put once; None while nothing was."""
+        """The answer to a question, which is printed once; None while none is typed."""
         if not self.is_there or (self._lines is not None and self._lines.are_over):
             raise UserError(unattended)
         lines = self.lines
         if text != self._asked:
             while lines.take() is not None:
-                pass  # typed before the question was put
+                pass  # typed before the question
             self._asked = text
             typer.echo(f"{text} ", nl=False, err=True)
         line = lines.take()
@@ -109,14 +109,14 @@ class Attendant:
 
     @property
     def lines(self) -> Lines:
-        """What is typed at this terminal."""
+        """The lines typed at this terminal."""
         if self._lines is None:
             self._lines = Lines(self._source)
         return self._lines
 
 
 def require_yes(shop: "MillSession", terminal: Attendant, text: str, unattended: str) -> None:
-    """Ask before something dangerous: only a y goes on; the machine is watched meanwhile."""
+    """Ask before something dangerous: only y continues; the machine is polled meanwhile."""
     while True:
         line = terminal.answer(f"{text} [y/N]", unattended)
         if line is not None:
@@ -132,7 +132,7 @@ def _question(runner: "Runner") -> Question | None:
 
     reason = runner.reason
     if runner.state is State.HOLD:
-        return _yes_or_no(runner, f"{reason}: go on?", runner.start, reason)
+        return _yes_or_no(runner, f"{reason}: continue?", runner.start, reason)
     if runner.state is State.PAUSED and runner.alarms.bars_start:
         text = runner.alarms.active[0].text
         return _yes_or_no(runner, f"{text}: acknowledge and resume?", _resumes(runner), text)
@@ -140,7 +140,7 @@ def _question(runner: "Runner") -> Question | None:
         return Question(
             f"{ask.text}:",
             lambda line: runner.answer(number_in(line)),
-            f"no operator is at the terminal to answer {ask.text!r}; use --answer",
+            f"no operator at a terminal to answer {ask.text!r}; use --answer",
         )
     if runner.entry_actions.changer.wants_confirmation:
         return _yes_or_no(runner, f"{reason}: done?", runner.entry_actions.changer.confirm, reason)
@@ -156,7 +156,7 @@ def _yes_or_no(runner: "Runner", text: str, yes: Callable[[], object], reason: s
         else:
             raise UserError(f"{line}: say y or n")
 
-    return Question(f"{text} [Y/n]", answer, f"{reason}: no operator is at the terminal to go on")
+    return Question(f"{text} [Y/n]", answer, f"{reason}: no operator at a terminal to continue")
 
 
 def _resumes(runner: "Runner") -> Callable[[], None]:
@@ -172,4 +172,4 @@ def number_in(line: str) -> float:
     try:
         return float(line)
     except ValueError:
-        raise UserError(f"{line}: a number is asked for") from None
+        raise UserError(f"{line}: enter a number") from None

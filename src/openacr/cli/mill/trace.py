@@ -28,20 +28,18 @@ Every = Annotated[
     typer.Option(
         "--every",
         metavar="SECONDS",
-        help="Time between two rows of the trace; else the servo period.",
+        help="Time between rows of the trace; default: the servo period.",
     ),
 ]
 
 
 def require_trace(path: Path | None, every_s: float | None) -> None:
-    """Refuse a trace that could not be written, before anything is read or moves."""
+    """Refuse a trace that cannot be written, before anything is read or moved."""
     from openacr.cli.run import output
 
     if path is None:
         if every_s is not None:
-            raise UserError(
-                "--every: it is the time between two rows of a trace; give --trace, too"
-            )
+            raise UserError("--every is the time between rows of a trace: give --trace as well")
         return
     if every_s is not None and not 0.0 < every_s < float("inf"):
         raise UserError(f"--every {every_s:g}: give a number of seconds above 0")
@@ -51,7 +49,7 @@ def require_trace(path: Path | None, every_s: float | None) -> None:
 
 @contextmanager
 def trace_file(path: Path, axes: Sequence[str]) -> "Iterator[Callable[[Rows], None]]":
-    """What writes rows to a trace. The file takes its place at the end, however that comes."""
+    """Open a trace for rows; the file is moved into place at the end, however it ends."""
     from openacr.cli.run import output
 
     names = ["t_s", *(name.lower() for name in axes), "line"]

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from openacr.cnc.canonical import Point
     from openacr.mill.session import MillSession
 
-OfAxes = Annotated[str, typer.Option("--axes", help="Names of the axes, e.g. XY; else all.")]
+OfAxes = Annotated[str, typer.Option("--axes", help="Axis names, e.g. XY; default: all.")]
 
 
 def set_floating_zero(host: AtHost, axes: OfAxes = "", store: AtStore = None) -> None:
-    """SET ZERO: axes of a card read 0 where they are; nothing moves.
+    """Set the floating zero of axes to their present position (SET ZERO); nothing moves.
 
-    As G92: the shift counts in every work system and is kept. CLR ZERO takes it back.
+    As G92: the shift applies to every work system and is kept until CLR ZERO.
     """
     from openacr.mill.zeroing import set_zero
 
@@ -28,7 +28,7 @@ def set_floating_zero(host: AtHost, axes: OfAxes = "", store: AtStore = None) ->
 
 
 def clear_floating_zero(host: AtHost, store: AtStore = None) -> None:
-    """CLR ZERO: no axis has a floating zero any more; nothing moves."""
+    """Clear the floating zero of all axes (CLR ZERO); nothing moves."""
     from openacr.mill.zeroing import clear_all
 
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
@@ -36,7 +36,7 @@ def clear_floating_zero(host: AtHost, store: AtStore = None) -> None:
 
 
 def go_to_zero(host: AtHost, axes: OfAxes = "", store: AtStore = None) -> None:
-    """GOTO ZERO: rapids to the floating zero; Z first where that is upward, else last."""
+    """Move to the floating zero in rapids (GOTO ZERO); Z first if upward, else last."""
     from openacr.mill.zeroing import goto_zero
 
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
@@ -50,6 +50,6 @@ def _chosen(shop: "MillSession", axes: str) -> list[int]:
 
 
 def _show(shop: "MillSession", places: "Iterable[Point]") -> None:
-    """Positions as the program counts them."""
+    """Print program positions."""
     for place in places:
         typer.echo(place_text(shop, place))

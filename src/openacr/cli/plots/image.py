@@ -22,7 +22,7 @@ from matplotlib.ticker import MaxNLocator
 from openacr.cli.plots.curves import Array, AxisCurves, Curves, ValueCurve, edges, envelope, marks
 from openacr.cli.plots.saved import save
 
-# Okabe and Ito's palette: told apart with every common colour vision deficiency, and in grey.
+# Okabe and Ito's palette: distinguishable with every common colour vision deficiency, and in grey.
 ACTUAL = "#0072B2"
 COMMANDED = "#F3BE56"  # its orange, lightened: the broad line below
 VELOCITY = "#009E73"

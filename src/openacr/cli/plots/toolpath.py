@@ -9,7 +9,7 @@ from openacr.mill.plan.tool_path import Drawing, Kind
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
 
 
-DENSE_CNT = 5000  # moves; so many are drawn thin, and shaded by their height
+DENSE_CNT = 5000  # from this number of moves on they are drawn thin, shaded by their height
 BANDS = 16
 
 
@@ -24,13 +24,13 @@ class Scene:
     low: tuple[float, ...]
     high: tuple[float, ...]
     view: View = field(default_factory=View)
-    digits: tuple[int, ...] = (4, 4, 4)  # behind the point, by axis
+    digits: tuple[int, ...] = (4, 4, 4)  # decimals, by axis
     has_errors: bool = False
     is_cut: bool = False  # there are more moves than a picture holds
 
     @property
     def has_contours(self) -> bool:
-        """Whether programmed contours are shown beside compensated ways."""
+        """Whether programmed contours are shown beside compensated paths."""
         return bool(self.drawing.contours)
 
 

@@ -133,7 +133,7 @@ def _draw(panel: Axes, scene: Scene, to: npt.NDArray[np.float64], scale: float) 
 
 
 def _flat_view(panel: Axes, scene: Scene, directions: tuple[int, int], title: str) -> None:
-    """Two directions of the screen; the numbers along a flipped axis run the other way."""
+    """Two directions of the screen; the numbers along a flipped axis are reversed."""
     (across, across_flips), (up, up_flips) = map(scene.view.axis_on, directions)
     to = np.zeros((3, 2))
     to[across, 0] = to[up, 1] = 1.0

@@ -51,7 +51,7 @@ def running_programs(memory: Memory) -> list[int]:
 
 
 def is_moving(memory: Memory) -> bool:
-    """Whether a coordinated move or a jog is under way."""
+    """Whether a coordinated move or a jog is in progress."""
     masters = _words(at.MF1_WORD, at.MF1_WORD_HIGH, at.MA_COUNT)
     axes = _words(at.AF1_WORD, at.AF1_WORD_HIGH, at.AX_COUNT)
     return any(memory.I[word] & at.MF1_IN_MOTION for word in masters) or any(

@@ -99,7 +99,7 @@ class ControlledMachine:
         return was_heard and self._awaits_text
 
     def advance(self, ticks: int) -> None:
-        """Let the card live for so many ticks, less if something watched changes."""
+        """Run the card for `ticks` ticks, fewer if something watched changes."""
         self._controller.advance(ticks)
         self._read_terminals()
 

@@ -64,10 +64,10 @@ class Machine(Protocol):
         """What happened to the machine since the last call."""
 
     def advance(self, ticks: int) -> None:
-        """Let the card live for so many ticks, less if something watched changes."""
+        """Run the card for `ticks` ticks, fewer if something watched changes."""
 
     def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
-        """Let the card live until a flag has this state, but no longer than `advance` would."""
+        """Run the card until a flag has this state, but no longer than `advance` would."""
 
     def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
         """Call `hear` with what programs print, `overhear` with what terminals answer."""

@@ -45,7 +45,7 @@ class NoBar:
 
 
 class TerminalBar:
-    """A bar on the terminal behind standard error, below what the programs print."""
+    """A progress bar on the terminal of standard error, below what the programs print."""
 
     def __init__(self, total_s: float | None) -> None:
         self._progress = _progress()

@@ -59,7 +59,7 @@ class Until:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a run goes on and what it leaves behind."""
+    """How long and how fast a run is, and which files it writes."""
 
     project: Path
     limit_s: float
@@ -127,7 +127,7 @@ class Session:
             self._machine.record(every_tk, keep_peaks=every_tk > 1, watched=watched)
 
     def _start(self) -> None:
-        """Start the programs if nothing else will: nothing runs and nobody is to type RUN."""
+        """Start the stored programs unless one runs already."""
         memory = self._machine.memory
         stored = [p for p in card_view.PROGRAMS if card_view.has_program(memory, p)]
         if stored and not card_view.running_programs(memory):

@@ -1,1 +1,1 @@
-"""`openacr sysvar ...`: the SYSVAR store read and changed."""
+"""`openacr sysvar ...`: read and change the SYSVAR store."""

@@ -1,4 +1,4 @@
-"""`openacr sysvar set`, `export`, `import` and `password`: what changes the SYSVAR store."""
+"""`openacr sysvar set`, `export`, `import` and `password`: changes to the SYSVAR store."""
 
 import os
 import sys
@@ -10,6 +10,7 @@ import typer
 
 from openacr.cli.sysvar.read import MM, AtStore, InUnit, complete_name, is_metric_in, sentence
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.sysvar import Parameter, Store
@@ -18,7 +19,7 @@ PASSWORD = "OPENACR_PASSWORD"
 
 Password = Annotated[
     str | None,
-    typer.Option("--password", help=f"Service password, where one is asked (or {PASSWORD})."),
+    typer.Option("--password", help=f"Service password, if one is set (or {PASSWORD})."),
 ]
 Settings = Annotated[
     list[str],
@@ -36,7 +37,7 @@ def set_values(
     unit: InUnit = None,
     password: Password = None,
 ) -> None:
-    """Change parameters: all of them, or none when one is refused."""
+    """Change parameters: all, or none if one is refused."""
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.lookup import one
 
@@ -52,12 +53,12 @@ def set_values(
 
 def export_values(
     file: Annotated[
-        Path | None, typer.Argument(metavar="[FILE]", help="TOML file; else standard output.")
+        Path | None, typer.Argument(metavar="[FILE]", help="TOML file; default: standard output.")
     ] = None,
     store: AtStore = None,
-    everything: Annotated[bool, typer.Option("--all", help="Defaults, too.")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="Include defaults.")] = False,
 ) -> None:
-    """Write the settings that were changed as TOML."""
+    """Write the changed settings as TOML."""
     from openacr.cli.run.output import require_writable, write_whole
     from openacr.sysvar.exchange import exported
     from openacr.sysvar.location import open_to_read
@@ -73,11 +74,11 @@ def export_values(
 
 
 def import_values(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="TOML file as export writes it.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="TOML file written by export.")],
     store: AtStore = None,
     password: Password = None,
 ) -> None:
-    """Read settings from TOML: all of them, or none when one is refused."""
+    """Read settings from TOML: all, or none if one is refused."""
     from openacr.sysvar.exchange import imported
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.schema import FIRST_SYSTEM
@@ -86,17 +87,17 @@ def import_values(
     with open_to_write(store) as cells:
         require_service(cells, [FIRST_SYSTEM], password)
         count = imported(cells, text, str(file))
-    typer.echo(f"{count} settings were stored")
+    typer.echo(f"{counted(count, 'setting')} stored")
 
 
 def change_password(
     store: AtStore = None,
     password: Password = None,
     new: Annotated[
-        str | None, typer.Option("--new", help="The new one, empty for none; else it is asked.")
+        str | None, typer.Option("--new", help="New password, empty to remove it; default: ask.")
     ] = None,
 ) -> None:
-    """Guard the system parameters with a password, or guard them no more."""
+    """Set or remove the password that protects the system parameters."""
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.password import CELL, change
 
@@ -107,7 +108,7 @@ def change_password(
                 "New password", hide_input=True, confirmation_prompt=True, default=""
             )
         change(cells, new)
-    typer.echo("the password was changed" if new else "no password is asked any more")
+    typer.echo("password changed" if new else "password removed")
 
 
 # --- pieces -----------------------------------------------------------------------------
@@ -138,7 +139,7 @@ def _set(cells: "Store", parameter: "Parameter", text: str, unit: str | None) ->
 
 
 def require_service(cells: "Store", numbers: Iterable[int], password: str | None) -> None:
-    """Ask for the password where system parameters change."""
+    """Require the password for changes of system parameters."""
     from openacr.sysvar.password import is_asked, is_right
     from openacr.sysvar.schema import FIRST_SYSTEM
 
@@ -148,9 +149,9 @@ def require_service(cells: "Store", numbers: Iterable[int], password: str | None
     if given is None and sys.stdin.isatty():
         given = typer.prompt("Service password", hide_input=True)
     if given is None:
-        raise UserError(f"system parameters are guarded: give --password, or {PASSWORD}")
+        raise UserError(f"system parameters are protected: give --password, or {PASSWORD}")
     if not is_right(cells, given):
-        raise UserError("that is not the service password")
+        raise UserError("wrong service password")
 
 
 # --- files ------------------------------------------------------------------------------
@@ -166,4 +167,4 @@ def _read(path: Path) -> str:
     except OSError as error:
         raise UserError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
     except UnicodeDecodeError:
-        raise UserError(f"{path}: is no text in UTF-8") from None
+        raise UserError(f"{path}: not UTF-8 text") from None

@@ -1,4 +1,4 @@
-"""`openacr sysvar get` and `list`: what is in the SYSVAR store."""
+"""`openacr sysvar get` and `list`: contents of the SYSVAR store."""
 
 import json as json_format
 from pathlib import Path
@@ -11,12 +11,12 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from openacr.sysvar import Parameter, Store
 
-SHOWN = 60  # of what was found by a name
+SHOWN = 60  # matches of a name that are listed
 INCH, MM = "inch", "mm"
 
 
 def complete_name(incomplete: str) -> list[str]:
-    """Names that begin with these letters, for the completion of a shell."""
+    """Names with this beginning, for shell completion."""
     from openacr.sysvar.lookup import parameters
     from openacr.sysvar.tabs import TABS
 
@@ -32,7 +32,7 @@ AtStore = Annotated[
     typer.Option(
         "--store",
         metavar="PATH",
-        help="File of the store (else OPENACR_STORE, else in the data folder of the user).",
+        help="File of the store; default: OPENACR_STORE, then the data folder of the user.",
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print a JSON array.")]
@@ -69,7 +69,7 @@ def list_values(
     unit: InUnit = None,
     as_json: AsJson = False,
 ) -> None:
-    """List what was changed, or all parameters of a tab."""
+    """List changed parameters, or all of a tab."""
     from openacr.sysvar.location import open_to_read
     from openacr.sysvar.lookup import in_tab, parameters, tab_like, tab_named
     from openacr.sysvar.tabs import TABS
@@ -81,7 +81,7 @@ def list_values(
         named = tab_named(tab)
         if named is None:
             there = tab_like(tab) or f"one of {', '.join(t.name for t in TABS)}"
-            raise UserError(f"there is no tab {tab} ({there})")
+            raise UserError(f"unknown tab {tab} ({there})")
         _show(cells, in_tab(named), unit, as_json)
 
 
@@ -124,7 +124,7 @@ def _show(
         if len(found) > SHOWN:
             typer.echo(f"and {len(found) - SHOWN} more; --json lists all", err=True)
     else:
-        typer.echo("everything is as in a new store")
+        typer.echo("all parameters have their defaults")
 
 
 def _in_unit(cells: "Store", parameter: "Parameter", value: float, unit: str | None) -> float:

@@ -12,6 +12,7 @@ from openacr.cnc.dxf.routing import Tool, routed
 from openacr.cnc.dxf.writing import Numbers, drill_program, nearest_first, path_program
 from openacr.errors import UserError
 from openacr.units import MM_PER_INCH
+from openacr.wording import counted
 
 CHORD_R = 0.1  # height of chords for curves, of epsilon
 DRILLED = frozenset(("POINT", "CIRCLE"))
@@ -93,7 +94,9 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
     if not route.ways:
         raise UserError(f"{path}: D{options.d_number} has no room anywhere")
     closed = sum(chain.is_closed for chain in chains)
-    summary = f"{len(chains)} chains ({closed} closed) of {len(pieces)} entities"
+    summary = (
+        f"{counted(len(chains), 'chain')} ({closed} closed) of {counted(len(pieces), 'entity')}"
+    )
     text = path_program(
         route.ways,
         Numbers(drawing.is_metric),
@@ -123,12 +126,12 @@ def _holes(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
     text = drill_program(
         holes,
         Numbers(drawing.is_metric),
-        title=f"{_printable(path.name)}: {len(holes)} holes",
+        title=f"{_printable(path.name)}: {counted(len(holes), 'hole')}",
         safe_height=unit(options.safe_height),
         levels=(unit(options.drill_bottom), unit(options.drill_level)),
         feed=unit(options.drill_feed),
     )
-    return text, f"{len(holes)} holes"
+    return text, counted(len(holes), "hole")
 
 
 def _where(options: Options) -> str:

@@ -23,7 +23,7 @@ Range = tuple[float, float]  # lowest and highest value of a row
 
 
 FINITE: Range = (-1e300, 1e300)
-ANY_NUMBER: Range = (-inf, inf)  # and what is none
+ANY_NUMBER: Range = (-inf, inf)  # infinities and NaN included
 SWITCH: Range = (0, 1)
 # Bounds for places of rows in the views I and F: below the end of the memory, above all rows.
 ROWS_I, ROWS_F = 700_000, 350_000

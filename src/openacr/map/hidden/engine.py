@@ -26,7 +26,7 @@ ENGINE = HiddenBlock(
     },
 )
 
-# What the caller waits for: the engine returns behind a tick in which one of these changed.
+# What the caller waits for: the engine returns after a tick in which one of these changed.
 WATCH = HiddenBlock(
     prefix="WAT",
     family="watches",

@@ -67,7 +67,7 @@ AXIS.row(
 )
 AXIS.row(0x1C, "Acceleration", FP32, NS, "pulse/s²", "Acceleration of the primary setpoint.")
 AXIS.row(0x1D, "Summation Point", FP32, NS, "V", "Sum of all servo terms.")
-AXIS.row(0x1E, "Filter Output Signal", FP32, NS, "V", "Servo signal behind the digital filters.")
+AXIS.row(0x1E, "Filter Output Signal", FP32, NS, "V", "Servo signal after the digital filters.")
 AXIS.row(0x1F, "Output Signal", FP32, NS, "V", "Servo output sent to the DAC or stepper.")
 
 AXIS.section("Axis Parameters: Limit")

@@ -16,8 +16,8 @@ DRIVE_TALK.row(0, "Communication Device", LONG, RW, "", "Device number the port 
 DRIVE_TALK.row(1, "Drive Type", LONG, RW, "", "Type of the drive, 0: Aries.")
 DRIVE_TALK.row(21, "TPE", LONG, NS, "", "Torque or position error word of the drive.")
 
-# The manual names no other number. The configuration stands behind the type, and the status
-# items 8 to 25 stand where item 9, TPE, puts them; which is which was decided here.
+# The manual names no other number. The configuration follows the type, and the status
+# items 8 to 25 are where item 9, TPE, puts them; which is which was decided here.
 CONFIGURATION = (
     ("DMODE", "Mode of the drive: 2 torque, 4 velocity."),
     ("ERES", "Encoder counts per revolution."),

@@ -14,7 +14,7 @@ MASTER = Block(
 )
 
 MASTER.section("Master Parameters: Position")
-MASTER.row(0x00, "Distance Into Move", FP32, R, "unit", "Way covered in the present move.")
+MASTER.row(0x00, "Distance Into Move", FP32, R, "unit", "Distance covered in the present move.")
 MASTER.row(0x01, "Vector Velocity", FP32, R, "unit/s", "Present speed along the path.")
 MASTER.row(0x02, "Vector Acceleration", FP32, R, "unit/s²", "Present path acceleration, signed.")
 MASTER.row(0x03, "Vector Jerk", FP32, R, "unit/s³", "Present path jerk.")
@@ -22,14 +22,14 @@ MASTER.row(0x04, "Vector Length", FP32, R, "unit", "Length of the present move."
 MASTER.row(0x05, "Target Velocity", FP32, R, "unit/s", "Programmed speed of the present move.")
 MASTER.row(0x06, "Target Acceleration", FP32, R, "unit/s²", "Programmed ramp of the present move.")
 MASTER.reserved(FP32, (0x07,))
-MASTER.row(0x08, "Distance To Go", FP32, R, "unit", "Way left in the present move.")
+MASTER.row(0x08, "Distance To Go", FP32, R, "unit", "Distance left in the present move.")
 MASTER.row(0x09, "Feedrate Override", FP32, R, "", "Factor on feed moves (FOV).", default=1)
 MASTER.row(0x0A, "Manual Vector", FP32, R, "unit", "Length of a move without weights (VECTOR).")
-MASTER.row(0x0B, "Total Distance", FP32, R, "unit", "Programmed way up to the present move.")
+MASTER.row(0x0B, "Total Distance", FP32, R, "unit", "Programmed distance up to the present move.")
 MASTER.row(0x0C, "Distance Squared", FP32, R, "unit²", "Square of the buffered move's length.")
 MASTER.row(0x0D, "Velocity Squared", FP32, R, "unit²/s²", "Square of the present path speed.")
 MASTER.row(0x0E, "Fraction Into Move", FP32, R, "", "Progress of the present move, 0 to 1.")
-MASTER.row(0x0F, "Distance Into Path", FP32, R, "unit", "Way covered by the master so far.")
+MASTER.row(0x0F, "Distance Into Path", FP32, R, "unit", "Distance covered by the master so far.")
 
 MASTER.section("Master Parameters: Sequence")
 MASTER.row(

@@ -16,7 +16,7 @@ MASTER_1.row(1, "Decelerating", R, "Set while ramping down with DEC.", FAST)
 MASTER_1.row(2, "Stopping", R, "Set while ramping to a full stop with STP.", FAST)
 MASTER_1.row(3, "Jerking", R, "Set while acceleration changes under JRK.", FAST)
 MASTER_1.row(4, "In Motion", R, "Set while a move is active, including during feedhold.", FAST)
-MASTER_1.row(5, "Move Buffered", R, "Set while another move waits behind the current one.", FAST)
+MASTER_1.row(5, "Move Buffered", R, "Set while another move waits after the current one.", FAST)
 MASTER_1.row(6, "Feedholding", R, "From a feedhold request until cycle start.", FAST)
 MASTER_1.row(
     7, "In Feedhold", R, "Set once the axes have stopped in feedhold, until cycle start.", FAST
@@ -40,7 +40,7 @@ MASTER_1.row(
     R,
     "Set if every attached axis is inside its EXC band.",
     SLOW,
-    erratum="The table for masters 0 to 7 merges this row with the next; the names behind slip.",
+    erratum="The table for masters 0 to 7 merges this row with the next; later names slip.",
 )
 MASTER_1.row(18, "Within A Limit", R, "Set if every attached axis is inside ALM.", SLOW)
 MASTER_1.row(19, "Not Within B Limit", R, "Set if any attached axis is outside BLM.", SLOW)

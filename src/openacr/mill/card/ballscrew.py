@@ -19,6 +19,7 @@ from openacr.errors import UserError
 from openacr.mill.config.settings import Settings, Store
 from openacr.mill.config.tabs import AxisSettings
 from openacr.sysvar.tabs import HOME, OFFSETS
+from openacr.wording import counted
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 LINE = re.compile(rf"\s*([A-Za-z])\s*({NUMBER})\s*[Ee]\s*({NUMBER})\s*")
@@ -115,7 +116,7 @@ def parse(text: str, letter: str, name: str = "table") -> Table:
             raise UserError(f"{where}: position {position:g} occurs twice")
         entries.append((position, float(found[3])))
     if len(entries) < LEAST_ENTRIES:
-        raise UserError(f"{name}: {len(entries)} entries; a table needs {LEAST_ENTRIES}")
+        raise UserError(f"{name}: {counted(len(entries), 'entry')}; a table needs {LEAST_ENTRIES}")
     return Table(letter, tuple(sorted(entries)))
 
 
@@ -136,7 +137,7 @@ def measured(path: Path, letter: str, home_u: float) -> Table:
             raise UserError(f"{place}: a position and at least one measurement are needed")
         rows.setdefault(values[0], []).extend(values[1:])
     if len(rows) < LEAST_ENTRIES:
-        raise UserError(f"{path}: {len(rows)} positions; a table needs {LEAST_ENTRIES}")
+        raise UserError(f"{path}: {counted(len(rows), 'position')}; a table needs {LEAST_ENTRIES}")
     if not min(rows) <= home_u <= max(rows):
         raise UserError(f"{path}: home {home_u:g} is not between {min(rows):g} and {max(rows):g}")
     return wrapped(letter, {n: errors(n, values) for n, values in rows.items()}, home_u)
@@ -283,8 +284,8 @@ def _segments(axis: AxisSettings, table: Table) -> Iterator[tuple[float, list[in
             runs.append([k, k + 1])
     if len(runs) > MOST_SEGMENTS:
         raise UserError(
-            f"the ballscrew table of {axis.name} changes its spacing {len(runs) - 1} times; "
-            f"the card takes {MOST_SEGMENTS - 1}"
+            f"the ballscrew table of {axis.name} changes its spacing "
+            f"{counted(len(runs) - 1, 'time')}; the card takes {MOST_SEGMENTS - 1}"
         )
     for run in runs:
         yield entries[run[-1]][0] - entries[run[0]][0], [round(entries[k][1]) for k in run]

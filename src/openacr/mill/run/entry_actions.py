@@ -21,7 +21,7 @@ from openacr.sysvar.tabs import CELLS
 if TYPE_CHECKING:
     from openacr.mill.card.driver import CardState
 
-SETTLED_S = 0.5  # longest time axes take to come to rest behind their targets
+SETTLED_S = 0.5  # longest time axes take to come to rest after their targets
 PULSES_OFF = 2.0  # what the check of a reference point allows
 
 

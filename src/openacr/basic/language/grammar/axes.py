@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class AxisItem:
-    """An axis as written with what was written behind it."""
+    """An axis as written, with the argument that follows it."""
 
     axis: AxisRef
     argument: object = None
 
 
 class AxisList(Form):
-    """`axis argument axis argument ...`, or the argument alone behind the prefix `AXISn`.
+    """`axis argument axis argument ...`, or the argument alone after the prefix `AXISn`.
 
     `each` is the form of the argument. The handler gets a tuple of `AxisValue` where
     `each` gives numbers (`Num`, `Pair`, `Group`), else of `(Axis, argument)`.
@@ -58,13 +58,13 @@ class AxisList(Form):
 
     def _begins_statement(self, p: Parser) -> bool:
         """Whether `AXISn` here is the prefix of a new command, as in `PPU X 1 AXIS1 ON`."""
-        behind = p.ahead(2)
+        following = p.ahead(2)
         return (
             p.is_word("AXIS")
             and p.ahead(1).kind is TokenKind.NUMBER
-            and behind.kind is TokenKind.WORD
-            and behind.value != "AXIS"
-            and p.begins_command(behind)
+            and following.kind is TokenKind.WORD
+            and following.value != "AXIS"
+            and p.begins_command(following)
         )
 
     def _argument(self, p: Parser) -> object:

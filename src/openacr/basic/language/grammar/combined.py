@@ -85,7 +85,7 @@ class Rest(Form):
 
 
 class Command(Form):
-    """A whole command, e.g. the one behind `?`; the handler gets the `Statement`."""
+    """A whole command, e.g. the one after `?`; the handler gets the `Statement`."""
 
     def __init__(self, *, optional: bool = False) -> None:
         super().__init__("command", optional=optional)

@@ -1,0 +1,136 @@
+"""The project speaks plain engineering English: words it does not use, and where each may occur."""
+
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+# A word or phrase that does not belong into the project, and what to write instead. Words are
+# looked up in texts and in the words of names (`way_out`, `MovePieces`), phrases in texts only.
+WORDS = {
+    "behind": "after, beyond, past, beneath",
+    "somebody": "operator, caller, host, user",
+    "someone": "operator, caller, host, user",
+    "anybody": "any host, any program",
+    "anyone": "any host, any program",
+    "nobody": "no operator, no caller, no host",
+    "everybody": "all hosts",
+    "everyone": "all hosts",
+    "whoever": "the operator, the caller, the host",
+    "told": "commanded, reported, informed",
+    "bow": "arc",
+    "bows": "arcs",
+    "stretch": "segment, section, interval",
+    "stretches": "segments, sections",
+    "way": "path, distance, direction, manner",
+    "ways": "paths, directions",
+}
+PHRASES = {
+    "is none": "is absent, not configured, None",
+    "are none": "are absent, not configured",
+    "of ours": "our own",
+    "so many": "the count",
+    "in one go": "at once, together",
+    "over and over": "repeatedly",
+    "1 errors": "openacr.wording.counted",
+    "1 warnings": "openacr.wording.counted",
+    "pieces of a move": "segments of a move",
+}
+# Contexts in which a word means something else: what stands in the physical world, set phrases.
+ALLOWED = re.compile(
+    r"\b(?:under[ _]way|both ways|(?:in )?the same way|the other way|on (?:the|its|their) way"
+    r"|gives? way|there\s+(?:is|are)\s+none)\b",
+    re.IGNORECASE,
+)
+FILES = sorted(
+    path
+    for pattern in ("src/openacr/**/*.py", "tests/**/*.py", "docs/**/*.md", "*.md")
+    for path in ROOT.glob(pattern)
+    if path != Path(__file__)
+)
+# Where the words are still found; this list only gets shorter.
+NOT_YET = {
+    ".",
+    "docs",
+    "docs/decisions",
+    "docs/reference",
+    "src/openacr/cnc",
+    "src/openacr/kernel",
+    "src/openacr/map",
+    "src/openacr/motion",
+    "tests/basic",
+    "tests/cli",
+    "tests/client",
+    "tests/cnc",
+    "tests/conformance",
+    "tests/controller",
+    "tests/docs",
+    "tests/engine",
+    "tests/examples",
+    "tests/io",
+    "tests/kernel",
+    "tests/mill",
+    "tests/network",
+    "tests/plant",
+    "tests/plc",
+    "tests/protocol",
+    "tests/scenario",
+    "tests/soak",
+    "tests/store",
+    "tests/system",
+    "tests/sysvar",
+}
+
+
+def room_of(path: Path) -> str:
+    """The package of a module, the folder of a test or page."""
+    parts = path.relative_to(ROOT).parts
+    return "/".join(parts[: min(len(parts) - 1, 3 if parts[0] == "src" else 2)]) or "."
+
+
+ROOMS = sorted({room_of(path) for path in FILES} - NOT_YET)
+SPLIT = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
+PATTERN = re.compile(r"\b(?:" + "|".join(map(re.escape, WORDS)) + r")\b", re.IGNORECASE)
+PHRASE = re.compile(r"\b(?:" + "|".join(each.replace(" ", r"\s+") for each in PHRASES) + r")\b")
+
+
+def texts_and_names(path: Path) -> Iterator[tuple[int, str, bool]]:
+    """Line, text, and whether it is a name: of a page the lines, of a module its tokens."""
+    if path.suffix == ".md":
+        yield 1, path.read_text(encoding="utf-8"), False
+        return
+    for token in tokenize.generate_tokens(io.StringIO(path.read_text("utf-8")).readline):
+        if token.type == tokenize.NAME:
+            yield token.start[0], token.string, True
+        elif token.type in (tokenize.STRING, tokenize.COMMENT):
+            yield token.start[0], token.string, False
+
+
+def found(path: Path) -> list[str]:
+    """Every word and phrase of the lists in a file, as `line: word: text around it`."""
+    hits = []
+    for line, text, is_name in texts_and_names(path):
+        words = " ".join(SPLIT.findall(text)) if is_name else re.sub(r"[_\n]", blank, text)
+        plain = ALLOWED.sub(blank, words)
+        for pattern in (PATTERN,) if is_name else (PATTERN, PHRASE):
+            for hit in pattern.finditer(plain):
+                where = line + text.count("\n", 0, hit.start()) if not is_name else line
+                around = text if is_name else text[max(0, hit.start() - 40) : hit.end() + 40]
+                hits.append(f"{where}: {hit[0].lower()}: {' '.join(around.split())}")
+    return hits
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_only_words_that_an_engineer_reads_at_once(room: str) -> None:
+    files = [path for path in FILES if room_of(path) == room]
+    assert [f"{path.relative_to(ROOT)}:{hit}" for path in files for hit in found(path)] == []
+
+
+def blank(match: re.Match[str]) -> str:
+    """As many spaces, so that places stay."""
+    return " " * len(match[0])
