@@ -96,7 +96,7 @@ STORAGE = at.STI_BASE
         (at.MSI_BASE + at.MSI_STRIDE + at.MSI_FIRST, 33, "moves of master 2"),
         (at.MSI_BASE + at.MSI_HEAD, 64, "moves of master 0"),
         (at.MSI_BASE + at.MSI_QUEUED, 65, "moves of master 0"),
-        (at.MSI_BASE + at.MSI_STRETCH, 65, "moves of master 0"),
+        (at.MSI_BASE + at.MSI_SECTION_CNT, 65, "moves of master 0"),
         (at.PLNI_BASE + at.PLNI_WORD, 4095, "a wire ends at row 4095"),
         (at.PLNI_BASE + at.PLNI_WORD, at.PUBLIC_COUNT, "a wire ends at row"),
         (at.PLNI_BASE + at.PLNI_WORD, at.BUSNI_BASE - 1, "a wire ends at row"),

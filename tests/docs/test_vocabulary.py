@@ -44,7 +44,7 @@ PHRASES = {
 # Contexts in which a word means something else: what stands in the physical world, set phrases.
 ALLOWED = re.compile(
     r"\b(?:under[ _]way|both ways|(?:in )?the same way|the other way|on (?:the|its|their) way"
-    r"|gives? way|there\s+(?:is|are)\s+none)\b",
+    r"|by way of|gives? way|there\s+(?:is|are)\s+none)\b",
     re.IGNORECASE,
 )
 FILES = sorted(
@@ -56,13 +56,12 @@ FILES = sorted(
 # Where the words are still found; this list only gets shorter.
 NOT_YET = {
     ".",
-    "docs",
-    "docs/decisions",
-    "docs/reference",
-    "src/openacr/cnc",
-    "src/openacr/kernel",
-    "src/openacr/map",
-    "src/openacr/motion",
+    "src/openacr/cnc/codes",
+    "src/openacr/cnc/compensation",
+    "src/openacr/cnc/interpreter",
+    "src/openacr/cnc/loading",
+    "src/openacr/cnc/program",
+    "src/openacr/cnc/reading",
     "tests/basic",
     "tests/cli",
     "tests/client",
@@ -90,7 +89,7 @@ NOT_YET = {
 def room_of(path: Path) -> str:
     """The package of a module, the folder of a test or page."""
     parts = path.relative_to(ROOT).parts
-    return "/".join(parts[: min(len(parts) - 1, 3 if parts[0] == "src" else 2)]) or "."
+    return "/".join(parts[: min(len(parts) - 1, 4 if parts[0] == "src" else 2)]) or "."
 
 
 ROOMS = sorted({room_of(path) for path in FILES} - NOT_YET)

@@ -93,21 +93,21 @@ def rest_speed(velocity: float, accel: float, jerk: float) -> float:
     return velocity + accel * fabs(accel) / (2.0 * jerk)
 
 
-def ramp_way(velocity: float, accel: float, goal: float, limit: float, jerk: float) -> float:
-    """The way of a ramp under a jerk limit from a speed and acceleration to another speed."""
+def ramp_distance(velocity: float, accel: float, goal: float, limit: float, jerk: float) -> float:
+    """Distance of a ramp under a jerk limit from a speed and acceleration to another speed."""
     sign: float = 1.0 if goal >= rest_speed(velocity, accel, jerk) else -1.0
     square: float = jerk * sign * (goal - velocity) + accel * accel / 2.0
     peak: float = sign * min(sqrt(max(square, 0.0)), limit)
     rise: float = jerk if peak > accel else -jerk
     t: float = (peak - accel) / rise
-    way: float = t * (velocity + t * (accel / 2.0 + t * rise / 6.0))
+    distance: float = t * (velocity + t * (accel / 2.0 + t * rise / 6.0))
     speed: float = velocity + t * (accel + t * rise / 2.0)
     last: float = fabs(peak) / jerk
     if peak != 0.0:
         t = max((goal - speed - peak * last / 2.0) / peak, 0.0)
-        way += t * (speed + t * peak / 2.0)
+        distance += t * (speed + t * peak / 2.0)
         speed += t * peak
-    return way + last * (speed + last * (peak / 2.0 - sign * last * jerk / 6.0))
+    return distance + last * (speed + last * (peak / 2.0 - sign * last * jerk / 6.0))
 
 
 def plain(value: float) -> float:
@@ -390,8 +390,8 @@ def plan_brake(
 ) -> None:
     """Plan the end ramp from here, at the softest rate that still fits; else force it.
 
-    A path that brakes already and has too little way left to let go of the brake first
-    keeps braking. The way grows as the rate falls, so bisection finds the rate; it may be
+    A path that brakes already and has too little distance left to let go of the brake first
+    keeps braking. The distance grows as the rate falls, so bisection finds the rate; it may be
     above STP, which is then too weak, but not above `limit`.
     """
     distance: float = end - F[profiles.distance[n]]

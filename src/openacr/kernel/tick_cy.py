@@ -87,7 +87,7 @@ def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float
 def locked_advance(
     F: F64, I: I32, S: F32, axis_count: int, period_s: float, rate_hz: float
 ) -> None:
-    """Axes locked to others, behind their leaders."""
+    """Axes locked to others, after their leaders."""
     for n in range(axis_count):
         if I[axes.on[n]] and lock_leader(I, n) >= 0:
             lock_step(F, I, S, n)

@@ -241,7 +241,7 @@ def close(run: Run, number: int) -> Wait | None:
     ref="PG Character I/O",
 )
 def talk_to(run: Run, device: str | ObjectRef) -> None:
-    """Join this channel with another one, both ways, until ESC."""
+    """Join this channel with another one in both directions until ESC."""
     name = port_name(device) if isinstance(device, str) else channel_name(device)
     other = run.system.sessions.get(name)
     if other is None or other is run.channel:

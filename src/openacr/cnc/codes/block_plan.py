@@ -123,7 +123,7 @@ class BlockPlanner:
     # --- codes and words --------------------------------------------------------------
 
     def _sorted(self, block: Block) -> tuple[list[tuple[Code, Word]], dict[str, Word]]:
-        """The codes, and the other words by letter; behind G65 and G66 all are arguments."""
+        """The codes, and the other words by letter; after G65 and G66 all are arguments."""
         codes: list[tuple[Code, Word]] = []
         words: dict[str, Word] = {}
         is_call = False

@@ -1,7 +1,7 @@
 """Arcs whose start and end radius differ: cut as spirals, doubted, or refused.
 
 Rounded numbers of a CAM system differ by little. A large difference is a spiral, which the
-`acromill` dialect has, or a centre that is read another way than it was written: then another
+`acromill` dialect has, or a centre that is read differently than it was written: then another
 reading of I, J and K gives equal radii.
 """
 

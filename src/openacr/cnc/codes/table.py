@@ -242,7 +242,7 @@ class Dialect:
     table: Table
     order: tuple[Step, ...]
     start: dict[str, Rule] = field(default_factory=dict)  # of Modal, before the start set
-    assigns_last: bool = False  # assignments act behind the reading of the block
+    assigns_last: bool = False  # assignments act after the block is read
     labels: bool = True  # N words are targets
     parameters: type[Parameters] | None = None  # where numbers mean something else
     has_own_cycles: bool = False  # without $I

@@ -211,7 +211,7 @@ class Chain(Generic[Held]):
     def _take_out(self, before: Piece[Held], bad: Piece[Held]) -> None:
         """Remove a piece; what waited for its end now waits for that of the one before it."""
         before.left_out_cnt += 1 + bad.left_out_cnt
-        waiting = [*(before.held or ()), *(bad.held or ()), *(bad.held_behind or ())]
+        waiting = [*(before.held or ()), *(bad.held or ()), *(bad.held_after or ())]
         before.held = waiting or None
 
     def _refuse(self, bad: Piece[Held], piece: Piece[Held] | None) -> None:
@@ -232,13 +232,13 @@ class Chain(Generic[Held]):
             self.rest(thing)
             return
         last = self._chain[-1]
-        held, behind = last.held or [], last.held_behind or []
-        if len(held) + len(behind) >= HELD_CNT:
+        held, after = last.held or [], last.held_after or []
+        if len(held) + len(after) >= HELD_CNT:
             self.finish()
             self.rest(thing)
             return
-        (behind if is_behind else held).append(thing)
-        last.held, last.held_behind = held, behind
+        (after if is_behind else held).append(thing)
+        last.held, last.held_after = held, after
 
     def _end_beside(self, piece: Piece[Held]) -> None:
         """Let a piece end beside the end of its element."""
@@ -270,8 +270,8 @@ class Chain(Generic[Held]):
             self._rest_at(piece.row + BX, piece.held)
         if following is not None and piece.meets > CROSSING:
             self._insert(piece, following, piece.meets)
-        if piece.held_behind:
-            self._rest_at((following or piece).row + (AX if following else BX), piece.held_behind)
+        if piece.held_after:
+            self._rest_at((following or piece).row + (AX if following else BX), piece.held_after)
 
     def _rest_at(self, place: int, things: list[Held | Element] | None) -> None:
         """Issue things where the tool rests; its coordinates are in the table."""

@@ -31,10 +31,10 @@ AWAY = 12  # the tool: its signed distance from the contour, left positive,
 TOOL_RADIUS = 13  # the radius R' of its arc,
 AX = 14  # start
 AY = 15
-BX = 16  # and end of its way,
+BX = 16  # and end of its move,
 BY = 17
 TOOL_SWEEP = 18  # the sweep of its arc
-ROLL = 19  # the sweep about the corner behind it
+ROLL = 19  # the sweep about the corner after it
 COLUMNS = 20
 
 PI = 3.141592653589793
@@ -189,7 +189,7 @@ def comp_place(F: F64, i: int, away: float) -> bool:
 
 
 def comp_beyond(F: F64, i: int, is_end: bool, x: float, y: float) -> float:
-    """How far a point lies beyond the end, or start, of the tool's way, along its direction.
+    """How far a point lies beyond the end, or start, of the tool's path, along its direction.
 
     In units of length for lines, in radians (-pi..pi) for arcs.
     """
@@ -214,7 +214,7 @@ def comp_fit(F: F64, i: int, epsilon: float, sweep_epsilon: float) -> int:
     """Say whether the tool still runs forward between its ends: FITS, EMPTY or GOUGES.
 
     The sweep of an arc is what was programmed, less what was cut off at both ends. Where
-    elements were joined within epsilon its ends may be that much off along the way.
+    elements were joined within epsilon its ends may be that much off along the path.
     """
     slack: float = 1.0e-3 * epsilon
     if slack < LEAST_SLACK:

@@ -14,7 +14,7 @@ def entry_arc(element: Element, away: float, start: tuple[float, float]) -> Elem
     """The arc beside which the tool leads in; None if no such arc exists.
 
     `start` is where the tool is, `away` the signed radius, left positive. What is returned is
-    the contour of the tool's arc: the tool touches it all the way, and its end is that of
+    the contour of the tool's arc: the tool touches it everywhere, and its end is that of
     `element`. There is none for a tool that does not come to the end from the side of the
     arc, or that is nearer to the end than its radius.
     """
@@ -38,8 +38,8 @@ def entry_arc(element: Element, away: float, start: tuple[float, float]) -> Elem
         return None
     cx, cy = bx + tool_radius * ux, by + tool_radius * uy
     sweep = turn * (atan2(by - cy, bx - cx) - atan2(start[1] - cy, start[0] - cx)) % (2.0 * pi)
-    stretch = contour_radius / tool_radius
-    begin = cx + stretch * (start[0] - cx), cy + stretch * (start[1] - cy)
+    factor = contour_radius / tool_radius
+    begin = cx + factor * (start[0] - cx), cy + factor * (start[1] - cy)
     return Element(
         element.source,
         element.plane,

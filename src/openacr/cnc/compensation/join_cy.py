@@ -4,9 +4,9 @@ Element i ends at the corner P with the tangent t1, element j leaves it with t2.
 beside them stands at the feet q1 = P + d1 n(t1) and q2 = P + d2 n(t2). With c = t1 x t2:
 
     d c < 0   outside: the tool rolls about P, from q1 to q2
-    d c > 0   inside: it can reach neither foot; it turns where both ways cross
+    d c > 0   inside: it can reach neither foot; it turns where both paths cross
 
-The ways are taken as whole lines and circles. With a circle of radius R' around C:
+The paths are taken as whole lines and circles. With a circle of radius R' around C:
 
     and a line at the distance h from C: foot of C on the line -+ sqrt(R'^2 - h^2) along it
     and a circle of radius S' around D = C + L u: C + a u -+ sqrt(R'^2 - a^2) n(u),
@@ -51,9 +51,9 @@ JOINED = 0
 CROSSING = 1
 ROUND = 2  # an arc about P is to be inserted
 BRIDGE = 3  # a line is to be inserted: the distances differ
-GAP = 4  # a line is to be inserted: the ways do not cross
-APART = 5  # the ways do not even come near each other
-FORCED = 6  # the ways cross by the root epsilon only
+GAP = 4  # a line is to be inserted: the paths do not cross
+APART = 5  # the paths do not even come near each other
+FORCED = 6  # the paths cross by the root epsilon only
 
 FIT_STEP = 8  # comp_meet adds this many times what comp_fit found
 
@@ -64,7 +64,7 @@ FAR = 1.0e30
 def comp_meet(
     F: F64, i: int, j: int, epsilon: float, sweep_epsilon: float, root: float, is_inside: bool
 ) -> int:
-    """Join two elements and look whether the tool's way beside the first one fits."""
+    """Join two elements and check whether the tool's path beside the first one fits."""
     meets: int = comp_join(F, i, j, epsilon, root, is_inside)
     if meets == ROUND:
         F[i + ROLL] = _comp_rolled(F, i, j)
@@ -85,7 +85,7 @@ def _comp_rolled(F: F64, i: int, j: int) -> float:
 
 
 def comp_join(F: F64, i: int, j: int, epsilon: float, root: float, is_inside: bool) -> int:
-    """Set the end of the tool's way beside i and its start beside j; say how they meet.
+    """Set the end of the tool's path beside i and its start beside j; say how they meet.
 
     `is_inside` where elements between them were left out: the tool does not reach P there.
     """
@@ -253,7 +253,7 @@ def _comp_at(F: F64, i: int, j: int, x: float, y: float) -> int:
 def _comp_gap(
     F: F64, i: int, j: int, ax: float, ay: float, bx: float, by: float, epsilon: float
 ) -> int:
-    """The ways end where they are nearest to each other."""
+    """The paths end where they are nearest to each other."""
     gap: float = comp_length(bx - ax, by - ay)
     radius: float = fabs(F[i + AWAY])
     if fabs(F[j + AWAY]) > radius:

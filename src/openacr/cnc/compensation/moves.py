@@ -96,9 +96,9 @@ def _around(start: Place, corner: Place, sweep: float) -> Iterator[Place]:
     steps = max(1, ceil(abs(sweep) / RAPID_STEP_RAD))
     step = sweep / steps
     x, y = start[0] - corner[0], start[1] - corner[1]
-    stretch = 1.0 / cos(0.5 * step)
+    factor = 1.0 / cos(0.5 * step)
     for k in range(steps):
-        c, s = cos((k + 0.5) * step) * stretch, sin((k + 0.5) * step) * stretch
+        c, s = cos((k + 0.5) * step) * factor, sin((k + 0.5) * step) * factor
         yield corner[0] + c * x - s * y, corner[1] + s * x + c * y
 
 

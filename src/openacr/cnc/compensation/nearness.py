@@ -60,21 +60,21 @@ class Curves:
         if len(arcs):
             round_ones = self[arcs]
             for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
-                way = np.zeros((len(arcs), 2))
-                way[:, axis] = sign
+                direction = np.zeros((len(arcs), 2))
+                direction[:, axis] = sign
                 top = round_ones.centre[:, axis] + sign * round_ones.radius
-                is_there = round_ones.spans(way)
+                is_there = round_ones.spans(direction)
                 side, better = (high, np.maximum) if sign > 0.0 else (low, np.minimum)
                 reached = arcs[is_there]
                 side[reached, axis] = better(side[reached, axis], top[is_there])
         return low, high
 
-    def spans(self, way: Array) -> Bools:
+    def spans(self, direction: Array) -> Bools:
         """Whether arcs have a point in a direction from their centre."""
         first = self.start - self.centre
         sign = np.where(self.sweep >= 0.0, 1.0, -1.0)
-        cross = first[:, 0] * way[:, 1] - first[:, 1] * way[:, 0]
-        dot = (first * way).sum(axis=1)
+        cross = first[:, 0] * direction[:, 1] - first[:, 1] * direction[:, 0]
+        dot = (first * direction).sum(axis=1)
         turned = np.mod(sign * np.arctan2(cross, dot), TURN)
         return np.asarray(turned <= np.abs(self.sweep), dtype=np.bool_)
 
@@ -128,15 +128,15 @@ def _line_arc(line: Curves, arc: Curves) -> Array:
     length = np.maximum(np.hypot(*along.T), TINY)
     unit = along / length[:, None]
     s = ((arc.centre - line.start) * unit).sum(axis=1)
-    way = line.start + s[:, None] * unit - arc.centre  # from the centre to the foot
-    h = np.hypot(*way.T)
-    is_between = (s >= 0.0) & (s <= length) & arc.spans(way) & (h >= arc.radius)
+    direction = line.start + s[:, None] * unit - arc.centre  # from the centre to the foot
+    h = np.hypot(*direction.T)
+    is_between = (s >= 0.0) & (s <= length) & arc.spans(direction) & (h >= arc.radius)
     near = np.where(is_between, h - arc.radius, np.inf)
     half = np.sqrt(np.maximum(arc.radius**2 - h**2, 0.0))
     for sign in (-1.0, 1.0):
         at = s + sign * half
         is_hit = (h < arc.radius) & (at >= 0.0) & (at <= length)
-        is_hit &= arc.spans(way + (sign * half)[:, None] * unit)
+        is_hit &= arc.spans(direction + (sign * half)[:, None] * unit)
         near[is_hit] = 0.0
     return near
 
@@ -159,7 +159,7 @@ def _arc_arc(a: Curves, b: Curves) -> Array:
     half = np.sqrt(np.maximum(square, 0.0))
     normal = np.column_stack([-unit[:, 1], unit[:, 0]])
     for sign in (-1.0, 1.0):
-        way = u[:, None] * unit + (sign * half)[:, None] * normal
-        is_hit = (square >= 0.0) & a.spans(way) & b.spans(way - apart)
+        direction = u[:, None] * unit + (sign * half)[:, None] * normal
+        is_hit = (square >= 0.0) & a.spans(direction) & b.spans(direction - apart)
         near[is_hit] = 0.0
     return near

@@ -35,7 +35,7 @@ class Piece(Generic[Held_co]):
         "element",
         "fits",
         "held",
-        "held_behind",
+        "held_after",
         "is_lead_in",
         "left_out_cnt",
         "meets",
@@ -48,9 +48,9 @@ class Piece(Generic[Held_co]):
         self.is_lead_in = is_lead_in
         self.fits = FITS
         self.meets = JOINED  # how the next piece follows
-        self.left_out_cnt = 0  # elements left out behind it
+        self.left_out_cnt = 0  # elements left out after it
         self.held: list[Held_co | Element] | None = None
-        self.held_behind: list[Held_co | Element] | None = None
+        self.held_after: list[Held_co | Element] | None = None
 
 
 class Table:

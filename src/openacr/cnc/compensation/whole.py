@@ -27,7 +27,7 @@ class ChainCheck:
         self._epsilon = epsilon
         self._report = report
         self._contour: list[Element] = []
-        self._ways: list[Element] = []
+        self._tool_moves: list[Element] = []
         self._radii: list[float] = []
 
     def contour(self, element: Element) -> None:
@@ -36,28 +36,28 @@ class ChainCheck:
 
     def centre_path(self, element: Element, radius: float) -> None:
         """A move of the tool."""
-        self._ways.append(element)
+        self._tool_moves.append(element)
         self._radii.append(radius)
 
     def end(self) -> None:
         """Report what is too near, once for each pair of lines, its nearest point."""
-        if self._contour and self._ways:
-            for way, element, near, radius in self._found():
+        if self._contour and self._tool_moves:
+            for move, element, near, radius in self._found():
                 text = f"tool comes to {near:.6g} from line {element.source.line}"
-                self._report("W323", f"{text}, its radius is {radius:g}", way)
-        self._contour, self._ways, self._radii = [], [], []
+                self._report("W323", f"{text}, its radius is {radius:g}", move)
+        self._contour, self._tool_moves, self._radii = [], [], []
 
     def _found(self) -> list[tuple[Element, Element, float, float]]:
         radii = np.array(self._radii)
         reach = np.maximum(radii - self._epsilon, 0.0)
         contour = _without_leads(self._contour, self._epsilon)
-        asked, own, near = Tree(_curves(contour)).nearer(_curves(self._ways), reach)
+        asked, own, near = Tree(_curves(contour)).nearer(_curves(self._tool_moves), reach)
         pairs: dict[tuple[int, int], tuple[Element, Element, float, float]] = {}
         for k in np.lexsort((near, asked)):
-            way, element = self._ways[asked[k]], contour[own[k]]
-            lines = (way.source.line, element.source.line)
+            move, element = self._tool_moves[asked[k]], contour[own[k]]
+            lines = (move.source.line, element.source.line)
             if lines not in pairs or pairs[lines][2] > near[k]:
-                pairs[lines] = (way, element, float(near[k]), self._radii[asked[k]])
+                pairs[lines] = (move, element, float(near[k]), self._radii[asked[k]])
         return list(pairs.values())
 
 

@@ -43,12 +43,12 @@ class Options:
     cut_z: float = 0.0  # of the path
     d_number: int = 0  # cutter compensation with this radius, 0 none
     radius: float = 0.0  # of that tool
-    lead: float = 0.25  # radius of ways in and out
+    lead: float = 0.25  # radius of lead-in and lead-out
 
 
 @dataclass(frozen=True, slots=True)
 class Conversion:
-    """A part program, and what is to be said about it."""
+    """A part program, and notes for the user."""
 
     text: str
     is_metric: bool
@@ -57,7 +57,7 @@ class Conversion:
 
 
 def convert(path: Path, options: Options) -> Conversion:
-    """The part program a drawing makes; UserError if there is nothing to make it of."""
+    """Convert a drawing to a part program; UserError if it has nothing to convert."""
     drawing = read(
         path,
         layer=options.layer,
@@ -91,14 +91,14 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
     chains = directed(joiner.chains(), is_counter_clockwise=options.is_counter_clockwise)
     route = routed(chains, _tool(options, unit))
     drawing.notes += route.notes
-    if not route.ways:
+    if not route.paths:
         raise UserError(f"{path}: D{options.d_number} has no room anywhere")
     closed = sum(chain.is_closed for chain in chains)
     summary = (
         f"{counted(len(chains), 'chain')} ({closed} closed) of {counted(len(pieces), 'entity')}"
     )
     text = path_program(
-        route.ways,
+        route.paths,
         Numbers(drawing.is_metric),
         title=f"{_printable(path.name)}: {summary}",
         safe_height=unit(options.safe_height),

@@ -17,7 +17,7 @@ from openacr.cnc.dxf.segments import Point, Segment, reverse_all
 
 Piece = tuple[Segment, ...]
 ORIGIN: Point = (0.0, 0.0)
-NOBODY = -1
+NO_PARENT = -1
 REACH = 0.49  # of the length of a piece
 
 
@@ -40,7 +40,7 @@ class Chain:
 
     @property
     def length(self) -> float:
-        """The whole way."""
+        """The length of the chain."""
         return _length(self.segments)
 
     @property
@@ -49,7 +49,7 @@ class Chain:
         return math.fsum(segment.area for segment in self.segments)
 
     def reversed(self) -> "Chain":
-        """The same way back."""
+        """The chain in the opposite direction."""
         return Chain(reverse_all(self.segments), self.is_closed)
 
 
@@ -71,7 +71,7 @@ def in_order(
 ) -> list[int]:
     """The numbers of the chains by the nearest start; see `turned` for their direction.
 
-    With `parents`, which chain lies around which, a chain comes behind all that lie in it.
+    With `parents`, which chain lies around which, a chain comes after all that lie in it.
     """
     inside = Counter(parents)
     ready = [number for number in range(len(chains)) if not inside[number]]
@@ -86,8 +86,8 @@ def in_order(
         ends.take(number)
         tool = turned(chains[number], tool).end
         ordered.append(number)
-        around = parents[number] if parents else NOBODY
-        if around != NOBODY:
+        around = parents[number] if parents else NO_PARENT
+        if around != NO_PARENT:
             inside[around] -= 1
             if not inside[around]:
                 _offer(around, chains[around], starts, ends)
@@ -199,7 +199,7 @@ class Joiner:
         return Chain(self._segments(run, is_closed), is_closed)
 
     def _followed(self, end: int, goal: int) -> list[int]:
-        """The ends entered one after the other, going on behind `end`."""
+        """The ends entered one after the other, continuing after `end`."""
         entered: list[int] = []
         while self._node[end] != goal:
             following = self._straightest(end)

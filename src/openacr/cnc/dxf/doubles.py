@@ -33,7 +33,7 @@ def without_doubles(pieces: Sequence[Piece], epsilon: float) -> list[Piece]:
 
 
 def _middle(piece: Piece, length: float) -> Point:
-    """The point half way along."""
+    """The point at half of the length."""
     left = 0.5 * length
     for segment in piece:
         if left <= segment.length:

@@ -6,7 +6,7 @@ segment. With the tool on side s (+1 left), the direction t there and n its left
     centre C = P + s L n,   first point C - L t,   last point C + L t,
 
 and compensation goes on and off on the straight pieces between C and these points. All that
-the tool cuts on the way lies inside the circle of radius L about C, so there is room for it
+the tool cuts between them lies inside the circle of radius L about C, so there is room for it
 where no edge is nearer to C than L.
 """
 
@@ -70,9 +70,9 @@ def _begun(chain: Chain, segment: Segment, contact: Point) -> Chain:
     place = next(k for k, each in enumerate(chain.segments) if each is segment)
     half = segment.sweep_rad / 2.0
     before = Segment(segment.start, contact, segment.centre, half)
-    behind = Segment(contact, segment.end, segment.centre, half)
+    after = Segment(contact, segment.end, segment.centre, half)
     others = (*chain.segments[place + 1 :], *chain.segments[:place])
-    return Chain((behind, *others, before), is_closed=True)
+    return Chain((after, *others, before), is_closed=True)
 
 
 def quarter(start: Point, end: Point, centre: Point, is_left: bool) -> Segment:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from openacr.cnc.dxf.chains import NOBODY, Chain
+from openacr.cnc.dxf.chains import NO_PARENT, Chain
 from openacr.cnc.dxf.segments import Point, Segment
 
 CHORD_RAD = math.radians(5.0)
@@ -33,7 +33,7 @@ def _points(segment: Segment) -> Iterator[Point]:
 
 
 def parents(chains: Sequence[Chain], outlines: Sequence[Array]) -> list[int]:
-    """For every chain the smallest closed one around it, `NOBODY` for those outside."""
+    """For every chain the smallest closed one around it, `NO_PARENT` for those outside."""
     areas = np.array([abs(chain.area) if chain.is_closed else 0.0 for chain in chains])
     low = np.array([points.min(axis=0) for points in outlines])
     high = np.array([points.max(axis=0) for points in outlines])
@@ -44,7 +44,7 @@ def parents(chains: Sequence[Chain], outlines: Sequence[Array]) -> list[int]:
         around = np.flatnonzero(is_around)
         inner = sorted(around.tolist(), key=areas.__getitem__)
         middle = 0.5 * (points[0] + points[1])  # corners may touch the chain around
-        found.append(next((k for k in inner if _is_inside(middle, outlines[k])), NOBODY))
+        found.append(next((k for k in inner if _is_inside(middle, outlines[k])), NO_PARENT))
     return found
 
 
@@ -54,7 +54,7 @@ def depths(parent: Sequence[int]) -> list[int]:
 
 
 def _ancestors(number: int, parent: Sequence[int]) -> Iterator[int]:
-    while (number := parent[number]) != NOBODY:
+    while (number := parent[number]) != NO_PARENT:
         yield number
 
 
@@ -69,7 +69,7 @@ def _is_inside(point: Array, polygon: Array) -> bool:
 
 
 class Edges:
-    """All edges of a drawing, to ask how much room there is somewhere."""
+    """All edges of a drawing, to find the free radius about a place."""
 
     def __init__(self, outlines: Sequence[Array]) -> None:
         self._outlines = outlines
@@ -85,8 +85,8 @@ class Edges:
 
 
 def _distance(here: Array, points: Array) -> float:
-    """How far the nearest point of an outline is."""
-    a, way = points[:-1], np.diff(points, axis=0)
-    share = ((here - a) * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), 1e-300)
-    off = a + np.clip(share, 0.0, 1.0)[:, None] * way - here
+    """The distance to the nearest point of an outline."""
+    a, along = points[:-1], np.diff(points, axis=0)
+    share = ((here - a) * along).sum(axis=1) / np.maximum((along * along).sum(axis=1), 1e-300)
+    off = a + np.clip(share, 0.0, 1.0)[:, None] * along - here
     return float(np.sqrt((off * off).sum(axis=1).min()))

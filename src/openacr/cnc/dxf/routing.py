@@ -7,7 +7,7 @@ from openacr.cnc.dxf.chains import ORIGIN, Chain, in_order, turned
 from openacr.cnc.dxf.leads import Led, led
 from openacr.cnc.dxf.nesting import Edges, depths, outline, parents
 
-Way = Chain | Led
+CutPath = Chain | Led
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,54 +16,58 @@ class Tool:
 
     d_number: int
     radius: float
-    lead: float  # radius of the ways in and out
+    lead: float  # radius of lead-in and lead-out
 
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """Ways in their order, and what is to be said about them."""
+    """Paths in their order, and notes for the user."""
 
-    ways: list[Way]
+    paths: list[CutPath]
     notes: list[str]
 
 
 def routed(chains: Sequence[Chain], tool: Tool | None) -> Route:
-    """What lies inside a chain is cut before it; of what may come next, the nearest start.
+    """Order the chains: those inside a chain before it, of the possible ones the nearest start.
 
     With a tool, closed chains are compensated: it stays outside outlines and inside holes.
     """
     outlines = [outline(chain) for chain in chains]
     around = parents(chains, outlines)
-    ways: list[Way | None] = list(chains)
+    paths: list[CutPath | None] = list(chains)
     if tool is not None:
         edges = Edges(outlines)
         for number, (chain, depth) in enumerate(zip(chains, depths(around), strict=True)):
             if chain.is_closed:
                 is_hole = depth % 2 == 1
-                ways[number] = led(
+                paths[number] = led(
                     chain, edges, is_hole=is_hole, radius=tool.radius, lead=tool.lead
                 )
     here, ordered = ORIGIN, []
-    for number in in_order([_chain(way, chains[k]) for k, way in enumerate(ways)], parents=around):
-        way = ways[number]
-        if isinstance(way, Chain):
-            way = turned(way, here)
-        if way is not None:
-            here = _chain(way, chains[number]).end
-            ordered.append(way)
-    return Route(ordered, _notes(chains, ways, tool))
+    for number in in_order(
+        [_chain(path, chains[k]) for k, path in enumerate(paths)], parents=around
+    ):
+        path = paths[number]
+        if isinstance(path, Chain):
+            path = turned(path, here)
+        if path is not None:
+            here = _chain(path, chains[number]).end
+            ordered.append(path)
+    return Route(ordered, _notes(chains, paths, tool))
 
 
-def _chain(way: Way | None, chain: Chain) -> Chain:
-    return way.chain if isinstance(way, Led) else chain
+def _chain(path: CutPath | None, chain: Chain) -> Chain:
+    return path.chain if isinstance(path, Led) else chain
 
 
-def _notes(chains: Sequence[Chain], ways: Sequence[Way | None], tool: Tool | None) -> list[str]:
+def _notes(
+    chains: Sequence[Chain], paths: Sequence[CutPath | None], tool: Tool | None
+) -> list[str]:
     if tool is None:
         return []
     notes = []
-    for chain, way in zip(chains, ways, strict=True):
-        if way is None:
+    for chain, path in zip(chains, paths, strict=True):
+        if path is None:
             x, y = chain.start
             notes.append(
                 f"left out: a chain at {x:g}, {y:g}: D{tool.d_number} has no room beside it"

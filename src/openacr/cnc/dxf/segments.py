@@ -1,4 +1,4 @@
-"""Straight and round pieces of a drawing, in the plane.
+"""Lines and arcs of a drawing, in the plane.
 
 A segment goes from `start` to `end`; with a centre it is an arc of `sweep_rad`, positive
 counter-clockwise, a full circle where it is a whole turn.
@@ -34,21 +34,21 @@ class Segment:
 
     @property
     def length(self) -> float:
-        """The way along the segment."""
+        """The length along the segment."""
         if self.centre is None:
             return math.dist(self.start, self.end)
         return self.radius * abs(self.sweep_rad)
 
     @property
     def area(self) -> float:
-        """What it adds to the area of a closed chain, positive counter-clockwise.
+        """The contribution to the area of a closed chain, positive counter-clockwise.
 
-        The triangle between origin and chord, and the piece between chord and arc.
+        The triangle between origin and chord, and the circular segment between chord and arc.
         """
         (x0, y0), (x1, y1) = self.start, self.end
         triangle = (x0 * y1 - x1 * y0) / 2.0
-        bow = self.radius**2 * (self.sweep_rad - math.sin(self.sweep_rad)) / 2.0
-        return triangle + bow
+        cap = self.radius**2 * (self.sweep_rad - math.sin(self.sweep_rad)) / 2.0
+        return triangle + cap
 
     @property
     def height(self) -> float:
@@ -63,7 +63,7 @@ class Segment:
         return _unit(-y, x) if self.sweep_rad > 0 else _unit(y, -x)
 
     def at(self, share: float) -> Point:
-        """The point at a share of the way."""
+        """The point at a share of the length."""
         (x0, y0), (x1, y1) = self.start, self.end
         if self.centre is None:
             return (x0 + (x1 - x0) * share, y0 + (y1 - y0) * share)
@@ -73,7 +73,7 @@ class Segment:
         return (x + radius * math.cos(angle), y + radius * math.sin(angle))
 
     def reversed(self) -> "Segment":
-        """The same way back."""
+        """The segment in the opposite direction."""
         return Segment(self.end, self.start, self.centre, -self.sweep_rad)
 
     def moved_to(self, start: Point) -> "Segment":
@@ -106,5 +106,5 @@ def polyline(points: Sequence[Point]) -> tuple[Segment, ...]:
 
 
 def reverse_all(segments: Iterable[Segment]) -> tuple[Segment, ...]:
-    """A run of segments the other way round."""
+    """A run of segments in the opposite direction."""
     return tuple(segment.reversed() for segment in reversed(tuple(segments)))

@@ -54,11 +54,11 @@ def path_program(
     lines = [*_head(title, numbers), "G200 F2"]
     if feed is not None:
         lines.append(numbers.words("F", [feed]))
-    for number, way in enumerate(chains, 1):
-        chain = way.chain if isinstance(way, Led) else way
+    for number, path in enumerate(chains, 1):
+        chain = path.chain if isinstance(path, Led) else path
         lines += [f"; chain {number}: {_described(chain, numbers)}", up]
-        if isinstance(way, Led):
-            lines += _compensated(way, numbers, straight, d_number, down)
+        if isinstance(path, Led):
+            lines += _compensated(path, numbers, straight, d_number, down)
         else:
             lines += [f"G0 {numbers.words('XY', chain.start)}", down]
             lines += _moves(chain, numbers, straight)
@@ -71,10 +71,10 @@ def _head(title: str, numbers: Numbers) -> list[str]:
 
 def _described(chain: Chain, numbers: Numbers) -> str:
     if chain.is_closed:
-        way = "closed, " + ("counter-clockwise" if chain.area > 0 else "clockwise")
+        kind = "closed, " + ("counter-clockwise" if chain.area > 0 else "clockwise")
     else:
-        way = "open"
-    return f"{way}, length {numbers.text(chain.length)}"
+        kind = "open"
+    return f"{kind}, length {numbers.text(chain.length)}"
 
 
 def _compensated(

@@ -47,7 +47,7 @@ def arc_geometry(
         centre = _centre_by_radius(b, a, z, lengths["R"], direction, epsilon)
     else:
         centre = centre_by_words(b, plane, a, reading, lengths)
-    return _bow(b, a, z, centre, direction)
+    return _arc_about(b, a, z, centre, direction)
 
 
 def centre_by_words(
@@ -78,7 +78,9 @@ def _centre_by_radius(
     return (start[0] + end[0]) / 2.0 - dy * side, (start[1] + end[1]) / 2.0 + dx * side
 
 
-def _bow(b: BlockContext, start: Pair, end: Pair, centre: Pair, direction: int) -> ArcGeometry:
+def _arc_about(
+    b: BlockContext, start: Pair, end: Pair, centre: Pair, direction: int
+) -> ArcGeometry:
     start_radius, end_radius = math.dist(start, centre), math.dist(end, centre)
     if start_radius < SAME or end_radius < SAME:
         raise b.fault("E232")
@@ -97,24 +99,24 @@ def _in_one_turn(angle: float) -> float:
 
 
 def placed(
-    b: BlockContext, bow: ArcGeometry, plane: Plane, coordinates: Coordinates, start: Point
+    b: BlockContext, arc: ArcGeometry, plane: Plane, coordinates: Coordinates, start: Point
 ) -> ArcGeometry:
     """The arc after scaling and rotation."""
     if coordinates.is_plain:
-        return bow
+        return arc
     first, second = plane.first, plane.second
-    sweep, stretch = bow.sweep_rad, 1.0
+    sweep, factor = arc.sweep_rad, 1.0
     if coordinates.scale is not None:
         k1, k2 = coordinates.scale.factors[first], coordinates.scale.factors[second]
         if abs(abs(k1) - abs(k2)) > SAME:
             raise b.fault("E244", detail=f"{k1:g} and {k2:g}")
-        stretch = abs(k1)
+        factor = abs(k1)
         sweep = -sweep if k1 * k2 < 0.0 else sweep
     if coordinates.rotation is not None and coordinates.rotation.plane is not plane:
         raise b.fault("E244", detail="the plane is turned out of itself")
     point = list(start)
-    point[first], point[second] = bow.centre
+    point[first], point[second] = arc.centre
     moved = coordinates.forward(tuple(point))
     return ArcGeometry(
-        (moved[first], moved[second]), sweep, bow.start_radius * stretch, bow.end_radius * stretch
+        (moved[first], moved[second]), sweep, arc.start_radius * factor, arc.end_radius * factor
     )

@@ -122,14 +122,14 @@ class Path:
             p[axis] = p[axis] + value if is_incremental else value
         return tuple(p)
 
-    def distance(self, end: Point, bow: ArcGeometry | None, plane: Plane) -> float:
+    def distance(self, end: Point, arc: ArcGeometry | None, plane: Plane) -> float:
         """The length of a move from here; of rotary axes alone the largest turn."""
         delta = [b - a for a, b in zip(self.program, end, strict=True)]
         linear = [d for axis, d in enumerate(delta) if axis not in self._rotary]
-        if bow is not None:
+        if arc is not None:
             beside = [d for axis, d in enumerate(delta) if axis in (plane.drill, 6, 7)]
-            mean = 0.5 * (bow.start_radius + bow.end_radius)
-            return math.hypot(mean * bow.sweep_rad, *beside)
+            mean = 0.5 * (arc.start_radius + arc.end_radius)
+            return math.hypot(mean * arc.sweep_rad, *beside)
         return math.hypot(*linear) or max(map(abs, delta))
 
     def begin(self, machine: Point) -> None:
@@ -201,7 +201,7 @@ class Path:
         else:
             self._emit(Line(source, target, pace, is_inserted, is_compensated))
 
-    def arc(self, b: BlockContext, end: Point, bow: ArcGeometry, pace: Pace) -> None:
+    def arc(self, b: BlockContext, end: Point, arc: ArcGeometry, pace: Pace) -> None:
         """Move along an arc given after scaling and rotation; `end` is the program point."""
         b.has_moved = True
         self.program = end
@@ -210,36 +210,36 @@ class Path:
         if self.elements is not None:
             self.target = target
             plane, shift = self._modal.plane_axes, self.coordinates.shift
-            centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
-            self.elements(Element(b.source, plane, start, target, pace, centre, bow.sweep_rad))
+            centre = arc.centre[0] + shift[plane.first], arc.centre[1] + shift[plane.second]
+            self.elements(Element(b.source, plane, start, target, pace, centre, arc.sweep_rad))
             return
-        self._issue_arc(b.source, target, bow, pace)
+        self._issue_arc(b.source, target, arc, pace)
         self.target = target
 
     def _issue_arc(
         self,
         source: Source,
         target: Point,
-        bow: ArcGeometry,
+        arc: ArcGeometry,
         pace: Pace,
         is_inserted: bool = False,
         is_compensated: bool = False,
     ) -> None:
         plane = self._modal.plane_axes
         if self.shape is not None:
-            target = self.shape(source, self.issued, target, bow, pace)
+            target = self.shape(source, self.issued, target, arc, pace)
         self.issued = target
         shift = self.coordinates.shift
-        centre = bow.centre[0] + shift[plane.first], bow.centre[1] + shift[plane.second]
+        centre = arc.centre[0] + shift[plane.first], arc.centre[1] + shift[plane.second]
         self._emit(
             Arc(
                 source,
                 target,
                 plane,
                 centre,
-                bow.sweep_rad,
-                bow.start_radius,
-                bow.end_radius,
+                arc.sweep_rad,
+                arc.start_radius,
+                arc.end_radius,
                 pace,
                 is_inserted,
                 is_compensated,
@@ -254,10 +254,10 @@ class Path:
             return
         first, second = element.plane.first, element.plane.second
         shift = self.coordinates.shift
-        bow = ArcGeometry(
+        arc = ArcGeometry(
             (element.centre[0] - shift[first], element.centre[1] - shift[second]),
             element.sweep_rad,
             math.dist((element.start[first], element.start[second]), element.centre),
             math.dist((element.end[first], element.end[second]), element.centre),
         )
-        self._issue_arc(element.source, element.end, bow, element.pace, *flags)
+        self._issue_arc(element.source, element.end, arc, element.pace, *flags)

@@ -47,7 +47,7 @@ class Loops:
             self._earlier[key] = run.path.target, self._state()
 
     def _state(self) -> tuple[object, ...]:
-        """All that decides how the program goes on; frames are told apart, not compared."""
+        """All that decides how the program goes on; frames are compared by identity."""
         run = self._run
         cells, machine = run.cells, run.machine
         return (

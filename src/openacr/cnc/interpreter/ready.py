@@ -33,7 +33,7 @@ class Ready:
     plan: Plan
     is_empty: bool
     assigns: tuple[Assign, ...]
-    late: tuple[Assign, ...]  # where assignments act behind the reading of the block
+    late: tuple[Assign, ...]  # where assignments act after the block is read
     statement: Act | None
     values: tuple[tuple[str, Formula], ...]
     limits: tuple[Limit, ...]  # of words that are formulas
@@ -206,7 +206,7 @@ def _lines(one: Assignment, parameters: Parameters) -> list[str]:
 
 
 def _store(kind: str, n: float, parameters: Parameters) -> str:
-    """The shortest way to write a parameter."""
+    """The fastest function that writes a parameter."""
     if parameters.is_free_cell(n):
         return f"keep({int(n)}, v)"
     if parameters.is_plain_cell(n):

@@ -146,7 +146,7 @@ def survey(
 
 
 def _found_before(errors: list[Finding], run: Interpreter) -> list[Finding]:
-    """The error that ends the run, if it is none of those known from the load."""
+    """The error that ends the run, unless it is known from the load."""
     try:
         for _entry in run.entries():
             pass

@@ -193,11 +193,11 @@ class _Sizes:
         return self.read_p(n)
 
     def read_named(self, name: str) -> float:
-        """There are none."""
+        """A CodeError: a CHECK has no named parameters."""
         raise CodeError("E108", hint="a CHECK knows parameters alone")
 
     def has_named(self, name: str) -> bool:
-        """There are none."""
+        """Always False: a CHECK has no named parameters."""
         return False
 
     def read_input(self, n: float) -> float:

@@ -106,7 +106,7 @@ def axis_offsets(F: F64, n: int) -> float:
 
 
 def axis_jog_set(F: F64, I: I32, n: int, offset_cnt: float) -> None:
-    """Replace the jog offset of axis n; a jog under way goes on from there."""
+    """Replace the jog offset of axis n; a jog under way continues from there."""
     F[axes.jog_origin_cnt[n]] += offset_cnt - F[axes.jog_cnt[n]]
     F[axes.jog_cnt[n]] = offset_cnt
     I[axes.jog_replan[n]] = 1

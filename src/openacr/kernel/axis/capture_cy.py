@@ -127,11 +127,11 @@ def position_before(F: F64, I: I32, n: int, e: int, since_cnt: float) -> int:
     MULT below 4 counts only some of them: the present fraction tells which.
     """
     scaled_cnt: float = since_cnt * I[encoders.mult[e]] * 0.25
-    behind_cnt: float = floor(F[encoders.partial_cnt[e]] - scaled_cnt)
-    if I[encoders.limit_hz[e]] > 0:  # counts lost in the filter are no way
+    back_cnt: float = floor(F[encoders.partial_cnt[e]] - scaled_cnt)
+    if I[encoders.limit_hz[e]] > 0:  # counts lost in the filter are no distance
         step_cnt: float = F[encoders.step_cnt[e]]
-        behind_cnt = max(min(0.0, -step_cnt), min(max(0.0, -step_cnt), behind_cnt))
-    return wrap32(I[axes.actual_position[n]] + int(behind_cnt))
+        back_cnt = max(min(0.0, -step_cnt), min(max(0.0, -step_cnt), back_cnt))
+    return wrap32(I[axes.actual_position[n]] + int(back_cnt))
 
 
 def position_at_marker(F: F64, I: I32, n: int, encoder: int, falling: bool) -> int:

@@ -5,7 +5,7 @@ four, in the direction of its sign:
 
     position += MULT/4 * (raw - raw_old), whole counts; fractions are carried.
 
-ROTARY wraps the position that is shown into 0 .. length - 1. Whoever follows an encoder - the
+ROTARY wraps the position that is shown into 0 .. length - 1. What follows an encoder - the
 axis it belongs to, gears, encoders locked to it - sees its count instead, position + what the
 wraps have taken off, and so never a wrap; what looks at the place itself (limit switches, output
 objects, ballscrew tables, copies, programs) sees the position. A commutator sees neither wraps
@@ -135,14 +135,14 @@ def encoder_filter(F: F64, I: I32, e: int, raw_cnt: float, period_s: float) -> N
     if edges == 0.0:
         F[encoders.filter_since_s[e]] += period_s
     else:
-        way: float = 1.0 if raw_cnt > old_cnt else -1.0
+        direction: float = 1.0 if raw_cnt > old_cnt else -1.0
         gap_s: float = period_s / edges
         if F[encoders.filter_since_s[e]] + 0.5 * gap_s >= hold_s:
             encoder_pass(F, e, old_cnt)
         if edges > 1.0 and gap_s >= hold_s:
-            encoder_pass(F, e, old_cnt + way)
-            F[encoders.passed_cnt[e]] += way * (edges - 2.0)
-            F[encoders.filter_level_cnt[e]] = raw_cnt - way
+            encoder_pass(F, e, old_cnt + direction)
+            F[encoders.passed_cnt[e]] += direction * (edges - 2.0)
+            F[encoders.filter_level_cnt[e]] = raw_cnt - direction
         F[encoders.filter_since_s[e]] = 0.5 * gap_s
         F[encoders.filter_old_cnt[e]] = raw_cnt
     if F[encoders.filter_since_s[e]] >= hold_s:
@@ -262,7 +262,7 @@ def feedback_read(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> int:
 
 
 def ideal_step(F: F64, I: I32, n: int, e: int, rate_hz: float) -> None:
-    """Ideal feedback: encoder e stands where axis n was told to be."""
+    """Ideal feedback: encoder e is where axis n was commanded to be."""
     now: int = round32(F[axes.ssp_cnt[n]])
     step: int = wrap32(now - encoder_count(I, e))
     I[encoders.encoder_position[e]] = wrap32(I[encoders.encoder_position[e]] + step)

@@ -198,13 +198,13 @@ def cam_halt(F: F64, I: I32, n: int) -> None:
 
 def cam_passed(old_cnt: float, delta_cnt: float, position_cnt: float, total_cnt: float) -> float:
     """How far on the cam passes `position_cnt` within `delta_cnt` of `old_cnt`, or NOT_PASSED."""
-    way_cnt: float = position_cnt - old_cnt
-    way_cnt -= floor(way_cnt / total_cnt) * total_cnt
+    distance_cnt: float = position_cnt - old_cnt
+    distance_cnt -= floor(distance_cnt / total_cnt) * total_cnt
     if delta_cnt < 0.0:
-        way_cnt -= total_cnt
-    if way_cnt == 0.0:
+        distance_cnt -= total_cnt
+    if distance_cnt == 0.0:
         return NOT_PASSED
-    return way_cnt if fabs(way_cnt) <= fabs(delta_cnt) else NOT_PASSED
+    return distance_cnt if fabs(distance_cnt) <= fabs(delta_cnt) else NOT_PASSED
 
 
 def cam_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, rate_hz: float) -> None:
@@ -213,9 +213,9 @@ def cam_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, rate_hz: float) ->
     ends: bool = False
     if I[cams.poff[n]]:
         old_cnt: float = F[cams.index_cnt[n]] + F[tables.flz_cnt[n]]
-        way_cnt: float = cam_passed(old_cnt, delta_cnt, F[cams.poff_cnt[n]], total_cnt)
-        if way_cnt != NOT_PASSED:
-            delta_cnt = way_cnt
+        distance_cnt: float = cam_passed(old_cnt, delta_cnt, F[cams.poff_cnt[n]], total_cnt)
+        if distance_cnt != NOT_PASSED:
+            delta_cnt = distance_cnt
             ends = True
     F[cams.index_cnt[n]] += delta_cnt
     limit_cnt: float = I[axes.cam_cycles[n]] * total_cnt
@@ -245,11 +245,13 @@ def cam_waiting(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
         cam_run(F, I, S, n, F[triggers.over_cnt[t]], rate_hz)
         return
     index_cnt: float = F[sources.old[n * USES + USE_CAM]] - delta_cnt + F[tables.flz_cnt[n]]
-    way_cnt: float = cam_passed(index_cnt, delta_cnt, F[cams.pon_cnt[n]], F[tables.total_cnt[n]])
-    if way_cnt != NOT_PASSED:
+    distance_cnt: float = cam_passed(
+        index_cnt, delta_cnt, F[cams.pon_cnt[n]], F[tables.total_cnt[n]]
+    )
+    if distance_cnt != NOT_PASSED:
         I[cams.pon[n]] = 0
         cam_start(F, I, S, n, F[cams.pon_cnt[n]] - F[tables.flz_cnt[n]])
-        cam_run(F, I, S, n, delta_cnt - way_cnt, rate_hz)
+        cam_run(F, I, S, n, delta_cnt - distance_cnt, rate_hz)
 
 
 def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:

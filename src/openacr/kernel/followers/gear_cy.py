@@ -8,7 +8,7 @@ mean of r over the tick counts, so a source of constant speed v gives exactly
 v * ACC * t^2 / 2 during a ramp, at any tick length. What a ramp up has lost against the
 full ratio is the gear slip.
 
-A trigger splits its tick at the event: the gear counts only what the source does behind it
+A trigger splits its tick at the event: the gear counts only what the source does after it
 (GEAR ON) or before it (GEAR OFF).
 """
 
@@ -71,7 +71,7 @@ def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
 
 
 def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
-    """Add to Gear Slip, which anybody may write."""
+    """Add to Gear Slip, which any program may write."""
     if S[axes.gear_slip[n]] != F[gears.slip_shown_cnt[n]]:
         F[gears.slip_cnt[n]] = S[axes.gear_slip[n]]
     F[gears.slip_cnt[n]] += lost_cnt
@@ -130,8 +130,8 @@ def gear_show(F: F64, I: I32, n: int) -> None:
     I[word] = flags
 
 
-def gear_behind(F: F64, t: int, delta_cnt: float) -> float:
-    """Part of the tick behind the event of trigger t."""
+def gear_remainder(F: F64, t: int, delta_cnt: float) -> float:
+    """Part of the tick after the event of trigger t."""
     return F[triggers.over_cnt[t]] / delta_cnt if delta_cnt != 0.0 else 0.0
 
 
@@ -151,7 +151,7 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float)
         I[word] |= af2.GEAR_TRIGGER_STARTED
     I[af1.word[n]] |= af1.GEAR_ACTIVATE
     over_cnt: float = F[triggers.over_cnt[t]]
-    gear_run(F, I, S, n, over_cnt, dt * gear_behind(F, t, delta_cnt))
+    gear_run(F, I, S, n, over_cnt, dt * gear_remainder(F, t, delta_cnt))
     return True
 
 
@@ -165,10 +165,10 @@ def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float
     if state != FIRED:
         return False
     over_cnt: float = F[triggers.over_cnt[t]]
-    behind: float = gear_behind(F, t, delta_cnt)
-    gear_run(F, I, S, n, delta_cnt - over_cnt, dt * (1.0 - behind))
+    remainder: float = gear_remainder(F, t, delta_cnt)
+    gear_run(F, I, S, n, delta_cnt - over_cnt, dt * (1.0 - remainder))
     I[af1.word[n]] &= ~af1.GEAR_ACTIVATE
-    gear_run(F, I, S, n, over_cnt, dt * behind)
+    gear_run(F, I, S, n, over_cnt, dt * remainder)
     return True
 
 

@@ -116,12 +116,12 @@ def output_inside(F: F64, I: I32, k: int, source_cnt: float) -> bool:
     pitch_cnt: float = F[output_objects.pitch_cnt[k]]
     if pitch_cnt <= 0.0:
         return False
-    way_cnt: float = source_cnt - F[output_objects.start_cnt[k]]
-    window: float = floor(way_cnt / pitch_cnt)
+    distance_cnt: float = source_cnt - F[output_objects.start_cnt[k]]
+    window: float = floor(distance_cnt / pitch_cnt)
     windows: int = I[output_objects.windows[k]]
     if window < 0.0 or (windows > 0 and window >= windows):
         return False
-    return way_cnt - window * pitch_cnt < F[output_objects.width_cnt[k]]
+    return distance_cnt - window * pitch_cnt < F[output_objects.width_cnt[k]]
 
 
 def output_step(F: F64, I: I32, S: F32, k: int) -> None:
@@ -139,7 +139,7 @@ def output_step(F: F64, I: I32, S: F32, k: int) -> None:
 
 
 def object_outputs_step(F: F64, I: I32, S: F32) -> None:
-    """Limit switches and output objects, behind the servo loops."""
+    """Limit switches and output objects, after the servo loops."""
     switches: int = I[W_MISC_OUTPUTS]
     for k in range(OBJECTS):
         if switches & (mo.PLS0_ON << k):

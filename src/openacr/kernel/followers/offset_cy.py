@@ -134,12 +134,12 @@ def wheel_step(F: F64, I: I32, S: F32, n: int) -> None:
         or (mode != JOG_IDLE and mode != JOG_TO_TARGET)
     ):
         return
-    way_u: float = delta_cnt / F[hand_wheels.ppu[n]] * F[hand_wheels.ratio[n]]
-    if way_u == 0.0 or wheel_barred(F, I, S, n, 1 if way_u > 0.0 else -1):
+    distance_u: float = delta_cnt / F[hand_wheels.ppu[n]] * F[hand_wheels.ratio[n]]
+    if distance_u == 0.0 or wheel_barred(F, I, S, n, 1 if distance_u > 0.0 else -1):
         return
     if mode == JOG_IDLE:
         F[axes.jog_target_cnt[n]] = F[axes.jog_cnt[n]]
-    F[axes.jog_target_cnt[n]] += way_u * axis_scale(S, n)
+    F[axes.jog_target_cnt[n]] += distance_u * axis_scale(S, n)
     I[axes.jog_mode[n]] = JOG_TO_TARGET
     I[axes.jog_replan[n]] = 1
     I[af1.word[n]] |= af1.JOG_ACTIVE
@@ -198,7 +198,7 @@ def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt: float) -> 
 
 
 def lock_step(F: F64, I: I32, S: F32, n: int) -> None:
-    """Let the locked axis n follow its leader; runs behind the setpoints of the leader.
+    """Let the locked axis n follow its leader; runs after the setpoints of the leader.
 
     Flags that would move it on its own are taken back, as commands are refused.
     """

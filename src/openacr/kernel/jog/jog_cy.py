@@ -58,8 +58,8 @@ def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
 def jog_room(F: F64, S: F32, n: int, want: int) -> float:
     """Pulses from the present jog offset to the jog limit (JLM) in direction `want`."""
     limit_u: float = S[axes.plus_jog_limit[n]] if want > 0 else S[axes.minus_jog_limit[n]]
-    way_cnt: float = limit_u * axis_scale(S, n) - F[axes.jog_cnt[n]]
-    return want * axis_sense(S, n) * way_cnt
+    distance_cnt: float = limit_u * axis_scale(S, n) - F[axes.jog_cnt[n]]
+    return want * axis_sense(S, n) * distance_cnt
 
 
 def jog_brake(F: F64, I: I32, S: F32, n: int) -> None:

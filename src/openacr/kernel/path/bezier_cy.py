@@ -1,4 +1,4 @@
-"""Moves along rational Bezier curves: the pieces of which SPLINE and NURB are made.
+"""Moves along rational Bezier curves: the moves of which SPLINE and NURB are made.
 
 With u from 0 to 1 and the Bernstein polynomials B_k of degree n, a slave stands at
 
@@ -45,7 +45,7 @@ def is_bezier(I: I32, record: int) -> bool:
 
 
 def is_timed(I: I32, record: int) -> bool:
-    """Whether the path of a move is time instead of a way."""
+    """Whether the path of a move is time instead of a distance."""
     return I[moves.curve[record]] == CURVE_TIMED
 
 
@@ -115,7 +115,7 @@ def bezier_slope(F: F64, I: I32, record: int, s: int, u: float) -> float:
 
 
 def bezier_speed(F: F64, I: I32, record: int, u: float) -> float:
-    """Change of the weighted way [units] with u."""
+    """Change of the weighted distance [units] with u."""
     curved: int = I[moves.curved[record]]
     square: float = 0.0
     for s in range(SLAVES):

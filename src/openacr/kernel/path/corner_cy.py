@@ -1,13 +1,13 @@
 """Rounded corners: how far the path leaves its corner, and where that puts the slaves.
 
 With a path tolerance the corner between two straight moves is rounded from T before it to
-T behind it. The path keeps its own distance s; only the position is lifted off the corner:
+T after it. The path keeps its own distance s; only the position is lifted off the corner:
 
     p(s) = line(s) + (u2 - u1) g(|x|),      x = s - corner,  u1, u2 directions per unit of s
     p''(s) = (u2 - u1) w(x)                 w a window of area 1 over [-T, T], g'' = w
 
 Without jerk the window is a box, which makes the corner a parabola: at constant speed its
-acceleration is constant, the fastest way round a corner there is. With jerk it is a triangle.
+acceleration is constant, the fastest rounding of a corner there is. With jerk it is a triangle.
 
     box        w = 1/(2T)           g = (T - x)^2 / (4T)      g(0) = T/4
     triangle   w = (1 - x/T)/T      g = (T - x)^3 / (6T^2)    g(0) = T/6
@@ -63,7 +63,7 @@ def corner_pass(F: F64, I: I32, m: int, record: int) -> None:
 
 
 def corner_enter(F: F64, I: I32, m: int, record: int) -> None:
-    """A move begins: behind its corner from the corner itself, else from where the axes are."""
+    """A move begins: after its corner from the corner itself, else from where the axes are."""
     F[masters.corner_out_u[m]] = 0.0
     if I[masters.corner_next[m]] != record + 1:
         F[masters.corner_in_u[m]] = 0.0
@@ -76,20 +76,20 @@ def corner_enter(F: F64, I: I32, m: int, record: int) -> None:
 
 
 def corner_drop(F: F64, I: I32, m: int) -> None:
-    """No corner is under way any more."""
+    """End the rounding of both corners."""
     F[masters.corner_in_u[m]] = 0.0
     F[masters.corner_out_u[m]] = 0.0
     I[masters.corner_next[m]] = 0
 
 
 def corner_place(F: F64, I: I32, m: int, slaves: int, gone_u: float, left_u: float) -> None:
-    """Lift the slaves off the corners in front of and behind the path.
+    """Lift the slaves off the corner passed and the corner ahead.
 
     Those of `slaves` stand where the present move puts them, the others at their targets.
     """
     if F[masters.corner_in_u[m]] <= 0.0 and F[masters.corner_out_u[m]] <= 0.0:
         return
-    behind: float = corner_lift(gone_u, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
+    passed: float = corner_lift(gone_u, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
     ahead: float = corner_lift(left_u, F[masters.corner_out_u[m]], I[masters.corner_smooth_out[m]])
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
@@ -97,7 +97,7 @@ def corner_place(F: F64, I: I32, m: int, slaves: int, gone_u: float, left_u: flo
         lift: float = 0.0
         if F[masters.corner_in_u[m]] > 0.0:
             turn = fabs(F[masters.corner_in_cnt[m] + s])
-            lift = behind * F[masters.corner_in_cnt[m] + s]
+            lift = passed * F[masters.corner_in_cnt[m] + s]
         if F[masters.corner_out_u[m]] > 0.0:
             turn += fabs(F[masters.corner_out_cnt[m] + s])
             lift += ahead * F[masters.corner_out_cnt[m] + s]

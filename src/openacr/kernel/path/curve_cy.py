@@ -1,6 +1,6 @@
 """Moves along curves: CIRCW, CIRCCW, TARC, SINE and axes in Sinusoidal Mode.
 
-The pieces of SPLINE and NURB are left to bezier_cy. All others are one formula: with
+The moves of SPLINE and NURB are left to bezier_cy. All others are one formula: with
 f = s/L from 0 to 1, a slave on a curve stands at
 
     target - slope (1 - f) + wave(f) - wave(1),
@@ -13,7 +13,7 @@ some amplitude and phase. SINE gives phase, sweep and amplitude directly; the sl
 up whatever start and target leave. Angles are radians, everything else pulses.
 
 The program gives targets and centre (or mid point); start and so radius and angles are
-known only when the move begins, or is planned behind others.
+known only when the move begins, or is planned after others.
 """
 
 from openacr.cmath import atan2, cos, fabs, sin, sqrt
@@ -102,7 +102,7 @@ def curve_set(
     sweep_rad: float,
     closed: bool,
 ) -> None:
-    """Give slave s its wave; a closed one lies on it, else the slope makes up the way."""
+    """Give slave s its wave; a closed one lies on it, else the slope makes up the distance."""
     F[curves.amplitude_cnt[record] + s] = amplitude_cnt
     F[curves.growth_cnt[record] + s] = growth_cnt
     F[curves.phase_rad[record] + s] = phase_rad
@@ -134,7 +134,7 @@ def curve_shape(F: F64, I: I32, S: F32, m: int, record: int, shown: bool) -> flo
 
 
 def curve_sines(F: F64, I: I32, record: int) -> None:
-    """SINE as given; Sinusoidal Mode is half a wave over the whole way."""
+    """SINE as given; Sinusoidal Mode is half a wave over the whole move."""
     for s in range(SLAVES):
         if I[moves.half_wave[record]] & (1 << s):
             half_cnt: float = F[moves.delta_cnt[record] + s] / 2.0
@@ -158,11 +158,11 @@ def curve_longest_deg(F: F64, I: I32, record: int) -> float:
 
 
 def curve_scale(F: F64, I: I32, S: F32, m: int, record: int, place: int) -> float:
-    """Pulses per unit of axis `place` of the plane of a curve; an ellipse stretches its unit."""
+    """Pulses per unit of axis `place` of the plane of a curve; an ellipse scales its unit."""
     s: int = I[moves.plane[record] + place]
     axis: int = I[masters.slave_axis[m] + s]
-    stretch: float = F[curves.radius_scale[record] + place]
-    return axis_scale(S, axis) * stretch if axis >= 0 else stretch
+    scale: float = F[curves.radius_scale[record] + place]
+    return axis_scale(S, axis) * scale if axis >= 0 else scale
 
 
 def curve_start(F: F64, I: I32, record: int, place: int) -> float:
@@ -220,7 +220,7 @@ def curve_space(F: F64, I: I32, S: F32, m: int, record: int) -> float:
     """TARC: the circle through start, mid point and target; return the arc, 0 if there is none.
 
     With a and b leading from the start to mid point and target and n = a x b, the centre
-    lies at ((n x a) b^2 + (b x n) a^2) / (2 n^2), and the way from start over mid point to
+    lies at ((n x a) b^2 + (b x n) a^2) / (2 n^2), and the path from start over mid point to
     target turns about n. u leads from centre to start, v a quarter turn on.
     """
     scale_x: float = curve_scale(F, I, S, m, record, 0)

@@ -41,12 +41,12 @@ def curve_drop(I: I32, m: int) -> None:
     """Forget the points of an unfinished curve."""
     I[curve_points.points[m]] = 0
     I[curve_points.knots[m]] = 0
-    I[curve_points.behind[m]] = 0
+    I[curve_points.points_before[m]] = 0
     I[curve_points.open[m]] = 0
 
 
-def pieces_behind(I: I32, m: int) -> int:
-    """How many pieces of the present curve wait behind the present one."""
+def curve_moves_waiting(I: I32, m: int) -> int:
+    """Moves of the present curve that wait after the present one."""
     count: int = 0
     queued: int = I[masters.queued[m]]
     while count + 1 < queued:
@@ -71,7 +71,7 @@ def curve_show(I: I32, m: int) -> None:
 
 
 def curves_wait(I: I32, m: int) -> bool:
-    """Whether a curve is unfinished or has pieces in the buffer."""
+    """Whether a curve is unfinished or has moves in the buffer."""
     if I[curve_points.open[m]] or I[curve_points.points[m]]:
         return True
     for k in range(I[masters.queued[m]]):
@@ -82,7 +82,7 @@ def curves_wait(I: I32, m: int) -> bool:
 
 def running_flags(I: I32, m: int) -> int:
     """The flags of the piece that runs."""
-    waiting: int = pieces_behind(I, m)
+    waiting: int = curve_moves_waiting(I, m)
     kind: int = I[profiles.kind[m]]
     last: bool = waiting == 0 and not I[curve_points.open[m]]
     flags: int = 0

@@ -46,7 +46,7 @@ def master_drop(F: F64, I: I32, S: F32, m: int) -> None:
     I[masters.seek_phase[m]] = SEEK_NONE
     I[masters.hsint_phase[m]] = HSINT_NONE
     I[masters.cut[m]] = 0
-    I[masters.stretch[m]] = 1
+    I[masters.section_cnt[m]] = 1
     I[masters.trigger[m]] = 0
     I[masters.trigger_axis[m]] = 0
     I[masters.piece[m]] = 0
@@ -115,11 +115,11 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
         return
     if round_holds(F, I, S, m, rate_ups2):
         return
-    end_u: float = F[masters.stretch_u[m]]
+    end_u: float = F[masters.section_u[m]]
     jerk_ups3: float = F[moves.jrk_ups3[record]]
     flows: bool = F[moves.stp_ups2[record]] <= 0.0 or look_beyond(I, m, move_record(I, m))
     flows = flows or is_bezier(I, move_record(I, m))
-    merged: bool = flows and I[masters.queued[m]] > I[masters.stretch[m]]
+    merged: bool = flows and I[masters.queued[m]] > I[masters.section_cnt[m]]
     merged = merged or I[masters.piece[m]] != 0
     rate_ups2 = round_hold_rate(F, I, m, rate_ups2)
     if not profile_stop(F, I, m, end_u, rate_ups2, jerk_ups3, DECELERATING) and not merged:

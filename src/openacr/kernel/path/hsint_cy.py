@@ -1,9 +1,9 @@
-"""HSINT: a move that a capture leads to a new end, a given way behind the captured position.
+"""HSINT: a move that a capture leads to a new end, a given distance after the captured position.
 
     SEARCHING    wait for a capture that lies in the window
     CAPTURED     wait for the INT response period, then turn to the new end
-    PASSING      the new end is too near for STP: come to rest behind it first
-    LAST         on the way to the new end, or no capture will change the way any more
+    PASSING      the new end is too near for STP: come to rest after it first
+    LAST         on the way to the new end, or no capture will change the path again
 
 Captures are measured along the move from its start.
 """
@@ -77,20 +77,20 @@ def hsint_captured(F: F64, I: I32, m: int, record: int, axis: int) -> None:
 
 
 def hsint_turn(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:
-    """Lead the move to its new end with the speed it has, or stop behind it first."""
+    """Lead the move to its new end with the speed it has, or stop after it first."""
     s: int = I[axes.slave[axis]]
     rate_ups2: float = move_stop_rate(F, record)
     position_cnt: float = F[axes.position_cnt[axis]]
-    way_u: float = (hsint_end_cnt(F, record, axis) - position_cnt) / axis_scale(S, axis)
+    distance_u: float = (hsint_end_cnt(F, record, axis) - position_cnt) / axis_scale(S, axis)
     travel_u: float = F[moves.delta_cnt[record] + s] / axis_scale(S, axis)
     if travel_u < 0.0:
-        way_u = -way_u
+        distance_u = -distance_u
     if travel_u != 0.0:
-        way_u = way_u * F[moves.length_u[record]] / fabs(travel_u)
+        distance_u = distance_u * F[moves.length_u[record]] / fabs(travel_u)
     velocity_ups: float = F[profiles.velocity[m]]
     accel_ups2: float = F[profiles.accel[m]]
     profile_stop(F, I, m, ENDLESS_U, rate_ups2, F[moves.jrk_ups3[record]], STOPPING)
-    if F[profiles.end_distance[m]] - F[profiles.distance[m]] > way_u * (1.0 + 1e-9):
+    if F[profiles.end_distance[m]] - F[profiles.distance[m]] > distance_u * (1.0 + 1e-9):
         I[masters.hsint_phase[m]] = HSINT_PASSING
         return
     hsint_lead(F, I, S, m, record, axis)
@@ -101,7 +101,7 @@ def hsint_turn(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:
 def hsint_end_cnt(F: F64, record: int, axis: int) -> float:
     """The new end in coordinated pulses: offsets take part in the captured position."""
     captured_cnt: float = F[axes.capture_cnt[axis]] - axis_offsets(F, axis)
-    return captured_cnt + F[moves.hsint_way_cnt[record]]
+    return captured_cnt + F[moves.hsint_distance_cnt[record]]
 
 
 def hsint_lead(F: F64, I: I32, S: F32, m: int, record: int, axis: int) -> None:

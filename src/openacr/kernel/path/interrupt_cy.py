@@ -38,8 +38,8 @@ def master_cut(F: F64, I: I32, S: F32, m: int) -> None:
     rate_ups2: float = move_stop_rate(F, move_record(I, m))
     if I[masters.piece[m]]:
         I[masters.piece[m]] = 0
-        F[masters.stretch_u[m]] = F[masters.origin_u[m]] + F[moves.length_u[record]]
-    end_u: float = F[masters.stretch_u[m]]
+        F[masters.section_u[m]] = F[masters.origin_u[m]] + F[moves.length_u[record]]
+    end_u: float = F[masters.section_u[m]]
     profile_stop(F, I, m, end_u, rate_ups2, F[moves.jrk_ups3[record]], STOPPING)
     I[masters.cut[m]] = 1
 

@@ -6,18 +6,18 @@ At a junction with turn angle q the speed is bounded by the law
     q >= a2          Look Ahead Min Vel
     between          linear from the one to the other
 
-A plan runs through a *stretch*: the present move and those behind it up to the first
+A plan runs through a *section*: the present move and those after it up to the first
 junction that slows the path down, a change of speed or ramps, or the end of the buffer.
-Inside a stretch a ramp takes no notice of junctions, so that short moves lose nothing, with
-jerk or without. With jerk, junctions that slow down little do not end a stretch either:
+Inside a section a ramp takes no notice of junctions, so that short moves lose nothing, with
+jerk or without. With jerk, junctions that slow down little do not end a section either:
 it runs at the lowest of their speeds throughout, instead of dipping at each.
 
     speed  ___________
           /           \\____            The backward pass: from the last move on, what a
-         /                 \\__ c2      ramp over each stretch can still slow down from
+         /                 \\__ c2      ramp over each section can still slow down from
     ____/                     \\        bounds the junction in front of it.
-        | move | move | move | m |     The first stretch is planned to the smaller of
-        '-- stretch --'               that and of its law.
+        | move | move | move | m |     The first section is planned to the smaller of
+        '-- section --'               that and of its law.
 
 Moves with a time, a capture or a trigger of their own are entered and left at rest.
 """
@@ -38,7 +38,7 @@ from openacr.views import F32, F64, I32
 __all__ = ["ramp_start"]
 
 FREE = 1.0 - 1e-6  # of the speed: what rounding makes of a straight junction
-SLIGHT = 0.8  # of the speed: with jerk, slow-downs down to here do not end a stretch
+SLIGHT = 0.8  # of the speed: with jerk, slow-downs down to here do not end a section
 BISECTIONS = 50
 ENDLESS_UPS = 1e30
 
@@ -60,13 +60,13 @@ def look_through(F: F64, I: I32, m: int, record: int) -> bool:
 
 
 def same_curve(I: I32, a: int, b: int) -> bool:
-    """Whether both of two moves that follow each other are pieces of one curve."""
+    """Whether both of two moves that follow each other are moves of one curve."""
     marks: int = I[moves.marks[b]]
     return is_bezier(I, a) and is_bezier(I, b) and not marks & MARK_CURVE_BEGIN
 
 
 def look_record(I: I32, m: int, k: int) -> int:
-    """Record of the move `k` places behind the present one."""
+    """Record of the move `k` places after the present one."""
     place: int = I[masters.head[m]] + k
     if place >= I[masters.size[m]]:
         place -= I[masters.size[m]]
@@ -181,7 +181,7 @@ def look_jerk(F: F64, record: int) -> float:
 
 
 def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
-    """Backward pass: the speed at which the move `first` places behind may be entered."""
+    """Backward pass: the highest entry speed of the move `first` places after the present one."""
     k: int = I[masters.queued[m]] - 1
     b: int = look_record(I, m, k)
     end_ups: float = look_final(F, I, S, m, b)
@@ -209,7 +209,7 @@ def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
 
 
 def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
-    """Find the stretch of the present move: its end, its cap and the speed at its end."""
+    """Find the section of the present move: its end, its cap and the speed at its end."""
     queued: int = I[masters.queued[m]]
     a: int = look_record(I, m, 0)
     end_u: float = F[masters.origin_u[m]] + F[moves.length_u[a]]
@@ -232,7 +232,7 @@ def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
         exit_ups = min(corner_ups, look_entry(F, I, S, m, k))
     else:
         exit_ups = look_final(F, I, S, m, a)
-    I[masters.stretch[m]] = k
-    F[masters.stretch_u[m]] = end_u
+    I[masters.section_cnt[m]] = k
+    F[masters.section_u[m]] = end_u
     F[masters.look_cap_ups[m]] = cap_ups
     F[masters.look_exit_ups[m]] = exit_ups

@@ -8,7 +8,7 @@ begins (`origin_u`),
     position = target - delta * r,    r = 1 - (s - s0) / L,    r = 1 at its start, 0 at its end.
 
 A plan ends with the present move, before it (at a hold, or between the line and the rounded
-corner of a move), or some moves after it (look-ahead: `stretch` moves). One servo period is dt of
+corner of a move), or some moves after it (look-ahead: `section` moves). One servo period is dt of
 path time, or what a source and TOV make of it. It is used up plan by plan:
 
     left := dt
@@ -218,8 +218,8 @@ def move_end(F: F64, I: I32, S: F32, m: int) -> None:
 
 
 def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
-    """The plan runs on into the next moves: remove those that are behind."""
-    while I[masters.stretch[m]] > 1:
+    """The plan runs on into the next moves: remove those that are completed."""
+    while I[masters.section_cnt[m]] > 1:
         record: int = move_record(I, m)
         length_u: float = F[moves.length_u[record]]
         if F[profiles.distance[m]] < F[masters.origin_u[m]] + length_u:
@@ -227,7 +227,7 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         move_place(F, I, m, record, 0.0)
         move_end(F, I, S, m)
         I[masters.moving[m]] = 1
-        I[masters.stretch[m]] -= 1
+        I[masters.section_cnt[m]] -= 1
         F[masters.origin_u[m]] += length_u
         record = move_record(I, m)
         move_flags(I, S, m, record)
@@ -329,7 +329,7 @@ def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
         elif I[masters.hold[m]] == NOT_HELD:
             master_follow(F, I, S, m)
         left_s = path_advance(F, I, m, left_s)
-        if I[masters.stretch[m]] > 1:
+        if I[masters.section_cnt[m]] > 1:
             moves_pass(F, I, S, m)
         master_place(F, I, m)
         if left_s < 0.0:
@@ -396,10 +396,10 @@ def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
         return True
     if I[masters.cut[m]]:
         cut_end(F, I, m)
-        while I[masters.stretch[m]] > 1:  # what the path was planned through goes with it
+        while I[masters.section_cnt[m]] > 1:  # what the path was planned through goes with it
             move_end(F, I, S, m)
             F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
-            I[masters.stretch[m]] -= 1
+            I[masters.section_cnt[m]] -= 1
     move_end(F, I, S, m)
     return I[masters.queued[m]] != 0
 
@@ -419,7 +419,7 @@ def piece_over(F: F64, I: I32, S: F32, m: int) -> bool:
 def master_short_of_target(F: F64, I: I32, m: int) -> bool:
     """True when a hold has stopped the path before the target of the move."""
     return (
-        I[masters.hold[m]] == FEEDHOLDING and F[profiles.end_distance[m]] < F[masters.stretch_u[m]]
+        I[masters.hold[m]] == FEEDHOLDING and F[profiles.end_distance[m]] < F[masters.section_u[m]]
     )
 
 

@@ -114,9 +114,9 @@ def move_geometry(F: F64, I: I32, S: F32, m: int) -> None:
     move_shape(F, I, S, m, record, False)
     F[masters.origin_u[m]] = 0.0
     length_u: float = F[moves.length_u[record]]
-    F[masters.stretch_u[m]] = length_u
+    F[masters.section_u[m]] = length_u
     F[masters.look_cap_ups[m]] = 0.0
-    I[masters.stretch[m]] = 1
+    I[masters.section_cnt[m]] = 1
 
 
 def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> None:
@@ -238,7 +238,7 @@ def master_place(F: F64, I: I32, m: int) -> None:
     gone_u: float = F[profiles.distance[m]]
     origin_u: float = F[masters.origin_u[m]]
     piece: bool = I[masters.piece[m]] != 0
-    if piece or gone_u < F[masters.stretch_u[m]]:
+    if piece or gone_u < F[masters.section_u[m]]:
         rest = 1.0 - (gone_u - origin_u) / length_u
     move_place(F, I, m, record, rest)
     if I[masters.rounding[m]]:

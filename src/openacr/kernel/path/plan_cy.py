@@ -28,14 +28,14 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
         look_scan(F, I, S, m)
         look_plan(F, I, S, m)
         return
-    F[masters.stretch_u[m]] = F[masters.origin_u[m]] + F[moves.length_u[record]]
+    F[masters.section_u[m]] = F[masters.origin_u[m]] + F[moves.length_u[record]]
     F[masters.look_cap_ups[m]] = 0.0
-    I[masters.stretch[m]] = 1
+    I[masters.section_cnt[m]] = 1
     profile_plan(
         F,
         I,
         m,
-        F[masters.stretch_u[m]],
+        F[masters.section_u[m]],
         master_limit(F, I, S, m),
         move_final_ups(F, I, m, record),
         F[moves.acc_ups2[record]],
@@ -49,22 +49,22 @@ def look_rebase(F: F64, m: int) -> None:
     """Count the path from the beginning of the present move again."""
     origin_u: float = F[masters.origin_u[m]]
     F[profiles.distance[m]] -= origin_u
-    F[masters.stretch_u[m]] -= origin_u
+    F[masters.section_u[m]] -= origin_u
     F[masters.origin_u[m]] = 0.0
 
 
 def look_plan(F: F64, I: I32, S: F32, m: int) -> None:
-    """Plan through the stretch that was found, to its end or to the junction there.
+    """Plan through the section that was found, to its end or to the junction there.
 
     A path already slower there than the junction allows arrives with the speed it has.
     """
-    stretch: int = I[masters.stretch[m]]
-    last: int = look_record(I, m, stretch - 1)
+    section: int = I[masters.section_cnt[m]]
+    last: int = look_record(I, m, section - 1)
     record: int = move_record(I, m)
     limit_ups: float = master_limit(F, I, S, m)
     leaving_ups: float = F[masters.look_exit_ups[m]]
     rate_ups2: float = F[moves.stp_ups2[last]]
-    ends: bool = stretch >= I[masters.queued[m]]
+    ends: bool = section >= I[masters.queued[m]]
     if not ends:
         rate_ups2 = look_rate(F, last) if leaving_ups < limit_ups else 0.0
     I[mf4.word[m]] &= ~mf4.LOOK_AHEAD_SLOWDOWN
@@ -74,7 +74,7 @@ def look_plan(F: F64, I: I32, S: F32, m: int) -> None:
         F,
         I,
         m,
-        F[masters.stretch_u[m]],
+        F[masters.section_u[m]],
         limit_ups,
         leaving_ups,
         F[moves.acc_ups2[record]],
@@ -94,12 +94,12 @@ def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:
         return
     if not look_through(F, I, m, move_record(I, m)):
         return
-    end_u: float = F[masters.stretch_u[m]]
+    end_u: float = F[masters.section_u[m]]
     cap_ups: float = F[masters.look_cap_ups[m]]
     leaving_ups: float = F[masters.look_exit_ups[m]]
     look_scan(F, I, S, m)
     if (
-        end_u != F[masters.stretch_u[m]]
+        end_u != F[masters.section_u[m]]
         or cap_ups != F[masters.look_cap_ups[m]]
         or leaving_ups != F[masters.look_exit_ups[m]]
     ):

@@ -1,15 +1,15 @@
 """Plan a path with rounded corners: piece by piece, fast as the acceleration allows.
 
-Rounded corners (corner_cy) divide every move into up to three pieces:
+Rounded corners (corner_cy) divide every move into up to three parts:
 
-    |-- corner behind --|------ line ------|-- corner ahead --|
+    |-- corner before --|------ line ------|-- corner ahead --|
     0                  Tin              L - Tout              L
 
 On the line the ramps of the move apply, in a corner what round_law_cy says; round_pass_cy
 looks ahead.
 
 With a jerk limit the speed in corners is constant, whatever happens: a change of override or
-a feedhold that cannot be done with in front of a corner goes on behind it. Only a path that
+a feedhold that cannot be done with in front of a corner continues after it. Only a path that
 starts from rest just before one speeds up in it, softly, to half of what it allows.
 """
 
@@ -25,8 +25,20 @@ from openacr.kernel.path.lookahead_cy import (
 )
 from openacr.kernel.path.path_cy import master_limit, move_record
 from openacr.kernel.path.round_law_cy import round_accel, round_brake, round_ramp2
-from openacr.kernel.path.round_pass_cy import AHEAD, BEHIND, LINE, round_exit2, round_last
-from openacr.kernel.profile_cy import DECELERATING, STOPPING, profile_plan, ramp_way, rest_speed
+from openacr.kernel.path.round_pass_cy import (
+    CORNER_AFTER,
+    CORNER_BEFORE,
+    LINE,
+    round_exit2,
+    round_last,
+)
+from openacr.kernel.profile_cy import (
+    DECELERATING,
+    STOPPING,
+    profile_plan,
+    ramp_distance,
+    rest_speed,
+)
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
@@ -37,7 +49,7 @@ BISECTIONS = 50
 
 
 def round_through(F: F64, I: I32, m: int, record: int) -> bool:
-    """Whether the present move is planned in pieces."""
+    """Whether the present move is planned in parts."""
     if not I[masters.rounding[m]]:
         return False
     if not look_plain(F, I, record) or is_bezier(I, record):
@@ -48,17 +60,17 @@ def round_through(F: F64, I: I32, m: int, record: int) -> bool:
     if F[moves.jrk_ups3[record]] <= 0.0:
         return True
     # With jerk moves between corners that are not rounded merge, as LOOK has it.
-    behind_u: float = F[masters.corner_in_u[m]]
-    return behind_u > 0.0 or round_reach(F, I, m, record) > 0.0
+    before_u: float = F[masters.corner_in_u[m]]
+    return before_u > 0.0 or round_reach(F, I, m, record) > 0.0
 
 
 def round_part(F: F64, I: I32, m: int) -> int:
-    """The piece of the present move in which the path is; open the corner ahead."""
+    """The part of the present move in which the path is; open the corner ahead."""
     record: int = move_record(I, m)
     length_u: float = F[moves.length_u[record]]
     gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
     if gone_u < F[masters.corner_in_u[m]] - SLACK * length_u:
-        return BEHIND
+        return CORNER_BEFORE
     reach_u: float = round_reach(F, I, m, record)
     if reach_u <= 0.0 or gone_u < length_u - reach_u - SLACK * length_u:
         return LINE
@@ -67,7 +79,7 @@ def round_part(F: F64, I: I32, m: int) -> int:
         corner_open(F, I, m, record, look_record(I, m, 1), reach_u, smooth)
         F[masters.corner_out_turn[m]] = F[moves.corner_turn[record]]
         F[masters.corner_out_ups[m]] = F[moves.corner_ups[record]]
-    return AHEAD
+    return CORNER_AFTER
 
 
 def round_reach(F: F64, I: I32, m: int, record: int) -> float:
@@ -86,21 +98,21 @@ def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
     reach_u: float = round_reach(F, I, m, record)
     end_u: float = F[moves.length_u[record]]
     I[masters.piece[m]] = 0
-    if part == BEHIND:
+    if part == CORNER_BEFORE:
         end_u = F[masters.corner_in_u[m]]
         I[masters.piece[m]] = 1
     elif part == LINE and reach_u > 0.0:
         end_u = end_u - reach_u
         I[masters.piece[m]] = 1
-    F[masters.stretch_u[m]] = F[masters.origin_u[m]] + end_u
+    F[masters.section_u[m]] = F[masters.origin_u[m]] + end_u
     F[masters.look_cap_ups[m]] = 0.0
-    I[masters.stretch[m]] = 1
+    I[masters.section_cnt[m]] = 1
     w_v2: float = round_exit2(F, I, S, m, part)
     F[masters.look_exit_ups[m]] = sqrt(w_v2)
     limit_ups: float = master_limit(F, I, S, m)
     if part == LINE:
         round_line(F, I, m, record, limit_ups, sqrt(w_v2))
-    elif part == BEHIND:
+    elif part == CORNER_BEFORE:
         cap_ups: float = F[masters.corner_in_ups[m]]
         round_corner(
             F,
@@ -126,7 +138,7 @@ def round_line(F: F64, I: I32, m: int, record: int, limit_ups: float, leaving_up
     acc_ups2: float = F[moves.acc_ups2[record]]
     dec_ups2: float = F[moves.dec_ups2[record]]
     jerk_ups3: float = F[moves.jrk_ups3[record]]
-    end_u: float = F[masters.stretch_u[m]]
+    end_u: float = F[masters.section_u[m]]
     ends: bool = round_last(I, m) == 0
     rate_ups2: float = F[moves.stp_ups2[record]]
     if not ends:
@@ -156,21 +168,21 @@ def round_line(F: F64, I: I32, m: int, record: int, limit_ups: float, leaving_up
 
 
 def round_reached(
-    F: F64, m: int, way_u: float, limit_ups: float, rate_ups2: float, jerk_ups3: float
+    F: F64, m: int, distance_u: float, limit_ups: float, rate_ups2: float, jerk_ups3: float
 ) -> float:
-    """The highest speed up to `limit_ups` that is reached, without acceleration, within a way."""
+    """The highest speed up to `limit_ups` reached, without acceleration, within a distance."""
     velocity_ups: float = F[profiles.velocity[m]]
     accel_ups2: float = F[profiles.accel[m]]
     low_ups: float = max(rest_speed(velocity_ups, accel_ups2, jerk_ups3), 0.0)
     high_ups: float = limit_ups
     if (
         high_ups <= low_ups
-        or ramp_way(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) <= way_u
+        or ramp_distance(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) <= distance_u
     ):
         return max(high_ups, low_ups)
     for _ in range(BISECTIONS):
         middle_ups: float = (low_ups + high_ups) / 2.0
-        if ramp_way(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > way_u:
+        if ramp_distance(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > distance_u:
             high_ups = middle_ups
         else:
             low_ups = middle_ups
@@ -178,9 +190,9 @@ def round_reached(
 
 
 def round_settle(
-    F: F64, m: int, way_u: float, wanted_ups: float, rate_ups2: float, jerk_ups3: float
+    F: F64, m: int, distance_u: float, wanted_ups: float, rate_ups2: float, jerk_ups3: float
 ) -> float:
-    """The lowest speed from `wanted_ups` up that is reached, without acceleration, within a way.
+    """The lowest speed from `wanted_ups` up reached, without acceleration, within a distance.
 
     -1 if there is not even room to let go of the present acceleration.
     """
@@ -189,14 +201,14 @@ def round_settle(
     high_ups: float = max(rest_speed(velocity_ups, accel_ups2, jerk_ups3), 0.0)
     if wanted_ups >= high_ups:
         return wanted_ups
-    if ramp_way(velocity_ups, accel_ups2, wanted_ups, rate_ups2, jerk_ups3) <= way_u:
+    if ramp_distance(velocity_ups, accel_ups2, wanted_ups, rate_ups2, jerk_ups3) <= distance_u:
         return wanted_ups
-    if ramp_way(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) > way_u:
+    if ramp_distance(velocity_ups, accel_ups2, high_ups, rate_ups2, jerk_ups3) > distance_u:
         return -1.0
     low_ups: float = wanted_ups
     for _ in range(BISECTIONS):
         middle_ups: float = (low_ups + high_ups) / 2.0
-        if ramp_way(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > way_u:
+        if ramp_distance(velocity_ups, accel_ups2, middle_ups, rate_ups2, jerk_ups3) > distance_u:
             low_ups = middle_ups
         else:
             high_ups = middle_ups
@@ -204,7 +216,7 @@ def round_settle(
 
 
 def round_planned(F: F64, I: I32, m: int, end_u: float) -> bool:
-    """Whether the plan under way leads to `end_u`."""
+    """Whether the present plan leads to `end_u`."""
     return I[profiles.seg_count[m]] > 0 and F[profiles.end_distance[m]] == end_u
 
 
@@ -241,7 +253,7 @@ def round_corner(
     cap_ups: float,
 ) -> None:
     """Plan the rest of a corner: one constant acceleration, or constant speed under jerk."""
-    end_u: float = F[masters.stretch_u[m]]
+    end_u: float = F[masters.section_u[m]]
     left_u: float = end_u - F[profiles.distance[m]]
     velocity_ups: float = F[profiles.velocity[m]]
     now_v2: float = velocity_ups * velocity_ups
@@ -274,7 +286,7 @@ def round_corner(
     ):
         profile_plan(F, I, m, end_u, leaving_ups, leaving_ups, accel_ups2, accel_ups2, 0.0, 0.0)
     elif leaving_ups >= velocity_ups:
-        # From within a corner the way left is shorter than the whole: still a safe choice.
+        # From within a corner the distance left is shorter than the whole: still a safe choice.
         top_v2: float = min(
             leaving_ups * leaving_ups, round_ramp2(turn, reach_u, accel_ups2, 0.0, now_v2)
         )
@@ -299,7 +311,7 @@ def round_corner(
 
 
 def round_holds(F: F64, I: I32, S: F32, m: int, rate_ups2: float) -> bool:
-    """A feedhold under a jerk limit: True if it has to wait until a corner is behind.
+    """A feedhold under a jerk limit: True if it has to wait until a corner is passed.
 
     In front of a corner it slows the path as far as that can be done without acceleration in
     the corner, where the path neither stops nor lingers.
@@ -312,15 +324,15 @@ def round_holds(F: F64, I: I32, S: F32, m: int, rate_ups2: float) -> bool:
         return True
     if not I[masters.piece[m]]:
         return False
-    end_u: float = F[masters.stretch_u[m]]
-    way_u: float = end_u - F[profiles.distance[m]]
-    reached_ups: float = round_settle(F, m, way_u, 0.0, rate_ups2, jerk_ups3)
+    end_u: float = F[masters.section_u[m]]
+    distance_u: float = end_u - F[profiles.distance[m]]
+    reached_ups: float = round_settle(F, m, distance_u, 0.0, rate_ups2, jerk_ups3)
     if reached_ups == 0.0:
         return False
     cap_ups: float = F[moves.corner_ups[record]]
     wanted_ups: float = LINGER * min(cap_ups, F[masters.look_exit_ups[m]])
     if wanted_ups > reached_ups:
-        reached_ups = round_settle(F, m, way_u, wanted_ups, rate_ups2, jerk_ups3)
+        reached_ups = round_settle(F, m, distance_u, wanted_ups, rate_ups2, jerk_ups3)
     speed_ups: float = rest_speed(F[profiles.velocity[m]], F[profiles.accel[m]], jerk_ups3)
     if 0.0 < reached_ups < speed_ups:
         round_even(F, I, m, end_u, reached_ups, rate_ups2, rate_ups2, jerk_ups3)
@@ -336,7 +348,7 @@ def round_hold_rate(F: F64, I: I32, m: int, rate_ups2: float) -> float:
     velocity_ups: float = F[profiles.velocity[m]]
     turn: float = F[masters.corner_in_turn[m]]
     reach_u: float = F[masters.corner_in_u[m]]
-    if part == AHEAD:
+    if part == CORNER_AFTER:
         turn = F[masters.corner_out_turn[m]]
         reach_u = F[masters.corner_out_u[m]]
     if part == LINE or reach_u <= 0.0 or accel_ups2 <= 0.0:

@@ -16,14 +16,14 @@ from openacr.kernel.axis.axis_cy import axis_scale
 from openacr.kernel.path.bezier_cy import is_bezier
 from openacr.kernel.path.lookahead_cy import look_plain, look_rate, ramp_start
 from openacr.kernel.path.path_cy import MARK_ROUNDS, SLAVE_COUNT
-from openacr.kernel.profile_cy import ramp_way, rest_speed
+from openacr.kernel.profile_cy import ramp_distance, rest_speed
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
 __all__ = ["round_between", "round_brake", "round_cap", "round_ramp2"]
 
 SHARE = 0.98  # of the acceleration limit may be sideways: some is left to brake with
-STRAIGHT = 1e-7  # changes of direction below are none
+STRAIGHT = 1e-7  # smaller changes of direction are ignored
 ENDLESS = 1e30
 
 
@@ -67,7 +67,7 @@ def round_turn(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
 
 
 def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
-    """Find how the corner between a move and the one just put behind it is rounded."""
+    """Find how the corner between a move and the one just appended to it is rounded."""
     F[moves.corner_u[a]] = 0.0
     F[moves.corner_turn[a]] = 0.0
     ahead: int = moves.ahead[a]
@@ -115,7 +115,7 @@ def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_u
     """Whether going round a corner at constant speed is quicker than what jerk does without.
 
     Compared is the time lost on each side against the feed: by the ramp to the speed in the
-    corner and the way at that speed, or by the ramp to rest. Lines too short to speed up on
+    corner and the distance at that speed, or by the ramp to rest. Lines too short to speed up on
     are left to the merging of LOOK.
     """
     feed_ups: float = min(F[moves.vel_ups[a]], F[moves.vel_ups[b]])
@@ -133,7 +133,7 @@ def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_u
 
 
 def ramp_loss(low_ups: float, high_ups: float, rate_ups2: float, jerk_ups3: float) -> float:
-    """Time a ramp between two speeds loses against its way at the higher one."""
+    """Time a ramp between two speeds loses against its distance at the higher one."""
     rise_ups: float = high_ups - low_ups
     time_s: float = rise_ups / rate_ups2 + rate_ups2 / jerk_ups3
     if rise_ups * jerk_ups3 < rate_ups2 * rate_ups2:
@@ -142,7 +142,7 @@ def ramp_loss(low_ups: float, high_ups: float, rate_ups2: float, jerk_ups3: floa
 
 
 def round_in_time(F: F64, m: int, record: int, reach_u: float, cap_ups: float) -> bool:
-    """Whether the move under way can still slow down in front of its corner."""
+    """Whether the present move can still slow down in front of its corner."""
     gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
     left_u: float = F[moves.length_u[record]] - reach_u - gone_u
     if left_u <= 0.0:
@@ -155,7 +155,8 @@ def round_in_time(F: F64, m: int, record: int, reach_u: float, cap_ups: float) -
         rate_ups2: float = look_rate(F, record)
         return (
             slow
-            or ramp_way(velocity_ups, accel_ups2, cap_ups, rate_ups2, jerk_ups3) <= left_u * SHARE
+            or ramp_distance(velocity_ups, accel_ups2, cap_ups, rate_ups2, jerk_ups3)
+            <= left_u * SHARE
         )
     return (
         velocity_ups * velocity_ups

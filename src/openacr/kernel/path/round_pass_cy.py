@@ -21,9 +21,9 @@ from openacr.views import F32, F64, I32
 
 __all__ = ["round_exit2"]
 
-BEHIND = 0  # pieces of a move
+CORNER_BEFORE = 0  # parts of a move
 LINE = 1
-AHEAD = 2
+CORNER_AFTER = 2
 FEW = 16  # moves the backward pass looks at first
 
 
@@ -48,7 +48,7 @@ def round_cap2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
 def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -> float:
     """Backward pass from move `far` of up to `last` to the end of a piece of the present one.
 
-    Not capped on the way, the result is negative if moves beyond `far` might change it.
+    Not capped before it, the result is negative if moves beyond `far` might change it.
     """
     k: int = far
     r: int = look_record(I, m, k)
@@ -72,7 +72,7 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
         if w_v2 >= top_v2:
             w_v2 = top_v2
             capped = True
-        if k == 0 and part == AHEAD:
+        if k == 0 and part == CORNER_AFTER:
             break
         if reach_u > 0.0:
             w_v2 = round_ramp2(F[moves.corner_turn[r]], reach_u, round_accel(F, r), jerk_ups3, w_v2)
@@ -102,7 +102,7 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
 
 
 def round_last(I: I32, m: int) -> int:
-    """How far behind the present move the last one is that plans may run through."""
+    """Moves from the present one to the last that plans may run through."""
     last: int = I[masters.queued[m]] - 1
     k: int = 0
     while k < last and look_beyond(I, m, look_record(I, m, k)):

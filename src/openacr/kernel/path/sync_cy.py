@@ -63,7 +63,7 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
 def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
     """Drop the moves of master m that wait; one under way goes on."""
     if I[masters.moving[m]]:
-        I[masters.queued[m]] = I[masters.stretch[m]]
+        I[masters.queued[m]] = I[masters.section_cnt[m]]
     elif I[masters.queued[m]]:
         master_drop(F, I, S, m)
 

@@ -15,7 +15,7 @@ FASTEST = 2.0
 
 
 def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
-    """TOV Internal, on its way to the value wanted with TOV Rate."""
+    """TOV Internal, which approaches the commanded value with TOV Rate."""
     wanted: float = 1.0
     if I[mf2.word[m]] & mf2.MASTER_TOV:
         wanted = S[masters.time_over_velocity[m]]

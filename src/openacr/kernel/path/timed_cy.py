@@ -38,7 +38,7 @@ def plan_seconds(F: F64, I: I32, m: int, cruise_ups: float) -> float:
 
 
 def timed_closed(F: F64, m: int, record: int, time_s: float) -> float:
-    """Speed of a trapezoid from rest to rest, -1 where the move is none."""
+    """Speed of a trapezoid from rest to rest, -1 where the move is not."""
     acc_ups2: float = F[moves.acc_ups2[record]]
     stp_ups2: float = F[moves.stp_ups2[record]]
     if (

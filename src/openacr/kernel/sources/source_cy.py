@@ -10,7 +10,7 @@ by the caller that adds them up. A value that is no finite number counts as stan
 
 A trigger says when a follower engages: when a parameter passes a setpoint, or at an edge
 captured as INTCAP does, of the signals of the source or of another encoder. `over_cnt` is then
-the part of this tick's delta behind the event.
+the part of this tick's delta after the event.
 """
 
 from openacr.cmath import fabs
@@ -97,7 +97,7 @@ DISARMED = 0
 ABOVE = 1
 BELOW = 2
 CAPTURE = 3
-CAPTURED = 4  # in this tick; travel_cnt is the part of the tick behind the edge
+CAPTURED = 4  # in this tick; travel_cnt is the part of the tick after the edge
 TRAVELLING = 5
 WAITING = 0
 FIRED = 1
@@ -225,8 +225,8 @@ def source_inputs(I: I32, t: int, n: int) -> int:
     return n
 
 
-def marker_behind(F: F64, I: I32, e: int, falling: bool, delta: float) -> float:
-    """Part of the tick behind the marker edge of encoder e, which moved `delta` in it."""
+def marker_remainder(F: F64, I: I32, e: int, falling: bool, delta: float) -> float:
+    """Part of the tick after the marker edge of encoder e, which moved `delta` in it."""
     edge: float = F[motors.marker_fall_cnt[e]] if falling else F[motors.marker_rise_cnt[e]]
     since: float = (F[motors.raw_count[e]] - edge) * I[encoders.mult[e]] * 0.25
     if delta == 0.0:
@@ -234,14 +234,14 @@ def marker_behind(F: F64, I: I32, e: int, falling: bool, delta: float) -> float:
     return max(0.0, min(1.0, since / delta))
 
 
-def edge_behind(F: F64, I: I32, mode: int, e: int, inputs: int, moved: float) -> float:
-    """Part of the tick behind the edge that `mode` names, NO_EDGE if it did not come."""
+def edge_remainder(F: F64, I: I32, mode: int, e: int, inputs: int, moved: float) -> float:
+    """Part of the tick after the edge that `mode` names, NO_EDGE if it did not come."""
     signal: int = capture_signal(mode)
     falling: bool = mode & FALLING != 0
     if signal == MARKER or signal == MARKER_AND_EXTERNAL:
         gate: int = I[W_INPUTS] >> external_input(inputs, 0)
         if marker_edge(I, e, falling) and (signal == MARKER or gate & 1):
-            return marker_behind(F, I, e, falling, moved)
+            return marker_remainder(F, I, e, falling, moved)
     elif signal == OTHER_MARKER:
         if marker_edge(I, e ^ 1, falling):
             return 0.0
@@ -274,17 +274,17 @@ def triggers_watch(F: F64, I: I32, S: F32, n: int) -> None:
             e = register - 1
             inputs = e
             moved = F[encoders.step_cnt[e]]
-        behind: float = edge_behind(F, I, I[triggers.mode[t]], e, inputs, moved)
-        if behind >= 0.0:
+        remainder: float = edge_remainder(F, I, I[triggers.mode[t]], e, inputs, moved)
+        if remainder >= 0.0:
             I[triggers.kind[t]] = CAPTURED
-            F[triggers.travel_cnt[t]] = behind
+            F[triggers.travel_cnt[t]] = remainder
 
 
 # triggers
 
 
 def trigger_over(over: float, delta: float) -> float:
-    """Source pulses behind an event: never more than the tick has brought."""
+    """Source pulses remainder an event: never more than the tick has brought."""
     if delta >= 0.0:
         return max(0.0, min(over, delta))
     return min(0.0, max(over, delta))

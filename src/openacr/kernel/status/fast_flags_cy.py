@@ -38,7 +38,7 @@ def fast_group_flag(group: int) -> int:
 
 
 def fast_next(I: I32, axis_count: int) -> int:
-    """The group whose turn it is: the next behind the last that some axis chooses; -1 none."""
+    """The group whose turn it is: the next after the last that some axis chooses; -1 none."""
     chosen: int = 0
     for n in range(axis_count):
         chosen |= fast_chosen(I, n)

@@ -82,7 +82,7 @@ AXIS = HiddenBlock(
         "jog_replan",
         "jog_turning",  # slowing down first, to turn round
         "pm_on",
-        "pm_sign",  # direction of the correction under way
+        "pm_sign",  # direction of the present correction
         "kamr_old",
         "soft_old",
         "home_state",  # see kernel/jog/homing_cy.py

@@ -55,7 +55,7 @@ PROFILE = HiddenBlock(
 )
 
 # Moves waiting for or executed by a master: a ring of records per master. The first 256
-# belong to the masters in turn, those behind are lent to the masters with DIM MBUF.
+# belong to the masters in turn, those after them are lent with DIM MBUF.
 MOVE = HiddenBlock(
     prefix="MQ",
     family="moves",
@@ -78,7 +78,7 @@ MOVE = HiddenBlock(
         "corner_ups",  # highest speed in it
         "hsint_window_cnt",  # HSINT: captures count from `start` to `start + window`
         "hsint_start_cnt",
-        "hsint_way_cnt",  # and lead this much farther
+        "hsint_distance_cnt",  # and lead this much farther
         ("enter", 3),  # direction of the path at its beginning and end (slaves 0-2)
         ("leave", 3),
         ("target_cnt", SLAVES),
@@ -160,8 +160,8 @@ MASTER = HiddenBlock(
         ("vecdef", SLAVES),
         ("target_cnt", SLAVES),  # end of the last queued move, per slave
         "origin_u",  # path distance at which the present move begins
-        "travel_u",  # what the path has gone in the moves that are over (P8207)
-        "stretch_u",  # path distance at which the present plan ends
+        "travel_u",  # distance of the path in completed moves (P8207)
+        "section_u",  # path distance at which the present plan ends
         "entry_ups",  # speed and acceleration a replacing move (TRJ) is entered with
         "entry_ups2",
         "look_from_deg",  # LOOK ANG
@@ -175,9 +175,9 @@ MASTER = HiddenBlock(
         "corner_in_ups",
         "corner_out_turn",
         "corner_out_ups",
-        "corner_in_u",  # the rounded corner behind the path, see kernel/path/corner_cy.py
+        "corner_in_u",  # the rounded corner the path has passed, see kernel/path/corner_cy.py
         ("corner_in_cnt", SLAVES),
-        "corner_out_u",  # the one it is coming to
+        "corner_out_u",  # the one ahead
         ("corner_out_cnt", SLAVES),
         "rotate_deg",  # ROTATE of programmed paths (motion/path/transform.py)
         ("rotate_center_u", 2),
@@ -189,15 +189,15 @@ MASTER = HiddenBlock(
         "size",  # records in the ring
         "head",  # ring index of the present move
         "queued",  # moves in the ring, the present one included
-        "depth",  # moves that may wait behind the present one
+        "depth",  # moves that may wait after the present one
         "moving",  # the move at the head has begun
         "hold",  # 0 none, 1 feedholding, 2 in feedhold
         "drop_at_rest",  # HALT: drop all moves once the path has stopped
         "seek_phase",  # of MSEEK, see kernel/path/seek_cy.py
         "cut",  # the present move ends where it comes to rest
-        "response",  # ticks until INT looks at its flag again
+        "response",  # ticks until INT polls its flag again
         "hsint_phase",  # see kernel/path/hsint_cy.py
-        "stretch",  # moves the present plan runs through, the present one included
+        "section_cnt",  # moves the present plan runs through, the present one included
         "look_dirty",  # the buffer has changed: look ahead again
         "trigger",  # TRG for the next move to be issued, as in the move
         "trigger_axis",
@@ -206,14 +206,14 @@ MASTER = HiddenBlock(
         "paced",  # path time is not simply time: another source, or TOV
         "tang_axis",  # TANG: axis + 1
         "invk_program",  # INVK: program + 1 that computes the joints
-        "invk_moving",  # In Motion when the joints were last looked at
+        "invk_moving",  # In Motion when the joints were last computed
         "rounding",  # some corners are rounded: plans end within moves (kernel/path/round_cy.py)
         "piece",  # the present plan ends within the present move
         "corner_next",  # record + 1 that leaves the corner just passed
         "corner_smooth_in",  # the corners are rounded for a jerk limit
         "corner_smooth_out",
         "sync_go",  # SYNC: the move at the head may begin
-        "sync_start",  # SYNC MDI: a cycle start has come
+        "sync_start",  # SYNC MDI: a cycle start has arrived
         "final_zero",  # FVEL Zero Active as the present plan knows it
         "step_go",  # STEP in block mode: one move may begin in spite of Start Move Inhibit
         ("rotate_slave", 2),  # the plane of ROTATE
@@ -225,7 +225,7 @@ MASTER = HiddenBlock(
         "size": (1, MOVES),
         "head": (0, MOVES - 1),
         "queued": (0, MOVES),
-        "stretch": (0, MOVES),
+        "section_cnt": (0, MOVES),
         "trigger": (-17664, 17664),
         "trigger_axis": (0, SLAVES),
         "tang_axis": (0, SLAVES),
@@ -243,23 +243,23 @@ CURVE_POINTS = HiddenBlock(
     doubles=(
         ("point_cnt", POINTS * SLAVES),
         ("weight", POINTS),
-        ("knot", KNOTS),  # NURB: knots; SPLINE: time of the way to each point
-        ("tangent_cps", SLAVES),  # SPLINE: at the beginning of the next piece
+        ("knot", KNOTS),  # NURB: knots; SPLINE: time of the move to each point
+        ("tangent_cps", SLAVES),  # SPLINE: at the beginning of the next move
     ),
     ints=(
         "slaves",  # mask of the slaves of the curve
         "points",
         "knots",
-        "behind",  # SPLINE: points before the beginning of the next piece
+        "points_before",  # SPLINE: points before the beginning of the next move
         "rank",  # NURB: 0 the usual one
-        "open",  # pieces have been handed over and more are to come
+        "open",  # moves have been handed over and more will follow
         "live",  # flags of a curve are to be kept true
     ),
     ranges={
         "slaves": (0, 0xFFFF),
         "points": (0, POINTS),
         "knots": (0, KNOTS),
-        "behind": (0, POINTS),
+        "points_before": (0, POINTS),
         "rank": (0, POLES),
     },
 )

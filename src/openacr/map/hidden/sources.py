@@ -27,7 +27,7 @@ TRIGGER = HiddenBlock(
     doubles=(
         "setpoint",  # of IHPOS
         "travel_cnt",  # source pulses since the captured edge
-        "over_cnt",  # source pulses behind the event when it came
+        "over_cnt",  # source pulses after the event in its tick
     ),
     ints=(
         "kind",  # 0 not armed

@@ -101,7 +101,7 @@ def axis(
     rows[axes.position_source[number]], rows[axes.position_index[number]] = position
     rows[axes.signal_source[number]], rows[axes.signal_index[number]] = signal
     rows[axes.velocity_source[number]], rows[axes.velocity_index[number]] = velocity
-    rows[axes.drive_wired[number]] = -1  # another motor may be behind it
+    rows[axes.drive_wired[number]] = -1  # another motor may be connected to it
 
 
 def _check(index: int, count: int) -> None:

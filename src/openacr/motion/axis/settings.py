@@ -201,7 +201,7 @@ ENCODER_MULTIPLIER = Setting(Kind.LONG, ENI_BASE + ENI_MULT, ENI_STRIDE, multipl
 
 
 def position_encoder(card: Card, axis: int) -> int:
-    """The encoder that is the position feedback; `Invalid argument` if it is none."""
+    """The encoder that is the position feedback; `Invalid argument` if it is not."""
     if card.memory.I[axes.position_source[axis]] != Feedback.ENC:
         raise CardError(INVALID_ARGUMENT)
     return card.memory.I[axes.position_index[axis]]

@@ -63,7 +63,7 @@ def array_length(card: Card, program: int, table: int, array: int, words: int) -
 def set_segment(
     card: Card, table: int, segment: int, length_cnt: float, program: int, array: int
 ) -> None:
-    """SEG: a segment is so many source pulses long and has the points of an array."""
+    """SEG: a segment has a length in source pulses and has the points of an array."""
     if not 0 <= segment < segments(card, table):
         raise CardError(SUBSCRIPT_OUT_OF_RANGE)
     if array_length(card, program, LONGS, array, 1) < 2 or not length_cnt > 0.0:

@@ -174,7 +174,7 @@ def renew(card: Card, axis: int, position_u: float) -> None:
 def reset(card: Card, axis: int, offset_u: float) -> None:
     """JOG RES: the jog offset becomes `offset_u`, the coordinated position the rest.
 
-    In a feedhold the path keeps its place for the way on.
+    In a feedhold the path keeps its place to continue.
     """
     needs_no_jog(card, axis)
     is_held = path_held(card, axis)

@@ -77,7 +77,7 @@ def hermite(start: Vector, end: Vector, leave: Vector, arrive: Vector, time: flo
 
 
 def line(start: Vector, end: Vector) -> Bezier:
-    """The straight way."""
+    """A straight line as a curve."""
     return Bezier((tuple(start), tuple(end)), (1.0, 1.0))
 
 

@@ -13,7 +13,7 @@ HALF_TURN_DEG = 180.0
 
 
 def waiting(card: Card, master: int) -> int:
-    """Moves in the buffer behind the present one."""
+    """Moves in the buffer after the present one."""
     return max(card.memory.I[masters.queued[master]] - 1, 0)
 
 
@@ -48,17 +48,17 @@ def switch_off(card: Card, master: int) -> None:
 def _move_ring(card: Card, master: int, size: int) -> None:
     """Lend a longer ring: the first gap among those of the other masters."""
     start = MASTERS * MOVES_PER_MASTER
-    for first, behind in sorted(_lent(card, master)):
+    for first, waiting in sorted(_lent(card, master)):
         if start + size <= first:
             break
-        start = max(start, behind)
+        start = max(start, waiting)
     if start + size > MOVES:
         raise CardError(OUT_OF_MEMORY)
     _place_ring(card, master, start, size)
 
 
 def _lent(card: Card, without: int) -> list[tuple[int, int]]:
-    """First record and the one behind the last of the rings that other masters were lent."""
+    """First record and the one after the last of the rings that other masters were lent."""
     found = []
     for master in range(MASTERS):
         first = card.memory.I[masters.first[master]]
@@ -104,15 +104,21 @@ def check_rings(memory: Memory) -> None:
     """StoreError unless the rings of all masters lie in the records of moves, apart."""
     taken: set[int] = set()
     for master in range(masters.COUNT):
-        first, size, head, queued, stretch = (
+        first, size, head, queued, section_cnt = (
             memory.I[row[master]]
-            for row in (masters.first, masters.size, masters.head, masters.queued, masters.stretch)
+            for row in (
+                masters.first,
+                masters.size,
+                masters.head,
+                masters.queued,
+                masters.section_cnt,
+            )
         )
         ring = set(range(first, first + size))
         if (
             first + size > moves.COUNT
             or head >= size
-            or max(queued, stretch) > size
+            or max(queued, section_cnt) > size
             or ring & taken
         ):
             raise StoreError(f"the snapshot is damaged: the moves of master {master} lie wrong")

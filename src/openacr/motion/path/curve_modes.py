@@ -113,7 +113,7 @@ def _point(
 
 
 def _time_s(card: Card, master: int, knot: float | None) -> float:
-    """The time of the way to a point of a spline."""
+    """The time of the move to a point of a spline."""
     factor = card.memory.S[masters.spline_time_factor[master]]
     time_s = (1.0 if knot is None else knot) * factor
     if not SHORTEST_S <= time_s < 1.0 / SHORTEST_S:

@@ -1,4 +1,4 @@
-"""Hand the pieces of SPLINE and NURB over to a master as moves.
+"""Hand the parts of SPLINE and NURB over to a master as moves.
 
 In time modes the path is the parameter of the curve: a piece is as long as its time, and
 the speed is 1 (or 1 / NURB Time Factor). Ramps in such a path are those of the master over
@@ -21,7 +21,7 @@ from openacr.motion.path.bezier import Bezier
 from openacr.motion.path.move_request import Piece, Target
 from openacr.motion.path.records import SlaveMove
 
-MOST = 12  # records that one statement can make, the way to the first one included
+MOST = 12  # records that one statement can make, the move to the first one included
 NEAR_CNT = 0.01
 SAMPLES = 16
 
@@ -41,13 +41,13 @@ class Pace:
 
 
 def has_room(card: Card, master: int, count: int) -> bool:
-    """Whether the ring of a master takes another `count` pieces, whatever MBUF says."""
+    """Whether the ring of a master takes another `count` moves, whatever MBUF says."""
     row, limit = room_row(card, master, count)
     return card.memory.I[row] < limit
 
 
 def room_row(card: Card, master: int, count: int) -> tuple[int, int]:
-    """Row in I and value it must stay below for `count` pieces to have room."""
+    """Row in I and value it must stay below for `count` moves to have room."""
     return masters.queued[master], card.memory.I[masters.size[master]] - count + 1
 
 

@@ -19,7 +19,7 @@ class CurvePoints:
     points: list[list[float]] = field(default_factory=list)
     weights: list[float] = field(default_factory=list)
     knots: list[float] = field(default_factory=list)
-    behind: int = 0
+    points_before: int = 0
     tangent: list[float] = field(default_factory=lambda: [0.0] * SLAVES)
     is_open: bool = False
 
@@ -39,7 +39,7 @@ def load(card: Card, master: int) -> CurvePoints:
         [_listed(memory, first + n * SLAVES, SLAVES) for n in range(count)],
         _listed(memory, curve_points.weight[master], count),
         _listed(memory, curve_points.knot[master], knots),
-        memory.I[curve_points.behind[master]],
+        memory.I[curve_points.points_before[master]],
         _listed(memory, curve_points.tangent_cps[master], SLAVES),
         bool(memory.I[curve_points.open[master]]),
     )
@@ -67,7 +67,7 @@ def store(card: Card, master: int, curve: CurvePoints) -> None:
     memory.I[curve_points.slaves[master]] = curve.slaves
     memory.I[curve_points.points[master]] = len(curve.points)
     memory.I[curve_points.knots[master]] = len(curve.knots)
-    memory.I[curve_points.behind[master]] = curve.behind
+    memory.I[curve_points.points_before[master]] = curve.points_before
     memory.I[curve_points.open[master]] = int(curve.is_open)
     memory.I[curve_points.live[master]] = 1
 

@@ -29,8 +29,8 @@ def write(card: Card, program: int, record: int, parts: Sequence[Shape]) -> None
             case Sine(axis):
                 _mark(card, program, record, axis, moves.curved)
                 _write_sine(card, program, record, part)
-            case Circle(axes, _, center, direction, stretch):
-                _write_plane(card, program, record, axes, center, direction, stretch)
+            case Circle(axes, _, center, direction, radius_scales):
+                _write_plane(card, program, record, axes, center, direction, radius_scales)
             case SpaceArc(axes, _, mid):
                 _write_plane(card, program, record, axes, mid, curve_cy.CURVE_SPACE)
             case Piece():
@@ -69,14 +69,14 @@ def _write_plane(
     axes: Sequence[int],
     point_u: Sequence[float],
     curve: int,
-    stretch: Sequence[float] = (1.0, 1.0, 1.0),
+    radius_scales: Sequence[float] = (1.0, 1.0, 1.0),
 ) -> None:
     if card.memory.I[moves.curve[record]] or len(set(axes)) < len(axes):
         raise CardError(INVALID_ARC)
     card.memory.I[moves.curve[record]] = curve
     for place, (axis, value) in enumerate(zip(axes, point_u, strict=True)):
         scaling = curves.radius_scale[record] + place
-        card.memory.F[scaling] = stretch[place]
+        card.memory.F[scaling] = radius_scales[place]
         _mark(card, program, record, axis, moves.curved)
         card.memory.I[moves.plane[record] + place] = slave_of(card, program, axis)
         point = curves.point_cnt[record] + place
@@ -84,7 +84,7 @@ def _write_plane(
 
 
 def _write_piece(card: Card, record: int, piece: Piece) -> None:
-    """Poles relative to the target, and what the way is measured by."""
+    """Poles relative to the target, and the measure of its length."""
     memory = card.memory
     memory.I[moves.curve[record]] = bezier_cy.CURVE_TIMED if piece.span else bezier_cy.CURVE_PATH
     memory.I[moves.degree[record]] = len(piece.poles_cnt) - 1

@@ -41,7 +41,7 @@ def needs_rest(card: Card, master: int) -> None:
 
 
 def switch_on(card: Card, master: int) -> None:
-    """INVK ON: the tool is said to be where the joints are until somebody writes otherwise."""
+    """INVK ON: the tool is said to be where the joints are until a program writes otherwise."""
     for axis in axes_of(card, master):
         card.memory.F[axes.seen_cnt[axis]] = card.memory.F[axes.position_cnt[axis]]
     card.memory.I[masters.invk_moving[master]] = 0

@@ -9,7 +9,7 @@ from openacr.kernel.path import curve_cy
 
 
 class Direction(IntEnum):
-    """Which way a circle goes round; counter-clockwise leads from the first axis to the second."""
+    """Rotation of a circle; counter-clockwise leads from the first axis to the second."""
 
     CLOCKWISE = curve_cy.CURVE_CW
     COUNTER_CLOCKWISE = curve_cy.CURVE_CCW

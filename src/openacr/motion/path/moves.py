@@ -77,7 +77,7 @@ def issue(
     if here and not replace and _is_nothing(slave_moves, parts):
         return
     if replace:
-        replacing.clear_the_way(card, master, slave_moves)
+        replacing.replace_waiting_moves(card, master, slave_moves)
     record = tangent.add(card, program, master, slave_moves, parts)
     if tolerance_u is not None:
         corners.set_of_move(card, master, record, tolerance_u)
@@ -128,11 +128,11 @@ def high_speed_interrupt(
     program: int,
     target: Target,
     mode: int,
-    way_u: float,
+    distance_u: float,
     window_u: tuple[float, float],
     abort: FlagState | None,
 ) -> None:
-    """HSINT: a move that a capture within the window (width, start) leads `way_u` behind it."""
+    """HSINT: a move that a capture within the window (width, start) leads `distance_u` after it."""
     record = _single(card, program, target)
     if record is None:
         return
@@ -140,7 +140,7 @@ def high_speed_interrupt(
     card.memory.I[moves.hsint_axis[record]] = target.axis + 1
     card.memory.I[moves.hsint_mode[record]] = mode
     card.memory.I[moves.hsint_abort[record]] = abort.signed if abort else 0
-    card.memory.F[moves.hsint_way_cnt[record]] = way_u * scale
+    card.memory.F[moves.hsint_distance_cnt[record]] = distance_u * scale
     card.memory.F[moves.hsint_window_cnt[record]] = window_u[0] * abs(scale)
     card.memory.F[moves.hsint_start_cnt[record]] = window_u[1] * abs(scale)
 
@@ -168,12 +168,12 @@ def _slave_move(card: Card, program: int, master: int, target: Target, *, here: 
     length = card.memory.F[axes.rotary_u[target.axis]] * scale
     delta = target.value_u * scale - start
     if length:
-        delta = shortest_way(delta, abs(length))
+        delta = shortest_turn(delta, abs(length))
         return SlaveMove(slave, target.axis, start, start + delta, delta, relative=True)
     return SlaveMove(slave, target.axis, start, target.value_u * scale, delta, relative=False)
 
 
-def shortest_way(delta: float, length: float) -> float:
+def shortest_turn(delta: float, length: float) -> float:
     """A displacement on a circle of `length`, in (-length/2, length/2]."""
     return delta - length * -((0.5 - delta / length) // 1.0)
 

@@ -1,8 +1,8 @@
 """NURB: rational B-splines of order RANK from control points, knots and weights.
 
 Knot i belongs to point i, and RANK more follow the last point. The curve runs from knot
-RANK - 1 to the knot behind that of the last point; the span from knot j to j + 1 needs the
-knots up to j + RANK - 1, so the motion is RANK - 1 points behind the input.
+RANK - 1 to the knot after that of the last point; the span from knot j to j + 1 needs the
+knots up to j + RANK - 1, so the motion is RANK - 1 points after the input.
 """
 
 from itertools import pairwise
@@ -45,7 +45,7 @@ def take(
 def finish(card: Card, program: int, master: int) -> None:
     """Repeat the last knot as often as is missing, and go to the end of the curve.
 
-    Without a knot behind the last point the next one is repeated: a curve whose last knot
+    Without a knot after the last point the next one is repeated: a curve whose last knot
     was that of the last point would end before it.
     """
     curve = curve_points.load(card, master)
@@ -96,9 +96,9 @@ def _follow(card: Card, program: int, master: int, curve: CurvePoints, *, ends: 
         if end > begin:
             numbers = curve.numbers
             points = [[point[s] for s in numbers] for point in curve.points[:rank]]
-            way = bezier.span(points, curve.weights[:rank], curve.knots[: 2 * rank - 1])
+            span_curve = bezier.span(points, curve.weights[:rank], curve.knots[: 2 * rank - 1])
             is_last = ends and not any(b > a for a, b in pairwise(curve.knots[rank:]))
-            _send(card, program, master, curve, way, end - begin, ends=is_last)
+            _send(card, program, master, curve, span_curve, end - begin, ends=is_last)
         for row in (curve.points, curve.weights, curve.knots):
             row.pop(0)
 
@@ -108,15 +108,15 @@ def _send(
     program: int,
     master: int,
     curve: CurvePoints,
-    way: Bezier,
+    span_curve: Bezier,
     span: float,
     *,
     ends: bool,
 ) -> None:
     flags = card.memory.I[mf3.word[master]]
-    if not flags & mf3.NURB_TIME and way.is_point:
+    if not flags & mf3.NURB_TIME and span_curve.is_point:
         return
-    parts = bezier.halves(way) if flags & mf3.NURB_SMOOTH else (way,)
+    parts = bezier.halves(span_curve) if flags & mf3.NURB_SMOOTH else (span_curve,)
     for part in parts:
         pace = _pace(card, master, curve, part, ends=ends and part is parts[-1])
         size = span / len(parts)

@@ -109,7 +109,7 @@ def _write_slave_moves(card: Card, master: int, record: int, slave_moves: list[S
 
 
 def _lay_out(card: Card, master: int, record: int, slave_moves: list[SlaveMove]) -> None:
-    """Lay the move out from its planned start; `Invalid arc` for a curve that is none."""
+    """Lay the move out from its planned start; `Invalid arc` for an impossible curve."""
     memory = card.memory
     for one in slave_moves:
         memory.F[masters.target_cnt[master] + one.slave] = one.start_cnt
@@ -120,7 +120,7 @@ def _lay_out(card: Card, master: int, record: int, slave_moves: list[SlaveMove])
 
 
 def _look_back(card: Card, master: int, record: int, queued: int) -> None:
-    """Note where the path heads, and by how much it turns behind the move before."""
+    """Note where the path heads, and by how much it turns after the move before."""
     memory = card.memory
     _move_directions(memory.F, memory.I, memory.S, master, record)
     memory.F[moves.turn_deg[record]] = 0.0

@@ -17,7 +17,7 @@ _path_slope = pick(path_cy.path_slope)
 FARTHEST_U = 1e30  # no bound on what is counted of a move
 
 
-def clear_the_way(card: Card, master: int, slave_moves: list[SlaveMove]) -> None:
+def replace_waiting_moves(card: Card, master: int, slave_moves: list[SlaveMove]) -> None:
     """Drop all moves; the speed is kept unless the new direction turns back too far.
 
     Beyond 90 degrees the present move comes to rest first, and the new one follows it.
@@ -27,7 +27,7 @@ def clear_the_way(card: Card, master: int, slave_moves: list[SlaveMove]) -> None
         return
     if memory.I[masters.moving[master]] and _turns_back(card, master, slave_moves):
         # it may stop in the next
-        memory.I[masters.queued[master]] = memory.I[masters.stretch[master]]
+        memory.I[masters.queued[master]] = memory.I[masters.section_cnt[master]]
         _master_cut(memory.F, memory.I, memory.S, master)
         return
     if memory.I[masters.moving[master]]:

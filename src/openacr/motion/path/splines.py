@@ -1,6 +1,6 @@
 """SPLINE: a smooth curve through points, one cubic between each two.
 
-The knot of a point is the time of the way to it. The velocity at a point follows from its
+The knot of a point is the time of the move to it. The velocity at a point follows from its
 neighbours, and Spline Buffer Length says how many are looked at:
 
     2  none: straight lines
@@ -8,7 +8,7 @@ neighbours, and Spline Buffer Length says how many are looked at:
     4  (p[i+1] - p[i-1]) / (t[i+1] + t[i])
     5  (p[i-2] - 8 p[i-1] + 8 p[i+1] - p[i+2]) / 12 t, with equal times; else as 4
 
-So the motion is that many points less two behind the input. At both ends of the curve the
+So the motion is that many points less two after the input. At both ends of the curve the
 velocity is 0. It begins where the axes are; a first point there is no further one.
 """
 
@@ -63,24 +63,24 @@ def _length(card: Card, master: int) -> int:
 def _follow(
     card: Card, program: int, master: int, curve: CurvePoints, lag: int, *, ends: bool
 ) -> None:
-    """Hand over all pieces whose velocities are known."""
+    """Hand over all moves whose velocities are known."""
     length = _length(card, master)
-    while curve.behind + 1 + lag < len(curve.points):
-        end = curve.behind + 1
+    while curve.points_before + 1 + lag < len(curve.points):
+        end = curve.points_before + 1
         is_last = ends and end == len(curve.points) - 1
         arrive = [0.0] * len(curve.tangent) if is_last else _velocity(curve, end, length)
         _piece(card, program, master, curve, arrive, straight=length == SHORTEST, ends=is_last)
         curve.tangent = arrive
-        curve.behind = end
+        curve.points_before = end
         _forget(curve)
 
 
 def _forget(curve: CurvePoints) -> None:
     """One point before the next piece is enough for its velocities."""
-    for _ in range(curve.behind - 1):
+    for _ in range(curve.points_before - 1):
         for row in (curve.points, curve.weights, curve.knots):
             row.pop(0)
-        curve.behind -= 1
+        curve.points_before -= 1
 
 
 def _velocity(curve: CurvePoints, at: int, length: int) -> list[float]:
@@ -109,14 +109,16 @@ def _piece(
     straight: bool,
     ends: bool,
 ) -> None:
-    numbers, at = curve.numbers, curve.behind
+    numbers, at = curve.numbers, curve.points_before
     start, end, leave, arrive = (
         [vector[s] for s in numbers]
         for vector in (curve.points[at], curve.points[at + 1], curve.tangent, arrive)
     )
     time_s = curve.knots[at + 1]
-    way = bezier.line(start, end) if straight else bezier.hermite(start, end, leave, arrive, time_s)
-    _send(card, program, master, curve, way, time_s, ends=ends)
+    curve_piece = (
+        bezier.line(start, end) if straight else bezier.hermite(start, end, leave, arrive, time_s)
+    )
+    _send(card, program, master, curve, curve_piece, time_s, ends=ends)
 
 
 def _send(
@@ -124,15 +126,15 @@ def _send(
     program: int,
     master: int,
     curve: CurvePoints,
-    way: Bezier,
+    curve_piece: Bezier,
     time_s: float,
     *,
     ends: bool,
 ) -> None:
     is_timed = bool(card.memory.I[mf3.word[master]] & mf3.SPLINE_TIME_MODE)
-    if not is_timed and way.is_point:
+    if not is_timed and curve_piece.is_point:
         return
     pace = curve_moves.Pace(rate=float(is_timed), begins=not curve.is_open, ends=ends)
-    curve_moves.hand_over(card, program, master, curve.numbers, way, time_s, pace)
+    curve_moves.hand_over(card, program, master, curve.numbers, curve_piece, time_s, pace)
     curve.is_open = True
     card.memory.I[mf3.word[master]] |= mf3.SPLINE_LOADED

@@ -1,8 +1,8 @@
 """TANG: keep an axis in degrees tangential to the path of the first two slaves.
 
-Where a move is to begin in another direction the axis turns there, the short way, in a move
-of its own; less than TANG Turn Limit it makes up on the way. Along curves it turns with
-the tangent (kernel/path/tangent_cy.py). It does not count for the length of the path.
+Where a move is to begin in another direction the axis first turns there by the smaller angle,
+in a move of its own; less than TANG Turn Limit it makes up during the move. Along curves it
+turns with the tangent (kernel/path/tangent_cy.py). It does not count for the length of the path.
 """
 
 from collections.abc import Sequence

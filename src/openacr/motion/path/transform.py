@@ -6,7 +6,7 @@ r"""SCALE, ROTATE, OFFSET and FLZ: from the programmed path to the one of the ma
 
 Distances (incremental values) are scaled and turned, not shifted. Where a turned path names
 only one axis of the plane, the other one stays at its last programmed value, which is found
-by the way back from the machine target: no second record of the path has to be kept.
+by the inverse transformation of the machine target: no second record of the path has to be kept.
 
 The values act on moves that are issued later; jogs, followers and binary moves know nothing
 of them.
@@ -29,7 +29,7 @@ from openacr.motion.path.move_request import Circle, Direction, Part, Sine, Spac
 
 
 def apply(card: Card, program: int, parts: Sequence[Part]) -> list[Part]:
-    """The parts of a move in machine coordinates; `Invalid arc` for one that is none there."""
+    """The parts of a move in machine coordinates; `Invalid arc` if it is not an arc there."""
     turned = _Rotation(card, program).turn([_scaled(card, part) for part in parts])
     return [_shifted(card, part) for part in turned]
 
@@ -129,12 +129,12 @@ def _scaled_circle(card: Card, circle: Circle) -> Circle:
         circle.axes,
         (_scale(card, first, target[0]), _scale(card, second, target[1])),
         (_scale(card, first, center[0]), _scale(card, second, center[1])),
-        _other_way(circle.direction) if is_mirrored else circle.direction,
+        _opposite(circle.direction) if is_mirrored else circle.direction,
         circle.radius_scale,
     )
 
 
-def _other_way(direction: Direction) -> Direction:
+def _opposite(direction: Direction) -> Direction:
     if direction is Direction.CLOCKWISE:
         return Direction.COUNTER_CLOCKWISE
     return Direction.CLOCKWISE
@@ -216,8 +216,8 @@ class _Rotation:
             raise CardError(INVALID_ARGUMENT)
         first, second = self._plane
         if all(target.incremental for target in named.values()):
-            way = [named[a].value_u if a in named else 0.0 for a in self._plane]
-            x, y = self._turned(way[0], way[1])
+            delta_u = [named[a].value_u if a in named else 0.0 for a in self._plane]
+            x, y = self._turned(delta_u[0], delta_u[1])
             return [Target(first, x, incremental=True), Target(second, y, incremental=True)]
         last = self._last()
         point = [
@@ -232,7 +232,7 @@ class _Rotation:
         return last + target.value_u if target.incremental else target.value_u
 
     def _last(self) -> tuple[float, float]:
-        """The last programmed point of the plane, scaled: the way back from the machine."""
+        """The last programmed point of the plane, scaled: the inverse from the machine."""
         ends = [
             _machine_end(self._card, self._program, axis) - _shift(self._card, axis)
             for axis in self._plane

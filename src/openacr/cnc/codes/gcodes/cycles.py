@@ -2,7 +2,7 @@
 
 A cycle block positions the hole and calls label code * 1000 of that file with its levels
 in P249 to P270. In the file X and Y are the axes of the plane, Z is the drill axis, and
-positions are those behind scaling and rotation.
+positions are those after scaling and rotation.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def drill(run: Run, b: BlockContext) -> Iterator[Entry]:
 
 
 def _take(run: Run, b: BlockContext, drilling: Drilling, plane: Plane) -> None:
-    """The words of the block, kept for the blocks behind it."""
+    """The words of the block, kept for the blocks after it."""
     is_incremental = run.modal.distance == 91
     for axis, _, value in b.axes:
         if axis == plane.drill:
@@ -106,7 +106,7 @@ def _check(b: BlockContext, drilling: Drilling, code: int) -> None:
 
 
 def _check_return(run: Run, b: BlockContext, drilling: Drilling, r: float) -> None:
-    """Doubt a G98 that ends below R: the way to the next hole is deeper than R."""
+    """Doubt a G98 that ends below R: the path to the next hole is deeper than R."""
     if run.dialect.rises_first or run.modal.return_level != 98 or drilling.initial >= r:
         return
     levels = f"{run.path.shown(drilling.initial):.5g} of R {run.path.shown(r):.5g}"
@@ -183,7 +183,7 @@ def _clearances(run: Run) -> tuple[float, float]:
 
 
 def _level(run: Run, plane: Plane, z: float) -> float:
-    """A level behind scaling and rotation."""
+    """A level after scaling and rotation."""
     point = list(run.path.program)
     point[plane.drill] = z
     return run.path.coordinates.forward(tuple(point))[plane.drill]
@@ -193,7 +193,7 @@ def _level(run: Run, plane: Plane, z: float) -> float:
 
 
 def _end(run: Run, b: BlockContext) -> Point:
-    """X, Y, Z as the axes of the plane and the drill axis, behind scaling and rotation."""
+    """X, Y, Z as the axes of the plane and the drill axis, after scaling and rotation."""
     plane, placed = run.modal.plane_axes, list(run.path.placed)
     axes = {"X": plane.first, "Y": plane.second, "Z": plane.drill}
     for _, letter, value in b.axes:

@@ -44,7 +44,7 @@ def no_macro(run: Run, b: BlockContext) -> None:
 
 @letter("MACRO", step=Step.MACRO_CALL)
 def modal_call(run: Run, b: BlockContext) -> Iterator[Entry] | None:
-    """The call behind a block that has moved."""
+    """The call after a block that has moved."""
     macro = run.macro
     if macro is None or not b.has_moved or run.flow.is_within(Level.MODAL_MACRO):
         return None

@@ -177,7 +177,7 @@ class OWords:
         return Formula(statement.values[0], self._run.parameters).now() != 0.0
 
     def _elseif(self, word: OWord, node: Node, values: list[Formula]) -> None:
-        """Reached behind a branch that was executed."""
+        """Reached after a branch that was executed."""
         self._go_behind(self._next(word, node, ("ENDIF",)))
 
     _else = _elseif
