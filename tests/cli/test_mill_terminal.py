@@ -3,6 +3,7 @@
 import os
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import TextIO
 
@@ -10,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
+from openacr.cli.mill.console import Console
 from openacr.cli.mill.terminal import Attendant, require_yes
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
@@ -274,3 +276,57 @@ def test_only_a_yes_starts(
         with pytest.raises(UserError, match="not started"):
             require_yes(bench.shop, bench.attend, "start?", "nobody")
     assert capsys.readouterr().err == "start? [y/N] "
+
+
+# --- STOP and ABORT -----------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-RUN-STOP")
+def test_stop_ramps_to_rest_and_the_status_line_shows_the_pause(
+    wires: tuple[TextIO, TextIO], capsys: pytest.CaptureFixture[str]
+) -> None:
+    bench = Bench(*wires)
+    console = Console(wires[1])
+    bench.attend = console.attend  # type: ignore[assignment]
+    bench.start("G90 F600\nG1 X8\nM2\n")
+    bench.steps(10)
+    assert capsys.readouterr().err == "RUN\n"
+    cruise_ups = bench.controller.axis(0).velocity_ups
+    bench.keys.write("stop\n")
+    time.sleep(0.05)
+    console.attend(bench.shop)
+    speeds = [bench.controller.axis(0).velocity_ups]
+    while speeds[-1] > 0.0:
+        bench.controller.advance(1)
+        speeds.append(bench.controller.axis(0).velocity_ups)
+    assert cruise_ups == pytest.approx(200 / 60)
+    steps = [before - after for before, after in pairwise(speeds) if before > after]
+    deceleration_ups2 = bench.shop.runner.settings.speeds.feed_acc_ups2
+    assert max(steps) == pytest.approx(deceleration_ups2 * bench.controller.period_s, rel=0.01)
+    bench.steps(5)
+    assert capsys.readouterr().err == "----PAUSE----\n"
+    bench.keys.write("resume\n")
+    time.sleep(0.05)
+    bench.steps(300)
+    assert capsys.readouterr().err == "RUN\nIDLE\n"
+    assert bench.controller.p[12288] == 80_000
+
+
+@pytest.mark.req("MILL-BATCH-ABORT")
+@pytest.mark.parametrize(
+    ("typed", "code", "ran"),
+    [(["y", "y"], 0, ["ONE", "TWO", "TWO", "THREE"]), (["n"], 1, ["ONE", "TWO"]),
+     (["y", "n"], 1, ["ONE", "TWO", "TWO"])],
+)  # fmt: skip
+def test_an_abort_cancels_the_rest_of_a_batch(
+    card: Controller, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    typed: list[str], code: int, ran: list[str],
+) -> None:  # fmt: skip
+    for name, text in (("ONE", "G4 F.1"), ("TWO", "M0"), ("THREE", "G4 F.1")):
+        (tmp_path / f"{name}.NC").write_text(f"(MSG, {name})\n{text}\nM2\n")
+    (tmp_path / "SHIFT.BAT").write_text("ONE.NC\nTWO.NC L2\nTHREE.NC\n")
+    monkeypatch.setattr(Attendant, "answer", lambda *_words: typed.pop(0))
+    ended, text = mill("batch", str(tmp_path / "SHIFT.BAT"))
+    assert (ended, typed) == (code, [])
+    assert [line for line in text.splitlines() if line in ("ONE", "TWO", "THREE")] == ran
+    assert ("aborted by the operator" in text) is bool(code)

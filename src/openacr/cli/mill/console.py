@@ -56,7 +56,7 @@ class Console:
 
     def _show(self, runner: "Runner") -> None:
         up = "; ".join(alarm.text for alarm in runner.alarms.active)
-        text = f"{runner.state.name} {runner.reason} {up}".strip()
+        text = f"{runner.state.shown} {runner.reason} {up}".strip()
         if text != self._shown:
             self._shown = text
             typer.echo(text, err=True)

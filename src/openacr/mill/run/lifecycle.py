@@ -30,7 +30,13 @@ class State(Enum):
         """The value that P244 shows."""
         return CELLS[self]
 
+    @property
+    def shown(self) -> str:
+        """What a status line shows: the guide's text for a pause, the name for the others."""
+        return PAUSE if self is State.PAUSED else self.name
 
+
+PAUSE = "----PAUSE----"
 CELLS = {
     State.IDLE: 0,
     State.RUN: 1,

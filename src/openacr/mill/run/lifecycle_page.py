@@ -11,7 +11,8 @@ HEAD = """# The life cycle of a run
 
 Written by `make docs` from the table in `openacr.mill.run.lifecycle`; do not edit.
 
-A machine is in one of these states. Other programs read the number in P244.
+A machine is in one of these states. Other programs read the number in P244. A status line shows
+the names, and for PAUSED the text of the guide, `----PAUSE----`.
 
 """
 PICTURE = """
