@@ -133,7 +133,7 @@ class Steps:
 
 
 class Calls:
-    """Stands for the executor of programs: records what it is told."""
+    """Stands for the executor of programs: records its commands."""
 
     def __init__(self) -> None:
         self.running: set[int] = set()

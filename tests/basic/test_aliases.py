@@ -61,7 +61,7 @@ def test_definitions_are_listed_as_typed(aliases: Aliases) -> None:
 
 
 @pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])
-def test_newer_models_allow_digits_behind_the_first_letter(name: str) -> None:
+def test_newer_models_allow_digits_after_the_first_letter(name: str) -> None:
     bench = Bench(ACR7000)
     bench.type("DIM P(10)", "DIM DEF(5)")
     assert bench.type(f"#DEFINE {name} P5") == "SYS>"
@@ -75,7 +75,7 @@ def test_names_that_read_as_a_word_and_its_number_are_refused(name: str) -> None
     assert bench.type(f"#DEFINE {name} P5") == "Illegal name|SYS>"
 
 
-def test_names_with_digits_are_used_listed_and_told_from_numbers() -> None:
+def test_names_with_digits_are_used_listed_and_distinguished_from_numbers() -> None:
     rig = Bench(ACR7000)
     rig.type("DIM PROG0(1000)", "DIM P(10)", "DIM DEF(5)", "PROG0")
     rig.type("#DEFINE Part1 P1", "#DEFINE Part1b P2", "#DEFINE Part BIT33")

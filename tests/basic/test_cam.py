@@ -114,16 +114,16 @@ def test_a_cam_starts_from_the_offset_that_stands() -> None:
     assert offsets(made, 0, 25) == [50, 100]
 
 
-@pytest.mark.parametrize("way", [30, -30])
-def test_cam_cycles_end_it_exactly_at_the_cycle_end(way: int) -> None:
+@pytest.mark.parametrize("delta", [30, -30])
+def test_cam_cycles_end_it_exactly_at_the_cycle_end(delta: int) -> None:
     made = bench(0, 100, 0, lines=("CAM CYCLES X2", "CAM ON X"))
     assert made.p(CYCLES) == 2
     for _ in range(6):
-        turn(made, way)
+        turn(made, delta)
     assert made.bit(ACTIVATE)
-    assert turn(made, way) == 0.0
+    assert turn(made, delta) == 0.0
     assert not made.bit(ACTIVATE)
-    assert turn(made, way) == 0.0
+    assert turn(made, delta) == 0.0
 
 
 @pytest.mark.req("ACR-CAM-03")

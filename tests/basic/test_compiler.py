@@ -1,4 +1,4 @@
-"""Structure errors: found when a program is started, told with the line, nothing runs."""
+"""Structure errors: found when a program is started, reported with the line, nothing runs."""
 
 import pytest
 from tests.basic.parsing import parse_line

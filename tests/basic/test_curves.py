@@ -142,7 +142,7 @@ def test_any_arc_ends_exactly_and_keeps_radius_and_speed(
     assert now == pytest.approx((x * 1000, y * 1000), abs=1e-5)
 
 
-def test_a_circle_behind_a_line_starts_where_the_line_ends() -> None:
+def test_a_circle_after_a_line_starts_where_the_line_ends() -> None:
     made = bench("ACC 100 STP 0")
     made.type("X10 : CIRCCW X(20,15) Y(0,0)")
     while made.p(12288) < 10 * CNT:

@@ -98,12 +98,12 @@ def test_the_first_true_condition_wins(rig: Rig, value: int, printed: str) -> No
     assert rig.run(f"P0={value}", *lines, "ENDIF") == (printed if value < 4 else "")
 
 
-def test_conditions_behind_a_true_one_are_not_computed(rig: Rig) -> None:
+def test_conditions_after_a_true_one_are_not_computed(rig: Rig) -> None:
     assert rig.run("IF (1)", "PRINT 1", "ELSEIF (1/0)", "PRINT 2", "ENDIF") == "1|"
 
 
 @pytest.mark.req("ACR-FLOW-15")
-def test_return_goes_behind_the_latest_gosub(rig: Rig) -> None:
+def test_return_goes_after_the_latest_gosub(rig: Rig) -> None:
     assert (
         rig.run(
             "P0=1",

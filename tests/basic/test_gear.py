@@ -251,20 +251,22 @@ def test_values_are_checked_and_reported() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "way", "gained"),
+    ("line", "delta", "gained"),
     [
         ("GEAR ON IHPOS X(P6304, 25)", 10, 15.0),
         ("GEAR ON IHPOS X(-P6304, -25)", -10, -15.0),
     ],
 )
-def test_on_ihpos_counts_the_source_beyond_the_setpoint(line: str, way: int, gained: float) -> None:
+def test_on_ihpos_counts_the_source_beyond_the_setpoint(
+    line: str, delta: int, gained: float
+) -> None:
     made = bench(line)
     assert made.bit(ON_POSITION)
     for _ in range(2):
-        turn(made, way)
+        turn(made, delta)
     assert (gear(made), made.bit(ACTIVATE)) == (0.0, False)
     for _ in range(2):
-        turn(made, way)
+        turn(made, delta)
     assert gear(made) == gained
     assert (made.bit(ON_POSITION), made.bit(ACTIVATE), made.bit(ACTIVE)) == (False, True, True)
 
@@ -300,7 +302,7 @@ def test_off_ihpos_counts_the_source_up_to_the_setpoint() -> None:
     assert (made.bit(OFF_POSITION), made.bit(ACTIVE)) == (False, False)
 
 
-def test_a_ramp_behind_a_trigger_begins_at_the_event() -> None:
+def test_a_ramp_after_a_trigger_begins_at_the_event() -> None:
     made = bench("GEAR ACC X1000", "GEAR ON IHPOS X(P6304, 25)")
     for _ in range(4):
         turn(made, 10)

@@ -36,16 +36,16 @@ def test_a_move_ends_at_its_target_with_and_without_mov(line: str) -> None:
 
 @pytest.mark.req("ACR-CMD-MOV")
 def test_mov_makes_the_same_move_as_the_targets_alone() -> None:
-    ways = []
+    courses = []
     for line in ("MOV X10 Y5", "X10 Y5"):
         made = bench().all("ACC 100 DEC 100 STP 100", line)
         course = [(made.psp(0), made.psp(1))]
         while made.bit(IN_MOTION):
             made.ticks(1)
             course.append((made.psp(0), made.psp(1)))
-        ways.append(course)
-    assert ways[0] == ways[1]
-    assert ways[0][-1] == (10, 5)
+        courses.append(course)
+    assert courses[0] == courses[1]
+    assert courses[0][-1] == (10, 5)
 
 
 @pytest.mark.req("ACR-MOT-06", "ACR-MOT-03")
@@ -98,7 +98,7 @@ def test_the_last_target_of_an_axis_in_a_block_wins() -> None:
     assert run(bench(), "X10 Y5 X20") == [20, 5, 0]
 
 
-def test_what_stands_behind_a_target_in_its_block_still_shapes_the_move() -> None:
+def test_what_follows_a_target_in_its_block_still_shapes_the_move() -> None:
     made = bench()
     made.type("X10 VEL 100")
     assert made.until_clear(IN_MOTION) == ticks(0.1)
@@ -248,7 +248,7 @@ def test_a_malformed_move_is_a_syntax_error(line: str) -> None:
 
 @pytest.mark.parametrize(("line", "end"), [("X10", 370), ("X170", 530), ("X175", 175)])
 @pytest.mark.req("ACR-CMD-ROTARY", "ACR-PROF-11")
-def test_an_absolute_move_of_a_rotary_axis_takes_the_shorter_way(line: str, end: int) -> None:
+def test_an_absolute_move_of_a_rotary_axis_takes_the_shorter_direction(line: str, end: int) -> None:
     made = bench()
     made.type("X350")
     made.until_clear(IN_MOTION)
@@ -256,7 +256,7 @@ def test_an_absolute_move_of_a_rotary_axis_takes_the_shorter_way(line: str, end:
     assert run(made, line)[0] == end
 
 
-def test_incremental_moves_of_a_rotary_axis_go_as_far_as_told() -> None:
+def test_incremental_moves_of_a_rotary_axis_go_as_far_as_commanded() -> None:
     made = bench()
     made.type("ROTARY X360")
     assert run(made, "X/500")[0] == 500

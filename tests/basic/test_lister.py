@@ -181,7 +181,7 @@ def test_numbered_programs_always_show_their_numbers() -> None:
     ]
 
 
-def test_an_if_behind_else_and_a_colon_is_a_level_of_its_own() -> None:
+def test_an_if_after_else_and_a_colon_is_a_level_of_its_own() -> None:
     lines = stored("PROGRAM", "IF (P0)", "ELSE : IF (P1)", "X1", "ENDIF", "ENDIF", "ENDP")
     assert list(Lister().program(lines)) == [
         "PROGRAM",

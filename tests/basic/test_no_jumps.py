@@ -30,7 +30,7 @@ KILLS = ("HALT", "SET 522", "SET 8467", "STP 0")
 
 
 def sequence(seed: int) -> list[tuple[str, int]]:
-    """Lines and the ticks behind each; kills are rare, so that much moves meanwhile."""
+    """Lines and the ticks after each; kills are rare, so that much moves meanwhile."""
     chance = random.Random(seed)
     lines = [line for line in LINES if line not in KILLS]
     steps = []
@@ -60,8 +60,8 @@ def step(made: Bench, before: float, parts_before: list[float]) -> tuple[float, 
     parts = [F[row] for row in ROWS]
     assert F[PSP] == pytest.approx(math.fsum(parts), abs=1e-6)
     assert F[SSP] == F[PSP]
-    way = FASTEST_CPS * PERIOD_S * 1.02
-    assert abs(F[PSP] - before) <= way, (before, F[PSP], parts_before, parts)
+    largest = FASTEST_CPS * PERIOD_S * 1.02
+    assert abs(F[PSP] - before) <= largest, (before, F[PSP], parts_before, parts)
     return F[PSP], parts
 
 

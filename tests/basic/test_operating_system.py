@@ -239,7 +239,7 @@ def test_cpu_load_rises_with_the_number_of_active_axes(bench: Bench) -> None:
     assert bench.type("PERIOD 0.0001", "CPU").endswith("Foreground 85.0%|Background 15.0%|SYS>")
 
 
-def test_cip_reports_that_nobody_is_connected(bench: Bench) -> None:
+def test_cip_reports_that_no_host_is_connected(bench: Bench) -> None:
     assert bench.type("CIP") == "CIP connections 0|CIP state IDLE|SYS>"
 
 

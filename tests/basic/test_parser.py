@@ -1,4 +1,4 @@
-"""How lines are read: the conformance rows on parsing, and the rules behind them."""
+"""How lines are read: the conformance rows on parsing, and their rules."""
 
 import pickle
 
@@ -205,7 +205,7 @@ def test_ihpos_takes_a_signed_parameter_and_a_pair() -> None:
 
 
 @pytest.mark.req("ACR-FLOW-03")
-def test_everything_behind_then_is_conditional() -> None:
+def test_everything_after_then_is_conditional() -> None:
     _, then = arguments("IF (P0 > 4000) THEN GOSUB 100 : P0 = P0-1", STORED)
     assert [[part.command.name for part in block] for block in then.blocks] == [  # type: ignore[attr-defined]
         ["GOSUB"],
@@ -248,7 +248,7 @@ def test_labels_stand_alone_or_before_a_colon() -> None:
 
 
 @pytest.mark.req("ACR-LABEL-04")
-def test_a_remark_directly_behind_a_label_is_refused() -> None:
+def test_a_remark_directly_after_a_label_is_refused() -> None:
     assert refusal("_Safe REM marker", STORED) == "Syntax error"
     assert parsed("_Safe : REM Just a marker label", STORED).remark == " Just a marker label"
 

@@ -104,7 +104,7 @@ def test_only_pboot_as_first_statement_starts_a_program(
 
 
 @pytest.mark.parametrize(
-    ("text", "behind"),
+    ("text", "rest"),
     [
         ("PROGRAM", ""),
         ("  program  ", ""),
@@ -117,8 +117,8 @@ def test_only_pboot_as_first_statement_starts_a_program(
         ("10 PROGRAM", None),
     ],
 )
-def test_the_word_program_opens_free_form_entry(text: str, behind: str | None) -> None:
-    assert opens_capture(text) == behind
+def test_the_word_program_opens_free_form_entry(text: str, rest: str | None) -> None:
+    assert opens_capture(text) == rest
 
 
 def test_line_numbers_are_whole_and_have_six_digits() -> None:

@@ -72,7 +72,7 @@ def test_a_wait_of_a_low_priority_program_holds_the_others() -> None:
     assert count(rig, 9) > held + 100
 
 
-def test_a_wait_of_a_high_priority_program_holds_nobody() -> None:
+def test_a_wait_of_a_high_priority_program_holds_no_other() -> None:
     rig = Rig()
     start(rig, 0, "INH 40")
     start(rig, 1, *counting(1))

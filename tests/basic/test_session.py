@@ -168,7 +168,7 @@ def test_commands_without_number_act_at_once() -> None:
         ("IF (0) THEN PROG1 : ACC", "P00>"),
     ],
 )
-def test_what_stands_behind_a_change_of_level_is_done_there(line: str, answer: str) -> None:
+def test_what_follows_a_change_of_level_is_done_there(line: str, answer: str) -> None:
     card = Machine()
     card.type("PROG1", "ATTACH MASTER1", "PROG0", "ATTACH MASTER0")
     assert card.type(line) == answer

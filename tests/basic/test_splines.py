@@ -116,7 +116,7 @@ def test_the_time_factor_scales_the_times() -> None:
     assert len(sampled(made, *POINTS, "SPLINE END")) == 0.625 / PERIOD_S + 1
 
 
-def test_the_motion_is_behind_the_input_by_the_buffer_less_two() -> None:
+def test_the_motion_lags_the_input_by_the_buffer_less_two() -> None:
     for length in (2, 3, 4, 5):
         made = bench(f"P{LENGTH}={length}", "SPLINE MODE 0")
         given = 0

@@ -282,7 +282,7 @@ def test_memory_and_string_state_together_restore_everything(storage: Storage) -
     assert other.global_count == 10
 
 
-def test_elements_lie_behind_their_header_at_the_documented_place(storage: Storage) -> None:
+def test_elements_lie_after_their_header_at_the_documented_place(storage: Storage) -> None:
     memory = storage.memory
     storage.locals.variables(0, "LV", 1)
     storage.locals.references(0, "DA", 2)

@@ -69,7 +69,7 @@ def test_the_axis_turns_at_corners_and_looks_along_every_side() -> None:
     assert np.sum(turning & moving) <= 6  # a tick each where the one ends and the other begins
 
 
-def test_it_turns_the_short_way() -> None:
+def test_it_turns_by_the_smaller_angle() -> None:
     made = bench()
     trace(made, "X1 Y-0.1", "X/-1 Y/-0.2")
     first, second = math.degrees(math.atan2(-0.1, 1)), math.degrees(math.atan2(-0.2, -1))

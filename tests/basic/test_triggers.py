@@ -204,7 +204,7 @@ def hsint(made: Bench, arguments: str, at_s: float) -> Bench:
     return made
 
 
-def test_hsint_leads_a_way_behind_the_capture() -> None:
+def test_hsint_leads_a_distance_beyond_the_capture() -> None:
     made = hsint(bench(), "11,100,3", at_s=1.0)
     captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
     found = speeds(made)

@@ -20,7 +20,7 @@ PERIOD_S = 0.0005
 
 @dataclass
 class FakeMachine:
-    """Lives tick by tick; `world` is called behind every tick."""
+    """Lives tick by tick; `world` is called after every tick."""
 
     world: Callable[["FakeMachine"], None] = lambda machine: None
     memory: Memory = field(default_factory=Memory)

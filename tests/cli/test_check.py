@@ -36,7 +36,7 @@ def write(folder: Path, name: str, text: str) -> Path:
     return path
 
 
-def test_commands_behind_a_change_of_level_are_checked_there(tmp_path: Path) -> None:
+def test_commands_after_a_change_of_level_are_checked_there(tmp_path: Path) -> None:
     text = "DIM P(1) : PROG0 : ATTACH MASTER0 : ACC 5 : SYS : ACC 6"
     result = check(write(tmp_path, "levels.8k", text))
     assert "levels.8k:1:51: Unknown command" in result.stdout
@@ -115,7 +115,7 @@ def test_all_jumps_that_go_nowhere_are_listed(tmp_path: Path) -> None:
     ]
 
 
-def test_an_error_does_not_pull_others_behind_it(tmp_path: Path) -> None:
+def test_an_error_does_not_pull_others_after_it(tmp_path: Path) -> None:
     path = write(tmp_path, "prog0.8k", "PROGRAM\nFOR ? = 1 TO 2\nSET 32\nNEXT\nENDP\n")
     result = check(path)
     assert result.stderr.strip() == "1 error"

@@ -30,7 +30,7 @@ def check(path: Path, *options: str) -> Result:
 
 
 def faults(folder: Path, *lines: str, setup: str = SETUP) -> list[str]:
-    """What is said about a program behind the set-up, one text per fault."""
+    """What is said about a program after the set-up, one text per fault."""
     (folder / "setup.8k").write_text(setup)
     path = folder / "prog0.8k"
     path.write_text("\n".join(["PROGRAM", *lines, "ENDP", ""]))
@@ -113,7 +113,7 @@ def test_warnings_alone_are_no_failure(tmp_path: Path) -> None:
         ("P(P0+500) = 1", []),
     ],
 )
-def test_variables_nobody_dimensioned_are_found(
+def test_variables_without_a_dimension_are_found(
     tmp_path: Path, line: str, found: list[str]
 ) -> None:
     assert faults(tmp_path, line) == found
@@ -201,7 +201,7 @@ def test_the_usual_servo_rate_allows_200_hz(tmp_path: Path) -> None:
     assert places == ["2:23:", "4:14:"]
 
 
-def test_the_servo_period_may_be_set_behind_the_filter(tmp_path: Path) -> None:
+def test_the_servo_period_may_be_set_after_the_filter(tmp_path: Path) -> None:
     assert faults(tmp_path, "LOPASS X500", "PERIOD 0.0002") == []
 
 

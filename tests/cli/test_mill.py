@@ -107,7 +107,7 @@ def test_an_error_at_run_time_is_an_alarm_with_its_line(tmp_path: Path) -> None:
     assert "PART.NC:4" in text
 
 
-def test_nobody_has_to_be_waited_for_on_the_virtual_machine(tmp_path: Path) -> None:
+def test_no_operator_is_needed_on_the_virtual_machine(tmp_path: Path) -> None:
     text = 'F600\nM3 S100\nT3 M6\nM122\nM0\nG1 X1\nINPUT "size", P200\nG1 Y(P200)\nM2\n'
     found = as_json("run", program(tmp_path, text), "--answer", "P200=0.5")
     assert found["alarms"] == []
@@ -245,7 +245,7 @@ def test_m_codes_of_the_machine_lie_beside_its_store(
     assert (code, places[-1].split()[:2]) == (0, ["X", "4.0000"])
 
 
-def test_another_tool_in_the_spindle_bars_a_start_at_a_line_unless_told_otherwise(
+def test_another_tool_in_the_spindle_bars_a_start_at_a_line_unless_overridden(
     tmp_path: Path,
 ) -> None:
     part = program(tmp_path, "T5 M6\nF600 G0 Z1\nG1 X1\nG1 X2\nM2\n")

@@ -75,8 +75,8 @@ def test_auto_leaves_the_store_out_and_a_name_leaves_all_out(store: Path) -> Non
     Path("a.nc").write_text(FUSION)
     put(store, 0)
     assert mill("dialect", "a.nc", "--dialect", "auto").stdout == f"a.nc: {BY_SIGNS}\n"
-    told = mill("dialect", "a.nc", "--dialect", "RS274NGC").stdout
-    assert told == "a.nc: dialect rs274ngc, set by --dialect\n"
+    note = mill("dialect", "a.nc", "--dialect", "RS274NGC").stdout
+    assert note == "a.nc: dialect rs274ngc, set by --dialect\n"
     wrong = mill("dialect", "a.nc", "--dialect", "fanuc")
     assert wrong.exit_code == 2
     assert (
@@ -87,8 +87,8 @@ def test_auto_leaves_the_store_out_and_a_name_leaves_all_out(store: Path) -> Non
 def test_a_mark_in_the_file_wins_over_the_store_and_the_signs(store: Path) -> None:
     Path("a.nc").write_text(";dialect acromill\nG94\n")
     put(store, 1)
-    told = mill("dialect", "a.nc", "--json").stdout
-    assert json.loads(told) == {
+    note = mill("dialect", "a.nc", "--json").stdout
+    assert json.loads(note) == {
         "dialect": "acromill", "chosen_by": "file", "likely": "rs274ngc",
         "signs": ["G94 in line 2"],
     }  # fmt: skip

@@ -48,7 +48,7 @@ def is_moving(card: Card) -> bool:
 @pytest.mark.parametrize(
     ("number", "times"), [(signal.SIGINT, 1), (signal.SIGINT, 3), (signal.SIGTERM, 1)]
 )
-def test_a_run_that_is_told_to_end_brings_the_machine_to_rest(
+def test_a_run_that_is_signalled_to_end_brings_the_machine_to_rest(
     tmp_path: Path, address: str, number: signal.Signals, times: int
 ) -> None:
     part = tmp_path / "PART.NC"
@@ -60,7 +60,7 @@ def test_a_run_that_is_told_to_end_brings_the_machine_to_rest(
         while not is_moving(card):
             time.sleep(0.05)
         assert card.read_bit(41)
-        for _ in range(times):  # whoever is impatient
+        for _ in range(times):  # an impatient operator
             run.send_signal(number)
             time.sleep(0.01)
         output, _ = run.communicate(timeout=30)

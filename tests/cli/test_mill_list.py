@@ -49,7 +49,7 @@ def test_millimetres_have_three_decimals(tmp_path: Path) -> None:
     assert "<ins> G3 X16.35 Y0 I10 J0" in lines
 
 
-def test_errors_are_told_behind_the_listing(tmp_path: Path) -> None:
+def test_errors_are_listed_after_the_program(tmp_path: Path) -> None:
     code, lines = listed(tmp_path, PART.replace("Y1 (corner before)", "X1.1 Y.1\nG41 Y1 X(1/0)"))
     assert code == 1
     assert any("E210" in line for line in lines)

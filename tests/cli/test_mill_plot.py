@@ -128,7 +128,7 @@ def test_a_page_holds_everything_itself(part: Path) -> None:
     assert len(data["contours"]) == 1
 
 
-def test_what_is_wrong_is_told_and_the_rest_is_drawn(tmp_path: Path) -> None:
+def test_what_is_wrong_is_reported_and_the_rest_is_drawn(tmp_path: Path) -> None:
     part = tmp_path / "NARROW.NC"
     part.write_text("P1001=.25\nG0 Y1\nG41 D1 G1 F10 X0 Y0\nX1\nX1.1 Y.1\nY2\nG40 X0 Y2\nM2\n")
     picture = tmp_path / "narrow.svg"

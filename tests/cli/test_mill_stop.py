@@ -17,7 +17,7 @@ AT_REST = "the machine is at rest at X   0.0000 Y   0.0000 Z   0.0000"
 
 @pytest.fixture
 def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
-    """A card behind --host, whatever is named there, with an emergency stop."""
+    """A card of --host, whatever is named there, with an emergency stop."""
     path = tmp_path / "sysvar.db"
     monkeypatch.setenv("OPENACR_STORE", str(path))
     with Store(path) as store:

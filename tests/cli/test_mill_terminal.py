@@ -144,10 +144,10 @@ def test_an_alarm_that_holds_is_acknowledged_and_the_program_resumed(
     assert (bench.shop.runner.state, bench.controller.p[12288]) == (State.IDLE, 50000)
 
 
-def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -> None:
+def test_without_an_operator_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -> None:
     bench = Bench(*wires)
-    with open(os.devnull) as nobody:
-        bench.attend = Attendant(nobody)
+    with open(os.devnull) as no_terminal:
+        bench.attend = Attendant(no_terminal)
         bench.start("M0\nG1 F600 X1\nM2\n")
         with pytest.raises(UserError, match="M0: no operator at a terminal"):
             bench.steps()
@@ -158,7 +158,7 @@ def test_where_nobody_is_a_stop_ends_the_program(wires: tuple[TextIO, TextIO]) -
 
 @pytest.fixture
 def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
-    """A card behind --host, whatever is named there."""
+    """A card of --host, whatever is named there."""
     monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     controller, real = Controller(), MillSession.real
     monkeypatch.setattr(MillSession, "real", lambda _host, *rest: real(controller, *rest))
@@ -239,7 +239,9 @@ def test_a_start_in_the_cut_retracts_and_comes_down_with_the_spindle_on(
     assert set(down) == {(1.0, 1.0)}
 
 
-def test_a_start_at_a_line_is_not_agreed_to_where_nobody_is(card: Controller, part: str) -> None:
+def test_a_start_at_a_line_is_not_agreed_to_without_an_operator(
+    card: Controller, part: str
+) -> None:
     code, text = mill("run", part, "--line", "7")
     assert (code, card.p[12288], card.p[12800]) == (2, 40000, -10000)
     assert "spindle: now 5, at the line 3" in text
@@ -271,10 +273,10 @@ def test_only_a_yes_starts(
 
     monkeypatch.setattr(bench.shop, "step", step)
     if is_agreed:
-        require_yes(bench.shop, bench.attend, "start?", "nobody")
+        require_yes(bench.shop, bench.attend, "start?", "no_terminal")
     else:
         with pytest.raises(UserError, match="not started"):
-            require_yes(bench.shop, bench.attend, "start?", "nobody")
+            require_yes(bench.shop, bench.attend, "start?", "no_terminal")
     assert capsys.readouterr().err == "start? [y/N] "
 
 

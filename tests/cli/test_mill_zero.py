@@ -14,7 +14,7 @@ from openacr.sysvar import Store
 
 @pytest.fixture(autouse=True)
 def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
-    """A card behind --host, whatever is named there; its axes need no homing."""
+    """A card of --host, whatever is named there; its axes need no homing."""
     path = tmp_path / "sysvar.db"
     monkeypatch.setenv("OPENACR_STORE", str(path))
     with Store(path) as store:

@@ -38,7 +38,7 @@ def test_escaped_bytes_are_read_in_the_mode_of_the_stream() -> None:
     assert "BIT256" in text
 
 
-def test_packets_may_stand_behind_each_other() -> None:
+def test_packets_may_follow_each_other() -> None:
     code, text = explain("--json", "1C 08 02 1D 08 02")
     assert code == 0
     assert [each["packet"] for each in json.loads(text)] == ["SetBit", "ClearBit"]

@@ -16,7 +16,7 @@ AXIS = (
 
 
 class WrappedLink(ProcessLink):
-    """A card in this process behind a line that is not perfect."""
+    """A card in this process on a line that is not perfect."""
 
     def __init__(self, card: Controller) -> None:
         super().__init__(card)

@@ -209,7 +209,7 @@ def test_watching_reads_again_and_again() -> None:
     assert [b - a for a, b in pairwise(times)] == [100, 100, 100]
 
 
-def test_packets_without_an_answer_are_told(card: Card) -> None:
+def test_packets_without_an_answer_are_reported(card: Card) -> None:
     card.tell(SetBit(40))
     assert card.read_bit(40)
     card.tell(ClearBit(40))

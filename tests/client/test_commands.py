@@ -109,7 +109,7 @@ def test_a_backup_is_restored_when_one_is_sure(target: str, tmp_path: Path) -> N
     assert openacr("restore", target, folder, "--yes").exit_code == 2
 
 
-def test_nobody_there_ends_it_with_2() -> None:
+def test_no_card_there_ends_it_with_2() -> None:
     with socket.create_server((LOOPBACK, 0)) as taken:
         port = taken.getsockname()[1]
     ended = openacr("monitor", f"{LOOPBACK}:{port}")

@@ -166,7 +166,7 @@ class StreamLink(ProcessLink):
 
 
 def serial_line(*typed: bytes) -> Card:
-    """A client of a serial line on which somebody else has typed."""
+    """A client of a serial line on which another host has typed."""
     controller = Controller()
     stream = controller.open_stream(StreamKind.SERIAL)
     for data in typed:

@@ -84,11 +84,11 @@ def test_the_command_prints_a_table_or_json() -> None:
     with serving() as served:
         target = f"{LOOPBACK}:{served.ascii_port}"
         table = CliRunner().invoke(app, ["loop", target, "--axis", "1"])
-        told = CliRunner().invoke(app, ["loop", target, "--axis", "0", "--axis", "2", "--json"])
+        answered = CliRunner().invoke(app, ["loop", target, "--axis", "0", "--axis", "2", "--json"])
     lines = [line.split() for line in table.stdout.splitlines() if line.strip()]
     assert lines[0] == ["axis", "1"]
     assert ["PGAIN", "0.00244141"] in lines
     assert ["output", "signal", "[V]", "0.0000"] in lines
-    found = json.loads(told.stdout)
+    found = json.loads(answered.stdout)
     assert [one["axis"] for one in found] == [0, 2]
     assert found[0]["gains"]["PGAIN"] == pytest.approx(0.002441406)

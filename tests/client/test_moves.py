@@ -85,7 +85,7 @@ def test_a_move_of_another_master_is_refused_before_anything_is_sent() -> None:
 
 
 class BreaksInMoves(WrappedLink):
-    """A line that breaks when so many more packets with moves were sent."""
+    """A line that breaks after `left` more packets with moves."""
 
     left = 1000
 

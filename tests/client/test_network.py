@@ -262,7 +262,7 @@ def test_asyncio_reconnects_as_well(served: Served) -> None:
         asyncio.run(body(port, cut))
 
 
-def test_nobody_there_is_said_at_once() -> None:
+def test_no_card_there_is_reported_at_once() -> None:
     with socket.create_server((LOOPBACK, 0)) as taken:
         port = taken.getsockname()[1]
     said = f"^cannot connect to {LOOPBACK}:{port}: .+ \\(10061: another device"
@@ -364,7 +364,7 @@ def test_every_link_has_its_form_for_asyncio() -> None:
     assert isinstance(for_asyncio(ProcessLink(Controller())), AsyncProcessLink)
 
 
-def test_an_error_of_a_socket_is_told_in_words() -> None:
+def test_an_error_of_a_socket_is_reported_in_words() -> None:
     class Broken:
         def settimeout(self, seconds: float | None) -> None:
             pass

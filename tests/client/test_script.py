@@ -46,7 +46,7 @@ def test_a_line_without_a_reply_is_an_error_after_the_wait() -> None:
         replies([b"SLEEP 100000"], wait_s=0.2)
 
 
-def test_a_closed_connection_is_told_apart_from_silence() -> None:
+def test_a_closed_connection_is_distinguished_from_silence() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         link = TcpLink("127.0.0.1", listener.getsockname()[1])
         link.open()

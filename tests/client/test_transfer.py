@@ -185,7 +185,7 @@ def test_the_first_difference_is_named(listed: list[str], problem: tuple[int, st
     ("text", "expected"),
     [(NUMBERED, True), (f"NEW\n{NUMBERED}", True), ("PROGRAM\n10 X1\nENDP\n", False), ("", False)],
 )
-def test_numbered_text_is_told_from_published_text(text: str, expected: bool) -> None:
+def test_numbered_text_is_distinguished_from_published_text(text: str, expected: bool) -> None:
     assert is_numbered(text) is expected
 
 

@@ -41,7 +41,7 @@ LETTERS = "XYZABCUV"
 
 @dataclass
 class Bench(VirtualMachine):
-    """A machine whose probe trips and operator answers as told."""
+    """A machine whose probe trips and operator answers as given."""
 
     trip: Point | None = None
     answers: dict[int, float] = field(default_factory=dict)

@@ -153,13 +153,13 @@ def test_a_work_offset_on_the_way_moves_nothing_that_waits() -> None:
     assert done.moves == ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]
 
 
-def test_behind_a_lone_g40_another_plane_begins_where_the_tool_is() -> None:
+def test_after_a_lone_g40_another_plane_begins_where_the_tool_is() -> None:
     text = "G41 D1 F10 G1 X0 Y0\nX2\nG40\nG18\nZ1\nX3"
     done = run(text, RADIUS, start=(0, 1, 0))
     assert done.moves == ["L Y0.25", "L X2 Y0.25", "L X2 Y0.25 Z1", "L X3 Y0.25 Z1"]
 
 
-def test_behind_a_lone_g40_a_reference_move_begins_where_the_tool_is() -> None:
+def test_after_a_lone_g40_a_reference_move_begins_where_the_tool_is() -> None:
     text = "G41 D1 F10 G1 X0 Y0\nX2\nG40\nG28 Z1\nZ0"
     done = run(text, {1001: 0.25, 282: 5.0}, start=(0, 1, 0))
     assert done.moves[2:] == ["R X2 Y0.25 Z1", "R X2 Y0.25 Z5", "L X2 Y0.25"]
@@ -190,7 +190,7 @@ def test_a_stop_on_the_way_breaks_the_chain() -> None:
     assert Sync in kinds[2:5]
 
 
-def test_single_block_stops_behind_the_inserted_move() -> None:
+def test_single_block_stops_after_the_inserted_move() -> None:
     text = "G42 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
     done = run(text, RADIUS, start=(0, -1, 0), options=Options(has_block_ends=True))
     steps = [
@@ -233,7 +233,7 @@ def test_everything_keeps_the_radius_from_a_round_part() -> None:
     assert arc.start_radius == arc.end_radius == hypot(2.25, 0)
 
 
-def test_ways_to_and_from_a_closed_contour_are_no_edges_of_it() -> None:
+def test_leads_to_and_from_a_closed_contour_are_no_edges_of_it() -> None:
     """Quarters of a circle touch the contour at one point, which the tool has to pass."""
     around = "F10 G0 X2.4 Y0\nG41 D1 G1 X2.5 Y-.5\nG3 X3 Y0 I2.5 J0\nG1 {}\n"
     around += "G3 X2.5 Y.5 I2.5 J0\nG40 G1 X2.4 Y0\nM2"
@@ -263,5 +263,5 @@ def test_the_root_epsilon_says_which_circles_still_meet(
     assert errors(text, cells) == codes
     if not codes:
         done = run(text, cells)
-        assert done.ends[1] == (0, 0, 0)  # forced to meet, half way between the centres
+        assert done.ends[1] == (0, 0, 0)  # forced to meet, midway between the centres
         assert "W320" in done.codes

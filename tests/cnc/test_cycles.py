@@ -74,7 +74,7 @@ def test_tapping_locks_the_feed_override() -> None:
         assert locks == [True, True, False]
 
 
-def test_tapping_turns_the_spindle_the_right_way_first() -> None:
+def test_tapping_turns_the_spindle_in_the_right_direction_first() -> None:
     done = run("M4\nG84 Z-1 R.1 F10" + CYCLES, start=Z2)
     assert levels(done).startswith("M4 M3 R0.1")
     assert "W215" in done.codes
@@ -85,9 +85,9 @@ def test_tapping_turns_the_spindle_the_right_way_first() -> None:
     ("direction", "shift"), [(0, "X1.2 Y1"), (1, "X0.8 Y1"), (2, "X1 Y1.2"), (3, "X1 Y0.8")]
 )
 def test_fine_boring_shifts_in_its_direction(direction: int, shift: str) -> None:
-    told = story("M3\nG76 X1 Y1 Z-1 R.1 Q.2 F10", cells={250_142: direction})
-    assert told[4:7] == ["orient 1", f"L {shift} Z-1", f"R {shift} Z2"]
-    assert told[7] == "R X1 Y1 Z2"
+    said = story("M3\nG76 X1 Y1 Z-1 R.1 Q.2 F10", cells={250_142: direction})
+    assert said[4:7] == ["orient 1", f"L {shift} Z-1", f"R {shift} Z2"]
+    assert said[7] == "R X1 Y1 Z2"
 
 
 @pytest.mark.req("MILL-G87-G98")
@@ -122,7 +122,7 @@ def test_cycles_drill_across_the_plane(
 
 
 @pytest.mark.req("MILL-CYC-INCLUDE", "MILL-CYC-INCLUDE-POS")
-def test_cycles_need_their_text_behind_the_end() -> None:
+def test_cycles_need_their_text_after_the_end() -> None:
     assert errors("G81 X1 Z-1 R0") == ["E251"]
     assert errors("$I CYCLES.TXT\nG81 X1 Z-1 R0\nM2") == ["E262"]
     assert errors("G81 X1 Z-1 R0" + CYCLES) == []
@@ -245,7 +245,7 @@ def test_a_modal_macro_follows_every_move() -> None:
     ]  # fmt: skip
 
 
-def test_locals_come_back_behind_a_call() -> None:
+def test_locals_come_back_after_a_call() -> None:
     text = (
         "G65 P5 X1\nM2\nN5 #1=#1+10\nG65 P6 X99\nP200=#1\nGOSUB 7\nRET\n"
         "N6 #1=5\nRET\nN7 P201=#1\nRET"
@@ -360,7 +360,7 @@ def test_g92_reads_right_under_scaling_and_rotation() -> None:
         ("G0 Z1\nG98 G81 X1 Z-1 R.5\nX2 R2", ["G98 level below R: 1 of R 2"]),
     ],
 )
-def test_a_way_between_holes_that_is_deeper_than_r_is_doubted(
+def test_a_path_between_holes_that_is_deeper_than_r_is_doubted(
     text: str, warnings: list[str]
 ) -> None:
     done = run(f"F10\n{text}{CYCLES}")

@@ -46,7 +46,7 @@ def entries_of(name: str, machine: VirtualMachine | None = None) -> list[Entry]:
 
 
 def runs_at(entries: list[Entry], depth: float, scale: float = 1.0) -> list[list[Spot]]:
-    """The ways in the plane at a depth, with arcs as points; lengths times a scale."""
+    """The paths in the plane at a depth, with arcs as points; lengths times a scale."""
     runs: list[list[Spot]] = []
     here: Place = (0.0,) * 8
     for entry in entries:
@@ -99,11 +99,11 @@ def test_the_plate_is_cut_beside_its_pocket_and_its_outline() -> None:
     )
     pocket = box(25, 20, 55, 30).buffer(5)
     for depth in (-2.0, -4.0):
-        (way,) = (LineString(run) for run in runs_at(entries, depth, MM))
-        assert way.difference(pocket.buffer(-2.99)).length == pytest.approx(0.0, abs=1e-3)
+        (travel,) = (LineString(run) for run in runs_at(entries, depth, MM))
+        assert travel.difference(pocket.buffer(-2.99)).length == pytest.approx(0.0, abs=1e-3)
         edge = [pocket.exterior.interpolate(k / 200, normalized=True) for k in range(200)]
-        assert max(way.distance(point) for point in edge) == pytest.approx(3.0, abs=0.01)
-        assert pocket.difference(way.buffer(3.01)).area < 1e-3 * pocket.area
+        assert max(travel.distance(point) for point in edge) == pytest.approx(3.0, abs=0.01)
+        assert pocket.difference(travel.buffer(3.01)).area < 1e-3 * pocket.area
     holes = [(x / MM, y / MM) for x, y in ((8, 8), (72, 8), (72, 42), (8, 42))]
     assert bottoms(entries, -10 / MM) == [pytest.approx(hole, abs=1e-6) for hole in holes]
 
@@ -147,8 +147,8 @@ def test_the_knife_looks_along_its_path() -> None:
         if isinstance(entry, Line | Arc) and entry.end[2] < 0 and entry.end[:2] != here[:2]:
             cuts += 1
             if isinstance(entry, Line):
-                way = math.degrees(math.atan2(entry.end[1] - here[1], entry.end[0] - here[0]))
-                assert math.cos(math.radians(entry.end[3] - way)) == pytest.approx(1.0)
+                travel = math.degrees(math.atan2(entry.end[1] - here[1], entry.end[0] - here[0]))
+                assert math.cos(math.radians(entry.end[3] - travel)) == pytest.approx(1.0)
             else:
                 assert entry.end[3] - here[3] == pytest.approx(math.degrees(entry.sweep_rad))
         here = entry.end if isinstance(entry, Rapid | Line | Arc) else here
@@ -213,7 +213,7 @@ def test_nothing_is_wrong_or_doubtful(name: str) -> None:
 
 @pytest.mark.parametrize("name", [each for each in PROGRAMS if each != "probe_corner.nc"])
 def test_it_runs_on_the_virtual_machine_to_where_it_ends(name: str) -> None:
-    """As a dry run at high speed: the way is the same."""
+    """As a dry run at high speed: the path is the same."""
     store = store_for(name)
     for cell, value in ((650_000, 20_000.0), (650_001, 20_000.0), (650_007, 1e4), (650_008, 1e4)):
         store.write(cell, value)

@@ -47,7 +47,7 @@ class Part:
     moves: dict[str, int]
     events: list[str] = field(default_factory=list)  # tools, spindle, coolant, dwells, the end
     errors: list[str] = field(default_factory=list)
-    told: set[str] = field(default_factory=set)  # warnings beside W405: nothing is wired here
+    warned: set[str] = field(default_factory=set)  # warnings beside W405: nothing is wired here
 
 
 PARTS = [
@@ -63,7 +63,7 @@ PARTS = [
         (1.0, 1.0, -0.25), (2.0, 2.0, 0.5),
         {"rapid": 11, "feed": 3, "arc": 0, "dwell": 0},
         ["tool 2", "M3 S1200", "M5 S1200", "end"],
-        told={"W212"},
+        warned={"W212"},
     ),
     Part(
         "vectric_style", "rs274ngc", "mm", 11.0 + 10.0 + 5.0 * math.pi + 10.0,
@@ -127,7 +127,7 @@ PARTS = [
         ["tool 3", "M3 S8000", "M5 S8000", "end"],
     ),
     Part(
-        # The way in: from (-8, 18) to (-3, 10), there downwards: about (-3 - q, 10) where
+        # The lead-in: from (-8, 18) to (-3, 10), there downwards: about (-3 - q, 10) where
         # (5 - q)^2 + 8^2 = q^2, which is q = 8.9.
         "lead_in_arc_style", "rs274ngc", "mm",
         3.0 + 8.9 * math.atan2(8.0, 3.9) + 100.0 + 6.0 * math.pi
@@ -175,7 +175,7 @@ def test_a_program_of_the_field_is_read_as_it_is_meant(part: Part) -> None:
             events.append(shown(entry))
 
     found = survey(load(path, shadow, part.dialect), shadow, part.dialect, look=note)
-    assert {finding.code for finding in found.findings} - {"W405"} <= part.told
+    assert {finding.code for finding in found.findings} - {"W405"} <= part.warned
     assert events == part.events
     assert [str(finding) for finding in found.errors] == part.errors
     data = found.data()

@@ -1,4 +1,4 @@
-"""Expressions: every operator and function, before and behind their compilation."""
+"""Expressions: every operator and function, before and after their compilation."""
 
 import math
 
@@ -131,7 +131,7 @@ def test_several_assignments_see_each_other_from_left_to_right() -> None:
 
 
 def test_a_loop_of_several_assignments_acts_once_per_pass() -> None:
-    """The card is read behind a move: nothing of the block may act twice."""
+    """The card is read after a move: nothing of the block may act twice."""
     text = "F10 P200=0\nN1 X(P200)\nP200=P200+1 P201=P201+P5 P5=P5+1\nIF P200<40 THEN GOTO 1\nM2"
     done = run(text, {5: 0.0, 201: 0.0})
     assert done.p(200) == 40

@@ -184,7 +184,7 @@ def attempt(text: str, dialect: str, chance: random.Random) -> None:
         assert next(entries, None) is None
         if options.has_block_ends and error.finding.code[0] == "E":
             moves = [e for e in block if isinstance(e, MOVES) and here(e) == here(error.finding)]
-            assert not moves, f"{error} behind {moves} in\n{text}"
+            assert not moves, f"{error} after {moves} in\n{text}"
     except Exception as error:
         raise AssertionError(f"{error!r} from\n{text}") from error
 
@@ -207,7 +207,7 @@ def typed(lines: list[str], dialect: str, chance: random.Random) -> None:
             raise AssertionError(f"{error!r} from {line!r}") from error
 
 
-def told(text: str, dialect: str, *, has_block_ends: bool) -> list[str]:
+def outcome(text: str, dialect: str, *, has_block_ends: bool) -> list[str]:
     """What a program does up to its error, without what only single block adds."""
     options = Options(has_block_ends=has_block_ends)
     done = made(text, {1001: 0.1, 2001: 1.0}, axes=7, dialect=dialect, options=options)
@@ -236,7 +236,7 @@ def test_programs_do_the_same_block_by_block(dialect: str) -> None:
     for _ in range(60):
         lines = ["F10", *loops, *program(corpus, chance, 8).splitlines()]
         text = "\n".join(lines)
-        both = [told(text, dialect, has_block_ends=on) for on in (False, True)]
+        both = [outcome(text, dialect, has_block_ends=on) for on in (False, True)]
         assert both[0] == both[1], text
 
 

@@ -116,7 +116,7 @@ def test_arcs_that_cannot_be(text: str, code: str) -> None:
     assert errors(text) == [code]
 
 
-def test_radii_choose_the_short_or_the_long_way() -> None:
+def test_radii_choose_the_short_or_the_long_arc() -> None:
     assert run("F10 G2 X1 Y1 R1").moves == ["A X1 Y1 about 1,0 -90"]
     assert run("F10 G2 X1 Y1 R-1").moves == ["A X1 Y1 about 0,1 -270"]
     assert run("F10 G3 X1 Y1 R1").moves == ["A X1 Y1 about 0,1 90"]

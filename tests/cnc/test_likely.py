@@ -106,7 +106,7 @@ def test_the_larger_sum_decides(text: str, dialect: str) -> None:
     assert likely(text.split("|")).dialect == dialect
 
 
-def test_the_strongest_reasons_are_told_in_the_order_of_the_lines() -> None:
+def test_the_strongest_reasons_are_given_in_the_order_of_the_lines() -> None:
     text = "%|(Fusion 360)|G94|G43 H1|G93|#<a>=1|M30"
     assert likely(text.split("|")).reasons == [
         "post-processor Fusion 360 in line 2",

@@ -45,8 +45,8 @@ def test_a_spindle_without_a_speed_is_doubtful(text: str, is_doubtful: bool) -> 
 
 
 def test_actions_stand_on_their_side_of_the_motion() -> None:
-    told = run("M9 M5 M8 S5 M3 G1 X1 F10 M0").story
-    assert told == ["M3 S5", "coolant 01", "L X1", "M5 S5", "coolant 00", "M0", "end"]
+    done = run("M9 M5 M8 S5 M3 G1 X1 F10 M0").story
+    assert done == ["M3 S5", "coolant 01", "L X1", "M5 S5", "coolant 00", "M0", "end"]
 
 
 def test_coolants_flow_together_until_m9() -> None:
@@ -69,9 +69,9 @@ def test_waits_name_the_relay(code: int, bit: int, is_on: int) -> None:
 def test_dry_runs_leave_the_standard_codes_out() -> None:
     codes = "\n".join(f"M{n}" for n in [0, 1, 3, 4, 5, 7, 8, 9, *range(12, 38)])
     assert run(f"S10\n{codes}\nF10 X1\nM2", options=DRY).story == ["L X1", "end"]
-    told = run("M105\nT3 M6\nP200=P235\nG4 F1", options=DRY)
-    assert told.story == ["say M105: wait left out", "SetCell", "dwell 1", "end"]
-    assert told.p(200) == 3
+    done = run("M105\nT3 M6\nP200=P235\nG4 F1", options=DRY)
+    assert done.story == ["say M105: wait left out", "SetCell", "dwell 1", "end"]
+    assert done.p(200) == 3
 
 
 @pytest.mark.req("MILL-M-UNKNOWN")
@@ -105,8 +105,8 @@ def test_a_failing_code_of_the_user_stops_the_program(tmp_path: Path) -> None:
 
 
 def test_tool_changes_happen_once() -> None:
-    told = run("S5 M3\nT2 M6\nT2 M6\nT0\nM6").story
-    changes = [s for s in told if s != "SetCell"]
+    done = run("S5 M3\nT2 M6\nT2 M6\nT0\nM6").story
+    changes = [s for s in done if s != "SetCell"]
     assert changes == ["M3 S5", "M5 S5", "tool 2", "tool 0", "end"]
 
 
@@ -186,7 +186,7 @@ def test_moves_across_the_plane_keep_the_angle() -> None:
     assert done.moves == ["R A90", "L Y1 A90", "L Y1 Z5 A90"]
 
 
-def test_turns_take_the_shortest_way() -> None:
+def test_turns_take_the_shortest_direction() -> None:
     done = run("F10 M595\nX-1\nX-2 Y-1", TANGENT, axes=4)
     assert done.moves[0] == "R A180"
     assert done.moves[2] == "R X-1 A225"
@@ -224,8 +224,8 @@ def test_offsets_in_use_are_set_by_d_and_h_and_reset_at_the_start() -> None:
     cells = {1003: 0.5, 1503: 0.01, 2004: 7.0, 3004: 0.25, 1998: 9, 1999: 9, 4000: 9, 4001: 9}
     used = (1998, 1999, 4000, 4001)
     before = " ".join(f"P{450 + k}=P{n}" for k, n in enumerate(used))
-    behind = " ".join(f"P{454 + k}=P{n}" for k, n in enumerate(used))
-    text = f"{before}\nD3 H4\n{behind}"
+    after = " ".join(f"P{454 + k}=P{n}" for k, n in enumerate(used))
+    text = f"{before}\nD3 H4\n{after}"
     done = run(text, cells)
     assert [done.p(450 + k) for k in range(8)] == [0, 0, 0, 0, 0.5, 0.01, 7, 0.25]
 

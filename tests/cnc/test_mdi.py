@@ -103,9 +103,7 @@ def test_a_compensated_chain_ends_with_its_line() -> None:
         ("G2 X1 Y1 I5 J5\nP200=1/P201", "X9", "L X9 Y1"),
     ],
 )
-def test_a_line_that_fails_in_a_call_leaves_nothing_behind(
-    macro: str, line: str, wanted: str
-) -> None:
+def test_a_line_that_fails_in_a_call_leaves_no_trace(macro: str, line: str, wanted: str) -> None:
     typed = mdi(f"M2\nN5 {macro}\nRET\nN6 Y5\nRET", {1: 7.0, 1001: 0.25})
     does(typed, "G1 F10")
     with pytest.raises(BlockError, match="E210"):
@@ -117,7 +115,7 @@ def test_a_line_that_fails_in_a_call_leaves_nothing_behind(
     assert entry.pace == Pace(10.0)
 
 
-def test_a_cycle_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
+def test_a_cycle_that_fails_leaves_no_trace(tmp_path: Path) -> None:
     (tmp_path / "CYCLES.TXT").write_text("N81000 G0 Z(P253)\nP200=1/P201\nRET\n")
     (tmp_path / "P.NC").write_text("M2\n$I CYCLES.TXT\n")
     typed = Mdi(made(tmp_path / "P.NC").interpreter)

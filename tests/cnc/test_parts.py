@@ -174,9 +174,9 @@ def test_a_ramp_goes_down_no_steeper_than_its_angle(name: str, angle: float) -> 
         if not isinstance(entry, Rapid | Line | Arc):
             continue
         if not isinstance(entry, Rapid) and entry.end[2] < reached:
-            way = LineString([_flat(here), *_points(entry, here)])
+            path = LineString([_flat(here), *_points(entry, here)])
             fall = reached - entry.end[2]
-            assert fall <= way.length * math.tan(math.radians(angle)) + 1e-4, entry.source
+            assert fall <= path.length * math.tan(math.radians(angle)) + 1e-4, entry.source
         reached, here = min(reached, entry.end[2]), entry.end
     assert reached == pytest.approx(-0.25)
 
@@ -191,20 +191,20 @@ def test_without_d_the_tool_is_that_of_the_run_set_up(name: str) -> None:
 
 
 @pytest.mark.req("MILL-LIB-TRIANGLE")
-def test_the_triangle_of_the_guide_goes_its_way_and_closes_on_its_start() -> None:
+def test_the_triangle_of_the_guide_goes_its_path_and_closes_on_its_start() -> None:
     """Down right at 45 degrees, up to the base, CCW arc, up to the apex, to the right corner."""
     store = Store()
     ready = ready_for("TRIANGLE", {221: 1.0}, 0.0, store)
     done = run(ready, store)
     d, base, height, arc = ready.values[233] + 0.01, 4.0, 3.0, 0.5
-    (way,) = done.runs
-    assert way[0] == way[-1] == (0.0, 0.0)
-    assert way[1] == pytest.approx((d, -d))
-    assert way[2] == pytest.approx((d, 0))
-    assert max(x for x, _ in way[3:-4]) == pytest.approx(d + arc)  # the arc bulges to the right
-    assert way[-5] == pytest.approx((d, 2 * arc))
-    assert way[-4] == pytest.approx((d, height))
-    assert way[-3] == pytest.approx((d + base, 0))
+    (path,) = done.runs
+    assert path[0] == path[-1] == (0.0, 0.0)
+    assert path[1] == pytest.approx((d, -d))
+    assert path[2] == pytest.approx((d, 0))
+    assert max(x for x, _ in path[3:-4]) == pytest.approx(d + arc)  # the arc bulges to the right
+    assert path[-5] == pytest.approx((d, 2 * arc))
+    assert path[-4] == pytest.approx((d, height))
+    assert path[-3] == pytest.approx((d + base, 0))
 
 
 def test_parts_work_in_millimetres_as_in_inches() -> None:

@@ -73,7 +73,7 @@ def test_a_spiral_is_cut_and_mentioned_once_a_line() -> None:
     assert found(text, {SPIRALS: 1}) == []
 
 
-def test_radii_are_told_in_the_unit_of_the_program() -> None:
+def test_radii_are_shown_in_the_unit_of_the_program() -> None:
     ((_, text, _),) = found("G21 F10 G2 X2 Y0 I.9 J0")
     assert text == "arc radii differ: 0.9 and 1.1"
 
@@ -95,12 +95,12 @@ RELATIVE, POSITION, NEGATIVE = "I-1 J0", "I9 J5", "I1 J0"
          "G200 F0 or P250003 = 0"),
     ],
 )  # fmt: skip
-def test_a_centre_that_is_read_another_way_is_refused(reading: int, words: str, hint: str) -> None:
+def test_a_centre_that_is_read_differently_is_refused(reading: int, words: str, hint: str) -> None:
     text = f"G0 X10 Y5|G200 F{reading}|F10 G3 X9 Y6 {words}"
-    ((code, _, told),) = found(text)
-    assert (code, told) == ("E230", hint)
-    ((code, _, told),) = found(text, {SPIRALS: 1})
-    assert (code, told) == ("W230", hint)
+    ((code, _, detail),) = found(text)
+    assert (code, detail) == ("E230", hint)
+    ((code, _, detail),) = found(text, {SPIRALS: 1})
+    assert (code, detail) == ("W230", hint)
     right = {RELATIVE: 1, POSITION: 2, NEGATIVE: 0}[words]
     assert found(f"G0 X10 Y5|G200 F{right}|F10 G3 X9 Y6 {words}") == []
 

@@ -110,7 +110,7 @@ def test_a_refusal_is_said_only_where_it_is_meant() -> None:
     assert dialect.of_code("G5.4") == ""
     assert dialect.of_form("X1 @5", 3) == ""  # a fault before it
     assert dialect.of_form("X1 @5", 4) == "no polar coordinates; write X and Y"
-    assert dialect.of_form("X1 @5", 5) == ""  # and behind it
+    assert dialect.of_form("X1 @5", 5) == ""  # and after it
 
 
 def test_a_word_of_an_active_motion_is_refused_with_its_reason() -> None:

@@ -50,7 +50,7 @@ def test_programs_move_as_they_say(text: str, moves: list[str]) -> None:
     assert ngc(text.replace("|", "\n")).moves == moves
 
 
-def test_assignments_act_behind_the_block() -> None:
+def test_assignments_act_after_the_block() -> None:
     done = ngc("#1=5\n#1=6 #2=#1\nG1 F10 X#1 Y#2")
     assert done.moves == ["L X6 Y5"]
 
@@ -118,15 +118,15 @@ def test_programs_of_other_controls_are_read_as_meant(text: str, moves: list[str
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "said"),
     [
         ("(MSG, hello #1)", "hello #1"), ("(msg,hello)", "hello"), ("(DEBUG, a #1 b)", "a 5 b"),
         ("(print,#<_name>, #<Local> P1)", "2.5, 7 P1"), ("(DEBUG, #<none>)", "######"),
     ],
 )  # fmt: skip
-def test_comments_speak(text: str, told: str) -> None:
+def test_comments_speak(text: str, said: str) -> None:
     done = ngc(f"#1=5\n#<_name>=2.5\n#<local>=7\n{text}\n(only a comment)\n(LOG, x)")
-    assert done.story == [f"say {told}", "end"]
+    assert done.story == [f"say {said}", "end"]
 
 
 def test_subroutines_may_stand_in_files_of_their_own(tmp_path: Path) -> None:

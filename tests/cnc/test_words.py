@@ -115,7 +115,7 @@ def test_l_repeats() -> None:
     [("X-1", -1), ("X.5", 0.5), ("X 5", 5), ("X5.", 5), ("X+2", 2), ("X007", 7), ("x\t3", 3),
      ("X - 4", -4), ("X-.25", -0.25)],
 )  # fmt: skip
-def test_numbers_may_be_written_in_many_ways(word: str, x: float) -> None:
+def test_numbers_may_be_written_in_many_forms(word: str, x: float) -> None:
     assert run(f"G1F10{word}").ends[0][0] == x
 
 
@@ -229,8 +229,8 @@ def test_the_input_test_can_be_switched_off() -> None:
 )
 def test_an_input_test_is_doubted_where_the_parameter_was_assigned(assignment: str) -> None:
     text = f"F10\n{assignment}\nN5 IF #1=0 THEN GOTO 9\nX1\nN9 #2=1\nM2"
-    (told,) = run(text, machine=Bench(answers={1: 0.0})).interpreter.warnings
-    assert str(told) == (
+    (warning,) = run(text, machine=Bench(answers={1: 0.0})).interpreter.warnings
+    assert str(warning) == (
         "PROGRAM:3:4: W211 input test form:"
         " tests input 1, not parameter 1 that was assigned: that is IF (#1)=..."
     )
@@ -259,7 +259,7 @@ def test_what_was_assigned_is_forgotten_when_a_program_starts_anew() -> None:
 
 
 @pytest.mark.req("MILL-FLOW-GOSUB")
-def test_subs_return_behind_their_call() -> None:
+def test_subs_return_after_their_call() -> None:
     assert run("F10\nGOSUB 5\nX2\nM2\nN5 X1\nRET").moves == ["L X1", "L X2"]
 
 
@@ -278,7 +278,7 @@ def test_a_jump_out_of_a_sub_keeps_its_level() -> None:
 
 
 @pytest.mark.req("MILL-M2-INCLUDE", "MILL-M2")
-def test_text_behind_m2_is_reached_by_jumps_only() -> None:
+def test_text_after_m2_is_reached_by_jumps_only() -> None:
     assert run("F10 X1\nM2\nX5\nN9 X6").moves == ["L X1"]
     done = run("F10 X1 M2")
     assert done.story == ["L X1", "end"]
@@ -295,7 +295,7 @@ def test_values_of_the_card_wait_for_the_motion() -> None:
     assert kinds == ["Line", "Sync", "Line", "Line", "End"]
 
 
-def test_a_value_of_the_card_is_read_behind_the_sync() -> None:
+def test_a_value_of_the_card_is_read_after_the_sync() -> None:
     done = made("F10 X1\nX(P6144)")
     ends = []
     for entry in done.interpreter.entries():
@@ -344,7 +344,7 @@ def test_added_texts_stand_as_if_written_there(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["$I CYCLES.TXT\nM2", "M2\n$I NOTHERE.TXT"])
-def test_added_texts_have_to_be_there_and_behind_m2(text: str) -> None:
+def test_added_texts_have_to_be_there_and_after_m2(text: str) -> None:
     assert errors(text) == ["E262"]
 
 
@@ -362,7 +362,7 @@ def test_a_line_longer_than_a_window_is_an_error_not_a_crash() -> None:
     assert lengths == [2, 3_000_000, 2]
 
 
-def test_windows_cut_behind_whole_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_windows_cut_after_whole_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     for size in range(1, 12):
         monkeypatch.setattr("openacr.cnc.reading.text.WINDOW", size)
         text = Text.of(b"X1\r\nY2\rZ3\n\nA4\r\n\rB5")

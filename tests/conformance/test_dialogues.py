@@ -1,6 +1,6 @@
 """Dialogues with the card, character by character as a terminal shows them.
 
-A file holds what the screen shows: lines behind a prompt are typed, the others are answers.
+A file holds what the screen shows: lines after a prompt are typed, the others are answers.
 Lines with a semicolon in front are stage directions: `; type LINE` types a line whose answer
 does not matter, `; wait SECONDS` lets time pass, `; press CTRL_Y` presses a key, `; flag 0 1` sets
 or clears a flag (an input), `; packet HEX` sends bytes, whose reply is the line `= HEX` below;

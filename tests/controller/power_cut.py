@@ -74,12 +74,12 @@ def cut(folder: Path, kind: str, complete: int, delay_s: float) -> int:
     time.sleep(delay_s)
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
-    told = b""
+    reported = b""
     while part := os.read(reader, 4096):
-        told += part
+        reported += part
     os.close(reader)
-    *_, last = told.split()
-    assert told.startswith(b"ready"), "the card did not start"
+    *_, last = reported.split()
+    assert reported.startswith(b"ready"), "the card did not start"
     return complete if last == b"ready" else int(last)
 
 

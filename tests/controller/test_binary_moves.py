@@ -405,7 +405,7 @@ def test_waiting_moves_are_part_of_a_snapshot() -> None:
     ],
     ids=str,
 )
-def test_a_move_that_nobody_can_make_changes_nothing(refused: Move) -> None:
+def test_an_impossible_move_changes_nothing(refused: Move) -> None:
     sender = Sender()
     before = sender.card.digest()
     assert sender.host.send(refused.encode()) == ""

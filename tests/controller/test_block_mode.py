@@ -41,7 +41,7 @@ def test_the_first_step_ends_the_move_that_block_mode_has_stopped(axes: Host) ->
     assert axes.card.bit[BLOCK_MODE]
     axes.card.advance(1000)
     assert at(axes) == held
-    assert step(axes) == (20, 0), "the move behind it waits for a step of its own"
+    assert step(axes) == (20, 0), "the move after it waits for a step of its own"
     axes.card.advance(2000)
     assert at(axes) == (20, 0)
     assert step(axes) == (0, 0)

@@ -14,7 +14,7 @@ PAUSED = 1048
 
 
 def shuttle(host: Host) -> None:
-    """A program that is always under way; it counts its rounds in P0."""
+    """A program that is always under distance; it counts its rounds in P0."""
     host.type("SYS", "DIM P(10)", "PROG0")
     store(host, "_L", "X50", "X0", "P0=P0+1", "GOTO L")
     host.type("RUN")
@@ -76,8 +76,8 @@ def test_ctrl_x_and_ctrl_z_bring_every_axis_to_rest(axes: Host, key: str) -> Non
     speed = axes.card.axis(1).velocity_ups
     axes.send(key)
     axes.card.advance(4000)
-    way = speed * speed / (2 * 500)
-    assert axes.card.axis(1).commanded_u - started == pytest.approx(way, abs=0.2)
+    distance = speed * speed / (2 * 500)
+    assert axes.card.axis(1).commanded_u - started == pytest.approx(distance, abs=0.2)
     assert [axes.card.bit[8467 + 32 * n] for n in range(8)] == [True] * 8
     assert axes.asks("?BIT516", "?BIT792", "?BIT824", "?BIT1056") == ["0"] * 4
     enabled = [axes.card.bit[8465 + 32 * n] for n in range(2)]

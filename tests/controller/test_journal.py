@@ -91,7 +91,7 @@ def test_the_replay_of_the_other_build_meets_every_digest_too(tmp_path: Path) ->
     assert " digests equal" in found.stdout
 
 
-def test_a_replay_stops_where_it_is_told(tmp_path: Path) -> None:
+def test_a_replay_stops_where_it_is_asked_to(tmp_path: Path) -> None:
     journal = read_journal(recorded(tmp_path))
     again = Replay(journal)
     again.run(0.2)
@@ -261,7 +261,7 @@ def test_watching_does_not_change_the_card(tmp_path: Path) -> None:
 # ring
 
 
-def test_a_ring_keeps_the_last_stretches_and_each_can_be_replayed(tmp_path: Path) -> None:
+def test_a_ring_keeps_the_last_files_and_each_can_be_replayed(tmp_path: Path) -> None:
     folder = tmp_path / "ring"
     for _ in range(2):  # the second card goes on counting where the first one stopped
         host = at_axes()

@@ -43,7 +43,7 @@ def test_ctrl_y_alone_sends_nothing_and_with_cr_one_prompt(axes: Host) -> None:
 
 
 @pytest.mark.req("ACR-KAMR-22")
-def test_motion_is_refused_while_killed_and_allowed_behind_ctrl_y(axes: Host) -> None:
+def test_motion_is_refused_while_killed_and_allowed_after_ctrl_y(axes: Host) -> None:
     axes.send(CTRL_X)
     refused = "Associated Slave Kill Motion Request Active|P00>"
     assert axes.type("X10", "Y10", "JOG FWD X") == refused * 3
@@ -123,7 +123,7 @@ def test_esc_ends_listening_with_exactly_one_prompt(axes: Host, listen: str) -> 
     assert not axes.card.system.control.is_running(0)
 
 
-def test_esc_while_nobody_listens_discards_the_typed_text(host: Host) -> None:
+def test_esc_while_no_program_listens_discards_the_typed_text(host: Host) -> None:
     assert host.send(f"SET 32{ESC}") == "SET 32"
     assert host.send("\r") == "|SYS>"
     assert not host.card.bit[32]

@@ -89,7 +89,7 @@ def test_signed_and_exponent_numbers_need_no_parentheses() -> None:
     assert axes.asks("?P12288", "?P12544", "?P12550") == ["-4000", "-500", "-2000"]
 
 
-def test_expressions_stand_in_parentheses_behind_p_and_bit(host: Host) -> None:
+def test_expressions_stand_in_parentheses_after_p_and_bit(host: Host) -> None:
     host.card.p[12544] = 77
     assert host.asks("?P(12288 + 1 * 256)", "?BIT(516)", "?BIT(512+4)") == ["77", "0", "0"]
     host.type("SET BIT(8467)")

@@ -88,7 +88,7 @@ def at(master: int) -> int:
 @pytest.mark.req("BIN-169")
 def test_a_card_takes_six_byte_overrides_or_eight_byte_ones() -> None:
     six, eight = "07 08 00 00 00 3F", "07 08 00 00 00 00 00 3F"
-    high = "07 00 00 01 00 00 00 3F"  # behind a zero both forms have eight bytes
+    high = "07 00 00 01 00 00 00 3F"  # after a zero both forms have eight bytes
     assert overridden(is_short=True, packet=six) == {3: 0.5}
     assert overridden(is_short=False, packet=six) == {}
     assert overridden(is_short=False, packet=eight) == {3: 0.5}

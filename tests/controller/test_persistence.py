@@ -198,7 +198,7 @@ def test_flash_load_erase_and_res() -> None:
     assert host.type("SYS", "FLASH", "FLASH 1") == "SYS>" + "Syntax error|SYS>" * 2
 
 
-def test_a_program_comes_back_that_names_axes_nobody_has_attached_yet() -> None:
+def test_a_program_comes_back_that_names_axes_not_attached_yet() -> None:
     host = connected("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS2 "ROLL"')
     store(host, 'ATTACH SLAVE0 AXIS2 "ROLL"', "ROLL 5 JOG VEL ROLL (2 * 3)", "IF (1) THEN ROLL/1")
     listing = host.type("LIST")
@@ -418,7 +418,7 @@ def test_a_damaged_image_gives_defaults_and_is_named(
     assert (tmp_path / "card.db.damaged1").exists()
 
 
-def test_one_flipped_bit_costs_one_program_and_every_host_is_told(
+def test_one_flipped_bit_costs_one_program_and_every_host_is_informed(
     power_up: PowerUp, tmp_path: Path
 ) -> None:
     host = power_up()

@@ -25,7 +25,7 @@ def test_lrun_shows_the_output_and_gives_the_prompt_back_at_the_end(axes: Host) 
     assert axes.ask("?1") == "1"
 
 
-def test_a_run_time_error_is_shown_behind_lrun(axes: Host) -> None:
+def test_a_run_time_error_is_shown_after_lrun(axes: Host) -> None:
     store(axes, "P4000=1")
     answer = axes.type("LRUN") + axes.after(100)
     assert answer.startswith("Error in PROG0 line ")
@@ -56,7 +56,7 @@ def test_an_endless_goto_does_not_slow_the_terminal(axes: Host) -> None:
     assert [axes.ask("?P12288") for _ in range(10)] == ["0"] * 10  # no tick passes
 
 
-def test_everything_behind_then_is_conditional(axes: Host) -> None:
+def test_everything_after_then_is_conditional(axes: Host) -> None:
     axes.type("SYS", "DIM P(1000)", "PROG0")
     condition = "IF ((P12288=P12289) AND (P12544=P12545)) THEN P0=437:GOTO 1000"
     axes.type(f"10 {condition}", "20 P1=1", "30 END", "1000 P2=1")

@@ -206,13 +206,15 @@ def test_a_cut_encoder_line_counts_nothing_and_goes_on_from_there() -> None:
     assert made.p[6160] == before + 1000
 
 
-@pytest.mark.parametrize(("way", "counted"), [(2000, 1999), (-2000, -1999), (1, 0), (0, 0)])
-def test_a_disturbed_encoder_loses_an_edge_in_every_period_it_turns(way: int, counted: int) -> None:
+@pytest.mark.parametrize(("travel", "counted"), [(2000, 1999), (-2000, -1999), (1, 0), (0, 0)])
+def test_a_disturbed_encoder_loses_an_edge_in_every_period_it_turns(
+    travel: int, counted: int
+) -> None:
     made = Controller()
     made.send("AXIS1 OFF\rENC1 MULT 4\r")
     made.fault(1, "encoder-noise")
     for passes in (1, 2):
-        made.drag(1, way)
+        made.drag(1, travel)
         made.advance(1)
         assert made.p[6160] == passes * counted
         made.advance(3)

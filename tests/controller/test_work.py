@@ -165,7 +165,7 @@ def test_lines_that_wait_do_so_equally_long_however_time_is_cut() -> None:
         again.heard()
         cuts.append((again.card.tick, again.ask("?P1")))
     assert {value for _, value in cuts} == {"60"}
-    assert cuts[2][0] - cuts[0][0] == 1, "a turn is behind the tick; `until` sees it at the next"
+    assert cuts[2][0] - cuts[0][0] == 1, "a turn comes after the tick; `until` sees it at the next"
     assert 0 <= cuts[1][0] - cuts[0][0] < 7
 
 

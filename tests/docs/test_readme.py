@@ -28,7 +28,7 @@ def commands() -> list[list[str]]:
 
 
 def is_interactive(words: list[str]) -> bool:
-    """Whether a command waits for somebody."""
+    """Whether a command waits for input."""
     return words[0] in ("serve", "term")
 
 

@@ -1,4 +1,4 @@
-"""Recording: every so many ticks, or sparsely with the peaks between the samples kept."""
+"""Recording: at a fixed interval of ticks, or sparsely with the peaks between the samples kept."""
 
 import numpy as np
 import pytest

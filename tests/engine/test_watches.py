@@ -1,4 +1,4 @@
-"""The engine returns behind the tick in which something watched has changed."""
+"""The engine returns after the tick in which something watched has changed."""
 
 from collections.abc import Callable
 
@@ -71,7 +71,7 @@ def test_real_numbers_and_positions_in_units_are_compared(fired: Fired) -> None:
     assert found == [True, False] * 3
 
 
-def test_a_run_ends_behind_the_tick_of_the_change_and_goes_on_from_there() -> None:
+def test_a_run_ends_after_the_tick_of_the_change_and_goes_on_from_there() -> None:
     card = Controller()
     card.send("PROG0\rPROGRAM\rDWL 0.1\rSET 33\rDWL 0.1\rCLR 33\rENDP\rRUN\r")
     card.watch([Watch(Watched.WORD, 4097, 1 << 1)])
@@ -95,7 +95,7 @@ def test_what_is_watched_and_recorded_is_no_part_of_the_state() -> None:
     assert card.digest() == other.digest()
 
 
-def test_recording_and_watching_go_on_behind_a_restart_and_a_snapshot() -> None:
+def test_recording_and_watching_go_on_after_a_restart_and_a_snapshot() -> None:
     card = Controller()
     before = card.snapshot()
     card.record(1)

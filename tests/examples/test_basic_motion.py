@@ -18,7 +18,7 @@ def seconds(distances: Sequence[int]) -> float:
     return sum(0.2 + abs(distance) / 200 for distance in distances)
 
 
-ABSOLUTE = [100, 100, 100, 100]  # the first one, X0, is no way at all
+ABSOLUTE = [100, 100, 100, 100]  # the first one, X0, has no length
 INCREMENTAL = [-800, 500, 200, 100]
 COMBINED = [-400, 200, 50, 150]
 JOG_ABSOLUTE = [-400, 100, 100, 100, 100]
@@ -50,7 +50,7 @@ def test_the_program_ends_after_the_sum_of_all_moves() -> None:
     assert sum(map(seconds, PARTS)) == pytest.approx(35.0)
     assert run.card.axis(0).commanded_cnt == 400 * PPU
     travelled = run.card.statistics(0).distance_u
-    assert travelled == pytest.approx(sum(abs(way) for part in PARTS for way in part))
+    assert travelled == pytest.approx(sum(abs(delta) for part in PARTS for delta in part))
 
 
 @pytest.mark.req("ACR-APP-BASIC-02", "ACR-APP-BASIC-03", "ACR-APP-BASIC-04")

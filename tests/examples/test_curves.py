@@ -100,12 +100,12 @@ def test_the_carriage_stays_beside_the_cut_while_the_knife_is_down() -> None:
             distances.setdefault(int(sheet // 100), []).append(sheet - carriage)
     assert len(distances) == 8
     for number, seen in distances.items():
-        # What the smoothed feed-forward of the cam is behind in the beginning has gone by then.
+        # What the smoothed feed-forward of the cam lags in the beginning has gone by then.
         late = seen[len(seen) // 2 :]
         assert late == pytest.approx([10 + 100 * number] * len(late), abs=0.05)
 
 
-def test_the_gear_box_turns_the_encoder_into_a_way() -> None:
+def test_the_gear_box_turns_the_encoder_into_a_distance() -> None:
     card = load("gear_box")
     card.send("PROG0\rRUN\r")
     card.advance(seconds=2.0)
@@ -123,7 +123,7 @@ def test_the_gear_box_turns_the_encoder_into_a_way() -> None:
 def test_the_feet_of_the_portal_stay_together_and_closer_with_feedback() -> None:
     card = load("gantry_lock")
     card.send("PROG0\rRUN\r")
-    apart = []  # pulses, largest on the way out and on the way back
+    apart = []  # pulses, largest outwards and back
     for _ in range(2):
         apart.append(0)
         for _ in range(380):

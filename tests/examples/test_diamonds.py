@@ -78,7 +78,7 @@ def test_the_moves_repeat_and_the_jogs_stay(corners: list[Corner]) -> None:
 
 def test_shapes_and_jogs_take_their_time() -> None:
     run: Observation = observe(DIAMONDS)
-    # four moves one behind the other, each ending in a whole tick
+    # four moves one after the other, each ending in a whole tick
     assert run.spans_s(MOTION) == pytest.approx([4 * MOVE_S] * 4, abs=0.002)
     # 10 units/s with ramps of 50 units/s2: 0.2 s + 3/10 and 5/10 s
     assert run.spans_s(Y_JOGS) == pytest.approx([0.5, 0.5], abs=0.0006)

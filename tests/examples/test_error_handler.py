@@ -239,7 +239,7 @@ def test_program_0_is_halted_or_paused(bench: Bench, is_halted: bool) -> None:
 
 
 @pytest.mark.req("ACR-ERR-03")
-def test_an_open_motion_enable_input_is_told_and_its_closing_too(bench: Bench) -> None:
+def test_an_open_motion_enable_input_is_reported_and_its_closing_too(bench: Bench) -> None:
     bench.card.bit[5646] = True
     assert "MEI Error 1 -> Motion Enable Input is open\r\n" in bench.wait()
     assert bench.card.p[MEI_CODE] == 1

@@ -58,7 +58,7 @@ def test_the_camera_is_up_while_the_carriage_is_behind_the_curtain(minute: Obser
     assert heights == [5.0, 0.0, 5.0, 0.0]
 
 
-def test_no_axis_falls_behind_or_is_stopped(minute: Observation) -> None:
+def test_no_axis_lags_or_is_stopped(minute: Observation) -> None:
     for axis in range(3):
         assert 0.0 < minute.card.statistics(axis).peak_following_error_u < 0.2
         assert not any(minute.card.bit[flag + 32 * axis] for flag in (8467, 8477, 8479))

@@ -63,7 +63,7 @@ def test_the_edge_is_found_where_the_switch_is() -> None:
 
 
 @pytest.mark.req("ACR-APP-HOMING-05")
-def test_a_missing_switch_is_told_and_nothing_else_moves() -> None:
+def test_a_missing_switch_is_reported_and_nothing_else_moves() -> None:
     run = observe(MISSING_SWITCH)
     assert run.printed.count(" Homing Failed") == 1
     assert " Z Homing Failed\r\n" in run.printed

@@ -13,7 +13,7 @@ BAND_REV = 4.0
 
 
 def seconds_to_the_band(gain: float) -> float:
-    """When a motor with this gain alone is four revolutions behind a move of 5 rev/s.
+    """Time at which a motor with this gain alone lags a move of 5 rev/s by four revolutions.
 
     A drive of 10 rev/s per volt gives e' = v - k e with k = 10 * 4096 * gain; the ramp
     takes 0.1 s at 50 rev/s2.

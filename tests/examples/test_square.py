@@ -37,8 +37,8 @@ def test_the_motors_keep_up(run: Observation) -> None:
 def test_a_pause_stops_within_a_side_at_the_set_deceleration(run: Observation) -> None:
     (start,), (end,) = run.rises(FEEDHOLDING), run.rises(IN_FEEDHOLD)
     assert end.time_s - start.time_s == pytest.approx(5 / 50, abs=0.001)
-    way = end.commanded_u[0] - start.commanded_u[0]
-    assert way == pytest.approx(5.0**2 / (2 * 50), abs=0.01)
+    distance = end.commanded_u[0] - start.commanded_u[0]
+    assert distance == pytest.approx(5.0**2 / (2 * 50), abs=0.01)
     assert run.card.axis(0).commanded_u == pytest.approx(end.commanded_u[0], abs=1e-9)
     assert MOTION in end.flags
 

@@ -33,7 +33,7 @@ class Caller:
         seen = b""
         while not seen.endswith(end):
             data = self.socket.recv(65536)
-            assert data, f"closed behind {seen!r}"
+            assert data, f"closed after {seen!r}"
             seen += data
         return seen
 

@@ -136,7 +136,7 @@ def test_no_clock_that_can_be_set_reaches_card_time(monkeypatch: pytest.MonkeyPa
 
 
 def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
-    """Pacing, deadlines and time-outs take clocks that nobody can set."""
+    """Pacing, deadlines and time-outs take clocks that cannot be set."""
     source = Path(openacr.__file__).parent
     dated = re.compile(r"\btime\.time(_ns)?\(|\btime import .*\btime\b|datetime\.|\.localtime\(")
     found = {

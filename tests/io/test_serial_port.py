@@ -34,7 +34,7 @@ def read_until(fd: int, end: bytes, timeout_s: float = 5.0) -> bytes:
 
 @asynccontextmanager
 async def served(card: FakeCard) -> AsyncIterator[tuple[int, int]]:
-    """A card behind a pseudo terminal: our end of the line, and that of the card."""
+    """A card on a pseudo terminal: our end of the line, and that of the card."""
     ours, theirs = pty.openpty()
     tty.setraw(theirs)
     server, stop = CardServer(card), asyncio.Event()
@@ -114,11 +114,11 @@ def test_a_line_that_breaks_frees_its_stream_and_the_card_goes_on() -> None:
     asyncio.run(body())
 
 
-def test_a_host_that_sends_too_much_is_told_to_wait_and_loses_nothing() -> None:
+def test_a_host_that_sends_too_much_is_asked_to_wait_and_loses_nothing() -> None:
     lines = 25_000  # 100 000 bytes: more than waits for a line that is being executed
 
     def flood(fd: int) -> None:
-        """As a host with XON/XOFF does: send, but nothing behind XOFF until XON."""
+        """As a host with XON/XOFF does: send, but nothing after XOFF until XON."""
         rest = memoryview(b"SLEEP 99999999\r" + b"LEN\r" * lines)
         while rest:
             may_send.wait()

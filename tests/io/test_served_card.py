@@ -119,7 +119,7 @@ def test_a_dwell_lasts_its_time_by_the_clock(card: Served) -> None:
         assert 0.29 < time.monotonic() - began < 2.0
 
 
-def test_a_host_that_dies_frees_its_stream_and_disturbs_nobody(card: Served) -> None:
+def test_a_host_that_dies_frees_its_stream_and_disturbs_no_other(card: Served) -> None:
     with card.call() as stays:
         for _ in range(6):
             dies = card.call()

@@ -132,7 +132,7 @@ def test_connections_do_not_see_each_other() -> None:
     serve(body)
 
 
-def test_a_blocked_line_delays_nobody_else_and_is_answered_in_time() -> None:
+def test_a_blocked_line_delays_no_other_and_is_answered_in_time() -> None:
     async def body(bench: Bench) -> None:
         one, other = await bench.connect(), await bench.connect()
         one.writer.write(b"SLEEP 200\rLEN\r")
@@ -205,7 +205,7 @@ def test_a_card_without_free_streams_refuses_the_connection() -> None:
     serve(body, streams=1)
 
 
-def test_a_peer_that_does_not_read_disturbs_nobody_and_memory_stays_bounded() -> None:
+def test_a_peer_that_does_not_read_disturbs_no_other_and_memory_stays_bounded() -> None:
     async def body(bench: Bench) -> None:
         slow, other = await bench.connect(), await bench.connect()
         slow.reader._transport.pause_reading()  # type: ignore[attr-defined]
@@ -414,12 +414,12 @@ def test_a_connection_of_a_web_page_is_closed_before_anything_is_executed(
 
 
 def test_a_stranger_is_turned_away_before_the_card_hears_of_it() -> None:
-    class Nobody(Guests):
+    class NoHost(Guests):
         def admits(self, host: str) -> bool:
             return False
 
     async def body() -> None:
-        async with serving(allowed=Nobody()) as bench:
+        async with serving(allowed=NoHost()) as bench:
             stranger = await bench.connect()
             with suppress(ConnectionResetError):
                 assert await asyncio.wait_for(stranger.reader.read(), WAIT_S) == b""

@@ -90,12 +90,12 @@ def test_the_sender_alone_gets_the_status() -> None:
 
 
 def test_who_may_not_connect_gets_no_status() -> None:
-    class Nobody(Guests):
+    class NoHost(Guests):
         def admits(self, host: str) -> bool:
             return False
 
     async def body() -> None:
-        server = CardServer(FakeCard(), allowed=Nobody())
+        server = CardServer(FakeCard(), allowed=NoHost())
         at = await server.listen_status(LOOPBACK, 0)
         stop = asyncio.Event()
         running = asyncio.create_task(server.run(stop))
@@ -111,7 +111,7 @@ def test_who_may_not_connect_gets_no_status() -> None:
     asyncio.run(body())
 
 
-def test_a_host_that_is_gone_disturbs_nobody() -> None:
+def test_a_host_that_is_gone_disturbs_no_other() -> None:
     async def body() -> None:
         server = CardServer(FakeCard())
         at = await server.listen_status(LOOPBACK, 0)
@@ -153,7 +153,7 @@ def test_too_many_subscribers_are_refused_with_one_warning(
     assert re.fullmatch(r"127\.0\.0\.1:\d+ gets no status: 16 others do", warned[0])
 
 
-def test_a_status_port_in_use_is_a_user_error_unless_nobody_asked_for_it() -> None:
+def test_a_status_port_in_use_is_a_user_error_unless_it_was_not_requested() -> None:
     async def body() -> None:
         with pytest.raises(UserError, match=rf"port {port} on .* is in use.*--status-port"):
             await CardServer(FakeCard()).listen_status(LOOPBACK, port)

@@ -89,13 +89,13 @@ class Rig:
         moves.issue(self.card, 0, wanted, rapid=rapid)
 
     def depth(self, moves_waiting: int) -> None:
-        """Let master 0 buffer so many moves."""
+        """Let master 0 buffer this count of moves."""
         self.I[at.MSI_BASE + at.MSI_DEPTH] = moves_waiting
 
     # time
 
     def ticks(self, count: int = 1) -> Rig:
-        """Let so many servo periods pass."""
+        """Run servo periods."""
         F, I, S = self.F, self.I, self.S
         for _ in range(count):
             if self.modelled:
@@ -104,7 +104,7 @@ class Rig:
         return self
 
     def seconds(self, time_s: float) -> Rig:
-        """Let so many seconds pass."""
+        """Run seconds of card time."""
         return self.ticks(round(time_s / T))
 
     def record(self, axis: int = 0, limit: int = 60_000, while_: int = 516, then: int = 1) -> Reals:

@@ -72,9 +72,9 @@ def off_path(places: Reals, points: Sequence[Point]) -> float:
     corners_at = np.array([places[0], *points])
     best = np.full(len(places), np.inf)
     for a, b in pairwise(corners_at):
-        way = b - a
-        part = np.clip(((places - a) @ way) / max(way @ way, 1e-30), 0, 1)
-        best = np.minimum(best, np.linalg.norm(places - (a + part[:, None] * way), axis=1))
+        along = b - a
+        part = np.clip(((places - a) @ along) / max(along @ along, 1e-30), 0, 1)
+        best = np.minimum(best, np.linalg.norm(places - (a + part[:, None] * along), axis=1))
     return float(best.max())
 
 
@@ -247,7 +247,7 @@ def host_rig(*, pure: bool = False) -> Rig:
 
 
 def by_host(made: Rig, tolerances: Sequence[float | None], **more: Any) -> Callable[[Point], None]:
-    """Issues moves that end at rest, but for corners with a tolerance and a move behind."""
+    """Issues moves that end at rest, but for corners with a tolerance and a move after."""
     left = list(tolerances)[::-1]
 
     def issue(point: Point) -> None:

@@ -141,7 +141,7 @@ def test_without_the_motor_encoder_the_shaft_rings() -> None:
 
 
 @pytest.mark.parametrize("ratio", [0.2, 3.0])
-def test_behind_a_gear_box_the_closed_form_of_the_damped_loop(ratio: float) -> None:
+def test_beyond_a_gear_box_the_closed_form_of_the_damped_loop(ratio: float) -> None:
     """x'' = K (P (r - x) - V x'/ratio): damping w0^2 = K P, 2 z w0 = K V / ratio, K = A ratio."""
     made = Machine(gear_box(ratio))
     made.axis(proportional_gain=PGAIN, fbvel_gain_setting=2e-4)

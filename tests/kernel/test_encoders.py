@@ -125,7 +125,7 @@ def test_a_captured_source_position_is_one_of_the_turn() -> None:
 
 
 def test_a_marker_of_another_encoder_starts_a_gear_within_the_tick() -> None:
-    """The register names encoder 0: its marker comes after a quarter of the way of the tick."""
+    """The register names encoder 0: its marker comes after a quarter of the travel of the tick."""
     made = Bench("X").all("ENC0 MULT 4", "TLM X0", "GEAR SRC X ENC10", "GEAR ON TRG X(0, 0)")
     made.memory.I[at.PLI_BASE + at.PLI_MARKER_EDGES] = 1
     made.memory.F[at.PLF_BASE + at.PLF_MARKER_RISE_CNT] = 10.0
@@ -167,13 +167,13 @@ def test_the_interface_of_an_absolute_encoder_is_kept() -> None:
 # LIMIT
 
 
-def counted(step: Callable[..., None], limit_hz: int, way: list[int]) -> list[int]:
+def counted(step: Callable[..., None], limit_hz: int, steps: list[int]) -> list[int]:
     """Positions of encoder 0, whose motor turns by these raw counts, tick by tick."""
     memory = Memory()
     memory.I[at.ENI_BASE + at.ENI_MULT] = 4
     feedback_cy.encoder_limit(memory.F, memory.I, 0, limit_hz)
     shown = []
-    for counts in way:
+    for counts in steps:
         memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] += counts
         step(memory.F, memory.I, T)
         feedback_cy.encoder_step(memory.F, memory.I, 0, 1 / T)
@@ -182,15 +182,15 @@ def counted(step: Callable[..., None], limit_hz: int, way: list[int]) -> list[in
 
 
 @pytest.mark.parametrize("step", STEPS)
-@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("steps", [1, -1])
 def test_edges_below_the_limit_all_count_and_those_above_are_lost(
-    step: Callable[..., None], way: int
+    step: Callable[..., None], steps: int
 ) -> None:
-    slow, fast = [10 * way] * 50, [60 * way] * 50  # 20 000 and 120 000 edges a second
-    assert counted(step, 100_000, [*slow, 0])[-1] == 500 * way
+    slow, fast = [10 * steps] * 50, [60 * steps] * 50  # 20 000 and 120 000 edges a second
+    assert counted(step, 100_000, [*slow, 0])[-1] == 500 * steps
     positions = counted(step, 100_000, [*slow, *fast, *slow, 0])
     assert positions[99] - positions[50] == 0  # nothing counts while it is too quick
-    lost = 4000 * way - positions[-1]
+    lost = 4000 * steps - positions[-1]
     assert lost % 4 == 0
     assert abs(lost) >= 2990
 
@@ -201,16 +201,16 @@ def test_a_spike_is_no_motion(step: Callable[..., None]) -> None:
     assert counted(step, 0, [1, -1, 0]) == [1, 0, 0]
 
 
-def edge_by_edge(limit_hz: int, way: list[int]) -> int:
+def edge_by_edge(limit_hz: int, steps: list[int]) -> int:
     """The same filter on a list of edges with their times, and a decoder of four states."""
     edges: list[tuple[float, int]] = []  # when, and the raw count from then on
     raw = 0
-    for tick, counts in enumerate(way):
+    for tick, counts in enumerate(steps):
         for number in range(abs(counts)):
             raw += 1 if counts > 0 else -1
             edges.append(((tick + (number + 0.5) / abs(counts)) * T, raw))
     count = state = 0
-    for (when, level), (until, _) in zip(edges, [*edges, (len(way) * T, 0)][1:], strict=True):
+    for (when, level), (until, _) in zip(edges, [*edges, (len(steps) * T, 0)][1:], strict=True):
         if until - when >= 1 / limit_hz:
             count += {0: 0, 1: 1, 2: 0, 3: -1}[(level - state) % 4]
             state = level
@@ -222,10 +222,10 @@ def edge_by_edge(limit_hz: int, way: list[int]) -> int:
     st.sampled_from([1009, 3001, 10_007, 50_021, 200_003]),
     st.lists(st.integers(-120, 120), max_size=30),
 )
-def test_the_filter_does_what_it_does_to_single_edges(limit_hz: int, way: list[int]) -> None:
+def test_the_filter_does_what_it_does_to_single_edges(limit_hz: int, steps: list[int]) -> None:
     for step in STEPS:
-        shown = counted(step, limit_hz, way)
-        assert (shown or [0])[-1] == edge_by_edge(limit_hz, way)
+        shown = counted(step, limit_hz, steps)
+        assert (shown or [0])[-1] == edge_by_edge(limit_hz, steps)
 
 
 def test_a_limit_that_comes_and_goes_leaves_the_position() -> None:
@@ -238,7 +238,7 @@ def test_a_limit_that_comes_and_goes_leaves_the_position() -> None:
     assert moved(0, made, 911.0).p(12290) == 511
 
 
-def test_a_capture_reads_the_counter_behind_the_filter() -> None:
+def test_a_capture_reads_the_counter_after_the_filter() -> None:
     made = Bench("X").all("ENC0 MULT 4", "TLM X0", "ENC0 LIMIT 100000", "INTCAP X2").ticks(1)
     motor = at.PLI_BASE
     made.memory.I[motor + at.PLI_KIND] = 1

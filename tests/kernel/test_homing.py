@@ -117,11 +117,13 @@ def options(rig: Home, negative_edge: bool, negative_final: bool, backup: bool =
     "ACR-HOME-01", "ACR-HOME-08", "ACR-HOME-10", "ACR-HOME-12", "ACR-HOME-13",
 )  # fmt: skip
 @pytest.mark.parametrize(
-    ("figure", "way", "edge", "final", "start", "at_u", "motions"), FIGURES, ids=lambda v: str(v)
+    ("figure", "direction", "edge", "final", "start", "at_u", "motions"),
+    FIGURES,
+    ids=lambda v: str(v),
 )
 def test_the_figures_with_backup(
     figure: str,
-    way: int,
+    direction: int,
     edge: bool,
     final: bool,
     start: float,
@@ -129,7 +131,7 @@ def test_the_figures_with_backup(
     motions: list[tuple[int, float]],
 ) -> None:
     rig = options(Home(start), edge, final)
-    assert rig.speeds(way) == motions
+    assert rig.speeds(direction) == motions
     rig.seconds(0.1)
     assert (rig.bit(FOUND), rig.bit(FAILED), rig.bit(HOMING)) == (True, False, False)
     assert abs(rig.zero_raw - rig.count(at_u)) <= 1
@@ -139,28 +141,28 @@ def test_the_figures_with_backup(
 
 
 @pytest.mark.req("ACR-HOME-FIG-A", "ACR-HOME-FIG-B", "ACR-HOME-11")
-@pytest.mark.parametrize(("way", "start", "edge_u"), [(1, 0.0, 5.0), (-1, 10.0, 6.0)])
-def test_without_backup_the_place_of_rest_behind_the_first_edge_is_zero(
-    way: int, start: float, edge_u: float
+@pytest.mark.parametrize(("direction", "start", "edge_u"), [(1, 0.0, 5.0), (-1, 10.0, 6.0)])
+def test_without_backup_the_place_of_rest_beyond_the_first_edge_is_zero(
+    direction: int, start: float, edge_u: float
 ) -> None:
     rig = options(Home(start), True, True, backup=False)
-    assert rig.speeds(way) == [(way, 10.0)]
+    assert rig.speeds(direction) == [(direction, 10.0)]
     rig.seconds(0.2)
     assert rig.bit(FOUND)
     assert abs(rig.long("actual_position")) <= 1
-    beyond = (rig.machine_u - edge_u) * way
+    beyond = (rig.machine_u - edge_u) * direction
     assert 0.4 <= beyond <= 0.6  # 10^2 / (2 100) = 0.5
 
 
 @pytest.mark.req("ACR-HOME-09")
-@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("direction", [1, -1])
 @pytest.mark.parametrize("edge", [False, True])
 @pytest.mark.parametrize("final", [False, True])
 def test_a_start_on_the_switch_leaves_it_towards_the_edge(
-    way: int, edge: bool, final: bool
+    direction: int, edge: bool, final: bool
 ) -> None:
     rig = options(Home(5.5), edge, final)
-    motions = rig.speeds(way)
+    motions = rig.speeds(direction)
     assert motions[0][0] == (-1 if edge else 1)
     assert rig.bit(FOUND)
     rig.seconds(0.1)
@@ -168,16 +170,16 @@ def test_a_start_on_the_switch_leaves_it_towards_the_edge(
 
 
 @pytest.mark.req("ACR-HOME-05")
-@pytest.mark.parametrize(("way", "start"), [(1, 8.0), (-1, 3.0)])
+@pytest.mark.parametrize(("direction", "start"), [(1, 8.0), (-1, 3.0)])
 @pytest.mark.parametrize("edge", [False, True])
 @pytest.mark.parametrize("final", [False, True])
 def test_a_search_away_from_the_switch_turns_round_at_the_limit(
-    way: int, start: float, edge: bool, final: bool
+    direction: int, start: float, edge: bool, final: bool
 ) -> None:
     rig = options(Home(start), edge, final)
     rig.bit(16148, True)
     rig.bit(16149, True)
-    rig.home(way)
+    rig.home(direction)
     assert (rig.bit(FOUND), rig.bit(KAMR), rig.bit(16132), rig.bit(16133)) == (True, 0, 0, 0)
     assert abs(rig.zero_raw - rig.count(5.0 if edge else 6.0)) <= 1
 
@@ -230,15 +232,15 @@ def test_homing_a_moving_axis_is_refused() -> None:
 
 
 @pytest.mark.req("ACR-HOME-14")
-def test_two_axes_home_at_the_same_time_each_its_way() -> None:
+def test_two_axes_home_at_the_same_time_each_in_its_direction() -> None:
     second = world_text(10.0).replace("number = 0", "number = 1")
     rig = Rig(2, ppu=[COUNTS, COUNTS], world=world_text(0.0) + second)
     rig.ticks(4)
-    for axis, way in ((0, 1), (1, -1)):
+    for axis, direction in ((0, 1), (1, -1)):
         rig.I[at.ENI_BASE + axis * at.ENI_STRIDE + at.ENI_MULT] = 4
         rig.jog(axis, vel=10, acc=100, dec=100)
         rig.bit(BACKUP + 32 * axis, True)
-        jog.home(rig.card, axis, way)
+        jog.home(rig.card, axis, direction)
     rig.seconds(0.2)
     assert rig.real("psp_velocity_cps", 0) == -rig.real("psp_velocity_cps", 1) > 0
     rig.seconds(4.0)
@@ -262,18 +264,18 @@ def test_the_edge_is_exact_at_any_approach_speed(vel: float, contact: str) -> No
 
 
 @pytest.mark.parametrize("vel", [0.37, 5.0, 90.0, 900.0])
-@pytest.mark.parametrize("way", [1, -1])
-def test_an_input_capture_is_exact_at_any_speed(vel: float, way: int) -> None:
-    rig = Home(5.5 - 1.5 * way, extra=world_text(5.5 - 1.5 * way).replace(
+@pytest.mark.parametrize("direction", [1, -1])
+def test_an_input_capture_is_exact_at_any_speed(vel: float, direction: int) -> None:
+    rig = Home(5.5 - 1.5 * direction, extra=world_text(5.5 - 1.5 * direction).replace(
         "[5.0, 6.0]", "[5.0, 6.0], input = 24"))  # fmt: skip
     rig.jog(vel=vel, acc=1e6, dec=1e6)
     registers.arm_capture(rig.card, 0, 2)
     offset = rig.zero_raw
-    jog.continuous(rig.card, 0, way)
+    jog.continuous(rig.card, 0, direction)
     for _ in range(40_000):
         if rig.ticks().bit(CAPTURED):
             break
-    edge = rig.count(5.0 if way > 0 else 6.0)
+    edge = rig.count(5.0 if direction > 0 else 6.0)
     assert rig.bit(CAPTURED)
     assert abs(rig.long("hardware_capture") + offset - edge) <= 1
 
@@ -306,11 +308,11 @@ def test_a_marker_capture_is_exact_to_the_count(mult: int, mode: int) -> None:
     jog.continuous(rig.card, 0, 1)
     rig.seconds(0.3)
     assert rig.bit(CAPTURED)
-    way = 1 if mult > 0 else -1
+    direction = 1 if mult > 0 else -1
     marker = rig.count(0.3) // 1
     passed = [k * COUNTS + marker for k in range(-3, 4)]
-    rise = min((m for m in passed if (m - start) * way > 0), key=lambda m: abs(m - start))
-    fall = rise + way
+    rise = min((m for m in passed if (m - start) * direction > 0), key=lambda m: abs(m - start))
+    fall = rise + direction
     edge = (rise if mode == 0 else fall) - start
     assert rig.long("hardware_capture") == pytest.approx(edge * mult / 4, abs=1.01)
 
@@ -378,14 +380,14 @@ negative_limit = {{ at = -2.0 }}
 
 @pytest.mark.parametrize("negative_edge", [False, True])
 @pytest.mark.parametrize("negative_final", [False, True])
-@pytest.mark.parametrize(("way", "start"), [(1, 0.0), (-1, 9.0)])
+@pytest.mark.parametrize(("direction", "start"), [(1, 0.0), (-1, 9.0)])
 def test_a_switch_narrower_than_a_servo_period_is_found_to_the_count(
-    way: int, start: float, negative_edge: bool, negative_final: bool
+    direction: int, start: float, negative_edge: bool, negative_final: bool
 ) -> None:
     """At 40 units/s a period is 0.02 units: the switch of 0.002 is never seen closed."""
     rig = Home(start, NARROW.format(start=start), vel=40.0, acc=400.0, dec=400.0)
     rig.F[at.AXF_BASE + at.AXF_HOMVF_UPS] = 10.0
-    options(rig, negative_edge, negative_final).home(way)
+    options(rig, negative_edge, negative_final).home(direction)
     assert (rig.bit(FOUND), rig.bit(FAILED)) == (True, False)
     edge = 5.0 if negative_edge else 5.002
     assert rig.zero_raw - rig.count(0.0) == pytest.approx(edge * COUNTS, abs=1.0)

@@ -154,7 +154,7 @@ def test_a_jog_turns_round_through_zero(jerk_: float) -> None:
     assert flags(rig) == "ADMR"
 
 
-def test_a_target_behind_or_too_near_is_reached_by_coming_back() -> None:
+def test_a_target_passed_or_too_near_is_reached_by_coming_back() -> None:
     rig = jogging()
     jog.absolute(rig.card, 0, 50.0)
     rig.seconds(0.5)

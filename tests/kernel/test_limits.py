@@ -15,7 +15,7 @@ POSITIVE_INPUT, HARD_POSITIVE, SOFT_POSITIVE = 0, 16148, 16150
 
 
 def travelling(axes: int = 2) -> Rig:
-    """Two axes of 1000 pulses per unit, HLDEC 200, SLDEC 50, on their way to 100."""
+    """Two axes of 1000 pulses per unit, HLDEC 200, SLDEC 50, on their direction to 100."""
     rig = Rig(axes, ppu=[1000.0] * axes).master(acc=100, dec=100, stp=100, vel=10)
     for axis in range(axes):
         reals = at.AXF_BASE + axis * at.AXF_STRIDE
@@ -132,17 +132,17 @@ def test_a_hard_limit_latches_kills_and_bars_one_direction() -> None:
 
 @pytest.mark.req("ACR-LIM-06", "ACR-LIM-07", "ACR-LIM-08", "ACR-LIM-09", "ACR-LIM-14")
 @pytest.mark.parametrize("enabled", [0, 1, 2, 3])
-@pytest.mark.parametrize("way", [1, -1])
-def test_each_hard_limit_acts_only_where_enabled(enabled: int, way: int) -> None:
+@pytest.mark.parametrize("direction", [1, -1])
+def test_each_hard_limit_acts_only_where_enabled(enabled: int, direction: int) -> None:
     rig = travelling()
     rig.bit(HARD_POSITIVE, bool(enabled & 1))
     rig.bit(HARD_POSITIVE + 1, bool(enabled & 2))
-    rig.move(50.0 * way)
+    rig.move(50.0 * direction)
     rig.seconds(0.5)
     rig.bit(0, True)
     rig.bit(1, True)
     rig.ticks(2)
-    assert rig.bit(KAMR) == bool(enabled & (1 if way > 0 else 2))
+    assert rig.bit(KAMR) == bool(enabled & (1 if direction > 0 else 2))
 
 
 @pytest.mark.req("ACR-LIM-16", "ACR-LIM-20")
@@ -190,10 +190,10 @@ def test_soft_limits_stop_a_move_near_them(enabled: int, target: float) -> None:
         return
     limit = 24.0 if target > 0 else 0.0
     assert 0 < (end - limit) * (1 if target > 0 else -1) < 12
-    way = 1 if target > 0 else -1
+    direction = 1 if target > 0 else -1
     with pytest.raises(CardError, match="Soft limit"):
-        jog.continuous(rig.card, 0, way)
-    jog.absolute(rig.card, 0, rig.real("jog_cnt") / 1000 - 15 * way)  # inward: at once
+        jog.continuous(rig.card, 0, direction)
+    jog.absolute(rig.card, 0, rig.real("jog_cnt") / 1000 - 15 * direction)  # inward: at once
     rig.record(while_=ACTIVE)
     assert not rig.bit(latch)
     with pytest.raises(CardError, match="Master Kill All Moves Request Active"):

@@ -222,7 +222,7 @@ END_RAMP = 514
 def test_an_override_changed_in_the_end_ramp_acts_and_the_end_stays_exact(
     jrk: float, fov: float
 ) -> None:
-    """A lower feed is reached with DEC, a higher one as far as the way left allows."""
+    """A lower feed is reached with DEC, a higher one as far as the distance left allows."""
     times = []
     for override in (1.0, fov):
         rig = Rig(ppu=[1000.0]).master(acc=100, dec=200, stp=100, jrk=jrk, vel=20)

@@ -56,7 +56,7 @@ def test_home_reqd_bars_an_axis_until_it_is_homed(required: int, homed: int, sta
 @pytest.mark.req("MILL-SYS-AXES-EXCESS")
 @pytest.mark.parametrize(("band", "state"), [(0.0, State.IDLE), (0.01, State.ALARM)])
 def test_an_error_outside_its_band_stops_the_machine(band: float, state: State) -> None:
-    shop = Shop(**{f"P{AXES + EXCESS}": band, f"P{SERVO}": 0.0005})  # a weak loop falls behind
+    shop = Shop(**{f"P{AXES + EXCESS}": band, f"P{SERVO}": 0.0005})  # a weak loop lags
     shop.start(line(1, at(5), 1200.0), end())
     assert shop.until(State.IDLE, State.ALARM) is state
     assert codes(shop) == ([11] if state is State.ALARM else [])

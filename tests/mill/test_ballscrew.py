@@ -112,7 +112,7 @@ def test_the_table_of_the_guide_is_read_as_it_is_printed(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("separator", [" ", ",", ";", "\t"])
-def test_results_behind_the_measurements_need_no_headline(tmp_path: Path, separator: str) -> None:
+def test_results_after_the_measurements_need_no_headline(tmp_path: Path, separator: str) -> None:
     rows = PRINTED.splitlines()[3:]
     file = tmp_path / "x.txt"
     file.write_text("\n".join(row.replace(" ", separator) for row in rows))
@@ -192,7 +192,7 @@ def test_the_axis_is_compensated_where_the_table_says(place: float, expected_cnt
     assert compensation(shop, 1) == 0
 
 
-def test_soft_limits_say_which_entries_lie_behind_the_reference_point() -> None:
+def test_soft_limits_say_which_entries_lie_beyond_the_reference_point() -> None:
     table = parse(GUIDE + "X3E.00000\nX4E.00625\n", "X")
     assert [p for p, _ in table.along((2.0, -2.0))] == [-2, -1, 0, 1, 2]
     assert [p for p, _ in table.along((4.0, 0.0))] == [0, 1, 2, 3, 4]
@@ -247,7 +247,7 @@ def test_a_table_acts_again_when_a_kill_is_taken_back(tmp_path: Path) -> None:
         assert shop.card.command("BSC X", program=0) == ["ON"]
 
 
-def test_a_card_that_lost_its_position_gets_its_table_only_behind_homing(tmp_path: Path) -> None:
+def test_a_card_that_lost_its_position_gets_its_table_only_after_homing(tmp_path: Path) -> None:
     (tmp_path / "X.BSC").write_text(GUIDE)
     with Store(tmp_path / "sysvar.db") as store:
         store.write_text(950_020, "X.BSC")

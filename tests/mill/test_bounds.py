@@ -1,4 +1,4 @@
-"""What a lost host leaves behind is bounded, and what others do to a machine is noticed."""
+"""The motion after a host is lost is bounded, and what others do to a machine is noticed."""
 
 import pytest
 from tests.mill.shop import PULSES, Shop
@@ -22,7 +22,7 @@ def details(shop: Shop) -> list[str]:
 
 
 def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
-    """Moves of 1 s each: 2 s of link timeout and 2 s more wait behind the executed one."""
+    """Moves of 1 s each: 2 s of link timeout and 2 s more wait after the executed one."""
     shop = Shop()
     shop.load("F60\n" + "G1 X1\nX0\n" * 30 + "M2\n")
     most = 0
@@ -97,7 +97,7 @@ def test_a_machine_without_a_program_has_no_moves_to_make() -> None:
     assert codes(shop) == []
 
 
-def test_a_long_move_has_none_but_one_behind_it() -> None:
+def test_a_long_move_has_none_but_one_after_it() -> None:
     shop = Shop()
     shop.load("F60\nG1 X20\nX0\nX20\nX0\nM2\n")
     shop.pass_time(1.0)
@@ -154,27 +154,27 @@ def test_a_poll_gap_longer_than_the_link_timeout_pauses_the_program() -> None:
     assert shop.pulses() == (200_000, 0, 0)
 
 
-def test_an_increment_ends_soon_when_nobody_polls() -> None:
+def test_an_increment_ends_soon_when_no_program_polls() -> None:
     shop = Shop()
     shop.runner.jog(lambda jog: jog.move(0, 17.0))
     shop.pass_time(0.3)
     row = shop.runner.settings.axis(0)
     before = shop.controller.axis(0).actual_cnt / PULSES
     shop.controller.advance(seconds=30.0)
-    way = shop.controller.axis(0).actual_cnt / PULSES - before
+    travel = shop.controller.axis(0).actual_cnt / PULSES - before
     brake_u = 0.5 * row.jog_ups**2 / row.jog_dec_ups2
-    assert 0.0 < way <= LEASH_S * row.jog_ups + brake_u + 0.1
+    assert 0.0 < travel <= LEASH_S * row.jog_ups + brake_u + 0.1
 
 
-@pytest.mark.parametrize("way", [3.0, -3.0, 0.001])
-def test_an_increment_ends_exactly(way: float) -> None:
+@pytest.mark.parametrize("travel", [3.0, -3.0, 0.001])
+def test_an_increment_ends_exactly(travel: float) -> None:
     shop = Shop()
-    shop.runner.jog(lambda jog: jog.move(1, way))
+    shop.runner.jog(lambda jog: jog.move(1, travel))
     for _ in range(4000):
         if not shop.runner.is_busy:
             break
         shop.pass_time(0.02)
-    assert shop.pulses() == (0, round(way * PULSES), 0)
+    assert shop.pulses() == (0, round(travel * PULSES), 0)
 
 
 def test_a_card_that_was_reset_ends_the_program_and_its_axes_are_not_homed() -> None:

@@ -53,8 +53,8 @@ def test_g0_goes_straight_at_rapid_speed_from_rest_to_rest() -> None:
     assert max(speed for *_, speed in rapid) == pytest.approx(5.0, rel=1e-6)
     # v2 = 2 a s: the ramps of rapids, at both ends down to nothing
     for x, _, speed in rapid:
-        way = (x - 1.0) * 5 / 3
-        bound = math.sqrt(2 * 50.0 * min(way, 5.0 - way))
+        path = (x - 1.0) * 5 / 3
+        bound = math.sqrt(2 * 50.0 * min(path, 5.0 - path))
         assert speed <= bound * 1.02 + 0.3
     for corner_x in (1.0, 4.0):
         at_corner = min(speed for x, _, speed in seen if abs(x - corner_x) < 1e-4)
@@ -179,7 +179,7 @@ def test_exact_stops_let_nothing_start_before_the_axes_are_in_position(
             errors[before] = abs(float(shop.controller.p[n.AX_BASE + n.AX_FOLLOWING_ERROR]))
         before = now
     for place, does_wait in zip((10_000, 20_000), waits, strict=True):
-        # without the wait the axis passes between two pulses, or lags far behind
+        # without the wait the axis passes between two pulses, or lags far
         assert (errors[place] <= 3) == does_wait, (place, errors)
 
 

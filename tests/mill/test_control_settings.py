@@ -46,7 +46,7 @@ def slowest_at_corner(turn_deg: float, feed: float = 300.0, **cells: float) -> f
     [
         (30, 0, 0, 40, 300),  # rule off
         (30, 40, 120, 40, 300),  # below the first angle
-        (80, 40, 120, 40, 170),  # half way: 300 - 260 / 2
+        (80, 40, 120, 40, 170),  # in the middle: 300 - 260 / 2
         (80, 40, 120, 100, 200),
         (150, 40, 120, 40, 0),  # complete stop
     ],

@@ -47,7 +47,7 @@ def turn(shop: Shop, clicks: int) -> None:
 
 
 @pytest.mark.req("MILL-JOG-LOSTLINK")
-def test_an_axis_stops_when_nobody_is_heard_of_who_holds_its_key() -> None:
+def test_an_axis_stops_when_the_holder_of_its_key_is_silent() -> None:
     shop = handy()
     shop.runner.controls.press("screen 1", 0, 1)
     for _ in range(10):
@@ -68,12 +68,12 @@ def test_an_axis_stops_by_itself_when_the_host_is_gone() -> None:
     shop.pass_time(3.0)
     assert speed(shop) == pytest.approx(1.0)
     before = position(shop)
-    shop.controller.advance(seconds=2.0)  # nobody looks any more
+    shop.controller.advance(seconds=2.0)  # nothing polls any more
     assert speed(shop) == 0.0
     assert before + 0.3 < position(shop) < before + 0.52
 
 
-def test_who_is_gone_lets_his_keys_go_and_nobody_elses() -> None:
+def test_a_lost_panel_releases_its_own_keys_and_no_others() -> None:
     shop = handy()
     shop.runner.controls.press("screen 1", 0, 1)
     shop.runner.controls.press("screen 2", 1, -1)
@@ -135,7 +135,7 @@ def test_programs_keep_to_the_limits_whatever_the_key_says() -> None:
 @pytest.mark.parametrize(
     ("which", "axis", "sign"), [(0, 0, 1.0), (1, 0, -1.0), (2, 1, 1.0), (3, 1, -1.0)]
 )
-def test_each_input_of_the_joystick_jogs_one_axis_one_way(
+def test_each_input_of_the_joystick_jogs_one_axis_in_one_direction(
     which: int, axis: int, sign: float
 ) -> None:
     shop = handy(P400_006=STICK)
@@ -271,7 +271,7 @@ def test_one_hand_at_a_time() -> None:
         shop.runner.turn([0])
 
 
-def test_whoever_leaves_takes_the_wheel_along() -> None:
+def test_a_panel_that_leaves_takes_the_wheel_along() -> None:
     shop = handy()
     shop.runner.turn([0])
     turn(shop, 3)

@@ -104,7 +104,7 @@ def test_a_sender_who_stalls_stops_the_machine_on_its_path(sender: Sender) -> No
     assert not shop.runner.alarms.active
 
 
-def test_lines_that_arrive_in_time_make_one_smooth_way(sender: Sender) -> None:
+def test_lines_that_arrive_in_time_make_one_smooth_path(sender: Sender) -> None:
     shop, _ = dripping(sender, P250_116=20)
     sender.send("G90 F120\n" + lines(1, 40))
     shop.pass_time(0.5)

@@ -19,7 +19,7 @@ def test_the_drive_enable_output_is_on_from_the_first_motion_until_a_kill() -> N
     shop.pass_time(0.1)
     assert shop.outputs([45]) == [False]  # nothing is enabled unasked
     shop.finish(line(1, at(1)), end())
-    assert shop.outputs([45]) == [True]  # and stays on behind a program
+    assert shop.outputs([45]) == [True]  # and stays on after a program
     shop.controller.set_input(5, True)
     shop.pass_time(0.1)
     assert (shop.runner.state, shop.outputs([45])) == (State.ALARM, [False])

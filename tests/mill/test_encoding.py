@@ -133,23 +133,23 @@ def test_rotary_axes_alone_move_at_degrees_per_minute() -> None:
     assert job.start is None
 
 
-WAYS = st.lists(
+ARC_PATHS = st.lists(
     st.tuples(*[st.sampled_from((0.0, 0.00004, 0.25, -1.5, 3.33333))] * 4), min_size=1, max_size=6
 )
 
 
-@given(WAYS, st.floats(1.0, 9000.0), st.booleans())
+@given(ARC_PATHS, st.floats(1.0, 9000.0), st.booleans())
 @settings(deadline=None, max_examples=60)
 def test_a_polyline_is_planned_and_sent_like_its_lines_one_by_one(
-    ways: list[tuple[float, ...]], feed: float, is_limited: bool
+    paths: list[tuple[float, ...]], feed: float, is_limited: bool
 ) -> None:
     cells = {"P100_001": 4.0, "P650_000": 6000.0, "P650_010": 720.0}
     if is_limited:
         cells |= {f"P{AXIS.max_axis_speed[0]}": 120.0, f"P{AXIS.max_axis_acceleration[1]}": 7.0}
     coder = encoder(**cells)
     begin, ends, point = at(1.0, -2.0), [], np.array(at(1.0, -2.0))
-    for way in ways:
-        point = point + np.array([*way, 0.0, 0.0, 0.0, 0.0])
+    for path in paths:
+        point = point + np.array([*path, 0.0, 0.0, 0.0, 0.0])
         ends.append(tuple(point.tolist()))
     pace = c.Pace(feed)
     many = c.Polyline(src(1), np.array(ends), np.arange(1, len(ends) + 1), pace)

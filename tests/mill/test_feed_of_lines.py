@@ -8,7 +8,7 @@ from openacr.mill.run.lifecycle import Options, State
 STAIRS = "G90 G1 F6000\n" + "".join(f"X{0.1 * n:.1f}\n" for n in range(1, 41)) + "M2\n"
 
 
-def test_single_block_stops_behind_every_line_of_a_long_way() -> None:
+def test_single_block_stops_after_every_line_of_a_long_path() -> None:
     shop = Shop(P650_000=6000.0)
     shop.load(STAIRS, Options(is_single=True))
     seen = []
@@ -18,7 +18,7 @@ def test_single_block_stops_behind_every_line_of_a_long_way() -> None:
     assert seen == [0, *range(1000, 40001, 1000)]
 
 
-def test_single_block_can_be_switched_on_amid_a_long_way_and_off_again() -> None:
+def test_single_block_can_be_switched_on_amid_a_long_path_and_off_again() -> None:
     shop = Shop(P650_000=60.0)
     shop.load(STAIRS)
     shop.pass_time(1.03)

@@ -134,7 +134,7 @@ def test_an_axis_that_does_not_move_is_not_waited_for(world: Controller) -> None
     assert shop.runner.run_s < 5.0
 
 
-def test_a_homing_axis_stops_by_itself_when_nobody_looks_any_more(world: Controller) -> None:
+def test_a_homing_axis_stops_by_itself_when_no_program_polls_any_more(world: Controller) -> None:
     shop = homing_shop(world, P300_000=1, P200_000=30.0, P200_001=0.0, P200_002=0)
     shop.runner.home([0])
     shop.pass_time(0.2)

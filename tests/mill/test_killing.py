@@ -32,7 +32,7 @@ def emergency_stop(shop: Shop) -> None:
     shop.pass_time(0.1)
 
 
-def test_the_way_of_the_kill_ramp_becomes_position() -> None:
+def test_the_distance_of_the_kill_ramp_becomes_position() -> None:
     shop = Shop(**{ESTOP: 5})
     shop.card.command("HLDEC X50", program=0)
     shop.load("G1 F600 X50\nM2\n")
@@ -80,7 +80,7 @@ def test_a_card_that_refuses_lines_is_killed_all_the_same(monkeypatch: pytest.Mo
     assert shop.runner.state is State.ALARM
 
 
-def test_a_kill_by_somebody_else_is_taken_back_by_an_acknowledgement() -> None:
+def test_a_kill_by_another_host_is_taken_back_by_an_acknowledgement() -> None:
     shop = Shop()
     shop.controller.bit[KILLED] = True
     shop.pass_time(0.1)

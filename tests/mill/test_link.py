@@ -80,7 +80,7 @@ def test_a_connection_that_is_back_within_the_link_timeout_goes_on(
 
 
 def test_packets_that_may_be_lost_are_sent_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Those sent behind the last look, when the connection is a new one at the next."""
+    """Those sent after the last poll, when the connection is a new one at the next."""
     shop = Shop(**{SPINDLE_CW: 40})
     shop.load("M3 S500\nF600\nG1 X1\nY1\nX0\nY0\nM2\n")
     machine = shop.runner.machine
@@ -208,7 +208,7 @@ class Breaking:
 
 @pytest.mark.parametrize("second", [None, 1, 2, 3, 4])
 def test_a_connection_that_breaks_at_any_moment_of_a_cut_goes_on(second: int | None) -> None:
-    """Every exchange of a run in turn, or one early in it and then each of those behind that.
+    """Every exchange of a run in turn, or one early in it and then each of those after that.
 
     From 135 to 160 the moves are taken back: stop, kill, its clearing, the counter.
     """
@@ -228,7 +228,7 @@ def test_a_connection_that_breaks_at_any_moment_of_a_cut_goes_on(second: int | N
     assert all(x in (0.0, 0.1, 0.2) or y in (0.0, 0.1) for x, y, _ in places)
 
 
-def lose_behind(monkeypatch: pytest.MonkeyPatch, shop: Shop, moves: int) -> None:
+def lose_after(monkeypatch: pytest.MonkeyPatch, shop: Shop, moves: int) -> None:
     """Of the first moves that are sent only some arrive; the connection is a new one then."""
     machine = shop.runner.machine
     send, is_first = machine.send, True
@@ -247,7 +247,7 @@ def test_moves_that_may_be_lost_when_a_pause_begins_are_sent_again_at_resume(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     shop = Shop()
-    lose_behind(monkeypatch, shop, 1)
+    lose_after(monkeypatch, shop, 1)
     shop.load("F60\nG1 X1\nY1\nX0\nY0\nM2\n")
     shop.pass_time(0.005)
     shop.runner.stop()

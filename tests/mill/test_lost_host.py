@@ -36,7 +36,9 @@ def require_stopped(plant: Plant) -> None:
     assert 0 < plant.places()[0] < 950_000
 
 
-def test_a_host_that_is_killed_is_noticed_by_the_card_and_told_to_the_next(plant: Plant) -> None:
+def test_a_host_that_is_killed_is_noticed_by_the_card_and_reported_to_the_next(
+    plant: Plant,
+) -> None:
     plant.wire({LINK_TIMEOUT: SHORTEST_S})
     run = plant.mill("run", plant.part(LONG), "--quiet")
     until(lambda: plant.is_moving)
@@ -45,7 +47,7 @@ def test_a_host_that_is_killed_is_noticed_by_the_card_and_told_to_the_next(plant
     run.ended()
     require_stopped(plant)
     place = plant.places()
-    plant.card.write_bit(SPINDLE, True)  # until somebody has acknowledged it stays off
+    plant.card.write_bit(SPINDLE, True)  # until an operator has acknowledged it stays off
     until(lambda: not plant.card.read_bit(SPINDLE))
 
     again = plant.mill("run", plant.part(LONG), "--quiet")
@@ -102,7 +104,7 @@ def test_a_host_on_a_serial_line_that_is_killed_is_noticed_by_the_card(tmp_path:
             plant.close()
 
 
-def test_a_host_that_is_told_to_end_switches_off_and_takes_its_watchdog_away(
+def test_a_host_that_is_signalled_to_end_switches_off_and_takes_its_watchdog_away(
     plant: Plant,
 ) -> None:
     plant.wire({LINK_TIMEOUT: PATIENT_S})
@@ -116,7 +118,7 @@ def test_a_host_that_is_told_to_end_switches_off_and_takes_its_watchdog_away(
         assert (plant.card.read_bit(WATCHDOG_RUNS), plant.card.ask("P96")) == (False, 0)
 
 
-def test_a_machine_is_stopped_whoever_drives_it(plant: Plant) -> None:
+def test_a_machine_is_stopped_that_another_program_drives(plant: Plant) -> None:
     """Also a host that is stopped itself, and that finds everything barred when it goes on."""
     plant.wire({LINK_TIMEOUT: PATIENT_S})
     run = plant.mill("run", plant.part(LONG), "--quiet")

@@ -52,7 +52,7 @@ def test_saved_values_survive_a_restart_and_are_sent_to_the_card(tmp_path: Path)
 
 @pytest.mark.req("MILL-SYS-CTL-LEADIN")
 @pytest.mark.parametrize("radius", [0.1, 0.4])
-def test_the_lead_in_radius_is_that_of_the_way_back_to_a_path(radius: float) -> None:
+def test_the_lead_in_radius_is_that_of_the_return_to_a_path(radius: float) -> None:
     shop = Shop(P250_005=radius)
     shop.load("G90 F600\nG41 D0 G1 X1\nX10\nG40 Y5\nM2\n")
     shop.pass_time(0.5)

@@ -8,7 +8,7 @@ from openacr.mill.run.lifecycle import State
 
 FOV, ROV, SOV = 450_000, 500_000, 550_000
 FIRST_INPUT = 16
-UPDATE_S = 0.15  # read every 50 ms, and the ramp behind it
+UPDATE_S = 0.15  # read every 50 ms, and the ramp after it
 
 
 def turn(shop: Shop, click: int) -> None:

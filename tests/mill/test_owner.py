@@ -42,7 +42,7 @@ def test_programs_of_one_store_are_kept_apart_while_nothing_moves(tmp_path: Path
         opened(controller, same).close()
 
 
-def test_programs_of_other_stores_hear_that_somebody_drives_the_card(
+def test_programs_of_other_stores_hear_that_another_program_drives_the_card(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     controller = Controller()
@@ -58,7 +58,7 @@ def test_programs_of_other_stores_hear_that_somebody_drives_the_card(
         Owner(second, None)
 
 
-def test_a_program_that_was_killed_bars_nobody(tmp_path: Path) -> None:
+def test_a_program_that_was_killed_bars_no_other(tmp_path: Path) -> None:
     controller = Controller()
     with Store(tmp_path / "sysvar.db") as store:
         dwelling(controller, store)._owner._unlock()  # type: ignore[union-attr]

@@ -50,9 +50,9 @@ def off_path(places: Reals, points: Sequence[Point]) -> float:
     """The largest distance of a place from the polyline that begins at 0."""
     best = np.full(len(places), np.inf)
     for a, b in pairwise(np.array([(0.0, 0.0), *points])):
-        way = b - a
-        part = np.clip(((places - a) @ way) / max(way @ way, 1e-30), 0, 1)
-        best = np.minimum(best, np.linalg.norm(places - (a + part[:, None] * way), axis=1))
+        along = b - a
+        part = np.clip(((places - a) @ along) / max(along @ along, 1e-30), 0, 1)
+        best = np.minimum(best, np.linalg.norm(places - (a + part[:, None] * along), axis=1))
     return float(best.max())
 
 
@@ -227,7 +227,7 @@ def test_a_pause_keeps_the_tolerance_and_the_end(after_s: float) -> None:
     assert off_path(np.array(shop.path)[:, :2], POCKET) <= 0.1 + 1e-4
 
 
-def test_the_way_back_and_forth_along_rounded_corners_ends_where_it_should() -> None:
+def test_the_path_back_and_forth_along_rounded_corners_ends_where_it_should() -> None:
     shop = Shop()
     shop.start(*lines(POCKET, tolerance_u=0.1))
     shop.pass_time(0.9)

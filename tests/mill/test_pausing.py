@@ -11,9 +11,9 @@ FEED_HOLD, CYCLE_START, LUBRICATION = "P400_002", "P400_003", "P400_012"
 SPINDLE_CW = "P800_005"
 
 
-def paused(shop: Shop, text: str, behind_s: float, rest_s: float = 0.5) -> None:
+def paused(shop: Shop, text: str, after_s: float, rest_s: float = 0.5) -> None:
     shop.load(text)
-    shop.pass_time(behind_s)
+    shop.pass_time(after_s)
     shop.runner.stop()
     shop.pass_time(rest_s)
     assert shop.runner.state is State.PAUSED
@@ -43,7 +43,7 @@ def test_a_refused_resume_does_not_forget_where_the_machine_was_held() -> None:
 
 
 @pytest.mark.parametrize("gap_s", [0.0, 0.005, 0.02, 0.1])
-def test_a_resume_close_behind_the_stop_goes_on(gap_s: float) -> None:
+def test_a_resume_close_after_the_stop_goes_on(gap_s: float) -> None:
     shop = Shop(P650_008=2.0)
     paused(shop, "G1 F600 X30\nM2\n", 2.0, rest_s=gap_s)
     shop.runner.resume()
@@ -150,7 +150,7 @@ def test_a_paused_program_does_not_resume_under_an_alarm() -> None:
 
 
 @pytest.mark.req("MILL-RUN-BLOCK-MID")
-def test_block_switched_on_in_a_pause_stops_behind_the_held_block() -> None:
+def test_block_switched_on_in_a_pause_stops_after_the_held_block() -> None:
     shop = Shop()
     paused(shop, "F600\n" + "".join(f"G1 X{n}\n" for n in range(1, 9)) + "M2\n", 0.15)
     shop.runner.block(True)
@@ -169,7 +169,7 @@ def test_block_switched_on_at_rest_in_front_of_a_code_leaves_the_code_in_its_pla
     shop = Shop(**{SPINDLE_CW: 40})
     shop.load("G1 F600 X1\nM3 S500\nG1 X2\nM2\n")
     shop.pass_time(0.1)
-    shop.controller.advance(seconds=1.0)  # at X1, and nobody has looked yet
+    shop.controller.advance(seconds=1.0)  # at X1, and nothing has polled yet
     shop.runner.block(True)
     spins_at = []
     for _ in range(2):

@@ -27,13 +27,13 @@ def line(
     direction: float, length: float = 1.0, feed: float = FEED, mode: PathMode = PathMode.CORNER
 ) -> PlannedMove:
     """A straight move in the plane, its direction in degrees."""
-    way = (math.cos(math.radians(direction)), math.sin(math.radians(direction)), 0.0)
+    travel = (math.cos(math.radians(direction)), math.sin(math.radians(direction)), 0.0)
     return PlannedMove(
         length_u=length,
         feed_ups=feed,
         ramp_ups2=RAMP,
-        start=way,
-        end=way,
+        start=travel,
+        end=travel,
         mode=mode,
     )
 
@@ -158,7 +158,7 @@ def test_as_many_moves_wait_as_were_asked_for() -> None:
     st.lists(st.tuples(st.floats(0.1, 40.0), st.sampled_from([20.0, 100.0])), min_size=1),
     st.lists(st.integers(0, 5)),
 )
-def test_the_longest_way_to_brake_is_that_of_the_moves_in_the_queue(
+def test_the_longest_braking_distance_is_that_of_the_moves_in_the_queue(
     moves: list[tuple[float, float]], takes: list[int]
 ) -> None:
     planner: Planner[PlannedMove] = Planner(CornerRules())

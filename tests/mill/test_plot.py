@@ -32,7 +32,7 @@ def drawn(text: str, axes: tuple[int, ...] = (0, 1, 2)) -> Drawing:
 PART = "G42 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1\nG0 Z1"
 
 
-def test_kinds_of_moves_are_told_apart() -> None:
+def test_kinds_of_moves_are_distinguished() -> None:
     drawing = drawn("G0 X-1 Y-1\nG1 F10 X0 Y-1\n" + PART)
     kinds = [Kind(kind) for kind in drawing.kinds]
     assert kinds[:4] == [Kind.RAPID, Kind.FEED, Kind.COMPENSATED, Kind.COMPENSATED]
@@ -42,7 +42,7 @@ def test_kinds_of_moves_are_told_apart() -> None:
     assert len(drawing.points) == len(kinds) + 1
 
 
-def test_the_programmed_contour_is_kept_beside_the_compensated_way() -> None:
+def test_the_programmed_contour_is_kept_beside_the_compensated_path() -> None:
     (contour,) = drawn("G0 X-1 Y-1\n" + PART).contours
     assert contour.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
 

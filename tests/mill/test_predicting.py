@@ -15,7 +15,7 @@ def of(shop: Shop, *entries: c.Entry) -> float:
     return predicted(entries, Settings(shop.store), at()).time_s
 
 
-def test_one_move_takes_its_way_and_two_ramps() -> None:
+def test_one_move_takes_its_length_and_two_ramps() -> None:
     # v = 10 units/s, a = 100 units/s2: 5/10 s and 10/100 s for both ramps together
     assert of(Shop(), line(1, at(5)), end()) == pytest.approx(0.6)
 

@@ -60,9 +60,9 @@ def test_disabled_limits_are_not_tested() -> None:
     assert said(Shop(**{**LIMITS, "P200_002": 1}), line(1, at(300))) == []
 
 
-def test_each_limit_is_told_once_with_its_farthest_move() -> None:
-    way = [line(1, at(3)), line(2, at(0)), line(3, at(5.5)), line(4, at(0)), line(5, at(-3))]
-    assert said(Shop(**LIMITS), *way) == [
+def test_each_limit_is_reported_once_with_its_farthest_move() -> None:
+    path = [line(1, at(3)), line(2, at(0)), line(3, at(5.5)), line(4, at(0)), line(5, at(-3))]
+    assert said(Shop(**LIMITS), *path) == [
         "TEST.TXT:1:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2"
         " (2 moves, line 3 by 3.5)",
         "TEST.TXT:5:1: E401 target beyond soft limit: axis X would go to -3, 1 beyond its limit -2",
@@ -71,8 +71,8 @@ def test_each_limit_is_told_once_with_its_farthest_move() -> None:
 
 def test_axes_that_are_not_homed_are_tested_all_the_same_and_named_once() -> None:
     wide = {f"P20{axis}_00{k}": value for axis in (1, 2) for k, value in enumerate((9, -9, 0))}
-    way = [line(1, at(0, 1)), line(2, at(1, 1)), line(3, at(3, 1)), line(4, at(2))]
-    assert said(Shop(**{**LIMITS, **wide, "P271": 0}), *way) == [
+    path = [line(1, at(0, 1)), line(2, at(1, 1)), line(3, at(3, 1)), line(4, at(2))]
+    assert said(Shop(**{**LIMITS, **wide, "P271": 0}), *path) == [
         "TEST.TXT:3:1: E401 target beyond soft limit: axis X would go to 3, 1 beyond its limit 2",
         "TEST.TXT:1:1: W403 limits not testable: Y X not homed (tested as if homed)",
     ]
@@ -84,21 +84,21 @@ def test_a_position_without_pulses_is_an_error() -> None:
     ]
 
 
-def test_a_feed_that_no_move_of_a_way_reaches_is_told_once() -> None:
+def test_a_feed_that_no_move_of_a_path_reaches_is_reported_once() -> None:
     # a = 100 units/s2: 0.04 units from rest to rest come to sqrt(100 x 0.04) = 2 of 10 units/s
-    way: list[c.Entry] = [
+    path: list[c.Entry] = [
         line(1, at(5)),
         rapid(2, at(0)),
         line(3, at(0.04)),
         rapid(4, at(0)),
         line(5, at(0.01)),
     ]
-    assert said(Shop(), *way) == [
+    assert said(Shop(), *path) == [
         "TEST.TXT:3:1: W402 feed never reached: 2 moves (line 5 reaches 10 % of F)"
     ]
 
 
-def test_short_pieces_of_a_long_way_reach_their_feed() -> None:
+def test_short_pieces_of_a_long_path_reach_their_feed() -> None:
     assert said(Shop(), *(line(n, at(n / 200)) for n in range(1, 1001))) == []
 
 

@@ -56,7 +56,7 @@ def test_the_axis_of_the_input_captures_where_it_makes_the_longest_travel(
 ) -> None:
     shop = Shop(**{PROBE: wire})
     contact = touched(shop, target, (wire,))
-    assert tripped(shop) == pytest.approx(contact, abs=2e-3)  # not 0.05: nobody looked yet
+    assert tripped(shop) == pytest.approx(contact, abs=2e-3)  # not 0.05: nothing polled yet
     assert shop.said == []
 
 

@@ -15,16 +15,16 @@ RADIUS = 0.25
 
 def jogged(shop: Shop, x: float, y: float, z: float) -> None:
     """Moved by hand: axes are jogged by so much and the offsets become positions."""
-    for name, way in zip("XYZ", (x, y, z), strict=True):
-        if way:
-            shop.card.command(f"JOG VEL {name}20 JOG INC {name}{way}", program=0)
+    for name, delta in zip("XYZ", (x, y, z), strict=True):
+        if delta:
+            shop.card.command(f"JOG VEL {name}20 JOG INC {name}{delta}", program=0)
     shop.pass_time(2.0)
     for name in "XYZ":
         shop.card.command(f"JOG RES {name}", program=0)
 
 
 def held(shop: Shop, *entries: c.Entry) -> tuple[float, float, float]:
-    """Started, held on its way along X and at rest: where."""
+    """Started, held on its delta along X and at rest: where."""
     shop.start(*entries, end())
     while shop.place()[0] < 1.0:
         shop.pass_time(0.02)
@@ -63,8 +63,8 @@ def test_a_compensated_path_is_met_on_an_arc_on_the_side_of_the_tool(
     for x, y, _ in on_arc:
         assert math.hypot(x - centre[0], y - centre[1]) == pytest.approx(RADIUS, abs=3e-4)
         assert y * side > 0.0
-    behind = path[path.index(on_arc[-1]) + 1 :]
-    assert all(abs(y) < 2e-4 for x, y, _ in behind if x < 9.99)
+    after = path[path.index(on_arc[-1]) + 1 :]
+    assert all(abs(y) < 2e-4 for x, y, _ in after if x < 9.99)
 
 
 @pytest.mark.parametrize("side", [0, 1, -1])

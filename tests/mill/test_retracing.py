@@ -11,9 +11,9 @@ from openacr.mill.run.lifecycle import State
 CONTOUR = "G90 F600\nG1 X2\nG3 X3 Y1 I2 J1\nG1 Y3\nM12\nX0\nM2\n"
 
 
-def paused(shop: Shop, text: str = CONTOUR, behind_s: float = 0.45) -> tuple[float, float]:
+def paused(shop: Shop, text: str = CONTOUR, after_s: float = 0.45) -> tuple[float, float]:
     shop.load(text)
-    shop.pass_time(behind_s)
+    shop.pass_time(after_s)
     shop.runner.stop()
     shop.pass_time(0.6)
     assert shop.runner.state is State.PAUSED
@@ -49,7 +49,7 @@ def off_contour(x: float, y: float) -> float:
 def test_a_trace_goes_back_along_the_path_and_forward_to_where_it_was_held() -> None:
     shop = Shop(P650_006=120.0)
     held = paused(shop)
-    assert held[1] > 1.0  # behind the arc
+    assert held[1] > 1.0  # after the arc
     traced(shop, -1, 0.5)
     assert shop.place()[1] < held[1]
     traced(shop, -1)
@@ -83,7 +83,7 @@ def test_the_program_resumes_from_a_traced_point_without_a_gap(
     assert shop.path[1] == pytest.approx(left, abs=0.002)  # and from rest
 
 
-def test_what_lies_behind_a_rapid_is_not_gone_back_over() -> None:
+def test_what_lies_before_a_rapid_is_not_gone_back_over() -> None:
     shop = Shop()
     paused(shop, "G90 F600\nG1 X1\nG0 Y1\nG1 X5\nM2\n", 0.7)
     traced(shop, -1)
@@ -93,7 +93,7 @@ def test_what_lies_behind_a_rapid_is_not_gone_back_over() -> None:
     assert shop.pulses() == (50000, 10000, 0)
 
 
-def test_what_lies_behind_a_tool_change_is_not_gone_back_over() -> None:
+def test_what_lies_before_a_tool_change_is_not_gone_back_over() -> None:
     shop = Shop()
     shop.runner.entry_actions.changer.confirm()
     shop.load("G90 F600\nG1 X1\nT2 M6\nG1 X5\nM2\n")
@@ -120,7 +120,7 @@ def test_outputs_are_not_switched_again_and_notes_come_once() -> None:
     assert shop.pulses()[0] == 40000
 
 
-def test_a_tool_jogged_aside_behind_a_trace_comes_back_to_the_path() -> None:
+def test_a_tool_jogged_aside_after_a_trace_comes_back_to_the_path() -> None:
     shop = Shop(P250_005=0.2)
     paused(shop, "G90 F600\nG1 X8\nM2\n", 0.5)
     traced(shop, -1, 0.5)

@@ -128,7 +128,7 @@ def test_m1_holds_only_with_optional_stop(stops: bool, state: State) -> None:
     assert shop.until(State.HOLD, State.IDLE) is state
 
 
-def test_single_block_stops_behind_each_block() -> None:
+def test_single_block_stops_after_each_block() -> None:
     shop = Shop()
     blocks = [entry for n in range(1, 4) for entry in (line(n, at(n)), c.BlockEnd(src(n)))]
     shop.start(*blocks, end(), options=Options(is_single=True))

@@ -141,7 +141,7 @@ def test_what_was_typed_is_a_program() -> None:
     assert again.runner.stream.host.position()[:2] == (1.0, 0.5)
 
 
-def test_the_block_of_a_long_way_is_shown_with_its_text() -> None:
+def test_the_block_of_a_long_path_is_shown_with_its_text() -> None:
     shop = MillSession.virtual(Store(), say=lambda _text: None)
     text = "G1 F60\n" + "".join(f"X{0.1 * n:.1f} Y0\n" for n in range(1, 31)) + "M2\n"
     shop.start(load(text, shop.cells), Start())

@@ -65,29 +65,29 @@ def test_only_homed_axes_with_limits_have_them_on_the_card() -> None:
     assert modes(shop) == ["0", "3", "0"]
 
 
-@pytest.mark.parametrize("way", [1, -1])
-def test_a_move_past_the_host_is_stopped_on_the_feed_ramp_and_is_an_alarm(way: int) -> None:
+@pytest.mark.parametrize("direction", [1, -1])
+def test_a_move_past_the_host_is_stopped_on_the_feed_ramp_and_is_an_alarm(direction: int) -> None:
     shop = limited()
-    shop.card.command(f"VEL 5 ACC 100 DEC 100 STP 100 X{9 * way}", program=0)
+    shop.card.command(f"VEL 5 ACC 100 DEC 100 STP 100 X{9 * direction}", program=0)
     shop.pass_time(2.0)
     assert codes(shop) == [22]
     assert shop.runner.alarms.active[0].text == "Card stopped axis X beyond its soft limit"
-    limit = 2.0001 if way > 0 else -1.5001
-    assert (x_u(shop) - limit) * way == pytest.approx(5.0**2 / (2 * 50.0), abs=0.01)
+    limit = 2.0001 if direction > 0 else -1.5001
+    assert (x_u(shop) - limit) * direction == pytest.approx(5.0**2 / (2 * 50.0), abs=0.01)
 
 
-@pytest.mark.parametrize("way", [1, -1])
-def test_after_the_alarm_the_axis_goes_back_inside_and_is_stopped_again(way: int) -> None:
+@pytest.mark.parametrize("direction", [1, -1])
+def test_after_the_alarm_the_axis_goes_back_inside_and_is_stopped_again(direction: int) -> None:
     shop = limited()
-    shop.card.command(f"VEL 5 ACC 100 DEC 100 STP 100 X{9 * way}", program=0)
+    shop.card.command(f"VEL 5 ACC 100 DEC 100 STP 100 X{9 * direction}", program=0)
     shop.pass_time(2.0)
     assert shop.runner.acknowledge() == []
     assert shop.runner.state is State.IDLE
-    shop.runner.jog(lambda jog: jog.move(0, -way))
+    shop.runner.jog(lambda jog: jog.move(0, -direction))
     shop.until(State.IDLE)
     shop.start(line(1, at(0)), end())
     assert shop.until(State.IDLE, State.ALARM) is State.IDLE
-    shop.card.command(f"X{9 * way}", program=0)
+    shop.card.command(f"X{9 * direction}", program=0)
     shop.pass_time(2.0)
     assert codes(shop) == [22]
 

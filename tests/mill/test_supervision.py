@@ -28,7 +28,7 @@ def codes(shop: Shop) -> list[int]:
     return [alarm.kind.code for alarm in shop.runner.alarms.active]
 
 
-def long_way() -> tuple[c.Entry, ...]:
+def long_path() -> tuple[c.Entry, ...]:
     return (line(1, at(50)), end())
 
 
@@ -36,7 +36,7 @@ def long_way() -> tuple[c.Entry, ...]:
 def test_the_emergency_stop_kills_everything() -> None:
     shop = Shop(**{ESTOP: 5, "P800_005": 40, "P800_009": 41})
     shop.start(
-        c.Spindle(src(1), c.Spin.CLOCKWISE, 500), c.Coolant(src(1), True, False), *long_way()
+        c.Spindle(src(1), c.Spin.CLOCKWISE, 500), c.Coolant(src(1), True, False), *long_path()
     )
     shop.pass_time(0.5)
     assert shop.outputs((40, 41)) == [True, True]
@@ -77,7 +77,7 @@ def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
     shop.controller.set_input(5, True)
     shop.pass_time(0.02)
     with pytest.raises(AlarmError, match="Emergency stop"):
-        shop.start(*long_way())
+        shop.start(*long_path())
     assert [alarm.kind.code for alarm in shop.runner.acknowledge()] == [10]
     shop.controller.set_input(5, False)
     shop.pass_time(0.02)
@@ -91,7 +91,7 @@ def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
 @pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART", "MILL-RUN-FEEDHOLD")
 def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
     shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
-    shop.start(*long_way())
+    shop.start(*long_path())
     shop.pass_time(0.3)
     shop.controller.set_input(6, True)
     shop.pass_time(0.3)
@@ -110,7 +110,7 @@ def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
 
 def test_a_lubrication_error_holds() -> None:
     shop = Shop(**{LUBRICATION: 8})
-    shop.start(*long_way())
+    shop.start(*long_path())
     shop.pass_time(0.2)
     shop.controller.set_input(8, True)
     shop.pass_time(0.3)
@@ -143,7 +143,7 @@ def test_an_axis_that_must_be_homed_does_not_move_before() -> None:
     assert shop.pulses() == (10000, 0, 0)
 
 
-def test_a_program_error_stops_behind_the_block_before() -> None:
+def test_a_program_error_stops_after_the_block_before() -> None:
     def entries(_host: object) -> object:
         yield line(1, at(1))
         raise BlockError(Finding("E210", "arithmetic error", "TEST.TXT", 2))
@@ -158,7 +158,7 @@ def test_a_program_error_stops_behind_the_block_before() -> None:
 
 def test_moves_the_card_kills_by_itself_end_the_program() -> None:
     shop = Shop()
-    shop.start(*long_way())
+    shop.start(*long_path())
     shop.pass_time(0.3)
     shop.controller.bit[522] = True
     shop.pass_time(0.3)
@@ -168,7 +168,7 @@ def test_moves_the_card_kills_by_itself_end_the_program() -> None:
 
 def test_a_following_error_out_of_its_band_is_an_alarm() -> None:
     shop = Shop(P200_004=0.001)
-    shop.start(*long_way())
+    shop.start(*long_path())
     shop.until(State.ALARM)
     assert 11 in codes(shop)
     assert "axis X" in shop.runner.alarms.active[0].text
@@ -303,7 +303,7 @@ def test_the_next_program_calls_an_emergency_stop_by_its_name(is_released: bool)
     assert second.runner.acknowledge() == []
     assert controller.p[97] == 0
     second.step()
-    second.card.kill_all()  # this one is somebody's Ctrl-X
+    second.card.kill_all()  # this one is another host's Ctrl-X
     controller.advance(seconds=3.0)
     second.step()
     second.step()
@@ -326,7 +326,7 @@ def test_an_emergency_stop_that_was_cleared_elsewhere_names_no_later_kill() -> N
     shop.close()
 
 
-def test_a_kill_without_a_known_cause_is_of_somebody_else() -> None:
+def test_a_kill_without_a_known_cause_is_of_another_host() -> None:
     controller = Controller()
     shop = real(controller, [], Store())
     shop.card.kill_all()

@@ -72,17 +72,17 @@ def test_a_hold_on_the_way_down_waits_for_the_retract(
     assert shop.pulses() == (10_000, 0, 10_000)
 
 
-@pytest.mark.parametrize("behind_s", [0.0, 0.1, 0.3, 0.5])
-def test_a_hold_at_the_bottom_and_on_the_way_up_waits_too(behind_s: float) -> None:
+@pytest.mark.parametrize("after_s", [0.0, 0.1, 0.3, 0.5])
+def test_a_hold_at_the_bottom_and_on_the_way_up_waits_too(after_s: float) -> None:
     shop = tapping()
     down_to(shop, DEPTH)
-    shop.pass_time(behind_s)
+    shop.pass_time(after_s)
     shop.runner.stop()
     steps_until_paused(shop)
     assert (shop.pulses(), shop.card.read(DAC3)) == ((0, 0, LEVEL), 5.0)
 
 
-def test_a_hold_before_and_behind_the_tapping_acts_at_once() -> None:
+def test_a_hold_before_and_after_the_tapping_acts_at_once() -> None:
     shop = tapping()
     shop.pass_time(0.05)
     shop.runner.stop()
@@ -120,7 +120,7 @@ def test_an_abort_stops_feed_and_spindle_together_and_the_next_program_holds_at_
     assert shop.runner.state is State.PAUSED
 
 
-def test_single_block_pressed_in_a_hole_stops_behind_the_hole() -> None:
+def test_single_block_pressed_in_a_hole_stops_after_the_hole() -> None:
     shop = tapping()
     down_to(shop, -2000)
     shop.runner.block(True)

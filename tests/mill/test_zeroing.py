@@ -70,16 +70,18 @@ def test_single_axes_are_set_to_zero_and_the_others_stay() -> None:
 
 
 @pytest.mark.parametrize(
-    ("z", "ways"),
+    ("z", "outcomes"),
     [
         (-1.0, [(1.0, 2.0, 0.0), (0.0, 0.0, 0.0)]),  # up first
         (1.0, [(0.0, 0.0, 1.0), (0.0, 0.0, 0.0)]),  # down last
         (0.0, [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]),
     ],
 )
-def test_the_tool_axis_goes_up_first_and_down_last(z: float, ways: list[tuple[float, ...]]) -> None:
+def test_the_tool_axis_goes_up_first_and_down_last(
+    z: float, outcomes: list[tuple[float, ...]]
+) -> None:
     shop = shop_at(f"G0 X1 Y2 Z{z}")
-    assert gone(shop) == ways
+    assert gone(shop) == outcomes
     assert machine_place(shop) == (0.0, 0.0, 0.0)
 
 

@@ -33,7 +33,7 @@ def test_open_takes_the_port_and_close_gives_it_back() -> None:
     assert bench.type("PROG1", 'OPEN "COM2:" AS #1', "CLOSE #1") == ""
     bench.card.p[28674] = 0
     bench.request(0, GET)
-    assert bench.card.p[28674] == 0, "nobody carries it any more"
+    assert bench.card.p[28674] == 0, "no drive carries it any more"
 
 
 @pytest.mark.req("ACR-DTALK-01")
@@ -113,7 +113,7 @@ def test_auto_addressing_gives_each_drive_the_number_of_its_axis_plus_one() -> N
     bench = Bench(*(talking(axis) for axis in (0, 1, 4, 7)))
     bench.open(0, 1, 4, 7)
     bench.card.advance(seconds=2.0)
-    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [0] * 4, "nobody has asked for it"
+    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [0] * 4, "no program has asked for it"
     for axis in (0, 1, 4, 7):
         bench.request(axis, AUTO)
     assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [1, 2, 5, 8]
@@ -333,7 +333,7 @@ def test_a_drive_tells_that_the_card_has_switched_it_off_and_on(axis: int) -> No
 
 
 @pytest.mark.req("ACR-DTALK-14")
-def test_a_drive_that_is_lost_is_told_from_one_that_never_answered() -> None:
+def test_a_drive_that_is_lost_is_distinguished_from_one_that_never_answered() -> None:
     bench = Bench(talking(0, address=1, lost_s=2.0, back_s=4.0))
     bench.open(0, 1)
     bench.request(0, GET)

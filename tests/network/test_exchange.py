@@ -227,7 +227,7 @@ def test_an_overflow_is_shown_and_loses_what_arrived(kind: str, flag: int) -> No
     assert not made.bit[flag], "the next start clears it"
 
 
-def test_nodes_the_machine_does_not_have_are_told_of() -> None:
+def test_nodes_the_machine_does_not_have_are_reported() -> None:
     made = running()
     for flag in (DI[0] + 12, DI[1], DI[3] + 511):
         with pytest.raises(UserError, match=f"input {flag}: no CANopen node"):

@@ -79,7 +79,7 @@ def test_nodes_live_on_when_the_card_restarts() -> None:
     made.set_input(DI[0], True)
     made.advance(seconds=1.5 - made.time_s)
     reboot(made)
-    assert output(made, 0, 0), "outputs stay until somebody says otherwise"
+    assert output(made, 0, 0), "outputs stay until a program writes others"
     assert start(made) == 2
     made.advance(seconds=0.1)
     assert made.bit[DI[0]] and not output(made, 0, 0)

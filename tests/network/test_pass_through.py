@@ -66,7 +66,7 @@ def test_escape_ends_the_conversation_and_not_the_session() -> None:
 
 
 @pytest.mark.req("ACR-DTALK-20")
-def test_programs_and_plcs_cannot_talk_to_a_drive_this_way() -> None:
+def test_programs_and_plcs_cannot_talk_to_a_drive_through_it() -> None:
     bench = Bench(talking(0, address=1))
     bench.open(0)
     assert bench.type("10 DTALK X") == "Not valid at this level"

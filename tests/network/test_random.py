@@ -49,7 +49,7 @@ def live(made: Controller, chance: random.Random) -> str:
         elif deed == 2:
             made.send(chance.choice(LINES))
         else:
-            with suppress(UserError):  # an input nobody has
+            with suppress(UserError):  # an input that does not exist
                 made.set_input(chance.choice(DI) + chance.randint(0, 8), chance.random() < 0.5)
         made.advance(chance.randint(1, 300))
     return made.digest()

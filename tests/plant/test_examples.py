@@ -110,19 +110,19 @@ def test_the_basic_motion_axis_reaches_1200_units_to_both_sides() -> None:
 
 
 @pytest.mark.parametrize(
-    ("axis", "way_u", "edge", "seek_u", "back_u"),
+    ("axis", "travel_u", "edge", "seek_u", "back_u"),
     [(0, 10.0, 1, 10.5, 97.0), (1, 9.4, 1, 10.5, 57.5), (2, 3.2, 0, 5.5, 4.4)],
 )
 def test_homing_finds_switch_and_marker_with_room_to_stop(
-    axis: int, way_u: float, edge: int, seek_u: float, back_u: float
+    axis: int, travel_u: float, edge: int, seek_u: float, back_u: float
 ) -> None:
     machine = load("homing_xyz").axis[axis]
     found = {switch.key: switch for switch in switches(machine)}
     home = found["home"]
     edge_u = home.high_u if edge else home.low_u
-    assert home.high_u - home.low_u > way_u / 2
-    assert found["negative_limit"].high_u < edge_u - way_u
-    assert found["positive_limit"].low_u > edge_u + max(way_u, 2 * seek_u / 2)
+    assert home.high_u - home.low_u > travel_u / 2
+    assert found["negative_limit"].high_u < edge_u - travel_u
+    assert found["positive_limit"].low_u > edge_u + max(travel_u, 2 * seek_u / 2)
     assert machine.marker is not None
     assert 0.2 * seek_u < machine.marker - edge_u < 0.8 * seek_u
     assert found["negative_limit"].high_u < machine.marker - back_u

@@ -169,7 +169,7 @@ def test_a_file_that_is_not_utf8_is_reported_with_its_line(tmp_path: Path) -> No
         load_world(path)
 
 
-def test_the_place_is_found_behind_long_texts_and_lists() -> None:
+def test_the_place_is_found_after_long_texts_and_lists() -> None:
     text = (
         X
         + 'units = """\n[card]\nperiod_s = 3\n"""\n[inputs]\non = [\n  1, # [\n  2,\n]\nof = [3]\n'

@@ -87,7 +87,7 @@ def test_a_field_that_is_off_loses_the_cosine_of_the_torque(off_deg: float, phas
 
 
 @pytest.mark.parametrize("angle", range(0, 360, 25))
-def test_swapped_phases_push_with_the_angle_that_the_field_is_behind(angle: int) -> None:
+def test_swapped_phases_push_with_the_angle_that_the_field_lags(angle: int) -> None:
     rig = brushless(1, 3, angle, load="")
     put(rig, 3 * math.sin(math.radians(angle + 120)), 3 * math.sin(math.radians(angle)))
     expected = -3 * math.cos(math.radians(2 * angle + 120)) * PER_VOLT * rig.period_s

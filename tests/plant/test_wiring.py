@@ -174,7 +174,7 @@ def test_the_marker_is_present_in_one_count_of_each_revolution(rig: type[Rig], s
         assert run.flag(at.PLI_MARKER) == (run.get(at.PLF_RAW_COUNT) % 4000 == 1000)
 
 
-def test_marker_edges_tell_the_count_behind_the_edge_in_both_directions(rig: type[Rig]) -> None:
+def test_marker_edges_give_the_count_after_the_edge_in_both_directions(rig: type[Rig]) -> None:
     run = rig(X + "marker = 0.25\n")
     move(run, 999.7)
     assert run.flag(at.PLI_MARKER_EDGES) == 1

@@ -36,7 +36,7 @@ def test_sixteen_results_can_be_saved() -> None:
     assert len(compiled(*("LD 0",) * 17, *("AND LD",) * 16, "OUT 32")) == 34
 
 
-def test_an_output_ends_a_rung_and_blocks_nobody_has_used_are_dropped() -> None:
+def test_an_output_ends_a_rung_and_unused_blocks_are_dropped() -> None:
     saved = ("LD 0",) * 17
     code = compiled(*saved, "OUT 32", *saved, "OUT 33")
     assert [operation for operation, _ in code] == [

@@ -48,7 +48,7 @@ def test_a_rung_is_its_logic(rack: Rack, lines: tuple[str, ...], truth: object) 
         assert rack.after(inputs) == expected
 
 
-def test_the_result_goes_on_behind_an_output(rack: Rack) -> None:
+def test_the_result_goes_on_after_an_output(rack: Rack) -> None:
     rack.program("LD 0", "OUT 32", "OUT NOT 33", "AND 1", "OUT 34", "LD 2", "OUT 35")
     for a, b, c in product((0, 1), repeat=3):
         rack.after(a | b << 1 | c << 2)

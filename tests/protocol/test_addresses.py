@@ -46,7 +46,7 @@ class Card:
         raise NotImplementedError
 
     def ask(self, packet: Packet) -> tuple[int, ...]:
-        """The words behind the repeated request."""
+        """The words after the repeated request."""
         reply = execute(self, packet)[len(packet.encode()) :]
         return struct.unpack(f"<{len(reply) // 4}I", reply)
 

@@ -137,7 +137,7 @@ def test_memory_that_is_not_there_reads_zero() -> None:
 
 
 @pytest.mark.req("BIN-091", "BIN-097", "BIN-098", "BIN-099", "BIN-100")
-def test_addresses_are_told_and_zero_means_none() -> None:
+def test_addresses_are_reported_and_zero_means_none() -> None:
     card = FakeCard({12288: 0})
     assert ask(card, "00 92 05 02") == "00 92 05 02 00 80 40 00"
     assert ask(card, "00 92 05 03") == "00 92 05 03 00 00 00 00"

@@ -95,7 +95,7 @@ def test_header_code_0_with_rapid_move_modes(code0: int, profile: Profile) -> No
 
 
 @pytest.mark.req("BIN-124")
-def test_the_move_counter_counts_as_told() -> None:
+def test_the_move_counter_counts_as_set() -> None:
     down = Code0.COUNTER | Code0.COUNT_DOWN
     steps = [Move.of({0: 1}, code0=code).counter_step for code in (0, 0x40, 0x80, down)]
     assert steps == [0, 0, 1, -1]
@@ -161,7 +161,7 @@ def test_a_path_tolerance_is_the_last_field_and_a_bit_that_cards_reserve() -> No
 
 
 @pytest.mark.req("BIN-112")
-def test_a_header_padded_to_eight_is_told_apart_by_length() -> None:
+def test_a_header_padded_to_eight_is_recognized_by_length() -> None:
     documented = bytes.fromhex("04 08 00 01 04") + words(2.5)
     padded = documented[:5] + bytes(3) + documented[5:]
     assert unpadded(padded) == documented

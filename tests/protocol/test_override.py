@@ -101,7 +101,7 @@ def test_what_a_six_byte_override_has_swallowed_is_known() -> None:
 
 @pytest.mark.parametrize("mode", [BinaryMode.PLAIN, BinaryMode.PREFIX_CONTROLS, BinaryMode(3)])
 @pytest.mark.parametrize("chunk", [1, 2, 3, 6, 7, 1000])
-def test_the_packet_behind_a_six_byte_override_is_read_and_the_override_refused(
+def test_the_packet_after_a_six_byte_override_is_read_and_the_override_refused(
     chunk: int, mode: BinaryMode, caplog: pytest.LogCaptureFixture
 ) -> None:
     terminal = Terminal(StreamKind.TERMINAL, timeout_tk=100)
@@ -123,7 +123,7 @@ def test_whatever_packet_follows_a_six_byte_override_is_no_value(group: int) -> 
 
 
 @pytest.mark.parametrize("line", [b"?P0\r", b"X10\r", b"SYS\r"])
-def test_a_line_behind_a_six_byte_override_is_whole(line: bytes) -> None:
+def test_a_line_after_a_six_byte_override_is_whole(line: bytes) -> None:
     terminal = Terminal(StreamKind.TERMINAL, timeout_tk=100)
     assert list(events(SHORT + line, 1000, terminal)) == [ReceivedLine(line[:-1].decode())]
 

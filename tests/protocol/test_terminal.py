@@ -135,7 +135,7 @@ def test_the_answer_to_a_line_stands_before_the_echo_of_the_next() -> None:
     assert answers(terminal(), b"A\rBC\r")[1] == b"A\r\n1\r\nSYS>BC\r\n2\r\nSYS>"
 
 
-def test_a_late_line_feed_behind_cr_does_nothing() -> None:
+def test_a_late_line_feed_after_cr_does_nothing() -> None:
     stream = terminal()
     assert answers(stream, b"A\r")[0] == [ReceivedLine("A")]
     assert answers(stream, b"\n") == ([], b"")
@@ -267,7 +267,7 @@ def test_the_timeout_follows_the_setting_of_the_channel() -> None:
 
 
 @pytest.mark.req("BIN-160")
-def test_a_lone_zero_behind_set_and_clr_is_padding() -> None:
+def test_a_lone_zero_after_set_and_clr_is_padding() -> None:
     stream = terminal()
     stream.receive_data(b"\x1c\x08\x02\x00", 0)
     stream.receive_data(b"\x1d\x20\x00" + GET, 0)
@@ -293,7 +293,7 @@ def test_on_the_dpcb_set_and_clr_always_have_four_bytes() -> None:
 
 @pytest.mark.parametrize("flag", [SetBit(516), ClearBit(8467)])
 @pytest.mark.parametrize("move", [Move.of({0: 2.0}), Move.of({0: 0.0}), Move.of({0: 1.5}, vel=2.0)])
-def test_a_flag_packet_behind_a_move_is_not_taken_for_its_last_bytes(
+def test_a_flag_packet_after_a_move_is_not_taken_for_its_last_bytes(
     move: Move, flag: SetBit | ClearBit
 ) -> None:
     stream = terminal()

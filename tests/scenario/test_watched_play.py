@@ -20,7 +20,7 @@ from openacr.scenario.schema import Action, Drag, Expectation, Key, State
 LIMIT_S = 0.6
 
 # Two programs: one moves, prints and dwells, the other follows an input and counts; it also
-# uses statements that need Python, jogs and, if it is told to, restarts the card.
+# uses statements that need Python, jogs and, on request, restarts the card.
 SETUP = """
 SYS
 DIM P(20)

@@ -142,7 +142,7 @@ def test_memory_does_not_grow_with_what_hosts_send() -> None:
     assert work() - before < 1000
 
 
-def test_output_nobody_takes_is_bounded() -> None:
+def test_output_that_is_not_read_is_bounded() -> None:
     host, other = noisy_card()
     text = "x" * 60
     lines = ("_L", *(f'PRINT "{text}"' for _ in range(9)), "GOTO L")

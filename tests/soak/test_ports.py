@@ -28,7 +28,7 @@ COUNTERS = (at.P_COM1_COMMAND_COUNTER, at.P_DPCB_COMMAND_COUNTER)
 
 
 def sample(kind: StreamKind) -> bytes:
-    """Packets of all kinds, one behind the other, to be mutated."""
+    """Packets of all kinds, one after the other, to be mutated."""
     words = (
         "00 30 02 FF", "00 88 00 30", "00 8A 00 30", "00 89 01 10 05 00 00 00",
         "00 90 01 01 31 50 40 00", "00 95 01 10 00 00 00 00 06 00 00 00", "1C 20 00",
@@ -57,7 +57,7 @@ def trouble(noise: Noise, packets: bytes) -> bytes:
 
 
 def back_in_step(port: Host, kind: StreamKind) -> None:
-    """Behind the time-out a question is answered at once, by itself and rightly."""
+    """After the time-out a question is answered at once, by itself and rightly."""
     for timeout in TIMEOUTS:
         port.card.memory.write(timeout, 50)
     port.card.advance(110)
@@ -77,7 +77,7 @@ def back_in_step(port: Host, kind: StreamKind) -> None:
 
 
 def fuzz(kind: StreamKind, seed: int, count: int) -> int:
-    """Send so many bytes; how many questions were answered between."""
+    """Send bytes; how many questions were answered between."""
     noise, packets = Noise(seed), sample(kind)
     answered = sent = 0
     for _ in range(max(1, count // PER_CARD)):
@@ -105,7 +105,7 @@ def fuzz(kind: StreamKind, seed: int, count: int) -> int:
 
 
 def is_taken(port: Host) -> bool:
-    """A program holds the stream OPEN, as the noise has told it: every byte is data there."""
+    """A program holds the stream OPEN, as the noise has set it: every byte is data there."""
     session = port.card.streams.session(port.stream)
     return session is not None and session.attention.value == "open"
 
@@ -157,7 +157,7 @@ def test_where_nothing_is_valid_the_state_is_that_of_an_undisturbed_card() -> No
         for port in ports[1]:
             port.send(broken(noise, kind_of(port)))
         for host in cards:
-            host.card.advance(120)  # behind the time-out of what is incomplete
+            host.card.advance(120)  # after the time-out of what is incomplete
         if step % 20 == 19:
             assert cards[0].card.digest() == cards[1].card.digest()
     assert cards[0].asks("?P12288", "?BIT516") == cards[1].asks("?P12288", "?BIT516") == ["0", "0"]

@@ -35,7 +35,7 @@ def flood(served: Served, seed: int, count: int) -> None:
                 reads(text)
             if at == count // 2:
                 before = resident_kib(served)
-            # any level may be left behind by what the noise has done to the whole card
+            # any level may be left by what the noise has done to the whole card
             assert watch.value("?7") == "7"
         assert resident_kib(served) - before < GROWTH_KIB
 

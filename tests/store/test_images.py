@@ -33,7 +33,7 @@ def test_a_closed_file_is_read_by_the_next_one(tmp_path: Path) -> None:
     assert Database(folder).read("a") == Image(1, b"one")
 
 
-def test_a_save_that_fails_half_way_changes_nothing(tmp_path: Path) -> None:
+def test_a_save_that_fails_in_the_middle_changes_nothing(tmp_path: Path) -> None:
     images = Database(tmp_path)
     images.write({"a": Image(1, b"old"), "b": Image(1, b"old")})
     unfit = Image("no number", b"")  # type: ignore[arg-type]
@@ -127,7 +127,7 @@ def test_the_file_of_another_program_is_left_alone(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("in the way")
+    (tmp_path / "file").write_text("an obstacle")
     with pytest.raises(StoreError, match="cannot be used"):
         Database(tmp_path / "file" / "data")
 

@@ -32,7 +32,7 @@ def test_a_move_ends_on_its_target_whatever_the_gain(mult: int, gain: float) -> 
     assert made.p[ACTUAL + 256] == -1000
 
 
-def test_in_motion_it_is_one_period_behind() -> None:
+def test_in_motion_it_lags_by_one_period() -> None:
     made = card("X20")
     made.advance(seconds=0.5)
     assert made.p[ERROR] == pytest.approx(20 * 1000 * made.period_s, abs=1)

@@ -100,7 +100,7 @@ def test_entities_of_a_drawing_are_cut_where_they_are_drawn(tmp_path: Path) -> N
     assert cut.places[-1] == (-12.5, -2.25)
 
 
-def test_weights_before_or_behind_the_axes_draw_a_half_circle(tmp_path: Path) -> None:
+def test_weights_before_or_after_the_axes_draw_a_half_circle(tmp_path: Path) -> None:
     cut = Cut(tmp_path, "weighted_nurb_style")
     (stroke,) = cut.strokes()
     radii = np.hypot(stroke[:, 0], stroke[:, 1])

@@ -58,20 +58,20 @@ def test_feedhold_ramps_down_with_dec_and_cycle_start_up_with_acc(card: Console)
     card.type("ACC 20", "DEC 10", "STP 0", "VEL 5", "X100")
     card.card.advance(seconds=1.0)
     card.card.bit[FEEDHOLD] = True
-    ramp_s, way = ramp(card, until=0.0)
+    ramp_s, distance = ramp(card, until=0.0)
     assert bits(card, FEEDHOLD, FEEDHOLDING, IN_FEEDHOLD) == [False, True, True]
-    assert (ramp_s, way) == pytest.approx((5 / 10, 5**2 / (2 * 10)), abs=0.01)
+    assert (ramp_s, distance) == pytest.approx((5 / 10, 5**2 / (2 * 10)), abs=0.01)
     at_rest = card.card.p[12288]
     card.card.advance(seconds=0.5)
     assert card.card.p[12288] == at_rest
     card.card.bit[CYCLE_START] = True
-    ramp_s, way = ramp(card, until=5.0)
+    ramp_s, distance = ramp(card, until=5.0)
     assert bits(card, CYCLE_START, IN_FEEDHOLD) == [False, False]
-    assert (ramp_s, way) == pytest.approx((5 / 20, 5**2 / (2 * 20)), abs=0.01)
+    assert (ramp_s, distance) == pytest.approx((5 / 20, 5**2 / (2 * 20)), abs=0.01)
 
 
 def ramp(card: Console, until: float) -> tuple[float, float]:
-    """Time and way from the first change of the vector velocity until it has a value."""
+    """Time and distance from the first change of the vector velocity until it has a value."""
     speed = card.card.p[VECTOR_VELOCITY]
     while card.card.p[VECTOR_VELOCITY] == speed:
         card.card.advance(ticks=1)

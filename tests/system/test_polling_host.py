@@ -1,4 +1,4 @@
-"""A host that never leaves SYS: no echo, no prompt, jogs behind Ctrl-Y, five queries per poll."""
+"""A host that never leaves SYS: no echo, no prompt, jogs after Ctrl-Y, five queries per poll."""
 
 from tests.controller.hosts import Host
 

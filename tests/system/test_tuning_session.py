@@ -52,7 +52,7 @@ class Index:
 
     @property
     def spike(self) -> float:
-        """Largest deviation from the error at speed in the ramp up and just behind it."""
+        """Largest deviation from the error at speed in the ramp up and just after it."""
         return float(np.abs(self.error[: 6 * self.ramp] - self.at_speed * 0.5).max())
 
     @property
@@ -83,7 +83,7 @@ def index(gains: tuple[float, ...], *, rpm: float = 500.0, turns: float = 15.0) 
 
 @cache
 def step(number: int) -> Index:
-    """The index behind change `number` of the session."""
+    """The index after change `number` of the session."""
     return index(STEPS[number - 1])
 
 

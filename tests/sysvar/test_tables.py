@@ -214,7 +214,7 @@ def test_every_parameter_explains_itself() -> None:
         (3000, 999, "H wear"),
     ],
 )
-def test_offset_n_lies_n_behind_its_base(base: int, count: int, name: str) -> None:
+def test_offset_n_lies_n_after_its_base(base: int, count: int, name: str) -> None:
     store = Store()
     with store.transaction():
         for n in range(1, count + 1):

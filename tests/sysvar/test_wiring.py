@@ -42,7 +42,7 @@ def test_what_is_used_already_is_refused(
     ("first", "second"),
     [
         ((G27_OUTPUT, 40), (G28_OUTPUT, 40)),
-        ((AT_ZERO, 5), (AT_SPEED, 5)),  # one tachometer, told apart by its level
+        ((AT_ZERO, 5), (AT_SPEED, 5)),  # one tachometer, distinguished by its level
         ((LUBRICATION, 5), (SPINDLE_FAULT, 5)),
         ((JOYSTICK, 4), (CYCLE_START, 8)),
         ((SPINDLE_CW, 40), (ESTOP, 8)),

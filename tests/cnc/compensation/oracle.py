@@ -1,4 +1,4 @@
-"""Random contours, and what shapely says about the way of a tool beside them."""
+"""Random contours, and what shapely says about the path of a tool beside them."""
 
 import random
 from collections.abc import Callable, Iterable
@@ -47,23 +47,23 @@ def sagitta(elements: Iterable[Element], step: float = STEP_RAD) -> float:
 
 
 def least_distance(
-    ways: list[Element], contour: list[Element], radius: float
+    paths: list[Element], contour: list[Element], radius: float
 ) -> tuple[float, float]:
     """How near the tool comes to the contour, and by how much that may be wrong."""
     near = uncertain = 0.0
     for step in (0.2, 0.01):
         chords = line_of(contour, step)
         shapely.prepare(chords)
-        near = shapely.distance(chords, line_of(ways, step))
-        uncertain = sagitta(ways, step) + sagitta(contour, step)
+        near = shapely.distance(chords, line_of(paths, step))
+        uncertain = sagitta(paths, step) + sagitta(contour, step)
         if near < radius - uncertain:
             break
     return near, uncertain
 
 
-def is_beside(way: Element, element: Element, radius: float, close: float) -> bool:
+def is_beside(path: Element, element: Element, radius: float, close: float) -> bool:
     """Whether a move keeps the radius from an element, taken as a whole line or circle."""
-    x, y = points(way, 0.2).T
+    x, y = points(path, 0.2).T
     if element.centre is None:
         dx, dy = np.subtract(element.end[:2], element.start[:2])
         away = ((x - element.start[0]) * dy - (y - element.start[1]) * dx) / hypot(dx, dy)
@@ -74,7 +74,7 @@ def is_beside(way: Element, element: Element, radius: float, close: float) -> bo
 
 
 def contour(rnd: random.Random, count: int, *, arcs: float, turn: float) -> Path:
-    """An open contour of lines and arcs that turns at random, with ways in and out."""
+    """An open contour of lines and arcs that turns at random, with lead-in and lead-out."""
     heading = rnd.uniform(-pi, pi)
     lead = rnd.uniform(0.3, 3.0)
     path = Path(-lead * cos(heading), -lead * sin(heading)).to(0.0, 0.0)

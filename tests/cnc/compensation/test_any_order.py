@@ -1,4 +1,4 @@
-"""Programs that switch, change, stop and wait at any place: the tool's way stays in one piece."""
+"""Programs that switch, change, stop and wait at any place: the tool's path stays in one piece."""
 
 import random
 from dataclasses import replace
@@ -79,7 +79,7 @@ def check(element: Element) -> None:
 
 
 @pytest.mark.parametrize("bundle", range(4))
-def test_whatever_stands_between_moves_the_way_stays_in_one_piece(bundle: int) -> None:
+def test_whatever_stands_between_moves_the_path_stays_in_one_piece(bundle: int) -> None:
     for seed in range(bundle * PROGRAMS, (bundle + 1) * PROGRAMS):
         rnd = random.Random(seed)
         elements, trace, held_cnt = program(rnd), Trace(), 0

@@ -24,7 +24,7 @@ def texts(trace: Trace) -> list[object]:
 
 
 @pytest.mark.req("MILL-COMP-12")
-def test_the_way_in_ends_beside_the_start_of_the_contour() -> None:
+def test_the_lead_in_ends_beside_the_start_of_the_contour() -> None:
     trace = compensate(Path(-1, 2).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
     lead_in = trace.elements[0]
     assert lead_in.start[:2] == (-1, 2)
@@ -32,14 +32,14 @@ def test_the_way_in_ends_beside_the_start_of_the_contour() -> None:
     assert trace.findings == []
 
 
-def test_rapid_ways_in_and_out_stay_rapid() -> None:
+def test_rapid_lead_ins_and_lead_outs_stay_rapid() -> None:
     path = Path(-1, 2).rapid(0, 0).to(2, 0).rapid(2, 2)
     trace = compensate(path.elements, 0.25)
     assert [each.pace for each in trace.elements] == [None, FEED, None]
 
 
 @pytest.mark.req("MILL-COMP-13")
-def test_the_way_out_goes_straight_from_beside_the_end() -> None:
+def test_the_lead_out_goes_straight_from_beside_the_end() -> None:
     trace = compensate(Path(-1, 2).to(0, 0).to(2, 0).to(3, 3).elements, 0.25)
     assert trace.ends[1:] == [(2, 0.25), (3, 3)]
 
@@ -64,14 +64,14 @@ def test_the_tool_rests_beside_the_end_until_something_moves() -> None:
     assert compensator.place is None
 
 
-def test_without_an_element_behind_it_the_way_in_ends_beside_itself() -> None:
+def test_without_an_element_after_it_the_lead_in_ends_beside_itself() -> None:
     trace = compensate(Path(0, 0).to(2, 0).to(4, 4).elements, 0.25)
     assert trace.ends == [(2, 0.25), (4, 4)]
 
 
 @pytest.mark.req("MILL-COMP-14")
 @pytest.mark.parametrize("is_first", [True, False])
-def test_an_arc_is_neither_way_in_nor_way_out(is_first: bool) -> None:
+def test_an_arc_is_neither_lead_in_nor_lead_out(is_first: bool) -> None:
     path = Path(0, 0)
     if is_first:
         path.arc(2, 0, 1, 0, 1).to(3, 0).to(4, 4)
@@ -82,7 +82,7 @@ def test_an_arc_is_neither_way_in_nor_way_out(is_first: bool) -> None:
     assert (code, line) == ("E313", 1 if is_first else 3)
 
 
-def test_a_short_way_in_is_told() -> None:
+def test_a_short_lead_in_is_reported() -> None:
     trace = compensate(Path(0, 0.2).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
     assert trace.findings == [("W311", "lead-in is shorter than the radius 0.25", 1)]
 
@@ -91,7 +91,9 @@ def test_a_short_way_in_is_told() -> None:
     ("turn_deg", "codes"),
     [(0, []), (44.9, []), (-44.9, []), (45.1, ["W311"]), (-45.1, ["W311"]), (180, ["W311"])],
 )
-def test_a_short_way_in_that_runs_on_into_an_arc_is_none(turn_deg: float, codes: list[str]) -> None:
+def test_a_short_lead_in_that_runs_on_into_an_arc_is_not_one(
+    turn_deg: float, codes: list[str]
+) -> None:
     """The arc begins at the origin to the right, with its centre above."""
     x, y = 0.2 * cos(radians(turn_deg)), 0.2 * sin(radians(turn_deg))
     path = Path(-x, -y).to(0, 0).arc(1, 1, 0, 1, 1).to(1, 2).to(2, 2)
@@ -99,24 +101,24 @@ def test_a_short_way_in_that_runs_on_into_an_arc_is_none(turn_deg: float, codes:
     assert [code for code in found if code == "W311"] == codes
 
 
-def test_a_short_way_in_along_a_line_is_told() -> None:
+def test_a_short_lead_in_along_a_line_is_reported() -> None:
     assert compensate(Path(-0.2, 0).to(0, 0).to(2, 0).to(2, 2).elements, 0.25).codes == ["W311"]
     assert compensate(Path(-0.25, 0).to(0, 0).to(2, 0).to(2, 2).elements, 0.25).codes == []
 
 
-def test_a_way_in_from_the_material_is_told() -> None:
+def test_a_lead_in_from_the_material_is_reported() -> None:
     trace = compensate(Path(1.5, -0.1).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
     assert trace.codes == ["W312"]
     assert "line 2" in trace.findings[0][1]
 
 
-def test_a_way_in_from_far_behind_the_contour_is_not() -> None:
+def test_a_lead_in_from_far_beyond_the_contour_is_not() -> None:
     trace = compensate(Path(1.5, -0.3).to(0, 0).to(2, 0).to(2, 2).elements, 0.25)
     assert trace.codes == []
 
 
 @pytest.mark.req("MILL-COMP-15")
-def test_a_negative_radius_is_the_other_side_and_told() -> None:
+def test_a_negative_radius_is_the_other_side_and_reported() -> None:
     path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
     negative = compensate(path.elements, -0.25, Side.LEFT)
     positive = compensate(path.elements, 0.25, Side.RIGHT)
@@ -153,7 +155,7 @@ def test_more_than_a_hundred_waiting_blocks_end_the_chain() -> None:
     assert texts(trace)[-1] == "M100"
 
 
-def test_a_waiting_block_ends_the_chain_and_the_corner_is_rounded_behind_it() -> None:
+def test_a_waiting_block_ends_the_chain_and_the_corner_is_rounded_after_it() -> None:
     trace, compensator = started(side=Side.RIGHT)
     path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
     for element in path.elements[:2]:
@@ -169,7 +171,7 @@ def test_a_waiting_block_ends_the_chain_and_the_corner_is_rounded_behind_it() ->
     assert trace.findings == []
 
 
-def test_behind_a_waiting_block_an_inside_corner_is_reached_straight() -> None:
+def test_after_a_waiting_block_an_inside_corner_is_reached_straight() -> None:
     trace, compensator = started()
     path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
     for element in path.elements[:2]:

@@ -54,10 +54,10 @@ def test_the_tool_leaves_where_it_is_and_arrives_beside_the_end_on_a_tangent(
     assume(abs(chord - tool) > 1e-6)
     if contour is None:  # too near, or the end is not reached from this side
         to_left = turn * away
-        way = (arrival[0] - points[0][0], arrival[1] - points[0][1])
+        path = (arrival[0] - points[0][0], arrival[1] - points[0][1])
         inward = (cx - points[1][0]) / radius, (cy - points[1][1]) / radius
-        height = -(way[0] * inward[0] + way[1] * inward[1])
-        reach = math.hypot(*way)
+        height = -(path[0] * inward[0] + path[1] * inward[1])
+        reach = math.hypot(*path)
         assert chord <= tool or height <= 1e-9 or reach * reach / (2.0 * height) <= -to_left + 1e-9
         return
     assert contour.centre is not None
@@ -97,7 +97,7 @@ def test_the_code_may_stand_in_the_block_of_the_arc() -> None:
     assert ngc("F10 G41.1 D.5 G3 X1 Y1 I0 J1|G1 Y3|G40 X0") == apart
 
 
-def test_an_outer_corner_behind_the_arc_is_rounded_and_an_inner_one_is_cut_short() -> None:
+def test_an_outer_corner_after_the_arc_is_rounded_and_an_inner_one_is_cut_short() -> None:
     outer = ngc("G41.1 D.5 F10|G3 X1 Y1 I0 J1|G1 X3|G40 Y0")
     assert outer[0].startswith("A X0.75 Y1 about -0.291667,1 ")
     assert outer[1:3] == ["A X1 Y1.25 about 1,1 -90", "L X3 Y1.25"]
@@ -123,12 +123,12 @@ def test_height_changes_over_the_arc_and_the_plane_may_be_another() -> None:
         ("G42.1 D3 F10|G3 X1 Y1 I0 J1", "E313"),
         ("G41.1 D2 F10|G3 X1 Y1 I0 J1", "E313"),  # it would have to arrive sideways
         ("G41.1 D3.8 F10|G3 X1 Y1 I0 J1", "E313"),
-        ("G41.1 D.5 F10|G1 X1|X2|G40 G3 X3 Y1 I0 J1", "E313"),  # and not as way out
+        ("G41.1 D.5 F10|G1 X1|X2|G40 G3 X3 Y1 I0 J1", "E313"),  # and not as lead-out
         ("G41.1 D.5 F10|G1 X1|X2|G40|G3 X3 Y1 I1 J0", "E313"),
         ("G41.1 D.5 F10|G1 X1|X2|G42.1 D.5 G3 X3 Y1 I0 J1", "E313"),
     ],
 )
-def test_arcs_that_cannot_be_ways_in_are_refused(text: str, code: str) -> None:
+def test_arcs_that_cannot_be_lead_ins_are_refused(text: str, code: str) -> None:
     assert errors(text.replace("|", "\n"), dialect="rs274ngc") == [code]
 
 
@@ -138,7 +138,7 @@ def test_a_tool_that_does_not_come_in_is_named() -> None:
     assert str(error) == "PROGRAM:2:1: E313 the tool, radius 1.5, cannot lead in along this arc"
 
 
-def test_the_way_in_begins_where_the_tool_is_after_a_chain_without_a_way_out() -> None:
+def test_the_lead_in_begins_where_the_tool_is_after_a_chain_without_a_lead_out() -> None:
     rules = replace(EXACT, has_entry_arcs=True)
     found: list[str] = []
     compensator: Compensator[str] = Compensator(rules, lambda code, *_: found.append(code))

@@ -163,7 +163,7 @@ def test_circles_that_are_farther_apart_than_the_tool_do_not_cross() -> None:
 
 
 @pytest.mark.req("MILL-COMP-08")
-def test_ways_that_no_longer_cross_are_joined_by_an_inserted_line() -> None:
+def test_paths_that_no_longer_cross_are_joined_by_an_inserted_line() -> None:
     top = sqrt(3)
     path = Path(-2, -4).to(0, -top).arc(0, top, -1, 0, 1).arc(0, -top, 1, 0, 1).to(2, -4)
     trace = compensate(path.elements, 1.1)
@@ -209,7 +209,7 @@ def test_every_plane_is_compensated_alike(plane: Plane) -> None:
 
 
 @pytest.mark.req("MILL-COMP-24")
-def test_the_mirrored_contour_on_the_other_side_gives_the_mirrored_way() -> None:
+def test_the_mirrored_contour_on_the_other_side_gives_the_mirrored_path() -> None:
     path = Path(0, -1).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(1, 2).to(0, 0.5).to(-1, 0)
     mirrored = Path(0, 1).to(0, 0).to(1, 0).arc(2, -1, 1, -1, -1).to(2, -2).to(1, -2)
     mirrored.to(0, -0.5).to(-1, 0)

@@ -52,12 +52,12 @@ def is_joined(trace: Trace) -> bool:
 def keeps_off(trace: Trace, elements: list[Element], radius: float) -> bool:
     """Whether moves beside elements, where nothing was inserted, keep the radius from them."""
     contours = {each.source.line: each for each in elements[1:-1]}
-    ways = [way for way in trace.elements[1:-1] if not way.is_inserted]
-    return all(is_beside(way, contours[way.source.line], radius, CLOSE) for way in ways)
+    paths = [path for path in trace.elements[1:-1] if not path.is_inserted]
+    return all(is_beside(path, contours[path.source.line], radius, CLOSE) for path in paths)
 
 
 @pytest.mark.parametrize("bundle", range(BUNDLES))
-def test_the_tool_keeps_its_radius_or_is_told_not_to(bundle: int) -> None:
+def test_the_tool_keeps_its_radius_or_the_gouge_is_reported(bundle: int) -> None:
     """What is not reported is right; what is reported as too near is too near."""
     clean = 0
     for seed in range(bundle * CONTOURS, (bundle + 1) * CONTOURS):
@@ -98,7 +98,7 @@ def test_closed_contours_are_followed_as_shapely_offsets_them(bundle: int) -> No
 
 @settings(max_examples=100, deadline=None)
 @given(st.integers(0, 10**9), st.floats(-pi, pi))
-def test_a_turned_contour_gives_the_turned_way(seed: int, angle: float) -> None:
+def test_a_turned_contour_gives_the_turned_path(seed: int, angle: float) -> None:
     rnd = random.Random(seed)
     elements, radius = any_contour(rnd).elements, any_radius(rnd)
     straight = compensate(elements, radius)
@@ -111,7 +111,7 @@ def test_a_turned_contour_gives_the_turned_way(seed: int, angle: float) -> None:
 
 @settings(max_examples=100, deadline=None)
 @given(st.integers(0, 10**9))
-def test_the_mirrored_contour_with_the_negative_radius_gives_the_mirrored_way(seed: int) -> None:
+def test_the_mirrored_contour_with_the_negative_radius_gives_the_mirrored_path(seed: int) -> None:
     rnd = random.Random(seed)
     elements, radius = any_contour(rnd).elements, any_radius(rnd)
     left = compensate(elements, radius)
@@ -124,7 +124,7 @@ def test_the_mirrored_contour_with_the_negative_radius_gives_the_mirrored_way(se
 
 @settings(max_examples=100, deadline=None)
 @given(st.integers(0, 10**9))
-def test_with_gouge_stop_off_the_way_stays_in_one_piece(seed: int) -> None:
+def test_with_gouge_stop_off_the_path_stays_in_one_piece(seed: int) -> None:
     rnd = random.Random(seed)
     elements, radius = any_contour(rnd).elements, any_radius(rnd)
     trace = compensate(elements, radius, rules=LEAVING_OUT)

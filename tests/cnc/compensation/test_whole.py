@@ -85,21 +85,21 @@ def test_a_long_chain_is_checked_in_little_time() -> None:
     assert trace.findings == []
 
 
-def test_the_nearest_point_is_told_with_both_lines() -> None:
+def test_the_nearest_point_is_reported_with_both_lines() -> None:
     path = Path(-1, 2).to(0, 0).to(3, 0).to(3, 1).to(4, 1).to(4, 0.3).to(6, 0.3).to(6, 3)
     path.to(2.7, 3).to(2.7, 0.7).to(0, 0.7).to(-1, 2)
     trace = compensate(path.elements, 0.2, is_checked=True)
     assert ("W323", "tool comes to 0.1 from line 3, its radius is 0.2", 9) in trace.findings
 
 
-def square(before: float, behind: float) -> Path:
-    """Around the outside of a square of 2, from `before` its first corner to `behind` it."""
-    path = Path(-before - 1, -1).to(-before, 0).to(2, 0).to(2, 2).to(0, 2).to(0, -behind)
-    return path.to(-1, -behind - 1)
+def square(before: float, after: float) -> Path:
+    """Around the outside of a square of 2, from `before` its first corner to `after` it."""
+    path = Path(-before - 1, -1).to(-before, 0).to(2, 0).to(2, 2).to(0, 2).to(0, -after)
+    return path.to(-1, -after - 1)
 
 
 @pytest.mark.parametrize(
-    ("before", "behind", "codes"),
+    ("before", "after", "codes"),
     [
         (0.5, 0.5, set()),
         (0.5, 0.0, set()),  # the last line ends on the first
@@ -110,9 +110,9 @@ def square(before: float, behind: float) -> Path:
     ],
 )
 def test_lines_that_overrun_the_corner_at_which_they_meet_are_no_edges_beyond_it(
-    before: float, behind: float, codes: set[str]
+    before: float, after: float, codes: set[str]
 ) -> None:
-    trace = compensate(square(before, behind).elements, 0.25, Side.RIGHT, is_checked=True)
+    trace = compensate(square(before, after).elements, 0.25, Side.RIGHT, is_checked=True)
     assert set(trace.codes) == codes
 
 

@@ -44,7 +44,7 @@ def plane_point(plane: Plane, point: Point) -> tuple[float, float]:
 
 
 class Path:
-    """Builds elements one behind the other, as blocks of a program."""
+    """Builds elements one after the other, as blocks of a program."""
 
     def __init__(self, x: float, y: float, z: float = 0.0, plane: Plane = Plane.XY) -> None:
         self.plane = plane

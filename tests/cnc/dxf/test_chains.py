@@ -49,7 +49,7 @@ def outline(seed: int, count: int) -> list[Segment]:
 
 
 def torn(segments: list[Segment], seed: int, gap: float) -> list[tuple[Segment, ...]]:
-    """The segments in any order, either way round, their ends up to `gap` away."""
+    """The segments in any order, in either direction, their ends up to `gap` away."""
     chance = random.Random(seed)
 
     def near(point: Point) -> Point:
@@ -200,11 +200,11 @@ def test_insides_come_before_outsides_and_the_nearest_of_them_first() -> None:
 
 def test_what_is_drawn_twice_is_left_out_once() -> None:
     line = (Segment((0.0, 0.0), (4.0, 0.0)),)
-    bow = (bulged((0.0, 0.0), (4.0, 0.0), 0.5),)
+    cap = (bulged((0.0, 0.0), (4.0, 0.0), 0.5),)
     other = (bulged((0.0, 0.0), (4.0, 0.0), -0.5),)
     near = (Segment((0.0005, 0.0), (4.0, 0.0005)),)
-    pieces = [line, bow, other, near, reverse_all(bow), ring(9, 9, 1), ring(9, 9, 1), ring(9, 9, 2)]
-    assert without_doubles(pieces, EPSILON) == [line, bow, other, pieces[5], pieces[7]]
+    pieces = [line, cap, other, near, reverse_all(cap), ring(9, 9, 1), ring(9, 9, 1), ring(9, 9, 2)]
+    assert without_doubles(pieces, EPSILON) == [line, cap, other, pieces[5], pieces[7]]
     assert len(without_doubles(pieces, 1e-5)) == 6  # `near` is a line of its own
 
 

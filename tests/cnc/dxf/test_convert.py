@@ -44,9 +44,9 @@ def square(space: Any, x: float = 0.0, side: float = 2.0, **attributes: Any) -> 
 
 
 @pytest.mark.req("MILL-DXF-13", "MILL-DXF-05")
-@pytest.mark.parametrize(("is_ccw", "way"), [(False, "clockwise"), (True, "counter-clockwise")])
+@pytest.mark.parametrize(("is_ccw", "path"), [(False, "clockwise"), (True, "counter-clockwise")])
 def test_a_square_is_cut_once_around_and_ends_where_it_began(
-    is_ccw: bool, way: str, tmp_path: Path
+    is_ccw: bool, path: str, tmp_path: Path
 ) -> None:
     document = drawing()
     square(document.modelspace())
@@ -55,7 +55,7 @@ def test_a_square_is_cut_once_around_and_ends_where_it_began(
     assert trace(text).length == 8.0
     assert run[0] == run[-1] == (0.0, 0.0)
     assert Polygon(run).exterior.is_ccw == is_ccw
-    assert f"closed, {way}, length 8" in text
+    assert f"closed, {path}, length 8" in text
 
 
 def test_the_program_is_laid_out_for_reading(tmp_path: Path) -> None:
@@ -286,7 +286,7 @@ def test_arcs_that_are_too_small_or_too_flat_to_write_never_become_circles(tmp_p
     assert traced.length == pytest.approx(3.0, abs=1e-5)
 
 
-# --- files that are none ----------------------------------------------------------------
+# --- files that are not drawings ----------------------------------------------------------------
 
 
 @pytest.mark.req("MILL-DXF-12")
@@ -439,7 +439,7 @@ def test_an_imported_drill_pattern_drills(tmp_path: Path) -> None:
 
 
 def compensated(result: Conversion, radius: float, offset: int = 3) -> MultiLineString:
-    """The way of the tool's centre at depth 0; nothing may be wrong with it."""
+    """The path of the tool's centre at depth 0; nothing may be wrong with it."""
     store = Store()
     store.write(1000 + offset, radius)
     found = survey(load(result.text, store), store)
@@ -471,14 +471,14 @@ def test_the_tool_stays_outside_outlines_and_inside_holes(is_ccw: bool, tmp_path
     outside, inside = ("G42", "G41") if is_ccw else ("G41", "G42")
     codes = [line[:6] for line in result.text.splitlines() if line.startswith(("G41", "G42"))]
     assert codes == [f"{inside} D3", f"{outside} D3"]  # the hole before its plate
-    way = compensated(result, 0.25)
+    path = compensated(result, 0.25)
     hole = Point(3, 3).buffer(1.5, 256)
     plate = Polygon([(0, 0), (6, 0), (6, 6), (0, 6)]).difference(hole)
-    assert way.intersection(plate.buffer(0.249)).length == pytest.approx(0.0, abs=2e-3)
+    assert path.intersection(plate.buffer(0.249)).length == pytest.approx(0.0, abs=2e-3)
     for edge in (plate.exterior, plate.interiors[0]):
         for k in range(100):
             spot = edge.interpolate(k / 100, normalized=True)
-            assert way.distance(spot) == pytest.approx(0.25, abs=2e-3)
+            assert path.distance(spot) == pytest.approx(0.25, abs=2e-3)
 
 
 @settings(max_examples=15, deadline=None)
@@ -495,8 +495,8 @@ def test_random_outlines_are_entered_and_left_without_a_cut(
     document.modelspace().add_lwpolyline(corners, close=True)
     folder = tmp_path_factory.mktemp("dxf")
     result = converted(document, folder, d_number=3, radius=0.125, lead=0.5)
-    way = compensated(result, 0.125)
-    assert way.intersection(Polygon(corners).buffer(0.124)).length < 2e-3
+    path = compensated(result, 0.125)
+    assert path.intersection(Polygon(corners).buffer(0.124)).length < 2e-3
 
 
 def test_a_hole_without_room_for_the_tool_is_left_out_with_a_note(tmp_path: Path) -> None:

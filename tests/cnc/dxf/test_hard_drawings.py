@@ -67,7 +67,7 @@ def test_ends_of_one_short_line_are_two_joints() -> None:
     assert start != end
 
 
-def test_what_vanishes_in_a_joint_is_told(tmp_path: Path) -> None:
+def test_what_vanishes_in_a_joint_is_reported(tmp_path: Path) -> None:
     document = drawing()
     space = document.modelspace()
     space.add_line((0, 0), (1, 0))
@@ -134,7 +134,7 @@ def test_blocks_within_blocks_are_bounded(tmp_path: Path, monkeypatch: pytest.Mo
         converted(document, tmp_path)
 
 
-def test_blocks_nested_too_deep_are_told(tmp_path: Path) -> None:
+def test_blocks_nested_too_deep_are_reported(tmp_path: Path) -> None:
     document = drawing()
     square(document.modelspace())
     blocks_in_blocks(document, 15, 1)
