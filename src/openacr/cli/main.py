@@ -47,6 +47,7 @@ class Family(NamedTuple):
 COMMANDS: dict[str, Entry | Family] = {
     "run": Entry("run.command", "run"),
     "serve": Entry("serve", "serve"),
+    "panel": Entry("panel", "panel"),
     "replay": Entry("run.replay", "replay"),
     "term": Entry("live.term", "term"),
     "download": Entry("live.download", "download"),

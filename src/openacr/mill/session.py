@@ -85,6 +85,7 @@ class Start:
     dialect: str = "acromill"
     line: int = 1
     is_dry: bool = False
+    is_single: bool = False  # stop after every block
     is_skipping: bool = False
     stops_optionally: bool = False
     is_repeated: bool = True  # if Repeat Forever is set in the store
@@ -113,6 +114,7 @@ class MillSession:
         self.virtual_card: Controller | None = None
         self.program: Program | None = None
         self.typed: list[str] = []  # blocks run in MDI: the text of a program
+        self.reading: Interpreter | None = None  # of the last program, or of MDI
         with cells.transaction():
             for number, value in AT_START.items():
                 cells.write(number, value)
@@ -242,6 +244,7 @@ class MillSession:
         self.program = program
         options = Options(
             is_dry=start.is_dry,
+            is_single=start.is_single,
             stops_optionally=start.stops_optionally,
             is_repeated=start.is_repeated,
         )
@@ -250,6 +253,7 @@ class MillSession:
         if replay is not None and replay.needs_tool and not start.accepts_tool:
             raise UserError("another tool is in the spindle; --any-tool starts anyway")
         reading = replay.run if replay is not None else self._interpreter(program, start)
+        self.reading = reading
         first: Callable[[], Iterator[c.Entry]] = replay.entries if replay else reading.entries
         passes = chain([first], repeat(reading.entries))
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
@@ -286,21 +290,30 @@ class MillSession:
 
         While the next block is None (still being typed) the machine is polled.
         """
-        host = self.runner.stream.host
-        folders = folders_of(self.cells, self._folder)
-        program = load_blank(self.cells, dialect, folders, name="MDI")
-        typed = Mdi(Interpreter(program, self.cells, host, dialect))
-        self.typed = typed.text
+        typed = self.mdi(dialect)
         for block in blocks:
             if block is None:
                 self.step()
             else:
-                entries = _ended(typed.execute(block))
-                self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
+                self.start_block(typed, block)
                 self._finish(attend)
-                yield host.position()
+                yield self.runner.stream.host.position()
             if self.runner.alarms.bars_start:
                 return
+
+    def mdi(self, dialect: str) -> Mdi:
+        """Begin a session of MDI at the position of the machine; `typed` is its text."""
+        folders = folders_of(self.cells, self._folder)
+        program = load_blank(self.cells, dialect, folders, name="MDI")
+        self.reading = Interpreter(program, self.cells, self.runner.stream.host, dialect)
+        typed = Mdi(self.reading)
+        self.typed = typed.text
+        return typed
+
+    def start_block(self, typed: Mdi, block: str) -> None:
+        """Start one block of MDI; BlockError if it is invalid, UserError while the machine runs."""
+        entries = _ended(typed.execute(block))
+        self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
 
     def jog(
         self, distances: Iterable[tuple[str, float]], attend: Callable[["MillSession"], None]
@@ -327,6 +340,15 @@ class MillSession:
     def step(self) -> None:
         """Wait one poll period and do what is due."""
         self._pass_time()
+        self.poll()
+
+    @property
+    def poll_in_s(self) -> float:
+        """The time until the next poll: a period, or to the end of a running wait if earlier."""
+        return min(POLL_S, max(self.runner.wait_left_s, SHORTEST_S))
+
+    def poll(self) -> None:
+        """Do what is due now; the caller lets `poll_in_s` pass between two calls."""
         if self._drip is not None:
             self._drip.poll()
         self._keep_ownership()
@@ -335,11 +357,8 @@ class MillSession:
             self.messages.poll(self.machine.now_s)
 
     def _pass_time(self) -> None:
-        """Wait until the next poll, or to the end of a running wait if that is earlier.
-
-        On the virtual machine a poll follows at once where motion begins or ends.
-        """
-        step_s = min(POLL_S, max(self.runner.wait_left_s, SHORTEST_S))
+        """Wait until the next poll; on the virtual machine only until motion begins or ends."""
+        step_s = self.poll_in_s
         card = self.virtual_card
         if card is None:
             self.machine.pause(step_s)

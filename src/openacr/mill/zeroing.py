@@ -47,12 +47,13 @@ def goto_zero(
 
     The tool axis goes first where that is upward, else last; the others go together.
     """
-    for _ in shop.run_blocks(_blocks(shop, set(axes)), MDI_DIALECT, attend):
+    for _ in shop.run_blocks(goto_blocks(shop, axes), MDI_DIALECT, attend):
         yield reader(shop).position
 
 
-def _blocks(shop: MillSession, axes: set[int]) -> list[str]:
-    names = {axis: shop.runner.settings.axis(axis).name for axis in sorted(axes)}
+def goto_blocks(shop: MillSession, axes: Iterable[int]) -> list[str]:
+    """The blocks that move axes to program 0, one after the other."""
+    names = {axis: shop.runner.settings.axis(axis).name for axis in sorted(set(axes))}
     others = "".join(f" {name}0" for axis, name in names.items() if axis != TOOL_AXIS)
     blocks = [f"G90 G0{others}"] if others else []
     if TOOL_AXIS in names:

@@ -52,6 +52,7 @@ HOST_LOST = _alarm(5, "Watchdog of the card stopped the machine: its host was lo
 WATCHDOG_HALTED = _alarm(6, "Watchdog of the card was halted", Effect.ABORT)
 HOST_AWAY = _alarm(7, "Host did not watch the machine for {} s", Effect.HOLD)
 NOT_OWNER = _alarm(8, "Another program has taken the machine", Effect.REFUSE)
+SCREEN_STOP = _alarm(9, "Stopped at a screen: {}", Effect.KILL)
 EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.KILL)
 EXCESS_ERROR = _alarm(11, "Excess following error axis {}", Effect.KILL)
 DRIVE_FAULT = _alarm(12, "Drive fault axis {}", Effect.KILL)

@@ -190,6 +190,10 @@ class MachineDriver:
         self._require_attached()
         return self.card.read_many(parameters)
 
+    def read_rows(self, parameters: list[int]) -> list[float]:
+        """Several parameters of the card with one request."""
+        return [float(value) for value in self._read_many(parameters)]
+
     def axis_values(self, *offsets: int) -> list[int]:
         """Rows of all axes in use, one after the other, e.g. `AX_ACTUAL_POSITION`."""
         axes = [n.AX_BASE + axis * n.AX_STRIDE for axis in self.axes]

@@ -45,6 +45,10 @@ class Overrides:
         switch = self._switches[which]
         return switch.table[switch.click] / 100.0
 
+    def click(self, which: Override) -> int:
+        """The present click, 0 to 15."""
+        return self._switches[which].click
+
     def choose(self, which: Override, click: int) -> None:
         """Set the click on the screen; refused where a panel switch sets it."""
         switch = self._switches[which]

@@ -259,6 +259,10 @@ class Runner:
         """Kill all motion and switch all drives off (alarm 15), as the last resort."""
         self._supervision.raise_alarm(alarms.NO_REST, "")
 
+    def kill(self, detail: str) -> None:
+        """Kill all motion, switch drives and spindle off (alarm 9): an operator at a screen."""
+        self._supervision.raise_alarm(alarms.SCREEN_STOP, detail)
+
     def bring_to_rest(self) -> None:
         """Bring everything that moves to rest: the caller leaves the machine."""
         if self._manual.is_active:
@@ -279,6 +283,10 @@ class Runner:
         is_free = self.state is State.RUN and not self._supervision.is_tapping
         if on and is_free and not self._player.is_active:
             self._player.begin(self.stream.retake())
+
+    def stop_optionally(self, on: bool) -> None:
+        """Switch the stop at M1 on or off; it applies from the executing block."""
+        self._lifecycle.options = replace(self.options, stops_optionally=on)
 
     def acknowledge(self) -> list[Alarm]:
         """Clear the alarms whose cause is gone; returns those that stay."""

@@ -1,0 +1,1 @@
+"""What operators can do, by name: one function for each command."""

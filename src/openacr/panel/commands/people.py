@@ -1,0 +1,59 @@
+"""Commands of operators among each other: control, names."""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.control.desk import Desk
+from openacr.panel.control.orders import Order
+from openacr.panel.control.presses import End
+from openacr.panel.roles import Role
+
+
+class Take(Args, frozen=True):
+    """Whether control is taken from an operator who has it."""
+
+    force: bool = False
+
+
+class Give(Args, frozen=True):
+    """The client that gets control."""
+
+    client: int
+
+
+class Named(Args, frozen=True):
+    """A name that others see."""
+
+    name: Annotated[str, Meta(max_length=40, pattern=r"^[^\x00-\x1f]*$")]
+
+
+@command("control.take", needs_control=False)
+def take(desk: Desk, order: Order, args: Take) -> dict[str, object]:
+    """Take control of the machine."""
+    before = desk.people.take(order.person.client, force=args.force)
+    if before is not None:
+        desk.hands.presses.end_all(End.CONTROL, "another operator has taken control")
+    return {"holder": desk.people.data()["holder"]}
+
+
+@command("control.give", needs_control=False)
+def give(desk: Desk, order: Order, args: Give) -> None:
+    """Hand control over to another operator."""
+    desk.people.give(order.person.client, args.client)
+    desk.hands.presses.end_all(End.CONTROL, "control was handed over")
+
+
+@command("control.release", needs_control=False)
+def release(desk: Desk, order: Order, args: NoArgs) -> None:
+    """Give control up."""
+    if desk.people.holder == order.person.client:
+        desk.hands.presses.end_all(End.CONTROL, "control was given up")
+    desk.people.release(order.person.client)
+
+
+@command("name", Role.VIEW, needs_control=False)
+def name(desk: Desk, order: Order, args: Named) -> None:
+    """Choose the name that others see."""
+    desk.people.rename(order.person.client, args.name.strip())

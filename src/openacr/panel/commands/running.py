@@ -1,0 +1,203 @@
+"""Commands of part programs: load, start, hold, retrace, answer; overrides and alarms."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from openacr.errors import UserError
+from openacr.mill.config.overrides import Override
+from openacr.mill.session import Start
+from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.control.desk import LATER, Desk, Later
+from openacr.panel.control.orders import Order
+from openacr.panel.control.presses import End
+from openacr.panel.files import Folder
+from openacr.panel.roles import Role
+
+Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
+
+
+class OfFile(Args, frozen=True):
+    """A file in the folder of programs."""
+
+    path: str
+    dialect: Literal["", "auto", "acromill", "rs274ngc"] = ""
+
+
+class Begin(Args, frozen=True):
+    """How a program is started; `confirm` is the token of a rehearsal."""
+
+    line: Annotated[int, Meta(ge=1, le=10**9)] = 1
+    dry: bool = False
+    skip: bool | None = None
+    optional: bool | None = None
+    any_tool: bool = False
+    safe_z: Finite | None = None
+    confirm: str = ""
+
+
+class Switch(Args, frozen=True):
+    """On or off."""
+
+    on: bool
+
+
+class Trace(Args, frozen=True):
+    """Back along the path (-1), forward (1), or rest (0)."""
+
+    direction: Literal[-1, 0, 1]
+
+
+class Number(Args, frozen=True):
+    """An answer to INPUT."""
+
+    value: Finite
+
+
+class Click(Args, frozen=True):
+    """A click of an override."""
+
+    which: Literal["feed", "rapid", "spindle"]
+    click: Annotated[int, Meta(ge=0, le=15)]
+
+
+# --- loading --------------------------------------------------------------------------
+
+
+def folder_of(desk: Desk) -> Folder:
+    """The folder of programs."""
+    return Folder(desk.bench.programs)
+
+
+@command("program.load")
+def load(desk: Desk, order: Order, args: OfFile) -> Later:
+    """LOAD PROG: make a file of the folder the program that START starts."""
+    file = folder_of(desk).file(args.path)
+    desk.part.load(file, args.path, order, kind="file", dialect=args.dialect)
+    return LATER
+
+
+@command("program.batch")
+def batch(desk: Desk, order: Order, args: OfFile) -> Later:
+    """Load all programs of a batch file, which run one after the other."""
+    folder = folder_of(desk)
+
+    def place(file: Path) -> str:
+        return folder.path_of(file)
+
+    desk.part.load_batch(folder.file(args.path), order, place)
+    return LATER
+
+
+@command("program.close")
+def close(desk: Desk, order: Order, args: NoArgs) -> None:
+    """Unload the program."""
+    desk.part.close()
+
+
+# --- running --------------------------------------------------------------------------
+
+
+@command("run.begin", is_motion=True)
+def begin(desk: Desk, order: Order, args: Begin) -> dict[str, object]:
+    """RUN: start the loaded program; a later line is rehearsed first and confirmed then."""
+    part = desk.part
+    if args.skip is not None:
+        part.is_skipping = args.skip
+    if args.optional is not None:
+        part.stops_optionally = args.optional
+    start = Start(
+        dialect=part.required.dialect,
+        line=args.line,
+        is_dry=args.dry,
+        is_single=part.is_single,
+        is_skipping=part.is_skipping,
+        stops_optionally=part.stops_optionally,
+        accepts_tool=args.any_tool,
+        safe_z=args.safe_z,
+    )
+    desk.hands.presses.end_all(End.MODE, "a program was started")
+    if args.line > 1 and not args.confirm:
+        return {"rehearsal": part.rehearse(start)}
+    desk.typed.drop()
+    part.begin(start, args.confirm)
+    return {}
+
+
+@command("run.start", is_motion=True)
+def start(desk: Desk, order: Order, args: NoArgs) -> None:
+    """START: go on from a stop or a feed hold."""
+    desk.machine.runner.start()
+
+
+@command("run.resume", is_motion=True)
+def resume(desk: Desk, order: Order, args: NoArgs) -> None:
+    """RESUME: go on with the path where it was held."""
+    desk.machine.runner.resume()
+
+
+@command("run.abort")
+def abort(desk: Desk, order: Order, args: NoArgs) -> None:
+    """ABORT: end the program; START begins it again."""
+    desk.typed.drop()
+    desk.machine.runner.abort()
+
+
+@command("run.block")
+def block(desk: Desk, order: Order, args: Switch) -> None:
+    """BLOCK: stop after every block, or not."""
+    desk.part.is_single = args.on
+    desk.machine.runner.block(args.on)
+
+
+@command("run.skip")
+def skip(desk: Desk, order: Order, args: Switch) -> None:
+    """Leave blocks with a slash out, or not."""
+    desk.part.is_skipping = args.on
+    desk.machine.runner.stream.host.skips_always = args.on
+
+
+@command("run.optional")
+def optional(desk: Desk, order: Order, args: Switch) -> None:
+    """Stop at M1, or not."""
+    desk.part.stops_optionally = args.on
+    desk.machine.runner.stop_optionally(args.on)
+
+
+@command("run.trace", is_motion=True)
+def trace(desk: Desk, order: Order, args: Trace) -> None:
+    """Trace the path in a feed hold: back, forward, or rest."""
+    desk.machine.runner.trace(args.direction)
+
+
+@command("run.answer", is_motion=True)
+def answer(desk: Desk, order: Order, args: Number) -> None:
+    """Answer the question of a program."""
+    desk.machine.runner.answer(args.value)
+
+
+@command("run.confirm", is_motion=True)
+def confirm(desk: Desk, order: Order, args: NoArgs) -> None:
+    """Say that the tool is changed."""
+    changer = desk.machine.runner.entry_actions.changer
+    if not changer.wants_confirmation:
+        raise UserError("no tool change waits")
+    changer.confirm()
+
+
+# --- overrides and alarms -------------------------------------------------------------
+
+OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override.SPINDLE}
+
+
+@command("override.choose")
+def override(desk: Desk, order: Order, args: Click) -> None:
+    """Choose a click of an override."""
+    desk.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
+
+
+@command("alarm.acknowledge", Role.OPERATE)
+def acknowledge(desk: Desk, order: Order, args: NoArgs) -> dict[str, list[str]]:
+    """Clear the alarms whose cause is gone."""
+    return {"left": [alarm.text for alarm in desk.machine.runner.acknowledge()]}

@@ -1,0 +1,64 @@
+"""Commands of MDI and TEACH."""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+from openacr.errors import UserError
+from openacr.mill.manual.teaching import teach
+from openacr.panel.commands.motion import indices
+from openacr.panel.commands.registry import Args, command
+from openacr.panel.control.desk import Desk
+from openacr.panel.control.orders import Order
+from openacr.panel.roles import Role
+
+Line = Annotated[str, Meta(max_length=256)]
+Lines = Annotated[tuple[Line, ...], Meta(max_length=10_000)]
+
+
+class Typed(Args, frozen=True):
+    """One block, or several that run one after the other."""
+
+    line: Line = ""
+    lines: Lines = ()
+
+
+class Buffer(Args, frozen=True):
+    """The text of MDI; without lines it is read."""
+
+    lines: Lines | None = None
+
+
+class Taught(Args, frozen=True):
+    """A work system and the axes that read 0 in it from now on."""
+
+    system: str
+    axes: str = ""
+
+
+@command("mdi.execute", is_motion=True)
+def execute(desk: Desk, order: Order, args: Typed) -> None:
+    """EXECUTE: run blocks that were typed."""
+    blocks = [line for line in (args.line, *args.lines) if line.strip()]
+    if not blocks:
+        raise UserError("no block was typed")
+    desk.typed.put(blocks)
+
+
+@command("mdi.buffer", needs_control=False)
+def buffer(desk: Desk, order: Order, args: Buffer) -> dict[str, list[str]]:
+    """Read the text of MDI, or replace it."""
+    if args.lines is not None:
+        desk.typed.text = list(args.lines)
+    return {"lines": list(desk.typed.text)}
+
+
+@command("teach.work", Role.SETUP)
+def teach_work(desk: Desk, order: Order, args: Taught) -> None:
+    """TEACH: where the machine is becomes the zero of a work system."""
+    shop = desk.machine
+    shop.runner.alarms.require_none()
+    if shop.runner.is_busy:
+        raise UserError("the machine is moving: a work system can be taught only at rest")
+    here = shop.runner.stream.host.position()
+    teach(shop.cells, shop.runner.settings, args.system, here, indices(desk, args.axes))

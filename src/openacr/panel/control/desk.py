@@ -1,0 +1,270 @@
+"""Everything the control thread owns: the machine, its operators, what they hold.
+
+`step` does what is due at a time that the caller gives: no clock is read here, so that tests
+drive it by hand.
+"""
+
+import logging
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+from openacr.client import ConnectionLostError
+from openacr.errors import OpenacrError, UserError
+from openacr.mill.card.alarms import AlarmError
+from openacr.mill.card.driver import LINK_ERRORS
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
+from openacr.panel.control.bench import Bench
+from openacr.panel.control.facts import Facts
+from openacr.panel.control.hands import Hands
+from openacr.panel.control.jobs import Jobs
+from openacr.panel.control.loaded import Part
+from openacr.panel.control.orders import Order, failure
+from openacr.panel.control.people import People, Person
+from openacr.panel.control.presses import End
+from openacr.panel.control.reading import Reading
+from openacr.panel.control.settled import is_of_session
+from openacr.panel.control.snapshot import Snapshot, Ticks
+from openacr.panel.control.typed import Typed
+from openacr.panel.control.watches import Watches
+from openacr.panel.roles import Role
+from openacr.sysvar.tabs import CELLS
+
+log = logging.getLogger(__name__)
+SNAPSHOT_S = 0.04
+RETRY_S = 2.0  # between two attempts to reach a card
+KEEP = "jog.keep"  # comes many times a second
+LINES_KEPT = 200  # of the print window
+
+OF_A_RUN = range(CELLS.tool_selected, CELLS.cycle_direction + 1)  # written as a program runs
+MOST_CELLS = 2000  # numbers of changed cells in one event
+SERVER = Person(0, Role.SERVICE, "", "server")
+Tell = Callable[[dict[str, Any]], None]
+Carry = Callable[["Desk", Order, float], object]
+
+
+class Desk:
+    """One machine and the people at its screens."""
+
+    def __init__(self, bench: Bench, carry_out: Carry, tell: Tell = lambda _event: None) -> None:
+        self.bench = bench
+        self.tell = tell
+        self.looked: Callable[[], None] = lambda: None  # a new snapshot is there
+        self.people = People()
+        self.hands = Hands(self)
+        self.jobs = Jobs()
+        self.typed = Typed(self)
+        self.part = Part(self)
+        self.ticks = Ticks()
+        self.watches = Watches()
+        self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
+        self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
+        self.shop: MillSession | None = None
+        self.lost = "the machine is being opened"  # why there is no session
+        self.mode = "auto"
+        self.now_s = 0.0  # of the present step or order
+        self.must_renew = False  # settings were stored that count from the next session
+        self._facts = Facts(self)
+        self._carry_out = carry_out
+        self._reading: Reading | None = None
+        self._retry_s = 0.0
+        self._poll_at = self._snapshot_at = 0.0
+        self._tick_ms = self._tick_base_ms = 0.0
+        self._alarms = 0
+
+    # --- the session ------------------------------------------------------------------
+
+    @property
+    def machine(self) -> MillSession:
+        """The session of the machine; UserError where the card cannot be reached."""
+        if self.shop is None:
+            raise UserError(self.lost)
+        return self.shop
+
+    @property
+    def reading(self) -> Reading:
+        """The reader of the machine; UserError where the card cannot be reached."""
+        if self._reading is None:
+            raise UserError(self.lost)
+        return self._reading
+
+    def open(self, now_s: float) -> None:
+        """Open the session of the machine; without it the screens say why."""
+        try:
+            self.shop = self.bench.open(self.say)
+        except (OpenacrError, *LINK_ERRORS) as error:
+            self.lost = _why(error)
+            self._retry_s = now_s + RETRY_S
+            self._facts.tell()
+            return
+        self.lost = ""
+        self._reading = Reading(self.shop)
+        self.must_renew = False
+        self._poll_at = self._snapshot_at = 0.0
+        self._tick_base_ms = self._tick_ms
+        self._alarms = 0
+        self.bench.pace.begin(now_s)
+
+    def close(self) -> None:
+        """Close the session: axes that move are brought to rest by the caller before."""
+        shop, self.shop, self._reading = self.shop, None, None
+        self.typed.forget()
+        if shop is not None:
+            with suppress(*LINK_ERRORS):
+                shop.close()
+
+    def renew(self, now_s: float) -> None:
+        """Open the session again, with the settings as they are stored now."""
+        self.hands.presses.end_all(End.MODE, "the machine is set up again")
+        self.close()
+        self.lost = "the machine is being set up"
+        self.open(now_s)
+
+    # --- one step ---------------------------------------------------------------------
+
+    def step(self, now_s: float) -> None:
+        """Do what is due: keys, time of the card, a poll, a snapshot."""
+        self.now_s = now_s
+        self._guarded(lambda: self.hands.expire(now_s))
+        self.jobs.poll()
+        if self.shop is None:
+            if now_s >= self._retry_s:
+                self.open(now_s)
+            return
+        if self.shop.runner.is_out_of_reach:
+            self._lose("the card does not answer", now_s)
+            return
+        try:
+            clock = self.bench.pace.advance(self.shop.card, now_s)
+            if clock >= self._poll_at:
+                self._poll_at = clock + self.shop.poll_in_s
+                self._poll(now_s)
+            if clock >= self._snapshot_at:
+                self._snapshot_at = clock + SNAPSHOT_S
+                self._look(now_s)
+        except LINK_ERRORS as lost:
+            log.info("%s", lost)
+        if self.must_renew and self.shop is not None and self._rests:
+            self.renew(now_s)
+
+    def _poll(self, now_s: float) -> None:
+        shop = self.machine
+        try:
+            shop.poll()
+            self._guarded(self.typed.poll)
+            self._guarded(self.part.poll)
+        except AlarmError as error:  # another program has taken the machine
+            self._lose(str(error), now_s)
+            return
+        self._tick_ms = self._tick_base_ms + 1000.0 * shop.machine.now_s
+        if len(shop.runner.alarms.history) != self._alarms:
+            self._alarms = len(shop.runner.alarms.history)
+            self._guarded(lambda: self.hands.presses.end_all(End.ALARM, self._last_alarm()))
+
+    def _last_alarm(self) -> str:
+        history = self.machine.runner.alarms.history
+        return history[-1].text if history else ""
+
+    def _look(self, now_s: float) -> None:
+        snapshot = self.reading.snapshot(self.snapshot.number + 1, self._tick_ms, now_s)
+        self.ticks.note(snapshot.tick_ms, now_s)
+        self.snapshot = snapshot
+        self.looked()
+        self._facts.tell()
+        if self.shop is not None:
+            self.watches.look(self.shop, now_s)
+
+    @property
+    def _rests(self) -> bool:
+        shop = self.machine
+        return not shop.runner.is_busy and shop.runner.state is State.IDLE
+
+    def _lose(self, why: str, now_s: float) -> None:
+        """The card is out of reach: the session ends, and another one is tried."""
+        self._guarded(lambda: self.hands.presses.end_all(End.LINK, why))
+        self.close()
+        self.lost = why
+        self._retry_s = now_s + RETRY_S
+        self._facts.tell()
+
+    def _guarded(self, do: Callable[[], object]) -> None:
+        """Do something whose failure must not end the thread: it is said."""
+        try:
+            do()
+        except (OpenacrError, *LINK_ERRORS) as error:
+            self.say(str(error))
+
+    # --- settings ---------------------------------------------------------------------
+
+    def note_stored(self, cells: frozenset[int]) -> None:
+        """Cells were stored: the session of the machine is opened again where they count."""
+        if any(map(is_of_session, cells)):
+            self.must_renew = True
+        shown = sorted(n for n in cells if n not in OF_A_RUN)
+        if shown:
+            self.tell({"event": "changed", "what": "forms", "cells": shown[:MOST_CELLS]})
+
+    def load_sample(self) -> None:
+        """Load the sample part, where the machine has one."""
+        name = self.bench.sample
+        if name:
+            file = self.bench.programs / name
+            order = Order(SERVER, "program.load")
+            self.part.load(file, name, order, kind="file", dialect="")
+
+    # --- orders -----------------------------------------------------------------------
+
+    def order(self, order: Order, now_s: float) -> None:
+        """Carry an order out and answer it."""
+        self.now_s = now_s
+        try:
+            result = self._carry_out(self, order, now_s)
+        except Exception as error:
+            if not isinstance(error, (OpenacrError, ConnectionLostError)):
+                log.exception("%s has failed", order.name)
+            order.answer({"ok": False, "error": failure(error)})
+            return
+        if result is not LATER:
+            order.answer({"ok": True, "result": result})
+        if order.name != KEEP:
+            self._facts.tell()
+
+    # --- what is said -----------------------------------------------------------------
+
+    def say(self, text: str) -> None:
+        """A line of the machine or of a program, for the print window."""
+        event = {"text": text, "at_s": round(self._tick_ms / 1000.0, 3)}
+        self.said.append(event)
+        self.tell({"event": "say", **event})
+
+    def join(self, person: Person) -> None:
+        """A browser has connected: it gets all facts."""
+        self.people.join(person)
+        to = person.client
+        for event in self._facts.all():
+            control = {"you": self.people.holder == to} if event["event"] == "control" else {}
+            self.tell({**event, **control, "to": to})
+        self.tell({"event": "says", "lines": list(self.said), "to": to})
+
+    def leave(self, client: int) -> None:
+        """A browser has gone: what it held stops."""
+        self._guarded(lambda: self.hands.presses.end_all(End.LINK, client=client))
+        self.hands.presses.forget(client)
+        self.watches.forget(client)
+        self.people.leave(client)
+        self._facts.tell()
+
+
+class Later:
+    """The answer of an order that is given later."""
+
+
+LATER = Later()
+
+
+def _why(error: Exception) -> str:
+    if isinstance(error, LINK_ERRORS):
+        return f"NO CARD FOUND ({error})"
+    return str(error)

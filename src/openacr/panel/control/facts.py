@@ -1,0 +1,202 @@
+"""Facts in words for browsers: each is sent when it has changed."""
+
+from collections.abc import Callable
+from datetime import datetime
+from typing import TYPE_CHECKING, Any
+
+from openacr.mill.card.alarms import Alarm
+from openacr.mill.config.overrides import Override
+from openacr.mill.config.settings import NONE
+from openacr.mill.run.lifecycle import State
+from openacr.panel.control.modals import modals
+from openacr.sysvar.tabs import CELLS
+
+if TYPE_CHECKING:
+    from openacr.panel.control.desk import Desk
+
+Data = dict[str, Any]
+ALARMS_KEPT = 100
+
+
+class Facts:
+    """The facts of one desk, as they were sent last."""
+
+    def __init__(self, desk: "Desk") -> None:
+        self._desk = desk
+        self._reported: dict[str, Data] = {}
+        self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
+
+    def tell(self) -> None:
+        """Tell the facts that have changed."""
+        for name, make in MAKERS.items():
+            data = make(self, self._desk)
+            if self._reported.get(name) != data:
+                self._reported[name] = data
+                self._desk.tell({"event": name, **data})
+
+    def all(self) -> list[Data]:
+        """All facts, for a browser that has just connected."""
+        self.tell()
+        return [{"event": name, **data} for name, data in self._reported.items()]
+
+    # --- facts ------------------------------------------------------------------------
+
+    def state(self, desk: "Desk") -> Data:
+        """What the machine does and waits for."""
+        shop = desk.shop
+        if shop is None:
+            return {
+                "state": State.IDLE.name,
+                "reason": desk.lost,
+                "busy": False,
+                "jogging": False,
+                "options": self._options(desk),
+                "asking": None,
+                "tool_wanted": False,
+                "mode": desk.mode,
+                "estop": {"wired": False, "on": False},
+                "link": "lost",
+                "passes": 0,
+                "parts": 0,
+                "homed": [],
+                "aborted": False,
+            }
+        runner = shop.runner
+        ask = runner.asking
+        settings = runner.settings
+        codes = {alarm.kind.code for alarm in runner.alarms.active}
+        return {
+            "state": runner.state.name,
+            "reason": runner.reason,
+            "busy": runner.is_busy,
+            "jogging": runner.jogging.is_active,
+            "options": self._options(desk),
+            "asking": None if ask is None else {"text": ask.text, "parameter": ask.parameter},
+            "tool_wanted": runner.entry_actions.changer.wants_confirmation,
+            "mode": desk.mode,
+            "estop": {"wired": settings.wiring.emergency_stop != NONE, "on": 10 in codes},
+            "link": "lost" if 3 in codes or runner.is_out_of_reach else "ok",
+            "passes": runner.passes,
+            "parts": int(shop.cells.read(CELLS.parts_finished)),
+            "homed": [axis.name for axis in settings.axes if settings.is_homed(axis.index)],
+            "aborted": runner.was_aborted,
+        }
+
+    def _options(self, desk: "Desk") -> Data:
+        options = desk.shop.runner.options if desk.shop else None
+        return {
+            "dry": options.is_dry if options else False,
+            "single": desk.part.is_single,
+            "skip": desk.part.is_skipping,
+            "optional": desk.part.stops_optionally,
+        }
+
+    def program(self, desk: "Desk") -> Data:
+        """The loaded program and its executing block."""
+        return desk.part.data()
+
+    def modals(self, desk: "Desk") -> Data:
+        """The codes and words in force."""
+        return modals(desk.shop, desk.reading.work.run) if desk.shop else {"codes": []}
+
+    def alarms(self, desk: "Desk") -> Data:
+        """Alarms that are active, and those that were."""
+        if desk.shop is None:
+            text = desk.lost
+            lost = {"code": 1, "text": text, "effect": "REFUSE", "at_s": 0.0, "time": ""}
+            return {"active": [lost] if text else [], "history": [], "bars_start": True}
+        alarms = desk.shop.runner.alarms
+        history = alarms.history
+        if not history:
+            self._noted.clear()
+        for place in range(len(history)):
+            if place not in self._noted:
+                self._noted[place] = datetime.now().astimezone().isoformat(timespec="seconds")
+        when = {id(alarm): self._noted[place] for place, alarm in enumerate(history)}
+        return {
+            "active": [_alarm(each, when.get(id(each), "")) for each in alarms.active],
+            "history": [_alarm(each, when[id(each)]) for each in history[-ALARMS_KEPT:]],
+            "bars_start": alarms.bars_start,
+        }
+
+    def messages(self, desk: "Desk") -> Data:
+        """User messages that are shown."""
+        shown = desk.shop.messages.shown if desk.shop else []
+        return {
+            "shown": [
+                {
+                    "number": each.number,
+                    "text": each.shown,
+                    "color": each.text_color,
+                    "back": each.back_color,
+                    "alarm": each.is_alarm,
+                }
+                for each in shown
+            ]
+        }
+
+    def control(self, desk: "Desk") -> Data:
+        """Who has control."""
+        return desk.people.data()
+
+    def overrides(self, desk: "Desk") -> Data:
+        """The three override switches."""
+        if desk.shop is None:
+            return {}
+        runner = desk.shop.runner
+        names = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override.SPINDLE}
+        return {
+            name: {
+                "click": runner.overrides.click(which),
+                "percent": 100.0 * runner.overrides.factor(which),
+                "wired": runner.settings.switch(which.value) != NONE,
+                "table": list(runner.settings.table(which.value)),
+            }
+            for name, which in names.items()
+        }
+
+    def mdi(self, desk: "Desk") -> Data:
+        """What was typed in MDI."""
+        return desk.typed.data()
+
+    def home(self, desk: "Desk") -> Data:
+        """How far homing is."""
+        if desk.shop is None:
+            return {"axes": []}
+        settings, runner = desk.shop.runner.settings, desk.shop.runner
+        is_homing = runner.state is State.HOMING
+        return {
+            "axes": [
+                {
+                    "name": axis.name,
+                    "homed": settings.is_homed(axis.index),
+                    "state": "homing" if is_homing and axis.name in runner.reason.split() else "",
+                    "priority": settings.home(axis.index).priority,
+                    "switch": settings.home(axis.index).switch_input,
+                }
+                for axis in settings.axes
+            ]
+        }
+
+
+def _alarm(alarm: Alarm, when: str) -> Data:
+    return {
+        "code": alarm.kind.code,
+        "text": alarm.text,
+        "effect": alarm.kind.effect.name,
+        "at_s": alarm.at_s,
+        "time": when,
+    }
+
+
+MAKERS: dict[str, Callable[[Facts, "Desk"], Data]] = {
+    "state": Facts.state,
+    "program": Facts.program,
+    "modals": Facts.modals,
+    "alarms": Facts.alarms,
+    "messages": Facts.messages,
+    "control": Facts.control,
+    "overrides": Facts.overrides,
+    "mdi": Facts.mdi,
+    "home": Facts.home,
+}

@@ -1,0 +1,113 @@
+"""Axes moved by hand from screens: held keys, increments, and everything that stops them."""
+
+import math
+from typing import TYPE_CHECKING
+
+from openacr.errors import UserError
+from openacr.panel.control.orders import PanelError
+from openacr.panel.control.presses import End, Key, Presses
+
+if TYPE_CHECKING:
+    from openacr.panel.control.desk import Desk
+
+LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps motion
+
+
+class Hands:
+    """The hands of the operators on the axes."""
+
+    def __init__(self, desk: "Desk") -> None:
+        self._desk = desk
+        self.presses = Presses(self._drop, self._tell)
+
+    # --- held keys --------------------------------------------------------------------
+
+    def press(
+        self,
+        key: Key,
+        axis: int,
+        direction: int,
+        *,
+        fast: bool,
+        tick_ms: float,
+        received_s: float,
+        now_s: float,
+    ) -> None:
+        """Begin a press: the axis moves until it ends."""
+        if not self.presses.is_new(key):
+            raise PanelError("refused", f"press {key.number} is over: press the key again")
+        self.presses.use_up(key)
+        self.require_fresh(tick_ms, received_s)
+        if now_s - received_s > LONGEST_AGE_S:
+            raise PanelError("stale", "the press waited too long: press the key again")
+        shop = self._desk.machine
+        if axis in self.presses.axes:
+            self.presses.end_all(End.STOP, "two keys of one axis")
+            raise UserError(
+                f"axis {shop.runner.settings.axis(axis).name} is jogged by another key: both stop"
+            )
+        if shop.runner.jogging.is_active and not self.presses.are_held:
+            shop.runner.stop()  # an increment is under way, or a jog ramps down
+            raise UserError("an axis is still moving: press again when it rests")
+        shop.runner.controls.press(_holder(key.client), axis, direction, fast=fast)
+        self.presses.begin(key, axis, received_s)
+
+    def keep(self, key: Key, tick_ms: float, received_s: float) -> None:
+        """Keep a press alive, if its browser has drawn what the machine does now."""
+        age_s = self._desk.ticks.age_s(tick_ms, received_s)
+        if age_s is None or age_s > LONGEST_AGE_S:
+            return
+        if self.presses.keep(key, received_s) and self._desk.shop is not None:
+            self._desk.shop.runner.controls.renew(_holder(key.client))
+
+    def release(self, key: Key) -> None:
+        """End a press by its release."""
+        self.presses.use_up(key)
+        self.presses.end(key, End.RELEASED)
+
+    def expire(self, now_s: float) -> None:
+        """End the presses whose browsers are silent."""
+        self.presses.expire(now_s)
+
+    def require_fresh(self, tick_ms: float, received_s: float) -> None:
+        """Refuse motion by a browser that shows something old."""
+        age_s = self._desk.ticks.age_s(tick_ms, received_s)
+        if age_s is None or age_s > LONGEST_AGE_S:
+            shown = "unknown" if age_s is None else f"{1000.0 * age_s:.0f} ms old"
+            raise PanelError("stale", f"the positions on this screen are {shown}: nothing moves")
+
+    def _drop(self, client: int, axis: int) -> None:
+        shop = self._desk.shop
+        if shop is not None:
+            shop.runner.controls.release(_holder(client), axis)
+
+    def _tell(self, key: Key, why: End, text: str) -> None:
+        event = {"event": "jog", "press": key.number, "ended": why.value, "text": text}
+        self._desk.tell({**event, "to": key.client})
+
+    # --- increments -------------------------------------------------------------------
+
+    def increment(
+        self, axis: int, direction: int, *, preset: int, distance_u: float, fast: bool
+    ) -> None:
+        """Move an axis by an increment of the store (`preset`), or by a distance."""
+        runner = self._desk.machine.runner
+        if self.presses.are_held:
+            self.presses.end_all(End.STOP, "an increment was commanded")
+            raise UserError("a key is held: the axes stop, no increment is made")
+        if preset:
+            runner.jog(lambda jogging: jogging.increment(axis, direction, preset, fast=fast))
+        else:
+            path_u = math.copysign(distance_u, direction)
+            runner.jog(lambda jogging: jogging.move(axis, path_u, fast=fast))
+
+    def stop(self) -> None:
+        """Bring everything that is moved by hand to rest."""
+        self.presses.end_all(End.STOP)
+        shop = self._desk.shop
+        if shop is not None and shop.runner.jogging.is_active:
+            shop.runner.jogging.stop_all()
+
+
+def _holder(client: int) -> str:
+    return f"panel {client}"

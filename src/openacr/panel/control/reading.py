@@ -1,0 +1,122 @@
+"""Reads the snapshots of a machine."""
+
+from collections.abc import Callable
+from math import nan
+
+from openacr.cnc.canonical import Point
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
+from openacr.panel.control.place import Place, read_place
+from openacr.panel.control.snapshot import Axes, Light, Snapshot
+from openacr.panel.control.work import WorkSystem
+from openacr.sysvar.tabs import CELLS
+
+NEAR = 0.001  # share of the travel that counts as at the limit
+PERCENT = 100.0
+
+
+class Reading:
+    """Reads one machine; `work` is the coordinate system positions are shown in."""
+
+    def __init__(self, shop: MillSession) -> None:
+        self._shop = shop
+        self.work = WorkSystem(shop)
+
+    def snapshot(self, number: int, tick_ms: float, now_s: float) -> Snapshot:
+        """Read the machine; a link error where its card does not answer."""
+        shop, runner = self._shop, self._shop.runner
+        place = read_place(shop)
+        runner_source = runner.source
+        to_go, following_end = self._ahead(place)
+        cells = shop.cells
+        return Snapshot(
+            number=number,
+            tick_ms=tick_ms,
+            read_s=now_s,
+            state=runner.state,
+            lights=self._lights(place),
+            homed=self._mask(lambda axis: runner.settings.is_homed(axis)),
+            jogging=place.moving,
+            near_limit=self._near(place),
+            line=runner_source.line if runner_source else 0,
+            tool=int(cells.read(CELLS.tool_in_spindle)),
+            feed_upm=cells.read(CELLS.feed),
+            speed_upm=place.speed_upm,
+            spindle_rpm=cells.read(CELLS.spindle_speed) if self._spins else 0.0,
+            feed_percent=PERCENT * runner.overrides.factor(Override.FEED),
+            rapid_percent=PERCENT * runner.overrides.factor(Override.RAPID),
+            spindle_percent=PERCENT * runner.overrides.factor(Override.SPINDLE),
+            run_s=runner.run_s if runner.is_busy else cells.read(CELLS.run_time),
+            parts=cells.read(CELLS.parts_finished),
+            work=self._of_axes(self.work.program(self._point(place.commanded))),
+            commanded=place.commanded,
+            actual=place.actual,
+            following=place.following,
+            to_go=to_go,
+            following_end=following_end,
+        )
+
+    @property
+    def _spins(self) -> bool:
+        return self._shop.cells.read(CELLS.spindle_state) != 5.0
+
+    def _lights(self, place: Place) -> int:
+        runner, cells = self._shop.runner, self._shop.cells
+        options, host = runner.options, runner.stream.host
+        coolant = int(cells.read(CELLS.coolant_state))
+        lit = {
+            Light.BUSY: runner.is_busy,
+            Light.MOVING: place.is_moving,
+            Light.DRY: options.is_dry and runner.is_busy,
+            Light.SINGLE: options.is_single,
+            Light.BARRED: runner.alarms.bars_start,
+            Light.SKIP: host.is_block_skip_on(),
+            Light.OPTIONAL: options.stops_optionally,
+            Light.SPINDLE: self._spins,
+            Light.FLOOD: bool(coolant & 2),
+            Light.MIST: bool(coolant & 1),
+            Light.TOOL: runner.entry_actions.changer.wants_confirmation,
+            Light.QUESTION: runner.asking is not None,
+            Light.HELD: runner.state is State.PAUSED and not place.is_moving,
+            Light.EMERGENCY: any(a.kind.code == 10 for a in runner.alarms.active),
+        }
+        return sum(light for light, is_on in lit.items() if is_on)
+
+    def _mask(self, holds: Callable[[int], bool]) -> int:
+        axes = self._shop.runner.settings.axes
+        return sum(1 << k for k, axis in enumerate(axes) if holds(axis.index))
+
+    def _near(self, place: Place) -> int:
+        settings = self._shop.runner.settings
+        mask = 0
+        for k, axis in enumerate(settings.axes):
+            if axis.soft_limits is None or not settings.is_homed(axis.index):
+                continue
+            high, low = axis.soft_limits
+            room = min(high - place.commanded[k], place.commanded[k] - low)
+            mask |= (room <= NEAR * (high - low)) << k
+        return mask
+
+    def _ahead(self, place: Place) -> tuple[Axes, Axes]:
+        """The distance to go of the executing move, and the end of the one after it."""
+        tracker = self._shop.runner.stream.tracker
+        none = (nan,) * len(place.commanded)
+        current = tracker.current
+        if current is None or not self._shop.runner.is_busy:
+            return (0.0,) * len(place.commanded), none
+        finish = self._of_axes(current.finish)
+        to_go = tuple(end - at for end, at in zip(finish, place.commanded, strict=True))
+        jobs = tracker.jobs()
+        if len(jobs) < 2:
+            return to_go, none
+        return to_go, self._of_axes(self.work.program(jobs[1].finish))
+
+    def _of_axes(self, point: Point) -> Axes:
+        return tuple(point[axis.index] for axis in self._shop.runner.settings.axes)
+
+    def _point(self, values: Axes) -> Point:
+        point = [0.0] * 8
+        for axis, value in zip(self._shop.runner.settings.axes, values, strict=True):
+            point[axis.index] = value
+        return tuple(point)

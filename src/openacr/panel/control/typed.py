@@ -1,0 +1,79 @@
+"""MDI of the panel: blocks wait in a queue and run one after the other."""
+
+from collections import deque
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from openacr.cnc.interpreter.mdi import Mdi
+from openacr.errors import OpenacrError, UserError
+from openacr.mill.config.dialects import dialect_of
+
+if TYPE_CHECKING:
+    from openacr.panel.control.desk import Desk
+
+
+class Typed:
+    """The MDI of one machine."""
+
+    def __init__(self, desk: "Desk") -> None:
+        self._desk = desk
+        self._mdi: Mdi | None = None
+        self._queue: deque[str] = deque()
+        self._is_shown = True
+        self.text: list[str] = []  # what was executed, as the operator may edit it
+
+    def forget(self) -> None:
+        """Forget the modal state and what waits: the session is another one."""
+        self._mdi = None
+        self._queue.clear()
+
+    def put(self, blocks: Iterable[str], *, dialect: str = "", is_shown: bool = True) -> None:
+        """Run blocks one after the other; the first one is checked and started at once.
+
+        `is_shown`: they are part of the text of MDI.
+        """
+        shop = self._desk.machine
+        if self._mdi is None or self._is_other_program():
+            self._mdi = shop.mdi(dialect or dialect_of(None, shop.cells))
+        if self._queue:
+            raise UserError("blocks of MDI wait: stop them first")
+        self._is_shown = is_shown
+        first, *rest = blocks
+        self._start(first)
+        self._queue.extend(rest)
+
+    def _is_other_program(self) -> bool:
+        """Whether a program has run since: the modal state begins anew."""
+        return not self._desk.machine.runner.options.is_mdi
+
+    def _start(self, block: str) -> None:
+        shop = self._desk.machine
+        if self._mdi is None:
+            return
+        shop.start_block(self._mdi, block)
+        if self._is_shown:
+            self.text.append(block)
+
+    def poll(self) -> None:
+        """Start the next block when the one before it has ended; an error drops the rest."""
+        runner = self._desk.machine.runner
+        if not self._queue or runner.is_busy:
+            return
+        if runner.alarms.bars_start or runner.was_aborted:
+            self._queue.clear()
+            return
+        try:
+            self._start(self._queue.popleft())
+        except OpenacrError:
+            self._queue.clear()
+            raise
+
+    def drop(self) -> None:
+        """Drop the blocks that wait: the operator has stopped."""
+        self._queue.clear()
+
+    def data(self) -> dict[str, Any]:
+        """What was typed, and what waits."""
+        shop = self._desk.shop
+        is_running = shop is not None and shop.runner.options.is_mdi and shop.runner.is_busy
+        return {"buffer": list(self.text), "running": is_running, "queue": list(self._queue)}

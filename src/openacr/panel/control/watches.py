@@ -1,0 +1,79 @@
+"""Parameters and flag words that browsers watch: read together, reported when they change."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from openacr.client.names import parameter_number
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.mill.session import MillSession
+
+MOST = 64
+INPUTS = (n.W_INPUTS, n.W_INPUTS + 1)  # inputs and outputs of the card
+
+
+class Wish(NamedTuple):
+    """A client and the topic it has subscribed."""
+
+    client: int
+    topic: str
+
+
+@dataclass(slots=True)
+class _Watch:
+    parameters: list[int]
+    every_s: float
+    due_s: float = 0.0
+    reported: dict[int, float] = field(default_factory=dict)  # by place
+
+
+Changed = list[tuple[int, float]]  # place in the list of the client, value
+Report = Callable[[Wish, list[int], Changed], None]
+
+
+class Watches:
+    """What all browsers watch on one card."""
+
+    def __init__(self) -> None:
+        self._watches: dict[Wish, _Watch] = {}
+        self.report: Report = lambda _wish, _parameters, _changed: None
+
+    def begin(self, wish: Wish, parameters: list[int], hz: float) -> None:
+        """Watch parameters from now on; the first look tells all of them."""
+        self._watches[wish] = _Watch(parameters, 1.0 / hz)
+
+    def end(self, wish: Wish) -> None:
+        """End a subscription."""
+        self._watches.pop(wish, None)
+
+    def forget(self, client: int) -> None:
+        """End everything a client watches."""
+        self._watches = {w: each for w, each in self._watches.items() if w.client != client}
+
+    def look(self, shop: MillSession, now_s: float) -> None:
+        """Read what is due, all of it with one request, and tell what has changed."""
+        due = {w: each for w, each in self._watches.items() if now_s >= each.due_s - 0.005}
+        wanted = list(dict.fromkeys(p for each in due.values() for p in each.parameters))
+        if not wanted:
+            return
+        values = dict(zip(wanted, shop.machine.read_rows(wanted), strict=True))
+        for wish, each in due.items():
+            each.due_s = max(each.due_s + each.every_s, now_s)
+            now = dict(enumerate(values[p] for p in each.parameters))
+            changed = [(place, v) for place, v in now.items() if each.reported.get(place) != v]
+            if changed:
+                each.reported = now
+                self.report(wish, each.parameters, changed)
+
+
+def watched(whats: Iterable[object]) -> list[int]:
+    """The numbers of parameters that are named or numbered; UserError for unknown ones."""
+    found = []
+    for what in whats:
+        if isinstance(what, bool) or not isinstance(what, int | str):
+            raise UserError(f"{what!r} is neither a number nor a name of a parameter")
+        found.append(parameter_number(what))
+    if len(found) > MOST:
+        raise UserError(f"{len(found)} parameters: {MOST} at most can be watched at once")
+    return found

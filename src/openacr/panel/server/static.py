@@ -1,0 +1,62 @@
+"""Files of the screens: pages at `/`, `/bench` and `/login`, everything else by its own path."""
+
+import hashlib
+from functools import lru_cache
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+
+WEB = Path(__file__).parents[1] / "web"
+PAGES = {"": "index.html", "bench": "bench.html", "login": "login.html"}
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".mjs": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".json": "application/json",
+    ".map": "application/json",
+    ".svg": "image/svg+xml",
+    ".png": "image/png",
+    ".ico": "image/x-icon",
+    ".woff2": "font/woff2",
+    ".wasm": "application/wasm",
+    ".txt": "text/plain; charset=utf-8",
+    ".webmanifest": "application/manifest+json",
+}
+
+
+def static_file(request: Request, root: Path = WEB) -> Response:
+    """The file at a path."""
+    path = request.path_params.get("path", "").strip("/")
+    name = PAGES.get(path, path)
+    place = _place(root, name)
+    if place is None:
+        text = f"/{path}: there is no such page" if path else "no screens are installed"
+        return PlainTextResponse(text, status_code=404)
+    stamp = place.stat()
+    tag = _tag(place, stamp.st_mtime_ns, stamp.st_size)
+    headers = {"ETag": tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+    if request.headers.get("if-none-match") == tag:
+        return Response(status_code=304, headers=headers)
+    sent = place
+    packed = place.with_name(place.name + ".gz")
+    if "gzip" in request.headers.get("accept-encoding", "") and packed.is_file():
+        sent = packed
+        headers["Content-Encoding"] = "gzip"
+    return FileResponse(sent, media_type=TYPES[place.suffix], headers=headers)
+
+
+def _place(root: Path, name: str) -> Path | None:
+    parts = name.split("/")
+    if any(part in ("", ".", "..") or part.startswith(".") for part in parts):
+        return None
+    place = root.joinpath(*parts)
+    if place.suffix not in TYPES or not place.is_file():
+        return None
+    return place if place.resolve().is_relative_to(root.resolve()) else None
+
+
+@lru_cache(maxsize=512)
+def _tag(place: Path, _changed_ns: int, _size: int) -> str:
+    return f'"{hashlib.blake2b(place.read_bytes(), digest_size=12).hexdigest()}"'

@@ -1,0 +1,1 @@
+"""Frames between server and browsers."""

@@ -1,0 +1,273 @@
+"""A panel for tests: its desk driven by hand, or a server on a port of its own."""
+
+import asyncio
+import json
+import struct
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any, TypeVar
+
+from openacr.panel.commands.all import carry_out
+from openacr.panel.control.desk import Desk
+from openacr.panel.control.orders import Order
+from openacr.panel.control.people import Person
+from openacr.panel.control.thread import ControlThread
+from openacr.panel.machine import embedded
+from openacr.panel.roles import Role
+from openacr.panel.server.panel import Panel, PanelServer
+
+T = TypeVar("T")
+LIMIT_S = 60.0
+STEP_S = 0.002
+HEAD = struct.Struct("<BBHIdd")
+
+
+class HandDesk:
+    """A desk whose time passes only in `run`; what it sends is kept."""
+
+    def __init__(self, folder: Path, *, role: Role = Role.SERVICE) -> None:
+        self.bench = embedded(folder)
+        self.now_s = 100.0
+        self.desk = Desk(self.bench, carry_out)
+        self.events_sent: list[dict[str, Any]] = []
+        self.desk.tell = self.events_sent.append
+        self.desk.open(self.now_s)
+        assert self.desk.lost == ""
+        self.me = Person(1, role, "127.0.0.1")
+        self.desk.join(self.me)
+        self.run(0.1)
+
+    def run(self, seconds: float) -> None:
+        """Let time pass."""
+        for _ in range(round(seconds / STEP_S)):
+            self.now_s += STEP_S
+            self.desk.step(self.now_s)
+
+    def until(self, holds: Callable[[], bool], limit_s: float = 60.0) -> None:
+        """Let time pass until something holds."""
+        end_s = self.now_s + limit_s
+        while not holds():
+            assert self.now_s < end_s, f"never came: {self.state} {self.said[-3:]}"
+            self.run(0.01)
+
+    def send(
+        self, name: str, /, *, who: Person | None = None, old_s: float = 0.0, **args: Any
+    ) -> Any:
+        """Carry a command out; its answer as the browser gets it."""
+        answers: list[dict[str, Any]] = []
+        order = Order(who or self.me, name, args, self.now_s - old_s, answers.append)
+        self.desk.order(order, self.now_s)
+        if not answers and name != "jog.keep":
+            while not answers:  # a program is loaded beside the control thread
+                self.run(STEP_S)
+        return answers[0] if answers else None
+
+    def do(self, name: str, /, **args: Any) -> Any:
+        """Carry a command out that has to succeed; its result."""
+        answer = self.send(name, **args)
+        assert answer["ok"], answer
+        return answer["result"]
+
+    def refused(self, name: str, /, **args: Any) -> dict[str, Any]:
+        """The error of a command that has to be refused."""
+        answer = self.send(name, **args)
+        assert not answer["ok"], answer
+        error: dict[str, Any] = answer["error"]
+        return error
+
+    @property
+    def tick(self) -> float:
+        """The newest tick."""
+        return self.desk.snapshot.tick_ms
+
+    @property
+    def state(self) -> str:
+        return self.desk.machine.runner.state.name
+
+    @property
+    def is_busy(self) -> bool:
+        return self.desk.machine.runner.is_busy
+
+    @property
+    def said(self) -> list[str]:
+        return [each["text"] for each in self.desk.said]
+
+    def events(self, name: str) -> list[dict[str, Any]]:
+        """What was sent under a name."""
+        return [event for event in self.events_sent if event["event"] == name]
+
+    def places(self) -> tuple[float, ...]:
+        """Where the axes are commanded to be, machine coordinates."""
+        return self.desk.snapshot.commanded
+
+    def speeds(self, seconds: float = 0.1) -> tuple[float, ...]:
+        """How far each axis moves in a time, per second."""
+        before = self.places()
+        self.run(seconds)
+        return tuple(
+            round((b - a) / seconds, 6) for a, b in zip(before, self.places(), strict=True)
+        )
+
+    def press(self, number: int, axis: str = "X", direction: int = 1, **more: Any) -> Any:
+        """Press a jog key."""
+        more.setdefault("tick", self.tick)
+        return self.send(
+            "jog.press", press=number, axis=axis, direction=direction, first=True, **more
+        )
+
+    def keep(self, number: int, seconds: float, **more: Any) -> None:
+        """Hold a key for a time, as a browser does."""
+        for _ in range(round(seconds / 0.05)):
+            self.run(0.05)
+            self.send("jog.keep", press=number, tick=self.tick, **more)
+
+    def close(self) -> None:
+        self.desk.close()
+        self.desk.jobs.close()
+        self.bench.close()
+
+
+class HandControl(ControlThread):
+    """A control thread that is no thread: its turns are taken by hand."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._now_s = 100.0
+        super().__init__(desk, lambda: self._now_s)
+
+    def start(self) -> None:
+        self.desk.open(self._now_s)
+
+    def stop(self) -> None:
+        self.rest()
+
+    def step(self, seconds: float) -> None:
+        for _ in range(max(1, round(seconds / STEP_S))):
+            self._now_s += STEP_S
+            self.turn(0.0)
+
+
+class Served:
+    """A panel that serves a port of its own, in a thread of this process."""
+
+    def __init__(
+        self, folder: Path, *, by_hand: bool = False, prepare: Callable[[Panel], None] | None = None
+    ) -> None:
+        bench = embedded(folder)
+        self.panel = Panel(bench, control=HandControl if by_hand else ControlThread)
+        if prepare is not None:
+            prepare(self.panel)
+        self._server = PanelServer(self.panel)
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._is_up = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="panel server", daemon=True)
+        self._thread.start()
+        assert self._is_up.wait(LIMIT_S)
+
+    def _run(self) -> None:
+        async def started() -> None:
+            self._loop = asyncio.get_running_loop()
+            self._is_up.set()
+
+        asyncio.run(self._server.serve(started))
+
+    @property
+    def port(self) -> int:
+        return int(self._server.port)
+
+    @property
+    def url(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def ws_url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}/ws"
+
+    @property
+    def machine(self) -> "Served":
+        return self
+
+    @property
+    def desk(self) -> Desk:
+        return self.panel.desk
+
+    @property
+    def programs(self) -> Path:
+        return self.panel.bench.programs
+
+    @property
+    def store(self) -> Path:
+        assert self.panel.bench.store.path is not None
+        return self.panel.bench.store.path
+
+    def call(self, work: Callable[[Desk], T]) -> T:
+        """Run a function in the control thread; its result."""
+        future: Future[T] = self.panel.control.call(work)
+        if isinstance(self.panel.control, HandControl):
+            self.panel.control.step(STEP_S)
+        return future.result(LIMIT_S)
+
+    def step(self, seconds: float) -> None:
+        """Let time pass, where it is driven by hand."""
+        assert isinstance(self.panel.control, HandControl)
+        self.panel.control.step(seconds)
+
+    def close(self) -> None:
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self._server.stop)
+        self._thread.join(LIMIT_S)
+        assert not self._thread.is_alive()
+
+
+class Client:
+    """A browser without a picture: the protocol as a screen speaks it."""
+
+    def __init__(self, socket: Any) -> None:
+        self._socket = socket
+        self._number = 0
+        self.events: list[dict[str, Any]] = []
+        self.frames: list[bytes] = []
+        self.acks = True
+
+    async def send(self, name: str, /, **args: Any) -> int:
+        self._number += 1
+        await self._socket.send(json.dumps({"id": self._number, "cmd": name, "args": args}))
+        return self._number
+
+    async def do(self, name: str, /, **args: Any) -> dict[str, Any]:
+        """The answer of a command."""
+        number = await self.send(name, **args)
+        return await self.wait(lambda: self._answer(number))
+
+    def _answer(self, number: int) -> dict[str, Any] | None:
+        return next((e for e in self.events if e.get("id") == number), None)
+
+    def last(self, name: str) -> dict[str, Any]:
+        """The last event of a name."""
+        return next(e for e in reversed(self.events) if e.get("event") == name)
+
+    def named(self, name: str) -> list[dict[str, Any]]:
+        return [e for e in self.events if e.get("event") == name]
+
+    @property
+    def tick(self) -> float:
+        return float(HEAD.unpack_from(self.frames[-1])[4])
+
+    async def take(self) -> None:
+        """Receive one message."""
+        message = await asyncio.wait_for(self._socket.recv(), LIMIT_S)
+        if isinstance(message, str):
+            self.events.append(json.loads(message))
+            return
+        self.frames.append(message)
+        topic, _, _, seq, _, _ = HEAD.unpack_from(message)
+        if self.acks:
+            names = {1: "status", 2: "flags", 3: "watch", 4: "scope"}
+            await self._socket.send(json.dumps({"ack": names[topic], "seq": seq}))
+
+    async def wait(self, found: Callable[[], T | None]) -> T:
+        """Receive until something is there."""
+        while (result := found()) is None or result is False:
+            await self.take()
+        return result
