@@ -12,6 +12,7 @@ from openacr.errors import UserError
 from openacr.mill.manual.teaching import teach
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import CELLS
 
 
 def standing(**cells: float) -> Shop:
@@ -64,3 +65,19 @@ def test_an_axis_that_is_not_homed_cannot_be_taught() -> None:
     assert other.store.read(910) == 0.0
     with pytest.raises(UserError, match="G60: work systems are G54"):
         taught(shop, "G60", [0])
+
+
+def test_a_rotated_system_is_taught_along_its_own_axes() -> None:
+    shop = standing()
+    store, settings = shop.store, shop.runner.settings
+    code, here = "G55", (3.0, 4.0, 0.0, 0, 0, 0, 0, 0)
+    cells, angle = CELLS.work_systems[1], CELLS.work_rotations[1]
+    store.write(angle, 90.0)
+    teach(store, settings, code, here, [0, 1])
+    assert [store.read(cell) for cell in cells[:3]] == [3.0, 4.0, 0.0]
+    store.write(cells[0], 1.0)
+    store.write(cells[1], 2.0)  # here reads X2 Y-2
+    teach(store, settings, code, here, [0])
+    assert [store.read(cell) for cell in cells[:2]] == [1.0, 4.0]  # X0 Y-2
+    teach(store, settings, code, here, [2])
+    assert [store.read(cell) for cell in cells[:2]] == [1.0, 4.0]

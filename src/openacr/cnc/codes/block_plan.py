@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from openacr.cnc.canonical import AXIS_LETTERS
-from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit
+from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit, check_limit
 from openacr.cnc.reading.blocks import Block, Word
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import NEAR, Number
@@ -32,6 +32,11 @@ class Plan:
     def code_names(self) -> list[str]:
         """The G and M codes of the block as written."""
         return [code.name for code in self.codes]
+
+    @property
+    def taken(self) -> frozenset[str]:
+        """Letters that codes of the block take for themselves."""
+        return frozenset(letter for code in self.codes for letter in code.takes)
 
     @property
     def motion_code(self) -> float | None:
@@ -295,15 +300,6 @@ def _check_written(limit: Limit, words: dict[str, Word]) -> None:
     word = words.get(limit.letter)
     if word is not None and isinstance(word.value, Number):
         check_limit(limit, word.value.number, word.column)
-
-
-def check_limit(limit: Limit, value: float, column: int) -> None:
-    """Refuse a value outside its limits."""
-    if limit.is_whole and abs(value - round(value)) > NEAR:
-        raise CodeError("E204", column, limit.letter)
-    if not limit.low <= value <= limit.high:
-        reach = f"{limit.letter} {limit.low:g} to {limit.high:g}"
-        raise CodeError(limit.error, column, f"{limit.letter}{value:g}", reach)
 
 
 def _numbers(words: dict[str, Word]) -> dict[str, float] | None:

@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
+from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.reading.formulas import NEAR
 from openacr.cnc.reading.grammar import Grammar
 
 if TYPE_CHECKING:
@@ -108,6 +110,15 @@ class Limit:
     error: str
     is_needed: bool = False
     is_whole: bool = False
+
+
+def check_limit(limit: Limit, value: float, column: int) -> None:
+    """Refuse a value outside its limits."""
+    if limit.is_whole and abs(value - round(value)) > NEAR:
+        raise CodeError("E204", column, limit.letter)
+    if not limit.low <= value <= limit.high:
+        reach = f"{limit.letter} {limit.low:g} to {limit.high:g}"
+        raise CodeError(limit.error, column, f"{limit.letter}{value:g}", reach)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from openacr.cnc.canonical import Plane, Point
 from openacr.cnc.geometry.coordinates import Coordinates
@@ -11,6 +12,7 @@ from openacr.cnc.program.block_context import BlockContext
 
 SAME = 1e-6  # units: points closer than this are equal
 NO_TURN = 1e-12  # radians
+TURN = 2.0 * math.pi
 CENTRE_WORDS = "IJK"  # of axes 0, 1, 2
 Pair = tuple[float, float]
 
@@ -23,6 +25,32 @@ class ArcGeometry:
     sweep_rad: float
     start_radius: float
     end_radius: float
+
+    def with_turns(self, turns: int) -> ArcGeometry:
+        """The same arc with full turns before it: `turns` in all."""
+        more = math.copysign(TURN * (turns - 1), self.sweep_rad)
+        return replace(self, sweep_rad=self.sweep_rad + more)
+
+    def turns(self, plane: Plane, start: Point, end: Point) -> Iterator[tuple[Point, ArcGeometry]]:
+        """Arcs of at most one turn that follow each other, each with its end.
+
+        Axes outside the plane move in proportion to the angle.
+        """
+        whole = math.ceil(abs(self.sweep_rad) / TURN - NO_TURN) - 1
+        radius = self.start_radius
+        for k in range(1, whole + 1):
+            share = TURN * k / abs(self.sweep_rad)
+            point = [a + (b - a) * share for a, b in zip(start, end, strict=True)]
+            grown = self.start_radius + (self.end_radius - self.start_radius) * share
+            for axis, middle in zip((plane.first, plane.second), self.centre, strict=True):
+                is_same = grown == self.start_radius
+                reach = start[axis] - middle
+                point[axis] = start[axis] if is_same else middle + reach * grown / self.start_radius
+            sweep = math.copysign(TURN, self.sweep_rad)
+            yield tuple(point), ArcGeometry(self.centre, sweep, radius, grown)
+            radius = grown
+        left = self.sweep_rad - math.copysign(TURN * whole, self.sweep_rad)
+        yield end, ArcGeometry(self.centre, left, radius, self.end_radius)
 
 
 def arc_geometry(
@@ -112,8 +140,9 @@ def placed(
             raise b.fault("E244", detail=f"{k1:g} and {k2:g}")
         factor = abs(k1)
         sweep = -sweep if k1 * k2 < 0.0 else sweep
-    if coordinates.rotation is not None and coordinates.rotation.plane is not plane:
-        raise b.fault("E244", detail="the plane is turned out of itself")
+    for turn in (coordinates.rotation, coordinates.turn):
+        if turn is not None and turn.plane is not plane:
+            raise b.fault("E244", detail="the plane is turned out of itself")
     point = list(start)
     point[first], point[second] = arc.centre
     moved = coordinates.forward(tuple(point))

@@ -24,7 +24,7 @@ from openacr.cnc.canonical import (
     Rapid,
     Source,
 )
-from openacr.cnc.geometry.arcs import ArcGeometry
+from openacr.cnc.geometry.arcs import TURN, ArcGeometry
 from openacr.cnc.geometry.coordinates import ORIGIN, Coordinates
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.program.block_context import BlockContext
@@ -178,12 +178,19 @@ class Path:
         self.program, self.placed = end, placed
         start, target = self.target, self.coordinates.to_machine(placed)
         if self.elements is not None:
+            self._check_turn(b)
             self.target = target
             self.elements(Element(b.source, self._modal.plane_axes, start, target, pace))
             return
         if target != self.target:
             self._issue_straight(b.source, target, pace)
             self.target = target
+
+    def _check_turn(self, b: BlockContext) -> None:
+        """Compensation works in the plane of the machine: a turned system keeps XY alone."""
+        turn = self.coordinates.turn
+        if turn is not None and turn.plane is not self._modal.plane_axes:
+            raise b.fault("E311", detail="the plane is turned out of itself")
 
     def _issue_straight(
         self,
@@ -204,10 +211,20 @@ class Path:
     def arc(self, b: BlockContext, end: Point, arc: ArcGeometry, pace: Pace) -> None:
         """Move along an arc given after scaling and rotation; `end` is the program point."""
         b.has_moved = True
+        begin = self.placed
         self.program = end
         self.placed = self.coordinates.forward(end)
-        start, target = self.target, self.coordinates.to_machine(self.placed)
+        if abs(arc.sweep_rad) <= TURN:
+            self._arc_to(b, self.placed, arc, pace)
+            return
+        for placed, turn in arc.turns(self._modal.plane_axes, begin, self.placed):
+            self._arc_to(b, placed, turn, pace)
+
+    def _arc_to(self, b: BlockContext, placed: Point, arc: ArcGeometry, pace: Pace) -> None:
+        """Move along an arc of at most one turn."""
+        start, target = self.target, self.coordinates.to_machine(placed)
         if self.elements is not None:
+            self._check_turn(b)
             self.target = target
             plane, shift = self._modal.plane_axes, self.coordinates.shift
             centre = arc.centre[0] + shift[plane.first], arc.centre[1] + shift[plane.second]

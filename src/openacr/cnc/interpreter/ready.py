@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.canonical import Entry, Output, SetBit
-from openacr.cnc.codes.block_plan import Plan, check_limit
-from openacr.cnc.codes.table import Code, Limit
+from openacr.cnc.codes.block_plan import Plan
+from openacr.cnc.codes.table import Code, Limit, check_limit
 from openacr.cnc.interpreter.statements import statement_of
 from openacr.cnc.reading.blocks import Assignment, Block, Input, OWord, Print
 from openacr.cnc.reading.findings import CodeError

@@ -32,6 +32,10 @@ class BlockWords(Protocol):
         """The G and M codes of the block as written."""
 
     @property
+    def taken(self) -> frozenset[str]:
+        """Letters that codes of the block take for themselves."""
+
+    @property
     def motion_code(self) -> float | None:
         """The number of the G code of motion in the block (G0 to G3), if it has one."""
 

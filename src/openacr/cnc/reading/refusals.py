@@ -80,7 +80,6 @@ def _form(shown: str, pattern: str, reason: str, *lines: str, error: str = "E104
 
 COMPUTED = "a code needs a number as written"
 _AXES = "axes are X Y Z A B C U V"
-_TURNS = "an arc has one turn at most; write further turns as arcs of their own"
 _DWELL = "a dwell moves nothing: write the axis words in a block of their own"
 _LATHES = (
     _codes("G7 G8", "diameter and radius mode are for lathes; leave the code out"),
@@ -112,7 +111,6 @@ ACROMILL = Refusals((
     _FEED_PER_TURN,
     _LOADED,
     _COMPUTED_CODES,
-    _words("P", "G2 G3", "E206", "G2 X1 Y1 I1 J0 P2 F10", _TURNS),
     _words("XYZABCUV", "G4", "E206", "G4 F1 _1", _DWELL),
     _words("P", "G4", "E240", "G4 P2", "seconds are F here; G4 P is of the dialect rs274ngc"),
     _words("P", "G64", "E206", "G64 P.1",
@@ -143,7 +141,6 @@ RS274NGC = Refusals((
     _POLAR,
     _codes("G17.1 G18.1 G19.1", "arcs lie in XY, ZX or YZ, not in planes of U, V, W"),
     _codes("G50 G51", "nothing is scaled in this dialect, only in acromill"),
-    _codes("G52", "no local shift in this dialect; use G92 or another work system"),
     _codes("G54.1", "work systems are G54 to G59.3"),
     _codes("G68 G69", "nothing is rotated in this dialect, only in acromill"),
     _TILTED,
@@ -158,10 +155,7 @@ RS274NGC = Refusals((
     _codes(" ".join(f"M{n}" for n in range(100, 200)),
            "codes of the user are part programs M100.TXT and so on in the folder of P900010"),
     _COMPUTED_CODES,
-    _words("P", "G2 G3", "E206", "G2 X1 Y1 I1 J0 P2 F10", _TURNS),
-    _words("XYZABCUV", "G4", "E206", "G4 P1 _1", _DWELL),
     _words("F", "G4", "E222", "G4 F1", "seconds are P here; G4 F is of the dialect acromill"),
-    _words("R", "G10", "E241", "G10 L2 P1 R30", "work systems are not rotated"),
     _words("IJQ", "G10", "E206", "G10 L1 P1 _1", "angles and orientation are for lathe tools"),
     _words("P", "G30", "E206", "G30 P2 X1", "there is one second reference point; leave P out"),
     _words("E", "M66", "E206", "M66 E0 L0", "programs do not read analog inputs"),

@@ -21,6 +21,7 @@ from openacr.errors import MapError, OpenacrError
 from openacr.sysvar.tabs import CELLS, CONTROL
 
 FIRST_STORED, LAST_STORED = 100, 4095
+NINTH_SYSTEM = 840  # offsets of G59.3 and its rotation
 # From these cells on: whether input and output n are active when they are off.
 INPUTS_INVERTED, OUTPUTS_INVERTED = CONTROL.input_inverted[0], CONTROL.output_inverted[0]
 LAST_LINE = len(CONTROL.input_inverted) - 1
@@ -28,6 +29,7 @@ LAST_LINE = len(CONTROL.input_inverted) - 1
 OFFSET_CELLS = (
     (CELLS.floating_zero_shift[0], CELLS.floating_zero_shift[-1]),
     (CELLS.common_work_shift[0], CELLS.local_shift[-1]),
+    (NINTH_SYSTEM, NINTH_SYSTEM + 8),
     (CELLS.current_d_radius, CELLS.current_d_wear),
     (CELLS.current_h_length, CELLS.current_h_wear),
 )

@@ -23,6 +23,13 @@ def _work_system(k: int) -> range:
     return _TAB.by_axis.real(900 + 10 * k, f"Work system {k}", "u", doc=f"Offset of {code}.")
 
 
+def _turn(cell: int, k: int) -> int:
+    code = f"G{53 + k}" if k < 7 else f"G59.{k - 6}"
+    return _TAB.real(
+        cell, f"Work system {k} rotation", "deg", doc=f"{code} about Z, + from X to Y."
+    )
+
+
 def _offsets(base: int, name: str, count: int, doc: str) -> range:
     """A table of offsets by their numbers: 0 is always 0, the others are tools."""
     _TAB.real(base, f"{name} 0", "u", is_fixed=True, doc="Always 0.")
@@ -140,10 +147,13 @@ class CELLS:
         900, "Common work shift", "u", doc="Shift of all work systems."
     )
     work_systems = tuple(_work_system(k) for k in range(1, 9))
+    work_rotations = tuple(_turn(908 + 10 * k, k) for k in range(1, 9))
     local_shift = tab.by_axis.real(990, "Local shift", "u", doc="Shift by G52.")
     work_system_in_use = tab.integer(998, "Work system in use", 1, low=0, high=8, doc="0 = G53.")
     for _k in range(908, 999, 10):
-        if _k != 998:
+        if _k in work_rotations:
+            tab.real(_k + 1, f"Free {_k + 1}", "", doc="Free.")
+        elif _k != 998:
             tab.series(2, first=_k).real(_k, "Free {}", "", doc="Free.")
     tab.real(999, "Free 999", "", doc="Free.")
 

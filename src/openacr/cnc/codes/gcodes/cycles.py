@@ -64,6 +64,9 @@ def drill(run: Run, b: BlockContext) -> Iterator[Entry]:
     if drilling is None:
         raise b.fault("E250")
     plane, code = run.modal.plane_axes, run.modal.cycle
+    turn = run.path.coordinates.turn
+    if turn is not None and turn.plane is not plane:
+        raise b.fault("E244", detail="the plane is turned out of itself")
     _take(run, b, drilling, plane)
     _check(b, drilling, code)
     r, bottom = drilling.levels

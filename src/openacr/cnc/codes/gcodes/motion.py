@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.codes.radii import Words, check_radii
-from openacr.cnc.codes.table import Group, Step
+from openacr.cnc.codes.table import Group, Limit, Step, check_limit
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.geometry import arcs
 from openacr.cnc.reading.findings import CodeError
@@ -25,6 +25,7 @@ gcode, letter = ACROMILL.gcode, ACROMILL.letter
 NO_CYCLE, NO_MOTION = 80, 80
 CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
 _LENGTHS = "IJKR"
+_TURNS = Limit("P", 1, 9999, "E222", is_whole=True)
 
 
 @gcode(0, 1, step=Step.MOTION, group=Group.MOTION)
@@ -33,9 +34,9 @@ def straight(run: Run, b: BlockContext) -> None:
     select(run, b)
 
 
-@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKR")
+@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP")
 def arc(run: Run, b: BlockContext) -> None:
-    """G2 cuts arcs clockwise, G3 counter-clockwise; a cycle ends."""
+    """G2 cuts arcs clockwise, G3 counter-clockwise, in P turns; a cycle ends."""
     select(run, b)
 
 
@@ -94,15 +95,23 @@ def _pace(run: Run, b: BlockContext, end: Point, bow: ArcGeometry | None) -> Pac
 
 
 def _arc(run: Run, b: BlockContext, direction: int) -> None:
-    check_words(run, b, _LENGTHS)
+    check_words(run, b, _LENGTHS + _TURNS.letter)
     path, modal = run.path, run.modal
     plane, end = modal.plane_axes, path.end(b)
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
     epsilon = run.cells.read(EPSILON)
     bow = arcs.arc_geometry(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
     check_radii(run, b, bow, Words(plane, path.program, end, lengths))
-    bow = arcs.placed(b, bow, plane, path.coordinates, path.program)
+    bow = arcs.placed(b, bow, plane, path.coordinates, path.program).with_turns(_turns(b))
     path.arc(b, end, bow, _pace(run, b, end, bow))
+
+
+def _turns(b: BlockContext) -> int:
+    """P of an arc, unless another code of the block takes it."""
+    if "P" not in b.words or "P" in b.plan.taken:
+        return 1
+    check_limit(_TURNS, b.words["P"], b.plan.column("P"))
+    return b.whole("P")
 
 
 def clockwise(run: Run, b: BlockContext) -> None:

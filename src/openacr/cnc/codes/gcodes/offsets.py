@@ -10,16 +10,14 @@ from openacr.cnc.canonical import Entry
 from openacr.cnc.codes.gcodes.work import length_of
 from openacr.cnc.codes.table import Axes, Step
 from openacr.cnc.codes.tables import ACROMILL
-from openacr.cnc.geometry.coordinates import HOLE
+from openacr.cnc.geometry.coordinates import HOLE, TURN, system_base
 from openacr.cnc.state.cells import (
     COMMON,
     FIXTURES,
-    FLOATING,
     LAST_LENGTH,
     LAST_RADIUS,
     LENGTH_WEARS,
     LENGTHS,
-    LOCAL,
     RADII,
     RADIUS_WEARS,
 )
@@ -29,6 +27,8 @@ if TYPE_CHECKING:
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = ACROMILL.gcode
+ROTATED = 2  # L that takes R as a rotation
+_TURNED = {0, 1}  # axes a rotation about Z mixes
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,15 +52,18 @@ FORMS = {
 
 @gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
 def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
-    """Write work offsets (L2, L20), lengths (L10, L11), radii (L12, L13), fixtures (L14)."""
+    """Write work offsets (L2 with R, L20), lengths (L10, L11), radii (L12, L13), fixtures (L14)."""
     form = FORMS.get(b.whole("L", code="E241"))
     if form is None:
         raise b.fault("E241", "L", "L", "L 2, 10, 11, 12, 13, 14 or 20")
     n = b.whole("P", code="E241")
     if not 1 <= n <= form.last:
         raise b.fault("E241", "P", "P", f"P 1 to {form.last}")
-    if form.cell is None and not b.plan.axes:
+    has_turn = "R" in b.words and b.whole("L") == ROTATED
+    if form.cell is None and not (b.plan.axes or has_turn):
         raise b.fault("E241", "L", "axis words missing")
+    if form.cell is None and "R" in b.words and not has_turn:
+        raise b.fault("E241", "R", "R", "R turns a work system with L2")
     if form.cell is not None and ("R" not in b.words or b.plan.axes):
         raise b.fault("E241", "L", "R missing" if "R" not in b.words else "no axis words")
     yield from run.sync(b.source)
@@ -77,21 +80,22 @@ def _written(run: Run, b: BlockContext, n: int, form: Form) -> list[tuple[int, f
         return [(form.cell + n, run.path.length(b.words["R"]), adds)]
     values = [(axis, letter, length_of(run, letter, value)) for axis, letter, value in b.axes]
     which = b.whole("L")
-    if which == 2:
-        return [(COMMON + HOLE * n + axis, value, adds) for axis, _, value in values]
+    if which == ROTATED:
+        turns = [(system_base(n) + TURN, b.words["R"], adds)] if "R" in b.words else []
+        return [(COMMON + HOLE * n + axis, value, adds) for axis, _, value in values] + turns
     if which == 20:
-        return [(COMMON + HOLE * n + axis, taught(run, n, axis, value), False)
-                for axis, _, value in values]  # fmt: skip
+        return [(cell, value, False) for cell, value in taught(run, n, values)]
     return [
         (LENGTHS + n if letter == "Z" else FIXTURES + HOLE * n + axis, value, adds)
         for axis, letter, value in values
     ]
 
 
-def taught(run: Run, n: int, axis: int, value: float) -> float:
-    """The offset of work system n with which the present point reads a value."""
-    read, path = run.cells.read, run.path
-    beside = read(COMMON + axis) + read(FLOATING + axis)
-    if n == run.modal.work:  # the local shift ends when another system is chosen
-        beside += read(LOCAL + axis)
-    return path.target[axis] - beside - path.coordinates.offsets(run.modal)[axis] - value
+def taught(run: Run, n: int, values: list[tuple[int, str, float]]) -> Iterator[tuple[int, float]]:
+    """The cells of work system n with which the present point reads values, and what they get."""
+    wanted = {axis: value for axis, _, value in values}
+    origin = run.path.coordinates.origin_of(n, run.path.target, wanted, run.modal)
+    is_turned = run.cells.read(system_base(n) + TURN) != 0.0
+    changed = set(wanted) | (_TURNED if is_turned and _TURNED & set(wanted) else set())
+    for axis in sorted(changed):
+        yield system_base(n) + axis, origin[axis]

@@ -75,14 +75,15 @@ def preset_zero(run: Run, named: dict[int, float]) -> None:
     wanted = list(path.program)
     for axis, value in named.items():
         wanted[axis] = value
-    missed = path.coordinates.forward(tuple(wanted))
+    missed = path.coordinates.scaled(tuple(wanted))
+    unturned = path.coordinates.unturned(path.placed)
     with run.cells.transaction(is_durable=False):
         for axis, value in named.items():
             before = run.cells.read(FLOATING + axis)
             write(FLOATING_BEFORE + axis, before)
             write(FLOATING_WORD + axis, value)
             write(FLOATING_AT + axis, path.target[axis])
-            write(FLOATING + axis, before + path.placed[axis] - missed[axis])
+            write(FLOATING + axis, before + unturned[axis] - missed[axis])
         show_zero(run)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import AXES, Dwell, Entry
+from openacr.cnc.canonical import AXES, TOOL_AXIS, Dwell, Entry
 from openacr.cnc.codes import gcodes as _acromill  # noqa: F401  fills the other table
 from openacr.cnc.codes.gcodes import cycles, motion
 from openacr.cnc.codes.gcodes.offsets import taught
@@ -21,12 +21,12 @@ from openacr.cnc.codes.gcodes.work import (
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL, RS274NGC
 from openacr.cnc.codes.words import select_length, select_radius
-from openacr.cnc.geometry.coordinates import LENGTH_SIGN, ORIGIN, system_base
+from openacr.cnc.geometry.coordinates import ORIGIN, TURN, system_base
 from openacr.cnc.state.cells import (
+    COMMON,
     FLOATING,
     LAST_RADIUS,
-    LENGTH,
-    LENGTH_WEAR,
+    LENGTH_WEARS,
     LENGTHS,
     RADII,
     RADIUS,
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = RS274NGC.gcode
+INCREMENTAL = 91
+TABLE, FIXTURE = 1, 11  # L of G10: as given; read in G59.3 without G92
+LAST_OF_ALL = 9  # work systems
 REFERENCE_CELLS = {28: CELLS.reference_point_1, 30: CELLS.reference_point_2}
 RS274NGC.include(
     ACROMILL,
@@ -47,10 +50,10 @@ RS274NGC.include(
 )
 
 
-@gcode(4, step=Step.DWELL, takes="P", axes=Axes.BARRED,
+@gcode(4, step=Step.DWELL, takes="P",
        limits=(Limit("P", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
 def dwell(run: Run, b: BlockContext) -> None:
-    """Rest for P seconds."""
+    """Rest for P seconds, then move if there are axis words."""
     run.tell(Dwell(b.source, b.words["P"]))
 
 
@@ -76,6 +79,8 @@ def in_machine(run: Run, b: BlockContext) -> None:
     run.offset_path.refuse(b, "E310")
     if run.modal.motion not in (0, 1):
         raise b.fault("E206", hint="G53 goes with G0 or G1")
+    if run.modal.distance == INCREMENTAL:
+        raise b.fault("E206", hint="machine positions are absolute: G90")
     target = list(run.path.target)
     for axis, letter, value in b.axes:
         target[axis] = length_of(run, letter, value)
@@ -152,8 +157,10 @@ def length(run: Run, b: BlockContext) -> None:
 
 @gcode(43.1, step=Step.LENGTH, group=Group.LENGTH, axes=Axes.DATA)
 def length_of_words(run: Run, b: BlockContext) -> None:
-    """The axis words are the offset."""
-    added = [0.0] * AXES
+    """The axis words are the offset of their axes; that of the others stays."""
+    added = list(run.path.coordinates.offsets(run.modal))
+    if not b.plan.axes:
+        raise b.fault("E206", hint="the offset is given by axis words")
     for axis, letter, value in b.axes:
         added[axis] = length_of(run, letter, value)
     run.modal.length = 49
@@ -161,11 +168,17 @@ def length_of_words(run: Run, b: BlockContext) -> None:
     run.path.refresh()
 
 
-@gcode(43.2, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H",
-       limits=(Limit("H", 0, 999, "E222", is_needed=True, is_whole=True),))  # fmt: skip
+@gcode(43.2, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H", axes=Axes.DATA,
+       limits=(Limit("H", 0, 999, "E222", is_whole=True),))  # fmt: skip
 def more_length(run: Run, b: BlockContext) -> None:
-    """The length of H is added to the offset there is."""
-    run.path.coordinates.add_length(run.cells.read(LENGTHS + b.whole("H")))
+    """The length of H, or the axis words, are added to the offset there is."""
+    if ("H" in b.words) == bool(b.plan.axes):
+        raise b.fault("E222", "H", hint="H or axis words, not both")
+    more = {axis: length_of(run, letter, value) for axis, letter, value in b.axes}
+    if "H" in b.words:
+        more[run.planner.axes.get("Z", TOOL_AXIS)] = run.cells.read(LENGTHS + b.whole("H"))
+    added = enumerate(run.path.coordinates.added)
+    run.path.coordinates.added = tuple(value + more.get(axis, 0.0) for axis, value in added)
     run.path.refresh()
 
 
@@ -221,6 +234,18 @@ def turns_per_minute(run: Run, b: BlockContext) -> None:
     """S is turns per minute, as it always is."""
 
 
+@gcode(52, step=Step.ZERO, axes=Axes.DATA)
+def local_shift(run: Run, b: BlockContext) -> None:
+    """Shift the zero by the axis words; the offset of G92 is replaced, as both are one."""
+    if not b.plan.axes:
+        raise b.fault("E206", hint="G52 X0 Y0 Z0 ends the shift")
+    with run.cells.transaction(is_durable=False):
+        for axis, letter, value in b.axes:
+            run.cells.write(FLOATING_BEFORE + axis, run.cells.read(FLOATING + axis))
+            run.cells.write(FLOATING + axis, length_of(run, letter, value))
+        show_zero(run)
+
+
 @gcode(92.1, 92.2, 92.3, step=Step.ZERO)
 def zero_offset(run: Run, b: BlockContext) -> None:
     """The offset of G92 cleared (.1), set aside (.2), taken again (.3)."""
@@ -241,7 +266,7 @@ def zero_offset(run: Run, b: BlockContext) -> None:
 
 @gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
 def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
-    """L2 and L20 write work systems, L1, L10 and L11 the tool table."""
+    """L2 (R turns it about Z) and L20 write work systems, L1, L10 and L11 the tool table."""
     table = b.whole("L", code="E241")
     last = {2: 9, 20: 9, 1: LAST_RADIUS, 10: LAST_RADIUS, 11: LAST_RADIUS}.get(table)
     if last is None or "P" not in b.words:
@@ -249,35 +274,44 @@ def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
     n = b.whole("P", code="E241")
     if not (0 if last == 9 else 1) <= n <= last:
         raise b.fault("E241", "P")
-    if last == 9 and "R" in b.words:
-        hint = run.dialect.grammar.refusals.of_word("R", ["G10"])
-        raise b.fault("E241", "R", "R", hint)
+    if table == 20 and "R" in b.words:
+        raise b.fault("E241", "R", "R", "R turns a work system with L2")
     yield from run.sync(b.source)
     with run.cells.transaction():
         if last == 9:
             _write_system(run, b, n or run.modal.work, is_taught=table == 20)
         else:
-            _write_tool(run, b, n, is_taught=table != 1)
+            _write_tool(run, b, n, table)
     run.reload_offsets()
 
 
 def _write_system(run: Run, b: BlockContext, n: int, *, is_taught: bool) -> None:
-    for axis, letter, value in b.axes:
-        value = length_of(run, letter, value)
-        if is_taught:
-            value = taught(run, n, axis, value)
+    values = [(axis, letter, length_of(run, letter, value)) for axis, letter, value in b.axes]
+    if is_taught:
+        for cell, value in taught(run, n, values):
+            run.cells.write(cell, value)
+        return
+    for axis, _, value in values:
         run.cells.write(system_base(n) + axis, value)
+    if "R" in b.words:
+        run.cells.write(system_base(n) + TURN, b.words["R"])
 
 
-def _write_tool(run: Run, b: BlockContext, n: int, *, is_taught: bool) -> None:
+def _write_tool(run: Run, b: BlockContext, n: int, table: int) -> None:
     for axis, letter, value in b.axes:
         value = length_of(run, letter, value)
         if letter != "Z":
             raise b.fault("E241", letter, hint="Z is the length, R the radius")
-        if is_taught:
-            sign = LENGTH_SIGN[run.modal.length]
-            used = run.cells.read(LENGTH) + run.cells.read(LENGTH_WEAR)
-            value = run.path.placed[axis] + sign * used - value
+        if table != TABLE:
+            value = _measured(run, axis, table) - run.cells.read(LENGTH_WEARS + n) - value
         run.cells.write(LENGTHS + n, value)
     if "R" in b.words:
         run.cells.write(RADII + n, run.path.length(b.words["R"]))
+
+
+def _measured(run: Run, axis: int, table: int) -> float:
+    """Where an axis is without any tool length: in the system in use, or in G59.3 alone (L11)."""
+    read, path = run.cells.read, run.path
+    if table == FIXTURE:
+        return path.target[axis] - read(COMMON + axis) - read(system_base(LAST_OF_ALL) + axis)
+    return path.placed[axis] + path.coordinates.offsets(run.modal)[axis]

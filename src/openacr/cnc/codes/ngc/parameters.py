@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 
 from openacr.cnc.canonical import AXES
-from openacr.cnc.geometry.coordinates import system_base
+from openacr.cnc.geometry.coordinates import TURN, system_base
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.state.parameters import SHOWN, Parameters, number
 from openacr.sysvar import tabs
 
 FIRST_SYSTEM, SYSTEMS, SYSTEM_STEP = 5221, 9, 20
+ROTATION = 9  # of the parameters of a system: its rotation
 FIRST_POSITION = 5420
 LAST_OWN = 5000
 LAST = 5999
@@ -34,6 +35,7 @@ CELLS = {
 }
 for _n in range(SYSTEMS):
     CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, system_base(_n + 1))
+    CELLS[FIRST_SYSTEM + SYSTEM_STEP * _n + ROTATION] = system_base(_n + 1) + TURN
 STATES = {5220: tabs.CELLS.work_system_in_use, 5400: tabs.CELLS.tool_in_spindle}
 
 
