@@ -1,0 +1,19 @@
+// The emergency stop circuit as the machine reports it.
+import { model } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { t } from "../core/texts.js";
+
+/**
+ * @param {HTMLElement} panel
+ * @param {import("../core/signal.js").Endings} endings
+ */
+export function estopBlock(panel, endings) {
+  const [sign, text] = [h("strong", { ariaHidden: "true" }), h("span", {})];
+  const box = h("section.block.estop", { ariaLabel: t("block.estop") }, h("h3", {}, t("block.estop")), h("div.row", {}, sign, text), h("p.hint", {}, t("estop.software")));
+  panel.append(box);
+  endings.add(model.state.watch(({ estop }) => {
+    setText(sign, estop?.on ? "\u26a0" : estop?.wired ? "\u2713" : "?");
+    setText(text, estop?.on ? t("estop.on") : estop?.wired ? t("estop.off") : t("estop.none"));
+    box.classList.toggle("is-on", Boolean(estop?.on));
+  }));
+}

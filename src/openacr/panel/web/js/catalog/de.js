@@ -1,0 +1,86 @@
+// Deutsche Texte. Die Namen der Tasten sind die der AcroMill-Anleitung, wo sie auf Maschinen üblich sind.
+const MENU = {
+  "menu.label": "Funktionstasten", "menu.home": "REFERENZ", "menu.clrzero": "NULL LÖSCHEN", "menu.setzero": "NULL SETZEN", "menu.edit": "EDITOR", "menu.setup": "EINRICHTEN", "menu.run": "PRO\u00adGRAMM",
+  "menu.manual": "HAND", "menu.diag": "SETUP/ DIAGN.", "menu.help": "HILFE", "menu.exit": "ENDE", "menu.main": "HAUPT\u00adMENÜ", "menu.cmprad": "RADIUS", "menu.load": "LADEN", "menu.feedrate": "VOR\u00adSCHUB",
+  "menu.pparm": "P PARAM", "menu.modals": "G-CODES", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "AB ZEILE", "menu.dryrun": "PROBE\u00adLAUF", "menu.fov": "OVER\u00adRIDES", "menu.block": "EINZEL\u00adSATZ",
+  "menu.abort": "ABBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
+  "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE", "menu.programs": "PROG/ SPS",
+  "menu.display": "ANZEIGE", "menu.iostatus": "E/A STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "REGLER", "menu.board": "KARTEN\u00adPARAM", "menu.servo": "REGEL\u00adKREIS", "menu.cpu": "CPU-LAST",
+  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.back2": "ZURÜCK", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
+};
+
+const FRAME = {
+  "key.ok": "OK", "key.cancel": "ABBRECHEN", "key.close": "SCHLIESSEN",
+  "stale.old": "Keine neuen Werte: Die gezeigten Positionen sind alt. Von hier aus ist keine Bewegung möglich.",
+  "stale.lost": "Keine Verbindung zum Steuerungsprogramm. Die Maschine kann sich noch bewegen. Verbindung wird neu aufgebaut …",
+  "stale.card": "Die Karte antwortet nicht. Die Maschine kann sich noch bewegen, der Zustand der Spindel ist unbekannt.",
+  "stale.refused": "Keine Bewegung: Die gezeigten Positionen sind alt",
+  "state.IDLE": "BEREIT", "state.RUN": "LÄUFT", "state.WAIT": "WARTET", "state.HOMING": "REFERENZ", "state.HOLD": "ANGEHALTEN", "state.ALARM": "ALARM", "state.JOG": "TIPPEN",
+  "stop.hold": "Vorschub-Halt", "stop.title": "Vorschub-Halt: Die Maschine bremst auf ihrer Bahn bis zum Stillstand. Das ist kein Not-Halt.",
+  "prompt.label": "Meldungen der Steuerung und der Programme", "ask.value": "Ein Wert wird verlangt", "ask.answer": "ANTWORTEN", "tool.wanted": "Werkzeug wechseln", "tool.changed": "GEWECHSELT",
+  "alarm.acknowledge": "QUITTIEREN", "alarm.show": "ALARME", "alarm.more": "+{count}", "alarm.count": "Anstehende Alarme: {count}", "alarm.none": "Kein Alarm steht an", "alarm.noprogram": "Kein Programm geladen",
+  "alarm.time": "Zeit", "alarm.code": "Alarm", "alarm.text": "Text",
+  "control.title": "Wer die Maschine bedient", "control.you": "Sie bedienen", "control.other": "{name} bedient", "control.free": "Nur Anzeige", "control.has": "bedient",
+  "control.text": "Nur ein Bildschirm bewegt die Maschine. STOP wirkt jederzeit von jedem Bildschirm.", "control.take": "ÜBERNEHMEN", "control.ask": "UM BEDIENUNG BITTEN", "control.force": "SOFORT ÜBERNEHMEN", "control.give": "AN {name} GEBEN",
+  "control.release": "ABGEBEN", "settings.title": "Darstellung", "settings.theme": "Farben", "settings.language": "Sprache", "theme.auto": "wie das System", "theme.light": "hell", "theme.dark": "dunkel",
+  "role.view": "Zuschauer", "role.operate": "Bediener", "role.setup": "Einrichter", "role.service": "Service", "role.needed": "Dafür ist die Rolle {role} nötig: anmelden",
+  "display.label": "Anzeigefenster", "tab.graphics": "GRAFIK", "tab.program": "PROGRAMM", "tab.io": "E/A", "tab.plc": "SPS", "tab.alarms": "ALARME", "status.label": "Statusfenster", "status.view": "SICHT {n}",
+};
+
+const BLOCKS = {
+  "block.position": "Istposition", "block.distance": "Restweg", "block.next": "Nächste Position", "block.modal": "Aktive G-Codes", "block.estop": "Not-Halt", "block.feeds": "Vorschub und Spindel", "block.buttons": "Tasten",
+  "position.machine": "Maschinenposition", "position.togo": "Restweg", "position.set": "Werkstückposition von {axis} setzen", "position.hint": "Diesen Wert soll die Achse hier anzeigen", "position.done": "{axis} ist gesetzt",
+  "position.busy": "Eine Position lässt sich setzen, solange nichts läuft", "position.homed": "referenziert", "position.nothomed": "nicht referenziert",
+  "feeds.actual": "F ist", "feeds.set": "F soll", "feeds.spindle": "Spindel", "feeds.rpm": "1/min", "feeds.off": "aus", "feeds.tool": "Werkzeug", "feeds.coolant": "Kühlung", "feeds.flood": "Strahl", "feeds.mist": "Nebel",
+  "feeds.line": "Zeile", "feeds.time": "Laufzeit", "feeds.left": "Restzeit", "feeds.parts": "Teile",
+  "estop.on": "Not-Halt ist betätigt", "estop.off": "Not-Halt ist frei", "estop.none": "Nicht verdrahtet: Die Steuerung sieht den Not-Halt nicht", "estop.software": "STOP auf diesem Bildschirm ist kein Not-Halt.",
+  "buttons.none": "Keine Tasten definiert: SETUP/DIAGN., ANZEIGE, TASTENFELD", "override.label": "Overrides", "override.feed": "Vorschub", "override.rapid": "Eilgang", "override.spindle": "Spindel", "override.open": "Alle Overrides",
+  "override.more": "Vorschub-Override höher", "override.less": "Vorschub-Override tiefer", "override.wired": "am Schalter des Bedienpults",
+  "pad.back": "löschen", "pad.clear": "leeren", "pad.sign": "Vorzeichen", "pad.none": "Keine Zahl: Ziffern, . + - * / und Klammern", "pad.open": "Ziffernblock",
+  "graphics.views": "Ansichten", "graphics.label": "Werkzeugbahn des Programms", "graphics.top": "OBEN", "graphics.front": "VORN", "graphics.side": "SEITE", "graphics.iso": "3D", "graphics.fit": "GANZ", "graphics.in": "Vergrößern", "graphics.out": "Verkleinern",
+  "graphics.loading": "{name} wird geladen …", "program.follow": "FOLGEN", "program.from": "AB ZEILE {line}", "io.title": "E/A-Status", "io.inputs": "Eingänge", "io.outputs": "Ausgänge", "io.on": "ein", "io.off": "aus",
+  "plc.title": "SPS-Programme der Karte", "plc.none": "Die Karte hat kein SPS-Programm", "plc.runs": "läuft", "plc.stopped": "steht", "plc.listing": "Programmtext",
+};
+
+const RUN = {
+  "run.none": "Kein Programm geladen: EINRICHTEN, LADEN", "run.line": "Startzeile", "run.lines": "{count} Zeilen", "run.seconds": "etwa {time}", "run.dry": "Probelauf: Trial Speed, ohne M-Funktionen.", "run.skip": "Sätze ausblenden", "run.optional": "Wahlweiser Halt",
+  "run.range": "Das Programm hat die Zeilen 1 bis {last}", "run.begin": "START", "begin.title": "Start bei Zeile {line}", "begin.text": "Die Zeilen davor wurden ohne Bewegung durchlaufen. Das unterscheidet sich vom jetzigen Zustand der Maschine:",
+  "begin.tool": "In der Spindel ist ein anderes Werkzeug", "begin.present": "Jetzt", "begin.wanted": "Verlangt", "begin.go": "ANFAHREN UND STARTEN", "start.title": "Weiter", "start.covered": "Die Maschine fährt weiter ({state} {reason}). Dieser Bildschirm verdeckt die Positionen.",
+  "clrzero.title": "Null löschen", "clrzero.text": "Der Nullpunkt aus G92 wird für alle Achsen gelöscht: Es gilt wieder das Werkstück-Koordinatensystem.", "clrzero.done": "Der Nullpunkt ist gelöscht",
+  "gotozero.title": "Zum Nullpunkt", "gotozero.text": "Alle Achsen fahren zum Nullpunkt, von: {places}", "exit.text": "Den Bildschirm verlassen? Das Steuerungsprogramm läuft weiter.", "exit.busy": "Die Maschine arbeitet und läuft ohne diesen Bildschirm weiter. Verlassen?",
+  "exit.done": "Sie haben den Bildschirm verlassen. Das Steuerungsprogramm läuft weiter.", "exit.again": "ZURÜCKKEHREN",
+  "home.title": "Referenzfahrt", "home.text": "Die Achsen fahren zu ihren Schaltern: Tisch freimachen. Reihenfolge nach Priorität.", "home.axes": "Achsen", "home.start": "REFERENZFAHRT STARTEN", "home.progress": "Die Referenzfahrt läuft: {reason}", "home.homed": "referenziert", "home.nothomed": "nicht referenziert",
+  "home.state.waiting": "wartet", "home.state.switch": "fährt zum Schalter", "home.state.release of the switch": "verlässt den Schalter", "home.state.marker": "sucht die Nullmarke", "home.state.rest": "bremst", "home.state.done": "referenziert", "home.state.failed": "fehlgeschlagen",
+  "axes.all": "Alle Achsen", "axes.none": "Zuerst eine Achse wählen", "zero.title": "Null setzen", "zero.text": "Die gewählten Achsen zeigen hier 0 an (G92).", "zero.axes": "Achsen", "zero.done": "{axes}: 0 gesetzt",
+  "jog.title": "Tippen", "jog.speed": "Geschwindigkeit", "jog.slow": "LANGSAM", "jog.fast": "SCHNELL", "jog.how": "Dauernd oder schrittweise", "jog.continuous": "DAUERND", "jog.text": "Taste halten zum Fahren. Pfeiltasten fahren X und Y, Bild auf und ab fahren Z. STOP ist kein Not-Halt.", "jog.ended": "Das Tippen ist beendet: {reason}",
+  "handwheel.title": "Handrad", "handwheel.text": "Das Rad bewegt die gewählten Achsen, bis dieser Bildschirm verlassen wird.", "handwheel.axes": "Achsen am Rad", "handwheel.start": "VERBINDEN", "handwheel.end": "TRENNEN", "handwheel.on": "Das Rad bewegt {axes}",
+  "teach.title": "Teach", "teach.text": "Die Stelle der Maschine wird zum Nullpunkt des Systems.", "teach.system": "Koordinatensystem", "teach.axes": "Achsen, Maschinenposition", "teach.done": "{system}: {axes} übernommen", "teach.length": "LÄNGE H", "teach.length.done": "H{h} übernommen",
+  "mdi.title": "MDI", "mdi.buffer": "Ausgeführte Sätze", "mdi.line": "Satz", "mdi.execute": "AUSFÜHREN", "mdi.keep": "ÜBERNEHMEN", "mdi.runall": "ALLE AUSFÜHREN", "mdi.save": "SPEICHERN", "mdi.clear": "LEEREN", "mdi.running": "Ein Satz wird ausgeführt", "mdi.count": "{count} Sätze",
+};
+
+const FORMS = {
+  "form.title": "Parameter", "form.save": "SPEICHERN", "form.undo": "ZURÜCK", "form.changed": "Nicht gespeichert: {count}", "form.locked": "Gesperrt: {reason}", "form.axis": "Achse", "form.previous": "ZURÜCK", "form.next": "WEITER", "form.page": "{first}–{last} von {total}",
+  "form.goto": "Gehe zu Zeile", "form.goto.hint": "1 bis {last}", "form.saved": "Gespeichert: {count}", "form.refused": "Nicht gespeichert; abgelehnt: {count}", "form.leave": "Nicht gespeichert", "form.leave.text": "Änderungen, die ohne SPEICHERN verloren gehen: {count}", "form.drop": "VERWERFEN", "form.elsewhere": "Inzwischen anderswo geändert",
+  "field.least": "mindestens {low}", "field.most": "höchstens {high}", "field.range": "{low} bis {high}", "field.typical": "üblich {value}", "field.default": "Vorgabe {value}", "field.motion": "nicht während ein Programm läuft",
+  "parameters.title": "Systemparameter", "parameters.search": "Parameter suchen", "parameters.nothing": "Nichts gefunden", "offsets.title": "Korrekturen",
+  "load.title": "Programm laden", "load.source": "Quelle", "load.file": "DATEI", "load.part": "TEILEBIBLIOTHEK", "load.dxf": "DXF", "load.batch": "STAPEL", "load.drip": "SERIELL", "load.files": "Programme", "load.text": "Text der Datei", "load.choose": "Eine Datei wählen",
+  "load.go": "LADEN", "load.upload": "HOCHLADEN", "load.drop": "Dateien können hier abgelegt werden.", "load.toobig": "{name} ist größer als {most}", "load.uploaded": "{name} ist hochgeladen", "load.locked": "geladen", "load.more": "{count} weitere Zeilen", "load.port": "Schnittstelle",
+  "load.drip.text": "Das Programm wird während des Laufs von einer seriellen Schnittstelle gelesen. Ohne Angabe gilt die der Seite COMMUNICATIONS.", "load.drip.start": "LESEN",
+  "dxf.kind": "Art", "dxf.path": "Zusammenhängende Bahn", "dxf.drill": "Bohrbild", "dxf.direction": "Richtung", "dxf.cw": "0 im Uhrzeigersinn", "dxf.ccw": "1 gegen den Uhrzeigersinn", "dxf.layer": "Layer", "dxf.all": "alle Layer", "dxf.output": "Ausgabedatei", "dxf.convert": "UMWANDELN", "dxf.done": "Umgewandelt: {name}",
+  "edit.title": "Editor", "edit.text": "Text des Programms", "edit.open": "ÖFFNEN", "edit.new": "NEU", "edit.save": "SPEICHERN", "edit.saveas": "SPEICHERN ALS", "edit.name": "Dateiname (.TXT)", "edit.saved": "{name} ist gespeichert", "edit.unnamed": "neue Datei", "edit.lines": "{count} Zeilen", "edit.locked": "Dieses Programm läuft: Es lässt sich jetzt nicht ändern",
+  "edit.leave": "Nicht gespeichert", "edit.leave.text": "{name} hat ungespeicherte Änderungen.", "edit.conflict": "Inzwischen geändert", "edit.overwrite": "ÜBERSCHREIBEN",
+};
+
+const SERVICE = {
+  "diag.warning": "Nur für Fachleute: Änderungen wirken sofort auf die Karte.", "terminal.title": "Terminal", "terminal.line": "Zeile an die Karte", "terminal.send": "SENDEN",
+  "scope.title": "Scope", "scope.channel": "Kanal {n}", "scope.source": "P12290", "scope.period": "Periode, ms", "scope.samples": "Messwerte", "scope.level": "Triggerpegel", "scope.mode": "Trigger", "scope.free": "frei laufend", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "einmal",
+  "scope.slope": "Flanke", "scope.rising": "steigend", "scope.falling": "fallend", "scope.start": "START", "scope.stop": "SCOPE HALT", "scope.armed": "Scharf", "scope.read": "{count} Messwerte", "scope.stopped": "Angehalten nach {count} Messwerten",
+  "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}",
+  "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "board.written": "P{number} ist {value}",
+  "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung", "card.title": "Programme und SPS-Programme der Karte", "card.listing": "Programmtext", "card.empty": "leer", "card.run": "STARTEN", "card.halt": "ANHALTEN", "card.sure": "Damit wird ein Programm auf der Karte selbst gestartet oder beendet.",
+  "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
+};
+
+/** @type {Record<string, string>} */
+const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE };
+export default texts;

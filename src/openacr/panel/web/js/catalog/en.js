@@ -1,0 +1,84 @@
+// English texts of the screens. Names of keys are those of the AcroMill guide.
+const MENU = {
+  "menu.label": "Function keys", "menu.home": "HOME", "menu.clrzero": "CLR ZERO", "menu.setzero": "SET ZERO", "menu.edit": "EDIT", "menu.setup": "RUN SETUP", "menu.run": "RUN PROG",
+  "menu.manual": "MANUAL", "menu.diag": "SET/ DIAG", "menu.help": "HELP", "menu.exit": "EXIT", "menu.main": "MAIN MENU", "menu.cmprad": "CMP RAD", "menu.load": "LOAD PROG", "menu.feedrate": "FEED RATE",
+  "menu.pparm": "P PARM", "menu.modals": "SET MODALS", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "RUN", "menu.dryrun": "DRY RUN", "menu.fov": "OVER\u00adRIDES", "menu.block": "BLOCK",
+  "menu.abort": "ABORT", "menu.back": "BACK", "menu.halt": "HALT", "menu.forward": "FOR\u00adWARD", "menu.resume": "RESUME", "menu.jog": "JOG", "menu.mdi": "MDI", "menu.handwheel": "HAND WHEEL",
+  "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS", "menu.programs": "PROG/ PLC",
+  "menu.display": "DIS\u00adPLAY", "menu.iostatus": "I/O STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "GAIN", "menu.board": "BOARD PARAM", "menu.servo": "SERVO LOOP", "menu.cpu": "CPU LOAD",
+  "menu.fast": "FAST STATUS", "menu.memory": "MEMORY CONFIG", "menu.back2": "BACK", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
+};
+
+const FRAME = {
+  "key.ok": "OK", "key.cancel": "CANCEL", "key.close": "CLOSE",
+  "stale.old": "No new values: the positions shown are old. Nothing can be moved from here.",
+  "stale.lost": "No connection to the controller program. The machine may still be moving. Connecting again \u2026",
+  "stale.card": "The card does not answer. The machine may still be moving, the state of the spindle is unknown.",
+  "stale.refused": "Nothing is moved: the positions shown are old",
+  "state.IDLE": "IDLE", "state.RUN": "RUN", "state.WAIT": "WAIT", "state.HOMING": "HOMING", "state.HOLD": "HOLD", "state.ALARM": "ALARM", "state.JOG": "JOG",
+  "stop.hold": "feed hold", "stop.title": "Feed hold: the machine ramps to rest on its path. This is not an emergency stop.",
+  "prompt.label": "Messages of the control and of programs", "ask.value": "A value is asked for", "ask.answer": "ANSWER", "tool.wanted": "Change the tool", "tool.changed": "TOOL CHANGED",
+  "alarm.acknowledge": "ACKNOWLEDGE", "alarm.show": "ALARMS", "alarm.more": "+{count}", "alarm.count": "Active alarms: {count}", "alarm.none": "No alarm is active", "alarm.noprogram": "No program is loaded",
+  "alarm.time": "Time", "alarm.code": "Alarm", "alarm.text": "Text",
+  "control.title": "Who operates the machine", "control.you": "You operate", "control.other": "{name} operates", "control.free": "View only", "control.has": "operates",
+  "control.text": "One screen at a time moves the machine. STOP works on every screen at any time.", "control.take": "TAKE CONTROL", "control.ask": "ASK FOR CONTROL", "control.force": "TAKE IT NOW", "control.give": "GIVE TO {name}",
+  "control.release": "GIVE UP CONTROL", "settings.title": "Appearance", "settings.theme": "Colours", "settings.language": "Language", "theme.auto": "as the system", "theme.light": "light", "theme.dark": "dark",
+  "role.view": "viewer", "role.operate": "operator", "role.setup": "set-up", "role.service": "service", "role.needed": "This needs the role {role}: log in",
+  "display.label": "Display window", "tab.graphics": "GRAPHICS", "tab.program": "PROGRAM", "tab.io": "I/O STATUS", "tab.plc": "PLC", "tab.alarms": "ALARMS", "status.label": "Status window", "status.view": "VIEW {n}",
+};
+
+const BLOCKS = {
+  "block.position": "Current position", "block.distance": "Distance to go", "block.next": "Next position", "block.modal": "Modal status", "block.estop": "Emergency stop", "block.feeds": "Feed and spindle", "block.buttons": "Push buttons",
+  "position.machine": "Machine position", "position.togo": "Distance to go", "position.set": "Set the work position of {axis}", "position.hint": "The axis shall read this here and now", "position.done": "{axis} is set",
+  "position.busy": "A position can be set while nothing runs", "position.homed": "homed", "position.nothomed": "not homed",
+  "feeds.actual": "Feed", "feeds.set": "F set", "feeds.spindle": "Spindle", "feeds.rpm": "rpm", "feeds.off": "off", "feeds.tool": "Tool", "feeds.coolant": "Coolant", "feeds.flood": "flood", "feeds.mist": "mist",
+  "feeds.line": "Line", "feeds.time": "Run time", "feeds.left": "Time left", "feeds.parts": "Parts",
+  "estop.on": "Emergency stop is on", "estop.off": "Emergency stop is off", "estop.none": "Not wired: the control does not see the emergency stop", "estop.software": "STOP on this screen is not an emergency stop.",
+  "buttons.none": "No push buttons are defined: SET/DIAG, DISPLAY, BUTTON PANEL", "override.label": "Overrides", "override.feed": "Feed", "override.rapid": "Rapid", "override.spindle": "Spindle", "override.open": "All overrides",
+  "override.more": "Feed override up", "override.less": "Feed override down", "override.wired": "set by its switch on the panel",
+  "pad.back": "delete", "pad.clear": "clear", "pad.sign": "change sign", "pad.none": "Not a number: digits, . + - * / and parentheses", "pad.open": "Number pad",
+  "graphics.views": "Views", "graphics.label": "Tool path of the program", "graphics.top": "TOP", "graphics.front": "FRONT", "graphics.side": "SIDE", "graphics.iso": "3D", "graphics.fit": "FIT", "graphics.in": "Zoom in", "graphics.out": "Zoom out",
+  "graphics.loading": "Loading {name} \u2026", "program.follow": "FOLLOW", "program.from": "RUN FROM {line}", "io.title": "I/O status", "io.inputs": "Inputs", "io.outputs": "Outputs", "io.on": "on", "io.off": "off",
+  "plc.title": "PLC programs of the card", "plc.none": "The card has no PLC program", "plc.runs": "runs", "plc.stopped": "stopped", "plc.listing": "Listing",
+};
+
+const RUN = {
+  "run.none": "No program is loaded: RUN SETUP, LOAD PROG", "run.line": "Start line", "run.lines": "{count} lines", "run.seconds": "about {time}", "run.dry": "Dry run: Trial Speed, M codes off.", "run.skip": "Block skip", "run.optional": "Optional stop",
+  "run.range": "The program has the lines 1 to {last}", "run.begin": "START", "begin.title": "Start at line {line}", "begin.text": "The lines before it were run through without motion. This differs from what the machine has now:",
+  "begin.tool": "Another tool is in the spindle", "begin.present": "Present", "begin.wanted": "Wanted", "begin.go": "MOVE AND START", "start.title": "Go on", "start.covered": "The machine goes on moving ({state} {reason}). The positions are covered by this screen.",
+  "clrzero.title": "Clear zero", "clrzero.text": "The floating zero (G92) of all axes is cleared: positions read as in the work coordinate system.", "clrzero.done": "The floating zero is cleared",
+  "gotozero.title": "Go to zero", "gotozero.text": "All axes move to the floating zero, from: {places}", "exit.text": "Leave the screens? The controller program keeps running.", "exit.busy": "The machine is working and goes on without this screen. Leave?",
+  "exit.done": "You have left the screens. The controller program is still running.", "exit.again": "COME BACK",
+  "home.title": "Home", "home.text": "The axes move to their switches: clear the table. Order by priority.", "home.axes": "Axes to be homed", "home.start": "START HOME", "home.progress": "Homing is in progress: {reason}", "home.homed": "homed", "home.nothomed": "not homed",
+  "home.state.waiting": "waiting", "home.state.switch": "moves to its switch", "home.state.release of the switch": "leaves its switch", "home.state.marker": "looks for the marker", "home.state.rest": "comes to rest", "home.state.done": "homed", "home.state.failed": "failed",
+  "axes.all": "All axes", "axes.none": "Choose an axis first", "zero.title": "Set zero", "zero.text": "The chosen axes read 0 where they are (G92).", "zero.axes": "Axes", "zero.done": "{axes} read 0 now",
+  "jog.title": "Jog", "jog.speed": "Speed", "jog.slow": "SLOW", "jog.fast": "FAST", "jog.how": "Continuous or increment", "jog.continuous": "CONTINUOUS", "jog.text": "Hold a key to move. Arrow keys move X and Y, Page Up and Page Down move Z. STOP is not an emergency stop.", "jog.ended": "The jog has ended: {reason}",
+  "handwheel.title": "Handwheel", "handwheel.text": "The wheel moves the chosen axes until this screen is left.", "handwheel.axes": "Axes on the wheel", "handwheel.start": "CONNECT", "handwheel.end": "DISCONNECT", "handwheel.on": "The wheel moves {axes}",
+  "teach.title": "Teach", "teach.text": "Where the machine is becomes the origin of the system.", "teach.system": "Work coordinate system", "teach.axes": "Axes, machine position", "teach.done": "{system}: {axes} taught", "teach.length": "TOOL LENGTH H", "teach.length.done": "H{h} taught",
+  "mdi.title": "MDI", "mdi.buffer": "Executed blocks", "mdi.line": "Block", "mdi.execute": "EXECUTE", "mdi.keep": "KEEP EDIT", "mdi.runall": "RUN ALL", "mdi.save": "SAVE AS", "mdi.clear": "CLEAR", "mdi.running": "A block is being executed", "mdi.count": "{count} blocks",
+};
+
+const FORMS = {
+  "form.title": "Parameters", "form.save": "SAVE", "form.undo": "UNDO", "form.changed": "Not saved: {count}", "form.locked": "Locked: {reason}", "form.axis": "Axis", "form.previous": "PREVIOUS", "form.next": "NEXT", "form.page": "{first}\u2013{last} of {total}",
+  "form.goto": "Go to row", "form.goto.hint": "1 to {last}", "form.saved": "Saved: {count}", "form.refused": "Not saved; refused: {count}", "form.leave": "Not saved", "form.leave.text": "Changes that are lost without SAVE: {count}", "form.drop": "DROP", "form.elsewhere": "Changed elsewhere meanwhile",
+  "field.least": "at least {low}", "field.most": "at most {high}", "field.range": "{low} to {high}", "field.typical": "typical {value}", "field.default": "default {value}", "field.motion": "not while a program runs",
+  "parameters.title": "System parameters", "parameters.search": "Find a parameter", "parameters.nothing": "Nothing found", "offsets.title": "Offsets",
+  "load.title": "Load program", "load.source": "Source", "load.file": "USER FILE", "load.part": "LIBRARY PART", "load.dxf": "DXF FILE", "load.batch": "BATCH FILE", "load.drip": "DRIP FEED", "load.files": "Part programs", "load.text": "Text of the file", "load.choose": "Choose a file",
+  "load.go": "LOAD FILE", "load.upload": "UPLOAD", "load.drop": "Files can be dropped here.", "load.toobig": "{name} is larger than {most}", "load.uploaded": "{name} is uploaded", "load.locked": "loaded", "load.more": "{count} more lines", "load.port": "Port",
+  "load.drip.text": "The program is read from a serial port while it runs. An empty port is that of the COMMUNICATIONS tab.", "load.drip.start": "START READING",
+  "dxf.kind": "Kind", "dxf.path": "Continuous path", "dxf.drill": "Drill pattern", "dxf.direction": "Trace direction", "dxf.cw": "0 clockwise", "dxf.ccw": "1 counter-clockwise", "dxf.layer": "Layer", "dxf.all": "all layers", "dxf.output": "Output file", "dxf.convert": "CONVERT", "dxf.done": "Conversion was successful: {name}",
+  "edit.title": "Edit", "edit.text": "Text of the program", "edit.open": "OPEN", "edit.new": "NEW", "edit.save": "SAVE", "edit.saveas": "SAVE AS", "edit.name": "File name (.TXT)", "edit.saved": "{name} is saved", "edit.unnamed": "new file", "edit.lines": "{count} lines", "edit.locked": "This program runs: it cannot be changed now",
+  "edit.leave": "Not saved", "edit.leave.text": "{name} has changes that are not saved.", "edit.conflict": "Changed meanwhile", "edit.overwrite": "OVERWRITE",
+};
+
+const SERVICE = {
+  "diag.warning": "Only experienced personnel: what is changed here acts on the card at once.", "terminal.title": "Terminal", "terminal.line": "Line for the card", "terminal.send": "SEND",
+  "scope.title": "Scope", "scope.channel": "Channel {n}", "scope.source": "P12290", "scope.period": "Period, ms", "scope.samples": "Samples", "scope.level": "Trigger level", "scope.mode": "Trigger", "scope.free": "free run", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "single",
+  "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} samples", "scope.stopped": "Stopped at {count} samples",
+  "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}",
+  "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "board.written": "P{number} is {value}",
+  "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration", "card.title": "Programs and PLC programs of the card", "card.listing": "Listing", "card.empty": "empty", "card.run": "RUN", "card.halt": "HALT", "card.sure": "This starts or ends a program on the card itself.",
+  "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
+};
+
+export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE };

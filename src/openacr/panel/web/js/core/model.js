@@ -1,0 +1,93 @@
+// What the browser knows of the machine: the last events and the last status frame.
+import { BITS, readFlags, readScope, readStatus, readWatch } from "./frames.js";
+import { Signal } from "./signal.js";
+
+/**
+ * @typedef {{ name: string, index: number, unit: string, decimals: number, low: number | null, high: number | null, home_required: boolean }} Axis
+ * @typedef {{ kind: string, name: string, card: string, unit: string, is_virtual: boolean, axes: Axis[] }} Machine
+ * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
+ *   extents: Record<string, [number, number]> | null, tools: number[], id: string }} Loaded
+ */
+
+const PRINTED = 200;
+export const ROLES = Object.freeze(["view", "operate", "setup", "service"]);
+
+/** The state of the machine as this browser has received it. */
+export class Model {
+  constructor() {
+    this.hello = new Signal({
+      version: "", client: 0, role: "view", login: false,
+      machine: /** @type {Machine} */ ({ kind: "", name: "", card: "", unit: "mm", is_virtual: true, axes: [] }),
+      limits: { tick_ms: 200, keep_ms: 50, dead_man_ms: 200, stale_ms: 500, upload: 268435456 },
+    });
+    this.state = new Signal(/** @type {any} */ ({
+      state: "IDLE", reason: "", options: {}, asking: null, tool_wanted: false, mode: "auto", estop: { wired: false, on: false }, link: "ok", can: {},
+    }));
+    this.program = new Signal(/** @type {{ loaded: Loaded | null, loading: any, line: number, file: string, text: string, batch: any }} */ (
+      { loaded: null, loading: null, line: 0, file: "", text: "", batch: null }));
+    this.modals = new Signal(/** @type {any} */ ({ codes: [], F: 0, S: 0, T: 0, D: 0, H: 0, spindle: 5, coolant: 0, work: "G54" }));
+    this.alarms = new Signal(/** @type {{ active: any[], history: any[], bars_start: boolean }} */ ({ active: [], history: [], bars_start: false }));
+    this.messages = new Signal(/** @type {{ shown: any[] }} */ ({ shown: [] }));
+    this.control = new Signal(/** @type {any} */ ({ holder: null, you: false, asking: [], clients: [] }));
+    this.overrides = new Signal(/** @type {any} */ ({}));
+    this.home = new Signal(/** @type {{ axes: any[] }} */ ({ axes: [] }));
+    this.mdi = new Signal(/** @type {{ buffer: string[], running: boolean, queue: string[] }} */ ({ buffer: [], running: false, queue: [] }));
+    this.says = new Signal(/** @type {{ text: string, at_s: number }[]} */ ([]));
+    this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
+    this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
+    this.term = new Signal("");
+    this.status = new Signal(/** @type {import("./frames.js").Status | null} */ (null));
+    this.flags = new Signal(/** @type {Map<number, number>} */ (new Map()));
+    this.watched = new Signal(/** @type {[number, number][]} */ ([]));
+    this.scope = new Signal(/** @type {ReturnType<typeof readScope> | null} */ (null));
+    this.isStale = new Signal(true);
+    /** Card time of the last status drawn on the screen, ms; motion is asked for with it. */
+    this.drawnTick = Number.NaN;
+    this.readAt = -Infinity; // browser time at which the values of the last frame were read
+  }
+
+  /** @returns {Axis[]} */
+  get axes() {
+    return this.hello.value.machine.axes;
+  }
+
+  /** @param {string} role */
+  may(role) {
+    return ROLES.indexOf(this.hello.value.role) >= ROLES.indexOf(role);
+  }
+
+  /** @param {keyof typeof BITS} name */
+  is(name) {
+    return ((this.status.value?.bits ?? 0) & BITS[name]) !== 0;
+  }
+
+  /** @param {any} message */
+  takeEvent(message) {
+    const { event, ...rest } = message;
+    if (event === "say") this.says.set([...this.says.value, rest].slice(-PRINTED));
+    else if (event === "says") this.says.set(rest.lines);
+    else if (event === "jog") this.jogEnded.set(rest);
+    else if (event === "term") this.term.set(rest.text);
+    else if (event === "hello") this.hello.set({ ...this.hello.value, ...rest });
+    else if (event in EVENTS) /** @type {Signal<any>} */ (Reflect.get(this, event)).set(rest);
+  }
+
+  /**
+   * @param {import("./frames.js").Head} head
+   * @param {ArrayBuffer} data
+   */
+  takeFrame(head, data) {
+    if (head.topic === "status") {
+      this.readAt = performance.now() - head.age;
+      this.status.value = readStatus(data, head); // drawn with the next picture: see frame/clock.js
+    } else if (head.topic === "flags") {
+      for (const [word, value] of readFlags(data, head)) this.flags.value.set(word, value);
+      this.flags.set(this.flags.value);
+    } else if (head.topic === "watch") this.watched.set(readWatch(data, head));
+    else if (head.topic === "scope") this.scope.set(readScope(data, head));
+  }
+}
+
+const EVENTS = Object.freeze({
+  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1,
+});

@@ -1,0 +1,36 @@
+// One catalogue of texts per language; a key that a language lacks is shown in English.
+import en from "../catalog/en.js";
+
+/** @typedef {keyof typeof en} TextKey */
+
+export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
+/** @type {Record<string, string>} */
+let chosen = en;
+
+/**
+ * Load the catalogue of a language.
+ * @param {string} language
+ */
+export async function useLanguage(language) {
+  if (language === "de") chosen = (await import("../catalog/de.js")).default;
+  document.documentElement.lang = language;
+}
+
+/**
+ * The text of a key with its values filled in: `t("zero.done", { axes: "X Y" })`.
+ * @param {TextKey} key
+ * @param {Record<string, string | number>} [values]
+ */
+export function t(key, values = {}) {
+  const text = chosen[key] ?? en[key] ?? key;
+  return text.replace(/\{(\w+)\}/g, (_whole, name) => String(values[name] ?? ""));
+}
+
+/**
+ * The text of a key that is made at run time, or the fallback where there is none.
+ * @param {string} key
+ * @param {string} fallback
+ */
+export function textOr(key, fallback) {
+  return chosen[key] ?? /** @type {Record<string, string>} */ (en)[key] ?? fallback;
+}

@@ -1,0 +1,78 @@
+// The tool path of a program: fetched once, shared by every picture of it.
+import { address } from "../core/api.js";
+import { Signal } from "../core/signal.js";
+
+const AGAIN_MS = 300;
+const MARK = "OAP1";
+const HEAD = 48;
+export const KIND = Object.freeze({ rapid: 0, feed: 1, compensated: 2, inserted: 3, probe: 4 });
+
+/**
+ * @typedef {object} ToolPath points in program coordinates, x y z
+ * @property {Float32Array} points
+ * @property {Uint32Array} lines line of the program that draws to each point
+ * @property {Uint32Array} starts first point of each polyline
+ * @property {Uint8Array} kinds of the polylines
+ * @property {Uint8Array} colors of the polylines
+ * @property {number[]} box min x y z, max x y z
+ * @property {number} seconds predicted
+ */
+
+/** Path of the loaded program; null for none. */
+export const path = new Signal(/** @type {ToolPath | null} */ (null));
+/** Line of the program that the operator has chosen in listing or picture; 0 for none. */
+export const chosenLine = new Signal(0);
+
+/**
+ * @param {ArrayBuffer} data
+ * @returns {ToolPath}
+ */
+export function readPath(data) {
+  const view = new DataView(data);
+  const mark = String.fromCharCode(...new Uint8Array(data, 0, 4));
+  if (mark !== MARK) throw new Error(`a tool path begins with ${MARK}, not with ${mark}`);
+  const [n, m] = [view.getUint32(4, true), view.getUint32(8, true)];
+  const after = HEAD + 16 * n;
+  return {
+    points: new Float32Array(data, HEAD, 3 * n), lines: new Uint32Array(data, HEAD + 12 * n, n), starts: new Uint32Array(data, after, m),
+    kinds: new Uint8Array(data, after + 4 * m, m), colors: new Uint8Array(data, after + 5 * m, m),
+    box: [...new Float32Array(data, 16, 6)], seconds: view.getFloat64(40, true),
+  };
+}
+
+/**
+ * Fetch a path; waits while the server computes it. Null where there is none.
+ * @param {string} place
+ * @param {Record<string, string | number | undefined>} [query]
+ * @param {AbortSignal} [signal]
+ */
+export async function fetchPath(place, query, signal) {
+  for (;;) {
+    const response = await fetch(address(place, query), { signal });
+    if (response.status === 202) await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+    else return response.ok ? readPath(await response.arrayBuffer()) : null;
+  }
+}
+
+/**
+ * The last point of each polyline.
+ * @param {ToolPath} drawn
+ * @param {number} n
+ */
+export function endOf(drawn, n) {
+  return n + 1 < drawn.starts.length ? drawn.starts[n + 1] : drawn.lines.length;
+}
+
+/**
+ * The place up to which the path is cut when a line is executed: searched onwards from the last
+ * place, because loops come back to their lines.
+ * @param {ToolPath} drawn
+ * @param {number} from
+ * @param {number} line
+ */
+export function reached(drawn, from, line) {
+  const { lines } = drawn;
+  for (let at = from; at < lines.length; at++) if (lines[at] === line) return at;
+  const first = lines.indexOf(line);
+  return first < 0 ? from : first;
+}

@@ -1,0 +1,182 @@
+// A picture of a tool path: ground, path and chosen line on three canvases, the tool as an element.
+import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { Camera } from "./camera.js";
+import { COLORS } from "./colors.js";
+import { listenToGestures } from "./gestures.js";
+import { painterFor } from "./renderer.js";
+import { lineAt, paintChosen, paintGround } from "./underlay.js";
+
+const NAMES = ["feed", "rapid", "cut", "grid", "limit", "text"];
+const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
+
+/**
+ * @typedef {object} Picture
+ * @property {(path: import("./path.js").ToolPath | null) => void} setPath shown from the next painting on, fitted
+ * @property {(n: number) => void} cutTo up to this point the path is cut
+ * @property {(x: number, y: number, z: number) => void} setTool
+ * @property {(limits: number[] | null) => void} setLimits
+ * @property {(line: number) => void} choose
+ * @property {(flip: { x: number, y: number, exchange: boolean }) => void} setFlip
+ */
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../core/signal.js").Endings} endings
+ * @param {{ clicked?: (line: number) => void, hasTool?: boolean }} [options]
+ * @returns {Promise<Picture>}
+ */
+export async function createPicture(host, endings, { clicked = () => {}, hasTool = false } = {}) {
+  const [ground, strokes, over] = [0, 1, 2].map(() => h("canvas", { ariaHidden: "true" }));
+  const tool = toolCursor();
+  tool.style.display = hasTool ? "" : "none";
+  const keys = h("div.view-keys", { role: "group", ariaLabel: t("graphics.views") });
+  const area = h("div.picture", { role: "img", ariaLabel: t("graphics.label") }, ground, strokes, over);
+  host.append(h("div.picture-frame", {}, area, keys));
+  area.append(tool);
+  const painter = await painterFor(strokes);
+  const camera = new Camera();
+  /** @type {import("./path.js").ToolPath | null} */
+  let path = null;
+  /** @type {number[] | null} */
+  let limits = null;
+  let [view, cut, painted, chosen, asked, hasMoved] = ["top", 0, 0, 0, false, false];
+  let place = [0, 0, 0];
+  let colors = readColors(area);
+
+  const pens = () => [ground, over].map((each) => {
+    const pen = /** @type {CanvasRenderingContext2D} */ (each.getContext("2d"));
+    const ratio = each.width / Math.max(1, camera.width);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    return pen;
+  });
+  const byPart = () => (path && new Set(path.colors).size > 1 ? (/** @type {number} */ n) => (n === 0 ? colors.text : COLORS[n] ?? colors.feed) : null);
+
+  function paint(isMoving = false) {
+    asked = false;
+    const [under, top] = pens();
+    paintGround(under, camera, colors, limits);
+    painter.paint(camera, colors, byPart(), isMoving);
+    painted = 0;
+    if (!isMoving) paintCut();
+    top.clearRect(0, 0, camera.width, camera.height);
+    if (path && chosen) paintChosen(top, camera, colors.limit, path, chosen);
+    moveTool();
+  }
+
+  function paintCut() {
+    if (cut > painted) painter.paintCut(painted, cut);
+    painted = cut;
+  }
+
+  function moveTool() {
+    const [x, y] = camera.project(place[0], place[1], place[2]);
+    tool.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  }
+
+  const repaint = (isMoving = false) => {
+    hasMoved = isMoving;
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => paint(hasMoved));
+  };
+
+  function fit() {
+    const box = path && path.lines.length ? [...path.box] : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
+    camera.fit(box);
+    repaint();
+  }
+
+  function look(/** @type {string} */ name) {
+    view = name;
+    camera.look(name);
+    for (const key of keys.querySelectorAll("button[data-view]")) key.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (key).dataset.view === name));
+    fit();
+  }
+
+  keys.append(
+    ...["top", "front", "side", "iso"].map((name) => h("button.key", { type: "button", data: { view: name }, onclick: () => look(name) }, t(/** @type {any} */ (`graphics.${name}`)))),
+    h("button.key", { type: "button", onclick: fit }, t("graphics.fit")),
+    h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
+    h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
+  );
+  const zoom = (/** @type {number} */ factor) => {
+    camera.zoom(factor, camera.width / 2, camera.height / 2);
+    repaint();
+  };
+  listenToGestures(area, { camera, moved: repaint, clicked: (x, y) => path && clicked(lineAt(camera, path, x, y)) });
+  const sizes = new ResizeObserver(() => {
+    const isFirst = camera.width <= 1;
+    [camera.width, camera.height, camera.inset] = [area.clientWidth, area.clientHeight, keys.clientWidth];
+    for (const each of [ground, strokes, over]) {
+      each.width = Math.max(1, Math.round(camera.width * window.devicePixelRatio));
+      each.height = Math.max(1, Math.round(camera.height * window.devicePixelRatio));
+    }
+    if (isFirst) look(view);
+    else paint();
+  });
+  sizes.observe(area);
+  const themed = () => {
+    colors = readColors(area);
+    repaint();
+  };
+  document.documentElement.addEventListener("theme", themed);
+  endings.add(() => sizes.disconnect(), () => painter.close(), () => document.documentElement.removeEventListener("theme", themed));
+
+  return {
+    setPath(next) {
+      path = next;
+      [cut, painted] = [0, 0];
+      painter.setPath(next);
+      fit();
+    },
+    cutTo(n) {
+      if (n < cut) repaint(); // the program has begun anew
+      cut = n;
+      if (!asked && cut > painted) paintCut();
+    },
+    setTool(x, y, z) {
+      place = [x, y, z];
+      moveTool();
+    },
+    setLimits(box) {
+      limits = box;
+      repaint();
+    },
+    choose(line) {
+      chosen = line;
+      repaint();
+    },
+    setFlip(flip) {
+      camera.flip = flip;
+      look(view);
+    },
+  };
+}
+
+function toolCursor() {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const stroke = document.createElementNS("http://www.w3.org/2000/svg", "path");
+  stroke.setAttribute("d", CROSS);
+  svg.append(stroke);
+  svg.classList.add("tool-cursor");
+  svg.ariaHidden = "true";
+  return svg;
+}
+
+/**
+ * The colours of the theme as a canvas needs them.
+ * @param {HTMLElement} area
+ */
+function readColors(area) {
+  const probe = h("span", {});
+  area.append(probe);
+  /** @type {Record<string, string>} */
+  const colors = {};
+  for (const name of NAMES) {
+    probe.style.color = name === "text" ? "var(--quiet)" : `var(--draw-${name})`;
+    colors[name] = getComputedStyle(probe).color;
+  }
+  probe.remove();
+  return colors;
+}

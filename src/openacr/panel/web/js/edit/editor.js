@@ -1,0 +1,91 @@
+// The editor of part programs: CodeMirror in a shadow root, where its styles need no exception of the policy.
+import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import {
+  Compartment, EditorState, EditorView, HighlightStyle, defaultKeymap, drawSelection, forceLinting, highlightActiveLine, highlightActiveLineGutter, history, historyKeymap,
+  keymap, lineNumbers, lintGutter, linter, search, searchKeymap, syntaxHighlighting, tags,
+} from "../../vendor/codemirror.js";
+import { gcode } from "./gcode.js";
+
+const CHECK_MS = 400;
+const MOST_CHECKED = 1 << 20; // characters
+
+const COLORS = HighlightStyle.define([
+  { tag: tags.comment, color: "var(--quiet)", fontStyle: "italic" },
+  { tag: tags.keyword, color: "var(--accent)", fontWeight: "700" },
+  { tag: tags.typeName, color: "var(--warn)", fontWeight: "700" },
+  { tag: tags.controlKeyword, color: "var(--bad)", fontWeight: "700" },
+  { tag: tags.standard(tags.function(tags.variableName)), color: "var(--bad)" },
+  { tag: tags.attributeName, color: "var(--good)", fontWeight: "600" },
+  { tag: tags.propertyName, color: "var(--text)", fontWeight: "700" },
+  { tag: tags.labelName, color: "var(--quiet)" },
+  { tag: tags.variableName, color: "var(--good)" },
+  { tag: tags.string, color: "var(--good)" },
+]);
+
+const LOOKS = EditorView.theme({
+  "&": { height: "100%", backgroundColor: "var(--sunk)", color: "var(--text)", fontSize: "1rem" },
+  ".cm-scroller": { fontFamily: "var(--mono)", lineHeight: "1.5" },
+  ".cm-gutters": { backgroundColor: "var(--raised)", color: "var(--quiet)", borderRight: "1px solid var(--edge)" },
+  ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "color-mix(in srgb, var(--accent) 12%, transparent)" },
+  ".cm-cursor": { borderLeftColor: "var(--text)", borderLeftWidth: "2px" },
+  "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--accent) 35%, transparent)" },
+  ".cm-panels": { backgroundColor: "var(--raised)", color: "var(--text)" },
+  ".cm-tooltip": { backgroundColor: "var(--pane)", color: "var(--text)", border: "1px solid var(--edge-strong)" },
+});
+
+/**
+ * @typedef {{ line: number, column: number, severity: "error" | "warning", code: string, text: string }} Finding
+ *
+ * @param {HTMLElement} host
+ * @param {{ check: (text: string) => Promise<Finding[]>, found: (findings: Finding[]) => void, changed: () => void }} options
+ */
+export function createEditor(host, { check, found, changed }) {
+  const place = h("div.editor", {});
+  host.append(place);
+  const root = place.attachShadow({ mode: "open" });
+  const readOnly = new Compartment();
+  let isReadOnly = false;
+  const findings = linter(async (view) => {
+    const text = view.state.doc.toString();
+    const list = text.length > MOST_CHECKED ? [] : await check(text);
+    found(list);
+    return list.filter((each) => each.line >= 1 && each.line <= view.state.doc.lines).map((each) => {
+      const line = view.state.doc.line(each.line);
+      const from = Math.min(line.to, line.from + Math.max(0, each.column - 1));
+      return { from, to: Math.min(line.to, from + 1), severity: each.severity, message: `${each.code} ${each.text}` };
+    });
+  }, { delay: CHECK_MS });
+  const extensions = [
+    lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), gcode, syntaxHighlighting(COLORS), LOOKS, findings,
+    keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap]), readOnly.of(EditorState.readOnly.of(false)), EditorView.updateListener.of((update) => update.docChanged && changed()),
+    EditorView.contentAttributes.of({ "aria-label": t("edit.text"), spellcheck: "false", autocapitalize: "characters" }),
+  ];
+  const view = new EditorView({ root, parent: root, state: EditorState.create({ extensions }) });
+  return {
+    text: () => view.state.doc.toString(),
+    lines: () => view.state.doc.lines,
+    focus: () => view.focus(),
+    close: () => view.destroy(),
+    /** @param {string} text */
+    setText(text) {
+      view.setState(EditorState.create({ doc: text, extensions }));
+      forceLinting(view);
+    },
+    /** @param {boolean} on */
+    setReadOnly(on) {
+      if (on === isReadOnly) return;
+      isReadOnly = on;
+      view.dispatch({ effects: readOnly.reconfigure(EditorState.readOnly.of(on)) });
+    },
+    /**
+     * @param {number} line
+     * @param {number} column
+     */
+    goTo(line, column) {
+      const at = view.state.doc.line(Math.min(Math.max(1, line), view.state.doc.lines));
+      view.dispatch({ selection: { anchor: Math.min(at.to, at.from + Math.max(0, column - 1)) }, scrollIntoView: true });
+      view.focus();
+    },
+  };
+}

@@ -1,0 +1,103 @@
+// One row of a form: its field by its kind, with unit, limits, default, help and refusal.
+import { h, setText } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { askNumber } from "./number_pad.js";
+
+/**
+ * @typedef {object} FormRow
+ * @property {number | string} number
+ * @property {string} name
+ * @property {"real" | "integer" | "boolean" | "choice" | "text"} kind
+ * @property {string} unit
+ * @property {string} value
+ * @property {number} number_value
+ * @property {string} default
+ * @property {number | null} low
+ * @property {number | null} high
+ * @property {Record<string, string> | null} words
+ * @property {string} typical
+ * @property {string} help
+ * @property {boolean} motion
+ * @property {boolean} fixed
+ * @property {boolean} is_default
+ *
+ * @typedef {object} Field
+ * @property {HTMLElement} element
+ * @property {() => boolean} isChanged
+ * @property {() => string} text
+ * @property {(reason: string) => void} refuse
+ * @property {() => void} focus
+ */
+
+/**
+ * @param {FormRow} row
+ * @param {() => void} changed
+ * @returns {Field}
+ */
+export function fieldFor(row, changed) {
+  const id = `cell-${row.number}`;
+  const input = inputFor(row, id);
+  const read = () => (input instanceof HTMLInputElement && input.type === "checkbox" ? (input.checked ? "1" : "0") : input.value);
+  const before = read();
+  const refusal = h("span.refusal", { id: `${id}-refusal`, attr: { "aria-live": "polite" } });
+  const isChanged = () => read() !== before;
+  const edited = () => {
+    input.classList.toggle("is-changed", isChanged());
+    refuse("");
+    changed();
+  };
+  /** @param {string} reason */
+  function refuse(reason) {
+    setText(refusal, reason);
+    refusal.hidden = !reason;
+    if (reason) input.setAttribute("aria-invalid", "true");
+    else input.removeAttribute("aria-invalid");
+  }
+  input.addEventListener("input", edited);
+  input.setAttribute("aria-describedby", `${id}-hint ${id}-refusal`);
+  refuse("");
+  const hint = h("span.hint", { id: `${id}-hint` }, hintOf(row));
+  const pad = (row.kind === "real" || row.kind === "integer") && !row.fixed ? h("button.key.pad-key", { type: "button", title: t("pad.open"), ariaLabel: t("pad.open"), onclick: async () => {
+    const value = await askNumber({ title: row.name, value: Number(input.value.replace(",", ".")) || 0, unit: row.unit, hint: limitsOf(row) });
+    if (value === null) return;
+    input.value = String(value);
+    edited();
+  } }, "\u2328") : "";
+  return {
+    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, refusal),
+    isChanged, text: read, refuse, focus: () => input.focus(),
+  };
+}
+
+/**
+ * @param {FormRow} row
+ * @param {string} id
+ * @returns {HTMLInputElement | HTMLSelectElement}
+ */
+function inputFor(row, id) {
+  if (row.kind === "boolean" && !row.words) return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
+  if (row.words) {
+    const chosen = String(row.number_value);
+    const options = Object.entries(row.words).map(([value, text]) => h("option", { value, selected: value === chosen }, text));
+    if (!(chosen in row.words)) options.unshift(h("option", { value: row.value, selected: true }, row.value));
+    return h("select.field", { id, disabled: row.fixed }, ...options);
+  }
+  const isNumber = row.kind === "real" || row.kind === "integer";
+  return h("input.field", { id, value: row.value, readOnly: row.fixed, autocomplete: "off", spellcheck: false, className: isNumber ? "field number" : "field",
+    inputMode: isNumber ? "decimal" : "text" });
+}
+
+/** @param {FormRow} row */
+function limitsOf(row) {
+  const [low, high] = [row.low, row.high];
+  if (low === null && high === null) return "";
+  if (high === null) return t("field.least", { low: String(low) });
+  return low === null ? t("field.most", { high }) : t("field.range", { low, high });
+}
+
+/** @param {FormRow} row */
+function hintOf(row) {
+  const facts = [limitsOf(row), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.default }) : "",
+    row.motion ? t("field.motion") : ""].filter(Boolean).join(" \u00b7 ");
+  return [row.help, facts].filter(Boolean).join(" \u2014 ");
+}

@@ -1,0 +1,149 @@
+// Any form of the server: rows with units, limits and help; SAVE keeps refused values in their fields.
+import { ApiError, get, send } from "../core/api.js";
+import { model, refuse, report } from "../core/app.js";
+import { fill, h, setText } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { fieldFor } from "./field.js";
+import { ask } from "./dialog.js";
+import { askNumber } from "./number_pad.js";
+
+const PAGE = 20;
+
+/**
+ * @typedef {import("./field.js").FormRow} FormRow
+ * @typedef {object} Form
+ * @property {string} name
+ * @property {string} title
+ * @property {string} role
+ * @property {boolean} per_axis
+ * @property {number} axis
+ * @property {{ index: number, name: string }[]} axes
+ * @property {string} locked
+ * @property {{ title: string, rows: FormRow[] }[]} groups
+ * @property {{ first: number, count: number, total: number } | null} page
+ */
+
+/**
+ * Show a form; returns what asks whether it may be left.
+ * @param {HTMLElement} host
+ * @param {string} name
+ * @param {import("../core/signal.js").Endings} endings
+ * @param {(title: string) => void} [setTitle]
+ */
+export function showForm(host, name, endings, setTitle = () => {}) {
+  /** @type {Map<string, import("./field.js").Field>} */
+  let fields = new Map();
+  /** @type {Form | null} */
+  let form = null;
+  let axis = 0;
+  let first = 1;
+  const tools = h("div.row.wrap.form-tools", {});
+  const rows = h("div.form-rows.scroll.grow", { tabIndex: -1 });
+  const note = h("span.grow.hint", { attr: { "aria-live": "polite" } });
+  const saveKey = h("button.key.main", { type: "button", onclick: () => save(), disabled: true }, t("form.save"));
+  const undoKey = h("button.key", { type: "button", onclick: () => load(), disabled: true }, t("form.undo"));
+  host.classList.add("form");
+  host.append(tools, rows, h("div.row.form-foot", {}, note, undoKey, saveKey));
+
+  const changed = () => [...fields].filter(([, field]) => field.isChanged());
+  function changedNow() {
+    const count = changed().length;
+    saveKey.disabled = undoKey.disabled = count === 0;
+    setText(note, count ? t("form.changed", { count }) : form?.locked ? t("form.locked", { reason: form.locked }) : "");
+  }
+
+  async function load() {
+    const query = { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE };
+    form = /** @type {Form} */ (await get(`forms/${name}`, query));
+    if (form.per_axis && form.axis !== undefined) axis = form.axis;
+    draw(form);
+  }
+
+  /** @param {Form} shown */
+  function draw(shown) {
+    setTitle(shown.title);
+    fields = new Map();
+    const isBarred = !model.may(shown.role);
+    fill(tools, ...axisKeys(shown), ...pageKeys(shown));
+    tools.hidden = !tools.childElementCount;
+    fill(rows, ...(isBarred ? [h("div.notice", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) }))] : []),
+      ...shown.groups.map((group) => h("fieldset.form-group", { disabled: isBarred }, group.title ? h("legend", {}, group.title) : "",
+        ...group.rows.map((row) => {
+          const field = fieldFor(row, changedNow);
+          fields.set(String(row.number), field);
+          return field.element;
+        }))));
+    changedNow();
+  }
+
+  /** @param {Form} shown */
+  function axisKeys(shown) {
+    if (!shown.per_axis) return [];
+    return [h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") }, ...shown.axes.map((each) =>
+      h("button.key", { type: "button", role: "radio", ariaChecked: String(each.index === shown.axis), onclick: async () => {
+        if (!(await mayLeave())) return;
+        axis = each.index;
+        await load();
+      } }, each.name)))];
+  }
+
+  /** @param {Form} shown */
+  function pageKeys(shown) {
+    const page = shown.page;
+    if (!page || page.total <= page.count) return [];
+    const go = async (/** @type {number} */ place) => {
+      if (!(await mayLeave())) return;
+      first = Math.min(Math.max(1, place), Math.max(1, page.total - page.count + 1));
+      await load();
+    };
+    const find = async () => {
+      const wanted = await askNumber({ title: t("form.goto"), value: page.first, hint: t("form.goto.hint", { last: page.total }) });
+      if (wanted !== null) await go(Math.floor((wanted - 1) / PAGE) * PAGE + 1);
+    };
+    return [
+      h("button.key", { type: "button", disabled: page.first <= 1, onclick: () => go(page.first - PAGE) }, "\u25c0 ", t("form.previous")),
+      h("button.key", { type: "button", onclick: find }, t("form.page", { first: page.first, last: Math.min(page.total, page.first + page.count - 1), total: page.total })),
+      h("button.key", { type: "button", disabled: page.first + page.count > page.total, onclick: () => go(page.first + PAGE) }, t("form.next"), " \u25b6"),
+    ];
+  }
+
+  /** Store what has changed; a refused value stays in its field with the reason. */
+  async function save() {
+    const values = Object.fromEntries(changed().map(([number, field]) => [number, field.text()]));
+    if (!Object.keys(values).length) return true;
+    for (const field of fields.values()) field.refuse("");
+    try {
+      const { stored } = await send("PUT", `forms/${name}`, { values });
+      report(t("form.saved", { count: Object.keys(stored ?? values).length }));
+      await load();
+      return true;
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      const refused = error.body?.refused ?? {};
+      for (const [number, reason] of Object.entries(refused)) fields.get(number)?.refuse(String(reason));
+      const [worst] = Object.keys(refused);
+      if (worst) fields.get(worst)?.focus();
+      refuse(worst ? t("form.refused", { count: Object.keys(refused).length }) : error.message);
+      return false;
+    }
+  }
+
+  /** Unsaved changes are saved, dropped or kept on the screen as the operator decides. */
+  async function mayLeave() {
+    const count = changed().length;
+    if (!count) return true;
+    const chosen = await ask({ title: t("form.leave"), body: [h("p", {}, t("form.leave.text", { count }))], choices: [
+      { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("form.save"), value: "save", kind: "main" },
+    ] });
+    return chosen === "drop" || (chosen === "save" && (await save()));
+  }
+
+  endings.add(model.changed.watch((what) => {
+    if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;
+    if (changed().length) setText(note, t("form.elsewhere"));
+    else void load();
+  }));
+  void load().catch(refuse);
+  return mayLeave;
+}
+

@@ -1,0 +1,44 @@
+// The prompt line: what program and machine print, refusals, and questions to the operator.
+import { give, model, prompt } from "../core/app.js";
+import { byId, fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { askNumber } from "./number_pad.js";
+
+export function startPrompt() {
+  const line = byId("prompt");
+  line.ariaLabel = t("prompt.label");
+  const draw = () => {
+    const { asking, tool_wanted: toolWanted, reason } = model.state.value;
+    const said = model.says.value.at(-1)?.text ?? "";
+    if (asking) {
+      show("ask", asking.text || t("ask.value"), h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer")));
+    } else if (toolWanted) {
+      show("ask", reason || t("tool.wanted"), h("button.key.main", { type: "button", onclick: () => give("run.confirm") }, t("tool.changed")));
+    } else if (prompt.value.text) show(prompt.value.kind, prompt.value.text);
+    else show("say", said);
+  };
+  /**
+   * @param {string} kind
+   * @param {string} text
+   * @param {HTMLElement} [key]
+   */
+  function show(kind, text, key) {
+    const id = `${kind}|${text}`;
+    if (line.dataset.shown === id) return;
+    line.dataset.shown = id;
+    line.dataset.kind = kind;
+    fill(line, h("span.text", { title: text }, kind === "error" ? `\u26a0 ${text}` : text), key);
+  }
+  model.state.watch(draw);
+  model.says.watch((lines) => {
+    if (lines.length && prompt.value.kind !== "error") prompt.value = { kind: "say", text: "" };
+    draw();
+  });
+  prompt.watch(draw);
+}
+
+/** @param {{ text: string }} asking */
+async function answer(asking) {
+  const value = await askNumber({ title: asking.text || t("ask.value") });
+  if (value !== null) await give("run.answer", { value });
+}

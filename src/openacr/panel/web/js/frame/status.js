@@ -1,0 +1,57 @@
+// The status window: VIEW1 to VIEW3, each a choice of blocks, and the overrides below them.
+import { get } from "../core/api.js";
+import { model } from "../core/app.js";
+import { byId, h } from "../core/dom.js";
+import { keepSetting, setting } from "../core/settings.js";
+import { t } from "../core/texts.js";
+import { BLOCKS } from "../blocks/blocks.js";
+import { overrideStrip } from "../blocks/overrides.js";
+import { tabControl } from "./tabs.js";
+
+/** @type {Record<string, string[]>} */
+const DEFAULTS = {
+  view1: ["position", "feeds"],
+  view2: ["distance", "next", "modal"],
+  view3: ["estop", "buttons", "feeds"],
+};
+/** Blocks of the three views as the store of the machine has them. */
+let views = DEFAULTS;
+
+export async function startStatus() {
+  const pane = byId("status");
+  pane.ariaLabel = t("status.label");
+  const tabs = Object.keys(DEFAULTS).map((id, n) => ({
+    id,
+    label: t("status.view", { n: n + 1 }),
+    show: (/** @type {HTMLElement} */ panel, /** @type {import("../core/signal.js").Endings} */ endings) => {
+      panel.classList.add("blocks");
+      for (const name of views[id] ?? []) BLOCKS[name]?.(panel, endings);
+    },
+  }));
+  const choose = tabControl(pane, t("status.label"), tabs, (id) => keepSetting("view", id));
+  pane.append(overrideStrip(h("div.override-strip", {})));
+  let names = "";
+  model.hello.watch((hello) => {
+    const now = JSON.stringify(hello.machine.axes);
+    if (now !== names) redraw(choose);
+    names = now;
+  });
+  model.changed.watch((changed) => changed.what === "views" && loadViews().then(() => redraw(choose)));
+  await loadViews();
+  redraw(choose);
+}
+
+/** @param {(id: string) => void} choose */
+function redraw(choose) {
+  const id = setting("view", "view1");
+  choose(id === "view1" ? "view2" : "view1");
+  choose(id);
+}
+
+async function loadViews() {
+  try {
+    views = { ...DEFAULTS, ...(await get("views")) };
+  } catch {
+    views = DEFAULTS;
+  }
+}

@@ -1,0 +1,91 @@
+// The GRAPHICS tab: the path of the loaded program, what is cut of it, and the tool.
+import { get } from "../core/api.js";
+import { model } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { duration } from "../core/format.js";
+import { t } from "../core/texts.js";
+import { chosenLine, fetchPath, path, reached } from "../draw/path.js";
+import { createPicture } from "../draw/picture.js";
+
+const FLIPS = Object.freeze({ x: "850021", y: "850022", exchange: "850023" });
+const SHIFT = 1e-3; // of the offset, from which on the limits are drawn anew
+let pathOf = ""; // id of the program whose path is kept
+let cut = 0;
+let lastLine = 0;
+
+/**
+ * @param {HTMLElement} panel
+ * @param {import("../core/signal.js").Endings} endings
+ */
+export async function graphicsTab(panel, endings) {
+  panel.classList.add("graphics");
+  const note = h("div.picture-note", { attr: { "aria-live": "polite" } });
+  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true });
+  panel.append(note);
+  endings.add(
+    path.watch((drawn) => {
+      picture.setPath(drawn);
+      picture.cutTo(cut);
+    }),
+    chosenLine.watch((line) => picture.choose(line)),
+    model.program.watch((program) => {
+      void follow(program.loaded?.id ?? "");
+      setText(note, program.loading ? t("graphics.loading", { name: program.loading.name }) : noteOf(program.loaded));
+    }),
+    model.status.watch((status) => status && draw(status)),
+  );
+  void readFlips().then((flip) => flip && picture.setFlip(flip));
+
+  /** @type {number[] | null} */
+  let limits = null;
+  /** @param {import("../core/frames.js").Status} status */
+  function draw(status) {
+    const places = [0, 1, 2].map((n) => status.work[n] ?? 0);
+    picture.setTool(places[0], places[1], places[2]);
+    const box = limitsOf(status);
+    if (box && box.some((value, n) => Math.abs(value - (limits?.[n] ?? Infinity)) > SHIFT)) picture.setLimits(limits = box);
+    if (!path.value || status.line === lastLine) return;
+    if (status.line === 0 || (status.runTime < 1 && status.line < lastLine)) cut = 0;
+    else cut = reached(path.value, cut, status.line);
+    lastLine = status.line;
+    picture.cutTo(cut);
+  }
+}
+
+/** @param {import("../core/model.js").Loaded | null} loaded */
+function noteOf(loaded) {
+  if (!loaded) return t("alarm.noprogram");
+  return loaded.seconds === null ? loaded.name : `${loaded.name} \u00b7 ${duration(loaded.seconds)}`;
+}
+
+/**
+ * Fetch the path when another program has been loaded.
+ * @param {string} id
+ */
+async function follow(id) {
+  if (id === pathOf) return;
+  pathOf = id;
+  cut = 0;
+  const drawn = id ? await fetchPath("path") : null;
+  if (pathOf === id) path.set(drawn);
+}
+
+/**
+ * The software limits of X, Y and Z in program coordinates; null where they are not all known.
+ * @param {import("../core/frames.js").Status} status
+ */
+function limitsOf(status) {
+  const axes = ["X", "Y", "Z"].map((name) => model.axes.findIndex((axis) => axis.name === name));
+  if (axes.some((n) => n < 0 || model.axes[n].low === null || model.axes[n].high === null)) return null;
+  const at = (/** @type {number} */ n, /** @type {number | null} */ limit) => Number(limit) + status.work[n] - status.machine[n];
+  return [...axes.map((n) => at(n, model.axes[n].low)), ...axes.map((n) => at(n, model.axes[n].high))];
+}
+
+/** Flip X, flip Y and exchange of the DISPLAY tab. */
+async function readFlips() {
+  const form = await get("forms/DISPLAY").catch(() => null);
+  if (!form) return null;
+  const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
+  const isOn = (/** @type {string} */ number) => Boolean(rows.find((/** @type {any} */ row) => String(row.number) === number)?.number_value);
+  return { x: isOn(FLIPS.x) ? -1 : 1, y: isOn(FLIPS.y) ? -1 : 1, exchange: isOn(FLIPS.exchange) };
+}

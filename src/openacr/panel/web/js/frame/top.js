@@ -1,0 +1,102 @@
+// The top of the main screen: state, alarms and user messages, who has control, appearance.
+import { give, model } from "../core/app.js";
+import { byId, fill, h } from "../core/dom.js";
+import { applyTheme, keepSetting, setting } from "../core/settings.js";
+import { LANGUAGES, t, textOr } from "../core/texts.js";
+import { COLORS } from "../draw/colors.js";
+import { ask } from "./dialog.js";
+import { showTab } from "./display.js";
+
+/** @type {Record<string, string>} */
+const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u29d6", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
+
+export function startTop() {
+  model.state.watch(drawState);
+  model.alarms.watch(drawAlarms);
+  model.messages.watch(drawAlarms);
+  model.program.watch(drawAlarms);
+  model.hello.watch(drawTools);
+  model.control.watch(drawTools);
+}
+
+function drawState() {
+  const { state, reason, jogging } = model.state.value;
+  const chip = byId("state");
+  chip.dataset.state = state;
+  const name = state === "PAUSED" ? "----PAUSE----" : jogging && state === "IDLE" ? t("state.JOG") : textOr(`state.${state}`, state);
+  fill(chip, h("span.sign", { ariaHidden: "true" }, SIGNS[state] ?? ""), h("span", {}, name),
+    reason ? h("span.reason", { title: reason }, reason) : "");
+}
+
+function drawAlarms() {
+  const area = byId("alarms");
+  const { active } = model.alarms.value;
+  area.classList.toggle("has-alarm", active.length > 0);
+  if (active.length) {
+    const [first] = active;
+    fill(area, h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
+      active.length > 1 ? h("span", {}, t("alarm.more", { count: active.length - 1 })) : "",
+      h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
+      h("button.key", { type: "button", onclick: () => showTab("alarms") }, t("alarm.show")));
+    return;
+  }
+  const shown = model.messages.value.shown.map((each) => {
+    const text = h("span.user", {}, each.text);
+    text.style.background = COLORS[each.back] ?? "";
+    text.style.color = COLORS[each.color] ?? "";
+    return text;
+  });
+  const loaded = model.program.value.loaded;
+  const name = loaded ? loaded.name : t("alarm.noprogram");
+  fill(area, ...(shown.length ? shown : [h("span.none", { title: loaded?.path ?? "" }, name)]));
+}
+
+function drawTools() {
+  const { holder, you, asking } = model.control.value;
+  const label = you ? t("control.you") : holder ? t("control.other", { name: holder.name || holder.client }) : t("control.free");
+  fill(byId("tools"),
+    h("button.key", { type: "button", onclick: askControl, className: asking?.length ? "key danger" : "key", title: t("control.title") },
+      h("span", { ariaHidden: "true" }, you ? "\u25cf" : "\u25cb"), label),
+    h("button.key", { type: "button", onclick: askSettings, ariaLabel: t("settings.title"), title: t("settings.title") }, "\u2699"));
+}
+
+/** Take control, hand it over or give it up. */
+async function askControl() {
+  const { holder, you, asking, clients } = model.control.value;
+  const list = (clients ?? []).map((/** @type {any} */ each) => h("div.row", {}, h("span.grow", {}, `${each.name || each.client} \u00b7 ${each.role}`),
+    holder?.client === each.client ? h("strong", {}, t("control.has")) : ""));
+  const cancel = { text: t("key.close"), value: null };
+  const choices = you
+    ? [cancel, ...(asking ?? []).map((/** @type {any} */ each) => ({ text: t("control.give", { name: each.name || each.client }), value: ["control.give", { client: each.client }] })),
+      { text: t("control.release"), value: ["control.release", {}] }]
+    : [cancel, ...(holder ? [{ text: t("control.force"), kind: "danger", value: ["control.take", { force: true }] }] : []),
+      { text: holder ? t("control.ask") : t("control.take"), kind: "main", value: ["control.take", { force: false }] }];
+  const chosen = await ask({ title: t("control.title"), body: [h("p", {}, t("control.text")), ...list], choices: /** @type {any} */ (choices) });
+  if (chosen) await give(chosen[0], chosen[1]);
+}
+
+/** Appearance and language of this browser. */
+async function askSettings() {
+  const theme = choiceOf(t("settings.theme"), { auto: t("theme.auto"), light: t("theme.light"), dark: t("theme.dark") }, setting("theme", "auto"));
+  const language = choiceOf(t("settings.language"), LANGUAGES, setting("language", "en"));
+  const { version, role, machine } = model.hello.value;
+  const facts = h("p.hint", {}, `${machine.name || machine.kind} \u00b7 ${machine.card} \u00b7 openacr ${version} \u00b7 ${t(/** @type {any} */ (`role.${role}`))}`);
+  const choices = [{ text: t("key.cancel"), value: null }, { text: t("key.ok"), value: true, kind: "main", isSubmit: true }];
+  if (!(await ask({ title: t("settings.title"), body: [theme, language, facts], choices: /** @type {any} */ (choices) }))) return;
+  const [newTheme, newLanguage] = [theme, language].map((each) => each.querySelector("select")?.value ?? "");
+  keepSetting("theme", newTheme);
+  applyTheme();
+  if (newLanguage === setting("language", "en")) return;
+  keepSetting("language", newLanguage);
+  window.location.reload();
+}
+
+/**
+ * @param {string} label
+ * @param {Record<string, string>} options
+ * @param {string} value
+ */
+function choiceOf(label, options, value) {
+  const list = Object.entries(options).map(([id, text]) => h("option", { value: id, selected: id === value }, text));
+  return h("label.row", {}, h("span.grow", {}, label), h("select.field", {}, ...list));
+}

@@ -1,0 +1,64 @@
+// LIBRARY PART: a form for the sizes of a part, and its picture while they are typed.
+import { get } from "../core/api.js";
+import { refuse } from "../core/app.js";
+import { fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { fetchPath } from "../draw/path.js";
+import { createPicture } from "../draw/picture.js";
+
+const WAIT_MS = 250;
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../core/signal.js").Endings} endings
+ * @param {import("./files.js").Load} load
+ */
+export async function partSource(host, endings, load) {
+  const list = h("div.list.scroll.part-list", { role: "listbox", ariaLabel: t("load.part") });
+  const form = h("div.part-form.scroll", {});
+  const drawing = h("div.preview.grow", {});
+  const go = h("button.key.main.big", { type: "button", disabled: true }, t("load.go"));
+  const conditions = h("div.hint.grow", {});
+  host.append(h("div.load-parts", {}, list, form, h("div.stack.load-side", {}, drawing, h("div.row", {}, conditions, go))));
+  const picture = await createPicture(drawing, endings);
+  const { parts } = await get("parts").catch((error) => {
+    refuse(error);
+    return { parts: [] };
+  });
+  let turn = new AbortController();
+  endings.add(() => turn.abort());
+  const choose = (/** @type {any} */ part) => {
+    for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
+    const fields = part.parameters.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-${each.name}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
+    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [each.name, Number(input.value.replace(",", "."))]));
+    fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
+      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text || each.name), h("div.row.form-input", {}, input), h("span.hint", {}, rangeOf(each)))));
+    fill(conditions, (part.conditions ?? []).map((/** @type {any} */ each) => each.text ?? each).join(" \u00b7 "));
+    let timer = setTimeout(() => {}, 0);
+    const draw = async () => {
+      turn.abort();
+      turn = new AbortController();
+      try {
+        picture.setPath(await fetchPath(`parts/${part.name}/path`, values(), turn.signal));
+      } catch (error) {
+        if (!turn.signal.aborted) refuse(error);
+      }
+    };
+    for (const { input } of fields) input.addEventListener("input", () => {
+      clearTimeout(timer);
+      timer = setTimeout(draw, WAIT_MS);
+    });
+    go.disabled = false;
+    go.onclick = () => load("program.part", { part: part.name, values: values() });
+    void draw();
+  };
+  fill(list, ...parts.map((/** @type {any} */ part) => h("button.key.item", { type: "button", role: "option", ariaSelected: "false", data: { part: part.name }, onclick: () => choose(part) },
+    h("strong", {}, part.name), h("span.name", {}, part.title))));
+  if (parts.length) choose(parts[0]);
+}
+
+/** @param {{ low: number | null, high: number | null }} parameter */
+function rangeOf({ low, high }) {
+  if ((low ?? null) === null && (high ?? null) === null) return "";
+  return t("field.range", { low: low ?? "\u2212\u221e", high: high ?? "\u221e" });
+}

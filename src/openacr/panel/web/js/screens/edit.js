@@ -1,0 +1,119 @@
+// EDIT: part programs in an editor with colours and findings; the loaded program cannot be changed while it runs.
+import { ApiError, readFile, send, writeFile } from "../core/api.js";
+import { model, refuse, report } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { ask, askText } from "../frame/dialog.js";
+import { fileList } from "../load/file_list.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "edit.title",
+  area: "full",
+  async show({ body, head, endings, setTitle, beforeClose }) {
+    const { createEditor } = await import("../edit/editor.js");
+    let [path, saved] = ["", ""];
+    /** @type {string | null} */
+    let version = null;
+    const host = h("div.editor-host.grow", {});
+    const findings = h("div.findings.scroll", { hidden: true });
+    const state = h("span.hint.grow", { role: "status" });
+    const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t("edit.save"));
+    head.append(h("button.key", { type: "button", onclick: () => open() }, t("edit.open")), h("button.key", { type: "button", onclick: () => begin() }, t("edit.new")),
+      h("button.key", { type: "button", onclick: () => saveAs() }, t("edit.saveas")), saveKey);
+    body.classList.add("is-editor");
+    body.append(host, findings, h("div.row", {}, state));
+    const editor = createEditor(host, {
+      check: async (text) => (await send("POST", "check", { text, dialect: "", path }).catch(() => ({ findings: [] }))).findings,
+      found: (list) => {
+        findings.hidden = list.length === 0;
+        findings.replaceChildren(...list.map((each) => h("button.key.item", { type: "button", onclick: () => editor.goTo(each.line, each.column), className: `key item ${each.severity}` },
+          h("span", {}, each.severity === "error" ? "\u26a0" : "\u2139"), h("span.number", {}, `${each.line}:${each.column}`), h("span.name", {}, `${each.code} ${each.text}`))));
+      },
+      changed: () => draw(),
+    });
+    endings.add(() => editor.close());
+
+    const isChanged = () => editor.text() !== saved;
+    const isLocked = () => Boolean(path && model.program.value.loaded?.path === path && model.state.value.busy);
+    function draw() {
+      setTitle(`${t("edit.title")}: ${path || t("edit.unnamed")}${isChanged() ? " *" : ""}`);
+      saveKey.disabled = isLocked() || !isChanged();
+      setText(state, isLocked() ? t("edit.locked") : t("edit.lines", { count: editor.lines() }));
+      editor.setReadOnly(isLocked());
+    }
+    endings.add(model.state.watch(draw));
+
+    async function mayDrop() {
+      if (!isChanged()) return true;
+      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: path || t("edit.unnamed") }))], choices: [
+        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("edit.save"), value: "save", kind: "main" },
+      ] });
+      return chosen === "drop" || (chosen === "save" && (await save()));
+    }
+    beforeClose(mayDrop);
+
+    /** @param {string} name */
+    async function read(name) {
+      try {
+        const file = await readFile(name);
+        [path, version, saved] = [name, file.version, file.text];
+        editor.setText(file.text);
+        draw();
+      } catch (error) {
+        refuse(error);
+      }
+    }
+
+    async function open() {
+      if (!(await mayDrop())) return;
+      let chosen = "";
+      const list = fileList({ kinds: ["program", "other", "batch"], chosen: (entry) => { chosen = entry.path; } });
+      const name = await ask({ title: t("edit.open"), body: [list.element], className: "wide", choices: [
+        { text: t("key.cancel"), value: null }, { text: t("edit.open"), kind: "main", isSubmit: true, value: () => chosen || undefined },
+      ] });
+      if (name) await read(name);
+    }
+
+    async function begin() {
+      if (!(await mayDrop())) return;
+      [path, version, saved] = ["", null, ""];
+      editor.setText("");
+      draw();
+    }
+
+    async function saveAs() {
+      const name = await askText(t("edit.saveas"), t("edit.name"), path || "NEW.TXT");
+      if (!name) return false;
+      if (name !== path) [path, version] = [name, null];
+      return save();
+    }
+
+    /** @returns {Promise<boolean>} */
+    async function save() {
+      if (!path) return saveAs();
+      const text = editor.text();
+      try {
+        ({ version } = await writeFile(path, text, version));
+        saved = text;
+        report(t("edit.saved", { name: path }));
+        draw();
+        return true;
+      } catch (error) {
+        if (!(error instanceof ApiError)) throw error;
+        if (error.status !== 409 && error.status !== 412) {
+          refuse(error);
+          return false;
+        }
+        const isSure = await ask({ title: t("edit.conflict"), body: [h("p", {}, error.message)], choices: [{ text: t("key.cancel"), value: false }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
+        if (!isSure) return false;
+        version = "*";
+        return save();
+      }
+    }
+
+    if (model.program.value.loaded?.kind === "file") await read(model.program.value.loaded.path);
+    else draw();
+    editor.focus();
+  },
+};

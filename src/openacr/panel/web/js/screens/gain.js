@@ -1,0 +1,43 @@
+// GAIN: the gains of one axis; ENTER writes a value to the card at once.
+import { get } from "../core/api.js";
+import { give, model, refuse, report } from "../core/app.js";
+import { fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "gain.title",
+  async show({ body }) {
+    const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
+    const store = h("input", { type: "checkbox", checked: true });
+    const rows = h("div.stack.grow.scroll", {});
+    body.append(h("div.notice", {}, t("gain.warning")), axes, rows, h("label.check", {}, store, t("gain.store")));
+    const show = async (/** @type {import("../core/model.js").Axis} */ axis) => {
+      fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.name)));
+      try {
+        const form = await get("forms/SERVO", { axis: axis.index });
+        fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
+      } catch (error) {
+        refuse(error);
+      }
+    };
+    if (model.axes.length) await show(model.axes[0]);
+  },
+};
+
+/**
+ * @param {import("../core/model.js").Axis} axis
+ * @param {import("../frame/field.js").FormRow} row
+ * @param {HTMLInputElement} store
+ */
+function rowOf(axis, row, store) {
+  const field = h("input.field.number", { id: `gain-${row.number}`, value: row.value, inputMode: "decimal", autocomplete: "off" });
+  const enter = async (/** @type {Event} */ event) => {
+    event.preventDefault();
+    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value: Number(field.value.replace(",", ".")), store: store.checked });
+    if (!answer) return;
+    field.value = String(answer.value);
+    report(t("gain.done", { gain: row.name, value: answer.value }));
+  };
+  return h("form.gain-row", { onsubmit: enter }, h("label", { htmlFor: field.id, title: row.help }, row.name), field, h("span.unit", {}, row.unit), h("button.key", { type: "submit" }, t("gain.enter")));
+}

@@ -1,0 +1,36 @@
+// HELP: a page for every key of every menu.
+import { get } from "../core/api.js";
+import { fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { MENUS } from "../frame/menus.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "help.title",
+  area: "full",
+  show({ body }) {
+    const text = h("article.help-text.scroll", { tabIndex: 0 }, h("p", {}, t("help.text")));
+    const list = h("div.form-tabs.scroll", {});
+    body.classList.add("is-tabbed");
+    body.append(list, text);
+    const seen = new Set();
+    for (const [menu, keys] of Object.entries(MENUS)) {
+      for (const entry of keys) {
+        const key = topicOf(entry);
+        if (!key || seen.has(key)) continue;
+        seen.add(key);
+        list.append(h("button.key.item", { type: "button", onclick: () => show(key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", {}, `${menu} F${entry.key}`)));
+      }
+    }
+    const show = async (/** @type {string} */ key, /** @type {string} */ label) => {
+      const page = await get(`help/${key}`).catch(() => ({ title: label, text: t("help.none") }));
+      fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
+    };
+  },
+};
+
+/** @param {import("../frame/menus.js").MenuKey} entry */
+function topicOf(entry) {
+  if (entry.menu) return "";
+  return entry.args?.form ? entry.args.form.toLowerCase() : entry.screen ?? entry.action ?? "";
+}

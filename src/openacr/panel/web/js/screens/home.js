@@ -1,0 +1,45 @@
+// HOME: choose axes, start, and see how far each one is.
+import { give, model, refuse } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { t, textOr } from "../core/texts.js";
+import { axisChoice } from "../frame/axis_choice.js";
+import { mayMove } from "../motion/actions.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "home.title",
+  mode: "home",
+  show({ body, endings }) {
+    /** @type {Map<string, HTMLElement>} */
+    const states = new Map();
+    const choice = axisChoice({ label: t("home.axes"), isOn: () => true, extra: (axis) => {
+      const state = h("span.home-state", {}, "");
+      states.set(axis.name, state);
+      return state;
+    } });
+    const start = h("button.key.big.danger", { type: "button", onclick: async () => {
+      const axes = choice.names();
+      if (!axes) refuse(t("axes.none"));
+      else if (mayMove()) await give("home.start", { axes });
+    } }, t("home.start"));
+    const stop = h("button.key.big.bad", { type: "button", onclick: () => give("stop.hold") }, t("menu.stop"));
+    const progress = h("div.notice", { role: "status" });
+    body.append(h("p", {}, t("home.text")), choice.element, h("div.row", {}, h("div.grow", {}, start), stop), progress);
+    endings.add(
+      model.home.watch(({ axes }) => axes.forEach((each) => {
+        const element = states.get(each.name);
+        if (!element) return;
+        const text = each.homed ? `\u2302 ${t("home.homed")}` : each.state ? textOr(`home.state.${each.state}`, each.state) : t("home.nothomed");
+        setText(element, text);
+        element.classList.toggle("is-homed", each.homed);
+      })),
+      model.state.watch((state) => {
+        const isHoming = state.state === "HOMING";
+        stop.hidden = !isHoming;
+        start.disabled = state.busy;
+        progress.hidden = !isHoming;
+        setText(progress, isHoming ? t("home.progress", { reason: state.reason || "" }) : "");
+      }),
+    );
+  },
+};

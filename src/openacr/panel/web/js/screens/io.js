@@ -1,0 +1,5 @@
+// I/O STATUS as a full page.
+import { ioTab } from "../frame/tab_io.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = { title: "io.title", area: "full", show: ({ body, endings }) => ioTab(body, endings) };

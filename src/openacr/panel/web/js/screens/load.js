@@ -1,0 +1,41 @@
+// LOAD PROG: user file, library part, DXF, batch or drip feed; afterwards the menu RUN PROG.
+import { h } from "../core/dom.js";
+import { Endings } from "../core/signal.js";
+import { give } from "../core/app.js";
+import { t } from "../core/texts.js";
+import { openMenu } from "../frame/menu_bar.js";
+import { batchSource, dripSource, fileSource } from "../load/files.js";
+import { dxfSource } from "../load/dxf.js";
+import { partSource } from "../load/parts.js";
+
+const SOURCES = { file: fileSource, part: partSource, dxf: dxfSource, batch: batchSource, drip: dripSource };
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "load.title",
+  area: "full",
+  show({ body, endings, args }) {
+    const own = new Endings();
+    endings.add(() => own.end());
+    const list = h("div.row.wrap.source-keys", { role: "radiogroup", ariaLabel: t("load.source") });
+    const host = h("div.load-host.grow", {});
+    body.append(list, host);
+    const choose = (/** @type {keyof typeof SOURCES} */ name) => {
+      own.end();
+      host.replaceChildren();
+      for (const key of list.querySelectorAll("button")) key.ariaChecked = String(key.dataset.source === name);
+      void SOURCES[name](host, own, load);
+    };
+    list.append(...Object.keys(SOURCES).map((name) => h("button.key", { type: "button", role: "radio", data: { source: name }, onclick: () => choose(/** @type {any} */ (name)) }, t(/** @type {any} */ (`load.${name}`)))));
+    choose(args.source ?? "file");
+  },
+};
+
+/**
+ * Load a program, then go to RUN PROG.
+ * @param {string} cmd
+ * @param {Record<string, any>} values
+ */
+async function load(cmd, values) {
+  if (await give(cmd, values)) openMenu("run");
+}

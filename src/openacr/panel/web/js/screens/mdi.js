@@ -1,0 +1,76 @@
+// MDI: one block at a time; executed lines stay in a buffer that can be edited and saved as a program.
+import { ApiError, writeFile } from "../core/api.js";
+import { give, model, refuse, report } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { askText } from "../frame/dialog.js";
+import { mayMove } from "../motion/actions.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "mdi.title",
+  mode: "mdi",
+  show({ body, endings }) {
+    const buffer = h("textarea.field.mono.grow", { ariaLabel: t("mdi.buffer"), spellcheck: false, wrap: "off" });
+    const line = h("input.field.mono.grow", { ariaLabel: t("mdi.line"), placeholder: "G0 X10 Y5", autocomplete: "off", spellcheck: false, autocapitalize: "characters", autofocus: true });
+    const state = h("span.hint", { role: "status" });
+    /** @type {string[]} */
+    let history = [];
+    let place = 0;
+    let isEdited = false;
+    const execute = async () => {
+      const text = line.value.trim();
+      if (!text || !mayMove()) return;
+      if (await give("mdi.execute", { line: text })) {
+        line.value = "";
+        place = 0;
+      }
+      line.focus();
+    };
+    line.addEventListener("keydown", (event) => {
+      if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
+      event.preventDefault();
+      place = Math.min(history.length, Math.max(0, place + (event.key === "ArrowUp" ? 1 : -1)));
+      line.value = place ? history[history.length - place] : "";
+    });
+    buffer.addEventListener("input", () => {
+      isEdited = true;
+      keep.hidden = false;
+    });
+    const lines = () => buffer.value.split("\n").filter((each) => each.trim());
+    const keep = h("button.key", { type: "button", hidden: true, onclick: async () => {
+      if (!(await give("mdi.buffer", { lines: lines() }))) return;
+      isEdited = false;
+      keep.hidden = true;
+    } }, t("mdi.keep"));
+    const runAll = h("button.key", { type: "button", onclick: () => mayMove() && give("mdi.execute", { lines: lines() }) }, t("mdi.runall"));
+    const save = h("button.key", { type: "button", onclick: () => saveAs(buffer.value) }, t("mdi.save"));
+    const clear = h("button.key", { type: "button", onclick: async () => {
+      if (await give("mdi.buffer", { lines: [] })) buffer.value = "";
+    } }, t("mdi.clear"));
+    body.append(buffer, h("div.row.wrap", {}, state, h("span.grow", {}), keep, runAll, save, clear),
+      h("form.row", { onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        void execute();
+      } }, line, h("button.key.main.big", { type: "submit" }, t("mdi.execute"))));
+    endings.add(model.mdi.watch((mdi) => {
+      history = mdi.buffer;
+      if (!isEdited) buffer.value = mdi.buffer.join("\n");
+      buffer.scrollTop = buffer.scrollHeight;
+      setText(state, mdi.running ? t("mdi.running") : t("mdi.count", { count: mdi.buffer.length }));
+    }));
+  },
+};
+
+/** @param {string} text */
+async function saveAs(text) {
+  const name = await askText(t("mdi.save"), t("edit.name"), "MDI.TXT");
+  if (!name) return;
+  try {
+    await writeFile(name, `${text}\n`, null);
+    report(t("edit.saved", { name }));
+  } catch (error) {
+    if (error instanceof ApiError) refuse(error);
+    else throw error;
+  }
+}

@@ -1,0 +1,31 @@
+// SYS PARAM: the tabs of the parameters of the machine, with a search over all of them.
+import { get } from "../core/api.js";
+import { fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { showFormTabs } from "../frame/form_tabs.js";
+
+const NAMES = new Set(["SERVO", "AXES", "CONTROL", "HOME", "JOG", "IO", "FOV", "ROV", "SOV", "PROBE", "SPEEDS", "COMPATIBILITY", "COMMUNICATIONS", "SPINDLE",
+  "DISPLAY", "TOOL", "GENERAL", "POLARITY", "TOOLCOLORS", "IONAMES"]);
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "parameters.title",
+  area: "full",
+  async show(place) {
+    const found = h("div.search-results.list", { hidden: true });
+    const field = h("input.field", { type: "search", placeholder: t("parameters.search"), ariaLabel: t("parameters.search"), oninput: () => void search() });
+    place.head.append(h("div.search", {}, field, found));
+    const search = async () => {
+      const text = field.value.trim();
+      found.hidden = text.length < 2;
+      if (found.hidden) return;
+      const { cells } = await get("settings/search", { text }).catch(() => ({ cells: [] }));
+      fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t("parameters.nothing"))]));
+    };
+    const rowOf = (/** @type {any} */ cell) => h("button.key.item", { type: "button", onclick: () => {
+      found.hidden = true;
+      /** @type {HTMLElement | null} */ (place.body.querySelector(`[data-form="${cell.form}"]`))?.click();
+    } }, h("span.name", {}, cell.name), h("span.quiet", {}, `${cell.form}  P${cell.number}`));
+    await showFormTabs(place, (form) => NAMES.has(form.name));
+  },
+};

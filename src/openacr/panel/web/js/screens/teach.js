@@ -1,0 +1,37 @@
+// TEACH: the machine position becomes the origin of a work coordinate system.
+import { give, model, refuse, report } from "../core/app.js";
+import { h, setText } from "../core/dom.js";
+import { position } from "../core/format.js";
+import { t } from "../core/texts.js";
+import { axisChoice } from "../frame/axis_choice.js";
+import { askNumber } from "../frame/number_pad.js";
+
+const SYSTEMS = ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2"];
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "teach.title",
+  mode: "manual",
+  show({ body, endings }) {
+    /** @type {HTMLElement[]} */
+    const places = [];
+    const system = h("select.field", { ariaLabel: t("teach.system") }, ...SYSTEMS.map((name) => h("option", { value: name, selected: name === model.modals.value.work }, name)));
+    const choice = axisChoice({ label: t("teach.axes"), extra: () => {
+      const place = h("span.number.live", {});
+      places.push(place);
+      return place;
+    } });
+    const teach = async () => {
+      const axes = choice.names();
+      if (!axes) refuse(t("axes.none"));
+      else if (await give("teach.work", { system: system.value, axes })) report(t("teach.done", { system: system.value, axes: axes.split("").join(" ") }));
+    };
+    const length = async () => {
+      const number = await askNumber({ title: t("teach.length"), value: model.modals.value.H || 1, check: (n) => (Number.isInteger(n) && n >= 1 && n <= 999 ? "" : t("field.range", { low: 1, high: 999 })) });
+      if (number !== null && (await give("teach.length", { h: number }))) report(t("teach.length.done", { h: number }));
+    };
+    body.append(h("p", {}, t("teach.text")), h("label.row", {}, h("span.grow", {}, t("teach.system")), system), choice.element, h("div.row.wrap", {},
+      h("button.key.big.main", { type: "button", onclick: teach }, t("menu.teach")), h("button.key.big", { type: "button", onclick: length }, t("teach.length"))));
+    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n], axis.decimals)))));
+  },
+};

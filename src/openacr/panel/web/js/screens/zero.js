@@ -1,0 +1,22 @@
+// SET ZERO: the position of chosen axes becomes 0 of the program.
+import { give, refuse, report } from "../core/app.js";
+import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { axisChoice } from "../frame/axis_choice.js";
+import { ACTIONS } from "../motion/actions.js";
+import { openMenu } from "../frame/menu_bar.js";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "zero.title",
+  show({ body }) {
+    const choice = axisChoice({ label: t("zero.axes") });
+    body.append(h("p", {}, t("zero.text")), choice.element, h("div.row.wrap", {},
+      h("button.key.big.main", { type: "button", onclick: async () => {
+        const axes = choice.names();
+        if (!axes) refuse(t("axes.none"));
+        else if (await give("zero.set", { axes })) report(t("zero.done", { axes: axes.split("").join(" ") }));
+      } }, t("menu.setzero")),
+      h("button.key.big", { type: "button", onclick: () => ACTIONS.clearZero({ openMenu }) }, t("menu.clrzero"))));
+  },
+};
