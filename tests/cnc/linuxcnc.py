@@ -151,11 +151,15 @@ def own(done: Run) -> list[Move]:
             found.append(Move("D", (entry.seconds,)))
         elif isinstance(entry, Arc):
             sweep = math.degrees(entry.sweep_rad)
-            if isinstance(last, Arc) and last.source == entry.source:
+            if isinstance(last, Arc) and _is_turn(last, entry):
                 sweep += found.pop().sweep_deg
             found.append(Move("A", entry.end[:6], entry.centre, sweep, entry.pace.feed_upm))
         last = entry
     return found
+
+
+def _is_turn(one: Arc, other: Arc) -> bool:
+    return one.source == other.source and one.centre == other.centre
 
 
 def compare(mine: list[Move], theirs: list[Move]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from openacr.cnc.canonical import Point
 from openacr.cnc.program.program import Node
 
 
@@ -23,6 +24,17 @@ class Drilling:
         r = r + self.initial if is_from_initial else r
         b, is_from_r = self.bottom or (0.0, False)
         return r, b + r if is_from_r else b
+
+
+@dataclass(slots=True)
+class Curve:
+    """Splines: the control points since G5.2, and how the last G5 ended; default units."""
+
+    points: list[tuple[float, float]] = field(default_factory=list)
+    weights: list[float] = field(default_factory=list)
+    order: int = 3
+    end: Point | None = None  # the program point where the last G5 ended
+    onward: tuple[float, float] = (0.0, 0.0)  # I and J of a G5 that continues it
 
 
 @dataclass(frozen=True, slots=True)

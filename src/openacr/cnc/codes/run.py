@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from typing import Protocol
 
 from openacr.cnc.canonical import Entry, Source
-from openacr.cnc.codes.active import Drilling, ModalMacro
+from openacr.cnc.codes.active import Curve, Drilling, ModalMacro
 from openacr.cnc.geometry.path import Path
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Flow, Frame
@@ -111,6 +111,7 @@ class Run(Protocol):
     path: Path
     parameters: Parameters
     drilling: Drilling | None
+    curve: Curve  # G5, G5.2
     macro: ModalMacro | None  # G66
     motions: Motions  # what G0 to G3 do now
     is_ended: bool

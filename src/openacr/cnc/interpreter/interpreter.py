@@ -25,10 +25,11 @@ from openacr.cnc.canonical import (
     WaitBit,
 )
 from openacr.cnc.codes import dialects as _dialects  # noqa: F401  registers the languages
-from openacr.cnc.codes.active import Drilling, ModalMacro
+from openacr.cnc.codes.active import Curve, Drilling, ModalMacro
 from openacr.cnc.codes.block_plan import BlockPlanner
 from openacr.cnc.codes.gcodes.motion import MOTIONS
 from openacr.cnc.codes.ngc.owords import OWords
+from openacr.cnc.codes.ngc.splines import OPEN
 from openacr.cnc.codes.run import Motions
 from openacr.cnc.codes.table import DIALECTS, Dialect
 from openacr.cnc.compensation import Watch
@@ -106,6 +107,7 @@ class Interpreter:
         self.errors: list[Finding] = []  # where they are collected
         self.macro: ModalMacro | None = None  # G66
         self.drilling: Drilling | None = None
+        self.curve = Curve()
         self.motions: Motions = MOTIONS
         self.is_rested = True
         self.is_ended = False
@@ -257,6 +259,7 @@ class Interpreter:
         reset(self.modal, self.cells, is_abort=is_abort)
         self.macro = None
         self.drilling = None
+        self.curve = Curve()
         self.motions = MOTIONS
         self.path.shape = None
         self.parameters.reset()
@@ -303,6 +306,8 @@ class Interpreter:
 
     def finish(self, source: Source, *, is_by_code: bool) -> None:
         """End the program."""
+        if self.curve.points:
+            raise CodeError("E235", 1, hint=OPEN)
         self.offset_path.stop()
         self.tell(End(source, is_by_code))
         self._reset()

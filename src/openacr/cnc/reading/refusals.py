@@ -86,10 +86,6 @@ _LATHES = (
     _codes("G33 G33.1", "no motion is synchronised with the spindle; G84 and G74 tap at feed"),
     _codes("G96", "constant surface speed is for lathes; write S in rev/min"),
 )
-_CURVES = _codes(
-    "G5 G5.1 G5.2 G5.3",
-    "splines are not interpolated; let the post-processor write lines or arcs",
-)
 _FEED_PER_TURN = _codes("G95", "no feed per turn of the spindle; write F in units per minute")
 _POCKETS = _codes("G12 G13", "no circular pockets; `openacr mill part` writes them")
 _POLAR = _codes("G15 G16", "no polar coordinates; write X and Y")
@@ -102,7 +98,6 @@ _LOADED = _codes("M61", "T and M6 say which tool is in the spindle")
 _COMPUTED_CODES = Refusal("computed codes", COMPUTED, "E204", ("G#1 X1", "M#1"))
 
 ACROMILL = Refusals((
-    _CURVES,
     *_LATHES,
     _POCKETS,
     _POLAR,
@@ -135,7 +130,6 @@ ACROMILL = Refusals((
 ))  # fmt: skip
 
 RS274NGC = Refusals((
-    _CURVES,
     *_LATHES,
     _POCKETS,
     _POLAR,

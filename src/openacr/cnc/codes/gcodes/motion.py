@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -86,12 +86,16 @@ def line(run: Run, b: BlockContext) -> None:
 
 def _pace(run: Run, b: BlockContext, end: Point, bow: ArcGeometry | None) -> Pace:
     """How a feed move to a program point runs."""
+    return pace_over(run, b, lambda: run.path.distance(end, bow, run.modal.plane_axes))
+
+
+def pace_over(run: Run, b: BlockContext, length: Callable[[], float]) -> Pace:
+    """How feed moves of a length together run; the length counts in G93."""
     if run.modal.feed_mode != INVERSE_TIME:
         return run.path.pace(b)
     if "F" not in b.words:
         raise b.fault("E222", detail="F missing in G93")
-    length = run.path.distance(end, bow, run.modal.plane_axes)
-    return replace(run.path.pace(b), feed_upm=b.words["F"] * length)
+    return replace(run.path.pace(b), feed_upm=b.words["F"] * length())
 
 
 def _arc(run: Run, b: BlockContext, direction: int) -> None:

@@ -18,6 +18,7 @@ from openacr.cnc.codes.gcodes.work import (
     select,
     show_zero,
 )
+from openacr.cnc.codes.ngc.splines import no_open_curve
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL, RS274NGC
 from openacr.cnc.codes.words import select_length, select_radius
@@ -70,12 +71,14 @@ def no_motion(run: Run, b: BlockContext) -> None:
        limits=(Limit("L", 1, 9999, "E250", is_whole=True),))  # fmt: skip
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """A canned cycle; it ends at the higher of R and where it began (G98) or at R (G99)."""
+    no_open_curve(run, b)
     yield from cycles.cycle(run, b) or ()
 
 
 @gcode(53, step=Step.MOTION, axes=Axes.MOVE)
 def in_machine(run: Run, b: BlockContext) -> None:
     """The straight move of this block is in machine coordinates."""
+    no_open_curve(run, b)
     run.offset_path.refuse(b, "E310")
     if run.modal.motion not in (0, 1):
         raise b.fault("E206", hint="G53 goes with G0 or G1")
@@ -97,6 +100,7 @@ def work_system(run: Run, b: BlockContext) -> None:
 @gcode(28, 30, step=Step.MOTION, axes=Axes.MOVE)
 def to_reference(run: Run, b: BlockContext) -> None:
     """Through the words of the block to the stored point."""
+    no_open_curve(run, b)
     run.offset_path.refuse(b, "E312")
     point = [run.cells.read(REFERENCE_CELLS[int(b.number)][axis]) for axis in range(AXES)]
     if b.plan.axes:
@@ -118,6 +122,7 @@ def store_reference(run: Run, b: BlockContext) -> None:
 @gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)
 def probe(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Probe toward (.2 .3) or away (.4 .5); .2 and .4 have to trip."""
+    no_open_curve(run, b)
     run.offset_path.refuse(b, "E243")
     yield from run.sync(b.source)
     yield from probed(run, b, is_away=b.number > 38.35)
