@@ -139,6 +139,7 @@ def _host_point(card: Card, move: Move) -> HostPoint:
     """A point of a curve: the first scaling field is its knot, the second a NURB's weight."""
     knot, weight = move.scaling or (None, None)
     is_nurb = move.curve is Curve.NURB
+    profile = move.profile(host_moves.has_rapid_modes(card, move.master))
     if not is_nurb and not move.code1 & Code1.SPLINE_KNOTS:
         knot = None
     return HostPoint(
@@ -151,6 +152,8 @@ def _host_point(card: Card, move: Move) -> HostPoint:
         vel_ups=move.vel,
         acc_ups2=move.acc,
         fvel_ups=move.fvel,
+        override_locked=profile.override_locked,
+        count=move.counter_step,
     )
 
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from openacr.errors import CardError
+from openacr.kernel.path.lookahead_cy import look_record
 from openacr.kernel.path.path_cy import (
     MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
@@ -75,10 +76,9 @@ class HostMove:
     @property
     def marks(self) -> int:
         """What the kernel keeps with the move."""
-        counts = MARK_COUNT_UP if self.count > 0 else MARK_COUNT_DOWN if self.count < 0 else 0
         return (
-            counts
-            | (MARK_OVERRIDE_LOCKED if self.override_locked else 0)
+            _count_marks(self.count)
+            | _lock_mark(self.override_locked)
             | (MARK_FINAL_ZERO if self.final_velocity_zero else 0)
             | (MARK_INTERRUPT if self.interrupt else 0)
             | (MARK_BLOCK_SKIP if self.block_skip else 0)
@@ -99,6 +99,8 @@ class HostPoint:
     vel_ups: float | None = None
     acc_ups2: float | None = None
     fvel_ups: float | None = None
+    override_locked: bool = False
+    count: int = 0
 
 
 def has_rapid_modes(card: Card, master: int) -> bool:
@@ -162,7 +164,27 @@ def take_point(card: Card, point: HostPoint) -> None:
         curve_modes.begin(card, point.master, point.family, 0)
     _take_profile(card, point)
     values = {one.slave: one.target_cnt for one in slave_moves}
+    before = card.memory.I[masters.queued[point.master]]
     curve_modes.take(card, program, point.master, values, point.knot, point.weight)
+    _mark_pieces(card, point, before)
+
+
+def _mark_pieces(card: Card, point: HostPoint, before: int) -> None:
+    """Mark the pieces that a point completes: the first of them counts it."""
+    marks = _count_marks(point.count)
+    for place in range(before, card.memory.I[masters.queued[point.master]]):
+        record = look_record(card.memory.I, point.master, place)
+        card.memory.I[moves.marks[record]] |= marks | _lock_mark(point.override_locked)
+        marks = 0
+
+
+def _count_marks(count: int) -> int:
+    """What a packet does to the move counter when it begins."""
+    return MARK_COUNT_UP if count > 0 else MARK_COUNT_DOWN if count < 0 else 0
+
+
+def _lock_mark(is_locked: bool) -> int:
+    return MARK_OVERRIDE_LOCKED if is_locked else 0
 
 
 def _count_at_once(card: Card, move: HostMove) -> None:
