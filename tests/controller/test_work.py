@@ -131,6 +131,23 @@ def test_pokes_count_by_their_values_and_moves_as_one(host: Host) -> None:
         assert host.card.bit[129]
 
 
+@pytest.mark.parametrize(("arrays", "at_once"), [(100, 23), (200, 12), (0, 250)])
+def test_a_poke_counts_the_arrays_among_which_its_own_is_sought(
+    host: Host, arrays: int, at_once: int
+) -> None:
+    host.type("DIM PROG0(100000)", "PROG0", "DIM LA(1000)")
+    for number in range(arrays):
+        host.type(f"DIM LA{number}(1)")
+    poke = bytes.fromhex("00 91 00 01") + struct.pack("<Ii", 0x81FFF0, 1)  # in the heap, of no array
+    flag = bytes.fromhex("1C 80 00")
+    for packets, is_done in ((at_once - 1, True), (at_once, False)):
+        host.card.bit[128] = False
+        host.card.receive(host.stream, poke * packets + flag)
+        assert host.card.bit[128] is is_done, packets
+        host.card.advance(200)
+        assert host.card.bit[128]
+
+
 def test_keys_go_before_lines_that_wait_for_their_turn(host: Host) -> None:
     key = "\x18"
     begin = host.card.memory.bit(8467)

@@ -1,7 +1,8 @@
 """Peek, poke and address packets on the real memory of a card."""
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import pytest
 
@@ -298,3 +299,46 @@ def test_a_poke_over_the_end_of_an_array_stores_nothing(card: Card, first: int, 
     before = card.peek(header, 10)
     execute(card, Poke.of(Conversion.LONG, header + first, tuple(range(1, count + 1))))
     assert card.peek(header, 10) == before
+
+
+class Counted(list[Any]):
+    """A list that counts how often it is looked into; it is never walked."""
+
+    reads = 0
+
+    def __getitem__(self, index: Any) -> Any:
+        self.reads += 1
+        return super().__getitem__(index)
+
+    def __iter__(self) -> Iterator[Any]:
+        raise AssertionError("walked")
+
+
+def test_a_peek_of_string_arrays_does_not_walk_them(card: Card) -> None:
+    card.storage.dimension_program(2, 500_000)
+    card.storage.locals.references(2, "$A", 60_000)
+    card.storage.locals.string_array(2, 59_999, 2, 5)
+    card.storage.locals.string_array(2, 7, 1, 3)
+    strings = card.storage.locals.strings[2]
+    strings.array(59_999).write(1, "HELLO")
+    (table,) = card.ask(VariableAddress(2, VariableKind.STRING_ARRAYS))
+    counted = strings.arrays = Counted(strings.arrays)
+    first = table + 60_001  # array 7: count, address, string of two words
+    assert card.peek(table + 60_000) == (first + 4,)
+    assert card.peek(table + 8, 2) == (first, 0)
+    assert card.peek(first + 4, 3) == (2, first + 7, first + 10)
+    assert card.peek(first + 10, 3) == (5, *struct.unpack("<2i", b"HELLO\0\0\0"))
+    assert counted.reads < 40
+
+
+def test_a_poke_walks_the_arrays_that_have_elements_alone(card: Card) -> None:
+    card.storage.dimension_program(1, 500_000)
+    card.storage.locals.references(1, "LA", 60_000)
+    for number in (0, 1023, 1024, 59_999):
+        card.storage.locals.array(1, "LA", number, 2)
+    (table,) = card.ask(VariableAddress(1, VariableKind.LA))
+    header = card.peek(table + 60_000)[0]
+    card.memory.walked = 0
+    execute(card, Poke.of(Conversion.LONG, header + 2, (7,)))
+    assert card.peek(header, 3) == (2, 0, 7)
+    assert card.memory.walked == 4

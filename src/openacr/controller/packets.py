@@ -48,6 +48,11 @@ class PacketHost:
         self.parameter_address = self._space.parameter_address
         self.variable_address = self._space.variable_address
 
+    def take_walked(self) -> int:
+        """The references of arrays that were walked since the last call."""
+        walked, self._card.memory.walked = self._card.memory.walked, 0
+        return walked
+
     def timeout_tk(self, channel: str) -> int:
         """The longest permitted gap between the bytes of a packet on a channel, in ticks."""
         row = _TIMEOUTS.get(channel)

@@ -34,6 +34,7 @@ LINE_WORK = 150  # to read one line, in the units of a LIST: 2.5 units are a mic
 CHARACTER_WORK = 30  # added for each of its characters
 PACKET_WORK = 12  # to act on a packet
 VALUE_WORK = 8  # added for each value it reads or pokes
+WALK_WORK = 2  # added for each array that is walked in search of another, or to add up memory
 WORK_PER_TURN = 5000  # about 2 ms of computing for bytes that arrive together
 WORK_PER_TICK = 250  # about 0.1 ms in every tick for lines left over
 
@@ -239,7 +240,9 @@ class Streams:
     def _pump(self, stream: Stream) -> None:
         while stream.credit > 0 and (event := stream.terminal.next_event()) is not NEED_DATA:
             stream.credit -= _work(event)
+            self._host.take_walked()
             self._deal(stream, event)
+            stream.credit -= WALK_WORK * self._host.take_walked()
             if not isinstance(event, Received):  # packets do not concern the session
                 self._settle(stream)
         for key in stream.terminal.pause():

@@ -29,12 +29,14 @@ from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
 from openacr.views import F32, F64, I32
 
 KINDS_PER_WORD = 16
+CHUNK = 1024  # words that are skipped together if all are 0
+_ZEROS = bytes(4 * CHUNK)
 
 
 class Memory:
     """All state of one card, as it is right after power-up."""
 
-    __slots__ = ("F", "I", "S", "_buffer")
+    __slots__ = ("F", "I", "S", "_buffer", "walked")
 
     F: F64
     I: I32
@@ -45,6 +47,7 @@ class Memory:
         self.F = self._buffer.cast("d")
         self.I = self._buffer.cast("i")
         self.S = self._buffer.cast("f")
+        self.walked = 0  # references found by `references` since a caller last set it to 0
 
     def read(self, number: int) -> int | float:
         """Value of parameter `number`; CardError if there is no such parameter."""
@@ -85,6 +88,16 @@ class Memory:
         """Set or clear flag `number`; CardError beyond the last flag."""
         word, mask = flag_place(number)
         self.I[word] = self.I[word] | mask if on else self.I[word] & ~mask
+
+    def references(self, first: int, count: int) -> list[int]:
+        """Places in `I` of the words of a table that are not 0; long empty tables cost nothing."""
+        found: list[int] = []
+        for start in range(first, first + count, CHUNK):
+            words = self.I[start : min(start + CHUNK, first + count)]
+            if words.tobytes() != _ZEROS[: 4 * len(words)]:
+                found += [start + k for k, word in enumerate(words) if word]
+        self.walked += len(found)
+        return found
 
     def snapshot(self) -> bytes:
         """The whole state; `restore` brings it back."""

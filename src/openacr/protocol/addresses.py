@@ -11,7 +11,7 @@ Real addresses differ from card to card, so hosts query them. This card answers 
     0x10000000...     strings, as `string_words` lays them out; they can be peeked only
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from openacr.errors import MapError
@@ -167,10 +167,14 @@ class AddressSpace:
         place = _HEAP_FIRST + address - HEAP
         longs = self._memory.I
         for rows, base, count in filter(None, map(self._block, range(PROGRAMS * KINDS))):
-            for header in longs[base : base + count] if rows.is_table else ():
-                if header and header < place <= header + longs[header] * rows.element_words:
+            for header in self._headers(base, count) if rows.is_table else ():
+                if header < place <= header + longs[header] * rows.element_words:
                     return range(header + 1, header + 1 + longs[header] * rows.element_words)
         return range(0)
+
+    def _headers(self, table: int, count: int) -> Iterator[int]:
+        """Where the arrays of a table that have elements begin."""
+        return (self._memory.I[place] for place in self._memory.references(table, count))
 
     def _globals(self) -> int:
         return self._memory.I[at.SYSI_BASE + at.SYSI_P_COUNT]

@@ -10,7 +10,6 @@ The manual defines only the count of strings; the rest follows its description o
 """
 
 from collections.abc import Sequence
-from itertools import accumulate
 from typing import Protocol
 
 from openacr.errors import MapError
@@ -32,6 +31,20 @@ class Strings(Protocol):
     def values(self) -> Sequence[str]:
         """The contents of the strings."""
 
+    @property
+    def string_words(self) -> int:
+        """Words of one string."""
+
+
+class Sizes(Protocol):
+    """The words of arrays, one after the other."""
+
+    def before(self, index: int) -> int:
+        """Words of all arrays before an index."""
+
+    def find(self, total: int) -> int:
+        """The array in which the word after `total` others lies; the number of arrays if none."""
+
 
 class ProgramStrings(Protocol):
     """All strings of a program."""
@@ -43,6 +56,10 @@ class ProgramStrings(Protocol):
     @property
     def arrays(self) -> Sequence[Strings | None]:
         """Its $A."""
+
+    @property
+    def sizes(self) -> Sizes:
+        """The words of its $A."""
 
 
 def variables_address(program: int, strings: ProgramStrings) -> int:
@@ -64,7 +81,7 @@ def read(programs: Sequence[ProgramStrings], address: int, count: int) -> list[i
     strings, base = programs[program], _base(program, is_array)
     offsets = range(first, first + count)
     if is_array:
-        return _array_words(strings.arrays, base, offsets)
+        return [_array_word(strings, base, offset) for offset in offsets]
     if strings.variables is None:
         raise MapError(f"program {program} has no $V")
     return [_word(strings.variables, base, offset) for offset in offsets]
@@ -74,19 +91,9 @@ def _base(program: int, is_array: int) -> int:
     return STRINGS + (program * _PER_PROGRAM + is_array) * BLOCK_WORDS
 
 
-def _stride(strings: Strings) -> int:
-    """Words of one string."""
-    return 1 - -strings.length // _CHARACTERS
-
-
-def _size(strings: Strings | None) -> int:
-    """Words of a block of strings: its count, then address and string for each."""
-    return 1 + len(strings.values) * (1 + _stride(strings)) if strings else 0
-
-
 def _word(strings: Strings, base: int, offset: int) -> int:
     """One word of a block of strings that begins at `base`."""
-    count, stride = len(strings.values), _stride(strings)
+    count, stride = len(strings.values), strings.string_words
     if offset == 0:
         return count
     if offset <= count:
@@ -101,22 +108,17 @@ def _word(strings: Strings, base: int, offset: int) -> int:
     return int.from_bytes(part.encode("latin-1"), "little")
 
 
-def _array_words(arrays: Sequence[Strings | None], base: int, offsets: Sequence[int]) -> list[int]:
-    """Words of the table of arrays at `base` and of the arrays that follow it."""
-    if not arrays:
-        raise MapError(f"there is no memory at address 0x{base:X}")
-    starts = list(accumulate(map(_size, arrays), initial=1 + len(arrays)))
-    found, number = [], 0
-    for offset in offsets:
-        if offset == 0:
-            found.append(len(arrays))
-        elif offset <= len(arrays):
-            found.append(base + starts[offset - 1] if arrays[offset - 1] else 0)
-        else:
-            while number < len(arrays) and starts[number + 1] <= offset:
-                number += 1
-            array = arrays[number] if number < len(arrays) else None
-            if array is None:
-                raise MapError(f"there is no memory at address 0x{base + offset:X}")
-            found.append(_word(array, base + starts[number], offset - starts[number]))
-    return found
+def _array_word(strings: ProgramStrings, base: int, offset: int) -> int:
+    """One word of the table of arrays at `base`, or of the arrays that follow it."""
+    arrays, sizes = strings.arrays, strings.sizes
+    first = 1 + len(arrays)
+    if arrays and offset == 0:
+        return len(arrays)
+    if 0 < offset < first:
+        return base + first + sizes.before(offset - 1) if arrays[offset - 1] else 0
+    number = sizes.find(offset - first)
+    array = arrays[number] if number < len(arrays) else None
+    if array is None:
+        raise MapError(f"there is no memory at address 0x{base + offset:X}")
+    start = first + sizes.before(number)
+    return _word(array, base + start, offset - start)

@@ -7,6 +7,7 @@ rows each time, so a restored snapshot needs nothing else. DIM is rare, programs
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import attrgetter
 
 from openacr.basic.memory.memory_cost import (
     DOUBLE_ARRAY,
@@ -110,6 +111,12 @@ class Heap:
         header = self.memory.I[self._reference(program, kind, index)]
         return self.memory.I[header] if header else 0
 
+    def arrays(self, program: int, kind: ArrayType) -> Iterator[tuple[int, int]]:
+        """Number and elements of each array that is dimensioned."""
+        table, longs = self.row(program, kind.base_row), self.memory.I
+        for place in self.memory.references(table, self.row(program, kind.count_row)):
+            yield place - table, longs[longs[place]]
+
     def free(self, program: int) -> None:
         """Forget all locals of a program."""
         for kind in (*SCALARS, *ARRAYS):
@@ -168,7 +175,7 @@ class Heap:
     def _allocate(self, words: int, *, phase: int, step: int) -> int:
         """First zeroed block of `words` whose start is `phase` modulo `step`."""
         start = _FIRST + (phase - _FIRST) % step
-        for block in sorted(self._blocks()):
+        for block in sorted(self._blocks(), key=attrgetter("start")):
             if start + words <= block.start:
                 break
             after = max(start, block.start + block.words)
@@ -192,6 +199,6 @@ class Heap:
 
     def _array_blocks(self, table: int, count: int, kind: ArrayType) -> Iterator[_Block]:
         yield _Block(table, count)
-        for header in self.memory.I[table : table + count]:
-            if header:
-                yield _Block(header, 1 + self.memory.I[header] * kind.words)
+        longs = self.memory.I
+        for place in self.memory.references(table, count):
+            yield _Block(longs[place], 1 + longs[longs[place]] * kind.words)

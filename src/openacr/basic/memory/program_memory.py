@@ -55,7 +55,7 @@ class Locals:
             present = len(self.strings[program].arrays)
             if _is_new(present, count, repeat):
                 self._take(program, ARRAY_REFERENCES.bytes(count))
-                self.strings[program].arrays = [None] * count
+                self.strings[program].dimension(count)
             return
         kind = _ARRAY[name]
         if _is_new(self.heap.row(program, kind.count_row), count, repeat):
@@ -95,7 +95,7 @@ class Locals:
         block = arrays[index]
         if _is_new(block.shape if block else 0, (count, length), repeat):
             self._take(program, STRING_ARRAY_CHARACTERS.bytes(count * length))
-            arrays[index] = StringBlock(length, [""] * count)
+            self.strings[program].put(index, StringBlock(length, [""] * count))
 
     def move_buffer(self, program: int, count: int, *, repeat: bool = False) -> None:
         """DIM MBUF: user memory for `count` buffered moves."""
@@ -119,8 +119,7 @@ class Locals:
         for kind in ARRAYS:
             count = self.heap.row(program, kind.count_row)
             yield from _listed(kind.name, count)
-            for index in range(count):
-                elements = self.heap.array_count(program, kind, index)
+            for index, elements in self.heap.arrays(program, kind):
                 yield from _listed(f"{kind.name}{index}", elements)
         yield from _listed("$A", len(strings.arrays))
         for index, block in enumerate(strings.arrays):
@@ -154,8 +153,8 @@ class Locals:
         self.strings = [ProgramStrings.from_state(program) for program in state]
 
     def _array_bytes(self, program: int, kind: ArrayType, count: int) -> int:
-        arrays = (self.heap.array_count(program, kind, index) for index in range(count))
-        return ARRAY_REFERENCES.bytes(count) + sum(map(kind.cost.bytes, arrays))
+        arrays = (kind.cost.bytes(elements) for _, elements in self.heap.arrays(program, kind))
+        return ARRAY_REFERENCES.bytes(count) + sum(arrays)
 
 
 def _is_new(present: object, wanted: object, repeat: bool) -> bool:

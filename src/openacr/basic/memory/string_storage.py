@@ -9,10 +9,12 @@ from openacr.basic.memory.memory_cost import (
     string_bytes,
 )
 from openacr.basic.memory.ranges import StringLength, StringText
+from openacr.basic.memory.running_sums import RunningSums
 from openacr.errors import CardError
 from openacr.messages import SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
 
 LONGEST_STRING = 255
+CHARACTERS_PER_WORD = 4
 
 BlockState: TypeAlias = tuple[StringLength, list[StringText]]
 StringsState: TypeAlias = tuple[BlockState | None, list[BlockState | None]]
@@ -40,6 +42,16 @@ class StringBlock:
         """Number of strings and length of each."""
         return len(self.values), self.length
 
+    @property
+    def string_words(self) -> int:
+        """Words of 32 bits of one string: the number of its characters, and four in each word."""
+        return 1 - -self.length // CHARACTERS_PER_WORD
+
+    @property
+    def words(self) -> int:
+        """Words of 32 bits of all: their count, then the address of each, then the strings."""
+        return 1 + len(self.values) * (1 + self.string_words)
+
     def _check(self, index: int) -> None:
         if not 0 <= index < len(self.values):
             raise CardError(SUBSCRIPT_OUT_OF_RANGE)
@@ -50,7 +62,23 @@ class ProgramStrings:
     """Strings of one program: its $V, and its $A arrays (None until dimensioned)."""
 
     variables: StringBlock | None = None
-    arrays: list[StringBlock | None] = field(default_factory=list)
+    arrays: list[StringBlock | None] = field(default_factory=list)  # changed by `put` alone
+    sizes: RunningSums = field(init=False)  # of the arrays, in words
+
+    def __post_init__(self) -> None:
+        self.sizes = RunningSums(len(self.arrays))
+        for index, block in enumerate(self.arrays):
+            if block:
+                self.sizes.add(index, block.words)
+
+    def dimension(self, count: int) -> None:
+        """Make room for `count` $A arrays; none has strings yet."""
+        self.arrays, self.sizes = [None] * count, RunningSums(count)
+
+    def put(self, index: int, block: StringBlock) -> None:
+        """Give a $A array without strings its strings."""
+        self.arrays[index] = block
+        self.sizes.add(index, block.words)
 
     def array(self, index: int) -> StringBlock:
         """One dimensioned $A array."""
