@@ -138,7 +138,8 @@ def test_a_poke_counts_the_arrays_among_which_its_own_is_sought(
     host.type("DIM PROG0(100000)", "PROG0", "DIM LA(1000)")
     for number in range(arrays):
         host.type(f"DIM LA{number}(1)")
-    poke = bytes.fromhex("00 91 00 01") + struct.pack("<Ii", 0x81FFF0, 1)  # in the heap, of no array
+    free = 0x81FFF0  # in the heap, of no array
+    poke = bytes.fromhex("00 91 00 01") + struct.pack("<Ii", free, 1)
     flag = bytes.fromhex("1C 80 00")
     for packets, is_done in ((at_once - 1, True), (at_once, False)):
         host.card.bit[128] = False

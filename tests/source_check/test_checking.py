@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from openacr.controller import Controller
+from openacr.controller.loading import LoadError
 from openacr.errors import SourceError, UserError
 from openacr.project import Place
 from openacr.source_check import check, check_text
@@ -52,3 +54,35 @@ def test_what_cannot_be_read_at_all_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "empty.8k").write_text("")
     with pytest.raises(SourceError, match="the file is empty"):
         check(tmp_path / "empty.8k")
+
+
+BROKEN = """\
+PROGRAM
+ QQ : IF (1 +
+\t 2 +
+    3) THEN SET 32 : XYZ 1
+PRINT (1 +
+2)
+SET 33
+ENDP
+"""
+
+
+def test_a_fault_in_the_rest_of_a_broken_line_is_placed_where_it_is(tmp_path: Path) -> None:
+    text = BROKEN.replace(" QQ : ", " ")
+    for number, column, wrong in (
+        (2, 2, BROKEN),
+        (2, 6, text.replace("(1 +\n\t", "(* +\n\t")),
+        (3, 6, text.replace("\t 2 +", "\t 2 *;")),
+        (4, 4, text.replace("    3) THEN", "   PP) THEN")),
+        (4, 22, text),
+    ):
+        found = places(tmp_path / "prog0.8k", wrong)
+        assert [(line, at) for _, line, at, _ in found][:1] == [(number, column)], wrong
+        (tmp_path / "prog0.8k").write_text(wrong)
+        with pytest.raises(LoadError) as refused:
+            Controller.from_project(tmp_path)
+        assert refused.value.line == number
+    (tmp_path / "prog0.8k").unlink()
+    bare = text.replace(" : XYZ 1", "").replace("2)\n", "2) + *\n")
+    assert [each[1:3] for each in places(tmp_path / "prog0.8k", bare)] == [(6, 6)]

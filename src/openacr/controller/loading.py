@@ -10,6 +10,7 @@ from openacr.basic.language.loader import file_lines, long_lived_objects
 from openacr.basic.language.registry import Level
 from openacr.basic.memory.program_store import ProgramStore, StoredLine
 from openacr.errors import CardError, SourceError
+from openacr.lang.source import Span
 from openacr.motion.axis import modules
 from openacr.project import Place, Project, SourceFile
 
@@ -81,7 +82,9 @@ class Loader:
                 self.origins.line = line.number
                 problem = self._feed(line.text)
                 if problem:
-                    errors.append(SourceError(problem, path=str(source.path), line=line.number))
+                    span: Span | None = getattr(self.session.last_error, "span", None)
+                    number = line.place(span.column)[0] if span else line.number
+                    errors.append(SourceError(problem, path=str(source.path), line=number))
         if self.session.capture is not None:
             self._feed("ENDP")
         if source.place is Place.SETUP:

@@ -283,14 +283,16 @@ class Reader:
 
     def _place(self, line: FileLine, span: Span | None) -> tuple[int, int, int]:
         """Line, column and length in the file as it is."""
-        original = self._originals[line.number - 1].rstrip()
+        number, column = line.place(span.column) if span else (line.number, 1)
+        original = self._originals[number - 1].rstrip()
         begin = len(original) - len(original.lstrip()) + 1
-        # A prompt in front of the line was taken away before it was read.
-        shift = len(original) - len(line.text) if original.endswith(line.text) else 0
-        column = max(begin, span.column + shift) if span else begin
-        length = span.length if span else len(original)
-        # Text that was joined to the line lies beyond its end.
-        return line.number, min(column, len(original) + 1), length
+        if number != line.number:
+            shift = begin - 1  # it was joined to another line without its indentation
+        else:  # a prompt in front of the line was taken away before it was read
+            first = line.text[: line.rests[0][1] - 2] if line.rests else line.text
+            shift = len(original) - len(first) if original.endswith(first) else 0
+        column = max(begin, column + shift) if span else begin
+        return number, min(column, len(original) + 1), span.length if span else len(original)
 
 
 def listing(reader: Reader) -> Iterator[str]:

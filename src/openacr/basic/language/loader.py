@@ -41,11 +41,23 @@ _DEFAULT_AXIS_NAMES = frozenset("XYZABCUVW")
 
 @dataclass(slots=True)  # files have many lines: a frozen one takes three times as long
 class FileLine:
-    """One line to send, the line of the file where it begins, and its shape."""
+    """One line to send, the line of the file where it begins, and its shape.
+
+    `rests` are the lines of the file that were joined to it: number, and column (from 1) where each
+    begins in the text.
+    """
 
     number: int
     text: str
     shape: str = field(default="", compare=False, repr=False)
+    rests: tuple[tuple[int, int], ...] = field(default=(), compare=False, repr=False)
+
+    def place(self, column: int) -> tuple[int, int]:
+        """The line of the file and the column there, without its indentation, of a column."""
+        for number, first in reversed(self.rests):
+            if column >= first:
+                return number, column - first + 1
+        return self.number, column
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,14 +147,16 @@ def _whole(lines: list[FileLine], first: int) -> tuple[FileLine, int]:
     What stays open however many lines are added was not broken: it is a mistake of its line.
     """
     begun = lines[first]
+    rests: tuple[tuple[int, int], ...] = ()
     text, following, is_open = begun.text, first + 1, _role(begun.shape).is_open
     while is_open and following < len(lines) and _continues(text, lines[following].text):
+        rests += ((lines[following].number, len(text) + 2),)
         text = f"{text} {lines[following].text.lstrip()}"
         following += 1
         is_open = _scan(text).is_open
     if is_open or following == first + 1:
         return begun, first + 1
-    return FileLine(begun.number, text, shape(text)), following
+    return FileLine(begun.number, text, shape(text), rests), following
 
 
 def _continues(text: str, following: str) -> bool:
