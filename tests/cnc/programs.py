@@ -11,6 +11,7 @@ from openacr.cnc.canonical import (
     End,
     Entry,
     Line,
+    Moves,
     Orient,
     Output,
     Point,
@@ -211,9 +212,11 @@ def run(
 
 
 def unrolled(entries: Iterator[Entry]) -> Iterator[Entry]:
-    """The entries with polylines as single lines."""
+    """The entries with many moves as single ones."""
     for entry in entries:
-        if isinstance(entry, Polyline):
+        if isinstance(entry, Moves):
+            yield from entry.entries()
+        elif isinstance(entry, Polyline):
             for end, line in zip(entry.ends, entry.lines, strict=True):
                 source = Source(entry.source.file, int(line), "")
                 yield Line(source, tuple(float(x) for x in end), entry.pace)

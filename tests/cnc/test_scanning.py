@@ -9,12 +9,14 @@ from hypothesis import strategies as st
 from tests.cnc.programs import Bench, Run, made, unrolled
 
 from openacr.cnc.canonical import Entry, Line, Polyline, Rapid
-from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter import blocks_cy as blocks
+from openacr.cnc.interpreter import scanning
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.interpreter.scanning import Scanner
 from openacr.cnc.loading.load import load
-from openacr.cnc.loading.skimming import Tables
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.reading.line_shapes import LineShapes
 from openacr.compiled import pick
 
 
@@ -166,28 +168,16 @@ def test_a_label_given_twice_is_found_in_plain_lines() -> None:
     assert (error.code, error.line) == ("E221", 7)
 
 
-def test_the_scanner_counts_itself_the_same_compiled_and_plain() -> None:
+def test_the_executor_is_the_same_compiled_and_plain() -> None:
     chance = random.Random(5)
-    text = "\n".join(line(chance) for _ in range(400)).encode()
-    axes = {"X": 0, "Y": 1, "Z": 2, "A": 3}
-    results = []
-    for function in (scan.scan_lines, pick(scan.scan_lines)):
-        tables = Tables(axes)
-        tables.W[scan.W_TIMES] = tables.W[scan.W_PER] = 1.0
-        pos, taken = 0, []
-        while pos < len(text):
-            ends, lines = (
-                memoryview(bytearray(8 * 800)).cast("d"),
-                memoryview(bytearray(400)).cast("i"),
-            )
-            data = memoryview(bytearray(text))
-            rows = function(data, pos, len(text), tables.w, tables.k, ends, lines, 100)
-            taken.append(
-                (rows, tables.K.tolist(), tables.W.tolist(), ends.tolist(), lines.tolist())
-            )
-            pos = max(int(tables.K[scan.K_NEXT]), pos + 1)
-        results.append(taken)
-    assert results[0] == results[1]
+    text = "F10\n" + "\n".join(line(chance) for _ in range(400))
+    entries = []
+    for function in (blocks.run_lines, pick(blocks.run_lines)):
+        done = made(text, axes=4, options=Options(has_batches=True))
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(scanning, "_run_lines", function)
+            entries.append(unrolled(iter(finished(done).entries)))
+    assert list(entries[0]) == list(entries[1])
 
 
 def test_numbers_are_read_as_float_reads_them() -> None:
@@ -196,12 +186,11 @@ def test_numbers_are_read_as_float_reads_them() -> None:
         digits = str(chance.randrange(10 ** chance.randrange(1, 16)))
         cut = chance.randrange(len(digits) + 1)
         text = f"{digits[:cut]}.{digits[cut:]}"
-        tables = Tables({})
+        shapes = LineShapes({})
         data = memoryview(bytearray(text.encode()))
-        assert pick(scan.scan_lines) is not None
-        end = scan.scan_number(data, 0, len(text), tables.w)
+        end = scan.scan_number(data, 0, len(text), shapes.W)
         assert end == len(text)
-        assert tables.W[scan.W_VALUE] == float(text)
+        assert shapes.W[scan.W_VALUE] == float(text)
 
 
 @pytest.mark.req("MILL-LOAD-BIG")

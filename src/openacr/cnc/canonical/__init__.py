@@ -32,9 +32,11 @@ from openacr.cnc.canonical.actions import (
     Transfer,
     WaitBit,
 )
+from openacr.cnc.canonical.batches import Moves
 from openacr.cnc.canonical.common import (
     AXES,
     AXIS_LETTERS,
+    PLANES,
     ROTARY,
     TOOL_AXIS,
     Pace,
@@ -45,7 +47,7 @@ from openacr.cnc.canonical.common import (
 )
 from openacr.cnc.canonical.moves import Arc, Line, Polyline, Probe, Rapid
 
-Motion = Rapid | Line | Arc | Polyline | Probe
+Motion = Rapid | Line | Arc | Polyline | Probe | Moves
 Action = (
     Dwell
     | Spindle
@@ -68,6 +70,7 @@ Entry = Motion | Action | BlockEnd | Sync | End
 __all__ = [
     "AXES",
     "AXIS_LETTERS",
+    "PLANES",
     "ROTARY",
     "TOOL_AXIS",
     "Action",
@@ -82,6 +85,7 @@ __all__ = [
     "Entry",
     "Line",
     "Motion",
+    "Moves",
     "Orient",
     "Output",
     "Pace",

@@ -43,6 +43,9 @@ class Plane(Enum):
         return self.value[2]
 
 
+PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}  # by the G code that chooses it
+
+
 @dataclass(frozen=True, slots=True)
 class Source:
     """Where in the text an entry comes from; `text` is the block as written."""

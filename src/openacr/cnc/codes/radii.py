@@ -11,8 +11,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from openacr.cnc.geometry import arc_cy
 from openacr.cnc.geometry.arcs import centre_by_words
 from openacr.cnc.state.cells import SPIRALS
+from openacr.compiled import pick
 
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Plane, Point
@@ -20,7 +22,8 @@ if TYPE_CHECKING:
     from openacr.cnc.geometry.arcs import ArcGeometry
     from openacr.cnc.program.block_context import BlockContext
 
-NEAR_INCH, NEAR_SHARE = 0.0005, 0.001  # radii are equal within the larger of the two
+NEAR_INCH = 0.0005  # radii are equal within it, or within a share of the larger one
+_are_near = pick(arc_cy.arc_is_near)
 FAR_SHARE = 0.25  # of the larger radius: more is not taken for a spiral
 READINGS = {
     0: "counted from the centre to the start of the arc",
@@ -61,7 +64,7 @@ def check_radii(run: Run, b: BlockContext, bow: ArcGeometry, words: Words) -> No
 
 
 def _is_near(run: Run, one: float, other: float) -> bool:
-    return abs(one - other) <= max(run.path.inches(NEAR_INCH), NEAR_SHARE * max(one, other))
+    return _are_near(one, other, run.path.inches(NEAR_INCH))
 
 
 def _reading_that_fits(run: Run, b: BlockContext, words: Words) -> int | None:

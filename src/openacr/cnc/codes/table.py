@@ -7,6 +7,8 @@ in the reference are derived from these rows.
     @gcode(4, step=Step.DWELL, takes="F", limits=(Limit("F", 0.1, 999.9, "E240"),))
     def dwell(run: Run, b: BlockContext) -> None:
         \"\"\"Rest for F seconds.\"\"\"
+
+A row may have a fast form (`fast.py`) beside its handler; without it the code is only slower.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
+from openacr.cnc.codes.fast import Fast, FastForms, form_of
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import NEAR
 from openacr.cnc.reading.grammar import Grammar
@@ -136,6 +139,7 @@ class Code:
     limits: tuple[Limit, ...] = ()
     acts_dry: bool = True  # also in DRY RUN
     takes_all: bool = False  # every other word is an argument
+    fast: Fast | None = None  # None: only the handler knows what it does
 
     @property
     def name(self) -> str:
@@ -178,6 +182,7 @@ class Table:
         axes: Axes = Axes.NONE,
         limits: tuple[Limit, ...] = (),
         takes_all: bool = False,
+        fast: FastForms = None,
     ) -> Callable[[Handler], Handler]:
         """Register a function as G codes."""
 
@@ -186,7 +191,7 @@ class Table:
                 self.add(
                     Code(
                         "G", number, step, act, group, words + takes, takes, axes, limits,
-                        takes_all=takes_all,
+                        takes_all=takes_all, fast=form_of(fast, number),
                     )
                 )  # fmt: skip
             return act
@@ -217,12 +222,12 @@ class Table:
         return register
 
     def letter(
-        self, letter: str, *, step: Step, limits: tuple[Limit, ...] = ()
+        self, letter: str, *, step: Step, limits: tuple[Limit, ...] = (), fast: Fast | None = None
     ) -> Callable[[Handler], Handler]:
         """Register a function as a word that acts by itself."""
 
         def register(act: Handler) -> Handler:
-            self.add(Code(letter, 0.0, step, act, words=letter, limits=limits))
+            self.add(Code(letter, 0.0, step, act, words=letter, limits=limits, fast=fast))
             return act
 
         return register

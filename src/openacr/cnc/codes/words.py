@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, SetCell, Spin, Spindle, Transfer
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.reading.findings import CodeError
@@ -34,7 +35,7 @@ letter = ACROMILL.letter
 LAST_VARIABLE, LAST_SET_UP = 4095, 99  # of the card; those the set-up makes
 
 
-@letter("F", step=Step.FEED)
+@letter("F", step=Step.FEED, fast=Does.TAKES_FEED)
 def feed(run: Run, b: BlockContext) -> None:
     """Feed in active units per minute."""
     if b.words["F"] <= 0.0:

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from openacr.cnc.canonical import Plane, Point
+from openacr.cnc.geometry import arc_cy
 from openacr.cnc.geometry.coordinates import Coordinates
 from openacr.cnc.program.block_context import BlockContext
+from openacr.compiled import pick
 
-SAME = 1e-6  # units: points closer than this are equal
-NO_TURN = 1e-12  # radians
-TURN = 2.0 * math.pi
+NO_TURN = arc_cy.ARC_NO_TURN  # radians
+TURN = arc_cy.ARC_TURN
 CENTRE_WORDS = "IJK"  # of axes 0, 1, 2
 Pair = tuple[float, float]
+_FAULTS = {arc_cy.ARC_SAME: "E231", arc_cy.ARC_APART: "E233", arc_cy.ARC_SMALL: "E232"}
+_centre = pick(arc_cy.arc_centre)
+_sweep = pick(arc_cy.arc_about)
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +75,7 @@ def arc_geometry(
             raise b.fault("E234", letter, letter)
     a, z = (start[first], start[second]), (end[first], end[second])
     if "R" in lengths:
-        if len(lengths) > 1 or math.dist(a, z) < SAME:
+        if len(lengths) > 1:
             raise b.fault("E231", "R")
         centre = _centre_by_radius(b, a, z, lengths["R"], direction, epsilon)
     else:
@@ -93,37 +98,28 @@ def centre_by_words(
     return x, y
 
 
+def _arc_of(start: Pair, end: Pair, centre: Pair) -> array[float]:
+    return array("d", (*start, *end, *centre, 0.0, 0.0, 0.0))
+
+
 def _centre_by_radius(
     b: BlockContext, start: Pair, end: Pair, radius: float, direction: int, epsilon: float
 ) -> Pair:
-    """The centre on the perpendicular bisector: left of the chord for short arcs to the left."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    chord = math.hypot(dx, dy)
-    if chord > 2.0 * abs(radius) + epsilon:
-        raise b.fault("E233", "R")
-    height = math.sqrt(max(0.0, radius * radius - chord * chord / 4.0))
-    side = direction * math.copysign(1.0, radius) * height / chord
-    return (start[0] + end[0]) / 2.0 - dy * side, (start[1] + end[1]) / 2.0 + dx * side
+    arc = _arc_of(start, end, start)
+    found = _centre(memoryview(arc), radius, direction, epsilon)
+    if found != arc_cy.ARC_DONE:
+        raise b.fault(_FAULTS[found], "R")
+    return arc[arc_cy.A_CX], arc[arc_cy.A_CY]
 
 
 def _arc_about(
     b: BlockContext, start: Pair, end: Pair, centre: Pair, direction: int
 ) -> ArcGeometry:
-    start_radius, end_radius = math.dist(start, centre), math.dist(end, centre)
-    if start_radius < SAME or end_radius < SAME:
-        raise b.fault("E232")
-    turn = 0.0
-    if math.dist(start, end) >= SAME:
-        turn = math.atan2(end[1] - centre[1], end[0] - centre[0])
-        turn -= math.atan2(start[1] - centre[1], start[0] - centre[0])
-    return ArcGeometry(centre, direction * _in_one_turn(direction * turn), start_radius, end_radius)
-
-
-def _in_one_turn(angle: float) -> float:
-    """The same direction in (0, 2 pi]."""
-    if abs(angle) < NO_TURN:
-        return 2.0 * math.pi
-    return angle + 2.0 * math.pi if angle < 0.0 else angle
+    arc = _arc_of(start, end, centre)
+    found = _sweep(memoryview(arc), direction)
+    if found != arc_cy.ARC_DONE:
+        raise b.fault(_FAULTS[found])
+    return ArcGeometry(centre, arc[arc_cy.A_SWEEP], arc[arc_cy.A_R0], arc[arc_cy.A_R1])
 
 
 def placed(
@@ -136,7 +132,7 @@ def placed(
     sweep, factor = arc.sweep_rad, 1.0
     if coordinates.scale is not None:
         k1, k2 = coordinates.scale.factors[first], coordinates.scale.factors[second]
-        if abs(abs(k1) - abs(k2)) > SAME:
+        if abs(abs(k1) - abs(k2)) > arc_cy.ARC_NEAREST:
             raise b.fault("E244", detail=f"{k1:g} and {k2:g}")
         factor = abs(k1)
         sweep = -sweep if k1 * k2 < 0.0 else sweep

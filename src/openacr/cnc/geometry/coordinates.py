@@ -99,6 +99,11 @@ class Coordinates:
         """Whether the program coordinates are only shifted."""
         return self.scale is None and self.rotation is None and self.turn is None
 
+    @property
+    def is_shifted(self) -> bool:
+        """Whether machine and program positions differ by a shift."""
+        return self.shift is not ORIGIN
+
     def clear(self) -> None:
         """Remove scaling, rotation and added lengths."""
         self.chosen_scale = self.chosen_rotation = None

@@ -62,10 +62,13 @@ class Path:
 
     def set_unit(self) -> None:
         """Take over the active unit and the default unit."""
-        is_metric = self._modal.unit == METRIC
-        is_stored_metric = self._cells.read(DEFAULT_UNIT) != 0.0
-        self.times = MM_PER_INCH if is_stored_metric and not is_metric else 1.0
-        self.per = MM_PER_INCH if is_metric and not is_stored_metric else 1.0
+        self.times, self.per = self.factors(self._modal.unit)
+
+    def factors(self, unit: int) -> tuple[float, float]:
+        """What lengths in a unit (20, 21) are multiplied with and divided by."""
+        is_metric, is_stored_metric = unit == METRIC, self._cells.read(DEFAULT_UNIT) != 0.0
+        times = MM_PER_INCH if is_stored_metric and not is_metric else 1.0
+        return times, MM_PER_INCH if is_metric and not is_stored_metric else 1.0
 
     def length(self, value: float) -> float:
         """A length in active units, in default units."""
@@ -169,7 +172,7 @@ class Path:
         self.program = self.coordinates.backward(self.placed)
 
     def jump(self, program: Point) -> None:
-        """Take over the end of plain lines, without scaling and rotation."""
+        """Take over the end of many lines, without scaling and rotation."""
         self.program = self.placed = program
         self.target = self.issued = self.coordinates.to_machine(program)
 

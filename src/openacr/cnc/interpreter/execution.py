@@ -114,19 +114,20 @@ class Execution:
     # --- which line -------------------------------------------------------------------
 
     def _scan(self) -> bool:
-        """Read the plain lines that come next; False if there are none."""
+        """Execute the lines that come next together; False if there are none."""
         flow = self._flow
         if flow.next is not None or not self.scanner.is_free:
             return False
         place = flow.ahead()
         if place is None:
             return False
-        polyline, behind = self.scanner.read_moves(place)
+        moves, behind = self.scanner.read(place)
         if behind is place:
             return False
         flow.go_place(behind)
-        if polyline is not None:
-            self._run.move(polyline)
+        if moves is not None:
+            self._run.out.append(moves)
+            self._run.is_rested = False
         return True
 
     def _race(self, frame: Frame | None) -> bool:
@@ -167,10 +168,10 @@ class Execution:
         while True:
             node = flow.following()
             if node is None:
-                source = self.node.source if self.node else Source("", 1, "")
+                source = self._last_source()
                 run.finish(source, is_by_code=False)
                 return Node(run.program.main, source.line, "", 0)
-            self.node = node
+            self.node, self.scanner.last = node, None
             if node.line == self.until and node.part is run.program.main:
                 self.is_arrived = True
                 return None
@@ -186,6 +187,12 @@ class Execution:
             if self.idle_cnt > MOST_IDLE:
                 raise CodeError("A62", 1)
             return node
+
+    def _last_source(self) -> Source:
+        """The last line of the program, where it ends without a code."""
+        last = self.scanner.last
+        node = self.node if last is None else self._flow.at(last)
+        return node.source if node else Source("", 1, "")
 
     # --- one block --------------------------------------------------------------------
 

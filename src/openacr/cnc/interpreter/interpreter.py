@@ -71,6 +71,7 @@ class Options:
     has_block_ends: bool = False  # BlockEnd after every block with effect
     is_service: bool = False  # system parameters may be assigned
     is_library_part: bool = False  # I, J, K by the setting for library parts
+    has_batches: bool = False  # moves of many blocks come as `Moves`; the reader takes them
     collects_errors: bool = False  # continue after errors of the geometry, to find them all
     watch: Watch | None = None  # sees compensated contours; else, collecting, they are checked
 

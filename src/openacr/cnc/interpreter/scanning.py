@@ -1,110 +1,224 @@
-"""Runs of plain lines, read from the text many at a time.
+"""Runs of lines executed from the text, many at a time.
 
-Where nothing but the position depends on a line - straight feed moves without scaling,
-rotation, compensation, macros, single block - the compiled scanner reads the bytes and
-the moves come out as one `Polyline`. The result is that of the lines one by one.
+While nothing but the words of a line decides what it does - no compensation, scaling, rotation,
+cycle, macro - the compiled executor reads the bytes (`blocks_cy`). For readers of whole programs
+the moves of many blocks come out as `Moves`; where a machine runs the program, runs of
+straight feed moves of one pace come out as a `Polyline`. The result is that of the lines
+one by one.
 """
 
 from __future__ import annotations
 
+from array import array
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from openacr.cnc.canonical import AXES, Polyline, Source
+from openacr.cnc.canonical import AXES, Moves, Pace, Polyline, Source
+from openacr.cnc.canonical.batches import CURVE, POINT, ROW
 from openacr.cnc.codes.gcodes.motion import MOTIONS
-from openacr.cnc.loading.skimming import MOST_ROWS, Tables
+from openacr.cnc.codes.radii import NEAR_INCH
+from openacr.cnc.interpreter import blocks_cy as core
+from openacr.cnc.interpreter.fast_plans import FIELDS, fast_plan
 from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import Part
 from openacr.cnc.reading import scan_cy as scan
+from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, doubles, integers
+from openacr.cnc.reading.parser import parse
 from openacr.cnc.reading.text import decoded
-from openacr.cnc.state.modal import PER_MINUTE
+from openacr.cnc.state.cells import EPSILON
+from openacr.cnc.state.modal import INCH, METRIC, PER_MINUTE
 from openacr.compiled import pick
-from openacr.views import F64
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.program.program import Part
+    from openacr.views import F64
 
-LEAST_ROWS = 16  # fewer lines are read one by one
-_scan_lines = pick(scan.scan_lines)
+LEAST_ROWS = 16  # a Polyline has more
+MOST_NUMBERS = 32768  # of all plans
+OFF, NO_CYCLE = 40, 80
+_run_lines = pick(core.run_lines)
 
 
 class Scanner:
-    """Reads runs of plain lines for an interpreter."""
+    """Executes runs of lines for an interpreter."""
 
     def __init__(self, run: Interpreter) -> None:
         self._run = run
-        self._tables = Tables(run.planner.axes)
-        self._ends = np.zeros(MOST_ROWS * AXES)
-        self._lines = np.zeros(MOST_ROWS, np.int32)
+        self._shapes = LineShapes(run.planner.axes, core.W_RUN_SIZE, core.K_RUN_SIZE)
+        for letter, axis in run.planner.axes.items():
+            self._shapes.K[core.K_LETTER + axis] = ord(letter) - ord("A")
+        self._plans, self._plans_end = integers(MOST_NUMBERS), 0
+        self._modal, self._arc = integers(core.M_SIZE), doubles(core.A_RUN_SIZE)
+        self._ends, self._arcs = doubles(MOST_ROWS * POINT), doubles(MOST_ROWS * CURVE)
+        self._rows, self._paces = integers(MOST_ROWS * ROW), doubles(MOST_ROWS + 1)
+        self._bar: Place | None = None  # from its line to its offset there is no run of lines
+        self._last: Place | None = None
+        self.last: Place | None = None  # the last line that was executed, if it was here
 
     @property
     def is_free(self) -> bool:
-        """Whether a line changes nothing but the position."""
+        """Whether the words of a line alone decide what it does."""
         run = self._run
         modal, path = run.modal, run.path
         return (
-            modal.motion == 1
+            modal.cycle == NO_CYCLE
+            and modal.compensation == OFF
+            and modal.feed_mode == PER_MINUTE
             and run.macro is None
             and path.elements is None
             and path.shape is None
-            and modal.feed_mode == PER_MINUTE
-            and modal.cycle == 80
             and path.coordinates.is_plain
             and run.motions is MOTIONS
             and not run.is_replaying
+            and (run.options.has_batches or modal.motion == 1)
         )
 
-    def read_moves(self, start: Place) -> tuple[Polyline | None, Place]:
+    def read(self, start: Place) -> tuple[Moves | Polyline | None, Place]:
         """The moves of the lines from a position on, and the position after them.
 
-        Nothing is taken where there are only a few.
+        The position is `start` itself where no line was taken.
         """
-        run, part, offset, line = self._run, start.part, start.offset, start.line
-        modal, path, text = run.modal, run.path, part.text
-        if offset >= text.end:
+        text = start.part.text
+        if start.offset >= text.end or start.part.is_cycles or self._is_barred(start):
             return None, start
-        data, place = self._tables.bytes(text, offset)
-        stop = min(len(data), text.end - offset + place)
-        W, K = self._tables.W, self._tables.K
-        W[scan.W_POSITION : scan.W_POSITION + AXES] = path.program
-        W[scan.W_TIMES], W[scan.W_PER], W[scan.W_PRESENT] = path.times, path.per, modal.feed
-        K[scan.K_IS_INCREMENTAL] = modal.distance == 91
-        rows = _scan_lines(
-            data, place, stop, self._tables.w, self._tables.k,
-            cast(F64, self._ends.data), self._lines.data, MOST_ROWS,
-        )  # fmt: skip
-        if rows < LEAST_ROWS:
+        data, place = self._shapes.bytes(text, start.offset)
+        stop = min(len(data), text.end - start.offset + place)
+        is_plain = not self._run.options.has_batches
+        self._take_state(is_plain=is_plain)
+        first = start.offset - place
+        rows, behind = self._execute(data, Place(start.part, place, start.line), stop, first)
+        behind = Place(start.part, first + behind.offset, behind.line)
+        if behind.line == start.line or (is_plain and rows < LEAST_ROWS):
+            self._bar = Place(start.part, behind.offset, start.line)
             return None, start
-        behind = Place(part, offset + int(K[scan.K_NEXT]) - place, line + int(K[scan.K_LINES]))
-        if K[scan.K_NEW_FEED]:
-            modal.feed, modal.has_feed = float(W[scan.W_PRESENT]), True
-            path.change_pace()
-        return self._polyline(rows, part, line, offset), behind
+        self._hand_back()
+        self.last = self._last
+        made = self._polyline if is_plain else self._moves
+        return made(rows, start, data), behind
 
-    def _polyline(self, rows: int, part: Part, line: int, offset: int) -> Polyline | None:
-        """The rows as machine positions; lines that do not move leave none."""
+    def _execute(self, data: memoryview, at: Place, stop: int, first: int) -> tuple[int, Place]:
+        """The count of moves of the lines from a position in the data on, and the line after them.
+
+        `first` is the offset of the data in the text.
+        """
+        shapes, rows = self._shapes, 0
+        while True:
+            self._modal[core.M_LINE] = at.line
+            rows = _run_lines(
+                data, at.offset, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._plans,
+                self._modal, self._arc, self._ends, self._arcs, self._rows, self._paces, rows,
+                MOST_ROWS,
+            )  # fmt: skip
+            line_cnt, after = shapes.K[scan.K_LINES], shapes.K[scan.K_NEXT]
+            if line_cnt:
+                last = first + shapes.K[scan.K_LAST]
+                self._last = Place(at.part, last, at.line + line_cnt - 1)
+            at = Place(at.part, after, at.line + line_cnt)
+            if shapes.status != scan.SCAN_NEW or not self._learn(at.part, first + after):
+                return rows, at
+
+    def _is_barred(self, start: Place) -> bool:
+        """Whether a run from here on has been found too short: it ends at the same line."""
+        bar = self._bar
+        return (
+            bar is not None
+            and bar.part is start.part
+            and bar.line <= start.line
+            and (start.offset < bar.offset)
+        )
+
+    # --- shapes ---------------------------------------------------------------------------
+
+    def _learn(self, part: Part, offset: int) -> bool:
+        """Make the plan of the line at an offset, whose shape is new; False without room."""
+        tokens = self._shapes.tokens()
+        found = part.text.line(offset)
+        numbers = self._planned(decoded(found[0])) if found else None
+        if numbers is None or self._plans_end + len(numbers) > MOST_NUMBERS:
+            return self._shapes.learn(tokens, scan.SHAPE_SLOW)
+        first = self._plans_end
+        self._plans_end += len(numbers)
+        for k, number in enumerate(numbers, first):
+            self._plans[k] = number
+        return self._shapes.learn(tokens, first)
+
+    def _planned(self, raw: str) -> list[int] | None:
+        run = self._run
+        try:
+            plan = run.planner.plan(parse(raw, run.dialect.grammar))
+        except CodeError:
+            return None
+        return fast_plan(plan, plan.acts)
+
+    # --- the state of the interpreter -----------------------------------------------------
+
+    def _take_state(self, *, is_plain: bool) -> None:
+        run, W, M = self._run, self._shapes.W, self._modal
+        modal, path = run.modal, run.path
+        W[core.W_POSITION : core.W_POSITION + AXES] = _view(path.program)
+        W[core.W_TARGET : core.W_TARGET + AXES] = _view(path.target)
+        W[core.W_SHIFT : core.W_SHIFT + AXES] = _view(path.coordinates.shift)
+        for k, factor in enumerate((*path.factors(INCH), *path.factors(METRIC))):
+            W[core.W_UNITS + k] = factor
+        W[core.W_TIMES], W[core.W_PER], W[core.W_FEED] = path.times, path.per, modal.feed
+        W[core.W_NEAR], W[core.W_EPSILON] = path.inches(NEAR_INCH), run.cells.read(EPSILON)
+        for row, field in enumerate(FIELDS):
+            M[row] = int(getattr(modal, field))
+        M[core.M_PACE], M[core.M_HAS_FEED] = 0, modal.has_feed
+        M[core.M_IDLE] = run.execution.idle_cnt
+        M[core.M_IS_SHIFTED], M[core.M_IS_PLAIN] = path.coordinates.is_shifted, is_plain
+        self._paces[0] = modal.feed
+
+    def _hand_back(self) -> None:
+        run, W, M = self._run, self._shapes.W, self._modal
+        modal, path = run.modal, run.path
+        for row, field in enumerate(FIELDS):
+            if M[row] != getattr(modal, field):
+                setattr(modal, field, M[row])
+        modal.feed, modal.has_feed = W[core.W_FEED], bool(M[core.M_HAS_FEED])
+        path.times, path.per = W[core.W_TIMES], W[core.W_PER]
+        path.change_pace()
+        path.jump(tuple(W[core.W_POSITION : core.W_POSITION + AXES]))
+        run.execution.idle_cnt = M[core.M_IDLE]
+
+    # --- what came out ----------------------------------------------------------------------
+
+    def _paces_of(self, count: int) -> tuple[Pace, ...]:
+        """The paces of the moves: they differ in the feed alone."""
+        present = self._run.path.plain_pace()
+        return tuple(_with_feed(present, feed) for feed in self._paces[:count])
+
+    def _moves(self, rows: int, start: Place, data: memoryview) -> Moves | None:
         if not rows:
             return None
-        path = self._run.path
-        program = tuple(self._tables.W[scan.W_POSITION : scan.W_POSITION + AXES].tolist())
-        ends = self._ends[: rows * AXES].reshape(rows, AXES) + path.coordinates.shift
-        lines = self._lines[:rows].astype(np.int64) + line
-        before = np.empty_like(ends)
-        before[0], before[1:] = path.target, ends[:-1]
-        moves = (ends != before).any(axis=1)
-        if not moves.all():
-            ends, lines = ends[moves], lines[moves]
-        path.jump(program)
-        if not len(ends):
-            return None
-        source = Source(part.text.name, int(lines[0]), self._text(part, offset, lines[0] - line))
-        return Polyline(source, ends, lines, path.plain_pace())
+        kept = integers(rows * ROW)
+        kept[:] = self._rows[: rows * ROW]
+        ends, arcs = doubles(rows * POINT), doubles(rows * CURVE)
+        ends[:], arcs[:] = self._ends[: rows * POINT], self._arcs[: rows * CURVE]
+        paces = self._paces_of(self._modal[core.M_PACE] + 1)
+        return Moves(start.part.text.name, kept, ends, arcs, paces, partial(_text, data))
 
-    def _text(self, part: Part, offset: int, skipped: int) -> str:
-        for _ in range(int(skipped) + 1):
-            found = part.text.line(offset)
-            if found is None:
-                return ""
-            raw, offset = found
-        return decoded(raw)
+    def _polyline(self, rows: int, start: Place, data: memoryview) -> Polyline:
+        R = self._rows
+        ends = np.array(self._ends[: rows * POINT]).reshape(rows, POINT)
+        lines = np.array(R[core.R_LINE : rows * ROW : ROW], np.int64)
+        text = _text(data, R[core.R_START], R[core.R_STOP])
+        source = Source(start.part.text.name, int(lines[0]), text)
+        return Polyline(source, ends, lines, self._paces_of(1)[0])
+
+
+def _view(point: tuple[float, ...]) -> F64:
+    return cast("F64", memoryview(array("d", point)))
+
+
+def _with_feed(pace: Pace, feed: float) -> Pace:
+    return pace if pace.feed_upm == feed else replace(pace, feed_upm=feed)
+
+
+def _text(data: memoryview, begin: int, end: int) -> str:
+    """The text of a line, without its end."""
+    return decoded(bytes(data[begin:end]).rstrip(b"\r\n"))

@@ -13,6 +13,7 @@ from openacr.cnc.canonical import (
     Entry,
     Line,
     Motion,
+    Moves,
     Plane,
     Point,
     Polyline,
@@ -133,7 +134,7 @@ def survey(
     """
     shadow = Shadow(cells)
     options = options or Options()
-    options.collects_errors = True
+    options.collects_errors = options.has_batches = True
     run = Interpreter(program, shadow, machine or VirtualMachine(), dialect, options)
     found = Survey(run.planner.axes, program.line_cnt, findings=list(program.findings))
     if program.errors:
@@ -212,6 +213,9 @@ class _Count:
                 self._arc(entry)
             case Polyline():
                 self._many(entry)
+            case Moves():
+                for one in entry.entries():
+                    self.add(one)
             case Dwell():
                 found.move_cnts["dwell"] += 1
             case Tool():

@@ -143,7 +143,7 @@ class Loader:
         part.line_cnt = line
 
     def _skim(self, part: Part, offset: int, line: int) -> tuple[int, int]:
-        """Skip plain lines, which can have no error except in their labels."""
+        """Skip lines like those read before: they can have no error except in their labels."""
         count, after = self._skimmer.skim(part.text, offset)
         if not count:
             return 0, offset
@@ -152,13 +152,16 @@ class Loader:
             labels += (0, line + 1, offset)
             self._targets.make_room(part, len(labels), line + 1)
             part.labels.add_rows(part, labels)
-        self._seen.last = None
+        if self._skimmer.has_words:
+            self._seen.last = None
         if self._skimmer.motion >= 0:
             self._seen.motion = self._skimmer.motion
         return count, after
 
     def _line(self, place: Place, raw: str, after: int, depth: int) -> None:
+        """Read a line; the skimmer learns whether lines like it have to be read as well."""
         self._report.where = (place.part.text.name, place.line, raw)
+        asked, settled = self._skimmer.take(), None
         try:
             block = parse(raw, self._dialect.grammar)
             if block.is_percent:
@@ -175,8 +178,10 @@ class Loader:
                 self._report.warn(code, column)
             if not place.part.is_cycles:
                 self._checks.doubts(plan)
+                settled = None if block.warnings else plan
         except CodeError as fault:
             self._findings.append(fault.at(*self._report.where))
+        self._skimmer.learn(asked, settled)
 
     def _percent(self, place: Place) -> None:
         self._seen.percent_cnt += 1

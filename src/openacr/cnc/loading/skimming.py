@@ -1,67 +1,75 @@
-"""Skip plain lines at load: their count, their labels, and the last motion in them."""
+"""Skip lines at load that can have no error: their count, their labels, the last motion in them.
+
+A line of a shape is read by the loader once. If it finds nothing that depends on the values of
+the words, or on the place of the line, lines of that shape are skipped from then on.
+"""
 
 from __future__ import annotations
 
-from typing import cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from openacr.cnc.canonical import ROTARY
-from openacr.cnc.program.labels import Rows
+from openacr.cnc.codes.table import Step
 from openacr.cnc.reading import scan_cy as scan
-from openacr.cnc.reading.text import Text
+from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, integers
 from openacr.compiled import pick
-from openacr.views import F64, I32
 
-MOST_ROWS = 8192
+if TYPE_CHECKING:
+    from openacr.cnc.codes.block_plan import Plan
+    from openacr.cnc.program.labels import Rows
+    from openacr.cnc.reading.text import Text
+
+END = "M30"  # doubtful as the last block
+KNOWN = 0  # what the loader knows of a shape: that there is nothing to find
+TENTHS = 10
 _skim_lines = pick(scan.skim_lines)
 
 
-class Tables:
-    """The arrays the scanner works on."""
-
-    def __init__(self, axes: dict[str, int]) -> None:
-        self.W = np.zeros(scan.W_SIZE)
-        self.K = np.zeros(scan.K_SIZE, np.int32)
-        self.K[:26] = -1
-        for letter, axis in axes.items():
-            self.K[ord(letter) - ord("A")] = axis
-            if letter in ROTARY:
-                self.K[scan.K_ROTARY] |= 1 << axis
-        self.w = cast(F64, self.W.data)
-        self.k: I32 = self.K.data
-        self._window = b""
-        self._bytes = memoryview(bytearray(1))
-
-    def bytes(self, text: Text, offset: int) -> tuple[memoryview, int]:
-        """Whole lines around an offset of the text, and the position of the offset in them."""
-        window, place = text.window(offset)
-        if window is not self._window:
-            self._window = window
-            self._bytes = memoryview(bytearray(window or b"\n"))
-        return self._bytes, place
-
-
 class Skimmer:
-    """Skips the plain lines of a text at load."""
+    """Skips the lines of a text that are like those the loader has read."""
 
     def __init__(self, axes: dict[str, int]) -> None:
-        self._tables = Tables(axes)
-        self._labels = np.zeros(3 * MOST_ROWS, np.int32)
-        self.motion = -1  # the last of G0 and G1 in these lines, -1 none
+        self._shapes = LineShapes(axes)
+        self._labels = integers(3 * MOST_ROWS)
+        self._asked: list[int] = []  # the shape of the line that comes next, if it is new
+        self.motion = -1  # the last of G0 to G3 in these lines, -1 none
+        self.has_words = False  # whether one of these lines was not empty
         self.labels: Rows = np.zeros((0, 3), np.int64)  # label, line from 0, offset from here
 
     def skim(self, text: Text, offset: int) -> tuple[int, int]:
-        """Skip the plain lines at an offset; returns their count and the offset after them."""
+        """Skip lines at an offset; returns their count and the offset after them."""
+        self._asked = []
         if offset >= text.end:
             return 0, offset
-        data, place = self._tables.bytes(text, offset)
-        stop = len(data) if len(data) < text.end - offset + place else text.end - offset + place
+        shapes = self._shapes
+        data, place = shapes.bytes(text, offset)
+        stop = min(len(data), text.end - offset + place)
         count = _skim_lines(
-            data, place, stop, self._tables.w, self._tables.k, self._labels.data, MOST_ROWS
+            data, place, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._labels, MOST_ROWS
         )
-        K = self._tables.K
-        self.motion = int(K[scan.K_MOTION])
-        found = self._labels[: 3 * int(K[scan.K_LABELS])].reshape(-1, 3)
-        self.labels = found.astype(np.int64) - (0, 0, place)
-        return count, offset + int(K[scan.K_NEXT]) - place
+        K = shapes.K
+        if K[scan.K_STATUS] == scan.SCAN_NEW:
+            self._asked = shapes.tokens()
+        self.motion = K[scan.K_MOTION] // TENTHS if K[scan.K_MOTION] >= 0 else -1
+        self.has_words = bool(K[scan.K_HAS_WORDS])
+        found = np.array(self._labels[: 3 * K[scan.K_LABELS]], np.int64).reshape(-1, 3)
+        self.labels = found - (0, 0, place)
+        return count, offset + K[scan.K_NEXT] - place
+
+    def take(self) -> list[int]:
+        """The shape of the line that comes next, if it is new; for `learn`."""
+        asked, self._asked = self._asked, []
+        return asked
+
+    def learn(self, asked: list[int], plan: Plan | None) -> None:
+        """Note the plan of a line of that shape; None: the loader had something to say."""
+        is_known = plan is not None and _is_settled(plan)
+        self._shapes.learn(asked, KNOWN if is_known else scan.SHAPE_SLOW)
+
+
+def _is_settled(plan: Plan) -> bool:
+    """Whether a line like this one has nothing new for the loader."""
+    if any(code.takes_all or code.step is Step.STOP or code.name == END for code in plan.codes):
+        return False
+    return not any(limit.letter in plan.words for code in plan.acts for limit in code.limits)

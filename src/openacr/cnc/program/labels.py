@@ -6,7 +6,7 @@ hundreds of thousands, as arrays that are sorted when the first label is looked 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -77,19 +77,19 @@ class Labels:
                 yield label, Place(part, offset, line)
 
     def doubles(self) -> Iterator[tuple[int, Place, Place]]:
-        """Labels defined twice, with the earlier and the later line."""
-        known: list[tuple[Part, Rows]] = []
-        for part, rows in self._in_order():
-            for k in np.flatnonzero(rows[1:, 0] == rows[:-1, 0]).tolist():
-                yield int(rows[k, 0]), _place(part, rows[k]), _place(part, rows[k + 1])
-            for label in set(self._places) & set(rows[:, 0].tolist()):
-                k = int(np.searchsorted(rows[:, 0], label))
-                yield label, *_by_line(self._places[label], _place(part, rows[k]))
-            for other, others in known:
-                for label in np.intersect1d(rows[:, 0], others[:, 0]).tolist():
-                    k, j = (int(np.searchsorted(r[:, 0], label)) for r in (rows, others))
-                    yield label, _place(other, others[j]), _place(part, rows[k])
-            known.append((part, rows))
+        """Labels defined again by rows: with the first definition and each later line."""
+        firsts, texts = dict(self._places), self._in_order()
+        for part, rows in texts:
+            labels = rows[:, 0]
+            again = labels[1:][labels[1:] == labels[:-1]]
+            known = np.fromiter(firsts, np.int64, len(firsts))
+            for label in np.union1d(again, np.intersect1d(labels, known)).tolist():
+                low, high = np.searchsorted(labels, (label, label + 1)).tolist()
+                places = [_place(part, row) for row in rows[low:high]]
+                first = firsts.get(label) or places.pop(0)
+                yield from ((label, first, place) for place in places)
+            if len(texts) > 1:
+                firsts = {row[0]: _place(part, row) for row in rows[::-1].tolist()} | firsts
 
 
 def _sorted(many: list[Rows]) -> Rows:
@@ -98,9 +98,5 @@ def _sorted(many: list[Rows]) -> Rows:
     return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
 
 
-def _place(part: Part, row: Rows) -> Place:
+def _place(part: Part, row: Sequence[int]) -> Place:
     return Place(part, int(row[2]), int(row[1]))
-
-
-def _by_line(a: Place, b: Place) -> tuple[Place, Place]:
-    return (a, b) if (a.part is not b.part or a.line <= b.line) else (b, a)

@@ -1,46 +1,69 @@
-"""Plain lines of part programs, read from bytes: `N10 G1 X1.5 Y-2 F100`.
+"""Lines of part programs, read from bytes: `N10 G3 X1.5 Y-2 I.5 J0 F100 (finish)`.
 
-A line is plain when it has nothing but an optional N, one of G0 and G1, axis words and F,
-each once, with numbers of at most 15 digits. Such a number is the quotient of two numbers
-a double holds exactly, so that it comes out as `float` reads it. Everything else is left
-to the parser.
+A line is plain when it has nothing but an optional N, words with a number of at most 15 digits
+each, and remarks. Such a number is the quotient of two numbers a double holds exactly, so that it
+comes out as `float` reads it. Everything else is left to the parser.
 
-`K` (integers): 0..25 the axis of a letter, -1 if absent; then results of the line. `W` (doubles):
-values of the line, program position and factor of the active unit.
+The shape of a line is its words in their order without their values, G and M codes with theirs:
+
+    token = 1 + letter                                    of a word, A is 0
+    token = (1 + letter) * TOKEN_CODE + 10 * value        of a code
+
+What is known of shapes is in a table `T`: slots (first token, count of tokens, meaning), found by
+the hash of the tokens, then the tokens. The meaning is the caller's: 0 and above is a shape of
+lines it reads many at a time, SHAPE_SLOW one of lines that are left to the parser.
+
+`K` (integers): 0..25 the axis of a letter, -1 if absent; then results. `W` (doubles): the values of
+a line by letter, then the state of the program. `L`: the tokens of the line.
 """
 
 from openacr.views import F64, I32, U8
 
-K_LABEL = 26  # N, 0 none
-K_CODE = 27  # G, -1 none
-K_HAS_FEED = 28
-K_AXES = 29  # mask of the axes named
-K_LINES = 30  # count of lines read
-K_NEXT = 31  # offset of the first line that was not read
-K_IS_INCREMENTAL = 32
-K_LABELS = 33  # labels found
-K_MOTION = 34  # the last of G0 and G1, -1 none
-K_ROTARY = 35  # mask of the axes that have no unit
-K_NEW_FEED = 36  # whether the rows have another feed than before
-K_SIZE = 37
+K_LABEL = 26  # N where it names a line, 0 none
+K_TOKENS = 27  # count of tokens
+K_HASH = 28
+K_LINES = 29  # count of lines read
+K_NEXT = 30  # offset of the first line that was not read
+K_STATUS = 31  # why no more lines were read
+K_LABELS = 32  # labels found
+K_MOTION = 33  # the last of G0 to G3, -1 none
+K_ROTARY = 34  # mask of the axes that have no unit
+K_HAS_WORDS = 35  # whether a line read had words
+K_LAST = 36  # offset of the last line read
+K_SCAN_SIZE = 37
 
 W_VALUE = 0
-W_FEED = 1  # of the line, active units
-W_WORDS = 2  # axis words
-W_POSITION = 10  # program position, default units
-W_TIMES = 18
-W_PER = 19
-W_PRESENT = 20  # feed in force, default units
-W_SIZE = 21
+W_WORDS = 1  # by letter
+W_SCAN_SIZE = 27
+
+SCAN_END = 0  # the data, or the room for results, ends
+SCAN_HARD = 1  # a line that is not plain
+SCAN_NEW = 2  # a shape that is not known
+SCAN_SLOW = 3  # a shape that is left to the parser
+SCAN_LEFT = 4  # a line the caller leaves to the parser for its values
+
+TOKEN_CODE = 16384
+MOST_TOKENS = 32
+SLOTS = 1024
+SLOT_MASK = 1023
+HASH_MASK = 1073741823
+SHAPE_NONE = -2
+SHAPE_SLOW = -1
+T_POOL = 3072  # three numbers for each slot
+T_SIZE = 19456
 
 AXES = 8
 LONGEST = 256
 MOST_DIGITS = 15
 LAST_LABEL = 999_999
-FEED_LETTER = 5
-CODE_LETTER = 6
+CODE_G = 6
+CODE_M = 12
+LABEL_N = 13
+CODE_O = 14
+LAST_CODE = 1000.0
+LONGEST_KIND = 12  # letters of MSG, DEBUG, PRINT and what else may come before a comma
 
-__all__ = ["scan_lines", "skim_lines"]
+__all__ = ["scan_line", "scan_shape", "skim_lines"]
 
 
 def scan_blanks(data: U8, pos: int, stop: int) -> int:
@@ -81,68 +104,98 @@ def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
     return pos
 
 
-def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
+def scan_remark(data: U8, pos: int, stop: int) -> int:
+    """Skip the remark at `pos`; -1 where it has no end, or may be a message: `(MSG, text)`."""
+    is_name: bool = True
+    letters: int = 0
+    pos += 1
+    while pos < stop and data[pos] != 41:
+        char: int = data[pos]
+        if char == 10 or char == 13:
+            return -1
+        if char == 44 and is_name and letters <= LONGEST_KIND:
+            return -1
+        if 65 <= char <= 90 or 97 <= char <= 122:
+            letters += 1
+        elif 33 <= char <= 126:
+            is_name = False
+        pos += 1
+    return pos + 1 if pos < stop else -1
+
+
+def scan_label(data: U8, pos: int, stop: int, K: I32) -> int:
+    """Read the digits of N; N0, N1.5 and numbers above the labels only count lines."""
+    first: int = pos
+    label: int = 0
+    while pos < stop and 48 <= data[pos] <= 57:
+        label = label * 10 + (data[pos] - 48)
+        pos += 1
+        if pos - first > MOST_DIGITS:
+            return -1
+    if pos == first:
+        return -1
+    if pos < stop and data[pos] == 46:
+        label = 0
+        pos += 1
+        while pos < stop and 48 <= data[pos] <= 57:
+            pos += 1
+        if pos < stop and data[pos] == 46:
+            return -1
+    K[K_LABEL] = label if label <= LAST_LABEL else 0
+    return pos
+
+
+def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
     """Read the word at `pos`; returns the position after it, -1 if it is not plain."""
     letter: int = data[pos]
     if 97 <= letter <= 122:
         letter -= 32
     letter -= 65
-    if letter < 0 or letter > 25:
+    if letter < 0 or letter > 25 or letter == LABEL_N or letter == CODE_O:
+        return -1
+    if K[K_TOKENS] >= MOST_TOKENS:
         return -1
     start: int = scan_blanks(data, pos + 1, stop)
-    if start >= stop:
-        return -1
-    is_signed: bool = data[start] == 45 or data[start] == 43
     pos = scan_number(data, start, stop, W)
     if pos < 0:
         return -1
     value: float = W[W_VALUE]
-    axis: int = K[letter]
-    if axis >= 0:
-        bit: int = 1 << axis
-        if K[K_AXES] & bit:
+    token: int = letter + 1
+    if letter == CODE_G or letter == CODE_M:
+        if data[start] == 45 or data[start] == 43 or value > LAST_CODE:
             return -1
-        K[K_AXES] = K[K_AXES] | bit
-        W[W_WORDS + axis] = value
-    elif letter == FEED_LETTER:
-        if K[K_HAS_FEED] or value <= 0.0:
+        tenths: int = int(value * 10.0)
+        if float(tenths) != value * 10.0:
             return -1
-        K[K_HAS_FEED] = 1
-        W[W_FEED] = value
-    elif letter == CODE_LETTER:
-        if K[K_CODE] >= 0 or is_signed or (value != 0.0 and value != 1.0):
-            return -1
-        K[K_CODE] = int(value)
+        token = token * TOKEN_CODE + tenths
     else:
-        return -1
+        W[W_WORDS + letter] = value
+    L[K[K_TOKENS]] = token
+    K[K_TOKENS] = K[K_TOKENS] + 1
+    K[K_HASH] = (K[K_HASH] * 31 + token) & HASH_MASK
     return pos
 
 
-def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
+def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
     """Read the line at `pos`; returns the position of the next one, -1 if it is not plain."""
     K[K_LABEL] = 0
-    K[K_CODE] = -1
-    K[K_HAS_FEED] = 0
-    K[K_AXES] = 0
+    K[K_TOKENS] = 0
+    K[K_HASH] = 0
     start: int = pos
     pos = scan_blanks(data, pos, stop)
     if pos < stop and (data[pos] == 78 or data[pos] == 110):
-        pos = scan_blanks(data, pos + 1, stop)
-        if pos >= stop or data[pos] < 48 or data[pos] > 57:
+        pos = scan_label(data, scan_blanks(data, pos + 1, stop), stop, K)
+        if pos < 0:
             return -1
-        first: int = pos
-        label: int = 0
-        while pos < stop and 48 <= data[pos] <= 57:
-            label = label * 10 + (data[pos] - 48)
-            pos += 1
-            if pos - first > 6:
-                return -1
-        if label < 1 or label > LAST_LABEL:
-            return -1
-        K[K_LABEL] = label
         pos = scan_blanks(data, pos, stop)
     while pos < stop and data[pos] != 10 and data[pos] != 13:
-        pos = scan_word(data, pos, stop, W, K)
+        if data[pos] == 40:
+            pos = scan_remark(data, pos, stop)
+        elif data[pos] == 59:
+            while pos < stop and data[pos] != 10 and data[pos] != 13:
+                pos += 1
+        else:
+            pos = scan_word(data, pos, stop, W, K, L)
         if pos < 0:
             return -1
         pos = scan_blanks(data, pos, stop)
@@ -157,60 +210,66 @@ def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32) -> int:
     return pos
 
 
-def scan_lines(data: U8, pos: int, stop: int, W: F64, K: I32, ends: F64, lines: I32,
+def scan_slot(K: I32, L: I32, T: I32) -> int:
+    """The slot of the shape of the line, or the free one where it belongs."""
+    count: int = K[K_TOKENS]
+    slot: int = K[K_HASH] & SLOT_MASK
+    while T[3 * slot + 1]:
+        if T[3 * slot + 1] == count:
+            first: int = T[3 * slot]
+            k: int = 0
+            while k < count and T[first + k] == L[k]:
+                k += 1
+            if k == count:
+                return slot
+        slot = (slot + 1) & SLOT_MASK
+    return slot
+
+
+def scan_shape(K: I32, L: I32, T: I32) -> int:
+    """The meaning of the shape of the line; SHAPE_NONE if it is not known."""
+    slot: int = scan_slot(K, L, T)
+    meaning: int = SHAPE_NONE
+    if T[3 * slot + 1]:
+        meaning = T[3 * slot + 2]
+    return meaning
+
+
+def scan_motion(K: I32, L: I32) -> int:
+    """The last of G0 to G3 in the line, -1 none."""
+    found: int = -1
+    for k in range(K[K_TOKENS]):
+        code: int = L[k] - (CODE_G + 1) * TOKEN_CODE
+        if code == 0 or code == 10 or code == 20 or code == 30:
+            found = code
+    return found
+
+
+def skim_lines(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, T: I32, labels: I32,
                most: int) -> int:  # fmt: skip
-    """Write feed moves to `ends` (8 values each) and their line numbers (from 0) to `lines`.
-
-    Ends at a line that is not plain, has G0, or changes the feed. Returns the count of rows.
-    """
-    row: int = 0
-    line: int = 0
-    K[K_NEW_FEED] = 0
-    while pos < stop and row < most:
-        after: int = scan_line(data, pos, stop, W, K)
-        if after < 0 or K[K_CODE] == 0:
-            break
-        if K[K_HAS_FEED]:
-            feed: float = W[W_FEED] * W[W_TIMES] / W[W_PER]
-            if feed != W[W_PRESENT]:
-                if row > 0:
-                    break
-                W[W_PRESENT] = feed
-                K[K_NEW_FEED] = 1
-        if K[K_AXES]:
-            lines[row] = line
-            base: int = row * AXES
-            for axis in range(AXES):
-                if K[K_AXES] & (1 << axis):
-                    value: float = W[W_WORDS + axis]
-                    if not K[K_ROTARY] & (1 << axis):
-                        value = value * W[W_TIMES] / W[W_PER]
-                    if K[K_IS_INCREMENTAL]:
-                        value = W[W_POSITION + axis] + value
-                    W[W_POSITION + axis] = value
-                ends[base + axis] = W[W_POSITION + axis]
-            row += 1
-        line += 1
-        pos = after
-    K[K_LINES] = line
-    K[K_NEXT] = pos
-    return row
-
-
-def skim_lines(data: U8, pos: int, stop: int, W: F64, K: I32, labels: I32, most: int) -> int:
-    """Skip plain lines; writes labels as (label, line from 0, position) to `labels`.
+    """Skip lines of known shapes; writes labels as (label, line from 0, position) to `labels`.
 
     Returns the count of lines.
     """
     line: int = 0
     count: int = 0
-    K[K_MOTION] = -1
+    motion: int = -1
+    K[K_HAS_WORDS] = 0
+    K[K_STATUS] = SCAN_END
     while pos < stop and count < most:
-        after: int = scan_line(data, pos, stop, W, K)
+        after: int = scan_line(data, pos, stop, W, K, L)
         if after < 0:
+            K[K_STATUS] = SCAN_HARD
             break
-        if K[K_CODE] >= 0:
-            K[K_MOTION] = K[K_CODE]
+        if K[K_TOKENS]:
+            meaning: int = scan_shape(K, L, T)
+            if meaning < 0:
+                K[K_STATUS] = SCAN_NEW if meaning == SHAPE_NONE else SCAN_SLOW
+                break
+            K[K_HAS_WORDS] = 1
+            code: int = scan_motion(K, L)
+            if code >= 0:
+                motion = code
         if K[K_LABEL]:
             labels[3 * count] = K[K_LABEL]
             labels[3 * count + 1] = line
@@ -218,6 +277,7 @@ def skim_lines(data: U8, pos: int, stop: int, W: F64, K: I32, labels: I32, most:
             count += 1
         line += 1
         pos = after
+    K[K_MOTION] = motion
     K[K_LABELS] = count
     K[K_NEXT] = pos
     return line

@@ -10,13 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
-from openacr.cnc.canonical import PathMode, Plane, Spin
+from openacr.cnc.canonical import PLANES, PathMode, Plane, Spin
 from openacr.cnc.state.cells import CUT_SPEED, DEFAULT_UNIT, START_FEED, TOOL, TOOL_IN_SPINDLE
 from openacr.cnc.state.hosts import Cells
 from openacr.sysvar import tabs
 from openacr.sysvar.tabs import CONTROL, DISPLAY, GENERAL
 
-PLANES = {17: Plane.XY, 18: Plane.ZX, 19: Plane.YZ}
 MODES = {
     60: PathMode.EXACT,  # without the wait for position
     61: PathMode.EXACT,

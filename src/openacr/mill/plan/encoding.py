@@ -9,7 +9,18 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Plane, Point, Polyline, Probe, Rapid
+from openacr.cnc.canonical import (
+    Arc,
+    Line,
+    Moves,
+    Pace,
+    PathMode,
+    Plane,
+    Point,
+    Polyline,
+    Probe,
+    Rapid,
+)
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.geometry import Geometry, MoveShape
 from openacr.mill.plan.planning import PlannedMove
@@ -61,8 +72,13 @@ class Encoder:
 
     # --- planning ---------------------------------------------------------------------
 
-    def jobs(self, entry: Motion | Polyline, begin: Point) -> Iterator[Job]:
-        """Split a canonical move into the moves that the card executes."""
+    def jobs(self, entry: Motion | Polyline | Moves, begin: Point) -> Iterator[Job]:
+        """Split canonical moves into the moves that the card executes."""
+        if isinstance(entry, Moves):
+            for one in entry.entries():
+                yield from self.jobs(one, begin)
+                begin = one.end
+            return
         if isinstance(entry, Polyline):
             yield from self._lines(entry, begin)
             return

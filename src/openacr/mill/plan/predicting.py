@@ -26,7 +26,7 @@ TOGETHER = 512  # moves planned at once
 # Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
 # tuples, because every move of a program has three of them.
 Phases = list[tuple[float, float, float]]
-MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe
+MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe | c.Moves
 
 
 @dataclass(slots=True)

@@ -11,7 +11,18 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from openacr.cnc.canonical import Arc, Entry, Line, Plane, Point, Polyline, Probe, Rapid, Tool
+from openacr.cnc.canonical import (
+    Arc,
+    Entry,
+    Line,
+    Moves,
+    Plane,
+    Point,
+    Polyline,
+    Probe,
+    Rapid,
+    Tool,
+)
 from openacr.cnc.geometry.elements import Element
 
 Array = npt.NDArray[np.float64]
@@ -68,6 +79,9 @@ class ToolPath:
                 self._move(kind, entry.source.line, [entry.end])
             case Arc():
                 self._move(_kind_of(entry), entry.source.line, self._arc(entry))
+            case Moves():
+                for one in entry.entries():
+                    self.add(one)
             case Polyline():
                 self._close()
                 self._cnt += len(entry.ends)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Dwell
+from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 
@@ -28,7 +29,7 @@ def confirm(run: Run, b: BlockContext) -> None:
     b.is_confirmed = True
 
 
-@gcode(61, 62, 63, 64, step=Step.PATH, group=Group.PATH)
+@gcode(61, 62, 63, 64, step=Step.PATH, group=Group.PATH, fast=Sets("path", is_alone=True))
 def path_mode(run: Run, b: BlockContext) -> None:
     """G61 exact stops, G62 slow at corners, G63 without feed override, G64 without slowing."""
     run.modal.path = int(b.number)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry
 from openacr.cnc.codes.active import ModalMacro
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.program.flow import Frame, Level
@@ -42,7 +43,7 @@ def no_macro(run: Run, b: BlockContext) -> None:
     run.macro = None
 
 
-@letter("MACRO", step=Step.MACRO_CALL)
+@letter("MACRO", step=Step.MACRO_CALL, fast=Does.NOTHING)
 def modal_call(run: Run, b: BlockContext) -> Iterator[Entry] | None:
     """The call after a block that has moved."""
     macro = run.macro

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from openacr.cnc.codes.fast import Does, Sets
 from openacr.cnc.codes.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.codes.radii import Words, check_radii
 from openacr.cnc.codes.table import Group, Limit, Step, check_limit
@@ -28,13 +29,13 @@ _LENGTHS = "IJKR"
 _TURNS = Limit("P", 1, 9999, "E222", is_whole=True)
 
 
-@gcode(0, 1, step=Step.MOTION, group=Group.MOTION)
+@gcode(0, 1, step=Step.MOTION, group=Group.MOTION, fast=Sets("motion"))
 def straight(run: Run, b: BlockContext) -> None:
     """G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends."""
     select(run, b)
 
 
-@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP")
+@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP", fast=Sets("motion"))
 def arc(run: Run, b: BlockContext) -> None:
     """G2 cuts arcs clockwise, G3 counter-clockwise, in P turns; a cycle ends."""
     select(run, b)
@@ -46,7 +47,7 @@ def select(run: Run, b: BlockContext) -> None:
     run.modal.cycle = NO_CYCLE
 
 
-@letter("MOTION", step=Step.MOTION)
+@letter("MOTION", step=Step.MOTION, fast=Does.MOVES)
 def motion(run: Run, b: BlockContext) -> Iterator[Entry] | None:
     """Move as the active motion or cycle does."""
     if run.modal.cycle != NO_CYCLE:

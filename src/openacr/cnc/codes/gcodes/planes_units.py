@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.state.modal import INCH, METRIC
@@ -16,7 +17,7 @@ gcode = ACROMILL.gcode
 READING = Limit("F", 0, 2, "E222", is_needed=True, is_whole=True)
 
 
-@gcode(17, 18, 19, step=Step.PLANE, group=Group.PLANE)
+@gcode(17, 18, 19, step=Step.PLANE, group=Group.PLANE, fast=Sets("plane"))
 def plane(run: Run, b: BlockContext) -> None:
     """The plane of arcs, compensation, rotation and cycles: XY, ZX, YZ."""
     if run.modal.plane == b.number:
@@ -28,27 +29,27 @@ def plane(run: Run, b: BlockContext) -> None:
     run.modal.plane = int(b.number)
 
 
-@gcode(20, 70, step=Step.UNIT, group=Group.UNIT)
+@gcode(20, 70, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", INCH, is_alone=True))
 def inch(run: Run, b: BlockContext) -> None:
     """Words are inches and inches per minute."""
     run.modal.unit = INCH
     run.path.set_unit()
 
 
-@gcode(21, 71, step=Step.UNIT, group=Group.UNIT)
+@gcode(21, 71, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", METRIC, is_alone=True))
 def metric(run: Run, b: BlockContext) -> None:
     """Words are millimetres and millimetres per minute."""
     run.modal.unit = METRIC
     run.path.set_unit()
 
 
-@gcode(90, 91, step=Step.DISTANCE, group=Group.DISTANCE)
+@gcode(90, 91, step=Step.DISTANCE, group=Group.DISTANCE, fast=Sets("distance"))
 def distance(run: Run, b: BlockContext) -> None:
     """G90: axis words are positions; G91: distances from the last position."""
     run.modal.distance = int(b.number)
 
 
-@gcode(98, 99, step=Step.RETURN_LEVEL, group=Group.RETURN_LEVEL)
+@gcode(98, 99, step=Step.RETURN_LEVEL, group=Group.RETURN_LEVEL, fast=Sets("return_level"))
 def return_level(run: Run, b: BlockContext) -> None:
     """Cycles end at the initial level (G98) or at R (G99)."""
     run.modal.return_level = int(b.number)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import AXES, TOOL_AXIS, Dwell, Entry
 from openacr.cnc.codes import gcodes as _acromill  # noqa: F401  fills the other table
+from openacr.cnc.codes.fast import Does, Sets
 from openacr.cnc.codes.gcodes import cycles, motion
 from openacr.cnc.codes.gcodes.offsets import taught
 from openacr.cnc.codes.gcodes.probe import TRIPPED, probed
@@ -221,20 +222,23 @@ def _path(run: Run, mode: int, tolerance_u: float = 0.0) -> None:
     run.path.change_pace()
 
 
-@gcode(90.1, 91.1, step=Step.CENTRES, group=Group.CENTRES)
+@gcode(
+    90.1, 91.1, step=Step.CENTRES, group=Group.CENTRES,
+    fast={90.1: Sets("centres", 2), 91.1: Sets("centres", 1)},
+)  # fmt: skip
 def centres(run: Run, b: BlockContext) -> None:
     """I, J, K are absolute (G90.1) or count from the start (G91.1)."""
     run.modal.centres = 2 if b.number == 90.1 else 1
 
 
-@gcode(93, 94, step=Step.FEED_MODE, group=Group.FEED_MODE)
+@gcode(93, 94, step=Step.FEED_MODE, group=Group.FEED_MODE, fast={94: Does.NOTHING})
 def feed_mode(run: Run, b: BlockContext) -> None:
     """F is moves per minute (G93) or units per minute (G94)."""
     run.modal.feed_mode = int(b.number)
     run.path.change_pace()
 
 
-@gcode(97, step=Step.SPEED)
+@gcode(97, step=Step.SPEED, fast=Does.NOTHING)
 def turns_per_minute(run: Run, b: BlockContext) -> None:
     """S is turns per minute, as it always is."""
 

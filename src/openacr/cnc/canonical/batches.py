@@ -1,0 +1,63 @@
+"""Many moves at once, as arrays: what readers of whole programs get in place of single entries."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical.common import PLANES, Pace, Source
+from openacr.cnc.canonical.moves import Arc, Line, Rapid
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from openacr.views import F64, I32
+
+RAPID, LINE, ARC = 0, 1, 2  # kinds of moves
+ROW, POINT, CURVE = 6, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moves:
+    """Rapids, lines and arcs in their order, none inserted or compensated.
+
+    Each has in `rows` its kind, line, pace (index in `paces`), plane (17 to 19), and where its text
+    begins and ends; in `ends` its end point; in `arcs`, for arcs, the centre on the first
+    and second axis of the plane, the sweep in radians, and the radii at start and end.
+    `text_of` reads the text from its begin and end.
+    """
+
+    file: str
+    rows: I32
+    ends: F64
+    arcs: F64
+    paces: tuple[Pace, ...]
+    text_of: Callable[[int, int], str]
+
+    def __len__(self) -> int:
+        return len(self.rows) // ROW
+
+    @property
+    def source(self) -> Source:
+        """Where the first move comes from."""
+        return self.source_of(0)
+
+    def source_of(self, k: int) -> Source:
+        """Where a move comes from."""
+        _, line, _, _, begin, end = self.rows[ROW * k : ROW * (k + 1)]
+        return Source(self.file, line, self.text_of(begin, end))
+
+    def entry(self, k: int) -> Rapid | Line | Arc:
+        """One move by itself."""
+        kind, _, pace, plane, _, _ = self.rows[ROW * k : ROW * (k + 1)]
+        end = tuple(self.ends[POINT * k : POINT * (k + 1)])
+        if kind == RAPID:
+            return Rapid(self.source_of(k), end)
+        if kind == LINE:
+            return Line(self.source_of(k), end, self.paces[pace])
+        x, y, sweep, r0, r1 = self.arcs[CURVE * k : CURVE * (k + 1)]
+        return Arc(self.source_of(k), end, PLANES[plane], (x, y), sweep, r0, r1, self.paces[pace])
+
+    def entries(self) -> Iterator[Rapid | Line | Arc]:
+        """The moves one by one."""
+        return map(self.entry, range(len(self)))

@@ -1,0 +1,41 @@
+"""The fast form of a code: what it comes down to where many blocks are executed at once.
+
+Blocks are executed at once (`cnc.interpreter.blocks_cy`) while no compensation, scaling, rotation,
+cycle, modal macro or inverse time is on. Under these conditions the handler of a code with a
+fast form does exactly what the form says; a block with any other code is left to the handlers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+
+
+class Does(Enum):
+    """What is more than a value of the modal state."""
+
+    NOTHING = auto()
+    TAKES_FEED = auto()  # F
+    MOVES = auto()  # as the motion in force
+
+
+@dataclass(frozen=True, slots=True)
+class Sets:
+    """A field of the modal state gets a value, without `value` the number of the code.
+
+    With `is_alone` the moves before and after differ in more than their ends.
+    """
+
+    field: str
+    value: int | None = None
+    is_alone: bool = False
+
+
+Fast = Does | Sets
+FastForms = Fast | Mapping[float, Fast] | None  # for all codes of a handler, or by number
+
+
+def form_of(forms: FastForms, number: float) -> Fast | None:
+    """The fast form of one code."""
+    return forms.get(number) if isinstance(forms, Mapping) else forms
