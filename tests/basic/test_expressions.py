@@ -315,11 +315,12 @@ def test_expressions_agree_with_python(rig: Rig, tree: tuple[str, float | None])
     text, expected = tree
     if len(text) > 200:
         return
-    from openacr.basic.language.expressions import ExpressionParser
+    from openacr.basic.language.cursor import Cursor
+    from openacr.basic.language.expressions import ExpressionReader
     from openacr.basic.language.nodes import Number
     from openacr.lang.lexer import tokens
 
-    node = ExpressionParser(tokens(text), {}).expression()
+    node = ExpressionReader(Cursor(tokens(text)), {}).expression()
     try:
         value = node.value if isinstance(node, Number) else rig.executor.computing.value(0, node)
     except CardError:

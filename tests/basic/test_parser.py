@@ -6,7 +6,7 @@ import pytest
 from tests.basic.parsing import parse_line
 
 import openacr.basic.commands  # noqa: F401 - enters the commands
-from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.grammar import AxisItem, TargetItem
 from openacr.basic.language.nodes import (
     AxisRef,

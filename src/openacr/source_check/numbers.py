@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
-from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.grammar.flags import BitItem
 from openacr.basic.language.loader import FileLine
 from openacr.basic.language.nodes import (

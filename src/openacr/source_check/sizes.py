@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from openacr.basic.commands.memory_control import Dimension
-from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.nodes import (
     Block,
     Element,

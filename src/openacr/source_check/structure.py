@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.cursor import StatementError
 from openacr.basic.vm import flow_cy as flow
 from openacr.basic.vm.levels import CompileError, Level, Levels, unclosed
 from openacr.basic.vm.outline import KINDS, FlowEvent, OpenLevel, follow

@@ -38,19 +38,19 @@ class Modules(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a word stands here."""
-        return p.token.kind is TokenKind.WORD
+        return p.cursor.token.kind is TokenKind.WORD
 
     def parse(self, p: Parser) -> tuple[str, ...]:
         """Read them; CLEAR stands alone."""
-        if p.accept("CLEAR"):
+        if p.cursor.accept("CLEAR"):
             return DEFAULT_CONFIG
         found = []
         for _ in range(MODULES):
             if not self.starts(p):
-                raise p.error(SYNTAX_ERROR)
-            word = str(p.advance().value)
-            has_number = p.token.kind is TokenKind.NUMBER
-            found.append(word + (p.advance().text if has_number else ""))
+                raise p.cursor.error(SYNTAX_ERROR)
+            word = str(p.cursor.advance().value)
+            has_number = p.cursor.token.kind is TokenKind.NUMBER
+            found.append(word + (p.cursor.advance().text if has_number else ""))
         return tuple(found)
 
 

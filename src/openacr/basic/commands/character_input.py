@@ -41,17 +41,17 @@ class InputList(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether anything is left in the block."""
-        return not p.at_block_end
+        return not p.cursor.at_block_end
 
     def parse(self, p: Parser) -> InputItem:
         """Read everything."""
-        keeps_line = p.accept(";")
-        device = read_device(p) if p.is_operator("#") else 0
+        keeps_line = p.cursor.accept(";")
+        device = read_device(p) if p.cursor.is_operator("#") else 0
         prompt = None
-        if p.token.kind is TokenKind.STRING:
-            prompt = p.expression()
+        if p.cursor.token.kind is TokenKind.STRING:
+            prompt = p.expressions.expression()
             if at_separator(p):
-                p.advance()
+                p.cursor.advance()
         targets = Repeat(Lvalue("variable"), separator=",").parse(p)
         return InputItem(keeps_line, device, prompt, cast(tuple[Expr, ...], targets))
 

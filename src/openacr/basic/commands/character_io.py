@@ -69,48 +69,48 @@ class PrintList(Form):
     def starts(self, p: Parser) -> bool:
         """Whether a device, an item or a separator begins here."""
         if p.at_unknown_word:
-            raise p.error(UNDEFINED_SYMBOL)
-        return p.is_operator("#") or at_separator(p) or self._at_item(p)
+            raise p.cursor.error(UNDEFINED_SYMBOL)
+        return p.cursor.is_operator("#") or at_separator(p) or self._at_item(p)
 
     def parse(self, p: Parser) -> Print:
         """Read the device and as many items as there are."""
         device = None
-        if p.is_operator("#"):
+        if p.cursor.is_operator("#"):
             device = read_device(p)
         found: list[PrintItem] = []
         while at_separator(p) or self._at_item(p):
             if at_separator(p):
-                found.append(str(p.advance().value))
-            elif p.accept("USING"):
-                found.append(Picture(p.expression()))
-                p.expect(";")
+                found.append(str(p.cursor.advance().value))
+            elif p.cursor.accept("USING"):
+                found.append(Picture(p.expressions.expression()))
+                p.cursor.expect(";")
             else:
-                found.append(p.expression())
+                found.append(p.expressions.expression())
         return Print(device, tuple(found))
 
     @staticmethod
     def _at_item(p: Parser) -> bool:
-        token = p.token
+        token = p.cursor.token
         if token.kind is TokenKind.WORD:
             named = token.value in functions and not p.begins_command(token)
-            called = token.value in functions and p.ahead(1).value == "("
-            return p.at_variable or p.is_word("USING", "NOT") or named or called
+            called = token.value in functions and p.cursor.ahead(1).value == "("
+            return p.expressions.at_variable or p.cursor.is_word("USING", "NOT") or named or called
         return token.kind in (TokenKind.NUMBER, TokenKind.STRING) or token.value in ("(", "-", "+")
 
 
 def at_separator(p: Parser) -> bool:
     """Whether `;` or `,` stands here."""
-    return p.is_operator(";") or p.is_operator(",")
+    return p.cursor.is_operator(";") or p.cursor.is_operator(",")
 
 
 def read_device(p: Parser) -> int:
     """`#d` with the separator after it."""
-    p.expect("#")
-    token = p.advance()
+    p.cursor.expect("#")
+    token = p.cursor.advance()
     if token.kind is not TokenKind.NUMBER or token.value not in range(DEVICES + 1):
-        raise p.error(SYNTAX_ERROR)
+        raise p.cursor.error(SYNTAX_ERROR)
     if at_separator(p):
-        p.advance()
+        p.cursor.advance()
     return int(token.value)
 
 
@@ -119,14 +119,14 @@ class Report(Command):
 
     def starts(self, p: Parser) -> bool:
         """Whether a command word stands here, and no function is called."""
-        calls = p.token.value in functions and p.ahead(1).value == "("
+        calls = p.cursor.token.value in functions and p.cursor.ahead(1).value == "("
         return super().starts(p) and not calls
 
     def parse(self, p: Parser) -> Statement:
         """Read the command; one of the VM or of a move has nothing to report."""
         read = super().parse(p)
         if read.command.emit is not None or read.command.move:
-            raise p.error(SYNTAX_ERROR)
+            raise p.cursor.error(SYNTAX_ERROR)
         return read
 
 

@@ -40,12 +40,14 @@ class Channel(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a number, or the word with one, stands here."""
-        return p.at_value or (p.is_word(self.name) and p.ahead(1).kind is TokenKind.NUMBER)
+        return p.expressions.at_value or (
+            p.cursor.is_word(self.name) and p.cursor.ahead(1).kind is TokenKind.NUMBER
+        )
 
     def parse(self, p: Parser) -> Expr:
         """Read the number."""
-        p.accept(self.name)
-        return p.value()
+        p.cursor.accept(self.name)
+        return p.expressions.value()
 
     def evaluate(self, run: Run, read: Expr | None) -> int | None:
         """The channel."""

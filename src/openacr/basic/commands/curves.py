@@ -29,12 +29,12 @@ class CurveTargets(AxisTargets):
         found = [self._target(p)]
         while len(found) < self.count or (not self.count and self._goes_on(p)):
             if not self.starts(p):
-                raise p.error(SYNTAX_ERROR)
+                raise p.cursor.error(SYNTAX_ERROR)
             found.append(self._target(p))
         return tuple(found)
 
     def _goes_on(self, p: Parser) -> bool:
-        return self.starts(p) and p.ahead(1).value == "("
+        return self.starts(p) and p.cursor.ahead(1).value == "("
 
 
 def _circle(targets: tuple[AxisTarget, ...], direction: Direction) -> tuple[Given, ...]:

@@ -59,16 +59,16 @@ class Assignment(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a variable begins here."""
-        return p.at_variable
+        return p.expressions.at_variable
 
     def parse(self, p: Parser) -> Assigned:
         """Read both sides."""
         target = Lvalue().parse(p)
-        p.expect("=")
-        start = p.position
-        value = p.expression()
+        p.cursor.expect("=")
+        start = p.cursor.position
+        value = p.expressions.expression()
         if is_text(target) != is_text(value):
-            raise p.error_from(start, TYPE_MISMATCH)
+            raise p.cursor.error_from(start, TYPE_MISMATCH)
         return Assigned(target, value)
 
     def evaluate(self, run: Run, read: Any) -> Assigned:

@@ -72,11 +72,11 @@ class ArrayName(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether such a word stands here."""
-        return p.is_word(*self.words)
+        return p.cursor.is_word(*self.words)
 
     def parse(self, p: Parser) -> tuple[str, Expr]:
         """Read word and number."""
-        return str(p.advance().value), p.object_index()
+        return str(p.cursor.advance().value), p.expressions.object_index()
 
     def evaluate(self, run: Run, read: tuple[str, Expr] | None) -> ObjectRef | None:
         """The array by number."""
@@ -92,18 +92,18 @@ class PassingForm(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis stands here."""
-        return p.is_operator("(")
+        return p.cursor.is_operator("(")
 
     def parse(self, p: Parser) -> tuple[tuple[Expr, bool], Expr, Expr | None]:
         """Read the three."""
-        p.expect("(")
+        p.cursor.expect("(")
         if not self.parameter.starts(p):
-            raise p.error(self.missing(p))
+            raise p.cursor.error(self.missing(p))
         parameter = self.parameter.parse(p)
-        p.expect(",")
-        setpoint = p.numeric()
-        timeout = p.numeric() if p.accept(",") else None
-        p.expect(")")
+        p.cursor.expect(",")
+        setpoint = p.expressions.numeric()
+        timeout = p.expressions.numeric() if p.cursor.accept(",") else None
+        p.cursor.expect(")")
         return parameter, setpoint, timeout
 
     def evaluate(
@@ -133,19 +133,19 @@ class CapturedForm(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis stands here."""
-        return p.is_operator("(")
+        return p.cursor.is_operator("(")
 
     def parse(self, p: Parser) -> CaptureRead:
         """Read mode and parameter or register."""
-        p.expect("(")
-        mode = p.numeric()
+        p.cursor.expect("(")
+        mode = p.expressions.numeric()
         copy, register = None, None
-        if p.accept(","):
+        if p.cursor.accept(","):
             if self.copy.starts(p) or not self.has_registers:
                 copy = self.copy.parse(p)
             else:
-                register = p.numeric()
-        p.expect(")")
+                register = p.expressions.numeric()
+        p.cursor.expect(")")
         return mode, copy, register
 
     def evaluate(self, run: Run, read: CaptureRead) -> Captured:
@@ -171,19 +171,19 @@ class SegmentForm(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis stands here."""
-        return p.is_operator("(")
+        return p.cursor.is_operator("(")
 
     def parse(self, p: Parser) -> tuple[Expr, Expr, tuple[str, Expr]]:
         """Read the three."""
-        p.expect("(")
-        number = p.numeric()
-        p.expect(",")
-        length = p.numeric()
-        p.expect(",")
+        p.cursor.expect("(")
+        number = p.expressions.numeric()
+        p.cursor.expect(",")
+        length = p.expressions.numeric()
+        p.cursor.expect(",")
         if not self.array.starts(p):
-            raise p.error(self.missing(p))
+            raise p.cursor.error(self.missing(p))
         array = self.array.parse(p)
-        p.expect(")")
+        p.cursor.expect(")")
         return number, length, array
 
     def evaluate(self, run: Run, read: tuple[Expr, Expr, tuple[str, Expr]]) -> Segment:

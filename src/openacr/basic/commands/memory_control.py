@@ -50,33 +50,33 @@ class DimensionForm(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a word that can be dimensioned stands here."""
-        return p.is_word(*_SYSTEM, *_LOCAL)
+        return p.cursor.is_word(*_SYSTEM, *_LOCAL)
 
     def parse(self, p: Parser) -> Dimension:
         """Read word and numbers."""
-        word = str(p.advance().value)
+        word = str(p.cursor.advance().value)
         if word in _INDEXED:
-            return Dimension(word, p.object_index(), self._sizes(p, 1))
+            return Dimension(word, p.expressions.object_index(), self._sizes(p, 1))
         if word == "$V":
             return Dimension(word, None, self._sizes(p, 2))
         if word not in _ARRAYS:
             return Dimension(word, None, self._sizes(p, 1))
         first = self._sizes(p, 1)
-        if not p.is_operator("(") and p.token.kind is not TokenKind.NUMBER:
+        if not p.cursor.is_operator("(") and p.cursor.token.kind is not TokenKind.NUMBER:
             return Dimension(word, None, first)
         return Dimension(word, first[0], self._sizes(p, 2 if word == "$A" else 1))
 
     @staticmethod
     def _sizes(p: Parser, count: int) -> tuple[Expr, ...]:
         if count == 1:
-            return (p.value(),)
-        p.expect("(")
-        sizes = [p.numeric()]
-        while p.accept(","):
-            sizes.append(p.numeric())
-        p.expect(")")
+            return (p.expressions.value(),)
+        p.cursor.expect("(")
+        sizes = [p.expressions.numeric()]
+        while p.cursor.accept(","):
+            sizes.append(p.expressions.numeric())
+        p.cursor.expect(")")
         if len(sizes) != count:
-            raise p.error(SYNTAX_ERROR)
+            raise p.cursor.error(SYNTAX_ERROR)
         return tuple(sizes)
 
 

@@ -97,26 +97,26 @@ class DefinitionForm(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether anything is left in the block."""
-        return not p.at_block_end
+        return not p.cursor.at_block_end
 
     def parse(self, p: Parser) -> Definition:
         """Read the name, wrong ones included, and the target."""
         name = self._name(p)
-        start = p.position
-        if p.at_block_end:
+        start = p.cursor.position
+        if p.cursor.at_block_end:
             return Definition(name, None, "")
         target = read_target(p)
-        text = Lister(p.aliases).line(p.tokens[start : p.position])
+        text = Lister(p.scope.aliases).line(p.cursor.tokens[start : p.cursor.position])
         return Definition(name, target, text)
 
     @staticmethod
     def _name(p: Parser) -> str:
         """Everything up to the next blank; the storage of aliases judges it."""
-        first = p.advance()
+        first = p.cursor.advance()
         text, end = first.text, first.column + len(first.text)
-        while not p.at_block_end and p.token.column == end:
-            text += p.token.text
-            end += len(p.advance().text)
+        while not p.cursor.at_block_end and p.cursor.token.column == end:
+            text += p.cursor.token.text
+            end += len(p.cursor.advance().text)
         return text
 
 

@@ -171,14 +171,16 @@ class LineRange(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a number or a dash stands here."""
-        return p.token.kind is TokenKind.NUMBER or p.is_operator("-")
+        return p.cursor.token.kind is TokenKind.NUMBER or p.cursor.is_operator("-")
 
     def parse(self, p: Parser) -> Range:
         """Read the range."""
-        first = p.object_index() if p.token.kind is TokenKind.NUMBER else None
-        if not p.accept("-") and not p.accept(","):
+        first = p.expressions.object_index() if p.cursor.token.kind is TokenKind.NUMBER else None
+        if not p.cursor.accept("-") and not p.cursor.accept(","):
             return Range(first, first)
-        return Range(first, p.object_index() if p.token.kind is TokenKind.NUMBER else None)
+        return Range(
+            first, p.expressions.object_index() if p.cursor.token.kind is TokenKind.NUMBER else None
+        )
 
 
 @command(

@@ -104,7 +104,9 @@ class Aliases:
 
 def read_target(p: Parser) -> Expr:
     """What an alias is given to: an alias of an alias stands for what that one stands for."""
-    return resolved(p.variable() if p.at_variable else p.value())
+    return resolved(
+        p.expressions.variable() if p.expressions.at_variable else p.expressions.value()
+    )
 
 
 def check_name(name: str, *, has_digits: bool = False) -> None:

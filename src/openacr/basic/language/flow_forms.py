@@ -35,25 +35,25 @@ class Then(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether THEN stands here; the block form belongs to programs only."""
-        if p.is_word("THEN"):
+        if p.cursor.is_word("THEN"):
             return True
-        if not p.at_block_end:
-            raise p.error(SYNTAX_ERROR)
+        if not p.cursor.at_block_end:
+            raise p.cursor.error(SYNTAX_ERROR)
         if not p.scope.stored:
             at_sys = p.scope.level is Level.SYS
-            raise p.error(UNKNOWN_COMMAND if at_sys else NOT_VALID_AT_THIS_LEVEL)
+            raise p.cursor.error(UNKNOWN_COMMAND if at_sys else NOT_VALID_AT_THIS_LEVEL)
         return False
 
     def parse(self, p: Parser) -> Conditional:
         """Read the statements."""
-        p.advance()
-        if p.token.kind is TokenKind.NUMBER and p.scope.stored:
-            column = p.token.column
+        p.cursor.advance()
+        if p.cursor.token.kind is TokenKind.NUMBER and p.scope.stored:
+            column = p.cursor.token.column
             goto_line = Statement(registry.find("GOTO"), (Destination().parse(p),), column=column)
             first, *others = p.rest_of_line()
             return Conditional(((goto_line, *first), *others))
-        if p.at_block_end and p.token.kind is not TokenKind.REMARK:
-            raise p.error(SYNTAX_ERROR)
+        if p.cursor.at_block_end and p.cursor.token.kind is not TokenKind.REMARK:
+            raise p.cursor.error(SYNTAX_ERROR)
         return Conditional(p.rest_of_line())
 
 
@@ -62,13 +62,15 @@ class Destination(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether one of them stands here."""
-        return p.token.kind in (TokenKind.LABEL, TokenKind.NUMBER) or p.is_operator("(")
+        return p.cursor.token.kind in (TokenKind.LABEL, TokenKind.NUMBER) or p.cursor.is_operator(
+            "("
+        )
 
     def parse(self, p: Parser) -> str | Expr:
         """Read it."""
-        if p.token.kind is TokenKind.LABEL:
-            return str(p.advance().value)
-        return p.object_index()
+        if p.cursor.token.kind is TokenKind.LABEL:
+            return str(p.cursor.advance().value)
+        return p.expressions.object_index()
 
 
 class Value(Form):
@@ -76,11 +78,11 @@ class Value(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether anything stands here."""
-        return not p.at_block_end
+        return not p.cursor.at_block_end
 
     def parse(self, p: Parser) -> Expr:
         """Read it."""
-        return p.numeric()
+        return p.expressions.numeric()
 
 
 class Step(Form):
@@ -91,9 +93,9 @@ class Step(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether STEP stands here."""
-        return p.is_word("STEP")
+        return p.cursor.is_word("STEP")
 
     def parse(self, p: Parser) -> Expr:
         """Read it."""
-        p.advance()
-        return p.numeric()
+        p.cursor.advance()
+        return p.expressions.numeric()

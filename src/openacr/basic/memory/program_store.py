@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from openacr.basic.language.expressions import StatementError
+from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.scope import Scope
 from openacr.basic.memory.memory_cost import line_bytes

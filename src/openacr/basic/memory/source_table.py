@@ -154,7 +154,7 @@ class Sources:
         names = Names({name: node for name, (node, _) in found.items()}, written.uses)
         p = Parser(tokens(definition.text.encode("latin-1")), _scope_of(self._aliases, names))
         node = read_target(p)
-        if p.token.kind is not TokenKind.END:
+        if p.cursor.token.kind is not TokenKind.END:
             raise StoreError(f"an alias cannot stand for {definition.text!r}")
         return node, written
 

@@ -53,15 +53,15 @@ class AxisList(Form):
         while p.at_axis and not self._begins_statement(p):
             found.append(AxisItem(p.axis(), self._argument(p)))
         if p.at_unknown_word:
-            raise p.error(UNDEFINED_SYMBOL)
+            raise p.cursor.error(UNDEFINED_SYMBOL)
         return tuple(found)
 
     def _begins_statement(self, p: Parser) -> bool:
         """Whether `AXISn` here is the prefix of a new command, as in `PPU X 1 AXIS1 ON`."""
-        following = p.ahead(2)
+        following = p.cursor.ahead(2)
         return (
-            p.is_word("AXIS")
-            and p.ahead(1).kind is TokenKind.NUMBER
+            p.cursor.is_word("AXIS")
+            and p.cursor.ahead(1).kind is TokenKind.NUMBER
             and following.kind is TokenKind.WORD
             and following.value != "AXIS"
             and p.begins_command(following)
@@ -74,7 +74,7 @@ class AxisList(Form):
             return self.each.parse(p)
         if self.each.optional:
             return None
-        raise p.error(SYNTAX_ERROR)
+        raise p.cursor.error(SYNTAX_ERROR)
 
     def evaluate(self, run: Run, read: tuple[AxisItem, ...] | None) -> Any:
         """Axes with their values."""
@@ -148,7 +148,7 @@ class AxisTargets(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether an axis is named here."""
-        return p.at_axis and not p.is_word("AXIS")
+        return p.at_axis and not p.cursor.is_word("AXIS")
 
     def missing(self, p: Parser) -> Message:
         """An unknown axis is an undefined symbol."""
@@ -165,10 +165,10 @@ class AxisTargets(Form):
         axis = p.axis()
         if self.group is not None:
             if not self.group.starts(p):
-                raise p.error(SYNTAX_ERROR)
+                raise p.cursor.error(SYNTAX_ERROR)
             return TargetItem(axis, self.group.parse(p), False)
-        incremental = p.accept("/")
-        return TargetItem(axis, (p.value(),), incremental)
+        incremental = p.cursor.accept("/")
+        return TargetItem(axis, (p.expressions.value(),), incremental)
 
     def evaluate(self, run: Run, read: tuple[TargetItem, ...] | None) -> Any:
         """The targets."""

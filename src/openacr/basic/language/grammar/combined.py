@@ -30,12 +30,12 @@ class Repeat(Form):
         found = [self.each.parse(p)]
         while self._goes_on(p):
             if not self.each.starts(p):
-                raise p.error(self.each.missing(p))
+                raise p.cursor.error(self.each.missing(p))
             found.append(self.each.parse(p))
         return tuple(found)
 
     def _goes_on(self, p: Parser) -> bool:
-        return p.accept(self.separator) if self.separator else self.each.starts(p)
+        return p.cursor.accept(self.separator) if self.separator else self.each.starts(p)
 
     def evaluate(self, run: Run, read: tuple[object, ...] | None) -> tuple[object, ...] | None:
         """All values."""
@@ -59,7 +59,7 @@ class Either(Form):
         for number, form in enumerate(self.forms):
             if form.starts(p):
                 return number, form.parse(p)
-        raise p.error(SYNTAX_ERROR)
+        raise p.cursor.error(SYNTAX_ERROR)
 
     def evaluate(self, run: Run, read: tuple[int, object] | None) -> object:
         """The value of the form that was read."""
@@ -74,13 +74,13 @@ class Rest(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether anything is left."""
-        return not p.at_block_end
+        return not p.cursor.at_block_end
 
     def parse(self, p: Parser) -> tuple[Token, ...]:
         """Take everything up to the end of the block."""
         found = []
-        while not p.at_block_end:
-            found.append(p.advance())
+        while not p.cursor.at_block_end:
+            found.append(p.cursor.advance())
         return tuple(found)
 
 
@@ -92,7 +92,7 @@ class Command(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a command word stands here."""
-        return p.token.kind is TokenKind.WORD and p.begins_command(p.token)
+        return p.cursor.token.kind is TokenKind.WORD and p.begins_command(p.cursor.token)
 
     def parse(self, p: Parser) -> Statement:
         """Read the command."""

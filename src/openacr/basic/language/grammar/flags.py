@@ -38,14 +38,14 @@ class Bit(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a flag begins here."""
-        return p.at_value and (self.signed or not p.is_operator("-"))
+        return p.expressions.at_value and (self.signed or not p.cursor.is_operator("-"))
 
     def parse(self, p: Parser) -> BitItem:
         """Read the flag; its number may be given by any variable."""
-        clear = self.signed and p.accept("-")
+        clear = self.signed and p.cursor.accept("-")
         if not clear:
-            p.accept("+")
-        node = p.value()
+            p.cursor.accept("+")
+        node = p.expressions.value()
         target = resolved(node)
         return BitItem(target.index if isinstance(target, FlagNode) else node, clear)
 
@@ -91,20 +91,20 @@ class ParameterName(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parameter begins here."""
-        has_sign = p.is_operator("+") or (self.signed and p.is_operator("-"))
-        token = p.ahead(1) if has_sign else p.token
+        has_sign = p.cursor.is_operator("+") or (self.signed and p.cursor.is_operator("-"))
+        token = p.cursor.ahead(1) if has_sign else p.cursor.token
         return token.kind is TokenKind.WORD and (
-            isinstance(p.aliases.get(token.text), ParameterNode) or token.value == "P"
+            isinstance(p.scope.aliases.get(token.text), ParameterNode) or token.value == "P"
         )
 
     def parse(self, p: Parser) -> tuple[Expr, bool]:
         """Read the parameter."""
-        negative = p.accept("-")
+        negative = p.cursor.accept("-")
         if not negative:
-            p.accept("+")
-        node = resolved(p.variable())
+            p.cursor.accept("+")
+        node = resolved(p.expressions.variable())
         if not isinstance(node, ParameterNode):
-            raise p.error(SYNTAX_ERROR)
+            raise p.cursor.error(SYNTAX_ERROR)
         return node.index, negative
 
     def evaluate(self, run: Run, read: tuple[Expr, bool] | None) -> SignedParameter | None:

@@ -51,11 +51,11 @@ class Num(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a value begins here."""
-        return p.at_value
+        return p.expressions.at_value
 
     def parse(self, p: Parser) -> Expr:
         """Read the value."""
-        return p.value()
+        return p.expressions.value()
 
     def evaluate(self, run: Run, read: Expr | None) -> float | None:
         """The number."""
@@ -91,9 +91,9 @@ class Str(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a string begins here."""
-        token = p.token
-        if token.kind is TokenKind.WORD and token.text in p.aliases:
-            return is_text(p.aliases[token.text])
+        token = p.cursor.token
+        if token.kind is TokenKind.WORD and token.text in p.scope.aliases:
+            return is_text(p.scope.aliases[token.text])
         return token.kind is TokenKind.STRING or (
             token.kind is TokenKind.WORD
             and (token.text.startswith("$") or token.text.endswith("$"))
@@ -101,7 +101,7 @@ class Str(Form):
 
     def parse(self, p: Parser) -> Expr:
         """Read the expression."""
-        return p.expression()
+        return p.expressions.expression()
 
     def evaluate(self, run: Run, read: Expr | None) -> str | None:
         """The text."""
@@ -113,11 +113,11 @@ class Expression(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether anything is left in the block."""
-        return not p.at_block_end
+        return not p.cursor.at_block_end
 
     def parse(self, p: Parser) -> Expr:
         """Read the expression."""
-        return p.expression()
+        return p.expressions.expression()
 
 
 class Condition(Form):
@@ -125,11 +125,11 @@ class Condition(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis stands here."""
-        return p.is_operator("(")
+        return p.cursor.is_operator("(")
 
     def parse(self, p: Parser) -> Expr:
         """Read the expression."""
-        return p.numeric()
+        return p.expressions.numeric()
 
 
 class Lvalue(Form):
@@ -137,13 +137,13 @@ class Lvalue(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a variable begins here."""
-        return p.at_variable
+        return p.expressions.at_variable
 
     def parse(self, p: Parser) -> Expr:
         """Read the variable; an alias of a constant is no variable."""
-        node = p.variable()
+        node = p.expressions.variable()
         if isinstance(resolved(node), Number | Apply | Unary):
-            raise p.error(SYNTAX_ERROR)
+            raise p.cursor.error(SYNTAX_ERROR)
         return node
 
 
@@ -156,11 +156,11 @@ class Word(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether one of the words stands here."""
-        return p.is_word(*self.words)
+        return p.cursor.is_word(*self.words)
 
     def parse(self, p: Parser) -> str:
         """Take the word."""
-        return str(p.advance().value)
+        return str(p.cursor.advance().value)
 
 
 class Mark(Form):
@@ -172,11 +172,11 @@ class Mark(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether it stands here."""
-        return p.is_operator(self.name) or p.is_word(self.name)
+        return p.cursor.is_operator(self.name) or p.cursor.is_word(self.name)
 
     def parse(self, p: Parser) -> bool:
         """Take it."""
-        p.advance()
+        p.cursor.advance()
         return True
 
 
@@ -193,20 +193,20 @@ class Group(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether a parenthesis (or a single value) begins here."""
-        return p.is_operator("(") or (self.single and p.at_value)
+        return p.cursor.is_operator("(") or (self.single and p.expressions.at_value)
 
     def parse(self, p: Parser) -> tuple[Expr, ...]:
         """Read the values."""
-        if not p.is_operator("("):
-            return (p.value(),)
-        p.advance()
-        found = [p.numeric()]
-        while p.accept(","):
-            found.append(p.numeric())
-        p.expect(")")
+        if not p.cursor.is_operator("("):
+            return (p.expressions.value(),)
+        p.cursor.advance()
+        found = [p.expressions.numeric()]
+        while p.cursor.accept(","):
+            found.append(p.expressions.numeric())
+        p.cursor.expect(")")
         allowed = self.fewest <= len(found) <= self.most or (self.single and len(found) == 1)
         if not allowed:
-            raise p.error(SYNTAX_ERROR)
+            raise p.cursor.error(SYNTAX_ERROR)
         return tuple(found)
 
     def evaluate(self, run: Run, read: tuple[Expr, ...] | None) -> tuple[float, ...] | None:

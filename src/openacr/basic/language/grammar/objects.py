@@ -30,19 +30,19 @@ class Object(Form):
 
     def starts(self, p: Parser) -> bool:
         """Whether one of the words (or a number) stands here."""
-        if p.is_word(*self.singles) or (self.bare and p.at_object_index):
+        if p.cursor.is_word(*self.singles) or (self.bare and p.expressions.at_object_index):
             return True
-        return p.is_word(*self.words) and (
-            p.ahead(1).kind is TokenKind.NUMBER or p.ahead(1).value == "("
+        return p.cursor.is_word(*self.words) and (
+            p.cursor.ahead(1).kind is TokenKind.NUMBER or p.cursor.ahead(1).value == "("
         )
 
     def parse(self, p: Parser) -> tuple[str, Expr]:
         """Read word and number."""
-        if self.bare and p.at_object_index:
-            return self.bare, p.object_index()
-        word = str(p.advance().value)
+        if self.bare and p.expressions.at_object_index:
+            return self.bare, p.expressions.object_index()
+        word = str(p.cursor.advance().value)
         p.names_object = True
-        return word, (Number(-1) if word in self.singles else p.object_index())
+        return word, (Number(-1) if word in self.singles else p.expressions.object_index())
 
     def evaluate(self, run: Run, read: tuple[str, Expr] | None) -> ObjectRef | None:
         """The object by number."""
