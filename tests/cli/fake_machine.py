@@ -7,10 +7,7 @@ import numpy as np
 
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
-from openacr.cli.run.events import Event
-from openacr.cli.run.machine import Failure
-from openacr.cli.run.report import AxisReport
-from openacr.cli.run.watched import Watched
+from openacr.cli.results import AxisReport, Event, Failure, Watched
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.scenario import Condition

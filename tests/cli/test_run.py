@@ -15,8 +15,8 @@ from tests.cli.fake_machine import FakeMachine
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.cli.results import AxisReport
 from openacr.cli.run.command import MOST_S, limit_s
-from openacr.cli.run.report import AxisReport
 from openacr.errors import SourceError
 from openacr.map import numbers as at
 from openacr.messages import DIVIDE_BY_ZERO

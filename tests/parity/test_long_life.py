@@ -12,7 +12,7 @@ from tests.kernel.rig import Rig
 from tests.parity.long_life import BEFORE, card, live, paced
 
 from openacr import compiled
-from openacr.controller import Controller, running
+from openacr.controller import Controller, engine_run
 from openacr.controller.journal import read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
@@ -96,7 +96,7 @@ def test_pacing_keeps_its_course_across_it(crossing: int) -> None:
 def test_time_can_pass_in_runs_longer_than_one_of_the_engine(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(running, "LONGEST_RUN_TK", 100)
+    monkeypatch.setattr(engine_run, "LONGEST_RUN_TK", 100)
     made = Controller()
     made.advance(350)
     assert made.tick == 350

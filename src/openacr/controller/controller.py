@@ -7,18 +7,22 @@ give the same state: `digest` is equal on every machine and build of the core.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
-from openacr.controller.journal import Entered
+from openacr.controller.engine_run import EngineRun
+from openacr.controller.inputs import JournalFile
+from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
-from openacr.controller.running import Running
+from openacr.controller.parts import CardParts
 from openacr.controller.streams import CONSOLE
 from openacr.controller.surroundings import Surroundings, needs_axis
+from openacr.controller.trace import Trace
 from openacr.controller.views import AxisStatistics, AxisView
-from openacr.engine.watches import give_orders, state_image, take_orders
+from openacr.engine.samples import Sample
+from openacr.engine.watches import Watch, give_orders, state_image, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.characters import as_typed
 from openacr.map.memory import digest_of
@@ -34,7 +38,7 @@ from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus
 
 
-class Controller(Running):
+class Controller:
     """A virtual card; see docs/overview.md for the design."""
 
     def __init__(
@@ -44,9 +48,17 @@ class Controller(Running):
         world: schema.World | None = None,
         data: Path | None = None,
     ) -> None:
-        super().__init__(model, world=world, data=data)
+        parts = self._parts = CardParts(model, world=world, data=data)
+        self.model, self.world, self.card, self.memory = (
+            parts.model, parts.world, parts.card, parts.memory
+        )  # fmt: skip
+        self.system, self.executor, self.control = parts.system, parts.executor, parts.control
+        self.plcs, self.networks, self.streams = parts.plcs, parts.networks, parts.streams
+        self.nonvolatile, self.p, self.bit = parts.nonvolatile, parts.p, parts.bit
+        self._inputs = parts.inputs
+        self._engine = EngineRun(parts)
+        self._surroundings = Surroundings(self.card, self.world, self._inputs.note)
         self._console: int | None = None
-        self._surroundings = Surroundings(self.card, self.world, self._note)
         self._origins = Origins()
 
     @classmethod
@@ -86,17 +98,112 @@ class Controller(Running):
             errors.append(SourceError(error.text, path=str(project.root)))
         return controller, errors
 
+    # time
+
+    @property
+    def tick(self) -> int:
+        """Servo interrupts since power-up."""
+        return self._parts.tick
+
+    @property
+    def lived_tk(self) -> int:
+        """Ticks this card has run in total; a restart does not reset the count."""
+        return self._parts.lived_tk
+
+    @property
+    def time_s(self) -> float:
+        """Simulated seconds since power-up."""
+        return self.tick * self.period_s
+
+    @property
+    def period_s(self) -> float:
+        """Length of a tick [s]."""
+        return self._parts.period_s
+
+    def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
+        """Advance the card by `ticks` ticks plus `seconds`, or until a watch ends it.
+
+        UserError for a time that is negative or not a number.
+        """
+        self._engine.advance(ticks, seconds=seconds)
+
+    def until(
+        self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
+    ) -> bool:
+        """Advance the card until a flag has this state; False if it does not in time.
+
+        MapError for a flag that does not exist, UserError for a negative time.
+        """
+        return self._engine.until(bit, is_, timeout_s=timeout_s, ticks=ticks)
+
+    def watch(self, watches: Sequence[Watch] = (), poll: Callable[[], bool] | None = None) -> None:
+        """End `advance` and `until` early from now on, after the tick in which an event occurs.
+
+        An event is a change of a watch, or that `poll` returns True; `poll` is called after every
+        tick in which statements were executed that can print or answer.
+        """
+        self._engine.watch(watches, poll)
+
+    def record(
+        self,
+        every_tk: int = 1,
+        *,
+        keep_peaks: bool = False,
+        samples: Sequence[Sample] = (),
+    ) -> None:
+        """Record all axes, and the chosen samples, once in `every_tk` ticks (1 or more) from now.
+
+        With `keep_peaks` no peak of velocity or following error between two samples is lost:
+        samples alternate between the lowest and the highest value since the previous pair.
+        """
+        if every_tk < 1:
+            raise UserError(f"record every {every_tk} ticks: the minimum is 1")
+        self._engine.recording.start(every_tk, keep_peaks=keep_peaks, samples=samples)
+
+    def trace(self) -> Trace:
+        """The samples recorded so far."""
+        return self._engine.recording.trace()
+
+    def take_trace(self) -> Trace:
+        """The samples recorded since the last call, which are then dropped."""
+        return self._engine.recording.take()
+
+    # journals
+
+    @property
+    def journal(self) -> list[JournalEntry]:
+        """The external inputs so far, in order."""
+        return self._inputs.entries
+
+    @property
+    def is_journalled(self) -> bool:
+        """Whether external inputs are kept in `journal`."""
+        return self._inputs.is_kept
+
+    @is_journalled.setter
+    def is_journalled(self, on: bool) -> None:
+        self._inputs.is_kept = on
+
+    @property
+    def recorder(self) -> JournalFile | None:
+        """What writes the journal to a file, if anything does."""
+        return self._inputs.file
+
+    @recorder.setter
+    def recorder(self, file: JournalFile | None) -> None:
+        self._inputs.file = file
+
     # streams
 
     def open_stream(self, kind: StreamKind, name: str | None = None) -> int:
         """Open a stream for a new connection; NoFreeStreamError if all (or that one) are in use."""
         stream = self.streams.open(kind, name)
-        self._note(Entered.OPEN, stream, text=kind.value, name=name or "")
+        self._inputs.note(Entered.OPEN, stream, text=kind.value, name=name or "")
         return stream
 
     def close_stream(self, stream: int) -> None:
         """Close the stream of an ended connection; motion and programs continue."""
-        self._note(Entered.CLOSE, stream)
+        self._inputs.note(Entered.CLOSE, stream)
         self.streams.close(stream)
 
     def receive(self, stream: int, data: bytes) -> None:
@@ -105,10 +212,9 @@ class Controller(Running):
         Lines and packets beyond about 2 ms of work wait for the following ticks; keys do not.
         """
         self.streams.opened(stream)
-        self._note(Entered.BYTES, stream, text=data.decode("latin-1"))
+        self._inputs.note(Entered.BYTES, stream, text=data.decode("latin-1"))
         self.streams.receive(stream, data, self.tick)
-        if self._wants_reboot:
-            self._reboot()
+        self._parts.reboot_if_requested()
         self.nonvolatile.battery.follow()
 
     def has_stream(self, stream: int) -> bool:
@@ -163,8 +269,8 @@ class Controller(Running):
             raise UserError(
                 f"key {key!r}: known are {', '.join(known.name for known in ControlKey)}"
             )
-        self._note(Entered.KEY, int(key))
-        self._press(key)
+        self._inputs.note(Entered.KEY, int(key))
+        self._parts.press(key)
 
     def listen(self, hear: Callable[[int, str], None]) -> None:
         """Call `hear(program, text)` with everything programs print."""
@@ -249,7 +355,7 @@ class Controller(Running):
             snapshots.put_back(self, snapshot)
         finally:
             give_orders(self.memory, orders)
-        self._lived_before_tk = snapshot.beside.lived_before_tk
+        self._parts.lived_before_tk = snapshot.beside.lived_before_tk
 
     def take_over(self, snapshot: snapshots.Snapshot) -> None:
         """Become the card of a snapshot, with every connection it had."""
@@ -261,9 +367,7 @@ class Controller(Running):
 
     def close(self) -> None:
         """Close the journal and the data folder; the card must not be used afterwards."""
-        if self.recorder is not None:
-            self.recorder.close()
-            self.recorder = None
+        self._inputs.close()
         self.nonvolatile.close()
 
     # loading

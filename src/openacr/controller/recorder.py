@@ -15,7 +15,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import msgspec
 
@@ -24,10 +24,9 @@ from openacr.controller import snapshot_file
 from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
 from openacr.errors import StoreError, reason
 from openacr.map.memory import digest_of
+from openacr.models import Model
+from openacr.plant.schema import World
 from openacr.store import private
-
-if TYPE_CHECKING:
-    from openacr.controller.controller import Controller
 
 log = logging.getLogger(__name__)
 
@@ -104,11 +103,32 @@ def _is_ready(record: bytes | Future[bytes]) -> bool:
     return isinstance(record, bytes) or record.done()
 
 
+class RecordedCard(Protocol):
+    """What a journal on disk needs of its card."""
+
+    model: Model
+    world: World
+
+    @property
+    def period_s(self) -> float:
+        """Length of a tick [s]."""
+
+    @property
+    def lived_tk(self) -> int:
+        """Ticks in total, those before restarts included."""
+
+    def image(self) -> bytearray:
+        """The state that a digest covers."""
+
+    def snapshot(self) -> snapshots.Snapshot:
+        """The whole state at this tick."""
+
+
 class Recorder:
     """Writes the journal of a card from now on, until `close`."""
 
     def __init__(
-        self, card: Controller, path: Path, *, project: str = "", fingerprint: str = ""
+        self, card: RecordedCard, path: Path, *, project: str = "", fingerprint: str = ""
     ) -> None:
         self._card = card
         self.records = Records(path)

@@ -5,15 +5,11 @@ from __future__ import annotations
 import logging
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from openacr.controller.journal import JournalEntry
-from openacr.controller.recorder import Recorder
+from openacr.controller.recorder import RecordedCard, Recorder
 from openacr.errors import StoreError
 from openacr.store.lock import FolderLock, InUseError
-
-if TYPE_CHECKING:
-    from openacr.controller.controller import Controller
 
 log = logging.getLogger(__name__)
 
@@ -31,7 +27,7 @@ class Ring:
 
     def __init__(
         self,
-        card: Controller,
+        card: RecordedCard,
         folder: Path,
         *,
         file_s: float = 300.0,
@@ -94,7 +90,7 @@ class Ring:
         return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}")
 
 
-def own_ring(card: Controller, folder: Path) -> Ring:
+def own_ring(card: RecordedCard, folder: Path) -> Ring:
     """A ring in the first folder `folder/1`, `folder/2`, ... that no other card uses."""
     for place in range(1, PLACES + 1):
         with suppress(InUseError):

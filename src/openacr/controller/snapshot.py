@@ -10,22 +10,47 @@ from __future__ import annotations
 
 from functools import cache
 from hashlib import blake2b
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import msgspec
 from msgspec import Struct
 
 from openacr.basic.execute import language_state
+from openacr.basic.execute.executor import Executor
 from openacr.basic.execute.language_state import Language
+from openacr.basic.execute.system import System
 from openacr.basic.memory.ranges import Index
-from openacr.controller.streams import StreamsState
+from openacr.controller.persistence import Persistence
+from openacr.controller.streams import Streams, StreamsState
 from openacr.errors import StoreError
 from openacr.map import numbers
+from openacr.map.memory import Memory
+from openacr.models import Model
 from openacr.plant import schema
 from openacr.protocol.packets import PacketError
 
-if TYPE_CHECKING:
-    from openacr.controller.controller import Controller
+
+class WholeCard(Protocol):
+    """What a snapshot is taken of and put back into."""
+
+    model: Model
+    world: schema.World
+    memory: Memory
+    system: System
+    executor: Executor
+    streams: Streams
+    nonvolatile: Persistence
+
+    @property
+    def tick(self) -> int:
+        """Servo interrupts since power-up."""
+
+    @property
+    def lived_tk(self) -> int:
+        """Ticks in total, those before restarts included."""
+
+    def image(self) -> bytearray:
+        """The rows without what this process requested from the engine."""
 
 
 class Beside(Struct, frozen=True):
@@ -48,7 +73,7 @@ class Snapshot(Struct, frozen=True):
     beside: Beside
 
 
-def take(card: Controller) -> Snapshot:
+def take(card: WholeCard) -> Snapshot:
     """Take a snapshot of a card."""
     return Snapshot(
         card.model.name,
@@ -65,7 +90,7 @@ def take(card: Controller) -> Snapshot:
     )
 
 
-def put_back(card: Controller, snapshot: Snapshot) -> None:
+def put_back(card: WholeCard, snapshot: Snapshot) -> None:
     """Return a card to a snapshot; open connections remain.
 
     StoreError, with the card unchanged, if the snapshot does not fit the card.
@@ -82,7 +107,7 @@ def put_back(card: Controller, snapshot: Snapshot) -> None:
     card.nonvolatile.restore(snapshot.beside.stored)
 
 
-def _put_back(card: Controller, rows: bytes, language: Language, moves: list[bytes]) -> None:
+def _put_back(card: WholeCard, rows: bytes, language: Language, moves: list[bytes]) -> None:
     card.memory.restore(rows)
     language_state.put_back(card.system, card.executor, language)
     try:
@@ -91,12 +116,12 @@ def _put_back(card: Controller, rows: bytes, language: Language, moves: list[byt
         raise StoreError(f"the snapshot holds a move that cannot be read: {error}") from None
 
 
-def put_back_streams(card: Controller, snapshot: Snapshot) -> None:
+def put_back_streams(card: WholeCard, snapshot: Snapshot) -> None:
     """Restore the connections of a snapshot on a new card."""
     card.streams.restore(snapshot.beside.streams)
 
 
-def check_fits(card: Controller, snapshot: Snapshot) -> None:
+def check_fits(card: WholeCard, snapshot: Snapshot) -> None:
     """StoreError if a snapshot is of another layout, model or world."""
     if snapshot.layout != layout():
         raise StoreError("the snapshot is of a version of openacr with another memory layout")

@@ -13,7 +13,7 @@ from openacr.cli.plots import AxisCurves, BitCurve, Curves, draw, require
 from openacr.cli.plots.curves import Array, Mark, edges, envelope, marks
 from openacr.cli.plots.image import EVENT, EVENTS, build_figure
 from openacr.cli.plots.page import build_page, page_data
-from openacr.cli.run.events import Event
+from openacr.cli.results import Event
 from openacr.errors import UserError
 
 TIME_S: Array = np.arange(4000, dtype=np.float64) * 0.0005

@@ -43,7 +43,7 @@ def plot_program(
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom."""
     from openacr.cli.plots.formats import require
-    from openacr.cli.plots.toolpath import draw_path
+    from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole
 
     target = picture or file.with_suffix(".html")

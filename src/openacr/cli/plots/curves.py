@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from openacr.cli.run.events import Event
-from openacr.cli.run.watched import Watched
+from openacr.cli.results import Event, Watched
 
 Array = npt.NDArray[np.float64]
 Index = npt.NDArray[np.intp]

@@ -1,14 +1,11 @@
-"""The tool path of a part program as a picture: what is shown, and in which form."""
+"""The tool path of a part program as a picture: what is shown, and how it looks."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from openacr.mill.config.view import View
 from openacr.mill.plan.tool_path import Drawing, Kind
 
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
-
-
 DENSE_CNT = 5000  # from this number of moves on they are drawn thin, shaded by their height
 BANDS = 16
 
@@ -71,15 +68,3 @@ def shade(color: str, band: int, bands: int) -> str:
     parts = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
     mixed = [round(part + 0.65 * abs(share) * (to - part)) for part in parts]
     return "#" + "".join(f"{part:02x}" for part in mixed)
-
-
-def draw_path(scene: Scene, path: Path) -> None:
-    """Draw a scene in the form the name of the file asks for."""
-    if path.suffix.lower() == ".html":
-        from openacr.cli.plots.toolpath_page import write_page
-
-        write_page(scene, path)
-    else:
-        from openacr.cli.plots.toolpath_image import write_image
-
-        write_image(scene, path)

@@ -10,11 +10,9 @@ import numpy as np
 from openacr.basic.language.lister import Lister
 from openacr.channels import StreamKind
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
+from openacr.cli.results import AxisReport, Event, Failure, Watched
 from openacr.cli.run import card_view
-from openacr.cli.run.events import Event, EventLog
-from openacr.cli.run.machine import Failure
-from openacr.cli.run.report import AxisReport
-from openacr.cli.run.watched import Watched
+from openacr.cli.run.events import EventLog
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import WATCHES, Watch

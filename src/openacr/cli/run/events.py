@@ -5,10 +5,9 @@ servo period.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from openacr.cli.results import Event, Failure
 from openacr.cli.run import card_view
-from openacr.cli.run.machine import Failure
 from openacr.engine.watches import Watch, Watched
 from openacr.map import flag
 from openacr.map import numbers as at
@@ -28,19 +27,6 @@ AXIS_EVENTS = (
 )
 MASTERS = 8  # of the first flag words; the front end and programs use these
 MASTER_EVENTS = at.MF1_KILL_ALL_MOVES_REQUEST
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """One thing that happened."""
-
-    time_s: float
-    text: str
-    flag: int | None = None
-    program: int | None = None
-
-    def __str__(self) -> str:
-        return f"{self.time_s:.4f} s: {self.text}"
 
 
 class EventLog:

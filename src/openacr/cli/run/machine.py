@@ -1,10 +1,10 @@
 """What a run needs of a card, and that card as a scenario sees it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Protocol
 
+from openacr.cli.results import AxisReport, Event, Failure, Watched
 from openacr.cli.run import card_view
 from openacr.errors import CardError
 from openacr.map.memory import Memory
@@ -12,24 +12,6 @@ from openacr.scenario import Condition, State
 
 if TYPE_CHECKING:
     from openacr.cli.plots import Curves
-    from openacr.cli.run.events import Event
-    from openacr.cli.run.report import AxisReport
-    from openacr.cli.run.watched import Watched
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """The error that ended a program: its text, and the line as it is listed."""
-
-    error: str
-    text: str = ""
-    file: str | None = None  # of the project that the line was read from, as the user named it
-    file_line: int | None = None
-
-    @property
-    def place(self) -> str:
-        """`file:line`, where the line is from a file."""
-        return f"{self.file}:{self.file_line}" if self.file else ""
 
 
 class Machine(Protocol):
@@ -60,7 +42,7 @@ class Machine(Protocol):
     def has_new_events(self) -> bool:
         """Whether axes or programs have come into use since `watch`: call it once more."""
 
-    def events(self) -> Sequence["Event"]:
+    def events(self) -> Sequence[Event]:
         """What happened to the machine since the last call."""
 
     def advance(self, ticks: int) -> None:
@@ -78,7 +60,7 @@ class Machine(Protocol):
     def start_all(self) -> None:
         """Start every stored program, as RUN ALL does."""
 
-    def failure(self, program: int) -> "Failure":
+    def failure(self, program: int) -> Failure:
         """Say what ended a program with an error, and in which line."""
 
     def set_input(self, bit: int, on: bool) -> None:
@@ -99,10 +81,10 @@ class Machine(Protocol):
     def drag(self, axis: int, by_u: float) -> None:
         """Move the load of an axis by hand, at once."""
 
-    def axis_reports(self) -> Sequence["AxisReport"]:
+    def axis_reports(self) -> Sequence[AxisReport]:
         """Position and extremes of every axis."""
 
-    def record(self, every_tk: int, *, keep_peaks: bool, watched: Sequence["Watched"] = ()) -> None:
+    def record(self, every_tk: int, *, keep_peaks: bool, watched: Sequence[Watched] = ()) -> None:
         """Record once in `every_tk` ticks from now on, with the peaks between if wanted."""
 
     def curves(self, title: str) -> "Curves":

@@ -4,9 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from openacr.cli.results import AxisReport, Event, Failure
 from openacr.cli.run import card_view
-from openacr.cli.run.events import Event
-from openacr.cli.run.machine import Failure
 from openacr.lang.characters import shown
 from openacr.scenario import State, Verdict
 
@@ -15,18 +14,6 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from openacr.cli.run.machine import Machine
-
-
-@dataclass(frozen=True, slots=True)
-class AxisReport:
-    """One axis at the end of a run, and the extremes it reached."""
-
-    number: int
-    position_u: float
-    actual_u: float
-    distance_u: float
-    peak_velocity_ups: float
-    peak_following_error_u: float
 
 
 @dataclass(frozen=True, slots=True)

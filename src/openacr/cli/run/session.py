@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
+from openacr.cli.results import Event, Watched
 from openacr.cli.run import card_view, output
-from openacr.cli.run.events import Event
 from openacr.cli.run.machine import Machine, MachineWorld
 from openacr.cli.run.progress import Bar, bar_for
 from openacr.cli.run.report import (
@@ -18,7 +18,6 @@ from openacr.cli.run.report import (
     show_verdicts,
     summary,
 )
-from openacr.cli.run.watched import Watched
 from openacr.cli.signals import terminations_as_interrupts
 from openacr.compiled import is_compiled
 from openacr.lang.characters import shown

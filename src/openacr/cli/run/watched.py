@@ -1,42 +1,13 @@
 """The values that `--watch` records beside the axes: parameters, flags, inputs and outputs."""
 
 import re
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from openacr.cli.results import Watched
 from openacr.errors import MapError, UserError
-
-if TYPE_CHECKING:
-    from openacr.engine.samples import Sample
-    from openacr.map.memory import Memory
 
 _NUMBERED = re.compile(r"(P|BIT|IN|OUT)\s*(\d{1,7})", re.IGNORECASE)
 FIRST_OUTPUT, IO_LAST = 32, 31
 HINT = "write P12290, BIT516, IN3, OUT0, or the name of one parameter or flag"
-
-
-@dataclass(frozen=True, slots=True)
-class Watched:
-    """One recorded value: its column in a trace, its title in a picture."""
-
-    column: str  # P12290, BIT516
-    title: str  # of a flag its name alone, as pictures show its number themselves
-    unit: str
-    is_flag: bool
-    number: int
-
-    def sample(self, memory: "Memory") -> "Sample":
-        """What the card records; UserError where this card has no such parameter."""
-        from openacr.engine.samples import sample_of_flag, sample_of_parameter
-
-        found = (
-            sample_of_flag(self.number)
-            if self.is_flag
-            else sample_of_parameter(memory, self.number)
-        )
-        if found is None:
-            raise UserError(f"--watch {self.column}: this card has no such parameter")
-        return found
 
 
 def watched(texts: list[str]) -> tuple[Watched, ...]:

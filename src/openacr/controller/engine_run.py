@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import pick
-from openacr.controller.machine import CardParts
+from openacr.controller.parts import CardParts
 from openacr.controller.recording import Recording
-from openacr.controller.trace import Trace
 from openacr.engine import loop_cy
-from openacr.engine.samples import Sample
 from openacr.engine.watches import Watch, set_watches
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
@@ -25,8 +22,6 @@ from openacr.map.numbers import (
     ENGI_UNTIL_WORD,
     ENGI_WATCH_COUNT,
 )
-from openacr.models import DEFAULT_MODEL, Model
-from openacr.plant import schema
 
 LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down in 32 bits
 
@@ -34,19 +29,14 @@ _engine_run = pick(loop_cy.engine_run)
 _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
 
 
-class Running(CardParts):
-    """A card whose time can be advanced."""
+class EngineRun:
+    """The time of a card: the engine runs until its ticks are over or something occurs."""
 
-    def __init__(
-        self,
-        model: str | Model = DEFAULT_MODEL,
-        *,
-        world: schema.World | None = None,
-        data: Path | None = None,
-    ) -> None:
-        super().__init__(model, world=world, data=data)
+    def __init__(self, parts: CardParts) -> None:
+        self._parts = parts
+        self._memory = parts.memory
         self._poll: Callable[[], bool] | None = None
-        self._recording = Recording(self.card)
+        self.recording = Recording(parts.card)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until a watch ends it.
@@ -55,7 +45,7 @@ class Running(CardParts):
         """
         if not (ticks >= 0 and 0.0 <= seconds < math.inf):
             raise UserError(f"advance by {ticks} ticks and {seconds} s: time only goes forward")
-        self._live(ticks + round(seconds / self.period_s))
+        self._live(ticks + round(seconds / self._parts.period_s))
 
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
@@ -67,13 +57,13 @@ class Running(CardParts):
         if not (0.0 <= timeout_s < math.inf and (ticks is None or ticks >= 0)):
             limit_s = f"{timeout_s} s" if ticks is None else f"{ticks} ticks"
             raise UserError(f"wait {limit_s} for flag {bit}: time only goes forward")
-        if self.memory.bit(bit) == is_:
+        if self._memory.bit(bit) == is_:
             return True
         word, mask = flag_place(bit)
         self._set_engine(ENGI_UNTIL_WORD, word)
         self._set_engine(ENGI_UNTIL_MASK, mask)
         self._set_engine(ENGI_UNTIL_STATE, int(is_))
-        limit = round(timeout_s / self.period_s) if ticks is None else ticks
+        limit = round(timeout_s / self._parts.period_s) if ticks is None else ticks
         reason = self._live(limit)
         self._set_engine(ENGI_UNTIL_WORD, 0)
         return reason == loop_cy.UNTIL_MET
@@ -81,20 +71,16 @@ class Running(CardParts):
     def _live(self, ticks: int) -> int:
         """Run the engine, stopping where the journal needs a digest; returns why it ended."""
         while True:
-            step = min(ticks, LONGEST_RUN_TK)
-            if self.recorder is not None:
-                self.recorder.flush()
-                step = min(step, self.recorder.next_tk - self.lived_tk)
-            before = self.lived_tk
+            step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK))
+            before = self._parts.lived_tk
             self._set_engine(ENGI_TICKS_LEFT, step)
-            if self.streams.is_overdue:
+            if self._parts.streams.is_overdue:
                 self._set_engine(ENGI_STOP, 1)
             reason = self._run()
-            ticks -= self.lived_tk - before
-            if self.recorder is not None and self.lived_tk >= self.recorder.next_tk:
-                self.recorder.mark()
+            ticks -= self._parts.lived_tk - before
+            self._parts.inputs.mark_if_due()
             if reason != loop_cy.DONE or ticks <= 0:
-                self.nonvolatile.battery.follow_in_time()
+                self._parts.nonvolatile.battery.follow_in_time()
                 return reason
 
     def watch(self, watches: Sequence[Watch] = (), poll: Callable[[], bool] | None = None) -> None:
@@ -103,17 +89,17 @@ class Running(CardParts):
         An event is a change of a watch, or that `poll` returns True; `poll` is called after every
         tick in which statements were executed that can print or answer.
         """
-        set_watches(self.memory, watches)
+        set_watches(self._memory, watches)
         self._poll = poll
 
     def _run(self) -> int:
         """Run the engine to the end of its ticks or the awaited event; returns why it ended."""
-        memory, space = self.memory, self.executor.threads.space
+        memory, space = self._memory, self._parts.executor.threads.space
         while True:
             reason = _engine_run(
-                memory.F, memory.I, memory.S, space.code, space.nums, self._recording.view
+                memory.F, memory.I, memory.S, space.code, space.nums, self.recording.view
             )
-            if reason in _TICK_ENDS and self.streams.is_overdue:
+            if reason in _TICK_ENDS and self._parts.streams.is_overdue:
                 self._take_turns()
             if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
                 return reason
@@ -121,59 +107,39 @@ class Running(CardParts):
                 if self._poll is not None and self._poll():
                     return reason
             elif reason == loop_cy.TRACE_FULL:
-                self._recording.go_on()
+                self.recording.go_on()
             else:
                 self._attend(reason)
-                if self._wants_reboot:
-                    self._reboot()
-                    if self._poll is not None or memory.I[ENGI_BASE + ENGI_WATCH_COUNT]:
-                        return loop_cy.WATCH
+                if self._parts.reboot_if_requested() and self._is_watched:
+                    return loop_cy.WATCH
+
+    @property
+    def _is_watched(self) -> bool:
+        return self._poll is not None or self._memory.I[ENGI_BASE + ENGI_WATCH_COUNT] != 0
 
     def _attend(self, reason: int) -> None:
         """Do the work for which the engine returned to Python."""
         if reason == loop_cy.REQUESTS:
-            self.control.scan()
-            for name in take_escapes(self.memory):
-                self.streams.escape(name)
+            self._parts.control.scan()
+            for name in take_escapes(self._memory):
+                self._parts.streams.escape(name)
         elif reason == loop_cy.ROOM:
-            self.streams.moves.drain()
+            self._parts.streams.moves.drain()
         elif reason == loop_cy.NETWORKS:
-            self.networks.attend()
-            self.streams.settle()
+            self._parts.networks.attend()
+            self._parts.streams.settle()
         else:
-            self.executor.attend(reason - loop_cy.THREAD)
-            self.streams.settle()
-        if self._poll is not None or self.streams.is_overdue:
+            self._parts.executor.attend(reason - loop_cy.THREAD)
+            self._parts.streams.settle()
+        if self._poll is not None or self._parts.streams.is_overdue:
             self._set_engine(ENGI_STOP, 1)
 
     def _take_turns(self) -> None:
         """Continue with the backlog of host input; stop again in the next tick if any is left."""
-        self.streams.take_turns()
-        if self._wants_reboot:
-            self._reboot()
-        if self.streams.is_overdue:
+        self._parts.streams.take_turns()
+        self._parts.reboot_if_requested()
+        if self._parts.streams.is_overdue:
             self._set_engine(ENGI_STOP, 1)
 
-    def record(
-        self,
-        every_tk: int = 1,
-        *,
-        keep_peaks: bool = False,
-        samples: Sequence[Sample] = (),
-    ) -> None:
-        """Record all axes, and the chosen samples, once in `every_tk` ticks (1 or more) from now.
-
-        With `keep_peaks` no peak of velocity or following error between two samples is lost:
-        samples alternate between the lowest and the highest value since the previous pair.
-        """
-        if every_tk < 1:
-            raise UserError(f"record every {every_tk} ticks: the minimum is 1")
-        self._recording.start(every_tk, keep_peaks=keep_peaks, samples=samples)
-
-    def trace(self) -> Trace:
-        """The samples recorded so far."""
-        return self._recording.trace()
-
-    def take_trace(self) -> Trace:
-        """The samples recorded since the last call, which are then dropped."""
-        return self._recording.take()
+    def _set_engine(self, row: int, value: int) -> None:
+        self._memory.I[ENGI_BASE + row] = value

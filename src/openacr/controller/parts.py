@@ -1,6 +1,6 @@
 """A card wired together with its simulated machine, its storage and its streams.
 
-External inputs are recorded in the journal here; power-up and REBOOT are here as well.
+Power-up and REBOOT are here as well.
 """
 
 from __future__ import annotations
@@ -16,18 +16,16 @@ from openacr.basic.execute.system import System
 from openacr.basic.language.plc_names import PlcNames
 from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_memory import PROGRAMS
-from openacr.controller.journal import Entered, JournalEntry
+from openacr.controller.inputs import InputLog
+from openacr.controller.journal import Entered
 from openacr.controller.packets import PacketHost
 from openacr.controller.persistence import Persistence
-from openacr.controller.recorder import Recorder
-from openacr.controller.ring import Ring
 from openacr.controller.streams import Streams
 from openacr.controller.views import Bits, Parameters
 from openacr.engine.watches import give_orders, take_orders
 from openacr.errors import CardError, UserError
 from openacr.lang.lexer import Token
 from openacr.map.numbers import (
-    ENGI_BASE,
     P_CARD_SERIAL_NUMBER,
     P_FIRMWARE_VERSION,
     P_UPDATE_NUMBER,
@@ -44,7 +42,7 @@ from openacr.protocol.events import ControlKey
 
 
 class CardParts:
-    """The parts of a virtual card."""
+    """The parts of a virtual card, each connected to the others that it needs."""
 
     def __init__(
         self,
@@ -71,14 +69,12 @@ class CardParts:
             lambda: self.system.storage.locals.strings,
             short_overrides=self.world.card.short_override_packets,
         )
-        self.streams = Streams(self.system.sessions, host, self._press)
-        self.p = Parameters(self.memory, partial(self._note, Entered.PARAMETER))
-        self.bit = Bits(self.memory, partial(self._note, Entered.FLAG))
-        self.journal: list[JournalEntry] = []
-        self.is_journalled = True
-        self.recorder: Recorder | Ring | None = None
+        self.streams = Streams(self.system.sessions, host, self.press)
+        self.inputs = InputLog(lambda: self.lived_tk)
+        self.p = Parameters(self.memory, partial(self.inputs.note, Entered.PARAMETER))
+        self.bit = Bits(self.memory, partial(self.inputs.note, Entered.FLAG))
         self._wants_reboot = False
-        self._lived_before_tk = 0
+        self.lived_before_tk = 0  # ticks before the latest restart
         self._apply_world()
         self.nonvolatile = Persistence.open(self.system, data)
         self.nonvolatile.power_up()
@@ -92,30 +88,15 @@ class CardParts:
     @property
     def lived_tk(self) -> int:
         """Ticks this card has run in total; a restart does not reset the count."""
-        return self._lived_before_tk + self.tick
-
-    @property
-    def time_s(self) -> float:
-        """Simulated seconds since power-up."""
-        return self.tick * self.period_s
+        return self.lived_before_tk + self.tick
 
     @property
     def period_s(self) -> float:
         """Length of a tick [s]."""
         return self.card.period_s
 
-    def _note(
-        self, what: Entered, number: int, value: float = 0.0, *, text: str = "", name: str = ""
-    ) -> None:
-        """Record an external input in the journals."""
-        if self.is_journalled or self.recorder is not None:
-            entry = JournalEntry(self.lived_tk, what, number, text, float(value), name)
-            if self.is_journalled:
-                self.journal.append(entry)
-            if self.recorder is not None:
-                self.recorder.note(entry)
-
-    def _press(self, key: ControlKey) -> None:
+    def press(self, key: ControlKey) -> None:
+        """Act on Ctrl-X, Ctrl-Y or Ctrl-Z, typed on any stream."""
         if key is ControlKey.CTRL_Y:
             drive.clear_kills(self.card)
             return
@@ -138,10 +119,12 @@ class CardParts:
     def _ask_reboot(self) -> None:
         self._wants_reboot = True
 
-    def _reboot(self) -> None:
-        """Restart as at power-up; the world outside stays as it is."""
+    def reboot_if_requested(self) -> bool:
+        """Restart as at power-up if REBOOT was given; the world outside stays as it is."""
+        if not self._wants_reboot:
+            return False
         self._wants_reboot = False
-        self._lived_before_tk += self.tick
+        self.lived_before_tk += self.tick
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
         self.executor.threads.reset()
@@ -154,6 +137,7 @@ class CardParts:
         self.streams.moves.clear()
         self.streams.disconnect_all()
         self._start_boot_programs()
+        return True
 
     def _start_boot_programs(self) -> None:
         with suppress(CardError):  # no host is connected to report it to
@@ -167,9 +151,6 @@ class CardParts:
         join_names(found, scope.numbered)
         line = read_line(found, PlcNames(scope.aliases))
         return line, line.count if line else 0
-
-    def _set_engine(self, row: int, value: int) -> None:
-        self.memory.I[ENGI_BASE + row] = value
 
     def _deliver(self, channel: int, text: str) -> None:
         """Write text on a channel, by channel number."""
