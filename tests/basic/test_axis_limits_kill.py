@@ -156,7 +156,7 @@ def test_kill_all_moves_is_flag_10_of_the_master(master: int, flag: int) -> None
     assert made.memory.I[word] == at.MF1_KILL_ALL_MOVES_REQUEST
 
 
-@pytest.mark.req("ACR-KAMR-31", "ACR-KAMR-34", "ACR-KAMR-35", "ACR-KAMR-37")
+@pytest.mark.req("ACR-KAMR-31", "ACR-KAMR-35", "ACR-KAMR-37")
 def test_kill_all_moves_stops_moves_at_once_and_leaves_jogs() -> None:
     made = bench("X10", "JOG FWD Y").seconds(0.1)
     made.all("SET 522").ticks(1)

@@ -232,10 +232,18 @@ def test_random_numbers_are_uniform_and_repeatable() -> None:
 
 
 @pytest.mark.req("ACR-EVAL-07")
-def test_functions_need_parentheses(rig: Rig) -> None:
-    assert rig.type("P0=SIN 30") == "Syntax error|"
-    rig.type("P0=SIN(30)")
-    assert rig.value("P0") == "0.5"
+@pytest.mark.parametrize(
+    ("name", "argument", "value"),
+    [
+        ("SIN", "30", 0.5), ("COS", "60", 0.5), ("TAN", "45", 1.0), ("ASIN", "1", 90.0),
+        ("ACOS", "0", 90.0), ("ATAN", "1", 45.0), ("ABS", "-2", 2.0), ("LN", "1", 0.0),
+        ("LOG", "100", 2.0), ("SQRT", "16", 4.0), ("INT", "2.5", 2.0), ("SGN", "3", 1.0),
+    ],
+)  # fmt: skip
+def test_functions_need_parentheses(rig: Rig, name: str, argument: str, value: float) -> None:
+    assert rig.type(f"P0={name} {argument}") == "Syntax error|"
+    rig.type(f"P0={name}({argument})")
+    assert float(rig.value("P0")) == pytest.approx(value, abs=1e-12)
 
 
 def test_locals_belong_to_the_program_of_the_prompt(rig: Rig) -> None:

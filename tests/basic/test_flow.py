@@ -284,7 +284,7 @@ def test_return_discards_the_loops_of_the_subroutine() -> None:
 
 @pytest.mark.req("ACR-LABEL-01")
 def test_goto_and_gosub_find_labels_without_the_underscore() -> None:
-    assert Rig().run("GOSUB Label1", "GOTO _End1", "_Label1", "PRINT 1", "RETURN", "_End1") == "1|"
+    assert Rig().run("GOSUB Label1", "GOTO End1", "_Label1", "PRINT 1", "RETURN", "_End1") == "1|"
 
 
 @pytest.mark.req("ACR-LABEL-03")

@@ -93,7 +93,13 @@ def test_echo_modes_switch_off_errors_and_prompts(bench: Bench) -> None:
 @pytest.mark.req("ACR-CMD-MODE")
 def test_the_binary_mode_of_the_channel_is_set_and_shown(bench: Bench) -> None:
     assert bench.type("MODE", "MODE 3", "MODE") == "1|SYS>SYS>3|SYS>"
-    assert bench.session.mode == 3
+    for mode in (0, 1, 2, 3):
+        assert bench.type(f"MODE {mode}", "MODE") == f"SYS>{mode}|SYS>"
+        assert bench.session.mode == mode
+    assert (
+        bench.type("MODE 4", "MODE -1", "MODE")
+        == "Invalid argument|SYS>Invalid argument|SYS>3|SYS>"
+    )
 
 
 @pytest.mark.req("ACR-CMD-ECHO")

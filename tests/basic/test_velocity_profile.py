@@ -65,6 +65,23 @@ def test_a_negative_profile_value_is_refused_and_changes_nothing(word: str) -> N
 
 
 @pytest.mark.req("ACR-CMD-ACC", "ACR-CMD-VEL")
+def test_acc_is_the_ramp_and_vel_the_speed_of_later_moves() -> None:
+    made = bench("ACC 50 DEC 1000 STP 1000 VEL 10", "X100")
+    made.seconds(0.1)
+    assert made.axis(0, at.AX_VELOCITY) / 1000 == pytest.approx(5.0, rel=0.01)
+    made.seconds(0.2)
+    assert made.axis(0, at.AX_VELOCITY) / 1000 == pytest.approx(10.0)
+    made.all("VEL 4 ACC 8").seconds(0.1)
+    assert made.axis(0, at.AX_VELOCITY) / 1000 == pytest.approx(10.0)
+    made.until_clear(516)
+    made.all("X/10").seconds(0.25)
+    assert made.axis(0, at.AX_VELOCITY) / 1000 == pytest.approx(2.0, rel=0.01)
+    made.seconds(0.5)
+    assert made.axis(0, at.AX_VELOCITY) / 1000 == pytest.approx(4.0)
+    assert (made.type("ACC"), made.type("VEL")) == ("8", "4")
+
+
+@pytest.mark.req("ACR-CMD-ACC", "ACR-CMD-VEL")
 def test_several_profile_commands_fit_in_one_line() -> None:
     made = Bench("X")
     assert made.type("ACC500 DEC 400 STP500 VEL(100+5)") == ""

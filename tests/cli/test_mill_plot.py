@@ -15,8 +15,11 @@ from openacr.cli.mill import plot
 from openacr.cli.mill.check import loaded, opened_store
 from openacr.cli.plots.toolpath import RAPID, Scene, shade
 from openacr.cli.plots.toolpath_image import build_figure
+from openacr.cnc.loading.load import load
+from openacr.cnc.parts.library import names, part_named, prepared
 from openacr.mill.config.view import COLORS
 from openacr.mill.plan import tool_path
+from openacr.sysvar import Store
 
 pytest.importorskip("matplotlib")
 
@@ -192,9 +195,7 @@ def seen(scene: Scene, point: tuple[float, float, float]) -> tuple[float, float]
     return float(place[0]), float(place[1])
 
 
-@pytest.mark.req(
-    "MILL-SYS-DISP-FLIPX", "MILL-SYS-DISP-FLIPY", "MILL-SYS-DISP-XCHG", "MILL-SYS-DISP-COMBINE"
-)
+@pytest.mark.req("MILL-SYS-DISP-FLIPX", "MILL-SYS-DISP-FLIPY", "MILL-SYS-DISP-XCHG")
 @pytest.mark.parametrize(
     ("cells", "x_goes", "y_goes"),
     [
@@ -266,3 +267,13 @@ def test_a_picture_of_too_many_moves_is_cut_and_says_so(
     code, text = plotted(part, tmp_path / "long.svg")
     assert (code, text.splitlines()[0]) == (0, "note: the picture shows the first 100 points")
     assert text.splitlines()[1].endswith(": 500 moves")
+
+
+@pytest.mark.req("MILL-LIB-LIST")
+@pytest.mark.parametrize("name", names())
+def test_every_part_of_the_library_has_a_preview(name: str) -> None:
+    store = Store()
+    program = prepared(part_named(name), {}, store, is_metric=False, feed=10.0).program
+    drawn = plot.scene_of(load(program, store), store, "acromill")[0].drawing.points
+    assert len(drawn) > 1
+    assert np.ptp(drawn, axis=0).max() > 0.0

@@ -164,6 +164,9 @@ def test_22_probing() -> None:
     done = run(text, machine=Bench(trip=(0.75, 0, 0, 0, 0, 0, 0, 0)))
     assert done.moves == ["P X1", "L X0.75 Y1", "L Y1", "L 0"]
     assert done.p(101) == 0.75
+    where = (0.75, 0.5, -1.0, 90.0, 10.0, -20.0, 4.0, 0.125)
+    done = run("G31 F10 X1\nP200=P101", axes=8, machine=Bench(trip=where))
+    assert [done.p(number) for number in range(101, 109)] == list(where)
     assert run(text).moves == ["P X1", "L X1 Y1", "L Y1", "L 0"]
 
 

@@ -22,6 +22,24 @@ def test_motion_codes_hold_until_another() -> None:
     assert run("F10 G0 X1\nX2\nG1 X3\nX4\nG0 Y1").moves == [
         "R X1", "R X2", "L X3", "L X4", "R X4 Y1",
     ]  # fmt: skip
+    for arc, angle in (("G2", -180), ("G3", 180)):
+        assert run(f"F10 G0 X2\n{arc} X0 I1 J0\nX2 I1 J0\nG0 Y1\nX3").moves == [
+            "R X2", f"A 0 about 1,0 {angle}", f"A X2 about 1,0 {angle}", "R X2 Y1", "R X3 Y1",
+        ]  # fmt: skip
+
+
+@pytest.mark.req("MILL-G42")
+@pytest.mark.parametrize(
+    ("cancel", "rest"), [("G40", ["L X3"]), ("G41", ["L X2 Y0.25", "L X3 Y0.25"])]
+)
+def test_g42_holds_until_g40_or_g41(cancel: str, rest: list[str]) -> None:
+    text = (
+        f"G42 D1 F10 G1 X0 Y0\nX1\nX2\n{cancel} X3\nG40 X3 Y0"
+        if cancel == "G41"
+        else ("G42 D1 F10 G1 X0 Y0\nX1\nX2\nG40 X2 Y0\nX3")
+    )
+    done = run(text, {1001: 0.2, 1501: 0.05}, start=(0, -1, 0))
+    assert done.moves == ["L Y-0.25", "L X1 Y-0.25", "L X2 Y-0.25", *rest]
 
 
 @pytest.mark.req("MILL-G1-MULTIAXIS")

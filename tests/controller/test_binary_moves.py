@@ -83,10 +83,12 @@ def test_extended_codes_move_sixteen_slaves_of_a_high_master() -> None:
     assert [text.card.p[12288 + 256 * n] for n in range(16)] == [100 * n for n in range(16)]
 
 
+@pytest.mark.req("BIN-131")
 def test_relative_targets_count_from_the_end_of_the_move_before() -> None:
     sender = Sender()
     sender.move({0: 1000}).move({0: 500, 1: 250}, code3=Code3.INCREMENTAL_TARGET)
     assert sender.rest().at == (1500, 250, 0)
+    assert sender.move({0: 500}).rest().at == (500, 250, 0)
 
 
 def test_velocity_and_ramps_of_a_packet_stay_for_later_moves() -> None:
@@ -267,6 +269,17 @@ def test_an_arc_goes_round_its_centre_in_its_plane(plane: int, axes: tuple[int, 
     assert len(points) == pytest.approx(math.pi / 2 / 5.0 / 0.0005, abs=2)
 
 
+@pytest.mark.req("BIN-127")
+@pytest.mark.parametrize(("code", "turns"), [(Code1(0), 3), (Code1.COUNTERCLOCKWISE, 1)])
+def test_without_its_bit_an_arc_goes_clockwise(code: Code1, turns: int) -> None:
+    sender = Sender().move({0: 1000}).rest()
+    sender.move({0: 0, 1: 1000}, vel=5.0, centers=(0, 0), code1=code)
+    points = track(sender)
+    assert all(math.hypot(x, y) == pytest.approx(1000, abs=1e-6) for x, y, _ in points)
+    assert len(points) == pytest.approx(turns * math.pi / 2 / 5.0 / 0.0005, abs=2)
+    assert (min(y for _, y, _ in points) < -999) is (turns == 3)
+
+
 @pytest.mark.req("BIN-144", "BIN-151")
 def test_equal_ends_make_a_full_circle_and_other_slaves_a_helix() -> None:
     sender = Sender()
@@ -310,6 +323,7 @@ def test_scaled_radii_make_an_ellipse() -> None:
     assert max(y for _, y, _ in points) == pytest.approx(500, abs=0.1)
 
 
+@pytest.mark.req("BIN-132")
 def test_relative_centres_count_from_where_the_arc_starts() -> None:
     sender = Sender()
     sender.move({0: 1000}).rest()

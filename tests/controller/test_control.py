@@ -100,6 +100,25 @@ def test_ctrl_y_clears_the_kills_of_all_axes_and_masters_and_moves_nothing(axes:
     assert axes.type("X0 Y0") == "P00>"
 
 
+@pytest.mark.req("ACR-KAMR-34")
+@pytest.mark.parametrize("by", ["terminal", "program", "packet"])
+def test_kill_all_moves_can_be_set_by_terminal_program_and_packet(axes: Host, by: str) -> None:
+    axes.type("X1000")
+    axes.card.advance(400)
+    if by == "terminal":
+        axes.type("SET 522")
+    elif by == "program":
+        axes.type("PROG1", "10 SET 522", "RUN", "PROG0")
+    else:
+        Host(axes.card, StreamKind.PACKETS).raw(b"\x1c" + struct.pack("<H", 522))
+    axes.card.advance(5)
+    here = axes.card.axis(0).commanded_cnt
+    axes.card.advance(2000)
+    assert (axes.card.bit[522], axes.card.bit[516]) == (True, False)
+    assert 0 < axes.card.axis(0).commanded_cnt == here < 1_000_000
+    assert axes.type("X0") == "Master Kill All Moves Request Active|P00>"
+
+
 @pytest.mark.req("ACR-KAMR-11")
 def test_a_host_may_set_the_kill_flag_with_a_packet(axes: Host) -> None:
     packets = Host(axes.card, StreamKind.PACKETS)

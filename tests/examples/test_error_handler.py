@@ -217,8 +217,13 @@ def test_each_trouble_is_reported_once_and_its_codes_are_reset(bench: Bench) -> 
 
 @pytest.mark.req("ACR-ERR-12")
 def test_without_print_errors_nothing_is_sent(bench: Bench) -> None:
+    bench.type_in("PROG1")
+    bench.card.receive(bench.second, b"?1\r")
+    assert "SYS>" not in bench.wait(), "the program has the stream"
     bench.type_in(f"CLR {PRINT_ERRORS}")
     bench.wait()
+    bench.card.receive(bench.second, b"?1\r")
+    assert bench.wait() == "?1\r\n1\r\nSYS>", "it is closed"
     set_by_user(bench)
     assert bench.wait() == ""
     assert not bench.card.bit[KILL]

@@ -142,10 +142,12 @@ def test_the_figures_with_backup(
 
 @pytest.mark.req("ACR-HOME-FIG-A", "ACR-HOME-FIG-B", "ACR-HOME-11")
 @pytest.mark.parametrize(("direction", "start", "edge_u"), [(1, 0.0, 5.0), (-1, 10.0, 6.0)])
+@pytest.mark.parametrize("edge", [False, True])
+@pytest.mark.parametrize("final", [False, True])
 def test_without_backup_the_place_of_rest_beyond_the_first_edge_is_zero(
-    direction: int, start: float, edge_u: float
+    direction: int, start: float, edge_u: float, edge: bool, final: bool
 ) -> None:
-    rig = options(Home(start), True, True, backup=False)
+    rig = options(Home(start), edge, final, backup=False)
     assert rig.speeds(direction) == [(direction, 10.0)]
     rig.seconds(0.2)
     assert rig.bit(FOUND)

@@ -416,3 +416,10 @@ def test_no_axis_exceeds_the_acceleration_of_the_machine_within_moves() -> None:
     ]
     steps.sort()
     assert steps[int(0.97 * len(steps))] <= 40.0 * 1.02  # the junctions are the rest
+
+
+@pytest.mark.req("MILL-WORD-T")
+def test_t_p_transfers_a_parameter_that_the_card_then_reports() -> None:
+    shop = Shop()
+    shop.run_text("P3=55555\nT P3\nM2\n")
+    assert shop.controller.send("?P3\r") == "?P3\r\n55555\r\nSYS>"

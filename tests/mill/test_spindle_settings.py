@@ -10,6 +10,7 @@ from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.loading.load import load
 from openacr.mill.run.lifecycle import State
 from openacr.mill.run.run_host import RunHost
+from openacr.sysvar import Store
 
 SPINDLE, TOOL = 800_000, 900_000
 CODE, SCALING, DAC, AT_ZERO, AT_SPEED, CW, CCW, OFF, EXCEPTION, MIST, FLOOD, COOLANT_OFF = range(12)
@@ -106,6 +107,15 @@ def test_bits_1_and_2_wait_for_the_level_of_at_speed(code: int, level: bool) -> 
     shop.controller.set_input(11, level)
     shop.until(State.HOLD)  # and M5 waits for nothing
     assert shop.pulses()[0] == 10_000
+
+
+@pytest.mark.req("MILL-SYS-SPINDLE-ATZERO")
+def test_without_an_at_zero_input_nothing_waits_for_rest() -> None:
+    assert Store().read(SPINDLE + AT_ZERO) == -1.0
+    shop = shop_with(8, {f"P{SPINDLE + AT_ZERO}": -1})
+    begin(shop, "S1500 M3\nM5\nF600 G1 X1\nM0\nM2")
+    shop.until(State.HOLD, limit_s=2.0)
+    assert (volts(shop), shop.pulses()[0]) == (0.0, 10_000)
 
 
 @pytest.mark.req("MILL-SPINDLE-BIT3", "MILL-SPINDLE-BIT4", "MILL-SYS-SPINDLE-ATZERO")

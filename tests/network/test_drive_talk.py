@@ -427,6 +427,17 @@ def test_the_flag_of_the_stream_addresses_all_axes_of_its_device() -> None:
     assert not any(bench.card.bit[control(axis, AUTO)] for axis in range(8))
 
 
+@pytest.mark.req("ACR-DTALK-22")
+@pytest.mark.parametrize("axis", [0, 1, 4])
+def test_the_flag_of_an_axis_addresses_its_drive_alone(axis: int) -> None:
+    bench = Bench(*(talking(one) for one in (0, 1, 4)))
+    bench.open(0, 1, 4)
+    bench.card.bit[10496 + 32 * axis] = True
+    assert bench.card.until(10496 + 32 * axis, is_=False, timeout_s=2.0)
+    wanted = {one: one + 1 if one == axis else 0 for one in (0, 1, 4)}
+    assert {one: bench.address(one) for one in (0, 1, 4)} == wanted
+
+
 def test_the_stream_flag_of_a_closed_port_clears_at_once() -> None:
     bench = Bench(talking(0))
     bench.card.bit[COM2] = True

@@ -122,7 +122,7 @@ def test_curves_use_the_arc_bits_for_themselves() -> None:
     assert decoded(nurb.encode()).curve is Curve.NURB
 
 
-@pytest.mark.req("BIN-126", "BIN-127", "BIN-131", "BIN-132", "BIN-135", "BIN-136")
+@pytest.mark.req("BIN-126", "BIN-135", "BIN-136")
 def test_single_bits_keep_their_places() -> None:
     assert (Code1.INTERRUPT, Code1.COUNTERCLOCKWISE) == (0x08, 0x10)
     assert (Code3.INCREMENTAL_TARGET, Code3.INCREMENTAL_CENTER) == (0x01, 0x02)

@@ -25,15 +25,16 @@ def test_axis_n_has_inputs_3n_to_3n_plus_2(axis: int) -> None:
 
 
 @pytest.mark.req("ACR-HLBIT-02", "ACR-HLBIT-07", "ACR-LIMDET-02")
-def test_hlbit_chooses_the_first_of_three_inputs_and_reports_it() -> None:
+@pytest.mark.parametrize(("first", "other"), [(3, 12), (12, 3)])
+def test_hlbit_chooses_the_first_of_three_inputs_and_reports_it(first: int, other: int) -> None:
     console = Console()
     console.type("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS1 "Y"')
-    assert console.type("HLBIT Y12", "HLBIT Y") == "12"
+    assert console.type(f"HLBIT Y{first}", "HLBIT Y") == f"{first}"
     for offset, state in enumerate((POSITIVE, NEGATIVE, HOME)):
-        console.card.bit[12 + offset] = True
+        console.card.bit[first + offset] = True
         assert states(console, 1) == state
-        console.card.bit[12 + offset] = False
-    console.card.bit[3] = True
+        console.card.bit[first + offset] = False
+    console.card.bit[other] = True
     assert states(console, 1) == 0
 
 

@@ -167,6 +167,10 @@ def test_the_fruit_question_goes_to_stream3_and_each_answer_completes_the_senten
     assert fruit.card.take_output(fruit.host) == b""  # INKEY$ does not wait, the loop does
     for key, answer in ((b"a", "n Apple"), (b"b", " Banana"), (b"C", " Coconut")):
         assert fruit.key(key) == (QUESTION, f"{answer}{CRLF}I would like to have a")
+    assert fruit.card.bit[1024]
+    assert fruit.key(b"\x1b")[0] == f"Program terminated{CRLF}"  # CHR$(27)
+    assert not fruit.card.bit[1024]
+    assert fruit.console.type('$V0 = "7.5"', 'PRINT USING "##";VAL($V0)') == " 8"
 
 
 @pytest.mark.req("ACR-APP-OPEN-04")
