@@ -11,6 +11,8 @@ from tests.basic.motion_bench import Bench, ticks
 
 from openacr.map import numbers as at
 
+pytestmark = pytest.mark.evidence("oracle", "arc lengths integrated by scipy, circles by formula")
+
 IN_MOTION = 516
 LENGTH = at.MA_BASE + at.MA_VECTOR_LENGTH
 VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY

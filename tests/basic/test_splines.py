@@ -13,6 +13,8 @@ from tests.basic.motion_bench import PERIOD_S, Bench
 
 from openacr.map import numbers as at
 
+pytestmark = pytest.mark.evidence("oracle", "B-splines and Hermite curves of scipy")
+
 IN_MOTION = 516
 CNT = 1000  # pulses per unit
 SPLINE_FLAGS, NURB_FLAGS = 5120, 5136

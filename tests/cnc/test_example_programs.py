@@ -21,6 +21,8 @@ from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.exchange import imported
 
+pytestmark = pytest.mark.evidence("oracle", "shapes of the parts in shapely")
+
 PARTS = Path(__file__).parents[2] / "parts"
 PROGRAMS = sorted(path.name for path in PARTS.glob("*.nc"))
 MM = 25.4

@@ -30,6 +30,8 @@ from openacr.cnc.state.shadow import Shadow
 from openacr.mill.config.dialects import choose
 from openacr.sysvar import Store
 
+pytestmark = pytest.mark.evidence("oracle", "lengths worked out by hand, offsets of shapely")
+
 EVENTS = (Tool, Spindle, Coolant, Dwell, Output, Stop, End)
 FIELD = Path(__file__).parents[1] / "data" / "field"
 

@@ -19,6 +19,8 @@ from openacr.cnc.parts.part import read_part
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.sysvar import Store
 
+pytestmark = pytest.mark.evidence("oracle", "shapes of the parts in shapely")
+
 Spot = tuple[float, float]
 DEGREES = 1.0  # between points of an arc
 STEPPED = ("POCKET", "RPOCKET", "SLOT", "ARCSLOT", "FACE")  # their step depends on the tool

@@ -16,6 +16,8 @@ import pytest
 from openacr import Controller
 from openacr.protocol.events import ControlKey
 
+pytestmark = pytest.mark.evidence("client", "real hosts and the guides: evidence.toml")
+
 FOLDER = Path(__file__).parent / "dialogues"
 PATIENCE_TK = 40_000
 TYPED = re.compile(r"((?:SYS|P\d\d|PLC\d)>)(.*)")

@@ -8,6 +8,8 @@ import pytest
 from scipy.interpolate import BSpline
 from tests.examples.observe import load
 
+pytestmark = pytest.mark.evidence("oracle", "circles by formula, B-splines of scipy")
+
 MOTION = 516
 VELOCITY = 8193
 

@@ -10,6 +10,8 @@ from tests.examples.watches import ALL
 
 from openacr.compiled import is_compiled
 
+pytestmark = pytest.mark.evidence("reading", "events recorded from the card itself")
+
 # Name, what is typed, ticks: long enough for motion, short enough for the slow core.
 SHORT_RUNS = (
     ("gantry", "PROG 0\rRUN\rPROG 1\rRUN\r", 10_400),

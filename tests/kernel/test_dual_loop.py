@@ -17,6 +17,8 @@ from openacr.map import numbers as at
 from openacr.motion.axis import attach
 from openacr.motion.axis.attach import Feedback, Signal
 
+pytestmark = pytest.mark.evidence("oracle", "the linear system solved by scipy")
+
 Matrix = NDArray[np.float64]
 MOTOR, LOAD = 4, 0  # encoders
 PGAIN, FBVEL = 0.01, 4e-4  # V per count of the load, V per count/s of the motor

@@ -13,6 +13,8 @@ from openacr.motion.axis import drive
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
 
+pytestmark = pytest.mark.evidence("oracle", "closed forms of the profiles")
+
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")
 

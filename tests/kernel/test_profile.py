@@ -17,6 +17,8 @@ from tests.kernel.rig import Reals, Rig, T, acceleration, examples, jerk, noise,
 
 from openacr.motion.path import moves
 
+pytestmark = pytest.mark.evidence("oracle", "closed forms of the profiles")
+
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")
 

@@ -9,6 +9,8 @@ from tests.kernel import oracle
 from tests.kernel.rig import Rig, T, acceleration, examples, jerk, noise, velocity
 from tests.kernel.test_profile import disturbed, set_up, shapes, spread, ticks_moved
 
+pytestmark = pytest.mark.evidence("oracle", "the fastest trajectory of ruckig")
+
 settings.load_profile("kernel")
 
 

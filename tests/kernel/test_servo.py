@@ -7,6 +7,8 @@ from tests.kernel.rig import Rig, T
 
 from openacr.map import numbers as at
 
+pytestmark = pytest.mark.evidence("oracle", "formulas in plain Python, filters of scipy")
+
 f32 = np.float32
 RNG = np.random.default_rng(7)
 

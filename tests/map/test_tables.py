@@ -19,6 +19,8 @@ from openacr.map.block import (
 )
 from openacr.map.flag_block import FlagBlock
 
+pytestmark = pytest.mark.evidence("manual", "User's Guide Part 2, Appendix A and B")
+
 DATA = Path(__file__).parents[1] / "data"
 DRIVE_TALK_ROWS = {*range(2, 8), *range(20, 38)} - {21}  # configuration and status items
 

@@ -8,6 +8,8 @@ from openacr.motion.axis import filters
 from openacr.motion.axis.filters import BYPASS, Biquad
 from openacr.motion.card import Card
 
+pytestmark = pytest.mark.evidence("oracle", "filter designs of scipy")
+
 ACTIVE = 786
 
 

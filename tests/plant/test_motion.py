@@ -9,6 +9,8 @@ from tests.plant.conftest import Build, Rig
 
 from openacr.map import numbers as at
 
+pytestmark = pytest.mark.evidence("oracle", "closed forms, differential equations solved by scipy")
+
 PER_VOLT = 1.0 * 0.5 / 2e-5 * 4000 / (2 * math.pi)  # counts/s^2
 PER_NM = 4000 / (2 * math.pi * 2e-5)
 IDEAL = 'drive = { mode = "ideal", revs_per_s_per_volt = 5.0, lag_s = 0.01 }\n'

@@ -15,6 +15,8 @@ from openacr.controller import Controller
 from openacr.map.rows import axes
 from openacr.source_check import check
 
+pytestmark = pytest.mark.evidence("oracle", "curves of scipy, shapes of shapely")
+
 FIELD = Path(__file__).parents[1] / "data" / "field"
 PULSES = 1000
 IN_MOTION, CUTTING, RUNNING = 516, 32, 1024

@@ -17,6 +17,8 @@ from tests.system.terminal import Console
 from openacr.controller import Controller
 from openacr.plant.load import parse_world
 
+pytestmark = pytest.mark.evidence("oracle", "the loop as a linear system of scipy")
+
 Reals = NDArray[np.float64]
 MOTION = 516
 COUNTS = 4096

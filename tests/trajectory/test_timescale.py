@@ -13,6 +13,8 @@ from openacr.compiled import is_compiled
 from openacr.trajectory import timescale, timescale_cy
 from openacr.trajectory.timescale import Progress, TimeScale
 
+pytestmark = pytest.mark.evidence("oracle", "distances to the planned path by scipy")
+
 Event = tuple[float, float, float]  # from, to [s], scale
 
 

@@ -12,6 +12,8 @@ from tests.cnc.compensation.tools import EXACT, Trace
 from openacr.cnc.compensation import Compensator, Rules, Side
 from openacr.cnc.geometry.elements import Element
 
+pytestmark = pytest.mark.evidence("oracle", "random contours and offsets of shapely")
+
 PROGRAMS = 250  # in a bundle
 CLOSE = 3e-6
 ALL_RULES = (Rules(), Rules(gouge_stop=False), EXACT, Rules(1e-5, 0.01, -12, False), Rules(0.1))

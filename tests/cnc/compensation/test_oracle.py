@@ -24,6 +24,8 @@ from tests.cnc.compensation.tools import EXACT, Path, Trace, compensate
 from openacr.cnc.compensation import Rules, Side
 from openacr.cnc.geometry.elements import Element
 
+pytestmark = pytest.mark.evidence("oracle", "random contours and offsets of shapely")
+
 BUNDLES = 8
 CONTOURS = 400  # in a bundle
 CLOSE = 2e-6

@@ -15,6 +15,8 @@ from openacr.cnc.compensation.boxes import Tree
 from openacr.cnc.compensation.nearness import Curves, distances
 from openacr.cnc.geometry.elements import Element
 
+pytestmark = pytest.mark.evidence("oracle", "distances of shapely")
+
 
 def curves_of(elements: list[Element]) -> Curves:
     return Curves.of(

@@ -14,6 +14,8 @@ from openacr.cnc.dxf.nesting import depths, parents
 from openacr.cnc.dxf.nesting import outline as outline_of
 from openacr.cnc.dxf.segments import Point, Segment, bulged, reverse_all
 
+pytestmark = pytest.mark.evidence("oracle", "outlines and areas of shapely")
+
 EPSILON = 0.002
 
 

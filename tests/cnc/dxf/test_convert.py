@@ -23,6 +23,8 @@ from openacr.cnc.state.hosts import VirtualMachine
 from openacr.errors import UserError
 from openacr.sysvar import Store
 
+pytestmark = pytest.mark.evidence("oracle", "shapes of shapely")
+
 
 def drawing(units: int = 1, version: str = "R2010") -> Drawing:
     document = ezdxf.new(version)  # type: ignore[attr-defined]
