@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from tests.cnc.programs import Run
 
-from openacr.cnc.canonical import Arc, Dwell, Line, Rapid
+from openacr.cnc.canonical import Arc, Dwell, Line, Probe, Rapid, Say
 
 PROGRAM = shutil.which("rs274")
 needs_linuxcnc = pytest.mark.skipif(
@@ -121,7 +121,7 @@ class Canon:
 def judged(text: str, folder: Path) -> Canon:
     """What LinuxCNC does with a program in inches."""
     assert PROGRAM is not None
-    (folder / "program.ngc").write_text(f"G20\n{text}", encoding="utf-8")
+    (folder / "program.ngc").write_text(f"G20 {text}", encoding="utf-8")
     (folder / "tool.tbl").write_text(_TABLE, encoding="utf-8")
     (folder / "first.var").write_text("", encoding="utf-8")
     command = [PROGRAM, "-g", "-t", "tool.tbl", "-v", "first.var", "program.ngc"]
@@ -147,6 +147,8 @@ def own(done: Run) -> list[Move]:
             kind = "R" if isinstance(entry, Rapid) else "L"
             feed = entry.pace.feed_upm if isinstance(entry, Line) else 0.0
             found.append(Move(kind, entry.end[:6], feed=feed))
+        elif isinstance(entry, Probe):
+            found.append(Move("P", entry.end[:6]))
         elif isinstance(entry, Dwell):
             found.append(Move("D", (entry.seconds,)))
         elif isinstance(entry, Arc):
@@ -160,6 +162,19 @@ def own(done: Run) -> list[Move]:
 
 def _is_turn(one: Arc, other: Arc) -> bool:
     return one.source == other.source and one.centre == other.centre
+
+
+def texts(done: Run) -> list[str]:
+    """The messages of a run."""
+    return [entry.text for entry in done.entries if isinstance(entry, Say)]
+
+
+def compare_texts(mine: list[str], theirs: list[str]) -> None:
+    """AssertionError at the first message with another number."""
+    assert len(mine) == len(theirs), (mine, theirs)
+    for here, there in zip(mine, theirs, strict=True):
+        numbers = [[float(each) for each in _NUMBER.findall(text)] for text in (here, there)]
+        assert numbers[0] == pytest.approx(numbers[1], abs=NEAR), (here, there)
 
 
 def compare(mine: list[Move], theirs: list[Move]) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from tests.cnc.programs import Bench, Run, run, shown
 
 from openacr.cnc.canonical import Arc, Sync
+from openacr.cnc.interpreter.interpreter import Options
 
 FOLDER = Path(__file__).parents[1] / "data" / "ngc"
 PROGRAMS = sorted(FOLDER.glob("*.ngc"))
@@ -22,9 +23,9 @@ def is_judged(path: Path) -> bool:
     return _UNJUDGED.search(path.read_text(encoding="utf-8")) is None
 
 
-def run_of(path: Path) -> Run:
+def run_of(path: Path, options: Options | None = None) -> Run:
     """The program on a machine in inches with six axes and two tools."""
-    return run(path, CELLS, axes=6, dialect="rs274ngc", machine=Bench())
+    return run(path, CELLS, axes=6, dialect="rs274ngc", machine=Bench(), options=options)
 
 
 def listed(done: Run) -> str:

@@ -115,8 +115,31 @@ M30
 X[ATAN[1]/[2]] YABS[-1] Z[2**3 MOD 5]
 G28.1
 #5161=3
+G10 L2 P1 X1 R30
+G10 L20 P0 X1 Y2
+G52 X1 Y2
+G0 @5 ^30
+G91 @1
+G[#1+1] X2 F10
+M[3+#2] S100
+G3 X1 Y0 I-1 P3 Z1
+G5 X1 Y1 I0 J3 P0 Q-3
+G5 X2 Y2 P0 Q1
+G5.1 X4 Y0 I2 J4
+G5.2 X1 Y1 P1 L3
+X2 Y2 P.5
+G5.3
+M70
+M72
+M73
+M61 Q2
+M66 P1 L3 Q2
+G4 P1 X2
+G43.2 X1
+(LOG, #<_x> #5399)
+#3=EXISTS[#<_feed>]
 """
-LETTERS = 'GMXYZABCUVFSTDHNPLRQIJKOEW#[]()+-*/=<>.,;:"$%/ 0123456789\t\u2212é\x00\x1a'
+LETTERS = 'GMXYZABCUVFSTDHNPLRQIJKOEW@^#[]()+-*/=<>.,;:"$%/ 0123456789\t\u2212é\x00\x1a'
 
 
 def mutated(line: str, chance: random.Random) -> str:
@@ -182,7 +205,9 @@ def attempt(text: str, dialect: str, chance: random.Random) -> None:
         assert error.finding.code in TEXTS
         assert 1 <= error.finding.line
         assert next(entries, None) is None
-        if options.has_block_ends and error.finding.code[0] == "E":
+        # Compensation issues moves later: those of a line may be from an earlier pass over it.
+        is_of_chain = error.finding.code.startswith("E32")
+        if options.has_block_ends and error.finding.code[0] == "E" and not is_of_chain:
             moves = [e for e in block if isinstance(e, MOVES) and here(e) == here(error.finding)]
             assert not moves, f"{error} after {moves} in\n{text}"
     except Exception as error:

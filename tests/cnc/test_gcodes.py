@@ -498,7 +498,6 @@ def test_codes_of_several_groups_may_stand_together(text: str, codes: list[str])
         ("W5", "E206"),
         ("A5", "E207"),
         ("M3.5", "E204"),
-        ("G(P1)", "E204"),
     ],
 )
 def test_words_out_of_place(text: str, code: str) -> None:

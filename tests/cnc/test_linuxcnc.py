@@ -3,8 +3,10 @@
 from pathlib import Path
 
 import pytest
-from tests.cnc.linuxcnc import compare, judged, needs_linuxcnc, own
+from tests.cnc.linuxcnc import compare, compare_texts, judged, needs_linuxcnc, own, texts
 from tests.cnc.ngc_programs import PROGRAMS, is_judged, listed, run_of
+
+from openacr.cnc.interpreter.interpreter import Options
 
 NAMES = [pytest.param(path, id=path.stem) for path in PROGRAMS]
 JUDGED = [pytest.param(path, id=path.stem) for path in PROGRAMS if is_judged(path)]
@@ -13,6 +15,12 @@ JUDGED = [pytest.param(path, id=path.stem) for path in PROGRAMS if is_judged(pat
 @pytest.mark.parametrize("path", NAMES)
 def test_a_program_comes_to_the_entries_that_are_written_down(path: Path) -> None:
     assert listed(run_of(path)) == path.with_suffix(".txt").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("path", NAMES)
+def test_many_blocks_at_once_come_to_the_same(path: Path) -> None:
+    done = run_of(path, Options(has_batches=True))
+    assert listed(done) == path.with_suffix(".txt").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("path", NAMES)
@@ -29,3 +37,4 @@ def test_the_moves_are_those_of_linuxcnc(path: Path, tmp_path: Path) -> None:
     done = run_of(path)
     assert done.error is None
     compare(own(done), theirs.moves)
+    compare_texts(texts(done), theirs.texts)

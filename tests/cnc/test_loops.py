@@ -66,7 +66,7 @@ def test_a_loop_that_changes_for_ever_ends_too(monkeypatch: pytest.MonkeyPatch) 
         ("F10|O1 repeat [40]|G1 X1|X0|O1 endrepeat", 80, "rs274ngc"),
         ("F10|O1 repeat [3]|O2 repeat [3]|G1 X1|X0|O2 endrepeat|O1 endrepeat", 18, "rs274ngc"),
         ("F10|#<a>=0|O1 while [#<a> LT 5]|#<a>=[#<a>+1]|G1 X1|X0|O1 endwhile", 10, "rs274ngc"),
-        ("F10|#<_a>=0|O1 while [#<_a> LT 5]|#<_a>=[#<_a>+1]|G1 X1|X0|O1 endwhile", 10, "rs274ngc"),
+        ("F10|#<_n>=0|O1 while [#<_n> LT 5]|#<_n>=[#<_n>+1]|G1 X1|X0|O1 endwhile", 10, "rs274ngc"),
         ("F10|#40=0|O1 do|#40=[#40+1]|G1 X1|X0|O1 while [#40 LT 5]", 10, "rs274ngc"),
         ("F10|O9 sub|#1=0|O1 while [#1 LT 3]|#1=[#1+1]|G1 X1|X0|O1 endwhile|O9 endsub|O9 call|"
          "O9 call", 12, "rs274ngc"),

@@ -103,14 +103,15 @@ def expanded(listed: str) -> set[str]:
 
 
 def test_a_refusal_is_said_only_where_it_is_meant() -> None:
+    assert DIALECTS["acromill"].grammar.refusals.of_form("X1 @5", 3) == ""  # a fault before it
+    polar = DIALECTS["acromill"].grammar.refusals.of_form("X1 @5", 4)
+    assert polar == "no polar coordinates; write X and Y"
+    assert DIALECTS["acromill"].grammar.refusals.of_form("X1 @5", 5) == ""  # and after it
     dialect = DIALECTS["rs274ngc"].grammar.refusals
     assert dialect.of_word("P", ["G1"]) == ""
     assert dialect.of_word("P", ["G1", "G30"]).startswith("there is one second reference point")
     assert dialect.of_word("W", []) == "axes are X Y Z A B C U V"
     assert dialect.of_code("G5.4") == ""
-    assert dialect.of_form("X1 @5", 3) == ""  # a fault before it
-    assert dialect.of_form("X1 @5", 4) == "no polar coordinates; write X and Y"
-    assert dialect.of_form("X1 @5", 5) == ""  # and after it
 
 
 def test_a_word_of_an_active_motion_is_refused_with_its_place() -> None:

@@ -92,7 +92,7 @@ def test_o_words_steer_the_program(text: str, moves: list[str]) -> None:
         ("G1 F10 X[ROUND[2.5]] Y[FIX[-2.5]] Z[FUP[2.1]]", ["L X3 Y-3 Z3"]),
         ("#2=3|#3=7|G1 F10 X##2 Y#[1+1]", ["L X7 Y3"]),
         ("#<Tool Size>=2|G1 F10 X#<toolsize>", ["L X2"]),
-        ("#<_x>=1|O1 sub|#<_x>=2|O1 endsub|O1 call|G1 F10 X#<_x>", ["L X2"]),
+        ("#<_n>=1|O1 sub|#<_n>=2|O1 endsub|O1 call|G1 F10 X#<_n>", ["L X2"]),
         ("#31=4|O1 sub|#31=5|O1 endsub|O1 call|G1 F10 X#31", ["L X5"]),
         ("#30=4|O1 sub|#30=5|O1 endsub|O1 call|G1 F10 X#30", ["L X4"]),
         ("o<box> sub|g1 f10 x#1|o<box> endsub|o<BOX> call [3]|m2", ["L X3"]),
@@ -121,11 +121,12 @@ def test_programs_of_other_controls_are_read_as_meant(text: str, moves: list[str
     ("text", "said"),
     [
         ("(MSG, hello #1)", "hello #1"), ("(msg,hello)", "hello"), ("(DEBUG, a #1 b)", "a 5 b"),
-        ("(print,#<_name>, #<Local> P1)", "2.5, 7 P1"), ("(DEBUG, #<none>)", "######"),
+        ("(print,#<_name>, #<Local> P1)", "2.5, 7 P1"), ("(LOG, #1)", "5"),
+        ("(DEBUG, #<none>)", "######"),
     ],
 )  # fmt: skip
 def test_comments_speak(text: str, said: str) -> None:
-    done = ngc(f"#1=5\n#<_name>=2.5\n#<local>=7\n{text}\n(only a comment)\n(LOG, x)")
+    done = ngc(f"#1=5\n#<_name>=2.5\n#<local>=7\n{text}\n(only a comment)\n(LOGOPEN, x)")
     assert done.story == [f"say {said}", "end"]
 
 

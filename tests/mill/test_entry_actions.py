@@ -248,3 +248,27 @@ def test_a_tool_changed_signal_that_is_on_before_the_change_confirms_nothing() -
     assert shop.until(State.ALARM) is State.ALARM
     assert (codes(shop), shop.store.read(235)) == ([51], 1)
     assert shop.outputs((42,)) == [False]
+
+
+def test_a_wait_for_an_edge_needs_the_other_state_first() -> None:
+    shop = Shop()
+    shop.controller.set_input(11, True)
+    shop.start(c.WaitBit(src(1), 11, True, "input 11 on", is_edge=True), line(2, at(1)), end())
+    shop.pass_time(1.0)
+    assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "input 11 on")
+    shop.controller.set_input(11, False)
+    shop.pass_time(1.0)
+    assert shop.runner.state is State.WAIT
+    shop.controller.set_input(11, True)
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10000, 0, 0)
+
+
+def test_a_wait_with_a_limit_ends_without_an_alarm() -> None:
+    shop = Shop()
+    shop.start(c.WaitBit(src(1), 11, True, "input 11 on", limit_s=2.0), line(2, at(1)), end())
+    shop.pass_time(1.5)
+    assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "input 11 on")
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10000, 0, 0)
+    assert codes(shop) == []

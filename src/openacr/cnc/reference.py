@@ -7,6 +7,7 @@ from pathlib import Path
 
 from openacr.cnc import occupied
 from openacr.cnc.codes.dialects import acromill, rs274ngc  # noqa: F401  fill the dialects
+from openacr.cnc.codes.ngc.named import PREDEFINED
 from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit, Step
 from openacr.cnc.reading.findings import TEXTS
 from openacr.cnc.reading.refusals import other_dialect
@@ -16,6 +17,10 @@ LETTERS = "Words that act by themselves. Other letters are data of the codes of 
 REFUSED = (
     "What other controls accept and this dialect refuses, with the hint of the error."
     " In addition there are limits of values, and the errors at the end of this page."
+)
+NAMED = (
+    "They show the state where the program is read and cannot be assigned. Other names that begin"
+    " with _ belong to the whole program, names without it to one call."
 )
 OCCUPIED = (
     "Programs of the card, part programs and other hosts leave these alone; part programs may read"
@@ -54,6 +59,7 @@ def page() -> str:
     parts = ["# Codes of part programs", MADE_BY]
     for dialect in DIALECTS.values():
         parts += _dialect(dialect)
+    parts += ["## Named parameters of rs274ngc", NAMED, _named()]
     parts += ["## What the front end occupies on a card", OCCUPIED, _occupied()]
     parts += ["## Errors and warnings", _findings()]
     return "\n\n".join(parts) + "\n"
@@ -139,6 +145,11 @@ def _words(code: Code) -> str:
 def _limit(limit: Limit) -> str:
     need = " needed" if limit.is_needed else ""
     return f"{limit.letter} {limit.low:g} to {limit.high:g}{need} ({limit.error})"
+
+
+def _named() -> str:
+    rows = ((named.shown, named.meaning) for named in PREDEFINED.values())
+    return _rows(("name", "value"), rows)
 
 
 def _occupied() -> str:

@@ -5,6 +5,7 @@ ignored, waits for relays are skipped, requested tools are loaded at once. A rea
 everything configured in the store.
 """
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -276,9 +277,9 @@ class MillSession:
         return Interpreter(program, cells, self.runner.stream.host, start.dialect, reading)
 
     def _watched(self, entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
-        """Pass the entries on; on the virtual machine waits for inputs are skipped."""
+        """Pass the entries on; on the virtual machine endless waits for inputs are skipped."""
         for entry in entries:
-            if self.is_virtual and isinstance(entry, c.WaitBit):
+            if self.is_virtual and isinstance(entry, c.WaitBit) and entry.limit_s == math.inf:
                 yield c.Say(entry.source, f"skipped: {entry.reason}")
             else:
                 yield entry

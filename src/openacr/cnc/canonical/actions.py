@@ -1,5 +1,6 @@
 """Canonical actions: what happens between moves, and where a program stops or ends."""
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -77,12 +78,14 @@ class SetBit:
 
 @dataclass(frozen=True, slots=True)
 class WaitBit:
-    """Go on when a card flag has a state (M1xx, M2xx)."""
+    """Go on when a card flag has a state (M1xx, M2xx), or gets it (`is_edge`); or after a time."""
 
     source: Source
     bit: int
     is_on: bool
     reason: str
+    is_edge: bool = False
+    limit_s: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 from openacr.cnc.canonical import AXIS_LETTERS
@@ -9,9 +10,11 @@ from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit,
 from openacr.cnc.reading.blocks import Block, Word
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import NEAR, Number
-from openacr.cnc.reading.refusals import COMPUTED, Refusals, other_dialect
+from openacr.cnc.reading.refusals import Refusals, other_dialect
 
 MOST_SHAPES = 4096
+MOST_CODE = 1e6  # numbers of codes are far below
+POLAR_AXES = "XY"
 _UNKNOWN = {"G": "E203", "M": "E205"}
 _MOTION_WORDS = frozenset("IJKRQPL")  # may belong to the motion or cycle that is active
 
@@ -27,6 +30,8 @@ class Plan:
     axes: tuple[tuple[int, str], ...] = ()
     codes: tuple[Code, ...] = ()
     modal_words: tuple[str, ...] = ()  # left for the motion that is active
+    is_polar: bool = False  # @ or ^ instead of X and Y
+    is_computed: bool = False  # codes are formulas: planned again when their values are known
 
     @property
     def code_names(self) -> list[str]:
@@ -103,6 +108,8 @@ class BlockPlanner:
         """
         if not block.words:
             return Plan(block)
+        if self._has_formulas(block):
+            return Plan(block, is_computed=True)
         shape = _shape(block.words)
         known = self._known.get(shape)
         if known is None:
@@ -116,8 +123,20 @@ class BlockPlanner:
             _check_written(limit, words)
         plan = known.plan
         return Plan(
-            block, plan.acts, words, _numbers(words), plan.axes, plan.codes, plan.modal_words
-        )
+            block, plan.acts, words, _numbers(words), plan.axes, plan.codes, plan.modal_words,
+            plan.is_polar,
+        )  # fmt: skip
+
+    def _has_formulas(self, block: Block) -> bool:
+        """Whether a code is a formula; G and M among the arguments of G65 and G66 are none."""
+        for word in block.words:
+            if word.letter in "GM":
+                if not isinstance(word.value, Number):
+                    return True
+                code = self._dialect.table.gcodes.get(word.value.number)
+                if word.letter == "G" and code is not None and code.takes_all:
+                    return False
+        return False
 
     def _remember(self, shape: Shape, plan: Plan) -> None:
         if len(self._known) >= MOST_SHAPES:
@@ -146,9 +165,9 @@ class BlockPlanner:
         return codes, words
 
     def _code(self, word: Word) -> Code:
-        if not isinstance(word.value, Number):
-            raise CodeError("E204", word.column, hint=COMPUTED)
-        number = word.value.number
+        number = word.value.number if isinstance(word.value, Number) else math.nan
+        if not abs(number) < MOST_CODE:
+            raise CodeError("E204", word.column)
         table = self._dialect.table
         rows = table.gcodes if word.letter == "G" else table.mcodes
         tenths = round(number * 10)
@@ -183,18 +202,36 @@ class BlockPlanner:
         taker = _taker(codes)
         own = [code for code, _ in codes]
         self._check_barred(own, words)
+        is_polar = self._check_polar(words, taker)
         if any(code.takes_all for code in own):
             acts, left = list(own), list[str]()
         else:
             acts, left = self._with_letters(own, words, taker)
-        if taker is None and (left or _moves(own, words)):
+        if taker is None and (left or is_polar or _moves(own, words)):
             acts.append(self._motion)
         if self._macro and ((acts and acts[-1] is self._motion) or _probes(own)):
             acts.append(self._macro)
         _check_limits(codes, acts, words, self._refusals)
         acts.sort(key=self._place)
         axes = tuple((self.axes.get(a, -1), a) for a in AXIS_LETTERS if a in words)
-        return Plan(block, tuple(acts), words, _numbers(words), axes, tuple(own), tuple(left))
+        return Plan(
+            block, tuple(acts), words, _numbers(words), axes, tuple(own), tuple(left), is_polar
+        )
+
+    def _check_polar(self, words: dict[str, Word], taker: Code | None) -> bool:
+        """Whether a block has polar words; CodeError where they have no meaning."""
+        polar = [words[letter] for letter in self._dialect.grammar.polar if letter in words]
+        if not polar:
+            return False
+        column = min(word.column for word in polar)
+        if any(letter in words for letter in POLAR_AXES):
+            raise CodeError("E236", column, hint="@ and ^ take the place of X and Y")
+        if taker is not None and not taker.is_polar:
+            raise CodeError("E236", column, hint=f"not with {taker.name}")
+        for letter in POLAR_AXES:
+            if letter not in self.axes:
+                raise CodeError("E207", column, letter)
+        return True
 
     def _place(self, code: Code) -> tuple[int, bool]:
         """When a code acts: G0 to G3 choose the motion before anything moves."""
@@ -209,6 +246,8 @@ class BlockPlanner:
         acts, left = list(own), []
         for letter, word in words.items():
             act = self._letter(letter, word)
+            if letter in self._dialect.grammar.polar:
+                continue
             if letter in AXIS_LETTERS:
                 self._check_axis(letter, word)
             elif act is not None and letter not in taken:

@@ -8,7 +8,7 @@ of an interpreter is known to a code.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.canonical import Entry, Source
 from openacr.cnc.codes.active import Curve, Drilling, ModalMacro
@@ -21,7 +21,12 @@ from openacr.cnc.state.hosts import Cells, Machine
 from openacr.cnc.state.modal import Modal
 from openacr.cnc.state.parameters import Parameters
 
-Motions = dict[float, Callable[["Run", BlockContext], None]]  # by the number of the G code
+if TYPE_CHECKING:
+    from openacr.cnc.codes.ngc.contexts import Context
+
+Motions = dict[
+    float, Callable[["Run", BlockContext], "Iterator[Entry] | None"]
+]  # by the number of the G code
 
 
 class RunOptions(Protocol):
@@ -100,6 +105,8 @@ class Calls(Protocol):
 class Subroutines(Protocol):
     """The O-words of the program."""
 
+    context: Context | None  # the modal state that this call keeps
+
     def call(self, name: str, column: int, arguments: list[float]) -> Iterator[Entry]:
         """Run the subroutine of a name."""
 
@@ -127,6 +134,14 @@ class Run(Protocol):
     @property
     def machine(self) -> Machine:
         """The machine, to be asked at rest only."""
+
+    @property
+    def motion_code(self) -> float:
+        """The G code of motion that is active: 80 without one."""
+
+    @property
+    def has_length(self) -> bool:
+        """Whether a tool length is in effect."""
 
     @property
     def flow(self) -> Flow:

@@ -70,6 +70,7 @@ class Step(Enum):
     SPINDLE_OFF = auto()
     COOLANT_OFF = auto()
     STOP = auto()
+    KEEP = auto()
 
 
 class Group(Enum):
@@ -140,6 +141,7 @@ class Code:
     acts_dry: bool = True  # also in DRY RUN
     takes_all: bool = False  # every other word is an argument
     fast: Fast | None = None  # None: only the handler knows what it does
+    is_polar: bool = False  # @ and ^ may take the place of X and Y
 
     @property
     def name(self) -> str:
@@ -183,6 +185,7 @@ class Table:
         limits: tuple[Limit, ...] = (),
         takes_all: bool = False,
         fast: FastForms = None,
+        is_polar: bool = False,
     ) -> Callable[[Handler], Handler]:
         """Register a function as G codes."""
 
@@ -191,7 +194,7 @@ class Table:
                 self.add(
                     Code(
                         "G", number, step, act, group, words + takes, takes, axes, limits,
-                        takes_all=takes_all, fast=form_of(fast, number),
+                        takes_all=takes_all, fast=form_of(fast, number), is_polar=is_polar,
                     )
                 )  # fmt: skip
             return act

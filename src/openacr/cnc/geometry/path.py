@@ -28,6 +28,7 @@ from openacr.cnc.geometry.arcs import TURN, ArcGeometry
 from openacr.cnc.geometry.coordinates import ORIGIN, Coordinates
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.program.block_context import BlockContext
+from openacr.cnc.reading.functions import cosine, sine
 from openacr.cnc.state.cells import DEFAULT_UNIT, RADIUS, RADIUS_WEAR
 from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.modal import COMPATIBILITY, METRIC, Modal
@@ -123,7 +124,25 @@ class Path:
             if letter not in ROTARY:
                 value = value * times / per
             p[axis] = p[axis] + value if is_incremental else value
+        if b.plan.is_polar:
+            p[0], p[1] = self._polar(b, is_incremental=is_incremental)
         return tuple(p)
+
+    def _polar(self, b: BlockContext, *, is_incremental: bool) -> tuple[float, float]:
+        """X and Y of the words @ (distance from the origin) and ^ (degrees from X)."""
+        column = "@" if "@" in b.words else "^"
+        if self._modal.plane_axes is not Plane.XY:
+            raise b.fault("E236", column, hint="polar coordinates lie in the XY plane: G17")
+        x, y = self.program[0], self.program[1]
+        radius, degrees = math.hypot(x, y), math.degrees(math.atan2(y, x))
+        if radius == 0.0 and (is_incremental or "^" not in b.words):
+            raise b.fault("E236", column, hint="at the origin the angle is needed, with G90")
+        if is_incremental:
+            radius, degrees = radius + self.length(b.get("@")), degrees + b.get("^")
+        else:
+            radius = self.length(b.words["@"]) if "@" in b.words else radius
+            degrees = b.get("^", degrees)
+        return radius * cosine(degrees), radius * sine(degrees)
 
     def distance(self, end: Point, arc: ArcGeometry | None, plane: Plane) -> float:
         """The length of a move from here; of rotary axes alone the largest turn."""

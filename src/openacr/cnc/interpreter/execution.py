@@ -76,7 +76,7 @@ class Execution:
                 if waiting is not None:
                     yield from waiting
             else:
-                yield from self._block(node, block)
+                yield from self.execute(node, block)
             if has_block_ends:
                 run.tell(BlockEnd(node.source))
             if out:
@@ -90,7 +90,7 @@ class Execution:
         self.idle_cnt = 0
         block = ready(node, run)
         if not block.is_empty:
-            yield from self._block(node, block)
+            yield from self.execute(node, block)
             yield from run.flush()
         if run.flow.frames and not run.is_ended:
             yield from self.blocks(run.flow.frames[0])
@@ -215,7 +215,7 @@ class Execution:
         except _ARITHMETIC as error:
             raise _undefined(error) from None
 
-    def _block(self, node: Node, block: Ready) -> Iterator[Entry]:
+    def execute(self, node: Node, block: Ready) -> Iterator[Entry]:
         """One block: read and check everything, then act."""
         for message in block.plan.block.messages:
             yield from self._say(node.source, message)

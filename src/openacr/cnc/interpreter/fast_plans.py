@@ -23,7 +23,7 @@ _NO_MORE = 0, 0
 
 def fast_plan(plan: Plan, acts: Iterable[Code]) -> list[int] | None:
     """The numbers of a plan; None where a code or a word of it has no fast form."""
-    if not _KNOWN_WORDS.issuperset(plan.words):
+    if plan.is_computed or not _KNOWN_WORDS.issuperset(plan.words):
         return None
     steps: list[int] = []
     is_plain, is_alone = not any(letter in plan.words for letter in ARC_WORDS), False

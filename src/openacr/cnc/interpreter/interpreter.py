@@ -27,7 +27,7 @@ from openacr.cnc.canonical import (
 from openacr.cnc.codes import dialects as _dialects  # noqa: F401  registers the languages
 from openacr.cnc.codes.active import Curve, Drilling, ModalMacro
 from openacr.cnc.codes.block_plan import BlockPlanner
-from openacr.cnc.codes.gcodes.motion import MOTIONS
+from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_CYCLE
 from openacr.cnc.codes.ngc.owords import OWords
 from openacr.cnc.codes.ngc.splines import OPEN
 from openacr.cnc.codes.run import Motions
@@ -60,6 +60,7 @@ from openacr.cnc.state.hosts import Cells, Machine
 from openacr.cnc.state.modal import Modal, reset
 from openacr.cnc.state.parameters import Parameters
 
+NO_LENGTH = 49
 _WAITS = Motion | Dwell | WaitBit | Stop
 
 
@@ -120,6 +121,16 @@ class Interpreter:
     def is_replaying(self) -> bool:
         """Whether lines before a start line are being replayed."""
         return self.execution.until != 0
+
+    @property
+    def motion_code(self) -> float:
+        """The G code of motion or cycle that is active; 80 without one."""
+        return self.modal.cycle if self.modal.cycle != NO_CYCLE else self.modal.motion
+
+    @property
+    def has_length(self) -> bool:
+        """Whether a tool length is in effect."""
+        return self.modal.length != NO_LENGTH or any(self.path.coordinates.added)
 
     @property
     def position(self) -> Point:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.canonical import Entry, Output, SetBit
@@ -45,11 +45,15 @@ class Ready:
 
 def ready(node: Node, run: Interpreter) -> Ready:
     """Read and plan the line of a node."""
+    block = parse(node.raw, run.language(node.part)[0].grammar)
+    return _prepared(block if not block.is_percent else Block(), node, run)
+
+
+def _prepared(block: Block, node: Node, run: Interpreter) -> Ready:
     dialect, planner = run.language(node.part)
-    block = parse(node.raw, dialect.grammar)
-    if block.is_percent:
-        block = type(block)()
     plan = planner.plan(block)
+    if plan.is_computed:
+        return Ready(plan, False, (), (), _computed(block, run), (), (), (), None, None, False)
     assigns = tuple(_assign(one, run) for one in block.assignments)
     late: tuple[Assign, ...] = ()
     if dialect.assigns_last:
@@ -86,6 +90,24 @@ def ready(node: Node, run: Interpreter) -> Ready:
         quick if is_bare else None,
         is_plain,
     )
+
+
+def _computed(block: Block, run: Interpreter) -> Act:
+    """A block with codes that are formulas: made ready again each time, with their values."""
+    formulas = {
+        k: Formula(word.value, run.parameters)
+        for k, word in enumerate(block.words)
+        if word.letter in "GM" and not isinstance(word.value, Number)
+    }
+
+    def act(node: Node) -> Iterator[Entry]:
+        words = list(block.words)
+        for k, formula in formulas.items():
+            words[k] = replace(words[k], value=Number(formula.now()))
+        known = replace(block, words=words, messages=[])
+        return run.execution.execute(node, _prepared(known, node, run))
+
+    return act
 
 
 def _are_quick(block: Block) -> bool:

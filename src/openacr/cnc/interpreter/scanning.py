@@ -18,7 +18,7 @@ import numpy as np
 
 from openacr.cnc.canonical import AXES, Moves, Pace, Polyline, Source
 from openacr.cnc.canonical.batches import CURVE, POINT, ROW
-from openacr.cnc.codes.gcodes.motion import MOTIONS
+from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_MOTION
 from openacr.cnc.codes.radii import NEAR_INCH
 from openacr.cnc.interpreter import blocks_cy as core
 from openacr.cnc.interpreter.fast_plans import FIELDS, fast_plan
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 LEAST_ROWS = 16  # a Polyline has more
 MOST_NUMBERS = 32768  # of all plans
 OFF, NO_CYCLE = 40, 80
+FAST_MOTIONS = frozenset({0, 1, 2, 3, NO_MOTION})
 _run_lines = pick(core.run_lines)
 
 
@@ -66,6 +67,7 @@ class Scanner:
         modal, path = run.modal, run.path
         return (
             modal.cycle == NO_CYCLE
+            and modal.motion in FAST_MOTIONS
             and modal.compensation == OFF
             and modal.feed_mode == PER_MINUTE
             and run.macro is None

@@ -24,6 +24,10 @@ class BlockWords(Protocol):
         """The words by letter."""
 
     @property
+    def is_polar(self) -> bool:
+        """Whether the block has @ or ^ instead of X and Y."""
+
+    @property
     def modal_words(self) -> tuple[str, ...]:
         """Letters left for the active motion or cycle."""
 

@@ -31,6 +31,7 @@ class Grammar:
     not_level: int  # operands of NOT reach to operators of this level; 0: no NOT
     refusals: Refusals  # forms of other controls
     pairs: frozenset[str] = frozenset()  # functions written F[y]/[x]
+    polar: str = ""  # words for distance and angle
 
 
 _COMMON = {
@@ -94,4 +95,5 @@ RS274NGC = Grammar(
     not_level=0,
     refusals=refusals.RS274NGC,
     pairs=frozenset({"ATAN"}),
+    polar="@^",
 )

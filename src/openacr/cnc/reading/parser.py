@@ -172,7 +172,7 @@ class _Parser(StatementReader):
             if kind in self.grammar.states and self.text.startswith(kind, self.pos):
                 self._switch(block, kind)
                 return
-        if char not in _LETTERS:
+        if char not in _LETTERS and char not in self.grammar.polar:
             raise self.fault("E104")
         self.pos += 1
         start = self.pos

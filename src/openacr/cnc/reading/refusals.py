@@ -78,7 +78,6 @@ def _form(shown: str, pattern: str, reason: str, *lines: str, error: str = "E104
     return Refusal(shown, reason, error, lines, form=re.compile(pattern))
 
 
-COMPUTED = "a code needs a number as written"
 _AXES = "axes are X Y Z A B C U V"
 _DWELL = "a dwell moves nothing: write the axis words in a block of their own"
 _LATHES = (
@@ -93,9 +92,6 @@ _TILTED = _codes("G68.2", "planes are not tilted; arcs lie in XY, ZX or YZ")
 _ONE_SPINDLE = _form("`$` (number of a spindle)", r"\$\d", "there is one spindle; leave $ out",
                      "M3 S100 $1")  # fmt: skip
 _MANY_SYSTEMS = _codes("G54.1", "work systems are G54 to G59.2; G101 to G199 are fixtures")
-_POLAR_WORDS = _form("`@ ^`", r"[@^]", "no polar coordinates; write X and Y", "G1 F10 @5 ^30")
-_LOADED = _codes("M61", "T and M6 say which tool is in the spindle")
-_COMPUTED_CODES = Refusal("computed codes", COMPUTED, "E204", ("G#1 X1", "M#1"))
 
 ACROMILL = Refusals((
     *_LATHES,
@@ -104,8 +100,6 @@ ACROMILL = Refusals((
     _MANY_SYSTEMS,
     _TILTED,
     _FEED_PER_TURN,
-    _LOADED,
-    _COMPUTED_CODES,
     _words("XYZABCUV", "G4", "E206", "G4 F1 _1", _DWELL),
     _words("P", "G4", "E240", "G4 P2", "seconds are F here; G4 P is of the dialect rs274ngc"),
     _words("P", "G64", "E206", "G64 P.1",
@@ -125,14 +119,14 @@ ACROMILL = Refusals((
           *[f"IF P1 {word} 1 THEN GOTO 5" for word in ("EQ", "NE", "GT", "GE", "LT", "LE")],
           error="E108"),
     _form("`**`", r"\*\*", "no powers; multiply", "#1=2**3"),
-    _POLAR_WORDS,
+    _form("`@ ^`", r"[@^]", "no polar coordinates; write X and Y", "G1 F10 @5 ^30"),
     _ONE_SPINDLE,
 ))  # fmt: skip
 
 RS274NGC = Refusals((
     *_LATHES,
     _POCKETS,
-    _POLAR,
+    _codes("G15 G16", "polar coordinates are words: @ for the distance, ^ for the angle"),
     _codes("G17.1 G18.1 G19.1", "arcs lie in XY, ZX or YZ, not in planes of U, V, W"),
     _codes("G50 G51", "nothing is scaled in this dialect, only in acromill"),
     _codes("G54.1", "work systems are G54 to G59.3"),
@@ -143,12 +137,9 @@ RS274NGC = Refusals((
     _codes("G87 G88", "no back boring and no boring with a retract by hand in this dialect"),
     _FEED_PER_TURN,
     _codes("M19", "the spindle is not brought to an angle in this dialect"),
-    _LOADED,
     _codes("M67 M68", "programs do not write analog outputs"),
-    _codes("M70 M71 M72 M73", "the modal state is not kept and restored; write the codes again"),
     _codes(" ".join(f"M{n}" for n in range(100, 200)),
            "codes of the user are part programs M100.TXT and so on in the folder of P900010"),
-    _COMPUTED_CODES,
     _words("F", "G4", "E222", "G4 F1", "seconds are P here; G4 F is of the dialect acromill"),
     _words("IJQ", "G10", "E206", "G10 L1 P1 _1", "angles and orientation are for lathe tools"),
     _words("P", "G30", "E206", "G30 P2 X1", "there is one second reference point; leave P out"),
@@ -158,8 +149,13 @@ RS274NGC = Refusals((
     _form("`#<_ini[..]>`, `#<_hal[..]>`", r"#<_(?:INI|HAL)\[[^>]*>",
           "there is no INI file and no HAL; write the value, or a parameter of the store",
           "#1=#<_ini[AXIS]MAX>", "#1=#<_hal[a.b]>", error="E211"),
-    _form("predefined names (`#<_line>`, `#<_feed>` ...)", r"#<_[^>]*>",
-          "a name has a value once the program has assigned one", "#1=#<_line>", error="E211"),
+    _form("`#<_current_pocket>`, `#<_selected_pocket>`", r"#<_(?:CURRENT|SELECTED)_POCKET>",
+          "the tool changer knows no pockets, only tools", "#1=#<_current_pocket>",
+          "#1=#<_selected_pocket>", error="E211"),
+    _form("`#<_vmajor>`, `#<_vminor>`", r"#<_VM(?:AJ|IN)OR>", "this is no version of LinuxCNC",
+          "#1=#<_vmajor>", "#1=#<_vminor>", error="E211"),
+    _form("names that have no value", r"#<_[^>]*>",
+          "a name has a value once the program has assigned one", "#1=#<_none>", error="E211"),
     _form("`$I`", r"\$I\b", "a file is called by O<name> call", "$I A.TXT"),
     _form("`IF GOTO GOSUB RET PRINT INPUT WHILE`",
           r"\b(?:IF|GOTO|GOSUB|RET|PRINT|INPUT|WHILE)\b",
@@ -171,6 +167,5 @@ RS274NGC = Refusals((
           "X(1+2)", error="E105"),
     _form("`= <> > >= < <=`", r"[=<>]", "comparisons are EQ NE GT GE LT LE",
           *[f"#1=[1{sign}2]" for sign in ("=", "<>", ">", ">=", "<", "<=")], error="E107"),
-    _POLAR_WORDS,
     _ONE_SPINDLE,
 ))  # fmt: skip

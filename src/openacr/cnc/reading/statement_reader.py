@@ -37,7 +37,7 @@ class StatementReader(ExpressionReader):
         text = self.comment()
         kind, comma, rest = text.partition(",")
         kind = kind.strip().upper()
-        if comma and kind in ("MSG", "DEBUG", "PRINT"):
+        if comma and kind in ("MSG", "DEBUG", "PRINT", "LOG"):
             block.messages.append(Message(rest.strip(), kind != "MSG"))
 
     def statement(self, block: Block) -> bool:

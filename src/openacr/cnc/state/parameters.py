@@ -266,6 +266,9 @@ class Parameters:
         self.rest()
         return float(self._run.machine.read_bit(number(n)))
 
+    def set_waited(self, value: float) -> None:
+        """Show what a wait for an input found, where the dialect has a parameter for it."""
+
     # --- writing ----------------------------------------------------------------------
 
     def write(self, kind: str, n: float | str, value: float) -> None:

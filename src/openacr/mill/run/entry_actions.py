@@ -106,8 +106,15 @@ class EntryActions:
 
     @steps.register
     def _(self, entry: c.WaitBit) -> Steps:
-        card = self._io.machine.card
-        yield Until(entry.reason, lambda _sample: card.read_bit(entry.bit) == entry.is_on)
+        card, was_other = self._io.machine.card, not entry.is_edge
+
+        def is_met(_sample: "CardState") -> bool:
+            nonlocal was_other
+            is_so = card.read_bit(entry.bit) == entry.is_on
+            was_other |= not is_so
+            return is_so and was_other
+
+        yield Until(entry.reason, is_met, entry.limit_s)
 
     @steps.register
     def _(self, entry: c.Tool) -> Steps:

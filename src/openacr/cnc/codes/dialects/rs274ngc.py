@@ -1,6 +1,6 @@
 """The `rs274ngc` dialect: programs of other controls."""
 
-from openacr.cnc.codes.ngc import gcodes, mcodes, splines  # noqa: F401  fill the table
+from openacr.cnc.codes.ngc import contexts, gcodes, mcodes, splines  # noqa: F401  fill the table
 from openacr.cnc.codes.ngc.parameters import NgcParameters
 from openacr.cnc.codes.table import DIALECTS, Dialect, Step
 from openacr.cnc.codes.tables import RS274NGC
@@ -18,6 +18,7 @@ ORDER = (
     Step.COOLANT,
     Step.COOLANT_OFF,
     Step.SWITCHES,
+    Step.KEEP,
     Step.DWELL,
     Step.PLANE,
     Step.UNIT,

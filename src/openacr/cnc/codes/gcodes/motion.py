@@ -53,8 +53,7 @@ def motion(run: Run, b: BlockContext) -> Iterator[Entry] | None:
     if run.modal.cycle != NO_CYCLE:
         check_words(run, b, CYCLE_WORDS)
         return drill(run, b)
-    run.motions[run.modal.motion](run, b)
-    return None
+    return run.motions[run.modal.motion](run, b)
 
 
 def check_words(run: Run, b: BlockContext, allowed: str) -> None:

@@ -68,7 +68,7 @@ def no_motion(run: Run, b: BlockContext) -> None:
 
 
 @gcode(73, 74, 81, 82, 83, 84, 85, 86, 89, step=Step.MOTION, group=Group.MOTION,
-       words="RQPL", takes="RQPL", axes=Axes.MOVE,
+       words="RQPL", takes="RQPL", axes=Axes.MOVE, is_polar=True,
        limits=(Limit("L", 1, 9999, "E250", is_whole=True),))  # fmt: skip
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """A canned cycle; it ends at the higher of R and where it began (G98) or at R (G99)."""
@@ -120,16 +120,32 @@ def store_reference(run: Run, b: BlockContext) -> None:
             run.cells.write(REFERENCE_CELLS[int(b.number)][axis], value)
 
 
-@gcode(38.2, 38.3, 38.4, 38.5, step=Step.MOTION, axes=Axes.MOVE)
+PROBES = (38.2, 38.3, 38.4, 38.5)
+
+
+@gcode(*PROBES, step=Step.MOTION, group=Group.MOTION, axes=Axes.MOVE, is_polar=True)
 def probe(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Probe toward (.2 .3) or away (.4 .5); .2 and .4 have to trip."""
     no_open_curve(run, b)
+    motion.select(run, b)
+    yield from probe_again(run, b)
+
+
+def probe_again(run: Run, b: BlockContext) -> Iterator[Entry]:
+    """Probe as the G38 that is active does."""
+    motion.check_words(run, b, "")
     run.offset_path.refuse(b, "E243")
+    if not (b.plan.axes or b.plan.is_polar):
+        raise b.fault("E206", hint="axis words are needed")
     yield from run.sync(b.source)
-    yield from probed(run, b, is_away=b.number > 38.35)
-    is_needed = b.number in (38.2, 38.4)
+    code = run.modal.motion
+    yield from probed(run, b, is_away=code > 38.35)
+    is_needed = code in (38.2, 38.4)
     if is_needed and not run.cells.read(TRIPPED) and not run.options.collects_errors:
         raise b.fault("A36")
+
+
+motion.MOTIONS.update(dict.fromkeys(PROBES, probe_again))
 
 
 @gcode(41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Entry, Output, Pause, Stop, WaitBit
+from openacr.cnc.canonical import Entry, Output, Pause, SetCell, Stop, WaitBit
 from openacr.cnc.codes import mcodes as _acromill  # noqa: F401  fills the other table
 from openacr.cnc.codes.mcodes import stops
 from openacr.cnc.codes.table import Limit, Step
 from openacr.cnc.codes.tables import ACROMILL, RS274NGC
+from openacr.cnc.state.cells import TOOL_IN_SPINDLE
 from openacr.cnc.state.parameters import INPUTS_INVERTED, is_inverted
 
 if TYPE_CHECKING:
@@ -18,9 +20,11 @@ if TYPE_CHECKING:
 
 mcode = RS274NGC.mcode
 FIRST_OUTPUT = 32
-WAITS = {3: True, 4: False}  # L of M66: until on, until off
+# L of M66: the state to wait for, and whether it has to change to it.
+WAITS = {1: (True, True), 2: (False, True), 3: (True, False), 4: (False, False)}
 RS274NGC.include(ACROMILL, mcodes=(0, 1, 2, 3, 4, 5, 6, 7, 8, 9))
 _NUMBER = Limit("P", 0, 31, "E222", is_needed=True, is_whole=True)
+_WAIT = (_NUMBER, Limit("L", 0, 4, "E222", is_whole=True), Limit("Q", 0, 1e6, "E222"))
 
 mcode(30, step=Step.STOP)(stops.end)
 
@@ -60,14 +64,34 @@ def output(run: Run, b: BlockContext) -> None:
     run.tell(Output(b.source, FIRST_OUTPUT + b.whole("P"), b.number in (62, 64)))
 
 
-@mcode(66, step=Step.SWITCHES, takes="PLQ", words="PLQ", limits=(_NUMBER,), acts_dry=False)
-def wait_input(run: Run, b: BlockContext) -> None:
-    """Wait until input P is on (L3) or off (L4)."""
-    wanted = WAITS.get(b.whole("L"))
-    if wanted is not None:
-        n, state = b.whole("P"), "on" if wanted else "off"
+@mcode(61, step=Step.TOOL_CHANGE, takes="Q",
+       limits=(Limit("Q", 0, 999, "E222", is_needed=True, is_whole=True),))  # fmt: skip
+def set_tool(run: Run, b: BlockContext) -> None:
+    """Tool Q is in the spindle; nothing is changed."""
+    run.modal.tool_in_spindle = b.whole("Q")
+    if not run.options.is_dry:
+        run.tell(SetCell(b.source, TOOL_IN_SPINDLE, run.modal.tool_in_spindle))
+
+
+@mcode(66, step=Step.SWITCHES, takes="PLQ", words="PLQ", limits=_WAIT, acts_dry=False)
+def wait_input(run: Run, b: BlockContext) -> Iterator[Entry]:
+    """Input P into #5399; first wait until it goes on (L1) or off (L2), is on (L3) or off (L4).
+
+    Q is the longest wait in seconds, after which #5399 is -1.
+    """
+    n, kind = b.whole("P"), b.whole("L")
+    if kind in WAITS:
+        wanted, is_edge = WAITS[kind]
+        limit_s = b.get("Q", math.inf)
+        if limit_s == 0.0:
+            raise b.fault("E222", "Q", "Q0", "Q above 0, or L0")
+        reason = f"input {n} {'on' if wanted else 'off'}"
         is_on = wanted != is_inverted(run.cells, INPUTS_INVERTED, n)
-        run.tell(WaitBit(b.source, n, is_on, f"input {n} {state}"))
+        run.tell(WaitBit(b.source, n, is_on, reason, is_edge, limit_s))
+    yield from run.sync(b.source)
+    found = run.parameters.read_input(n)
+    is_late = kind in WAITS and found != WAITS[kind][0]
+    run.parameters.set_waited(-1.0 if is_late else found)
 
 
 @mcode(98, step=Step.STOP, takes="PL", words="PL")
@@ -80,4 +104,6 @@ def call(run: Run, b: BlockContext) -> Iterator[Entry]:
 @mcode(99, step=Step.STOP)
 def back(run: Run, b: BlockContext) -> None:
     """Return from an O-subroutine."""
+    if not run.flow.frames:
+        raise b.fault("E261", hint="M99 ends a subroutine; M30 ends a program")
     run.flow.go_back(b.plan.column(""))

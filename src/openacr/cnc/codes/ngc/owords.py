@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from openacr.cnc.codes.ngc.contexts import Context, restored
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.labels import Place
 from openacr.cnc.program.program import Node, OPlace, Program
@@ -71,11 +72,13 @@ class OWords:
         self._run = run
         self._left: dict[tuple[int, str], int] = {}  # passes left of REPEAT, by call and name
         self._depth = 0
+        self.context: Context | None = None  # the modal state this call keeps
 
     def reset(self) -> None:
         """A program starts: no loop is in progress."""
         self._left.clear()
         self._depth = 0
+        self.context = None
 
     def act(self, word: OWord, node: Node) -> Act:
         """A word as a function of its line."""
@@ -235,7 +238,11 @@ class OWords:
         kept, run.parameters.names = run.parameters.names, {}
         run.parameters.global_names[RETURNED] = 0.0
         self._depth += 1
+        outer, self.context = self.context, None
         yield from run.execution.call(Frame(Level.MACRO), behind, values[: LOCALS + 1])
+        context, self.context = self.context, outer
+        if context is not None and context.is_automatic and here is not None:
+            restored(run, context, here.source, column)
         self._left = {key: left for key, left in self._left.items() if key[0] < self._depth}
         self._depth -= 1
         run.parameters.names = kept

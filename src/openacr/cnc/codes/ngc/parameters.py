@@ -1,18 +1,27 @@
 """Numbered parameters of the rs274ngc dialect: volatile, but for those that show the state.
 
 #1 to #30 belong to the call, #31 to #5000 to the run; above stand results of probing,
-reference points, offsets and the position.
+reference points, offsets, the tool in the spindle and the position.
 """
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, cast
 
-from openacr.cnc.canonical import AXES
+from openacr.cnc.canonical import AXES, AXIS_LETTERS, ROTARY
+from openacr.cnc.codes.ngc.named import PREDEFINED
 from openacr.cnc.geometry.coordinates import TURN, system_base
 from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.state.cells import LAST_RADIUS, LENGTHS, RADII
+from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.parameters import SHOWN, Parameters, number
 from openacr.sysvar import tabs
+
+if TYPE_CHECKING:
+    from openacr.cnc.codes.run import Run
 
 FIRST_SYSTEM, SYSTEMS, SYSTEM_STEP = 5221, 9, 20
 ROTATION = 9  # of the parameters of a system: its rotation
@@ -36,6 +45,12 @@ CELLS = {
 for _n in range(SYSTEMS):
     CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, system_base(_n + 1))
     CELLS[FIRST_SYSTEM + SYSTEM_STEP * _n + ROTATION] = system_base(_n + 1) + TURN
+TOOL: dict[int, Callable[[Cells, int], float]] = {
+    5403: lambda cells, tool: cells.read(LENGTHS + tool),
+    5410: lambda cells, tool: 2.0 * cells.read(RADII + min(tool, LAST_RADIUS)),
+}  # of the tool in the spindle: length along Z and diameter
+WAITED = 5399  # what M66 found
+SHARED = re.compile(r"_(?:INI|HAL)\[")
 STATES = {5220: tabs.CELLS.work_system_in_use, 5400: tabs.CELLS.tool_in_spindle}
 
 
@@ -68,13 +83,37 @@ class NgcParameters(Parameters):
         if k in STATES:
             return SHOWN[STATES[k]](self._modal)
         if FIRST_POSITION <= k < FIRST_POSITION + AXES:
-            return self._run.path.shown(self._run.path.program[k - FIRST_POSITION])
+            value = self._run.path.program[k - FIRST_POSITION]
+            return value if AXIS_LETTERS[k - FIRST_POSITION] in ROTARY else self._shown(value)
+        if k in TOOL:
+            return self._run.path.shown(TOOL[k](self._cells, self._modal.tool_in_spindle))
         if not 1 <= k <= LAST:
             raise CodeError("E211", 0, f"#{k}")
         return self.own.get(k, 0.0)
 
+    def _shown(self, value: float) -> float:
+        """A length in active units."""
+        return self._run.path.shown(value)
+
+    def read_named(self, name: str) -> float:
+        """A named parameter, of the program or of its state."""
+        found = PREDEFINED.get(name)
+        if found is None or name in self.global_names:
+            return super().read_named(name)
+        return found.read(cast("Run", self._run))
+
+    def has_named(self, name: str) -> bool:
+        """Whether a named parameter exists."""
+        return name in PREDEFINED or super().has_named(name)
+
+    def set_waited(self, value: float) -> None:
+        """Show what M66 found in #5399."""
+        self.own[WAITED] = value
+
     def write(self, kind: str, n: float | str, value: float) -> None:
         """Set #n, or what the text of a cycle assigns."""
+        if isinstance(n, str) and (n in PREDEFINED or SHARED.match(n)):
+            raise CodeError("E212", 0, f"#<{n.lower()}>")
         if kind != "#" or isinstance(n, str):
             super().write(kind, n, value)
             return
