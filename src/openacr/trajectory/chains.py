@@ -1,0 +1,73 @@
+"""Chains: stretches of the path between stops and sharp corners.
+
+A corner of SHARP_DEG and more is passed by two chains that come to rest in it and overlap in time
+(overlap_cy.py); shallower ones are part of a smooth chain. Rapids are chains of their own, from rest to rest.
+"""
+
+import math
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from openacr.trajectory.segments import Direction, Piece, turn_rad
+
+SHARP_DEG = 25.0
+STRAIGHT_RAD = 1e-7  # turns below are rounding of the coordinates
+
+
+MOST_NEAR = 64
+
+
+@dataclass(slots=True)
+class Chain:
+    """Successive pieces that are passed without a stop."""
+
+    pieces: list[Piece] = field(default_factory=list)  # not taken by a course yet
+    head: list[Piece] = field(default_factory=list)  # the first ones
+    tail: deque[Piece] = field(default_factory=lambda: deque(maxlen=MOST_NEAR))  # the last ones
+    length_u: float = 0.0
+    is_closed: bool = False  # no piece follows
+    stops: bool = True  # comes to rest at its end; else overlaps the next chain
+    is_straight: bool = True  # one line at one feed, however many pieces it has
+
+    def add(self, piece: Piece) -> None:
+        """Append a piece."""
+        if self.tail:
+            last, new = self.tail[-1].segment, piece.segment
+            self.is_straight &= (
+                turn_after(self, piece) <= STRAIGHT_RAD
+                and last.feed_ups == new.feed_ups
+            )
+        self.is_straight &= piece.is_line
+        self.pieces.append(piece)
+        self.tail.append(piece)
+        if len(self.head) < MOST_NEAR:
+            self.head.append(piece)
+        self.length_u += piece.length_u
+
+    @property
+    def is_rapid(self) -> bool:
+        """Whether this is a rapid."""
+        return self.tail[-1].segment.is_rapid
+
+    def takes(self, piece: Piece) -> bool:
+        """Whether a piece can be passed into without a stop or an overlap."""
+        if not self.tail:
+            return True
+        if self.is_rapid or piece.segment.is_rapid:
+            return False
+        return turn_after(self, piece) < math.radians(SHARP_DEG)
+
+
+def turn_after(chain: Chain, piece: Piece) -> float:
+    """The turn from the end of a chain into a piece, rad."""
+    last = chain.tail[-1]
+    return turn_rad(last.tangent(last.length_u), piece.tangent(0.0))
+
+
+def corner_jerk(jerks: Sequence[float], before: Direction, after: Direction) -> float:
+    """The jerk Je that two overlapping ends may have in both directions together."""
+    return min(
+        limit / max(abs(a + b), abs(a), abs(b), 1e-12)
+        for limit, a, b in zip(jerks, before, after, strict=True)
+    )

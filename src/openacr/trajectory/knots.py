@@ -1,0 +1,103 @@
+"""Knots of the speed curve, and how it begins and ends at rest.
+
+At rest h = (ds/dt)^2 falls to 0 like s^(4/3), which no spline follows. So the first knot lies where the constant
+jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there on knots lie one step of time
+apart until they are one length apart.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from openacr.trajectory.setpoints import Reals
+
+FIRST = 4.0
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Distances in length and, near rest, in time between knots."""
+
+    length_u: float
+    time_s: float
+    jerk: float  # of a start from rest
+
+    def graded(self, most_u: float) -> list[float]:
+        """Distances from rest of the knots near it, at most `most_u`, the last gap a whole length."""
+        time = min(self.time_s, 0.05 * (most_u / self.jerk) ** (1 / 3))
+        distances: list[float] = []
+        n = FIRST
+        while True:
+            s = self.jerk * (n * time) ** 3 / 6.0
+            if s > most_u:
+                break
+            if distances and s - distances[-1] >= self.length_u:
+                break
+            distances.append(s)
+            n += 1.0
+        if not distances:
+            distances.append(self.jerk * (FIRST * time) ** 3 / 6.0)
+        while len(distances) > 1 and distances[-1] + 0.5 * self.length_u > most_u:
+            distances.pop()
+        return distances
+
+
+def rest_weights(weights: Reals, s: float, side: int) -> Reals:
+    """The three coefficients at a knot at the distance s from rest, relative to the free one.
+
+    With h = C s^(4/3): h' = 4h/(3s) and h'' = 4h/(9s^2); `side` is 1 after a start, -1 before an end.
+    """
+    wanted = np.array([1.0, side * 4.0 / (3.0 * s), 4.0 / (9.0 * s * s)])
+    a, b, c = (weights[n : n + 3] for n in (0, 3, 6))
+    inverse = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
+    found: Reals = inverse @ wanted
+    return found / found[2 if side > 0 else 0]
+
+
+def tie_start(weights: Reals, ratios: Reals) -> None:
+    """Rewrite the rows of the first two knots for the one free coefficient of a start from rest."""
+    rows = weights[:2].reshape(2, 3, 3)
+    free = rows[0] @ ratios
+    rows[0] = 0.0
+    rows[0, :, 2] = free
+    rows[1, :, 1] += rows[1, :, 0] * ratios[1]
+    rows[1, :, 0] = 0.0
+
+
+def tie_end(weights: Reals, ratios: Reals) -> None:
+    """Rewrite the rows of the last two knots for the one free coefficient of an end at rest."""
+    rows = weights[-2:].reshape(2, 3, 3)
+    free = rows[1] @ ratios
+    rows[1] = 0.0
+    rows[1, :, 0] = free
+    rows[0, :, 1] += rows[0, :, 2] * ratios[1]
+    rows[0, :, 2] = 0.0
+
+
+def rest_h(s: Reals, jerk: float) -> Reals:
+    """H at distances from rest after a start with a jerk."""
+    found: Reals = (6.0 * np.maximum(s, 0.0)) ** (4 / 3) * jerk ** (2 / 3) / 4.0
+    return found
+
+
+def stop_speed(length_u: float, jerk: float) -> float:
+    """The speed from which a stop with a jerk takes the length, half of it braking harder."""
+    return float(np.cbrt(length_u * length_u * jerk))
+
+
+def stop_rows(row: list[float], jerk: float, acceleration: float) -> list[float]:
+    """Three more rows of a time law: from a constant speed to rest."""
+    t, s, v, _ = row
+    peak = min(math.sqrt(v * jerk), acceleration)
+    rise, hold = peak / jerk, v / peak - peak / jerk
+    found: list[float] = []
+    a = 0.0
+    for time, j in ((rise, -jerk), (hold, 0.0), (rise, jerk)):
+        s += time * (v + time * (0.5 * a + time * j / 6.0))
+        v += time * (a + 0.5 * j * time)
+        a += j * time
+        t += time
+        found += [t, s, v, a]
+    found[-2:] = [0.0, 0.0]
+    return found

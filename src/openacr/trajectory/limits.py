@@ -1,0 +1,88 @@
+"""Limits of the axes, and what they leave along a direction."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from openacr.errors import OpenacrError
+
+UNLIMITED = 1e300
+
+
+class TrajectoryError(OpenacrError):
+    """A segment, limit or tolerance that no trajectory can be planned for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """Limits of speed, acceleration and jerk along one direction."""
+
+    speed: float
+    acceleration: float
+    jerk: float
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Highest velocity, acceleration and jerk of every axis, in units and seconds.
+
+    Without jerk limits the acceleration may step; on the grid of setpoints a step takes one period.
+    """
+
+    velocity_ups: tuple[float, ...]
+    acceleration_ups2: tuple[float, ...]
+    jerk_ups3: tuple[float, ...] | None = None
+
+    def __post_init__(self) -> None:
+        for name, unit, values in (
+            ("velocity", "units/s", self.velocity_ups),
+            ("acceleration", "units/s2", self.acceleration_ups2),
+            ("jerk", "units/s3", self.jerk_ups3),
+        ):
+            if values is None:
+                continue
+            if len(values) != len(self.velocity_ups):
+                raise TrajectoryError(
+                    f"{len(values)} limits of {name} for {len(self.velocity_ups)} axes"
+                )
+            for axis, value in enumerate(values):
+                if not 0.0 < value < UNLIMITED:
+                    raise TrajectoryError(
+                        f"limit of {name} of axis {axis} is {value} {unit} (above 0, finite)"
+                    )
+
+    @property
+    def axes(self) -> int:
+        """The number of axes."""
+        return len(self.velocity_ups)
+
+    def jerks(self, period_s: float) -> tuple[float, ...]:
+        """The jerk limits planned with: without limits one acceleration in two periods."""
+        if self.jerk_ups3 is not None:
+            return self.jerk_ups3
+        return tuple(0.5 * a / period_s for a in self.acceleration_ups2)
+
+    def checked(self) -> tuple[float, ...]:
+        """All limits as one row, velocities first; without jerk limits very large ones."""
+        jerk = self.jerk_ups3 or (UNLIMITED,) * self.axes
+        return (*self.velocity_ups, *self.acceleration_ups2, *jerk)
+
+    def along(self, direction: Sequence[float], feed_ups: float, period_s: float) -> Along:
+        """The limits along a direction (a unit vector) at a feed."""
+        return Along(
+            min(feed_ups, _least(self.velocity_ups, direction)),
+            _least(self.acceleration_ups2, direction),
+            _least(self.jerks(period_s), direction),
+        )
+
+
+def _least(limits: Sequence[float], direction: Sequence[float]) -> float:
+    """The largest multiple of a direction within the limits of all axes."""
+    return min(
+        (limit / abs(part) for limit, part in zip(limits, direction, strict=True) if part),
+        default=UNLIMITED,
+    )
+
+
+def most(limits: Sequence[float], direction: Sequence[float]) -> float:
+    """The largest multiple of any vector within the limits of all axes."""
+    return _least(limits, direction)

@@ -1,0 +1,299 @@
+"""The course of a smooth chain: its tube, and its speed window by window.
+
+Of the path that is known and smoothed, the first part is committed, the rest planned to a slow constant speed from which
+a stop takes a few samples: what is committed can always be brought to rest on known path. The next window starts from the
+plan left over, continued at that slow speed, which keeps all limits; from there every step of the
+solver keeps them, too (speed_cy.py).
+"""
+
+import math
+
+import numpy as np
+
+from openacr.compiled import pick
+from openacr.trajectory import course_cy, speed_rows_cy
+from openacr.trajectory.course import Course, Soft
+from openacr.trajectory.knots import Grid, rest_h, stop_rows, stop_speed
+from openacr.trajectory.limits import Limits, TrajectoryError
+from openacr.trajectory.segments import Piece
+from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.tube import AHEAD, STEP, Tube
+from openacr.trajectory.window import Curve, Rules, Window, flat
+
+_law = pick(speed_rows_cy.law_from_speed)
+
+JERK_SHARE, ACCELERATION_SHARE = 0.99, 0.99  # of the limits, for what happens between knots
+REST_SHARE = 0.95  # of the jerk near rest, where knots are sparse
+SLOW_JERK, SLOW_ACCELERATION = 0.35, 0.25  # shares at the slow speed ahead
+BOW_SHARE = 0.3  # of the tolerance at most, for the B-spline in time
+TUBE_SHARE = 0.96  # of the tolerance, for smoothing and the B-spline
+KNOT = 2.0  # samples between two knots
+RAMP = 12  # knots from one slow speed to the next
+MOST_TRIES = 40
+LOOK = 2.5  # braking distances ahead of what is committed
+BATCH = 0.5  # of that, committed at once
+
+
+class SmoothCourse(Course):
+    """A course that grows with its chain."""
+
+    __slots__ = ("_feeds", "_first", "_grid", "_kept", "_knots", "_last", "_level", "_limits",
+                 "_period_s", "_push", "_slow_h", "_soft", "_tolerances", "_tube", "_x", "lines", "look_u", "offsets",
+                 "steps")  # fmt: skip
+
+    def __init__(self, limits: Limits, period_s: float, first: Piece, soft: Soft | None) -> None:
+        super().__init__(first.start, first.start, course_cy.OPEN)
+        self._limits, self._period_s = limits, period_s
+        tolerance, feed = first.segment.tolerance_u, first.segment.feed_ups
+        along = limits.along(first.tangent(0.0), feed, period_s)
+        time_s = max(0.1 * (48.0 * tolerance / along.jerk) ** (1 / 3), 0.5 * period_s)
+        step = min(STEP * tolerance, 0.2 * time_s * along.speed)
+        knot_u = KNOT * step
+        bow = max(limits.acceleration_ups2) * period_s**2 / 6.0
+        share = TUBE_SHARE - min(BOW_SHARE, bow / tolerance)
+        self._tube = Tube(limits.axes, step, share)
+        self._first, self._last = soft, Soft(along.jerk, 0.0)
+        self._grid = Grid(knot_u, time_s, REST_SHARE * self._soft_jerk(soft, along.jerk))
+        self._kept = np.zeros((1, 4))
+        self._knots = np.empty(0)
+        self._x = np.empty(0)
+        self._push = self._soft = np.empty(0)  # shares of the limits that the rows use
+        self._slow_h = min(
+            stop_speed(4.0 * knot_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * knot_u
+        )
+        self._level = self._slow_h
+        self.look_u = LOOK * (
+            along.speed**2 / (2.0 * along.acceleration)
+            + along.speed * along.acceleration / (2.0 * along.jerk)
+        )
+        self.offsets: list[float] = []  # ends of the pieces
+        self.lines: list[int] = []
+        self._feeds: list[float] = []
+        self._tolerances: list[float] = []
+        self.steps = 0  # of the solver, all windows together
+
+    @staticmethod
+    def _soft_jerk(soft: Soft | None, jerk: float) -> float:
+        return jerk if soft is None else min(soft.jerk, jerk)
+
+    # --- input -------------------------------------------------------------------
+
+    def add(self, piece: Piece) -> None:
+        """Append a piece of the chain."""
+        self._tube.add(piece)
+        self.offsets.append(self._tube.known_u)
+        self.lines.append(piece.segment.line)
+        self._feeds.append(piece.segment.feed_ups)
+        self._tolerances.append(piece.segment.tolerance_u)
+
+    def close(self, last: Piece, soft: Soft | None) -> None:
+        """No piece follows; `soft`: the end overlaps another chain."""
+        length = self._tube.known_u
+        self._tube.length_u = length
+        axes = self._limits.axes
+        self.H[course_cy.H_LENGTH] = length
+        for k in range(axes):
+            self.H[course_cy.H_START + axes + k] = last.segment.end[k]
+        if soft is not None:
+            self._last = soft
+        else:
+            u = last.tangent(last.length_u)
+            self._last = Soft(self._limits.along(u, 1.0, self._period_s).jerk, 0.0)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the end of the chain is known."""
+        return math.isfinite(self._tube.length_u)
+
+    @property
+    def wants_u(self) -> float:
+        """The length of path that has to be known before the next window."""
+        begun = self._knots[2] if len(self._knots) else 0.0
+        return float(begun) + (
+            (1.0 + BATCH) * self.look_u
+            + (RAMP + 8) * self._grid.length_u
+            + AHEAD * self._tube.step
+        )
+
+    # --- one window --------------------------------------------------------------
+
+    def plan(self) -> None:
+        """Plan the next window, and commit what may be run."""
+        self._tube.grow()
+        points, origin = self._tube.control_points()
+        self.set_path(points, self._tube.step, origin)
+        curve = Curve(self.C, len(points), self._limits.axes, self._tube.step, origin)
+        is_first = not len(self._knots)
+        before = self._new_knots()
+        window = Window(
+            curve, self._knots, self._rules(self._knots, before),
+            0.0 if is_first else None, self._tube.length_u if self.is_closed else None,
+        )  # fmt: skip
+        level = self._slow_level(curve, before)
+        for _ in range(MOST_TRIES):
+            start = window.tie(self._guess(level, is_first))
+            if window.slack(start) > 0.0:
+                break
+            level *= 0.5
+        else:
+            raise TrajectoryError(f"line {self.lines[-1]}: no slow speed keeps the limits")
+        slowness = 1.0 / math.sqrt(float(window.cap.max()))
+        self._x, steps = window.fit(start, slowness)
+        self.steps += steps
+        self._level = level
+        self._commit(window, is_first)
+
+    def _new_knots(self) -> int:
+        """Append knots as far as the path is final; returns how many there were before."""
+        tube, step = self._tube, self._grid.length_u
+        before = len(self._knots)
+        found = list(self._knots)
+        end = tube.valid_u - (RAMP + 4) * step
+        last: list[float] = []
+        if self.is_closed:
+            most = 0.5 * tube.length_u
+            grid = Grid(step, self._grid.time_s,
+                        REST_SHARE * min(self._last.jerk, self._end_jerk()))  # fmt: skip
+            last = [tube.length_u - s for s in reversed(grid.graded(most))]
+            end = last[0]
+        if not found:
+            found = self._grid.graded(0.5 * min(end, tube.known_u))
+            gap = found[1] - found[0] if len(found) > 1 else 0.5 * found[0]
+            found = [found[0] - 0.66 * gap, found[0] - 0.33 * gap, *found]
+        while found[-1] + (1.5 if last else 1.0) * step <= end:
+            found.append(found[-1] + step)
+        if last:
+            if end - found[-1] < 0.3 * step:
+                last = last[1:] if len(last) > 1 else [tube.length_u - 0.5 * (tube.length_u - found[-1])]
+            gap = tube.length_u - last[-1]
+            found += [*last, last[-1] + 0.3 * gap, last[-1] + 0.6 * gap]
+        self._knots = np.array(found)
+        return before
+
+    def _end_jerk(self) -> float:
+        return self._last.jerk
+
+    def _rules(self, knots: Reals, before: int) -> Rules:
+        """What rules at knots; the first ones keep the shares of the last window."""
+        inner, ends = knots[2:-2], len(self.offsets) - 1
+        left = np.minimum(np.searchsorted(self.offsets, knots[1:-3]), ends)
+        right = np.minimum(np.searchsorted(self.offsets, knots[3:-1]), ends)
+        feeds, tolerances = np.array(self._feeds), np.array(self._tolerances)
+        feed = np.minimum(feeds[left], feeds[right])
+        tolerance = np.minimum(tolerances[left], tolerances[right])
+        for i in np.flatnonzero(right > left + 1):
+            feed[i] = feeds[left[i] : right[i] + 1].min()
+            tolerance[i] = tolerances[left[i] : right[i] + 1].min()
+        zone = self._zone(inner, self._first)
+        rest = 40.0 * self._grid.jerk * self._grid.time_s**3
+        soft = np.where(inner < rest, REST_SHARE, JERK_SHARE)
+        if self.is_closed:
+            to_end = self._tube.length_u - inner
+            zone *= self._zone(to_end, self._last)
+            soft[to_end < rest] = REST_SHARE
+        soft *= zone
+        push = np.full(len(inner), ACCELERATION_SHARE)
+        if before > 4:
+            push[: before - 4], soft[: before - 4] = self._push[: before - 4], self._soft[: before - 4]
+        self._push, self._soft = push, soft
+        limits = self._limits
+        jerks = limits.jerks(self._period_s)
+        ruling = np.array([*limits.velocity_ups, *limits.acceleration_ups2, *jerks])
+        bow = BOW_SHARE * 6.0 / self._period_s**2 * tolerance
+        return Rules(0.9999 * feed, push, soft, zone, bow, ruling)
+
+    def _zone(self, s: Reals, soft: Soft | None) -> Reals:
+        """The share of the jerk limits at distances from an end that overlaps."""
+        share = np.ones(len(s))
+        if soft is not None and soft.time_s > 0.0:
+            most = min(self._limits.jerks(self._period_s))
+            share[s < soft.jerk * soft.time_s**3 / 6.0] = min(1.0, soft.jerk / most)
+        return share
+
+    def _slow_level(self, curve: Curve, before: int) -> float:
+        """A constant h that keeps all limits from the new knots on."""
+        start = self._knots[max(before - RAMP, 2)]
+        s = np.arange(start, self._tube.valid_u, self._grid.length_u)
+        if not len(s):
+            return self._slow_h
+        knots = np.concatenate([s[:1] - 2e-6, s[:1] - 1e-6, s, s[-1:] + 1e-6, s[-1:] + 2e-6])
+        push, soft = self._push, self._soft
+        window = Window(curve, knots, self._rules(knots, 0), None, None)
+        self._push, self._soft = push, soft
+        bend = float(np.abs(window.rows[:, :, 0]).max())
+        jerk = float((np.abs(window.rows[:, :, 2]) + window.rows[:, :, 5]).max())
+        return min(
+            self._slow_h,
+            SLOW_ACCELERATION * float(window.cap.min()),
+            SLOW_ACCELERATION / max(bend, 1e-12),
+            (SLOW_JERK / max(jerk, 1e-12)) ** (2 / 3),
+        )
+
+    def _guess(self, level: float, is_first: bool) -> Reals:
+        """Coefficients that keep all limits: those planned before, then a slow constant speed."""
+        knots = self._knots
+        old = len(self._x)
+        x = np.empty(len(knots) - 2)
+        x[:old] = self._x
+        place = np.concatenate([knots[1:2], (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3.0,
+                                knots[-2:-1]])  # fmt: skip
+        new = place[old:]
+        wanted = np.full(len(new), level)
+        if old:
+            ramp = np.clip((new - place[old - 1]) / (RAMP * self._grid.length_u), 0.0, 1.0)
+            wanted = self._level + (level - self._level) * ramp * ramp * (3.0 - 2.0 * ramp)
+        inverse = wanted**-2.0
+        brake = 0.6 * min(self._limits.acceleration_ups2)
+        if is_first:
+            s = np.maximum(new, knots[2])
+            inverse += rest_h(s, 0.5 * self._grid.jerk * level / self._slow_h) ** -2.0
+            inverse += (brake * level / self._slow_h * s) ** -2.0
+        if self.is_closed:
+            to_end = self._tube.length_u - np.minimum(new, knots[-3])
+            inverse += rest_h(to_end, 0.5 * self._last.jerk * level / self._slow_h) ** -2.0
+            inverse += (brake * level / self._slow_h * to_end) ** -2.0
+        x[old:] = inverse**-0.5
+        return x
+
+    def _commit(self, window: Window, is_first: bool) -> None:
+        """Make the law of the window, and commit its first part."""
+        knots, kept, count, plain = self._knots, len(self._kept), window.count, window.plain
+        z = np.zeros((kept + count + 4, 4))
+        z[:kept] = self._kept
+        row = kept - 1
+        if is_first:
+            row = kept
+            w = plain[0].reshape(3, 3) @ self._x[:3]
+            v = math.sqrt(w[0])
+            z[row] = (3.0 * knots[2] / v, knots[2], v, 0.5 * w[1])
+        _law(memoryview(knots), memoryview(self._x), flat(plain), 0, count, flat(z), row)
+        last = row + count - 1
+        if self.is_closed:
+            length = self._tube.length_u
+            z[last + 1] = (z[last, 0] + 3.0 * (length - knots[-3]) / z[last, 2], length, 0.0, 0.0)
+            self.is_complete = True
+            self.set_law(flat(z), last + 2)
+            self.committed_s = float(z[last + 1, 0])
+            return
+        jerk = SLOW_JERK * min(self._limits.jerks(self._period_s))
+        brake = 0.5 * min(self._limits.acceleration_ups2)
+        z[last + 1 : last + 4] = np.reshape(stop_rows(list(z[last]), jerk, brake), (3, 4))
+        self.set_law(flat(z), last + 4)
+        done = int(np.searchsorted(knots[2:-2], knots[-3] - self.look_u)) - 1
+        done = max(done, 1)
+        self.committed_s = float(z[row + done, 0])
+        self._kept = z[: row + done + 1].copy()
+        self._knots, self._x = knots[done:].copy(), self._x[done:].copy()
+        self._push, self._soft = self._push[done:].copy(), self._soft[done:].copy()
+
+    def drop(self, time_s: float) -> None:
+        """Forget what lies before a time of the course."""
+        keep = int(np.searchsorted(self._kept[:, 0], time_s)) - 2
+        if keep > 0:
+            self._kept = self._kept[keep:].copy()
+            s = float(self._kept[0, 1])
+            self._tube.drop(s)
+            gone = int(np.searchsorted(self.offsets, s)) - 1
+            if gone > 0:
+                for each in (self.offsets, self.lines, self._feeds, self._tolerances):
+                    del each[:gone]

@@ -1,0 +1,139 @@
+"""The stream of setpoints: courses one after the other, added where they overlap.
+
+Of a course that is going to overlap the next one the last `held_s` seconds wait for that. At most two courses
+overlap at any time.
+"""
+
+import math
+from array import array
+from collections import deque
+from typing import Any
+
+import numpy as np
+
+from openacr.compiled import pick
+from openacr.trajectory import course_cy
+from openacr.trajectory.course import Course
+from openacr.trajectory.segments import Point
+from openacr.trajectory.setpoints import Reals, Setpoints, Whole
+
+_fill = pick(course_cy.course_fill)
+_add = pick(course_cy.course_add)
+SAME = 1e-12  # of a period: rounding of a grid time
+
+
+class Member:
+    """A course in the stream: where its path begins, and which line its segments come from."""
+
+    __slots__ = ("base_u", "course", "held_s", "lines", "offsets")
+
+    def __init__(
+        self, course: Course, base_u: float, offsets: list[float], lines: list[int]
+    ) -> None:
+        self.course, self.base_u, self.offsets, self.lines = course, base_u, offsets, lines
+        self.held_s = 0.0
+
+
+class Stream:
+    """Control points at whole multiples of the period, from the courses that are known."""
+
+    def __init__(self, start: Point, period_s: float) -> None:
+        self.period_s = period_s
+        self._start = np.array(start)
+        self._axes = len(start)
+        self._members: deque[Member] = deque()
+        self._next = 0
+        self._room = memoryview(array("d", [0.0] * (2 * self._axes)))
+        self._line, self._path_u = 0, 0.0
+
+    @property
+    def last(self) -> Member | None:
+        """The last course that was added."""
+        return self._members[-1] if self._members else None
+
+    @property
+    def next_s(self) -> float:
+        """The time of the next control point."""
+        return self._next * self.period_s
+
+    def add(self, member: Member) -> None:
+        """Append a course whose beginning in the stream is known."""
+        self._members.append(member)
+
+    def ready_s(self) -> float:
+        """The time up to which control points are final."""
+        if not self._members:
+            return 0.0
+        last = self._members[-1]
+        course = last.course
+        if course.is_complete:
+            return course.end_s - last.held_s
+        return course.begin_s + course.committed_s
+
+    def ready(self) -> int:
+        """The count of control points that are final and not taken; rest takes one more each side."""
+        if not self._members:
+            return 0
+        last = self._members[-1]
+        if last.course.is_complete and not last.held_s:
+            final = math.ceil(last.course.end_s / self.period_s - SAME) + 2
+        else:
+            final = math.floor(self.ready_s() / self.period_s) + 1
+        return max(0, final - self._next)
+
+    def take(self, most: int) -> Setpoints | None:
+        """Remove and return at most `most` final control points."""
+        count = min(most, self.ready())
+        if count <= 0:
+            return None
+        points, lines, path_u = self._sums(self._next, count)
+        first = self._next
+        self._next += count
+        while len(self._members) > 1 and self._members[0].course.end_s <= self.next_s:
+            self._members.popleft()
+        rest, rest_lines, rest_path = self._rest()
+        return Setpoints(
+            first, self.period_s, points, lines, path_u, rest,
+            int(rest_lines[-1]), float(rest_path[-1]),
+        )  # fmt: skip
+
+    def _rest(self) -> tuple[Reals, Whole, Reals]:
+        """The points from the next one on to rest, where no other course follows."""
+        end_s = self._members[-1].course.end_s
+        count = math.ceil(end_s / self.period_s - SAME) + 3 - self._next
+        return self._sums(self._next, max(count, 3))
+
+    def _sums(self, first: int, count: int) -> tuple[Reals, Whole, Reals]:
+        """Control points, lines and distances of `count` grid times from `first` on."""
+        times = (first + np.arange(count)) * self.period_s
+        points = np.empty((count, self._axes))
+        path_u = np.zeros(count)
+        lines = np.zeros(count, dtype=np.int64)
+        writing = -1  # rows from here on are those of the course before
+        for member, after in zip(self._members, [*list(self._members)[1:], None], strict=True):
+            course = member.course
+            begun = int(np.searchsorted(times, course.begin_s))
+            stop = count
+            if after is not None:
+                stop = int(np.searchsorted(times, course.end_s))
+            row = max(writing, 0)
+            if writing > begun:
+                self._call(_add, course, times, begun, writing, points, path_u)
+            if stop > row:
+                self._call(_fill, course, times, row, stop, points, path_u)
+                place = np.searchsorted(member.offsets, path_u[row:stop])
+                lines[row:stop] = np.array(member.lines)[np.minimum(place, len(member.lines) - 1)]
+                path_u[row:stop] += member.base_u
+            writing = stop
+        return points, lines, path_u
+
+    def _call(
+        self, function: Any, course: Course, times: Reals, row: int, stop: int,
+        points: Reals, path_u: Reals,
+    ) -> None:  # fmt: skip
+        """Evaluate a course at the grid times of some rows."""
+        room = (self._room,) if function is _add else ()
+        function(
+            course.H, course.C, course.Z, float(times[row]) - course.begin_s, self.period_s,
+            stop - row, memoryview(points[row:stop].reshape(-1)), memoryview(path_u[row:stop]), *room,
+        )  # fmt: skip

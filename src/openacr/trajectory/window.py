@@ -1,0 +1,187 @@
+"""One window of a time law: its knots, the rows of all limits, and their solution (speed_cy.py)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from openacr.compiled import pick
+from openacr.trajectory import cells_cy, speed_cy, speed_rows_cy
+from openacr.trajectory.knots import rest_weights, tie_end, tie_start
+from openacr.trajectory.setpoints import Reals
+from openacr.views import F64
+
+_weights = pick(speed_cy.speed_weights)
+_values = pick(speed_cy.speed_values)
+_solve = pick(speed_cy.speed_solve)
+_worst = pick(speed_cy.speed_worst)
+_rows = pick(speed_rows_cy.speed_rows)
+_excess = pick(cells_cy.cells_excess)
+
+FINE = 2e-4  # of the largest gap: about 0.2 % of the time
+STEPS = 120
+PASSES = 6
+BLENDS = (1.0, 0.95, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1)
+HARDEST = 0.9995  # mean of a cell relative to the limits
+EASED = 0.985  # what is aimed at in a cell that was above
+MARGIN = 0.003  # smallest slack to start from
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """Control points of a path, as compiled functions take them."""
+
+    points: F64
+    count: int
+    axes: int
+    step: float
+    origin: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What rules at every knot: feed, shares of the limits, highest normal acceleration.
+
+    `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the share of the
+    jerk that a cell may use. `limits` are velocities, accelerations and jerks of the axes.
+    """
+
+    feed: Reals
+    push: Reals
+    soft: Reals
+    zone: Reals
+    bow: Reals
+    limits: Reals
+
+
+class Window:
+    """Knots (with two more on each side) and all that depends on them alone."""
+
+    def __init__(
+        self, curve: Curve, knots: Reals, rules: Rules, start_u: float | None, end_u: float | None
+    ) -> None:
+        """`start_u`, `end_u`: where the path begins and ends at rest; None where it goes on."""
+        self.curve, self.knots, self.rules = curve, knots, rules
+        self.count = count = len(knots) - 4
+        self.plain = np.empty((count, 9))
+        _weights(memoryview(knots), count, flat(self.plain))
+        self.weights = self.plain.copy()
+        self._start = self._end = None
+        gaps = np.diff(knots[2:-2])
+        self._lengths = np.zeros(count)
+        self._lengths[:-1] += 0.5 * gaps
+        self._lengths[1:] += 0.5 * gaps
+        self.first, self.head, self.stop, self.tail = 1, 3, count - 1, count - 1
+        if start_u is not None:
+            self._start = rest_weights(self.plain[0], knots[2] - start_u, 1)
+            tie_start(self.weights, self._start)
+            self._lengths[0] += 3.0 * (knots[2] - start_u)
+            self.first, self.head = 0, 2
+        if end_u is not None:
+            self._end = rest_weights(self.plain[-1], end_u - knots[-3], -1)
+            tie_end(self.weights, self._end)
+            self._lengths[-1] += 3.0 * (end_u - knots[-3])
+            self.stop = self.tail = count
+        self._values = np.zeros((count, speed_cy.VALUES))
+        self.set_rows()
+
+    def set_rows(self) -> None:
+        """Compute the rows of the limits for the present shares."""
+        curve, rules = self.curve, self.rules
+        self.rows, self.cap = np.empty((self.count, curve.axes, speed_cy.AXIS_ROWS)), np.empty(self.count)
+        _rows(curve.points, curve.count, curve.axes, curve.step, curve.origin,
+              memoryview(self.knots), 0, self.count, memoryview(rules.feed),
+              memoryview(rules.push), memoryview(rules.soft), memoryview(rules.bow),
+              memoryview(rules.limits), memoryview(np.empty(4 * curve.axes)),
+              flat(self.rows), memoryview(self.cap))  # fmt: skip
+
+    def tie(self, x: Reals) -> Reals:
+        """Set the coefficients that follow from the free one at a start or end at rest."""
+        if self._start is not None:
+            x[:2] = self._start[:2] * x[2]
+        if self._end is not None:
+            x[-2:] = self._end[1:] * x[-3]
+        return x
+
+    def slack(self, x: Reals) -> float:
+        """The smallest slack of a row, relative to its limit; below 0 where one is broken."""
+        return _worst(memoryview(x), flat(self.weights), flat(self.rows), memoryview(self.cap),
+                      self.first, self.stop, self.curve.axes, flat(self._values))  # fmt: skip
+
+    def solve(self, x: Reals, kappa: float, least: float) -> int:
+        """Improve coefficients that keep all limits; the number of steps."""
+        axes, count = self.curve.axes, self.count
+        rows = count * (1 + 4 * axes)
+        steps = _solve(
+            memoryview(x), flat(self.weights), flat(self.rows), memoryview(self.cap),
+            memoryview(self._lengths), self.first, self.stop, self.head, self.tail, axes,
+            kappa, least, STEPS, flat(self._values), memoryview(np.empty(rows)),
+            memoryview(np.empty(rows)), memoryview(np.zeros(3 * count + 6)),
+            memoryview(np.zeros(count + 2)), memoryview(np.zeros(2)),
+        )  # fmt: skip
+        self.tie(x)
+        return steps
+
+    def excess(self, x: Reals) -> tuple[Reals, Reals]:
+        """Mean accelerations and jerks of the cells, relative to the limits."""
+        curve, rules, count = self.curve, self.rules, self.count
+        _values(memoryview(x), flat(self.plain), 0, count, flat(self._values), 0)
+        push, jerk = np.zeros(count), np.zeros(count)
+        _excess(curve.points, curve.count, curve.axes, curve.step, curve.origin,
+                memoryview(self.knots), 0, count - 1, memoryview(np.ones(count)),
+                memoryview(rules.zone), memoryview(rules.limits), flat(self._values),
+                memoryview(np.empty(3 * curve.axes)), memoryview(np.empty(3 * curve.axes)),
+                memoryview(push), memoryview(jerk))  # fmt: skip
+        return push, jerk
+
+    def fit(self, start: Reals, slowness: float) -> tuple[Reals, int]:
+        """The fastest coefficients, from a start that keeps all limits; `slowness` is 1/feed.
+
+        Where the mean of a cell is above a limit, the rows of its two knots are tightened, but never so
+        far that the start would break them. Returns the number of steps, too.
+        """
+        x = start.copy()
+        steps = self.solve(x, slowness, FINE * slowness)
+        for n in range(PASSES):
+            push, jerk = self.excess(x)
+            if max(push.max(), jerk.max()) <= HARDEST:
+                return x, steps
+            self._tighten(start, push, jerk)
+            x = self._between(start, x)
+            steps += self.solve(x, 0.1 * slowness, FINE * slowness)
+        for share in BLENDS:
+            found: Reals = self.tie(start + share * (x - start))
+            if self.slack(found) > 0.0 and max(e.max() for e in self.excess(found)) <= HARDEST:
+                return found, steps
+        return start, steps
+
+    def _tighten(self, start: Reals, push: Reals, jerk: Reals) -> None:
+        """Lower the shares at the knots of cells above a limit."""
+        used = self._used(start)
+        for share, over, least in zip((self.rules.push, self.rules.soft), (push, jerk), used, strict=True):
+            cell = np.where(over > HARDEST, EASED / np.maximum(over, HARDEST), 1.0)
+            knot = cell.copy()
+            knot[1:] = np.minimum(knot[1:], cell[:-1])
+            share *= np.maximum(knot, np.minimum(1.02 * least, 1.0))
+        self.set_rows()
+
+    def _used(self, x: Reals) -> tuple[Reals, Reals]:
+        """The parts of the rows of acceleration and jerk that are used at every knot."""
+        self.slack(x)
+        h = self._values[:, None, :3]
+        push = np.abs(self.rows[:, :, 0] * h[:, :, 0] + self.rows[:, :, 1] * h[:, :, 1])
+        jerk = np.abs((self.rows[:, :, 2:5] * h).sum(axis=2)) + self.rows[:, :, 5] * h[:, :, 0]
+        jerk *= np.sqrt(np.abs(h[:, :, 0]))
+        return push.max(axis=1), jerk.max(axis=1)
+
+    def _between(self, start: Reals, x: Reals) -> Reals:
+        """The furthest of some points from the start towards x that keep all rows."""
+        for share in BLENDS[1:]:
+            found: Reals = self.tie(start + share * (x - start))
+            if self.slack(found) > MARGIN:
+                return found
+        return start.copy()
+
+
+def flat(values: Reals) -> F64:
+    """The numbers of an array as compiled functions take them."""
+    return memoryview(values.reshape(-1))
