@@ -1,4 +1,4 @@
-"""Trajectories of paths with a tolerance, limited in jerk: geometry and time law, no card, no clock."""
+"""Trajectories planned on the host: limited in jerk, within a tolerance of the programmed path."""
 
 from openacr.trajectory.limits import Limits, TrajectoryError
 from openacr.trajectory.planner import TrajectoryPlanner

@@ -1,11 +1,11 @@
 """What happens between knots: mean acceleration and jerk of every cell.
 
-Rows keep the limits at knots only. Setpoints are some milliseconds apart, and their differences are means over
-several of them; so the mean over a cell is what has to be within the limits.
+Rows keep the limits at knots only. Setpoints are some milliseconds apart, and their differences
+are means over several of them; so the mean over a cell is what has to be within the limits.
 """
 
 from openacr.cmath import fabs, sqrt
-from openacr.trajectory.speed_cy import VALUES
+from openacr.trajectory.speed_curve_cy import VALUES
 from openacr.trajectory.speed_rows_cy import speed_hermite
 from openacr.trajectory.spline_cy import spline_slopes
 from openacr.views import F64
@@ -25,13 +25,29 @@ def boole_weight(n: int) -> float:
 
 
 def cells_excess(
-    C: F64, points: int, axes: int, step: float, origin: float, at: F64, first: int, stop: int,
-    push: F64, soft: F64, limits: F64, H: F64, Q: F64, N: F64, pushes: F64, jerks: F64,
+    C: F64,
+    points: int,
+    axes: int,
+    step: float,
+    origin: float,
+    at: F64,
+    first: int,
+    stop: int,
+    push: F64,
+    soft: F64,
+    limits: F64,
+    H: F64,
+    Q: F64,
+    N: F64,
+    pushes: F64,
+    jerks: F64,
 ) -> None:
     """Write the mean acceleration and jerk of the cells first ... stop-1, relative to the limits.
 
-    The largest of all axes count. H are h, h' and h'' at the knots (speed_cy.py), `push` and `soft` the
-    shares of the limits at knots, of which the larger one counts; Q and N are room for axes*3 numbers.
+    The largest of all axes count. H are h, h' and h'' at the knots (speed_curve_cy.py), `push`
+    and `soft` the
+    shares of the limits at knots, of which the larger one counts; Q and N are room for axes*3
+    numbers.
     """
     for i in range(first, stop):
         v: int = VALUES * i

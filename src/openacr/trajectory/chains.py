@@ -1,7 +1,8 @@
-"""Chains: stretches of the path between stops and sharp corners.
+"""Chains: sections of the path between stops and sharp corners.
 
 A corner of SHARP_DEG and more is passed by two chains that come to rest in it and overlap in time
-(overlap_cy.py); shallower ones are part of a smooth chain. Rapids are chains of their own, from rest to rest.
+(overlap_cy.py); shallower ones are part of a smooth chain. Rapids are chains of their own, from
+rest to rest.
 """
 
 import math
@@ -35,8 +36,7 @@ class Chain:
         if self.tail:
             last, new = self.tail[-1].segment, piece.segment
             self.is_straight &= (
-                turn_after(self, piece) <= STRAIGHT_RAD
-                and last.feed_ups == new.feed_ups
+                turn_after(self, piece) <= STRAIGHT_RAD and last.feed_ups == new.feed_ups
             )
         self.is_straight &= piece.is_line
         self.pieces.append(piece)

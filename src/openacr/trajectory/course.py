@@ -1,6 +1,5 @@
 """Courses: a chain with its path and time law, ready to be evaluated (course_cy.py)."""
 
-from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import course_cy, scurve_cy
+from openacr.trajectory.arrays import flat, room
 from openacr.trajectory.limits import Along
 from openacr.trajectory.segments import Point
 from openacr.trajectory.setpoints import Reals
@@ -31,7 +31,7 @@ class Course:
 
     def __init__(self, start: Point, end: Point, length_u: float) -> None:
         axes = len(start)
-        self.H = memoryview(array("d", [0.0] * (course_cy.H_START + 2 * axes)))
+        self.H = room(course_cy.H_START + 2 * axes)
         self.H[course_cy.H_AXES] = axes
         self.H[course_cy.H_LENGTH] = length_u
         for k in range(axes):
@@ -44,7 +44,7 @@ class Course:
 
     def set_path(self, points: Reals, step: float, origin: float) -> None:
         """Take control points of the path."""
-        self.C = memoryview(np.ascontiguousarray(points).reshape(-1))
+        self.C = flat(np.ascontiguousarray(points).reshape(-1))
         self.H[course_cy.H_POINTS] = len(points)
         self.H[course_cy.H_STEP] = step
         self.H[course_cy.H_ORIGIN] = origin
@@ -76,15 +76,14 @@ def straight_course(
     """The course of a straight line from rest to rest."""
     course = Course(start, end, length_u)
     one, other = np.array(start), np.array(end)
-    step = (other - one)
+    step = other - one
     course.set_path(np.stack([one - step, one, other, other + step]), length_u, 0.0)
-    rows = memoryview(array("d", [0.0] * (4 * scurve_cy.MOST_ROWS)))
-    room = memoryview(array("d", [0.0] * (2 * scurve_cy.R_SIZE)))
-    (first, last) = softs
+    rows = room(4 * scurve_cy.MOST_ROWS)
+    first, last = softs
     count = _rest_to_rest(
         length_u, along.speed, along.acceleration, along.jerk,
         min(first.jerk, along.jerk), first.time_s, min(last.jerk, along.jerk), last.time_s,
-        room, rows,
+        room(2 * scurve_cy.R_SIZE), rows,
     )  # fmt: skip
     course.set_law(rows, count)
     course.committed_s = course.duration_s

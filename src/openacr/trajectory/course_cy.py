@@ -1,7 +1,7 @@
 """A course: the path of one chain of moves with its time law, evaluated at any time.
 
-Three tables: `C` control points of the path (spline_cy.py), `Z` rows of the time law (law_cy.py), and
-the head `H`, which says how they are to be read.
+Three tables: `C` control points of the path (spline_cy.py), `Z` rows of the time law
+(law_cy.py), and the head `H`, which says how they are to be read.
 """
 
 from openacr.trajectory.law_cy import ROW, T_ROW, law_distance

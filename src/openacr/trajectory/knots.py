@@ -1,8 +1,9 @@
 """Knots of the speed curve, and how it begins and ends at rest.
 
-At rest h = (ds/dt)^2 falls to 0 like s^(4/3), which no spline follows. So the first knot lies where the constant
-jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there on knots lie one step of time
-apart until they are one length apart.
+At rest h = (ds/dt)^2 falls to 0 like s^(4/3), which no spline follows. So the first knot lies
+where the constant
+jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there on knots lie one
+step of time apart until they are one length apart.
 """
 
 import math
@@ -24,7 +25,7 @@ class Grid:
     jerk: float  # of a start from rest
 
     def graded(self, most_u: float) -> list[float]:
-        """Distances from rest of the knots near it, at most `most_u`, the last gap a whole length."""
+        """Distances from rest of the knots near it, `most_u` at most; the last gap is a length."""
         time = min(self.time_s, 0.05 * (most_u / self.jerk) ** (1 / 3))
         distances: list[float] = []
         n = FIRST
@@ -43,16 +44,37 @@ class Grid:
         return distances
 
 
+def extended(
+    knots: list[float], grid: Grid, end_u: float, last: list[float], length_u: float
+) -> list[float]:
+    """Knots with two more on each side, continued to `end_u`, or by the last ones before rest."""
+    found, step = list(knots), grid.length_u
+    if not found:
+        graded = grid.graded(0.5 * min(end_u, length_u))
+        gap = graded[1] - graded[0] if len(graded) > 1 else 0.5 * graded[0]
+        found = [graded[0] - 0.66 * gap, graded[0] - 0.33 * gap, *graded]
+    while found[-1] + (1.5 if last else 1.0) * step <= end_u:
+        found.append(found[-1] + step)
+    if not last:
+        return found
+    if end_u - found[-1] < 0.3 * step:
+        last = last[1:] or [0.5 * (found[-1] + length_u)]
+    gap = length_u - last[-1]
+    return [*found, *last, last[-1] + 0.3 * gap, last[-1] + 0.6 * gap]
+
+
 def rest_weights(weights: Reals, s: float, side: int) -> Reals:
     """The three coefficients at a knot at the distance s from rest, relative to the free one.
 
-    With h = C s^(4/3): h' = 4h/(3s) and h'' = 4h/(9s^2); `side` is 1 after a start, -1 before an end.
+    With h = C s^(4/3): h' = 4h/(3s) and h'' = 4h/(9s^2); `side` is 1 after a start, -1 before an
+    end.
     """
-    wanted = np.array([1.0, side * 4.0 / (3.0 * s), 4.0 / (9.0 * s * s)])
+    wanted: Reals = np.array([1.0, side * 4.0 / (3.0 * s), 4.0 / (9.0 * s * s)])
     a, b, c = (weights[n : n + 3] for n in (0, 3, 6))
     inverse = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
     found: Reals = inverse @ wanted
-    return found / found[2 if side > 0 else 0]
+    ratios: Reals = found / found[2 if side > 0 else 0]
+    return ratios
 
 
 def tie_start(weights: Reals, ratios: Reals) -> None:

@@ -1,7 +1,7 @@
 """A time law: the distance s along a path as a function of time.
 
 It is a table of rows (t, s, v, a) in `Z`. Between two rows s is the polynomial of fifth degree
-that has their distances, speeds and accelerations; for a stretch of constant jerk that is the exact
+that has their distances, speeds and accelerations; for a section of constant jerk that is the exact
 cubic.
 """
 

@@ -1,6 +1,7 @@
 """Two courses overlapped in time at a sharp corner.
 
-Each comes to rest at the corner on its own path; the second one starts `tau` before the first has ended,
+Each comes to rest at the corner on its own path; the second one starts `tau` before the first
+has ended,
 and their displacements are added. Near the corner, with both in the phase of the jerk Je,
 
     velocity = f u1 + g u2,   f = Je (tau/2 - t)^2/2,   g = Je (tau/2 + t)^2/2,   |t| <= tau/2
@@ -10,8 +11,8 @@ so that the jerk is Je (u1 + u2) and the tool passes the corner at the distance
     d = |u2 - u1| Je tau^3 / 48
 
 Setpoints are control points of a B-spline in time with the knots D apart (setpoints.py), which adds
-D^2/6 of the acceleration. The longest tau that keeps the tolerance and every limit is found by trying, with
-the sums of both courses on the grid on which they are sent.
+D^2/6 of the acceleration. The longest tau that keeps the tolerance and every limit is found by
+trying, with the sums of both courses on the grid on which they are sent.
 """
 
 from openacr.cmath import fabs, floor, sqrt
@@ -71,9 +72,7 @@ def points_are_near(
             Q[k] = Q[axes + k]
             if i & 1:
                 Q[axes + k] = (
-                    X[o + k]
-                    + 23.0 * (X[o + axes + k] + X[o + 2 * axes + k])
-                    + X[o + 3 * axes + k]
+                    X[o + k] + 23.0 * (X[o + axes + k] + X[o + 2 * axes + k]) + X[o + 3 * axes + k]
                 ) / 48.0
             else:
                 Q[axes + k] = (X[o + k] + 4.0 * X[o + axes + k] + X[o + 2 * axes + k]) / 6.0
@@ -92,8 +91,18 @@ def points_are_near(
 
 
 def overlap_fits(
-    H: F64, C: F64, Z: F64, HN: F64, CN: F64, ZN: F64, N: F64, lines: int, P: F64, tau: float,
-    X: F64, Q: F64,
+    H: F64,
+    C: F64,
+    Z: F64,
+    HN: F64,
+    CN: F64,
+    ZN: F64,
+    N: F64,
+    lines: int,
+    P: F64,
+    tau: float,
+    X: F64,
+    Q: F64,
 ) -> int:
     """Whether two courses may overlap by tau; the examined sums are left in X."""
     axes: int = int(H[H_AXES])

@@ -1,7 +1,9 @@
 """Lines, arcs and helices as rows of numbers, and points on them.
 
-A row of `E` holds length, axes of the circle (or -1), centre, radii at both ends, angle of the start, sweep,
-tolerance, feed, and the start and end points. Distances below 0 and above the length continue the curve.
+A row of `E` holds length, axes of the circle (or -1), centre, radii at both ends, angle of the
+start, sweep,
+tolerance, feed, and the start and end points. Distances below 0 and above the length continue
+the curve.
 """
 
 from openacr.cmath import cos, sin, sqrt
@@ -62,12 +64,22 @@ def tube_narrow(R: F64, i: int, cut: float) -> None:
 
 
 def pieces_sample(
-    E: F64, pieces: int, axes: int, origin: float, first: int, count: int, step: float,
-    share: float, X: F64, R: F64, G: F64,
+    E: F64,
+    pieces: int,
+    axes: int,
+    origin: float,
+    first: int,
+    count: int,
+    step: float,
+    share: float,
+    X: F64,
+    R: F64,
+    G: F64,
 ) -> int:
     """Sample a chain at the distances first*step, (first+1)*step ... from its start.
 
-    The first piece begins at `origin`. Writes points to X, the radius of the tube to R (a share of the tolerance), and to G the number of the
+    The first piece begins at `origin`. Writes points to X, the radius of the tube to R (a share
+    of the tolerance), and to G the number of the
     piece of an arc plus 1, 0 on lines. Returns the number of the piece of the last sample.
     """
     size: int = E_POINTS + 2 * axes

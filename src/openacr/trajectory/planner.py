@@ -1,27 +1,30 @@
 """The planner: segments in, setpoints out.
 
-    segments -> chains (chains.py) -> courses: path and time law -> overlaps -> setpoints (stream.py)
+    segments -> chains (chains.py) -> courses: path and time law -> overlaps -> setpoints
+    (stream.py)
 
-It plans what it may: a chain of one line once the chain is closed, a curved one window by window. Nothing
-is given out that could not be brought to rest by what is known.
+It plans what it may: a chain of one line once the chain is closed, a curved one window by
+window. Nothing is given out that could not be brought to rest by what is known.
 """
 
 import math
-from array import array
 from collections import deque
+from dataclasses import replace
 from itertools import accumulate
 
 from openacr.compiled import pick
 from openacr.trajectory import overlap_cy
+from openacr.trajectory.arrays import numbers, room
 from openacr.trajectory.chains import Chain, corner_jerk
 from openacr.trajectory.course import Course, Soft, straight_course
 from openacr.trajectory.limits import Limits, TrajectoryError, most
 from openacr.trajectory.segments import Piece, Point, Segment
 from openacr.trajectory.setpoints import Setpoints
-from openacr.trajectory.smooth_course import SmoothCourse
+from openacr.trajectory.smooth_course import SmoothCourse, look_ahead
 from openacr.trajectory.stream import Member, Stream
 
 PERIOD_S = 0.003
+NEARLY = 0.999  # of the jerk on straight lines: what rounding may take
 MOST_POINTS = 1024  # of one take
 NEAR = 30.0  # tolerances around a corner within which the deviation of an overlap is examined
 _overlap_time = pick(overlap_cy.overlap_time)
@@ -73,7 +76,7 @@ class TrajectoryPlanner:
         return self._stream.take(MOST_POINTS)
 
     def _plan_more(self) -> bool:
-        """Plan one more stretch; False where more segments are needed."""
+        """Plan one more section; False where more segments are needed."""
         if not self._chains:
             return False
         chain = self._chains[0]
@@ -87,9 +90,11 @@ class TrajectoryPlanner:
                 self._begin(chain, self._straight(chain, after))
                 self._finish(chain, after)
                 return True
+            if not chain.is_closed and chain.length_u < self._look_u(chain.pieces[0]):
+                return False
             before = self._before()
             soft = None if before is None else self._soft(before, chain)
-            self._growing = SmoothCourse(self.limits, self.period_s, chain.pieces[0], soft)
+            self._growing = SmoothCourse(self.limits, self.period_s, chain.pieces, soft)
             self._is_new = True
         return self._grow(chain, after, self._growing)
 
@@ -114,6 +119,11 @@ class TrajectoryPlanner:
             self._finish(chain, after)
         return True
 
+    def _look_u(self, piece: Piece) -> float:
+        """The length of path that is to be known when a smooth chain begins."""
+        feed = piece.segment.feed_ups
+        return look_ahead(self.limits.along(piece.tangent(0.0), feed, self.period_s))
+
     def _before(self) -> Chain | None:
         """The chain that the next one overlaps."""
         return self._last if self._last is not None and not self._last.stops else None
@@ -122,14 +132,12 @@ class TrajectoryPlanner:
         """Append a course to the stream."""
         last = self._stream.last
         before = self._before()
-        if last is None:
-            course.begin_s = 0.0
-        elif before is not None:
+        if last is not None and before is not None:
             course.lead_s = self._overlap(before, last.course, chain, course)
             course.begin_s = last.course.end_s - course.lead_s
             last.held_s = 0.0
         else:
-            course.begin_s = last.course.end_s + 2.0 * self.period_s
+            course.begin_s = self._stream.after_rest_s()
         if isinstance(course, SmoothCourse):
             member = Member(course, self._base_u, course.offsets, course.lines)
         else:
@@ -157,6 +165,7 @@ class TrajectoryPlanner:
         first, last = chain.pieces[0], chain.pieces[-1]
         feed = math.inf if chain.is_rapid else first.segment.feed_ups
         along = self.limits.along(first.tangent(0.0), feed, self.period_s)
+        along = replace(along, jerk=NEARLY * along.jerk)
         before = self._before()
         softs = (
             Soft(along.jerk, 0.0) if before is None else self._soft(before, chain),
@@ -168,7 +177,7 @@ class TrajectoryPlanner:
         """The jerk of two overlapping ends, and for how long it rules."""
         end, start = before.tail[-1], after.head[0]
         u1, u2 = end.tangent(end.length_u), start.tangent(0.0)
-        jerk = corner_jerk(self.limits.jerks(self.period_s), u1, u2)
+        jerk = NEARLY * corner_jerk(self.limits.jerks(self.period_s), u1, u2)
         tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
         return Soft(jerk, (48.0 * tolerance / (jerk * math.dist(u1, u2))) ** (1 / 3))
 
@@ -189,15 +198,14 @@ class TrajectoryPlanner:
         longest = min(a.duration_s - a.lead_s, 0.5 * b.duration_s, b.committed_s,
                       self._longest(before, after))  # fmt: skip
         speed = max(end.segment.feed_ups, start.segment.feed_ups)
-        rules = memoryview(array("d", [self.period_s, a.begin_s, tolerance, speed, longest,
-                                       *self.limits.checked()]))  # fmt: skip
+        rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, longest,
+                                       *self.limits.checked()])  # fmt: skip
         near = near_corner(before, after, NEAR * tolerance)
         axes = self.limits.axes
         count = int(longest / self.period_s) + 3 * overlap_cy.AROUND
-        room = memoryview(array("d", [0.0] * (count * axes)))
         return _overlap_time(
-            a.H, a.C, a.Z, b.H, b.C, b.Z, memoryview(array("d", near)), len(near) // axes - 1,
-            rules, room, memoryview(array("d", [0.0] * (4 * axes))),
+            a.H, a.C, a.Z, b.H, b.C, b.Z, numbers(near), len(near) // axes - 1,
+            rules, room(count * axes), room(4 * axes),
         )  # fmt: skip
 
 

@@ -10,8 +10,8 @@ in time (overlap_cy.py), and their jerks add. With the peak acceleration a of a 
     t1 <= soft   v = J1 t1^2/2 (1 + J1/J)
     else         v = v1 + (a^2 - a1^2)/(2J) + a^2/(2J)     a1 = J1 soft, v1 = J1 soft^2/2
 
-and where a would be above the limit, t3 adds the rest. Braking is the same in reverse, with the same
-jerks. The speed reached
+and where a would be above the limit, t3 adds the rest. Braking is the same in reverse, with the
+same jerks. The speed reached
 is the highest whose two ramps are within the length: the distance of a ramp rises with v.
 """
 

@@ -6,7 +6,8 @@ Knot i is at the time i D. Between the knots i and i + 1, with x = t/D - i,
     q''  = (1-x) a[i] + x a[i+1]                   a[i] = (c[i-1] - 2 c[i] + c[i+1]) / D^2
     q''' = (c[i+2] - 3 c[i+1] + 3 c[i] - c[i-1]) / D^3
 
-Position, velocity and acceleration are continuous, the jerk is constant between knots. All of them are
+Position, velocity and acceleration are continuous, the jerk is constant between knots. All of
+them are
 means of the differences of control points: where these keep a limit, every instant keeps it.
 """
 
@@ -23,8 +24,10 @@ Whole = npt.NDArray[np.int64]
 class Setpoints:
     """Successive control points of a trajectory, and those that bring it to rest after them.
 
-    `lines` and `path_u` are the source line and the programmed distance since the start of the path at
-    each of them. `rest` continues `points` where no further setpoints come: it ends at rest, at `rest_path_u`.
+    `lines` and `path_u` are the source line and the programmed distance since the start of the
+    path at
+    each of them. `rest` continues `points` where no further setpoints come: it ends at rest, at
+    `rest_path_u`.
     """
 
     first: int
@@ -45,7 +48,8 @@ class Setpoints:
 def evaluate(points: Reals, at_knots: Reals) -> tuple[Reals, Reals, Reals, Reals]:
     """Position and three derivatives by knot (not by second) of the spline of control points.
 
-    `at_knots` counts from points[0]; before the first and after the last point the spline is at rest.
+    `at_knots` counts from points[0]; before the first and after the last point the spline is at
+    rest.
     """
     padded = np.concatenate([points[:1], points, points[-1:], points[-1:]])
     row = np.clip(np.floor(at_knots).astype(np.int64), 0, len(points) - 1)

@@ -1,32 +1,37 @@
 """The course of a smooth chain: its tube, and its speed window by window.
 
-Of the path that is known and smoothed, the first part is committed, the rest planned to a slow constant speed from which
-a stop takes a few samples: what is committed can always be brought to rest on known path. The next window starts from the
+Of the path that is known and smoothed, the first part is committed, the rest planned to a slow
+constant speed from which
+a stop takes a few samples: what is committed can always be brought to rest on known path. The
+next window starts from the
 plan left over, continued at that slow speed, which keeps all limits; from there every step of the
 solver keeps them, too (speed_cy.py).
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import course_cy, speed_rows_cy
+from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course, Soft
-from openacr.trajectory.knots import Grid, rest_h, stop_rows, stop_speed
-from openacr.trajectory.limits import Limits, TrajectoryError
+from openacr.trajectory.knots import Grid, extended, rest_h, stop_rows, stop_speed
+from openacr.trajectory.limits import Along, Limits, TrajectoryError
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
 from openacr.trajectory.tube import AHEAD, STEP, Tube
-from openacr.trajectory.window import Curve, Rules, Window, flat
+from openacr.trajectory.window import Curve, Rules, Window
 
 _law = pick(speed_rows_cy.law_from_speed)
 
 JERK_SHARE, ACCELERATION_SHARE = 0.99, 0.99  # of the limits, for what happens between knots
 REST_SHARE = 0.95  # of the jerk near rest, where knots are sparse
 SLOW_JERK, SLOW_ACCELERATION = 0.35, 0.25  # shares at the slow speed ahead
-BOW_SHARE = 0.3  # of the tolerance at most, for the B-spline in time
+NORMAL_SHARE = 0.3  # of the tolerance at most, for the B-spline in time
 TUBE_SHARE = 0.96  # of the tolerance, for smoothing and the B-spline
+PER_RADIUS = 10.0  # samples on the radius of an arc, at least
 KNOT = 2.0  # samples between two knots
 RAMP = 12  # knots from one slow speed to the next
 MOST_TRIES = 40
@@ -34,23 +39,33 @@ LOOK = 2.5  # braking distances ahead of what is committed
 BATCH = 0.5  # of that, committed at once
 
 
+def look_ahead(along: Along) -> float:
+    """The length of path to be planned after what is committed: some braking distances."""
+    brake = along.speed**2 / (2.0 * along.acceleration)
+    return LOOK * (brake + along.speed * along.acceleration / (2.0 * along.jerk))
+
+
 class SmoothCourse(Course):
     """A course that grows with its chain."""
 
     __slots__ = ("_feeds", "_first", "_grid", "_kept", "_knots", "_last", "_level", "_limits",
-                 "_period_s", "_push", "_slow_h", "_soft", "_tolerances", "_tube", "_x", "lines", "look_u", "offsets",
-                 "steps")  # fmt: skip
+                 "_period_s", "_push", "_slow_h", "_soft", "_tolerances", "_tube", "_x", "lines",
+                 "look_u", "offsets", "steps")  # fmt: skip
 
-    def __init__(self, limits: Limits, period_s: float, first: Piece, soft: Soft | None) -> None:
+    def __init__(
+        self, limits: Limits, period_s: float, known: Sequence[Piece], soft: Soft | None
+    ) -> None:
+        first = known[0]
         super().__init__(first.start, first.start, course_cy.OPEN)
         self._limits, self._period_s = limits, period_s
         tolerance, feed = first.segment.tolerance_u, first.segment.feed_ups
         along = limits.along(first.tangent(0.0), feed, period_s)
         time_s = max(0.1 * (48.0 * tolerance / along.jerk) ** (1 / 3), 0.5 * period_s)
-        step = min(STEP * tolerance, 0.2 * time_s * along.speed)
+        radius = min((p.radius_u for p in known if not p.is_line), default=math.inf)
+        step = min(STEP * tolerance, 0.2 * time_s * along.speed, radius / PER_RADIUS)
         knot_u = KNOT * step
-        bow = max(limits.acceleration_ups2) * period_s**2 / 6.0
-        share = TUBE_SHARE - min(BOW_SHARE, bow / tolerance)
+        normal = max(limits.acceleration_ups2) * period_s**2 / 6.0
+        share = TUBE_SHARE - min(NORMAL_SHARE, normal / tolerance)
         self._tube = Tube(limits.axes, step, share)
         self._first, self._last = soft, Soft(along.jerk, 0.0)
         self._grid = Grid(knot_u, time_s, REST_SHARE * self._soft_jerk(soft, along.jerk))
@@ -58,14 +73,11 @@ class SmoothCourse(Course):
         self._knots = np.empty(0)
         self._x = np.empty(0)
         self._push = self._soft = np.empty(0)  # shares of the limits that the rows use
-        self._slow_h = min(
+        self._slow_h: float = min(
             stop_speed(4.0 * knot_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * knot_u
         )
         self._level = self._slow_h
-        self.look_u = LOOK * (
-            along.speed**2 / (2.0 * along.acceleration)
-            + along.speed * along.acceleration / (2.0 * along.jerk)
-        )
+        self.look_u = look_ahead(along)
         self.offsets: list[float] = []  # ends of the pieces
         self.lines: list[int] = []
         self._feeds: list[float] = []
@@ -108,11 +120,9 @@ class SmoothCourse(Course):
     @property
     def wants_u(self) -> float:
         """The length of path that has to be known before the next window."""
-        begun = self._knots[2] if len(self._knots) else 0.0
+        begun = float(self._knots[2]) if len(self._knots) else 0.0
         return float(begun) + (
-            (1.0 + BATCH) * self.look_u
-            + (RAMP + 8) * self._grid.length_u
-            + AHEAD * self._tube.step
+            (1.0 + BATCH) * self.look_u + (RAMP + 8) * self._grid.length_u + AHEAD * self._tube.step
         )
 
     # --- one window --------------------------------------------------------------
@@ -145,33 +155,16 @@ class SmoothCourse(Course):
 
     def _new_knots(self) -> int:
         """Append knots as far as the path is final; returns how many there were before."""
-        tube, step = self._tube, self._grid.length_u
-        before = len(self._knots)
-        found = list(self._knots)
-        end = tube.valid_u - (RAMP + 4) * step
+        tube, grid, before = self._tube, self._grid, len(self._knots)
+        end_u = tube.valid_u - (RAMP + 4) * grid.length_u
         last: list[float] = []
         if self.is_closed:
-            most = 0.5 * tube.length_u
-            grid = Grid(step, self._grid.time_s,
-                        REST_SHARE * min(self._last.jerk, self._end_jerk()))  # fmt: skip
-            last = [tube.length_u - s for s in reversed(grid.graded(most))]
-            end = last[0]
-        if not found:
-            found = self._grid.graded(0.5 * min(end, tube.known_u))
-            gap = found[1] - found[0] if len(found) > 1 else 0.5 * found[0]
-            found = [found[0] - 0.66 * gap, found[0] - 0.33 * gap, *found]
-        while found[-1] + (1.5 if last else 1.0) * step <= end:
-            found.append(found[-1] + step)
-        if last:
-            if end - found[-1] < 0.3 * step:
-                last = last[1:] if len(last) > 1 else [tube.length_u - 0.5 * (tube.length_u - found[-1])]
-            gap = tube.length_u - last[-1]
-            found += [*last, last[-1] + 0.3 * gap, last[-1] + 0.6 * gap]
-        self._knots = np.array(found)
+            ending = Grid(grid.length_u, grid.time_s, REST_SHARE * self._last.jerk)
+            last = [tube.length_u - s for s in reversed(ending.graded(0.5 * tube.length_u))]
+            end_u = last[0]
+        known = [float(s) for s in self._knots]
+        self._knots = np.array(extended(known, grid, end_u, last, tube.length_u))
         return before
-
-    def _end_jerk(self) -> float:
-        return self._last.jerk
 
     def _rules(self, knots: Reals, before: int) -> Rules:
         """What rules at knots; the first ones keep the shares of the last window."""
@@ -194,13 +187,16 @@ class SmoothCourse(Course):
         soft *= zone
         push = np.full(len(inner), ACCELERATION_SHARE)
         if before > 4:
-            push[: before - 4], soft[: before - 4] = self._push[: before - 4], self._soft[: before - 4]
+            push[: before - 4], soft[: before - 4] = (
+                self._push[: before - 4],
+                self._soft[: before - 4],
+            )
         self._push, self._soft = push, soft
         limits = self._limits
         jerks = limits.jerks(self._period_s)
         ruling = np.array([*limits.velocity_ups, *limits.acceleration_ups2, *jerks])
-        bow = BOW_SHARE * 6.0 / self._period_s**2 * tolerance
-        return Rules(0.9999 * feed, push, soft, zone, bow, ruling)
+        normal = NORMAL_SHARE * 6.0 / self._period_s**2 * tolerance
+        return Rules(0.9999 * feed, push, soft, zone, normal, ruling)
 
     def _zone(self, s: Reals, soft: Soft | None) -> Reals:
         """The share of the jerk limits at distances from an end that overlaps."""
@@ -224,9 +220,9 @@ class SmoothCourse(Course):
         jerk = float((np.abs(window.rows[:, :, 2]) + window.rows[:, :, 5]).max())
         return min(
             self._slow_h,
-            SLOW_ACCELERATION * float(window.cap.min()),
+            float(SLOW_ACCELERATION * window.cap.min()),
             SLOW_ACCELERATION / max(bend, 1e-12),
-            (SLOW_JERK / max(jerk, 1e-12)) ** (2 / 3),
+            float((SLOW_JERK / max(jerk, 1e-12)) ** (2 / 3)),
         )
 
     def _guess(self, level: float, is_first: bool) -> Reals:
@@ -266,7 +262,7 @@ class SmoothCourse(Course):
             w = plain[0].reshape(3, 3) @ self._x[:3]
             v = math.sqrt(w[0])
             z[row] = (3.0 * knots[2] / v, knots[2], v, 0.5 * w[1])
-        _law(memoryview(knots), memoryview(self._x), flat(plain), 0, count, flat(z), row)
+        _law(flat(knots), flat(self._x), flat(plain), 0, count, flat(z), row)
         last = row + count - 1
         if self.is_closed:
             length = self._tube.length_u

@@ -1,96 +1,34 @@
 """The fastest time law along a path, within velocity, acceleration and jerk of every axis.
 
-Unknown is h(s) = (ds/dt)^2 as a cubic spline on knots s_0 ... s_n-1; with ' = d/ds the axis k has
+The unknowns are the coefficients of the curve of squared speed h (speed_curve_cy.py). Every
+limit is a row g >= 0 of the three coefficients at a knot:
 
-    speed         q_k' sqrt(h)
-    acceleration  q_k' h'/2 + q_k'' h                                       linear in h
-    jerk          sqrt(h) (q_k' h''/2 + 3/2 q_k'' h' + q_k''' h)
+    g = 1 - h/cap                          speeds
+    g = 1 -+ (q_k' h'/2 + q_k'' h)/A_k     accelerations
+    g = h^-1/2 -+ (q_k' h''/2 + 3/2 q_k'' h' + q_k''' h)/J_k - d_k h/J_k       jerks
 
-At a knot three coefficients x_i, x_i+1, x_i+2 of the spline count; every limit is a row of the three:
+where q_k''' +- d_k are the values of the third derivative on half the cells on both sides. The
+last row is
+not convex, but h^-1/2 is: a step that keeps the linearised row keeps the row itself. So an
+interior point method
+stays inside: from a law that is slow enough to keep all limits every iterate keeps them, and
+could be run. One step solves, with multipliers z and the time T = sum w h^-1/2,
 
-    g = 1 - h/cap >= 0     g = 1 -+ (q_k' h'/2 + q_k'' h)/A_k >= 0
-    g = h^-1/2 -+ (q_k' h''/2 + 3/2 q_k'' h' + q_k''' h)/J_k - d_k h/J_k >= 0
+    (b T'' + sum z/g a a') dx = -T' - sum (mu/g) a       a = -dg/dx
+    dz = mu/g - z + (z/g) a dx
 
-q_k''' +- d_k are the values of the third derivative on half the cells on both sides. The last row is not convex, but h^-1/2 is: a step that keeps the linearised row keeps the row itself. So an
-interior point method stays inside: from a law that is slow enough to keep all limits every iterate keeps them, and could
-be run. One step solves, with multipliers z and T = sum w h^-1/2,
-
-    (T'' + sum z/g a a') dx = -T' - sum (mu/g) a,       a = -dg/dx,      dz = mu/g - z + (z/g) a dx
-
-which is a matrix of five diagonals. Its target mu = kappa * (weight of the knot) falls towards `least`.
+a matrix of five diagonals; b < 1 lets slow laws grow faster. Its target mu = kappa w falls
+towards `least`.
 """
 
 from openacr.cmath import sqrt
+from openacr.trajectory.speed_curve_cy import AXIS_ROWS, VALUES, WEIGHTS, speed_values
 from openacr.views import F64
 
-AXIS_ROWS = 6  # of an axis at a knot: q''/A q'/2A | q'''/J 3q''/2J q'/2J, spread of q'''/J
-WEIGHTS = 9  # of three coefficients, for h, h' and h''
-VALUES = 6  # h, h', h'' and their changes
 STEP_SHARE = 0.95  # of the distance to the nearest limit
-LARGE = 1e300
+BOLD = 0.5
 
-__all__ = ["speed_solve", "speed_values", "speed_weights", "speed_worst"]
-
-
-def speed_weights(at: F64, count: int, W: F64) -> None:
-    """Write the weights of h, h' and h'' at `count` knots; `at` has two knots more on each side."""
-    for i in range(count):
-        o: int = i + 2
-        w: int = WEIGHTS * i
-        wide: float = at[o + 1] - at[o - 1]
-        left: float = (at[o + 1] - at[o - 2]) * wide
-        right: float = (at[o + 2] - at[o - 1]) * wide
-        after: float = at[o + 1] - at[o]
-        before: float = at[o] - at[o - 1]
-        W[w] = after * after / left
-        W[w + 2] = before * before / right
-        W[w + 1] = 1.0 - W[w] - W[w + 2]
-        W[w + 3] = -3.0 * after / left
-        W[w + 5] = 3.0 * before / right
-        W[w + 4] = -W[w + 3] - W[w + 5]
-        W[w + 6] = 6.0 / left
-        W[w + 8] = 6.0 / right
-        W[w + 7] = -W[w + 6] - W[w + 8]
-
-
-def speed_values(X: F64, W: F64, first: int, stop: int, H: F64, shift: int) -> None:
-    """Write h, h' and h'' of coefficients X at knots to H[6i + shift] ..."""
-    for i in range(first, stop):
-        for m in range(3):
-            w: int = WEIGHTS * i + 3 * m
-            H[VALUES * i + shift + m] = (
-                W[w] * X[i] + W[w + 1] * X[i + 1] + W[w + 2] * X[i + 2]
-            )
-
-
-def speed_worst(X: F64, W: F64, D: F64, cap: F64, first: int, stop: int, axes: int, H: F64) -> float:
-    """The smallest slack at knots first ... stop-1, relative to its limit; below 0 where one is broken."""
-    worst: float = 1.0
-    speed_values(X, W, first, stop, H, 0)
-    for i in range(first, stop):
-        h: float = H[VALUES * i]
-        if h <= 0.0:
-            return -1.0
-        g: float = 1.0 - h / cap[i]
-        if g < worst:
-            worst = g
-        root: float = sqrt(h)
-        for k in range(axes):
-            d: int = AXIS_ROWS * (i * axes + k)
-            u: float = D[d] * h + D[d + 1] * H[VALUES * i + 1]
-            j: float = root * (
-                D[d + 2] * h + D[d + 3] * H[VALUES * i + 1] + D[d + 4] * H[VALUES * i + 2]
-            )
-            if u < 0.0:
-                u = -u
-            if j < 0.0:
-                j = -j
-            j += root * h * D[d + 5]
-            if j > u:
-                u = j
-            if 1.0 - u < worst:
-                worst = 1.0 - u
-    return worst
+__all__ = ["speed_solve"]
 
 
 def speed_row(M: F64, Y: F64, o: int, W: F64, w: int, a0: float, a1: float, a2: float,
@@ -111,8 +49,18 @@ def speed_row(M: F64, Y: F64, o: int, W: F64, w: int, a0: float, a1: float, a2: 
 
 
 def speed_assemble(
-    W: F64, D: F64, cap: F64, weight: F64, first: int, stop: int, axes: int, kappa: float,
-    H: F64, Z: F64, M: F64, Y: F64,
+    W: F64,
+    D: F64,
+    cap: F64,
+    weight: F64,
+    first: int,
+    stop: int,
+    axes: int,
+    kappa: float,
+    H: F64,
+    Z: F64,
+    M: F64,
+    Y: F64,
 ) -> None:
     """Write the matrix of five diagonals to M and the right-hand side to Y."""
     for i in range(first, stop + 2):
@@ -130,7 +78,7 @@ def speed_assemble(
         bend: float = 0.5 * back / h  # minus its derivative
         mu: float = kappa * weight[i]
         force: float = weight[i] * bend
-        speed_row(M, Y, i, W, w, 1.0, 0.0, 0.0, 0.75 * force / h, -force)
+        speed_row(M, Y, i, W, w, 1.0, 0.0, 0.0, 1.5 * BOLD * force / h, -force)
         g: float = 1.0 - h / cap[i]
         z: float = Z[rows * i]
         speed_row(M, Y, i, W, w, 1.0 / cap[i], 0.0, 0.0, z / g, mu / g)
@@ -184,10 +132,19 @@ def speed_shorter(step: float, have: float, change: float) -> float:
 
 
 def speed_reach(
-    D: F64, cap: F64, weight: F64, first: int, stop: int, axes: int, kappa: float,
-    H: F64, Z: F64, N: F64, E: F64,
+    D: F64,
+    cap: F64,
+    weight: F64,
+    first: int,
+    stop: int,
+    axes: int,
+    kappa: float,
+    H: F64,
+    Z: F64,
+    N: F64,
+    E: F64,
 ) -> None:
-    """Write to E the longest steps of the unknowns and of the multipliers, whose changes go to N."""
+    """Write to E the longest steps of unknowns and multipliers; changes of these go to N."""
     step: float = 1.0
     dual: float = 1.0
     rows: int = 1 + 4 * axes
@@ -279,9 +236,25 @@ def speed_start(
 
 
 def speed_solve(
-    X: F64, W: F64, D: F64, cap: F64, weight: F64, first: int, stop: int, head: int, tail: int,
-    axes: int, kappa: float, least: float, rounds: int,
-    H: F64, Z: F64, N: F64, M: F64, Y: F64, E: F64,
+    X: F64,
+    W: F64,
+    D: F64,
+    cap: F64,
+    weight: F64,
+    first: int,
+    stop: int,
+    head: int,
+    tail: int,
+    axes: int,
+    kappa: float,
+    least: float,
+    rounds: int,
+    H: F64,
+    Z: F64,
+    N: F64,
+    M: F64,
+    Y: F64,
+    E: F64,
 ) -> int:
     """Improve the coefficients X[head] ... X[tail-1]; returns the number of steps made.
 

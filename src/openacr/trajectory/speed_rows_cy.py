@@ -2,7 +2,7 @@
 
 from openacr.cmath import fabs, sqrt
 from openacr.trajectory.law_cy import A_ROW, ROW, S_ROW, T_ROW, V_ROW
-from openacr.trajectory.speed_cy import AXIS_ROWS, WEIGHTS
+from openacr.trajectory.speed_curve_cy import AXIS_ROWS, WEIGHTS
 from openacr.trajectory.spline_cy import spline_row, spline_slopes, spline_third
 from openacr.views import F64
 
@@ -15,13 +15,28 @@ __all__ = ["law_from_speed", "speed_rows"]
 
 
 def speed_rows(
-    C: F64, points: int, axes: int, step: float, origin: float, at: F64, first: int, stop: int,
-    feed: F64, push: F64, soft: F64, bow: F64, limits: F64, Q: F64, D: F64, cap: F64,
+    C: F64,
+    points: int,
+    axes: int,
+    step: float,
+    origin: float,
+    at: F64,
+    first: int,
+    stop: int,
+    feed: F64,
+    push: F64,
+    soft: F64,
+    normal: F64,
+    limits: F64,
+    Q: F64,
+    D: F64,
+    cap: F64,
 ) -> None:
     """Write the rows of the knots first ... stop-1 (`at` has two knots before them) and their caps.
 
-    `limits` are velocities, accelerations and jerks; `push` and `soft` are the shares of the limits of
-    acceleration and jerk that count at a knot, `bow` is the largest normal acceleration.
+    `limits` are velocities, accelerations and jerks; `push` and `soft` are the shares of the
+    limits of acceleration and jerk that count at a knot, `normal` is the largest acceleration
+    across the path.
     """
     for i in range(first, stop):
         s: float = at[i + 2] - origin
@@ -58,8 +73,8 @@ def speed_rows(
         cap[i] = feed[i] * feed[i] / along2
         if best < cap[i]:
             cap[i] = best
-        if sqrt(bend2) * cap[i] > bow[i]:
-            cap[i] = bow[i] / sqrt(bend2)
+        if sqrt(bend2) * cap[i] > normal[i]:
+            cap[i] = normal[i] / sqrt(bend2)
 
 
 def speed_hermite(h: float, h1: float, g: float, g1: float, d: float, x: float) -> float:
@@ -68,10 +83,8 @@ def speed_hermite(h: float, h1: float, g: float, g1: float, d: float, x: float) 
     return y * y * (h * (1.0 + 2.0 * x) + h1 * d * x) + x * x * (g * (3.0 - 2.0 * x) - g1 * d * y)
 
 
-def law_from_speed(
-    at: F64, X: F64, W: F64, first: int, stop: int, Z: F64, row: int
-) -> None:
-    """Continue a law by rows for the knots first+1 ... stop-1; row `row` is that of knot `first`."""
+def law_from_speed(at: F64, X: F64, W: F64, first: int, stop: int, Z: F64, row: int) -> None:
+    """Continue a law by rows for knots first+1 ... stop-1; `row` is that of the first one."""
     for i in range(first, stop):
         w: int = WEIGHTS * i
         g: float = W[w] * X[i] + W[w + 1] * X[i + 1] + W[w + 2] * X[i + 2]

@@ -1,11 +1,10 @@
 """The stream of setpoints: courses one after the other, added where they overlap.
 
-Of a course that is going to overlap the next one the last `held_s` seconds wait for that. At most two courses
-overlap at any time.
+Of a course that is going to overlap the next one the last `held_s` seconds wait for that. At
+most two courses overlap at any time.
 """
 
 import math
-from array import array
 from collections import deque
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import course_cy
+from openacr.trajectory.arrays import flat, room
 from openacr.trajectory.course import Course
 from openacr.trajectory.segments import Point
 from openacr.trajectory.setpoints import Reals, Setpoints, Whole
@@ -43,7 +43,7 @@ class Stream:
         self._axes = len(start)
         self._members: deque[Member] = deque()
         self._next = 0
-        self._room = memoryview(array("d", [0.0] * (2 * self._axes)))
+        self._room = room(2 * self._axes)
         self._line, self._path_u = 0, 0.0
 
     @property
@@ -71,12 +71,12 @@ class Stream:
         return course.begin_s + course.committed_s
 
     def ready(self) -> int:
-        """The count of control points that are final and not taken; rest takes one more each side."""
+        """The count of control points that are final and not taken."""
         if not self._members:
             return 0
         last = self._members[-1]
         if last.course.is_complete and not last.held_s:
-            final = math.ceil(last.course.end_s / self.period_s - SAME) + 2
+            final = self._rest_knot(last.course.end_s) + 1
         else:
             final = math.floor(self.ready_s() / self.period_s) + 1
         return max(0, final - self._next)
@@ -97,15 +97,25 @@ class Stream:
             int(rest_lines[-1]), float(rest_path[-1]),
         )  # fmt: skip
 
+    def _rest_knot(self, end_s: float) -> int:
+        """The third knot at which a course that ends at a time is at rest."""
+        return math.ceil(end_s / self.period_s - SAME) + 2
+
+    def after_rest_s(self) -> float:
+        """When a course may begin after the last one has come to rest."""
+        if not self._members:
+            return 0.0
+        return self._rest_knot(self._members[-1].course.end_s) * self.period_s
+
     def _rest(self) -> tuple[Reals, Whole, Reals]:
         """The points from the next one on to rest, where no other course follows."""
         end_s = self._members[-1].course.end_s
-        count = math.ceil(end_s / self.period_s - SAME) + 3 - self._next
+        count = self._rest_knot(end_s) + 1 - self._next
         return self._sums(self._next, max(count, 3))
 
     def _sums(self, first: int, count: int) -> tuple[Reals, Whole, Reals]:
         """Control points, lines and distances of `count` grid times from `first` on."""
-        times = (first + np.arange(count)) * self.period_s
+        times: Reals = np.arange(first, first + count, dtype=np.float64) * self.period_s
         points = np.empty((count, self._axes))
         path_u = np.zeros(count)
         lines = np.zeros(count, dtype=np.int64)
@@ -135,5 +145,5 @@ class Stream:
         room = (self._room,) if function is _add else ()
         function(
             course.H, course.C, course.Z, float(times[row]) - course.begin_s, self.period_s,
-            stop - row, memoryview(points[row:stop].reshape(-1)), memoryview(path_u[row:stop]), *room,
+            stop - row, flat(points[row:stop].reshape(-1)), flat(path_u[row:stop]), *room,
         )  # fmt: skip

@@ -6,11 +6,13 @@ of the known path does not change any more; it is given to the next smoothing as
 
 import math
 from array import array
+from typing import cast
 
 import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import piece_cy, tube_cy
+from openacr.trajectory.arrays import flat, numbers
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
 from openacr.views import F64
@@ -70,8 +72,9 @@ class Tube:
             return
         programmed = np.empty((count, self._axes))
         radius, arcs = np.empty(count), np.empty(count)
-        _sample(memoryview(self._rows), self._pieces, self._axes, self._origin, begin, count,
-                self.step, self._share, _flat(programmed), _flat(radius), _flat(arcs))  # fmt: skip
+        _sample(cast("F64", memoryview(self._rows)), self._pieces, self._axes, self._origin,
+        begin, count,
+                self.step, self._share, flat(programmed), flat(radius), flat(arcs))  # fmt: skip
         s = (begin + np.arange(count)) * self.step
         to_end = np.minimum(s, self.length_u - s) if is_whole else s
         np.minimum(radius, TAPER * np.maximum(to_end, 1e-9), out=radius)
@@ -82,17 +85,17 @@ class Tube:
         tail = int(np.count_nonzero(s > self.length_u - self.step)) if is_whole else 0
         room = [np.empty_like(q) for _ in range(3)] + [np.empty((count, 4)) for _ in range(2)]
         if count > GIVEN + tail:
-            _smooth(count, self._axes, GIVEN, tail, _flat(programmed), _flat(radius), _flat(arcs),
-                    len(STAGES), memoryview(array("d", STAGES)), ROUNDS,
-                    _flat(q), *(_flat(each) for each in room))  # fmt: skip
+            _smooth(count, self._axes, GIVEN, tail, flat(programmed), flat(radius), flat(arcs),
+                    len(STAGES), numbers(STAGES), ROUNDS,
+                    flat(q), *(flat(each) for each in room))  # fmt: skip
         self.final = end if is_whole else max(end - AHEAD, begin + GIVEN)
         self._q = np.concatenate([self._q[: begin - self._first], q[: self.final - begin]])
 
     def control_points(self) -> tuple[Reals, float]:
         """Control points of the spline through the final samples, and where it begins.
 
-        The prefilter 1 - D2/6 + D4/36 makes the spline pass through samples of a smooth path to sixth
-        order.
+        The prefilter 1 - D2/6 + D4/36 makes the spline pass through samples of a smooth path to
+        sixth order.
         """
         q = self._q
         points = 54.0 * q[2:-2] - 10.0 * (q[1:-3] + q[3:-1]) + q[:-4] + q[4:]
@@ -112,7 +115,3 @@ class Tube:
         if gone:
             del self._rows[: gone * size]
             self._pieces -= gone
-
-
-def _flat(values: Reals) -> F64:
-    return memoryview(values.reshape(-1))

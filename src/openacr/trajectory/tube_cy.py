@@ -4,15 +4,17 @@ Points p lie uniformly on the programmed path. Wanted are points q with
 
     min sum |D3 q - g|^2     subject to |q_i - p_i| <= r_i
 
-D3 is the third difference; g is that of the path itself inside arcs, which so keep their radius, 0 elsewhere. It is
-solved by alternating directions: with z a copy of q inside the tube and u the sum of what they differ by,
+D3 is the third difference; g is that of the path itself inside arcs, which so keep their radius,
+0 elsewhere. It is
+solved by alternating directions: with z a copy of q inside the tube and u the sum of what they
+differ by,
 
     q = (D3'D3 + rho)^-1 (rho (z - u) + D3'g)       one banded solution, three bands each side
     z = p + clip(w q + (1-w) z + u - p, r)          each point by itself
     u = u + w q + (1-w) z_before - z
 
-rho = (1/l)^6 smooths waves shorter than about l points at once; it rises in stages. The first `head` and the last
-`tail` points are given: there q stays as it is. Rows are `axes` numbers.
+rho = (1/l)^6 smooths waves shorter than about l points at once; it rises in stages. The first
+`head` and the last `tail` points are given: there q stays as it is. Rows are `axes` numbers.
 """
 
 from openacr.cmath import sqrt
@@ -140,13 +142,28 @@ def tube_excess(head: int, stop: int, axes: int, P: F64, R: F64, Q: F64) -> floa
 
 
 def tube_smooth(
-    count: int, axes: int, head: int, tail: int, P: F64, R: F64, G: F64, stages: int, T: F64,
-    rounds: int, Q: F64, Z: F64, U: F64, K: F64, B: F64, L: F64,
+    count: int,
+    axes: int,
+    head: int,
+    tail: int,
+    P: F64,
+    R: F64,
+    G: F64,
+    stages: int,
+    T: F64,
+    rounds: int,
+    Q: F64,
+    Z: F64,
+    U: F64,
+    K: F64,
+    B: F64,
+    L: F64,
 ) -> float:
     """Smooth `count` points in stages of the lengths T (in points); returns the largest excess.
 
     Q comes in with the given points, and a first guess of the others; Z, U, K (as Q), B and L
-    (4 numbers a point) are room to work. Q has three more points after the last, and `head` is 3 at least.
+    (4 numbers a point) are room to work. Q has three more points after the last, and `head` is 3
+    at least.
     """
     stop: int = count - tail
     tube_bands(count, B)

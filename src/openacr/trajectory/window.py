@@ -5,15 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from openacr.compiled import pick
-from openacr.trajectory import cells_cy, speed_cy, speed_rows_cy
+from openacr.trajectory import cells_cy, speed_curve_cy, speed_cy, speed_rows_cy
+from openacr.trajectory.arrays import flat
 from openacr.trajectory.knots import rest_weights, tie_end, tie_start
 from openacr.trajectory.setpoints import Reals
 from openacr.views import F64
 
-_weights = pick(speed_cy.speed_weights)
-_values = pick(speed_cy.speed_values)
+_weights = pick(speed_curve_cy.speed_weights)
+_values = pick(speed_curve_cy.speed_values)
 _solve = pick(speed_cy.speed_solve)
-_worst = pick(speed_cy.speed_worst)
+_worst = pick(speed_curve_cy.speed_worst)
 _rows = pick(speed_rows_cy.speed_rows)
 _excess = pick(cells_cy.cells_excess)
 
@@ -41,7 +42,8 @@ class Curve:
 class Rules:
     """What rules at every knot: feed, shares of the limits, highest normal acceleration.
 
-    `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the share of the
+    `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the
+    share of the
     jerk that a cell may use. `limits` are velocities, accelerations and jerks of the axes.
     """
 
@@ -49,7 +51,7 @@ class Rules:
     push: Reals
     soft: Reals
     zone: Reals
-    bow: Reals
+    normal: Reals
     limits: Reals
 
 
@@ -63,7 +65,7 @@ class Window:
         self.curve, self.knots, self.rules = curve, knots, rules
         self.count = count = len(knots) - 4
         self.plain = np.empty((count, 9))
-        _weights(memoryview(knots), count, flat(self.plain))
+        _weights(flat(knots), count, flat(self.plain))
         self.weights = self.plain.copy()
         self._start = self._end = None
         gaps = np.diff(knots[2:-2])
@@ -81,18 +83,21 @@ class Window:
             tie_end(self.weights, self._end)
             self._lengths[-1] += 3.0 * (end_u - knots[-3])
             self.stop = self.tail = count
-        self._values = np.zeros((count, speed_cy.VALUES))
+        self._values = np.zeros((count, speed_curve_cy.VALUES))
         self.set_rows()
 
     def set_rows(self) -> None:
         """Compute the rows of the limits for the present shares."""
         curve, rules = self.curve, self.rules
-        self.rows, self.cap = np.empty((self.count, curve.axes, speed_cy.AXIS_ROWS)), np.empty(self.count)
+        self.rows, self.cap = (
+            np.empty((self.count, curve.axes, speed_curve_cy.AXIS_ROWS)),
+            np.empty(self.count),
+        )
         _rows(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-              memoryview(self.knots), 0, self.count, memoryview(rules.feed),
-              memoryview(rules.push), memoryview(rules.soft), memoryview(rules.bow),
-              memoryview(rules.limits), memoryview(np.empty(4 * curve.axes)),
-              flat(self.rows), memoryview(self.cap))  # fmt: skip
+              flat(self.knots), 0, self.count, flat(rules.feed),
+              flat(rules.push), flat(rules.soft), flat(rules.normal),
+              flat(rules.limits), flat(np.empty(4 * curve.axes)),
+              flat(self.rows), flat(self.cap))  # fmt: skip
 
     def tie(self, x: Reals) -> Reals:
         """Set the coefficients that follow from the free one at a start or end at rest."""
@@ -104,7 +109,7 @@ class Window:
 
     def slack(self, x: Reals) -> float:
         """The smallest slack of a row, relative to its limit; below 0 where one is broken."""
-        return _worst(memoryview(x), flat(self.weights), flat(self.rows), memoryview(self.cap),
+        return _worst(flat(x), flat(self.weights), flat(self.rows), flat(self.cap),
                       self.first, self.stop, self.curve.axes, flat(self._values))  # fmt: skip
 
     def solve(self, x: Reals, kappa: float, least: float) -> int:
@@ -112,11 +117,11 @@ class Window:
         axes, count = self.curve.axes, self.count
         rows = count * (1 + 4 * axes)
         steps = _solve(
-            memoryview(x), flat(self.weights), flat(self.rows), memoryview(self.cap),
-            memoryview(self._lengths), self.first, self.stop, self.head, self.tail, axes,
-            kappa, least, STEPS, flat(self._values), memoryview(np.empty(rows)),
-            memoryview(np.empty(rows)), memoryview(np.zeros(3 * count + 6)),
-            memoryview(np.zeros(count + 2)), memoryview(np.zeros(2)),
+            flat(x), flat(self.weights), flat(self.rows), flat(self.cap),
+            flat(self._lengths), self.first, self.stop, self.head, self.tail, axes,
+            kappa, least, STEPS, flat(self._values), flat(np.empty(rows)),
+            flat(np.empty(rows)), flat(np.zeros(3 * count + 6)),
+            flat(np.zeros(count + 2)), flat(np.zeros(2)),
         )  # fmt: skip
         self.tie(x)
         return steps
@@ -124,24 +129,24 @@ class Window:
     def excess(self, x: Reals) -> tuple[Reals, Reals]:
         """Mean accelerations and jerks of the cells, relative to the limits."""
         curve, rules, count = self.curve, self.rules, self.count
-        _values(memoryview(x), flat(self.plain), 0, count, flat(self._values), 0)
+        _values(flat(x), flat(self.plain), 0, count, flat(self._values), 0)
         push, jerk = np.zeros(count), np.zeros(count)
         _excess(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-                memoryview(self.knots), 0, count - 1, memoryview(np.ones(count)),
-                memoryview(rules.zone), memoryview(rules.limits), flat(self._values),
-                memoryview(np.empty(3 * curve.axes)), memoryview(np.empty(3 * curve.axes)),
-                memoryview(push), memoryview(jerk))  # fmt: skip
+                flat(self.knots), 0, count - 1, flat(np.ones(count)),
+                flat(rules.zone), flat(rules.limits), flat(self._values),
+                flat(np.empty(3 * curve.axes)), flat(np.empty(3 * curve.axes)),
+                flat(push), flat(jerk))  # fmt: skip
         return push, jerk
 
     def fit(self, start: Reals, slowness: float) -> tuple[Reals, int]:
         """The fastest coefficients, from a start that keeps all limits; `slowness` is 1/feed.
 
-        Where the mean of a cell is above a limit, the rows of its two knots are tightened, but never so
-        far that the start would break them. Returns the number of steps, too.
+        Where the mean of a cell is above a limit, the rows of its two knots are tightened, but
+        never so far that the start would break them. Returns the number of steps, too.
         """
         x = start.copy()
         steps = self.solve(x, slowness, FINE * slowness)
-        for n in range(PASSES):
+        for _ in range(PASSES):
             push, jerk = self.excess(x)
             if max(push.max(), jerk.max()) <= HARDEST:
                 return x, steps
@@ -157,7 +162,9 @@ class Window:
     def _tighten(self, start: Reals, push: Reals, jerk: Reals) -> None:
         """Lower the shares at the knots of cells above a limit."""
         used = self._used(start)
-        for share, over, least in zip((self.rules.push, self.rules.soft), (push, jerk), used, strict=True):
+        for share, over, least in zip(
+            (self.rules.push, self.rules.soft), (push, jerk), used, strict=True
+        ):
             cell = np.where(over > HARDEST, EASED / np.maximum(over, HARDEST), 1.0)
             knot = cell.copy()
             knot[1:] = np.minimum(knot[1:], cell[:-1])
@@ -180,8 +187,3 @@ class Window:
             if self.slack(found) > MARGIN:
                 return found
         return start.copy()
-
-
-def flat(values: Reals) -> F64:
-    """The numbers of an array as compiled functions take them."""
-    return memoryview(values.reshape(-1))
