@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
     from openacr.cnc.reading.findings import Finding
+    from openacr.mill.plan.forecast import Desk
     from openacr.mill.plan.predicting import Prediction, Reader
     from openacr.sysvar import Store
 
@@ -183,7 +184,7 @@ def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey,
     from openacr.mill.plan.preflight import Preflight
 
     desk = Preflight(Settings(cells))
-    found, prediction = _surveyed(program, cells, dialect, is_dry=False, reader=desk)
+    found, prediction = _surveyed(program, cells, dialect, is_dry=False, desk=desk)
     found.add(desk.findings(program.text_of))
     return found, prediction
 
@@ -196,19 +197,26 @@ def _surveyed(
     is_dry: bool,
     rounds: bool = True,
     reader: "Reader | None" = None,
+    desk: "Desk | None" = None,
 ) -> "tuple[Survey, Prediction]":
     """Read a program once, for the survey and for its time."""
     from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import survey
     from openacr.cnc.state.hosts import VirtualMachine
     from openacr.mill.config.settings import NONE, Settings
+    from openacr.mill.plan.forecast import Forecast
     from openacr.mill.plan.predicting import Predictor
 
     settings = Settings(cells)
-    predictor = Predictor(settings, (0.0,) * 8, is_dry=is_dry, rounds=rounds, reader=reader)
+    begin = (0.0,) * 8
+    predictor: Predictor | Forecast = Forecast(
+        settings, begin, is_dry=is_dry, rounds=rounds, desk=desk
+    )
+    if reader is not None:  # it looks at every move
+        predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds, reader=reader)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
     found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
-    predictor.rest()
+    predictor.close()
     return found, predictor.found
 
 

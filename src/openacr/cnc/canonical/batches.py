@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical.common import PLANES, Pace, Source
+from openacr.cnc.canonical.common import PLANES, Pace, Point, Source
 from openacr.cnc.canonical.moves import Arc, Line, Rapid
 
 if TYPE_CHECKING:
@@ -47,10 +47,14 @@ class Moves:
         _, line, _, _, begin, end = self.rows[ROW * k : ROW * (k + 1)]
         return Source(self.file, line, self.text_of(begin, end))
 
+    def end_of(self, k: int) -> Point:
+        """Where a move ends."""
+        return tuple(self.ends[POINT * k : POINT * (k + 1)])
+
     def entry(self, k: int) -> Rapid | Line | Arc:
         """One move by itself."""
         kind, _, pace, plane, _, _ = self.rows[ROW * k : ROW * (k + 1)]
-        end = tuple(self.ends[POINT * k : POINT * (k + 1)])
+        end = self.end_of(k)
         if kind == RAPID:
             return Rapid(self.source_of(k), end)
         if kind == LINE:

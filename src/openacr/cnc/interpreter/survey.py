@@ -8,31 +8,37 @@ from typing import TYPE_CHECKING, Any
 
 from openacr.cnc.canonical import (
     AXES,
+    PLANES,
     Arc,
     Dwell,
     Entry,
     Line,
     Motion,
     Moves,
-    Plane,
     Point,
     Polyline,
     Probe,
     Rapid,
     Tool,
+    batches,
 )
+from openacr.cnc.canonical.batches import CURVE, ROW
+from openacr.cnc.interpreter import survey_cy as core
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import MOST, BlockError, Finding
+from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.state.hosts import Cells, Machine, VirtualMachine
 from openacr.cnc.state.modal import METRIC
 from openacr.cnc.state.shadow import Shadow
+from openacr.compiled import pick
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Sequence
 
 LINEAR = "XYZUV"
-_QUARTER = math.pi / 2.0
+CODES = {plane: code for code, plane in PLANES.items()}
+_add = pick(core.survey_moves)
 
 
 @dataclass(slots=True)
@@ -171,17 +177,23 @@ class _Count:
     def __init__(self, found: Survey, run: Interpreter) -> None:
         self._found = found
         self._run = run
-        self._at: Point = run.path.target
         self._has_unit = False
-        self._linear = [axis for letter, axis in found.letters.items() if letter in LINEAR]
-        self._unplaced = set(found.letters.values())  # axes that did not move yet
+        self._V, self._N = doubles(core.V_SIZE), integers(core.N_SIZE)
+        self._row, self._end, self._arc = integers(ROW), doubles(AXES), doubles(CURVE)
+        for axis in range(AXES):
+            self._V[core.V_LOW + axis], self._V[core.V_HIGH + axis] = math.inf, -math.inf
+            self._V[core.V_AT + axis] = run.path.target[axis]
+        for letter, axis in found.letters.items():
+            self._N[core.N_AXES] |= 1 << axis
+            self._N[core.N_LINEAR] |= (letter in LINEAR) << axis
+        self._N[core.N_UNPLACED] = self._N[core.N_AXES]
 
     def all(self, look: Callable[[Entry], None] | None) -> None:
         """The whole program."""
         found = self._found
         try:
             for entry in self._run.entries():
-                if isinstance(entry, Motion | Polyline) and not self._has_unit:
+                if isinstance(entry, Motion) and not self._has_unit:
                     self._take_unit()
                 self.add(entry)
                 if look is not None:
@@ -190,10 +202,7 @@ class _Count:
             found.findings.append(error.finding)
         if not self._has_unit:
             self._take_unit()
-        found.end = self._at
-        if any(found.low[axis] < math.inf for axis in found.letters.values()):
-            for axis in self._unplaced:
-                found.low[axis] = found.high[axis] = self._at[axis]
+        self._hand_over()
 
     def _take_unit(self) -> None:
         """The unit that is active now is that of the program."""
@@ -201,93 +210,47 @@ class _Count:
         self._found.unit = "mm" if self._run.modal.unit == METRIC else "inch"
         self._found.per = self._run.path.shown(1.0)
 
+    def _hand_over(self) -> None:
+        """The results; axes that did not move are where they are, if any other has moved."""
+        found, V, N = self._found, self._V, self._N
+        found.low = list(V[core.V_LOW : core.V_LOW + AXES])
+        found.high = list(V[core.V_HIGH : core.V_HIGH + AXES])
+        found.end = tuple(V[core.V_AT : core.V_AT + AXES])
+        found.lengths = {"rapid": V[core.V_RAPID], "feed": V[core.V_FEED]}
+        counts = {"rapid": N[core.N_RAPID], "feed": N[core.N_FEED], "arc": N[core.N_ARC]}
+        found.move_cnts |= counts
+        if any(found.low[axis] < math.inf for axis in found.letters.values()):
+            for axis in found.letters.values():
+                if N[core.N_UNPLACED] & 1 << axis:
+                    found.low[axis] = found.high[axis] = found.end[axis]
+
     def add(self, entry: Entry) -> None:
         """One entry."""
-        found = self._found
         match entry:
-            case Rapid():
-                self._straight("rapid", entry.end)
-            case Line() | Probe():
-                self._straight("feed", entry.end)
-            case Arc():
-                self._arc(entry)
-            case Polyline():
-                self._many(entry)
             case Moves():
-                for one in entry.entries():
-                    self.add(one)
+                _add(self._V, self._N, entry.rows, entry.ends, entry.arcs, len(entry))
+            case Rapid():
+                self._one(batches.RAPID, entry.end)
+            case Line() | Probe():
+                self._one(batches.LINE, entry.end)
+            case Arc():
+                radii = entry.start_radius, entry.end_radius
+                for k, number in enumerate((*entry.centre, entry.sweep_rad, *radii)):
+                    self._arc[k] = number
+                self._row[3] = CODES[entry.plane]
+                self._one(batches.ARC, entry.end)
+            case Polyline():
+                for end in entry.ends.tolist():
+                    self._one(batches.LINE, end)
             case Dwell():
-                found.move_cnts["dwell"] += 1
+                self._found.move_cnts["dwell"] += 1
             case Tool():
-                found.tools.append(entry.number)
+                self._found.tools.append(entry.number)
             case _:
                 pass
 
-    def _straight(self, kind: str, end: Point) -> None:
-        found = self._found
-        found.move_cnts[kind] += 1
-        found.lengths[kind] += math.sqrt(sum((end[a] - self._at[a]) ** 2 for a in self._linear))
-        self._place(end, is_start_cut=kind != "rapid")
-        self._reach(end)
-        self._at = end
-
-    def _place(self, end: Point, *, is_start_cut: bool) -> None:
-        """Axes that move for the first time have a place from now on."""
-        first = [axis for axis in self._unplaced if end[axis] != self._at[axis]]
-        self._unplaced.difference_update(first)
-        if is_start_cut:
-            self._reach(self._at, first)
-
-    def _reach(self, point: Point, axes: Iterable[int] | None = None) -> None:
-        low, high = self._found.low, self._found.high
-        for axis in self._found.letters.values() if axes is None else axes:
-            if axis not in self._unplaced:
-                low[axis] = min(low[axis], point[axis])
-                high[axis] = max(high[axis], point[axis])
-
-    def _many(self, entry: Polyline) -> None:
-        import numpy as np
-
-        found, ends = self._found, entry.ends
-        found.move_cnts["feed"] += len(ends)
-        all_points = np.vstack([np.asarray(self._at), ends])
-        steps = np.diff(all_points[:, self._linear], axis=0)
-        found.lengths["feed"] += float(np.sqrt((steps**2).sum(axis=1)).sum())
-        moved = np.where(np.ptp(all_points, axis=0) > 0.0, np.inf, self._at)
-        self._place(tuple(moved.tolist()), is_start_cut=True)
-        self._reach(tuple(map(float, all_points.min(axis=0))))
-        self._reach(tuple(map(float, all_points.max(axis=0))))
-        self._at = tuple(map(float, ends[-1]))
-
-    def _arc(self, arc: Arc) -> None:
-        """The mean radius counts; axes beside the plane add as on a helix."""
-        found, plane = self._found, arc.plane
-        found.move_cnts["arc"] += 1
-        bow = 0.5 * (arc.start_radius + arc.end_radius) * abs(arc.sweep_rad)
-        rise = [arc.end[a] - self._at[a] for a in self._linear if a not in plane_axes(plane)]
-        found.lengths["feed"] += math.sqrt(bow * bow + sum(d * d for d in rise))
-        self._unplaced.difference_update(plane_axes(plane))
-        self._reach(self._at, plane_axes(plane))
-        self._place(arc.end, is_start_cut=True)
-        for point in (*extremes(arc, self._at), arc.end):
-            self._reach(point)
-        self._at = arc.end
-
-
-def plane_axes(plane: Plane) -> tuple[int, int]:
-    """First and second axis."""
-    return plane.first, plane.second
-
-
-def extremes(arc: Arc, start: Point) -> Iterator[Point]:
-    """Where an arc reaches farthest along the axes of its plane."""
-    first, second = plane_axes(arc.plane)
-    begin = math.atan2(start[second] - arc.centre[1], start[first] - arc.centre[0])
-    low, high = sorted((begin, begin + arc.sweep_rad))
-    for quarter in range(math.ceil(low / _QUARTER), math.floor(high / _QUARTER) + 1):
-        share = (quarter * _QUARTER - begin) / arc.sweep_rad
-        radius = arc.start_radius + (arc.end_radius - arc.start_radius) * share
-        point = [a + (b - a) * share for a, b in zip(start, arc.end, strict=True)]
-        point[first] = arc.centre[0] + radius * math.cos(quarter * _QUARTER)
-        point[second] = arc.centre[1] + radius * math.sin(quarter * _QUARTER)
-        yield tuple(point)
+    def _one(self, kind: int, end: Sequence[float]) -> None:
+        self._row[0] = kind
+        for axis in range(AXES):
+            self._end[axis] = end[axis]
+        _add(self._V, self._N, self._row, self._end, self._arc, 1)

@@ -87,8 +87,8 @@ class Encoder:
             begin = piece.end
 
     def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
-        tolerance = self._tolerance(entry.pace)
-        found = columns(entry, begin, self._settings, self._line_speed(entry.pace), tolerance)
+        tolerance = self.tolerance(entry.pace)
+        found = columns(entry, begin, self._settings, self.line_speed(entry.pace), tolerance)
         mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
         begin_cnt: Pulses = self.pulses(begin)
         rows = zip(
@@ -112,7 +112,7 @@ class Encoder:
         ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
         tolerance = 0.0
         if isinstance(entry, Line) and self._geometry.is_linear(shape):
-            tolerance = self._tolerance(entry.pace)
+            tolerance = self.tolerance(entry.pace)
         begin_cnt, finish_cnt = self.pulses(begin), self.pulses(entry.end)
         if tolerance > 0.0:
             sent = self._geometry.line(self._place(begin_cnt), self._place(finish_cnt))
@@ -152,20 +152,20 @@ class Encoder:
         if isinstance(entry, Rapid):
             speed = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
         else:
-            speed = self._line_speed(entry.pace)
+            speed = self.line_speed(entry.pace)
         if isinstance(entry, Arc):
             # The centripetal acceleration v^2 / r must not exceed that of the machine.
             radius = min(entry.start_radius, entry.end_radius)
             speed = min(speed, math.sqrt(speeds.arc_acc_ups2 * radius))
         return min(speed, self._geometry.speed_limit(shape))
 
-    def _tolerance(self, pace: Pace) -> float:
+    def tolerance(self, pace: Pace) -> float:
         """The largest deviation of the path at corners between straight moves."""
         if not self._rounds or pace.is_confirmed or pace.mode is not PathMode.FREE:
             return 0.0
         return pace.tolerance_u
 
-    def _line_speed(self, pace: Pace) -> float:
+    def line_speed(self, pace: Pace) -> float:
         """The programmed speed of a feed move."""
         return self._speeds.trial_ups if self._is_dry else pace.feed_upm / S_PER_MIN
 
@@ -223,14 +223,19 @@ class Encoder:
 
     def _pieces(self, entry: Motion, begin: Point) -> Iterator[Motion]:
         """Convert a canonical move to forms the card can run: other arcs become chords."""
-        if isinstance(entry, Arc) and not self._runs(entry):
+        if isinstance(entry, Arc) and not self._runs(entry.plane):
             yield from self._chords(entry, begin)
         else:
             yield entry
 
-    def _runs(self, arc: Arc) -> bool:
-        """Whether the card can run an arc: X Y Z with equal pulses per unit in the plane."""
-        first, second = arc.plane.first, arc.plane.second
+    @property
+    def runs_arcs(self) -> bool:
+        """Whether the card can run the arcs of every plane: X Y Z have equal pulses per unit."""
+        return all(map(self._runs, Plane))
+
+    def _runs(self, plane: Plane) -> bool:
+        """Whether the card can run arcs: X Y Z with equal pulses per unit in the plane."""
+        first, second = plane.first, plane.second
         is_supported = first in CARD_PLANE_AXES and second in CARD_PLANE_AXES
         return is_supported and self._scale[first] == self._scale[second]
 

@@ -108,6 +108,10 @@ class Predictor:
         if self._reader is not None:
             self._reader.rested(dwell_s)
 
+    def close(self) -> None:
+        """The program has ended: the last moves end at rest."""
+        self.rest()
+
     def _release(self, *, is_complete: bool) -> None:
         for job in self._planner.release(1 << 30, is_complete=is_complete):
             phases = travel(job, self._speed_ups, self._entry_corner)

@@ -94,6 +94,16 @@ class Preflight:
             text = self._encoder.beyond_pulses(job) or ""
             self._unsayable = job.entry.source, text
 
+    @property
+    def unhomed(self) -> int:
+        """The mask of axes with limits whose first move was not seen yet."""
+        return sum(1 << axis for axis in self._unhomed)
+
+    def note_slow(self, cnt: int, first: Source, slowest: Source, share: float) -> None:
+        """Note moves that do not reach their feed, as a forecast found them."""
+        self._slow_cnt, self._first_slow = cnt, first
+        self._slow = Slow(slowest, 1.0, share)
+
     def _note_probe(self, job: Job) -> None:
         """Note a probing move whose positions the card cannot capture."""
         travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]

@@ -1,0 +1,181 @@
+"""Forecast of the run time of a program, many moves at a time: `Predictor` in the compiled core.
+
+The moves and their speeds are the same. A desk, where there is one, gets as jobs only the moves
+whose positions may be beyond something, and is asked nothing about the others.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from openacr.cnc import canonical as c
+from openacr.cnc.canonical.batches import POINT
+from openacr.cnc.reading.line_shapes import MOST_ROWS, doubles, integers
+from openacr.compiled import pick
+from openacr.mill.config.settings import S_PER_MIN
+from openacr.mill.plan import forecast_cy as core
+from openacr.mill.plan import move_rows_cy as row
+from openacr.mill.plan.encoding import Encoder
+from openacr.mill.plan.predicting import MOTIONS, Prediction
+
+if TYPE_CHECKING:
+    from openacr.mill.config.settings import Settings
+    from openacr.mill.plan.encoding import Job, Motion
+
+MODES = {c.PathMode.EXACT: core.EXACT, c.PathMode.CORNER: core.CORNER}
+PASSES = 0.0  # corners at the feed
+_moves = pick(core.forecast_moves)
+_add = pick(core.forecast_add)
+_release = pick(core.forecast_release)
+_close = pick(core.forecast_close)
+
+
+class Desk(Protocol):
+    """Observer of the moves whose positions have to be looked at."""
+
+    @property
+    def unhomed(self) -> int:
+        """The mask of axes whose first move it is to see."""
+
+    def read(self, job: Job) -> None:
+        """Receive a move that is not planned yet."""
+
+    def note_slow(self, cnt: int, first: c.Source, slowest: c.Source, share: float) -> None:
+        """Receive the count of moves in chains below their feed, and what the slowest reaches."""
+
+
+class Forecast:
+    """Adds up the times of the moves of a program."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        begin: c.Point,
+        *,
+        is_dry: bool = False,
+        rounds: bool = True,
+        desk: Desk | None = None,
+    ) -> None:
+        """`rounds`: as on the virtual machine, which supports path tolerances."""
+        self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
+        self._position = begin
+        self._desk = desk
+        self._files: list[str] = []
+        self._dwell_s = 0.0
+        self._J, self._X = integers(core.J_SIZE), doubles(core.X_SIZE)
+        self._Y, self._U = doubles(len(settings.axes) * row.Y_SIZE), doubles(row.U_SIZE)
+        self._Q, self._B = doubles(core.QUEUE * row.Q_SIZE), doubles(core.QUEUE)
+        self._begin, self._flags = doubles(POINT), integers(MOST_ROWS)
+        self._set_up(settings, is_dry=is_dry)
+
+    def _set_up(self, settings: Settings, *, is_dry: bool) -> None:
+        speeds, X = settings.speeds, self._X
+        rapid_ups = min(speeds.rapid_ups, speeds.trial_ups) if is_dry else speeds.rapid_ups
+        X[row.X_RAPID], X[row.X_RAPID_RAMP] = rapid_ups, speeds.rapid_acc_ups2
+        X[row.X_FEED_RAMP], X[row.X_ARC_RAMP] = speeds.feed_acc_ups2, speeds.arc_acc_ups2
+        X[row.X_MAX], X[row.X_ROTARY] = speeds.max_ups, speeds.rotary_max
+        X[core.X_ANGLE1], X[core.X_ANGLE2] = speeds.angle1_deg, speeds.angle2_deg
+        X[core.X_SLOWEST], X[core.X_STEP] = speeds.corner_ups, speeds.corner_step_ups
+        self._J[row.J_AXES], self._J[core.J_LEAST] = len(settings.axes), settings.forward_threshold
+        for k, axis in enumerate(settings.axes):
+            high, low = axis.soft_limits or (0.0, 0.0)
+            numbers = (
+                axis.index, axis.is_linear, axis.pulses_per_unit, axis.max_speed_ups,
+                axis.max_acceleration_ups2, axis.soft_limits is not None, high, low,
+            )  # fmt: skip
+            for n, number in enumerate(numbers):
+                self._Y[k * row.Y_SIZE + n] = float(number)
+
+    @property
+    def found(self) -> Prediction:
+        """The times so far."""
+        X = self._X
+        return Prediction(X[core.X_RAPID_S], X[core.X_FEED_S], self._dwell_s, self._J[core.J_MOVES])
+
+    def add(self, entry: c.Entry) -> None:
+        """Add the next entry of the program."""
+        if isinstance(entry, c.Moves) and self._encoder.runs_arcs:
+            self._many(entry)
+        elif isinstance(entry, MOTIONS):
+            for job in self._encoder.jobs(entry, self._position):
+                self._one(job)
+            if isinstance(entry, c.Probe):
+                self.rest()
+        elif isinstance(entry, c.Say | c.SetCell | c.BlockEnd):
+            return
+        else:
+            self.rest(entry.seconds if isinstance(entry, c.Dwell) else 0.0)
+
+    def rest(self, dwell_s: float = 0.0) -> None:
+        """Add a stop with a dwell."""
+        _release(self._J, self._X, self._Q, self._B, True)
+        self._X[core.X_SPEED] = self._X[core.X_IS_ROUND] = 0.0
+        self._dwell_s += dwell_s
+
+    def close(self) -> None:
+        """The program has ended: tell the desk how slow it was."""
+        self.rest()
+        J, X = self._J, self._X
+        _close(J, X)
+        if self._desk is not None and J[core.J_SLOW_CNT]:
+            first = self._source(X[core.X_FIRST_FILE], X[core.X_FIRST_LINE])
+            slowest = self._source(X[core.X_WORST_FILE], X[core.X_WORST_LINE])
+            self._desk.note_slow(J[core.J_SLOW_CNT], first, slowest, X[core.X_WORST_SHARE])
+
+    def _source(self, file: float, line: float) -> c.Source:
+        return c.Source(self._files[int(file)], int(line), "")
+
+    def _file(self, name: str) -> int:
+        """The number of a file."""
+        if name not in self._files:
+            self._files.append(name)
+        return self._files.index(name)
+
+    def _many(self, moves: c.Moves) -> None:
+        """Plan moves; those that are flagged are shown to the desk."""
+        J, count = self._J, len(moves)
+        J[core.J_FILE] = self._file(moves.file)
+        J[row.J_UNHOMED] = self._desk.unhomed if self._desk else 0
+        paces = doubles(len(moves.paces) * core.PACE)
+        for k, pace in enumerate(moves.paces):
+            mode = c.PathMode.EXACT if pace.is_confirmed else pace.mode
+            paces[k * core.PACE] = self._encoder.line_speed(pace)
+            paces[k * core.PACE + 1] = MODES.get(mode, PASSES)
+            paces[k * core.PACE + 2] = self._encoder.tolerance(pace)
+            paces[k * core.PACE + 3] = pace.feed_upm / S_PER_MIN
+        for axis, at in enumerate(self._position):
+            self._begin[axis] = at
+        flagged = _moves(
+            J, self._X, self._Y, self._U, self._Q, self._B, self._begin, moves.rows, moves.ends,
+            moves.arcs, paces, count, self._flags,
+        )  # fmt: skip
+        if self._desk is not None:
+            for k in self._flags[:flagged]:
+                begin = moves.end_of(k - 1) if k else self._position
+                self._desk.read(self._encoder.job(moves.entry(k), begin))
+        self._position = moves.end_of(count - 1)
+
+    def _one(self, job: Job) -> None:
+        """Plan a move that is a job already."""
+        if self._desk is not None:
+            self._desk.read(job)
+        self._position = job.finish
+        if job.length_u <= 0.0:
+            return
+        Q, q, entry = self._Q, self._J[core.J_COUNT] * row.Q_SIZE, job.entry
+        Q[q + row.Q_LENGTH], Q[q + row.Q_FEED] = job.length_u, job.feed_ups
+        Q[q + row.Q_RAMP], Q[q + row.Q_TOLERANCE] = job.ramp_ups2, job.tolerance_u
+        Q[q + row.Q_MODE] = MODES.get(job.mode, PASSES)
+        Q[q + row.Q_IS_RAPID] = job.is_rapid
+        Q[q + row.Q_HAS_TANGENT] = job.start is not None
+        for k, part in enumerate(job.start or ()):
+            Q[q + row.Q_START + k] = part
+        for k, part in enumerate(job.end or ()):
+            Q[q + row.Q_END + k] = part
+        Q[q + row.Q_WANTED] = _wanted(entry)
+        Q[q + row.Q_LINE], Q[q + row.Q_FILE] = entry.source.line, self._file(entry.source.file)
+        _add(self._J, self._X, Q, self._B)
+
+
+def _wanted(entry: Motion) -> float:
+    return 0.0 if isinstance(entry, c.Rapid) else entry.pace.feed_upm / S_PER_MIN
