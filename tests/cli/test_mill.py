@@ -299,3 +299,29 @@ def test_check_tests_soft_limits_with_the_offsets_of_the_store(tmp_path: Path) -
     assert result.exit_code == 1
     found = json.loads(result.stdout)["errors"]
     assert [(one["code"], one["line"], one["block"]) for one in found] == [("E401", 3, "X1.75 Y1")]
+
+
+def test_lengths_in_json_have_the_digits_they_mean(tmp_path: Path) -> None:
+    found = as_json("check", program(tmp_path, "F10 G1 X.1\nX.3\nG2 X.5 Y.2 I.3 J.2\nM2\n"))
+    assert found["end"] == {"X": 0.5, "Y": 0.2, "Z": 0.0}
+    assert found["length"] == {"rapid": 0.0, "feed": 1.2424778}
+
+
+def test_findings_name_a_file_with_the_folder_the_user_gave(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    folder = Path("parts")
+    folder.mkdir()
+    (folder / "MACRO.TXT").write_text("G1 X\n")
+    program(folder, "G1 X1 F10\nG555\nM2\n$I MACRO.TXT\n")
+    code, output = mill("check", "parts/PART.NC")
+    assert code == 1
+    assert "parts/PART.NC:2:1: E203 " in output
+    assert "parts/MACRO.TXT:1:5: E105 " in output
+    assert [each["file"] for each in as_json("check", "parts/PART.NC")["errors"]] == [
+        "parts/MACRO.TXT",
+        "parts/PART.NC",
+    ]
+    for command in ("time", "list", "run", "plot"):
+        assert "parts/PART.NC:2:1: E203 " in mill(command, "parts/PART.NC")[1], command

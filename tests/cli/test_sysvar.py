@@ -225,6 +225,12 @@ def test_a_password_is_neither_stored_nor_shown_in_clear_text(path: Path) -> Non
         assert store.read_text(100_004) not in run("export", "--all").output
 
 
+def test_without_a_terminal_a_new_password_has_to_be_given() -> None:
+    asked = run("password")
+    assert asked.exit_code == 2
+    assert asked.output == "error: no terminal to ask for the new password; give --new\n"
+
+
 @pytest.mark.req("MILL-SYS-PASSWORD")
 def test_system_parameters_are_changed_with_the_right_password_only(path: Path) -> None:
     assert run("set", "P650002=11").exit_code == 0  # none is asked yet

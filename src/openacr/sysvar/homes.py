@@ -1,11 +1,21 @@
 """Where every P number is kept, whether it survives power-off, and who may write it."""
 
 from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 from openacr.sysvar.lookup import parameter
-from openacr.sysvar.schema import CARD_PARAMETERS, FIRST_SYSTEM, Parameter
+from openacr.sysvar.schema import (
+    CARD_PARAMETERS,
+    FIRST_SYSTEM,
+    FRONT_END_VARIABLES,
+    GLOBAL_VARIABLES,
+    INTERNAL_VARIABLES,
+    Parameter,
+)
+from openacr.sysvar.tabs import CELLS
 
 
 class Host(Enum):
@@ -67,8 +77,8 @@ class Home:
         return RESERVED if self.writer is Writer.WARNED else None
 
 
-def _card(first: int, last: int, use: str, writer: Writer) -> Home:
-    return Home(first, last, use, Host.CARD, is_persistent=False, writer=writer)
+def _card(numbers: range, use: str, writer: Writer) -> Home:
+    return Home(numbers[0], numbers[-1], use, Host.CARD, is_persistent=False, writer=writer)
 
 
 def _store(first: int, last: int, use: str, writer: Writer = Writer.PROGRAM) -> Home:
@@ -82,37 +92,49 @@ def _nothing(first: int, last: int) -> Home:
 LAST_SYSTEM = 1_003_424
 BEYOND = 1 << 62
 
+
+def _cells() -> Iterator[Home]:
+    """The cells of programs in the store; a row extends to the first cell of the next one."""
+    program, none, warned = Writer.PROGRAM, Writer.NONE, Writer.WARNED
+    rows = (
+        (CELLS.first_global, "globals", program),
+        (CELLS.user_variables[0], "user variables", program),
+        (CELLS.tool_selected, "system variables", none),
+        (CELLS.parts_finished, "parts finished", program),
+        (CELLS.last_alarm, "system variables", none),
+        (CELLS.cycle_code, "canned cycles", program),
+        (CELLS.homed_axes, "reference positions", warned),
+        (CELLS.reference_point_1[0], "reference points", program),
+        (CELLS.reference_point_4.stop, "reference positions", warned),
+        (CELLS.free[0], "available", program),
+        (CELLS.floating_zero_active, "floating zero", program),
+        (CELLS.free_after_zero[0], "available", program),
+        (CELLS.common_work_shift[0], "work coordinates", program),
+        (CELLS.d_radius[0], "D radius 0", none),
+        (CELLS.d_radius[1], "D radius", program),
+        (CELLS.free_after_radius[0], "available", program),
+        (CELLS.d_wear[0], "D wear 0", none),
+        (CELLS.d_wear[1], "D wear", program),
+        (CELLS.free_after_radius_wear[0], "available", program),
+        (CELLS.current_d_radius, "current D", program),
+        (CELLS.h_length[0], "H length 0", none),
+        (CELLS.h_length[1], "H length", program),
+        (CELLS.h_wear[0], "H wear 0", none),
+        (CELLS.h_wear[1], "H wear", program),
+        (CELLS.current_h_length, "current H", program),
+        (CELLS.free_after_length[0], "available", program),
+        (CARD_PARAMETERS.start, "", none),
+    )
+    for (first, use, writer), (following, _, _) in pairwise(rows):
+        yield _store(first, following - 1, use, writer)
+
+
 HOMES = (
     _nothing(-BEYOND, -1),
-    _card(0, 33, "global variables", Writer.PROGRAM),
-    _card(34, 89, "reserved internal", Writer.WARNED),
-    _card(90, 99, "reserved internal", Writer.NONE),
-    _store(100, 199, "globals"),
-    _store(200, 233, "user variables"),
-    _store(234, 244, "system variables", Writer.NONE),
-    _store(245, 245, "parts finished"),
-    _store(246, 248, "system variables", Writer.NONE),
-    _store(249, 270, "canned cycles"),
-    _store(271, 279, "reference positions", Writer.WARNED),
-    _store(280, 317, "reference points"),
-    _store(318, 399, "reference positions", Writer.WARNED),
-    _store(400, 799, "available"),
-    _store(800, 832, "floating zero"),
-    _store(833, 899, "available"),
-    _store(900, 999, "work coordinates"),
-    _store(1000, 1000, "D radius 0", Writer.NONE),
-    _store(1001, 1400, "D radius"),
-    _store(1401, 1499, "available"),
-    _store(1500, 1500, "D wear 0", Writer.NONE),
-    _store(1501, 1900, "D wear"),
-    _store(1901, 1997, "available"),
-    _store(1998, 1999, "current D"),
-    _store(2000, 2000, "H length 0", Writer.NONE),
-    _store(2001, 2999, "H length"),
-    _store(3000, 3000, "H wear 0", Writer.NONE),
-    _store(3001, 3999, "H wear"),
-    _store(4000, 4001, "current H"),
-    _store(4002, 4095, "available"),
+    _card(GLOBAL_VARIABLES, "global variables", Writer.PROGRAM),
+    _card(INTERNAL_VARIABLES, "reserved internal", Writer.WARNED),
+    _card(FRONT_END_VARIABLES, "reserved internal", Writer.NONE),
+    *_cells(),
     Home(CARD_PARAMETERS[0], CARD_PARAMETERS[-1], "card parameters", Host.LIVE, False, Writer.CARD),
     _nothing(CARD_PARAMETERS.stop, FIRST_SYSTEM - 1),
     _store(FIRST_SYSTEM, LAST_SYSTEM, "system parameters", Writer.SERVICE),

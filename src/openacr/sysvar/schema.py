@@ -16,7 +16,10 @@ from openacr.errors import MapError
 from openacr.map.numbers import FLAG_WORD_BASE
 
 FIRST_SYSTEM = 100_000  # the first system parameter; below are variables and offsets of programs
-CARD_VARIABLES = range(100)  # P numbers of the card, not of the store
+CARD_VARIABLES = range(100)  # P numbers of the card, not of the store:
+GLOBAL_VARIABLES = range(34)  # free for programs,
+INTERNAL_VARIABLES = range(34, 90)  # reserved by the guide,
+FRONT_END_VARIABLES = range(90, 100)  # written by the front end alone
 CARD_PARAMETERS = range(FLAG_WORD_BASE, 20_488)
 AXES = 8
 AXIS_CELLS = 1_000

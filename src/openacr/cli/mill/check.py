@@ -91,6 +91,17 @@ def printable(text: str) -> str:
     return "".join(letter if letter.isprintable() else "?" for letter in text.expandtabs(1))
 
 
+def in_folder(findings: "list[Finding]", file: Path) -> "list[Finding]":
+    """The findings with their files in the folder of `file`, as the user named it."""
+    from dataclasses import replace
+
+    def placed(name: str) -> str:
+        path = file.parent / name
+        return str(path) if name == file.name or path.exists() else name
+
+    return [replace(finding, file=placed(finding.file)) for finding in findings]
+
+
 def show_findings(findings: "list[Finding]") -> None:
     """Every error and warning with its line and a mark at the column."""
     for finding in findings:
@@ -113,6 +124,7 @@ def check_program(
         left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
         survey, prediction = _checked(program, cells, name)
+    survey.findings = in_folder(survey.findings, file)
     if as_json:
         data = {"dialect": name} | _as_data(survey, prediction) | left_out
         typer.echo(json_format.dumps(data, indent=1))
@@ -146,6 +158,7 @@ def time_program(
             survey, prediction = _surveyed(
                 program, cells, name, is_dry=is_dry, rounds=not is_exact, reader=reader
             )
+    survey.findings = in_folder(survey.findings, file)
     if survey.errors:
         show_findings(survey.errors)
         if as_json:
@@ -243,9 +256,18 @@ def _note_left_out(record: dict[str, list[str]]) -> None:
 
 
 def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:
-    data = survey.data()
+    data: dict[str, Any] = rounded(survey.data())
     data["time_s"] = None if survey.errors else round(prediction.time_s, 4)
     return data
+
+
+def rounded(data: Any) -> Any:
+    """JSON data with its floats rounded to what they mean: 9 significant digits."""
+    if isinstance(data, float):
+        return float(f"{data:.9g}")
+    if isinstance(data, dict):
+        return {key: rounded(value) for key, value in data.items()}
+    return [rounded(value) for value in data] if isinstance(data, list) else data
 
 
 def _show_survey(survey: "Survey", prediction: "Prediction") -> None:

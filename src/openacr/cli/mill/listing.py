@@ -9,6 +9,7 @@ from openacr.cli.mill.check import (
     AtStore,
     Dialect,
     PartProgram,
+    in_folder,
     loaded,
     opened_store,
     printable,
@@ -39,7 +40,7 @@ def list_program(file: PartProgram, store: AtStore = None, dialect: Dialect = No
         typer.echo(printable(decoded(taken[0])))
         offset, number = taken[1], number + 1
     if errors:
-        show_findings(errors)
+        show_findings(in_folder(errors, file))
         raise typer.Exit(FAILED)
 
 

@@ -10,6 +10,7 @@ from openacr.cli.mill.check import (
     AtStore,
     Dialect,
     PartProgram,
+    in_folder,
     loaded,
     opened_store,
     show_findings,
@@ -53,7 +54,7 @@ def plot_program(
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
         scene, survey = scene_of(program, cells, name, by_tool=by_tool)
-    show_findings(survey.findings)
+    show_findings(in_folder(survey.findings, file))
     if not len(scene.drawing.kinds):
         if survey.errors:
             raise typer.Exit(FAILED)

@@ -15,6 +15,7 @@ from openacr.cli.mill.check import (
     Dry,
     PartProgram,
     clock,
+    in_folder,
     loaded,
     opened_store,
     show_findings,
@@ -148,7 +149,7 @@ def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program,
     """Load a program; exit with code 1 if it has errors."""
     program, name = loaded(path, cells, dialect)
     if program.errors:
-        show_findings(program.errors)
+        show_findings(in_folder(program.errors, path))
         raise typer.Exit(FAILED)
     return program, name
 

@@ -104,6 +104,8 @@ def change_password(
     with open_to_write(store) as cells:
         require_service(cells, [CELL], password)
         if new is None:
+            if not sys.stdin.isatty():
+                raise UserError("no terminal to ask for the new password; give --new")
             new = typer.prompt(
                 "New password", hide_input=True, confirmation_prompt=True, default=""
             )

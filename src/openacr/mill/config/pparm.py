@@ -4,8 +4,10 @@ from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.errors import UserError
 from openacr.mill.config.settings import Store
+from openacr.sysvar.schema import CARD_VARIABLES
+from openacr.sysvar.tabs import CELLS
 
-ON_CARD, LAST = range(100), 199
+LAST = CELLS.user_variables[0] - 1
 
 
 class OperatorParameters:
@@ -17,7 +19,7 @@ class OperatorParameters:
 
     def read(self, n: int) -> float:
         """The present value."""
-        if n not in ON_CARD:
+        if n not in CARD_VARIABLES:
             return self._store.read(self._offered(n))
         try:
             return float(self._at(n).read(n))
@@ -26,7 +28,7 @@ class OperatorParameters:
 
     def write(self, n: int, value: float) -> None:
         """Change a value at once."""
-        if n not in ON_CARD:
+        if n not in CARD_VARIABLES:
             self._store.write(self._offered(n), value)
             return
         try:
@@ -49,4 +51,6 @@ class OperatorParameters:
 
 
 def _undimensioned(n: int) -> UserError:
-    return UserError(f"P{n}: the card has no such variable (DIM P({len(ON_CARD)}) creates it)")
+    return UserError(
+        f"P{n}: the card has no such variable (DIM P({len(CARD_VARIABLES)}) creates it)"
+    )

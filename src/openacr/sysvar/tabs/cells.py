@@ -41,10 +41,12 @@ class CELLS:
     """Variables, offsets and state of programs."""
 
     tab = _TAB
-    tab.real(100, "Global 100", "", doc="Free for programs.")
+    first_global = tab.real(100, "Global 100", "", doc="Free for programs.")
     g31_trip = tab.by_axis.real(101, "G31 trip", "", doc="Machine position, active unit.")
     tab.series(91, first=109).real(109, "Global {}", "", doc="Free for programs.")
-    tab.series(34, first=200).real(200, "User variable {}", "", doc="Sizes of library parts.")
+    user_variables = tab.series(34, first=200).real(
+        200, "User variable {}", "", doc="Sizes of library parts."
+    )
 
     tool_selected = tab.integer(234, "Tool selected", doc="Selected by T for the next M6.")
     tool_in_spindle = tab.integer(235, "Tool in spindle", doc="Loaded by the last M6.")
@@ -125,7 +127,9 @@ class CELLS:
     )
     tab.series(62, first=338).real(338, "Reserved {}", "", doc="Reserved.")
 
-    tab.series(400, first=400).real(400, "Free {}", "", doc="Free for programs, kept in the store.")
+    free = tab.series(400, first=400).real(
+        400, "Free {}", "", doc="Free for programs, kept in the store."
+    )
     floating_zero_active = tab.boolean(
         800, "Floating zero active", doc="Whether any shift is active."
     )
@@ -141,7 +145,9 @@ class CELLS:
     floating_zero_position = tab.by_axis.real(
         825, "Floating zero position", "u", doc="Machine position at the last G92."
     )
-    tab.series(67, first=833).real(833, "Free {}", "", doc="Free for programs, kept in the store.")
+    free_after_zero = tab.series(67, first=833).real(
+        833, "Free {}", "", doc="Free for programs, kept in the store."
+    )
 
     common_work_shift = tab.by_axis.real(
         900, "Common work shift", "u", doc="Shift of all work systems."
@@ -158,11 +164,11 @@ class CELLS:
     tab.real(999, "Free 999", "", doc="Free.")
 
     d_radius = _offsets(1000, "D radius", RADIUS_OFFSETS, "Cutter radius.")
-    tab.series(99, first=1401).real(
+    free_after_radius = tab.series(99, first=1401).real(
         1401, "Free {}", "", doc="Free for programs, kept in the store."
     )
     d_wear = _offsets(1500, "D wear", RADIUS_OFFSETS, "Wear of the radius.")
-    tab.series(97, first=1901).real(
+    free_after_radius_wear = tab.series(97, first=1901).real(
         1901, "Free {}", "", doc="Free for programs, kept in the store."
     )
     current_d_radius = tab.real(1998, "Current D radius", "u", doc="Set by D.")
@@ -171,6 +177,6 @@ class CELLS:
     h_wear = _offsets(3000, "H wear", LENGTH_OFFSETS, "Wear of the length.")
     current_h_length = tab.real(4000, "Current H length", "u", doc="Set by H.")
     current_h_wear = tab.real(4001, "Current H wear", "u", doc="Set by H.")
-    tab.series(94, first=4002).real(
+    free_after_length = tab.series(94, first=4002).real(
         4002, "Free {}", "", doc="Free for programs, kept in the store."
     )
