@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 TESTS = (
     "tests/kernel/test_robustness.py",
-    "tests/kernel/test_jog.py",
+    "tests/kernel/jog/test_jog.py",
     "tests/parity/test_parity.py",
     "tests/fuzz/test_extremes.py",  # every command with numbers nothing can have
     "tests/fuzz/test_lines.py",  # 20 000 lines, typed and stored

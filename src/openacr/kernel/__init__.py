@@ -5,7 +5,7 @@ Rooms, from the tick down; those further down know nothing of those above:
     tick_cy     the order of the card                 path       coordinated moves
     status      limits, flags, samples                sources    pulses and time for others
     followers   gears, cams, offsets, objects         axis       inputs, setpoints, servo, drive
-    jog         jogs and homing                       profile_cy, words_cy
+    jog         jogs and homing                       profile, words_cy
 
 The functions get the state of the card as views of its one buffer:
 
@@ -24,7 +24,7 @@ of an encoder, cmf of a commutator, mo of outputs:
 Indices have the same letters everywhere:
 
     m   master, 0 to 15                  e   encoder, 0 to 23
-    n   axis, 0 to 15 (in profile_cy:    s   slave of a master, 0 to 15
+    n   axis, 0 to 15 (in profile/:      s   slave of a master, 0 to 15
         profile, 0 to 47)                t   tap of a source, trigger
     record   move, 0 to 767              b   table of a cam or ballscrew
     c   commutator, channel              k   anything else that is counted
@@ -38,7 +38,6 @@ Suffixes give the units of rows and of what is computed from them:
     _v2    squared velocity             _s _tk _hz         seconds, ticks, per second
     _deg _rad                           _v _a              volts, amperes
 
-Numbers without a unit have no suffix: parts of a path (`part`, `rest`), factors, signs. Neither
-have those of profile_cy, whose unit of length is that of the owner of a profile: programming units
-for masters, pulses for axes.
+Numbers without a unit have no suffix: parts of a path (`part`, `rest`), factors, signs. In profile/
+`_u` is the unit of the owner of a profile: programming units for masters, pulses for axes.
 """

@@ -70,14 +70,14 @@ def axis_changing(I: I32, n: int) -> bool:
 
 def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
     """Jog and all offsets of axis n, and its setpoint sums."""
-    dt: float = period_s
+    dt_s: float = period_s
     used: bool = followers_used(I, n) != 0
     if used:
         if I[hand_wheels.on[n]]:
             wheel_step(F, I, S, n)
         if I[followers.live[n]]:
-            dt = jog_time(F, I, n, period_s)
-    jog_step(F, I, S, n, dt)
+            dt_s = jog_time(F, I, n, period_s)
+    jog_step(F, I, S, n, dt_s)
     if used:
         followers_step(F, I, S, n, period_s, rate_hz)
     if axis_setpoints(F, S, n, rate_hz) or used or axis_changing(I, n):

@@ -7,7 +7,7 @@ ramps of their own. The setpoint and its parts know nothing of it.
 
 from openacr.cmath import fabs
 from openacr.kernel.axis.axis_cy import axis_scale
-from openacr.kernel.profile_cy import profile_advance, profile_plan, profile_reset
+from openacr.kernel.profile.profile_cy import profile_advance, profile_plan, profile_reset
 from openacr.map.rows import axes, profiles
 from openacr.map.words import af1, af4, mf1
 from openacr.views import F32, F64, I32

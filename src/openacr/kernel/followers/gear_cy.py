@@ -40,16 +40,16 @@ EPS = 1e-9
 RATIO_STATE = af1.GEAR_ACTIVE | af1.GEAR_AT_SPEED | af1.GEAR_STOPPING
 
 
-def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
-    """Ramp the internal ratio of axis n towards `goal` for `dt`; return its mean."""
+def gear_ramp(F: F64, n: int, goal: float, dt_s: float, at_once: bool) -> float:
+    """Ramp the internal ratio of axis n towards `goal` for `dt_s`; return its mean."""
     ratio: float = F[gears.ratio_now[n]]
     if at_once:
         ratio = goal
-    if ratio == goal or dt <= 0.0:
+    if ratio == goal or dt_s <= 0.0:
         F[gears.ratio_now[n]] = ratio
         return ratio
     area_s: float = 0.0
-    left_s: float = dt
+    left_s: float = dt_s
     for _ in range(2):  # down to 0, then up on the other side
         stage: float = 0.0 if ratio * goal < 0.0 else goal
         rate_rps: float = F[gears.dec_rps[n]] if fabs(stage) < fabs(ratio) else F[gears.acc_rps[n]]
@@ -67,7 +67,7 @@ def gear_ramp(F: F64, n: int, goal: float, dt: float, at_once: bool) -> float:
         if ratio == goal:
             break
     F[gears.ratio_now[n]] = ratio
-    return (area_s + left_s * ratio) / dt
+    return (area_s + left_s * ratio) / dt_s
 
 
 def gear_slip(F: F64, S: F32, n: int, lost_cnt: float) -> None:
@@ -101,12 +101,12 @@ def gear_place(F: F64, I: I32, S: F32, n: int, moved_cnt: float) -> None:
     F[axes.gear_cnt[n]] += moved_cnt
 
 
-def gear_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> None:
-    """Let the gear of axis n follow `delta_cnt` source pulses that came within `dt`."""
+def gear_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt_s: float) -> None:
+    """Let the gear of axis n follow `delta_cnt` source pulses that came within `dt_s`."""
     word: int = af1.word[n]
     on: bool = I[word] & af1.GEAR_ACTIVATE != 0
     goal: float = F[gears.ratio[n]] if on else 0.0
-    mean: float = gear_ramp(F, n, goal, dt, I[word] & af1.GEAR_LOCK != 0)
+    mean: float = gear_ramp(F, n, goal, dt_s, I[word] & af1.GEAR_LOCK != 0)
     step_cnt: float = 0.0
     if F[gears.ppu[n]] != 0.0:
         step_cnt = delta_cnt / F[gears.ppu[n]] * axis_scale(S, n)
@@ -135,7 +135,7 @@ def gear_remainder(F: F64, t: int, delta_cnt: float) -> float:
     return F[triggers.over_cnt[t]] / delta_cnt if delta_cnt != 0.0 else 0.0
 
 
-def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> bool:
+def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt_s: float) -> bool:
     """Advance what GEAR ON waits for; True if the gear has started in this tick."""
     t: int = n * TRIGGERS + GEAR_ON
     captures: bool = I[triggers.kind[t]] >= CAPTURED
@@ -151,11 +151,11 @@ def gear_on_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float)
         I[word] |= af2.GEAR_TRIGGER_STARTED
     I[af1.word[n]] |= af1.GEAR_ACTIVATE
     over_cnt: float = F[triggers.over_cnt[t]]
-    gear_run(F, I, S, n, over_cnt, dt * gear_remainder(F, t, delta_cnt))
+    gear_run(F, I, S, n, over_cnt, dt_s * gear_remainder(F, t, delta_cnt))
     return True
 
 
-def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float) -> bool:
+def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt_s: float) -> bool:
     """Advance what GEAR OFF waits for; True if it has come in this tick."""
     t: int = n * TRIGGERS + GEAR_OFF
     offset_cnt: float = I[axes.gear_trigger_off_offset[n]]
@@ -166,9 +166,9 @@ def gear_off_trigger(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt: float
         return False
     over_cnt: float = F[triggers.over_cnt[t]]
     remainder: float = gear_remainder(F, t, delta_cnt)
-    gear_run(F, I, S, n, delta_cnt - over_cnt, dt * (1.0 - remainder))
+    gear_run(F, I, S, n, delta_cnt - over_cnt, dt_s * (1.0 - remainder))
     I[af1.word[n]] &= ~af1.GEAR_ACTIVATE
-    gear_run(F, I, S, n, over_cnt, dt * remainder)
+    gear_run(F, I, S, n, over_cnt, dt_s * remainder)
     return True
 
 
@@ -181,8 +181,8 @@ def gear_halt(F: F64, I: I32, n: int) -> None:
     F[gears.ratio_now[n]] = 0.0
 
 
-def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
-    """The gear of axis n in one tick of `dt` seconds."""
+def gear_step(F: F64, I: I32, S: F32, n: int, dt_s: float) -> None:
+    """The gear of axis n in one tick of `dt_s` seconds."""
     if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST:
         gear_halt(F, I, n)
         return
@@ -194,9 +194,9 @@ def gear_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
         return
     done: bool = False
     if on != DISARMED:
-        done = gear_on_trigger(F, I, S, n, delta_cnt, dt)
+        done = gear_on_trigger(F, I, S, n, delta_cnt, dt_s)
     if off != DISARMED and not done:
-        done = gear_off_trigger(F, I, S, n, delta_cnt, dt)
+        done = gear_off_trigger(F, I, S, n, delta_cnt, dt_s)
     if not done:
-        gear_run(F, I, S, n, delta_cnt, dt)
+        gear_run(F, I, S, n, delta_cnt, dt_s)
     gear_show(F, I, n)

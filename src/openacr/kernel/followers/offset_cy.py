@@ -177,7 +177,7 @@ def backlash_wanted(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> float:
     return full_cnt if psp_cnt > 0.0 else 0.0
 
 
-def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt: float) -> None:
+def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt_s: float) -> None:
     """Bring the backlash offset of axis n to what it should be, a step taking 10 ms."""
     wanted_cnt: float = backlash_wanted(F, I, S, n, psp_cnt)
     offset_cnt: float = F[axes.backlash_cnt[n]]
@@ -186,7 +186,7 @@ def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt: float) -> 
         F[followers.backlash_step_cnt[n]] = fabs(wanted_cnt - offset_cnt) / BACKLASH_SPREAD_S
     if offset_cnt == wanted_cnt:
         return
-    step_cnt: float = F[followers.backlash_step_cnt[n]] * dt
+    step_cnt: float = F[followers.backlash_step_cnt[n]] * dt_s
     left_cnt: float = wanted_cnt - offset_cnt
     if fabs(left_cnt) <= step_cnt * (1.0 + 1e-9):
         F[axes.backlash_cnt[n]] = wanted_cnt
@@ -287,18 +287,18 @@ def followers_used(I: I32, n: int) -> int:
     )
 
 
-def followers_step(F: F64, I: I32, S: F32, n: int, dt: float, rate_hz: float) -> None:
+def followers_step(F: F64, I: I32, S: F32, n: int, dt_s: float, rate_hz: float) -> None:
     """Gear, filter and cam of axis n, then the offsets that depend on the primary setpoint."""
     if I[axes.backlash_setting[n]]:
         I[followers.live[n]] = 1  # so that a later 0 is noticed
     if I[followers.live[n]]:
-        gear_step(F, I, S, n, dt)
+        gear_step(F, I, S, n, dt_s)
         cam_step(F, I, S, n, rate_hz)
         if I[filters.on[n]]:
             filter_step(F, I, S, n)
         psp_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
         psp_cnt = psp_cnt + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
-        backlash_step(F, I, S, n, psp_cnt, dt)
+        backlash_step(F, I, S, n, psp_cnt, dt_s)
         ballscrew_step(F, I, S, n, psp_cnt)
     if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)

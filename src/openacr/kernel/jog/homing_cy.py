@@ -19,7 +19,7 @@ from openacr.cmath import fabs
 from openacr.kernel.axis.axis_cy import axis_preload, axis_scale, axis_sense, limit_bars
 from openacr.kernel.axis.capture_cy import capture_input_position, encoder_shift
 from openacr.kernel.jog.jogplan_cy import FAR_CNT, JOG_PROFILE, jog_ramp_down, jog_run, jog_setting
-from openacr.kernel.profile_cy import DECELERATING
+from openacr.kernel.profile.ramps_cy import DECELERATING
 from openacr.map.rows import axes, plant, profiles
 from openacr.map.words import af4, af5
 from openacr.views import F32, F64, I32

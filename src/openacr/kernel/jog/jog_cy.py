@@ -19,7 +19,8 @@ from openacr.kernel.jog.jogplan_cy import (
     jog_setting,
     jog_speed,
 )
-from openacr.kernel.profile_cy import STOPPING, profile_advance, profile_reset, profile_stop
+from openacr.kernel.profile.profile_cy import profile_advance, profile_reset, profile_stop
+from openacr.kernel.profile.ramps_cy import STOPPING
 from openacr.kernel.sources.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.rows import axes, masters, profiles, sources
 from openacr.map.words import af1, af4, af6
@@ -250,8 +251,8 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     I[word] = flags
 
 
-def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
-    """Advance the jog profiler of axis n by `dt` seconds."""
+def jog_step(F: F64, I: I32, S: F32, n: int, dt_s: float) -> None:
+    """Advance the jog profiler of axis n by `dt_s` seconds."""
     jog_stop_request(F, I, S, n)
     mode: int = I[axes.jog_mode[n]]
     if mode != JOG_KILLED and mode != JOG_HOMING:
@@ -263,7 +264,7 @@ def jog_step(F: F64, I: I32, S: F32, n: int, dt: float) -> None:
     if I[axes.jog_mode[n]] == JOG_HOMING and home_step(F, I, S, n):
         jog_rest(F, I, n)
     if I[axes.jog_mode[n]] != JOG_IDLE:
-        left_s: float = profile_advance(F, I, JOG_PROFILE + n, dt)
+        left_s: float = profile_advance(F, I, JOG_PROFILE + n, dt_s)
         jog_place(F, I, n)
         if left_s >= 0.0:
             jog_arrived(F, I, S, n, left_s)

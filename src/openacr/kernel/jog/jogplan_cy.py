@@ -2,13 +2,8 @@
 
 from openacr.cmath import fabs
 from openacr.kernel.axis.axis_cy import axis_scale
-from openacr.kernel.profile_cy import (
-    DECELERATING,
-    plain,
-    profile_plan,
-    profile_reset,
-    profile_stop,
-)
+from openacr.kernel.profile.profile_cy import profile_plan, profile_reset, profile_stop
+from openacr.kernel.profile.ramps_cy import DECELERATING, plain
 from openacr.map.rows import axes, hand_wheels, profiles
 from openacr.views import F32, F64, I32
 

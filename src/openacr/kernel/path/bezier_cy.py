@@ -78,31 +78,33 @@ def pole(F: F64, record: int, s: int, k: int) -> float:
 
 def pole_sum(F: F64, record: int, s: int, degree: int, u: float) -> float:
     """Sum of B_k(u) w_k q_k of slave s."""
-    total: float = pole(F, record, s, 0)
+    total_cnt: float = pole(F, record, s, 0)
     power: float = 1.0
     for k in range(1, degree + 1):
         power = power * u * (degree - k + 1) / k
-        total = total * (1.0 - u) + power * pole(F, record, s, k)
-    return total
+        total_cnt = total_cnt * (1.0 - u) + power * pole(F, record, s, k)
+    return total_cnt
 
 
 def pole_rise(F: F64, record: int, s: int, degree: int, u: float) -> float:
     """Derivative of `pole_sum` after u."""
-    total: float = pole(F, record, s, 1) - pole(F, record, s, 0)
+    total_cnt: float = pole(F, record, s, 1) - pole(F, record, s, 0)
     power: float = 1.0
     for k in range(1, degree):
         power = power * u * (degree - k) / k
-        total = total * (1.0 - u) + power * (pole(F, record, s, k + 1) - pole(F, record, s, k))
-    return total * degree
+        total_cnt = total_cnt * (1.0 - u) + power * (
+            pole(F, record, s, k + 1) - pole(F, record, s, k)
+        )
+    return total_cnt * degree
 
 
 def bezier_position(F: F64, I: I32, record: int, s: int, u: float) -> float:
     """Position of slave s at u."""
-    target: float = F[moves.target_cnt[record] + s]
+    target_cnt: float = F[moves.target_cnt[record] + s]
     degree: int = I[moves.degree[record]]
     if u >= 1.0:
-        return target
-    return target + pole_sum(F, record, s, degree, u) / weight_sum(F, record, degree, u)
+        return target_cnt
+    return target_cnt + pole_sum(F, record, s, degree, u) / weight_sum(F, record, degree, u)
 
 
 def bezier_slope(F: F64, I: I32, record: int, s: int, u: float) -> float:
@@ -122,8 +124,8 @@ def bezier_speed(F: F64, I: I32, record: int, u: float) -> float:
         if curved & (1 << s):
             weight: float = F[moves.weight[record] + s]
             if weight != 0.0:
-                slope: float = weight * bezier_slope(F, I, record, s, u)
-                square += slope * slope
+                slope_u: float = weight * bezier_slope(F, I, record, s, u)
+                square += slope_u * slope_u
     return sqrt(square)
 
 
@@ -131,22 +133,22 @@ def bezier_arc(F: F64, I: I32, record: int, a: float, b: float) -> float:
     """Length of the curve from u = a to b."""
     half: float = (b - a) / 2.0
     mid: float = (a + b) / 2.0
-    total: float = WEIGHT_0 * bezier_speed(F, I, record, mid)
-    total += WEIGHT_1 * bezier_speed(F, I, record, mid - half * NODE_1)
-    total += WEIGHT_1 * bezier_speed(F, I, record, mid + half * NODE_1)
-    total += WEIGHT_2 * bezier_speed(F, I, record, mid - half * NODE_2)
-    total += WEIGHT_2 * bezier_speed(F, I, record, mid + half * NODE_2)
-    return total * half
+    total_u: float = WEIGHT_0 * bezier_speed(F, I, record, mid)
+    total_u += WEIGHT_1 * bezier_speed(F, I, record, mid - half * NODE_1)
+    total_u += WEIGHT_1 * bezier_speed(F, I, record, mid + half * NODE_1)
+    total_u += WEIGHT_2 * bezier_speed(F, I, record, mid - half * NODE_2)
+    total_u += WEIGHT_2 * bezier_speed(F, I, record, mid + half * NODE_2)
+    return total_u * half
 
 
 def bezier_measure(F: F64, I: I32, record: int) -> float:
     """Note the arcs of a curve whose poles are known; return its length."""
     w: int = curves.arc_u[record]
-    total: float = 0.0
+    total_u: float = 0.0
     for k in range(ARCS):
-        total += bezier_arc(F, I, record, k * PART, (k + 1) * PART)
-        F[w + k] = total
-    return total
+        total_u += bezier_arc(F, I, record, k * PART, (k + 1) * PART)
+        F[w + k] = total_u
+    return total_u
 
 
 def bezier_u(F: F64, I: I32, record: int, part: float) -> float:
@@ -154,43 +156,43 @@ def bezier_u(F: F64, I: I32, record: int, part: float) -> float:
     if part <= 0.0 or part >= 1.0 or is_timed(I, record):
         return part
     w: int = curves.arc_u[record]
-    length: float = F[w + ARCS - 1]
-    gone: float = part * length
+    length_u: float = F[w + ARCS - 1]
+    gone_u: float = part * length_u
     k: int = 0
-    while k < ARCS - 1 and F[w + k] < gone:
+    while k < ARCS - 1 and F[w + k] < gone_u:
         k += 1
-    before: float = F[w + k - 1] if k > 0 else 0.0
+    before_u: float = F[w + k - 1] if k > 0 else 0.0
     first: float = k * PART
     low: float = first
     high: float = first + PART
-    width: float = F[w + k] - before
+    width_u: float = F[w + k] - before_u
     u: float = low
-    if width > 0.0:
-        u = low + (high - low) * (gone - before) / width
+    if width_u > 0.0:
+        u = low + (high - low) * (gone_u - before_u) / width_u
     for _ in range(STEPS):
-        off: float = before + bezier_arc(F, I, record, first, u) - gone
-        if fabs(off) <= CLOSE * length:
+        off_u: float = before_u + bezier_arc(F, I, record, first, u) - gone_u
+        if fabs(off_u) <= CLOSE * length_u:
             break
-        if off > 0.0:
+        if off_u > 0.0:
             high = u
         else:
             low = u
-        speed: float = bezier_speed(F, I, record, u)
-        u = u - off / speed if speed > 0.0 else low
+        speed_u: float = bezier_speed(F, I, record, u)
+        u = u - off_u / speed_u if speed_u > 0.0 else low
         if not low < u < high:
             u = (low + high) / 2.0
     return u
 
 
 def bezier_steepest(F: F64, I: I32, record: int, s: int) -> float:
-    """The largest change of the position of slave s with the part of the path, sampled."""
-    length: float = F[curves.arc_u[record] + ARCS - 1]
+    """The largest_cnt change of the position of slave s with the part of the path, sampled."""
+    length_u: float = F[curves.arc_u[record] + ARCS - 1]
     timed: bool = is_timed(I, record)
-    largest: float = 0.0
+    largest_cnt: float = 0.0
     for k in range(SAMPLES + 1):
-        slope: float = fabs(bezier_slope(F, I, record, s, k * SAMPLE))
+        slope_cnt: float = fabs(bezier_slope(F, I, record, s, k * SAMPLE))
         if not timed:
-            speed: float = bezier_speed(F, I, record, k * SAMPLE)
-            slope = slope * length / speed if speed > CLOSE * length else 0.0
-        largest = max(largest, slope)
-    return largest
+            speed_u: float = bezier_speed(F, I, record, k * SAMPLE)
+            slope_cnt = slope_cnt * length_u / speed_u if speed_u > CLOSE * length_u else 0.0
+        largest_cnt = max(largest_cnt, slope_cnt)
+    return largest_cnt

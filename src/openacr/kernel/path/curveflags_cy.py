@@ -3,7 +3,7 @@
 from openacr.kernel.path.bezier_cy import is_bezier
 from openacr.kernel.path.lookahead_cy import look_record
 from openacr.kernel.path.path_cy import MARK_CURVE_BEGIN, MARK_NURB, move_record
-from openacr.kernel.profile_cy import ACCELERATING, STOPPING
+from openacr.kernel.profile.ramps_cy import ACCELERATING, STOPPING
 from openacr.map.rows import curve_points, masters, moves, profiles
 from openacr.map.words import mf3
 from openacr.views import I32

@@ -15,13 +15,8 @@ from openacr.kernel.path.path_cy import (
 from openacr.kernel.path.plan_cy import master_plan
 from openacr.kernel.path.round_cy import round_hold_rate, round_holds
 from openacr.kernel.path.seek_cy import SEEK_NONE, SEEK_STOPPING
-from openacr.kernel.profile_cy import (
-    DECELERATING,
-    STOPPING,
-    profile_plan,
-    profile_reset,
-    profile_stop,
-)
+from openacr.kernel.profile.profile_cy import profile_plan, profile_reset, profile_stop
+from openacr.kernel.profile.ramps_cy import DECELERATING, STOPPING
 from openacr.map.rows import axes, masters, moves, profiles
 from openacr.map.words import mf1, mf4
 from openacr.views import F32, F64, I32

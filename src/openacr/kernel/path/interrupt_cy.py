@@ -1,7 +1,8 @@
 """Flags and captures that start a move (TRG) or end it early (INT)."""
 
 from openacr.kernel.path.path_cy import SLAVE_COUNT, move_record, move_stop_rate
-from openacr.kernel.profile_cy import STOPPING, profile_stop
+from openacr.kernel.profile.profile_cy import profile_stop
+from openacr.kernel.profile.ramps_cy import STOPPING
 from openacr.map.numbers import FLAG_LAST, FLAG_WORD_BASE
 from openacr.map.rows import axes, masters, moves, profiles
 from openacr.map.words import af1, mf1

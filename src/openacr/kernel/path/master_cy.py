@@ -72,12 +72,8 @@ from openacr.kernel.path.seek_cy import (
 from openacr.kernel.path.sync_cy import sync_bars
 from openacr.kernel.path.timebase_cy import path_advance, path_time
 from openacr.kernel.path.timed_cy import move_timed
-from openacr.kernel.profile_cy import (
-    ACCELERATING,
-    DECELERATING,
-    STOPPING,
-    profile_reset,
-)
+from openacr.kernel.profile.profile_cy import profile_reset
+from openacr.kernel.profile.ramps_cy import ACCELERATING, DECELERATING, STOPPING
 from openacr.map.rows import curve_points, masters, moves, profiles
 from openacr.map.words import mf1, mf2, mf4
 from openacr.views import F32, F64, I32
@@ -298,18 +294,18 @@ def master_busy(I: I32, m: int) -> bool:
     ) != 0
 
 
-def master_step(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
-    """Advance master m by one servo period of `dt` seconds of path time."""
-    master_moves(F, I, S, m, dt)
+def master_step(F: F64, I: I32, S: F32, m: int, dt_s: float) -> None:
+    """Advance master m by one servo period of `dt_s` seconds of path time."""
+    master_moves(F, I, S, m, dt_s)
     if I[curve_points.live[m]]:
         curve_show(I, m)
 
 
-def master_moves(F: F64, I: I32, S: F32, m: int, dt: float) -> None:
+def master_moves(F: F64, I: I32, S: F32, m: int, dt_s: float) -> None:
     """Take the path of a master on by one servo period, through as many of its moves as fit."""
-    left_s: float = dt
+    left_s: float = dt_s
     if I[masters.paced[m]]:
-        left_s = path_time(F, I, S, m, dt)
+        left_s = path_time(F, I, S, m, dt_s)
     if not path_runs(F, I, S, m):
         return
     velocity_ups: float = 0.0

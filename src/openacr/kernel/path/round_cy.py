@@ -32,13 +32,8 @@ from openacr.kernel.path.round_pass_cy import (
     round_exit2,
     round_last,
 )
-from openacr.kernel.profile_cy import (
-    DECELERATING,
-    STOPPING,
-    profile_plan,
-    ramp_distance,
-    rest_speed,
-)
+from openacr.kernel.profile.profile_cy import profile_plan
+from openacr.kernel.profile.ramps_cy import DECELERATING, STOPPING, ramp_distance, rest_speed
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 

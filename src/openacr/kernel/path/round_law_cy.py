@@ -16,7 +16,7 @@ from openacr.kernel.axis.axis_cy import axis_scale
 from openacr.kernel.path.bezier_cy import is_bezier
 from openacr.kernel.path.lookahead_cy import look_plain, look_rate, ramp_start
 from openacr.kernel.path.path_cy import MARK_ROUNDS, SLAVE_COUNT
-from openacr.kernel.profile_cy import ramp_distance, rest_speed
+from openacr.kernel.profile.ramps_cy import ramp_distance, rest_speed
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 

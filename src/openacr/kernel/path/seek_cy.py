@@ -7,7 +7,8 @@ from openacr.kernel.axis.axis_cy import axis_offsets, axis_preload
 from openacr.kernel.axis.capture_cy import capture_arm, encoder_shift
 from openacr.kernel.path.path_cy import move_geometry, move_record, move_stop_rate
 from openacr.kernel.path.plan_cy import master_plan
-from openacr.kernel.profile_cy import STOPPING, profile_reset, profile_stop
+from openacr.kernel.profile.profile_cy import profile_reset, profile_stop
+from openacr.kernel.profile.ramps_cy import STOPPING
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import af1
 from openacr.views import F32, F64, I32

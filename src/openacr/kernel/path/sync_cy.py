@@ -14,7 +14,7 @@ from openacr.kernel.path.path_cy import (
     move_record,
 )
 from openacr.kernel.path.timed_cy import plan_seconds
-from openacr.kernel.profile_cy import profile_reset
+from openacr.kernel.profile.profile_cy import profile_reset
 from openacr.map.rows import kernel, masters, moves
 from openacr.map.words import af4, mf1, mf2
 from openacr.views import F32, F64, I32

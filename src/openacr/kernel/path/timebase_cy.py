@@ -5,7 +5,7 @@ multiplies that. Speed scales with the pace, acceleration with its square, the p
 A source that runs backwards takes the path back, to the start of the present plan.
 """
 
-from openacr.kernel.profile_cy import profile_advance
+from openacr.kernel.profile.profile_cy import profile_advance
 from openacr.kernel.sources.source_cy import FROM_CLOCK, PULSES_PER_S, TIME_TAPS, source_follow
 from openacr.map.rows import masters, profiles, sources
 from openacr.map.words import mf2
@@ -14,7 +14,7 @@ from openacr.views import F32, F64, I32
 FASTEST = 2.0
 
 
-def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
+def tov_factor(I: I32, S: F32, m: int, dt_s: float) -> float:
     """TOV Internal, which approaches the commanded value with TOV Rate."""
     wanted: float = 1.0
     if I[mf2.word[m]] & mf2.MASTER_TOV:
@@ -22,7 +22,7 @@ def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
         wanted = wanted if wanted > 0.0 else 0.0
         wanted = wanted if wanted < FASTEST else FASTEST
     factor: float = S[masters.tov_internal[m]]
-    step: float = S[masters.tov_rate[m]] * dt
+    step: float = S[masters.tov_rate[m]] * dt_s
     if step > 0.0 and factor + step < wanted:
         wanted = factor + step
     elif step > 0.0 and factor - step > wanted:
@@ -31,19 +31,19 @@ def tov_factor(I: I32, S: F32, m: int, dt: float) -> float:
     return wanted
 
 
-def path_time(F: F64, I: I32, S: F32, m: int, dt: float) -> float:
-    """Path time of a paced master m in a servo period of `dt` seconds; also while it rests."""
+def path_time(F: F64, I: I32, S: F32, m: int, dt_s: float) -> float:
+    """Path time of a paced master m in a servo period of `dt_s` seconds; also while it rests."""
     tap: int = TIME_TAPS + m
     by_clock: bool = I[sources.kind[tap]] == FROM_CLOCK
-    time_s: float = dt
+    time_s: float = dt_s
     if not by_clock:
         source_follow(F, I, S, tap)
         time_s = F[sources.delta[tap]] / PULSES_PER_S
-    factor: float = tov_factor(I, S, m, dt)
+    factor: float = tov_factor(I, S, m, dt_s)
     if by_clock and factor == 1.0:
         I[masters.paced[m]] = I[mf2.word[m]] & mf2.MASTER_TOV
     time_s = time_s * factor
-    F[masters.pace[m]] = time_s / dt
+    F[masters.pace[m]] = time_s / dt_s
     return time_s
 
 

@@ -7,7 +7,7 @@ on plans, whose time falls as their cruising speed rises.
 
 from openacr.cmath import sqrt
 from openacr.kernel.path.path_cy import move_final_ups, move_limit, move_record
-from openacr.kernel.profile_cy import profile_plan
+from openacr.kernel.profile.profile_cy import profile_plan
 from openacr.map.rows import masters, moves, profiles
 from openacr.map.words import mf2
 from openacr.views import F32, F64, I32

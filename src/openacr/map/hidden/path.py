@@ -17,7 +17,7 @@ ARCS = 8
 POINTS = 12  # of an unfinished curve
 KNOTS = 24
 
-# One motion profile: pieces of constant jerk, evaluated in order (kernel/profile_cy.py).
+# One motion profile: pieces of constant jerk, evaluated in order (kernel/profile/profile_cy.py).
 # Instances 0-15 belong to the masters, 16-31 to the jog profilers of the axes, 32-47 to their
 # position maintenance.
 PROFILE = HiddenBlock(

@@ -6,8 +6,8 @@ import ruckig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
+from tests.kernel.path.test_profile import disturbed, set_up, shapes, spread, ticks_moved
 from tests.kernel.rig import Rig, T, acceleration, examples, jerk, noise, velocity
-from tests.kernel.test_profile import disturbed, set_up, shapes, spread, ticks_moved
 
 pytestmark = pytest.mark.evidence("oracle", "the fastest trajectory of ruckig")
 
