@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from openacr.cli.main import COMMANDS, Entry, Family, app
+from openacr.cli.commands import COMMANDS, Entry, Family
+from openacr.cli.main import app
 
 
 def all_entries(

@@ -7,8 +7,9 @@ card without any clock, and ends in one verdict per expectation.
 
 from openacr.scenario.judge import Verdict
 from openacr.scenario.load import load_scenario, parse_scenario
-from openacr.scenario.play import Play, World
+from openacr.scenario.play import Play
 from openacr.scenario.schema import Action, Condition, Expectation, Scenario, State
+from openacr.scenario.world import World
 
 __all__ = [
     "Action",

@@ -2,14 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from msgspec import UNSET
 
 from openacr.scenario.schema import Condition, Expectation
-
-if TYPE_CHECKING:
-    from openacr.scenario.play import World
+from openacr.scenario.world import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +27,7 @@ class Verdict:
 
 def judge(
     item: Expectation,
-    world: "World",
+    world: World,
     printed: str,
     checkpoints: Mapping[str, int],
     period_s: float,
@@ -116,7 +113,7 @@ def _parameter(item: Expectation, value: float) -> tuple[bool, str]:
     return ok and (item.below is None or value < item.below), f"{value:.10g}"
 
 
-def _position(item: Expectation, axis: int, world: "World") -> tuple[bool, str]:
+def _position(item: Expectation, axis: int, world: World) -> tuple[bool, str]:
     found = {"position": world.position_u(axis), "commanded": world.commanded_u(axis)}
     wanted = _wanted(item)
     ok = all(abs(found[word] - value) <= item.tolerance for word, value in wanted)

@@ -8,55 +8,11 @@ the card may run at most before the next call; a change that may decide one of
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 from openacr.scenario.judge import Verdict, condition_text, judge, never
 from openacr.scenario.rules import END, START
-from openacr.scenario.schema import Action, Condition, Expectation, Scenario, State
-
-
-class World(Protocol):
-    """The interface through which a scenario reads and acts on the card and its machine."""
-
-    @property
-    def tick(self) -> int:
-        """Servo periods since the start."""
-
-    def read(self, parameter: int) -> float:
-        """Read one parameter."""
-
-    def bit(self, number: int) -> bool:
-        """Read one flag."""
-
-    def position_u(self, axis: int) -> float:
-        """Read the actual position of an axis in units."""
-
-    def commanded_u(self, axis: int) -> float:
-        """Read the commanded position of an axis in units."""
-
-    def program_state(self, program: int) -> State:
-        """Return the state of a program."""
-
-    def set_input(self, bit: int, on: bool) -> None:
-        """Switch one input; one that the machine drives is forced until it is released."""
-
-    def release_input(self, bit: int) -> None:
-        """Release an input: off, or the level the machine drives it to."""
-
-    def type_text(self, text: str, stream: str | None) -> None:
-        """Type text on a stream."""
-
-    def drag(self, axis: int, by_u: float) -> None:
-        """Move the load of an axis by hand, at once."""
-
-    def set_analog(self, parameter: int, value: float) -> None:
-        """Apply a value to the analog input a parameter shows."""
-
-    def fault(self, axis: int, kind: str, value: float) -> None:
-        """Cause a fault on an axis of the machine."""
-
-    def mend(self, axis: int, kind: str | None) -> None:
-        """End one kind of fault of an axis, or all."""
+from openacr.scenario.schema import Action, Condition, Expectation, Scenario
+from openacr.scenario.world import World
 
 
 @dataclass(slots=True, eq=False)

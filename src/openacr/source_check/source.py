@@ -5,7 +5,7 @@ entered with PROGRAM, the axis names of each program and the aliases. Nothing is
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
@@ -13,7 +13,6 @@ from openacr.basic.channels.entry import split_at_level
 from openacr.basic.commands.card_setup import CONFIG_NOTICE
 from openacr.basic.commands.operating_system import Definition
 from openacr.basic.language.aliases import check_name, numbered_names
-from openacr.basic.language.lister import Lister
 from openacr.basic.language.loader import FileLine, file_lines, long_lived_objects
 from openacr.basic.language.nodes import Block, Expr, Move, Number, Statement, String
 from openacr.basic.language.parser import Parser
@@ -28,7 +27,6 @@ from openacr.lang.source import Span
 from openacr.messages import NOT_SUPPORTED, UNKNOWN_COMMAND
 from openacr.models import ACR8020, Model
 from openacr.plc.compile import PlcCompileError, compile_plc
-from openacr.plc.ladder import draw
 from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 from openacr.source_check import numbers
@@ -293,24 +291,6 @@ class Reader:
             shift = len(original) - len(first) if original.endswith(first) else 0
         column = max(begin, column + shift) if span else begin
         return number, min(column, len(original) + 1), span.length if span else len(original)
-
-
-def listing(reader: Reader) -> Iterator[str]:
-    """Write everything that was read as LIST shows it."""
-    lister = Lister(reader.aliases)
-    for part in reader.parts:
-        if part.text is not None:
-            yield from lister.program(part.text.stored())
-        else:
-            yield lister.line(part.tokens)
-
-
-def ladders(reader: Reader) -> Iterator[str]:
-    """Draw the PLCs that were read."""
-    for (level, number), text in reader.texts.items():
-        if level is Level.PLC:
-            yield f"PLC{number}"
-            yield from draw(text.rungs())
 
 
 def _words(text: str) -> set[str]:

@@ -56,7 +56,7 @@ def interfere(
     elif what < 0.2:
         trace.out += compensator.switch(rnd.choice([*Side]), radius)
     elif what < 0.35:
-        trace.out += compensator.hold("held", is_behind=rnd.random() < 0.5)
+        trace.out += compensator.hold("held", is_after=rnd.random() < 0.5)
         return 1
     elif what < 0.4:
         end = (*last.end[:2], rnd.random(), *last.end[3:])

@@ -133,7 +133,7 @@ def test_blocks_without_motion_wait_for_the_trimmed_end() -> None:
     for element in path.elements[:2]:
         trace.out += compensator.add(element)
     trace.out += compensator.hold("M8")
-    trace.out += compensator.hold("block end", is_behind=True)
+    trace.out += compensator.hold("block end", is_after=True)
     for element in path.elements[2:]:
         trace.out += compensator.add(element)
     trace.out += compensator.stop()

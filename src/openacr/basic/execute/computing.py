@@ -24,7 +24,7 @@ class Computing:
 
     def __init__(self, threads: Threads) -> None:
         self.threads = threads
-        self.operands = Operands(self)
+        self.operands = Operands(threads, self.value)
         self._vm_run = pick(vm_run)
 
     def value(self, thread: int, node: Expr) -> float:

@@ -5,8 +5,10 @@ Numbers inside are computed by the VM, so every operator on numbers has one defi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
+from openacr.basic.execute.threads import Threads
 from openacr.basic.language.nodes import (
     Alias,
     Apply,
@@ -25,9 +27,6 @@ from openacr.basic.vm.run import Wait
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TYPE_MISMATCH
-
-if TYPE_CHECKING:
-    from openacr.basic.execute.computing import Computing
 
 RELATIONS = {
     Op.EQUAL: str.__eq__,
@@ -50,8 +49,9 @@ class Blocked(Exception):  # noqa: N818 - no error, the statement is tried again
 class Operands:
     """Computes what contains strings, for one thread at a time."""
 
-    def __init__(self, computing: Computing) -> None:
-        self._computing, self._threads = computing, computing.threads
+    def __init__(self, threads: Threads, value: Callable[[int, Expr], float]) -> None:
+        """`value` computes the number of an expression with the variables of a thread."""
+        self._threads, self._compute = threads, value
 
     def text(self, thread: int, node: Expr) -> str:
         """The value of a string expression."""
@@ -113,7 +113,7 @@ class Operands:
         return function.apply(*arguments)
 
     def _value(self, thread: int, node: Expr) -> float:
-        return node.value if isinstance(node, Number) else self._computing.value(thread, node)
+        return node.value if isinstance(node, Number) else self._compute(thread, node)
 
     def _index(self, thread: int, node: Expr) -> int:
         value = self._value(thread, node)

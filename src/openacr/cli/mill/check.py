@@ -196,9 +196,9 @@ def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey,
     from openacr.mill.config.settings import Settings
     from openacr.mill.plan.preflight import Preflight
 
-    desk = Preflight(Settings(cells))
-    found, prediction = _surveyed(program, cells, dialect, is_dry=False, desk=desk)
-    found.add(desk.findings(program.text_of))
+    preflight = Preflight(Settings(cells))
+    found, prediction = _surveyed(program, cells, dialect, is_dry=False, desk=preflight)
+    found.add(preflight.findings(program.text_of))
     return found, prediction
 
 

@@ -32,7 +32,7 @@ class Scene:
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class LineStyle:
     """How moves of one kind and tool are drawn: dashes are lengths of dash and gap."""
 
     label: str
@@ -41,17 +41,17 @@ class Look:
     dashes: tuple[float, ...] = ()
 
 
-def look_of(kind: Kind, tool: int, view: View) -> Look:
+def style_of(kind: Kind, tool: int, view: View) -> LineStyle:
     """Rapid moves are grey and dotted, compensated ones dashed; the view has the colours."""
     if kind is Kind.RAPID:
-        return Look("rapid", RAPID, 0.8, (1.5, 2.5))
+        return LineStyle("rapid", RAPID, 0.8, (1.5, 2.5))
     if kind is Kind.INSERTED:
-        return Look("inserted at corners", INSERTED, 1.7)
+        return LineStyle("inserted at corners", INSERTED, 1.7)
     color = view.color(tool)
     name = f" T{tool}" if tool else ""
     if kind is Kind.COMPENSATED:
-        return Look(f"compensated{name}", color, 1.3, (5.0, 2.0))
-    return Look(f"feed{name}", color, 1.2)
+        return LineStyle(f"compensated{name}", color, 1.3, (5.0, 2.0))
+    return LineStyle(f"feed{name}", color, 1.2)
 
 
 def bands_of(drawing: Drawing) -> int:

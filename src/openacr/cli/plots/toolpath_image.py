@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from openacr.cli.plots.saved import save
-from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of, shade
+from openacr.cli.plots.toolpath import CONTOUR, LineStyle, Scene, bands_of, shade, style_of
 from openacr.mill.plan.tool_path import Array, thinned
 
 WIDTH_INCHES, HEIGHT_INCHES, DPI = 13.0, 7.6, 120
@@ -92,16 +92,16 @@ def _headline(figure: Figure, scene: Scene) -> None:
     )
 
 
-def _handle(look: Look) -> Line2D:
+def _handle(look: LineStyle) -> Line2D:
     return Line2D([], [], color=look.color, linewidth=2, linestyle=_dashes(look), label=look.label)
 
 
-def _dashes(look: Look) -> Any:
+def _dashes(look: LineStyle) -> Any:
     return (0, look.dashes) if look.dashes else "-"
 
 
-def _looks(scene: Scene) -> list[tuple[Any, int, Look]]:
-    return [(kind, tool, look_of(kind, tool, scene.view)) for kind, tool in scene.drawing.styles()]
+def _looks(scene: Scene) -> list[tuple[Any, int, LineStyle]]:
+    return [(kind, tool, style_of(kind, tool, scene.view)) for kind, tool in scene.drawing.styles()]
 
 
 # --- views --------------------------------------------------------------------------------

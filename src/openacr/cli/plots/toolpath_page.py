@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from openacr.cli.plots.template import filled
-from openacr.cli.plots.toolpath import CONTOUR, Look, Scene, bands_of, look_of
+from openacr.cli.plots.toolpath import CONTOUR, LineStyle, Scene, bands_of, style_of
 from openacr.mill.plan.tool_path import Array
 
 
@@ -24,7 +24,7 @@ def build_page(scene: Scene) -> str:
 def page_data(scene: Scene) -> dict[str, Any]:
     """Collect what the script of the page draws: numbers as bytes, which is half the size."""
     drawing = scene.drawing
-    looks = [look_of(kind, tool, scene.view) for kind, tool in drawing.styles()]
+    looks = [style_of(kind, tool, scene.view) for kind, tool in drawing.styles()]
     return {
         "title": scene.title,
         "names": [*scene.names, *"   "][:3],
@@ -52,7 +52,7 @@ def _joined(contours: list[Array]) -> list[Array]:
     return [np.vstack([part for contour in contours for part in (contour, gap)])]
 
 
-def _look(look: Look) -> dict[str, Any]:
+def _look(look: LineStyle) -> dict[str, Any]:
     return {"label": look.label, "color": look.color, "width": look.width, "dashes": look.dashes}
 
 

@@ -128,7 +128,7 @@ class BlockPlanner:
         )  # fmt: skip
 
     def _has_formulas(self, block: Block) -> bool:
-        """Whether a code is a formula; G and M among the arguments of G65 and G66 are none."""
+        """Whether a code is a formula; G and M among the arguments of G65 and G66 are not codes."""
         for word in block.words:
             if word.letter in "GM":
                 if not isinstance(word.value, Number):

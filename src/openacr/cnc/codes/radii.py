@@ -42,20 +42,20 @@ class Words:
     lengths: dict[str, float]
 
 
-def check_radii(run: Run, b: BlockContext, bow: ArcGeometry, words: Words) -> None:
+def check_radii(run: Run, b: BlockContext, arc: ArcGeometry, words: Words) -> None:
     """Accept equal radii; else W230, or E230 where it is hardly a spiral that was meant.
 
     The store allows any spiral with Spirals Allowed (P250131): then W230 only says that
     another reading of I, J and K fits.
     """
-    if _is_near(run, bow.start_radius, bow.end_radius):
+    if _is_near(run, arc.start_radius, arc.end_radius):
         return
     fits = _reading_that_fits(run, b, words)
     letter = next((each for each in "IJK" if each in words.lengths), "")
-    detail = f"{run.path.shown(bow.start_radius):.5g} and {run.path.shown(bow.end_radius):.5g}"
+    detail = f"{run.path.shown(arc.start_radius):.5g} and {run.path.shown(arc.end_radius):.5g}"
     hint = _hint(run, fits)
-    larger = max(bow.start_radius, bow.end_radius)
-    is_far = abs(bow.end_radius - bow.start_radius) > FAR_SHARE * larger
+    larger = max(arc.start_radius, arc.end_radius)
+    is_far = abs(arc.end_radius - arc.start_radius) > FAR_SHARE * larger
     is_allowed = run.dialect.has_spirals and run.cells.read(SPIRALS) != 0.0
     if not run.dialect.has_spirals or ((is_far or fits is not None) and not is_allowed):
         raise b.fault("E230", letter, detail, hint)

@@ -30,12 +30,12 @@ class Tangent:
         self._epsilon_deg = run.cells.read(CONTROL.perpen_tangent_epsilon)
 
     def shape(
-        self, source: Source, start: Point, end: Point, bow: ArcGeometry | None, pace: Pace | None
+        self, source: Source, start: Point, end: Point, arc: ArcGeometry | None, pace: Pace | None
     ) -> Point:
         """The end of a move with the axis turned; a turn at the corner is issued here."""
         if self._axis < 0:
             return end
-        direction = self._start_deg(start, end, bow)
+        direction = self._start_deg(start, end, arc)
         if direction is None:
             return self._kept(start, end)
         now = start[self._axis]
@@ -44,7 +44,7 @@ class Tangent:
             now += turn
             self._run.move(Rapid(source, self._turned(start, now), is_inserted=True))
             turn = 0.0
-        sweep = math.degrees(bow.sweep_rad) if bow is not None else 0.0
+        sweep = math.degrees(arc.sweep_rad) if arc is not None else 0.0
         return self._turned(end, now + turn + sweep)
 
     def _kept(self, start: Point, end: Point) -> Point:
@@ -53,17 +53,17 @@ class Tangent:
     def _turned(self, point: Point, angle: float) -> Point:
         return (*point[: self._axis], angle, *point[self._axis + 1 :])
 
-    def _start_deg(self, start: Point, end: Point, bow: ArcGeometry | None) -> float | None:
+    def _start_deg(self, start: Point, end: Point, arc: ArcGeometry | None) -> float | None:
         """The direction in which a move starts, in its plane; None across the plane."""
         plane: Plane = self._run.modal.plane_axes
         first, second = plane.first, plane.second
-        if bow is None:
+        if arc is None:
             dx, dy = end[first] - start[first], end[second] - start[second]
         else:
             shift = self._run.path.coordinates.shift
-            side = math.copysign(1.0, bow.sweep_rad)
-            dx = -side * (start[second] - shift[second] - bow.centre[1])
-            dy = side * (start[first] - shift[first] - bow.centre[0])
+            side = math.copysign(1.0, arc.sweep_rad)
+            dx = -side * (start[second] - shift[second] - arc.centre[1])
+            dy = side * (start[first] - shift[first] - arc.centre[0])
         if math.hypot(dx, dy) < NO_MOVE:
             return None
         return math.degrees(math.atan2(dy, dx))

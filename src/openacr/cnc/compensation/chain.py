@@ -226,7 +226,7 @@ class Chain(Generic[Held]):
 
     # --- issuing ------------------------------------------------------------------------
 
-    def hold(self, thing: Held | Element, is_behind: bool) -> None:
+    def hold(self, thing: Held | Element, is_after: bool) -> None:
         """Hold an entry until the end of the last element."""
         if not self._chain:
             self.rest(thing)
@@ -237,7 +237,7 @@ class Chain(Generic[Held]):
             self.finish()
             self.rest(thing)
             return
-        (after if is_behind else held).append(thing)
+        (after if is_after else held).append(thing)
         last.held, last.held_after = held, after
 
     def _end_beside(self, piece: Piece[Held]) -> None:

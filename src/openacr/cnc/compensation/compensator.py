@@ -84,12 +84,12 @@ class Compensator(Generic[Held]):
             self._lead_out(element)
         return chain.drain()
 
-    def hold(self, thing: Held, *, is_behind: bool = False) -> list[Held | Element]:
+    def hold(self, thing: Held, *, is_after: bool = False) -> list[Held | Element]:
         """Hold an entry between two elements: it is issued where the first one ends.
 
-        `is_behind`: after the moves that are inserted at the corner.
+        `is_after`: after the moves that are inserted at the corner.
         """
-        self._chain.hold(thing, is_behind)
+        self._chain.hold(thing, is_after)
         return self._chain.drain()
 
     def flush(self) -> list[Held | Element]:

@@ -121,10 +121,10 @@ class Execution:
         place = flow.ahead()
         if place is None:
             return False
-        moves, behind = self.scanner.read(place)
-        if behind is place:
+        moves, place_after = self.scanner.read(place)
+        if place_after is place:
             return False
-        flow.go_place(behind)
+        flow.go_place(place_after)
         if moves is not None:
             self._run.out.append(moves)
             self._run.is_rested = False

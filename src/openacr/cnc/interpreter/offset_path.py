@@ -106,8 +106,8 @@ class OffsetPath:
 
     def hold(self, entry: Entry) -> None:
         """Something without motion."""
-        is_behind = isinstance(entry, BlockEnd)
-        self._hand_on(self._compensator.hold(entry, is_behind=is_behind))
+        is_after = isinstance(entry, BlockEnd)
+        self._hand_on(self._compensator.hold(entry, is_after=is_after))
 
     def flush(self) -> None:
         """Everything that waits is issued: the machine has to come to rest."""

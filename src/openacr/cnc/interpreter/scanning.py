@@ -92,15 +92,15 @@ class Scanner:
         is_plain = not self._run.options.has_batches
         self._take_state(is_plain=is_plain)
         first = start.offset - place
-        rows, behind = self._execute(data, Place(start.part, place, start.line), stop, first)
-        behind = Place(start.part, first + behind.offset, behind.line)
-        if behind.line == start.line or (is_plain and rows < LEAST_ROWS):
-            self._bar = Place(start.part, behind.offset, start.line)
+        rows, after = self._execute(data, Place(start.part, place, start.line), stop, first)
+        after = Place(start.part, first + after.offset, after.line)
+        if after.line == start.line or (is_plain and rows < LEAST_ROWS):
+            self._bar = Place(start.part, after.offset, start.line)
             return None, start
         self._hand_back()
         self.last = self._last
         made = self._polyline if is_plain else self._moves
-        return made(rows, start, data), behind
+        return made(rows, start, data), after
 
     def _execute(self, data: memoryview, at: Place, stop: int, first: int) -> tuple[int, Place]:
         """The count of moves of the lines from a position in the data on, and the line after them.

@@ -268,7 +268,7 @@ class Loader:
         text = self._text_named(statement.name)
         if text is None:
             raise CodeError("E262", statement.column, f"{statement.name} does not exist")
-        part = Part(text, place.part.labels, behind=Place(place.part, after, place.line + 1))
+        part = Part(text, place.part.labels, continues_at=Place(place.part, after, place.line + 1))
         part.is_cycles = is_cycles
         self._program.has_cycles |= part.is_cycles
         self._program.includes[place.part.text.name, place.line] = part

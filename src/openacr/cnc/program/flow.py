@@ -66,16 +66,16 @@ class Flow:
         """The line that comes next; None at the end."""
         last = self.last
         if last is not None:
-            self.next = last.next = self._nodes.behind(last)
+            self.next = last.next = self._nodes.next_after(last)
             self.last = None
         elif self.place is not None:
             self.next, self.place = self._nodes.at(self.place), None
         return self.next
 
-    def behind(self, node: Node) -> Node | None:
+    def next_after(self, node: Node) -> Node | None:
         """The line after another one."""
         if node.next is None:
-            node.next = self._nodes.behind(node)
+            node.next = self._nodes.next_after(node)
         return node.next
 
     def ahead(self) -> Place | None:
@@ -83,7 +83,7 @@ class Flow:
         last = self.last
         if last is None:
             return self.place
-        if last.is_include or last.part.behind is not None:
+        if last.is_include or last.part.continues_at is not None:
             return None
         return Place(last.part, last.after, last.line + 1)
 

@@ -22,7 +22,7 @@ class Part:
     text: Text
     labels: Labels = field(default_factory=Labels)
     is_cycles: bool = False
-    behind: Place | None = None  # where to continue after an included text
+    continues_at: Place | None = None  # where to continue after an included text
     line_cnt: int = 0
 
     @property
@@ -124,8 +124,8 @@ class Nodes:
     def _made(self, place: Place) -> Node | None:
         found = place.part.text.line(place.offset)
         if found is None:
-            behind = place.part.behind
-            return self.at(behind) if behind else None
+            continues_at = place.part.continues_at
+            return self.at(continues_at) if continues_at else None
         node = Node(place.part, place.line, decoded(found[0]), found[1])
         node.is_include = (place.part.text.name, place.line) in self._program.includes
         return node
@@ -137,7 +137,7 @@ class Nodes:
             self._kept.clear()
         self._kept[key] = node
 
-    def behind(self, node: Node) -> Node | None:
+    def next_after(self, node: Node) -> Node | None:
         """The next line, which is in the included text after an $I."""
         part = self._program.includes.get((node.part.text.name, node.line))
         if part is not None:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from openacr.cnc.reading.text import Text
     from openacr.views import F64, I32
 
-MOST_SHAPES = 700  # in so many slots a free one is found soon
+MOST_SHAPES = 700  # with this many slots a free one is found soon
 MOST_ROWS = 8192  # lines, or moves, read together
 
 

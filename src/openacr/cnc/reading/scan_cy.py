@@ -82,7 +82,7 @@ def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
     mantissa: int = 0
     digits: int = 0
     scale: float = 1.0
-    is_behind_point: bool = False
+    is_after_point: bool = False
     while pos < stop:
         char: int = data[pos]
         if 48 <= char <= 57:
@@ -90,10 +90,10 @@ def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
             digits += 1
             if digits > MOST_DIGITS:
                 return -1
-            if is_behind_point:
+            if is_after_point:
                 scale = scale * 10.0
-        elif char == 46 and not is_behind_point:
-            is_behind_point = True
+        elif char == 46 and not is_after_point:
+            is_after_point = True
         else:
             break
         pos += 1

@@ -32,7 +32,7 @@ def call(run: Run, b: BlockContext) -> Iterator[Entry]:
 
 
 @gcode(66, step=Step.MOTION, takes_all=True, axes=Axes.DATA, limits=LIMITS)
-def call_behind_moves(run: Run, b: BlockContext) -> None:
+def call_after_moves(run: Run, b: BlockContext) -> None:
     """Call label P after every block that moves, until G67."""
     run.macro = _macro(run, b)
 

@@ -84,9 +84,9 @@ def line(run: Run, b: BlockContext) -> None:
     run.path.line(b, end, _pace(run, b, end, None))
 
 
-def _pace(run: Run, b: BlockContext, end: Point, bow: ArcGeometry | None) -> Pace:
+def _pace(run: Run, b: BlockContext, end: Point, arc: ArcGeometry | None) -> Pace:
     """How a feed move to a program point runs."""
-    return pace_over(run, b, lambda: run.path.distance(end, bow, run.modal.plane_axes))
+    return pace_over(run, b, lambda: run.path.distance(end, arc, run.modal.plane_axes))
 
 
 def pace_over(run: Run, b: BlockContext, length: Callable[[], float]) -> Pace:
@@ -104,10 +104,10 @@ def _arc(run: Run, b: BlockContext, direction: int) -> None:
     plane, end = modal.plane_axes, path.end(b)
     lengths = {word: path.length(b.words[word]) for word in _LENGTHS if word in b.words}
     epsilon = run.cells.read(EPSILON)
-    bow = arcs.arc_geometry(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
-    check_radii(run, b, bow, Words(plane, path.program, end, lengths))
-    bow = arcs.placed(b, bow, plane, path.coordinates, path.program).with_turns(_turns(b))
-    path.arc(b, end, bow, _pace(run, b, end, bow))
+    arc = arcs.arc_geometry(b, plane, path.program, end, direction, modal.centres, epsilon, lengths)
+    check_radii(run, b, arc, Words(plane, path.program, end, lengths))
+    arc = arcs.placed(b, arc, plane, path.coordinates, path.program).with_turns(_turns(b))
+    path.arc(b, end, arc, _pace(run, b, end, arc))
 
 
 def _turns(b: BlockContext) -> int:

@@ -128,7 +128,7 @@ class OWords:
         if self._run.flow.jumped is not None:
             self._run.flow.jumped()
 
-    def _go_behind(self, target: OPlace) -> None:
+    def _go_past(self, target: OPlace) -> None:
         at = self._run.flow.at(target.place)
         if at is not None:
             self._run.flow.pass_by(at)
@@ -141,9 +141,9 @@ class OWords:
         if before is not None and before.kind == "DO":
             if is_on:
                 self._loop()
-                self._go_behind(before)
+                self._go_past(before)
         elif not is_on:
-            self._go_behind(self._next(word, node, ENDS["WHILE"]))
+            self._go_past(self._next(word, node, ENDS["WHILE"]))
 
     def _endwhile(self, word: OWord, node: Node, values: list[Formula]) -> None:
         self._back(word, node, "WHILE")
@@ -163,7 +163,7 @@ class OWords:
         is_on = values[0].now() != 0.0
         while not is_on:
             branch = self._next(word, at, BRANCHES)
-            self._go_behind(branch)
+            self._go_past(branch)
             following = self._run.flow.at(branch.place)
             if branch.kind != "ELSEIF" or following is None:
                 return
@@ -181,7 +181,7 @@ class OWords:
 
     def _elseif(self, word: OWord, node: Node, values: list[Formula]) -> None:
         """Reached after a branch that was executed."""
-        self._go_behind(self._next(word, node, ("ENDIF",)))
+        self._go_past(self._next(word, node, ("ENDIF",)))
 
     _else = _elseif
 
@@ -194,7 +194,7 @@ class OWords:
         left = round(values[0].now()) if left is None else left
         if left <= 0:
             self._left.pop(key, None)
-            self._go_behind(self._next(word, node, ENDS["REPEAT"]))
+            self._go_past(self._next(word, node, ENDS["REPEAT"]))
         else:
             self._left[key] = left - 1
 
@@ -203,7 +203,7 @@ class OWords:
 
     def _break(self, word: OWord, node: Node, values: list[Formula]) -> None:
         self._left.pop((self._depth, word.name), None)
-        self._go_behind(self._next(word, node, LOOP_ENDS))
+        self._go_past(self._next(word, node, LOOP_ENDS))
 
     def _continue(self, word: OWord, node: Node, values: list[Formula]) -> None:
         self._go_to(self._next(word, node, LOOP_ENDS))
@@ -212,7 +212,7 @@ class OWords:
 
     def _sub(self, word: OWord, node: Node, values: list[Formula]) -> None:
         """Reached without a call: the text of the subroutine is passed over."""
-        self._go_behind(self._next(word, node, ENDS["SUB"]))
+        self._go_past(self._next(word, node, ENDS["SUB"]))
 
     def _call(self, word: OWord, node: Node, values: list[Formula]) -> Iterator[Entry]:
         arguments = [value.now() for value in values]
@@ -230,8 +230,8 @@ class OWords:
         start = run.flow.at(starts[0].place) if starts else None
         if start is None:
             raise CodeError("E220", column, f"O{name}")
-        behind = run.flow.behind(start)
-        if behind is None:
+        first_line = run.flow.next_after(start)
+        if first_line is None:
             raise CodeError("E108", column, f"O{name} endsub missing")
         values = [0.0] * (LOCALS + 1)
         values[1 : len(arguments) + 1] = arguments
@@ -239,7 +239,7 @@ class OWords:
         run.parameters.global_names[RETURNED] = 0.0
         self._depth += 1
         outer, self.context = self.context, None
-        yield from run.execution.call(Frame(Level.MACRO), behind, values[: LOCALS + 1])
+        yield from run.execution.call(Frame(Level.MACRO), first_line, values[: LOCALS + 1])
         context, self.context = self.context, outer
         if context is not None and context.is_automatic and here is not None:
             restored(run, context, here.source, column)

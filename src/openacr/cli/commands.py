@@ -1,0 +1,107 @@
+"""The sub-commands of `openacr` by name: where each is, and the families they form."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+
+class Entry(NamedTuple):
+    """Location of a sub-command in the source."""
+
+    module: str
+    function: str
+
+    @property
+    def summary(self) -> str:
+        """The first line of its docstring, read from the source: a list imports no sub-command."""
+        path = Path(__file__).parent.joinpath(*self.module.split(".")).with_suffix(".py")
+        definition = path.read_text("utf-8").partition(f"\ndef {self.function}(")[2]
+        return definition.partition('"""')[2].partition("\n")[0].removesuffix('"""')
+
+
+class Family(NamedTuple):
+    """Sub-commands under one name: `openacr mill run`."""
+
+    summary: str
+    entries: "dict[str, Entry | Family]"
+
+
+COMMANDS: dict[str, Entry | Family] = {
+    "run": Entry("run.command", "run"),
+    "serve": Entry("serve", "serve"),
+    "panel": Entry("panel", "panel"),
+    "replay": Entry("run.replay", "replay"),
+    "term": Entry("live.term", "term"),
+    "download": Entry("live.download", "download"),
+    "upload": Entry("live.upload", "upload"),
+    "monitor": Entry("live.monitor", "monitor"),
+    "status": Entry("live.status", "status"),
+    "loop": Entry("live.loop", "loop"),
+    "ip": Entry("explain.ip", "explain_address"),
+    "backup": Entry("live.backup", "backup"),
+    "restore": Entry("live.backup", "restore"),
+    "configure": Entry("configure", "configure"),
+    "list": Entry("check", "list_file"),
+    "check": Entry("check", "check_file"),
+    "schema": Entry("explain.schema", "show_schema"),
+    "packet": Entry("explain.packet", "explain_packet"),
+    "param": Entry("explain.lookup", "show_parameter"),
+    "flag": Entry("explain.lookup", "show_flag"),
+    "mill": Family(
+        "Part programs (RS-274): the CNC side.",
+        {
+            "check": Entry("mill.check", "check_program"),
+            "dialect": Entry("mill.dialect", "show_dialect"),
+            "time": Entry("mill.check", "time_program"),
+            "list": Entry("mill.listing", "list_program"),
+            "plot": Entry("mill.plot", "plot_program"),
+            "run": Entry("mill.run", "run_program"),
+            "batch": Entry("mill.run", "run_batch"),
+            "drip": Entry("mill.drip", "drip_program"),
+            "receive": Entry("mill.drip", "receive_program"),
+            "teach": Entry("mill.teach", "teach_system"),
+            "jog": Entry("mill.hand", "jog_axes"),
+            "mdi": Entry("mill.hand", "run_blocks"),
+            "zero": Family(
+                "The floating zero of a card: SET ZERO, CLR ZERO, GOTO ZERO.",
+                {
+                    "set": Entry("mill.zero", "set_floating_zero"),
+                    "clear": Entry("mill.zero", "clear_floating_zero"),
+                    "goto": Entry("mill.zero", "go_to_zero"),
+                },
+            ),
+            "home": Entry("mill.hand", "home_axes"),
+            "stop": Entry("mill.stop", "stop_machine"),
+            "acknowledge": Entry("mill.hand", "acknowledge_alarms"),
+            "import": Entry("mill.drawing", "import_drawing"),
+            "part": Entry("mill.part", "make_part"),
+            "param": Entry("mill.param", "operate_parameters"),
+            "message": Family(
+                "Texts shown while an input, output or flag has a given state.",
+                {
+                    "list": Entry("mill.message", "list_messages"),
+                    "set": Entry("mill.message", "set_message"),
+                    "remove": Entry("mill.message", "remove_message"),
+                },
+            ),
+            "ballscrew": Family(
+                "Tables that compensate errors of ballscrews.",
+                {
+                    "import": Entry("mill.ballscrew", "import_table"),
+                    "export": Entry("mill.ballscrew", "export_table"),
+                    "from-measurements": Entry("mill.ballscrew", "make_table"),
+                },
+            ),
+        },
+    ),
+    "sysvar": Family(
+        "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
+        {
+            "get": Entry("sysvar.read", "get"),
+            "set": Entry("sysvar.change", "set_values"),
+            "list": Entry("sysvar.read", "list_values"),
+            "export": Entry("sysvar.change", "export_values"),
+            "import": Entry("sysvar.change", "import_values"),
+            "password": Entry("sysvar.change", "change_password"),
+        },
+    ),
+}
