@@ -1,9 +1,13 @@
 """The folder of part programs: names from browsers stay inside it."""
 
+from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from openacr.errors import UserError
 
+KINDS = {".dxf": "dxf", ".bat": "batch", ".lst": "batch"}
+PROGRAMS = frozenset({".nc", ".txt", ".ngc", ".tap", ".cnc", ".gcode", ".g", ".mpf", ""})
 RESERVED = frozenset('<>:"|?*\\')
 
 
@@ -42,3 +46,37 @@ class Folder:
             return file.resolve().relative_to(self.root.resolve()).as_posix()
         except ValueError:
             raise UserError(f"{file.name}: it is outside the folder of programs") from None
+
+    def entries(self, path: str) -> list[dict[str, Any]]:
+        """What is in a folder; hidden names are left out."""
+        place = self.at(path)
+        if not place.is_dir():
+            raise UserError(f"{path}: no such folder")
+        try:
+            found = sorted(place.iterdir(), key=lambda each: (each.is_file(), each.name.lower()))
+        except OSError as error:
+            raise UserError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
+        return [self._entry(each) for each in found if not each.name.startswith(".")]
+
+    def _entry(self, place: Path) -> dict[str, Any]:
+        try:
+            stat = place.stat()
+            size, changed_s = stat.st_size, stat.st_mtime
+        except OSError:  # a link that leads nowhere
+            size, changed_s = 0, 0.0
+        changed = datetime.fromtimestamp(changed_s).astimezone()
+        return {
+            "name": place.name,
+            "path": place.relative_to(self.root).as_posix(),
+            "kind": kind_of(place),
+            "bytes": size,
+            "changed": changed.isoformat(timespec="seconds"),
+        }
+
+
+def kind_of(place: Path) -> str:
+    """What a file is, by its suffix."""
+    if place.is_dir():
+        return "folder"
+    suffix = place.suffix.lower()
+    return KINDS.get(suffix) or ("program" if suffix in PROGRAMS else "other")

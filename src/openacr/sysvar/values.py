@@ -85,11 +85,11 @@ def _fits(parameter: Parameter, number: float, is_metric: bool, letter: str) -> 
         return int(number) in row.words
     if parameter.is_per_length and number == 0:
         return False
-    low, high = _limits(parameter, is_metric, letter)
+    low, high = limits(parameter, is_metric, letter)
     return low < number <= high if row.is_low_open else low <= number <= high
 
 
-def _limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, float]:
+def limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, float]:
     """The lowest and highest value; lengths are declared in inches and converted."""
     is_scaled = is_metric and parameter.is_length and letter not in ROTARY
     scale = MM_PER_INCH if is_scaled else 1.0
@@ -120,7 +120,7 @@ def span(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str
     """The range of a number in words, empty where it is unlimited."""
     if parameter.is_per_length:
         return "other than 0"
-    low, high = _limits(parameter, is_metric, letter)
+    low, high = limits(parameter, is_metric, letter)
     if low == -ANY and high == ANY:
         return ""
     begin = f"{'above' if parameter.row.is_low_open else 'from'} {plain(low)}"

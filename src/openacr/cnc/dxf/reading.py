@@ -55,6 +55,12 @@ def read(path: Path, *, layer: str, is_metric: bool, chord: Callable[[bool], flo
         raise _broken(path, error) from None
 
 
+def layers_of(path: Path) -> list[str]:
+    """The names of the layers of a drawing; UserError if it cannot be read."""
+    document, _ = _opened(path)
+    return sorted(each.dxf.name for each in document.layers)
+
+
 def _opened(path: Path) -> tuple["Drawing", bool]:
     """A text or binary file, and whether it had to be recovered."""
     try:

@@ -195,5 +195,5 @@ def estop(desk: Desk, order: Order, args: NoArgs) -> None:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
     desk.typed.drop()
     runner = desk.machine.runner
-    runner.kill(order.person.data()["name"])
+    runner.kill(desk.people.name_of(order.person))
     desk.hands.presses.end_all(End.STOP)

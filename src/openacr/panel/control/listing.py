@@ -1,6 +1,7 @@
 """Lines of a part program by their number, in files of any size."""
 
 from pathlib import Path
+from threading import Lock
 
 import numpy as np
 
@@ -17,6 +18,7 @@ class Listing:
 
     def __init__(self, path: Path) -> None:
         self._text = Text.file(path)
+        self._lock = Lock()  # its window is shared by all who read
         self._offsets = self._known(path)
         self.total = self._count()
 
@@ -54,7 +56,10 @@ class Listing:
 
     def lines(self, first: int, count: int) -> list[str]:
         """`count` lines from line `first` (1 and up) on; fewer at the end."""
-        first = max(1, first)
+        with self._lock:
+            return self._lines(max(1, first), count)
+
+    def _lines(self, first: int, count: int) -> list[str]:
         place = min((first - 1) // STEP, len(self._offsets) - 1)
         at, number = self._offsets[place], STEP * place + 1
         found: list[str] = []

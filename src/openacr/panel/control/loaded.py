@@ -11,13 +11,13 @@ from openacr.cnc.interpreter.replay import Replay
 from openacr.cnc.loading.batch import Entry, read_batch
 from openacr.cnc.loading.load import load
 from openacr.cnc.program.program import Program
-from openacr.cnc.reading.findings import Finding
 from openacr.errors import OpenacrError, UserError
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
 from openacr.mill.session import Start
 from openacr.panel.control.listing import Listing
 from openacr.panel.control.orders import Order, failure
+from openacr.panel.work.paths import finding_data
 from openacr.sysvar import Store
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ class Loaded:
     listing: Listing
     version: str
     facts: dict[str, Any] = field(default_factory=dict)  # time, extents, tools: known later
+    found: list[dict[str, Any]] | None = None  # findings of the whole program: known later
+    is_stale: bool = False  # the file was stored again since
 
     @classmethod
     def read(cls, file: Path, path: str, kind: str, store: Store, dialect: str) -> "Loaded":
@@ -52,20 +54,28 @@ class Loaded:
 
     def data(self) -> dict[str, Any]:
         """What the screens show of it."""
-        warnings = [each for each in self.program.findings if not each.is_error]
+        findings = self.findings()
+        errors = [each for each in findings if each["severity"] == "error"]
         return {
             "name": self.name,
             "path": self.path,
             "kind": self.kind,
             "dialect": self.dialect,
             "lines": self.listing.total,
-            "errors": len(self.program.errors),
-            "warnings": len(warnings),
+            "errors": len(errors),
+            "warnings": len(findings) - len(errors),
+            "stale": self.is_stale,
             "id": self.version,
             "seconds": self.facts.get("seconds"),
             "extents": self.facts.get("extents"),
             "tools": self.facts.get("tools"),
         }
+
+    def findings(self) -> list[dict[str, Any]]:
+        """Errors and warnings: of the load, and of the whole program when it was read."""
+        if self.found is not None:
+            return self.found
+        return [finding_data(each) for each in self.program.findings]
 
 
 def version_of(file: Path) -> str:
@@ -75,19 +85,6 @@ def version_of(file: Path) -> str:
         while chunk := opened.read(HASH_CHUNK):
             found.update(chunk)
     return found.hexdigest()
-
-
-def finding_data(finding: Finding) -> dict[str, Any]:
-    """A finding as JSON."""
-    return {
-        "line": finding.line,
-        "column": finding.column,
-        "severity": "error" if finding.is_error else "warning",
-        "code": finding.code,
-        "text": finding.text,
-        "hint": finding.hint,
-        "file": finding.file,
-    }
 
 
 @dataclass(slots=True)
@@ -158,6 +155,18 @@ class Part:
         """Make a program the one that START starts."""
         self.loaded, self._batch, self._rehearsed = loaded, None, None
         self.changed()
+
+    def note_facts(
+        self, version: str, facts: dict[str, Any], findings: list[dict[str, Any]]
+    ) -> None:
+        """Note what reading the whole program has shown."""
+        if self.loaded is not None and self.loaded.version == version:
+            self.loaded.facts, self.loaded.found = facts, findings
+
+    def note_stored(self, path: str) -> None:
+        """A file was stored: a loaded program stays as it was."""
+        if self.loaded is not None and self.loaded.path == path:
+            self.loaded.is_stale = True
 
     def close(self) -> None:
         """Unload the program."""

@@ -58,6 +58,10 @@ class People:
         """Whether a client is connected."""
         return client in self._people
 
+    def name_of(self, person: Person) -> str:
+        """The name of a person, as it is now."""
+        return str(self._people.get(person.client, person).data()["name"])
+
     def rename(self, client: int, name: str) -> None:
         """Give a client the name that others see."""
         self._people[client] = replace(self._people[client], name=name)

@@ -29,9 +29,11 @@ from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.api import routes
 from openacr.panel.server.guard import Guard
 from openacr.panel.server.hello import hello
+from openacr.panel.server.paths import Paths
 from openacr.panel.server.socket import Connection, serve_socket
 from openacr.panel.server.static import static_file
 from openacr.panel.wire.hub import Hub
+from openacr.panel.work.pool import Pool
 
 if TYPE_CHECKING:
     from uvicorn.server import Server
@@ -57,8 +59,11 @@ class Panel:
         self.control = control(self.desk)
         self.hub = Hub(self.desk, self.control.now_s)
         self.accounts = Accounts(file_of(bench.store.path), bench.store)
+        self.checks = Pool()
+        self.paths = Paths(self)
         self.connections: set[Connection] = set()
         self.cookie = "openacr"
+        self._tasks: set[asyncio.Future[None]] = set()
         self._names = names
         self._unsubscribe: Callable[[], None] | None = None
 
@@ -96,6 +101,8 @@ class Panel:
         self.hub.attach()
         self._unsubscribe = self.bench.store.subscribe(self._stored)
         self.control.start()
+        loop = asyncio.get_running_loop()
+        self.desk.part.changed = lambda: self._soon(loop)
         self.control.call(lambda desk: desk.load_sample())
         beat = asyncio.create_task(self.hub.beat())
         try:
@@ -107,7 +114,21 @@ class Panel:
             if self._unsubscribe is not None:
                 self._unsubscribe()
             await run_in_threadpool(self.control.stop)
+            for task in self._tasks:
+                task.cancel()
+            self.paths.close()
+            self.checks.close()
             self.bench.close()
+
+    def _soon(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Another program is loaded: its path is computed."""
+        with suppress(RuntimeError):  # the loop has ended
+            loop.call_soon_threadsafe(self._show_path)
+
+    def _show_path(self) -> None:
+        task = asyncio.ensure_future(self.paths.show())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     def _stored(self, cells: frozenset[int]) -> None:
         """Cells were stored, here or by another process; called from any thread."""

@@ -320,6 +320,9 @@ class COMMUNICATIONS:
 _FORMAT = {"low": 0.1, "high": 9.9, "doc": "Digits before and after the point."}
 
 
+VIEWS = ("position feeds estop", "position distance next", "modal feeds buttons")
+
+
 class DISPLAY:
     """Read-outs and the drawing."""
 
@@ -334,4 +337,11 @@ class DISPLAY:
     exchange_xy = tab.boolean(23, "Exchange XY", doc="True: swap X and Y in the drawing.")
     control_mode = tab.choice(
         30, "Control Mode", {20: "inch", 21: "mm"}, 20, doc="Active unit at power-up."
+    )
+    views = tab.series(3, first=1).text(
+        40,
+        "View {} blocks",
+        lambda at: VIEWS[at.index - 1],
+        doc="What the view of the main screen shows: words of position, distance, next, modal,"
+        " estop, feeds, buttons.",
     )

@@ -1,5 +1,5 @@
 """The calls of `/api`, by theme; importing this package fills the table."""
 
-from openacr.panel.server.calls import session
+from openacr.panel.server.calls import card, forms, help, parts, programs, session
 
-__all__ = ["session"]
+__all__ = ["card", "forms", "help", "parts", "programs", "session"]

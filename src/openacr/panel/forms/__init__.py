@@ -1,0 +1,1 @@
+"""Forms as data: rows of the tables of the store, with values, units, limits and help."""

@@ -1,0 +1,108 @@
+"""Help texts of the menus, by key: title and paragraphs."""
+
+HELPS: dict[str, tuple[str, str]] = {
+    "home": (
+        "HOME",
+        "Choose all axes or some, then START HOME. Each axis runs fast to its switch, slowly off"
+        " it, then to the marker of its encoder; there its position becomes Home Preset. Axes of"
+        " priority 1 go first, those of priority 0 are never homed.\n\nSTOP ends homing with"
+        " alarm 34: the axes that were under way are not homed.",
+    ),
+    "clrzero": (
+        "CLR ZERO",
+        "No axis has a floating zero any more: positions count from the zero of the work system"
+        " again. Nothing moves.",
+    ),
+    "setzero": (
+        "SET ZERO",
+        "The chosen axes read 0 where they are, as by G92. The shift counts in every work system"
+        " and is kept until CLR ZERO. Nothing moves.",
+    ),
+    "edit": (
+        "EDIT",
+        "Write a part program. Errors are marked while you type. The program that is running"
+        " cannot be stored; a program that is loaded has to be loaded again to take the change.",
+    ),
+    "setup": (
+        "RUN SETUP",
+        "What a program needs that does not say it itself: the radius of the cutter (CMP RAD), the"
+        " feedrate, P parameters, modal codes. Then LOAD PROG. A program that sets all this itself"
+        " can be loaded at once.",
+    ),
+    "cmprad": ("CMP RAD", "The radius of the cutter for programs that choose no D."),
+    "load": (
+        "LOAD PROG",
+        "USER FILE: a program of the folder. LIBRARY PART: a part with sizes to choose. DXF FILE: a"
+        " drawing that is converted to a program. BATCH FILE: a list of programs, run one after"
+        " the other. RS232 DRIP FEED: a program that runs while it arrives over a serial line.",
+    ),
+    "feedrate": ("FEEDRATE", "The feed of programs before their first F; 0: Cut Speed."),
+    "pparm": (
+        "P PARM",
+        "P0 to P99 are variables of the card, P100 to P199 of the store. Programs read and write"
+        " them while they run.",
+    ),
+    "modals": ("SET MODALS", "The codes that are active when a program starts."),
+    "run": (
+        "RUN PROG",
+        "RUN starts the loaded program at a line. At a later line than 1 the lines before it are"
+        " read without motion: what differs is shown and confirmed; then Z goes up, the axes go"
+        " over the place and down at feed.\n\nSTOP holds the feed. START goes on after a stop of"
+        " the program. DRY RUN moves at Trial Speed, M codes have no effect. BLOCK stops after"
+        " every block.",
+    ),
+    "stop": (
+        "STOP",
+        "The program is held. RESUME goes on where the path was left; axes that were jogged away"
+        " return first. ABORT ends the program. The path can be traced back and forward.\n\nA stop"
+        " by software is no emergency stop.",
+    ),
+    "manual": (
+        "MANUAL",
+        "MDI runs blocks that you type. JOG moves axes while a key is held, or by an increment."
+        " HANDWHEEL connects the wheel with axes. GOTO ZERO moves to the floating zero, Z first"
+        " where that is upward, else last.",
+    ),
+    "jog": (
+        "JOG",
+        "An axis moves while its key is held and stops when it is released, when the connection"
+        " falls silent for 200 ms, and at every stop, alarm or change of screen. SLOW is Jog"
+        " Feedrate, FAST is Jog Rapid. An increment is made whole at one press.",
+    ),
+    "mdi": (
+        "MDI",
+        "Blocks run one by one; what they switch on stays on. The buffer keeps what was executed;"
+        " it can be edited and stored as a program.",
+    ),
+    "handwheel": ("HANDWHEEL", "The wheel of each chosen axis moves it, by its ratio per click."),
+    "gotozero": ("GOTO ZERO", "Rapids to the floating zero; Z first if that is up, else last."),
+    "setdiag": (
+        "SET/DIAG",
+        "Settings and diagnostics. System parameters describe the machine: with wrong ones it does"
+        " not do what is commanded. They may be guarded by a password.",
+    ),
+    "offsets": (
+        "OFFSETS",
+        "Radii (D) and lengths (H) of tools with their wear, ballscrew tables, backlash, reference"
+        " points. SAVE PAGE stores the page; a value that is refused stays in its field.",
+    ),
+    "work": (
+        "WORK COORDINATES",
+        "The zeros of G54 to G59.2 in machine positions. TEACH makes the present position the zero"
+        " of a system.",
+    ),
+    "diagnostics": (
+        "DIAGNOSTICS",
+        "Inputs and outputs, terminal, scope, gains, parameters of the card, servo loop, load,"
+        " memory. For experienced personnel: the terminal and the gains act at once.",
+    ),
+    "alarms": (
+        "ALARMS",
+        "An alarm stays until its cause is gone and it was acknowledged; nothing starts before.",
+    ),
+    "control": (
+        "Control",
+        "One operator at a time has control of the machine. Others see everything and may stop it."
+        " Control can be handed over or taken.",
+    ),
+}

@@ -1,0 +1,317 @@
+"""Part programs: files, texts, findings, paths."""
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Annotated, Literal
+
+from msgspec import Meta
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+
+from openacr.errors import UserError
+from openacr.panel.control.listing import Listing
+from openacr.panel.control.loaded import version_of
+from openacr.panel.control.orders import PanelError
+from openacr.panel.files import Folder, kind_of
+from openacr.panel.roles import Role
+from openacr.panel.server.api import Body, Call, Query, endpoint
+from openacr.panel.server.hello import MOST_UPLOAD
+from openacr.panel.work.paths import check_text
+
+MOST_CHECKED = 1 << 20
+MOST_LINES = 2000
+MOST_SHOWN = 32 << 20
+Dialect = Literal["", "auto", "acromill", "rs274ngc"]
+
+
+class OfFolder(Query, frozen=True):
+    """A folder inside the folder of programs."""
+
+    folder: str = ""
+
+
+class OfFile(Query, frozen=True):
+    """A file in the folder of programs."""
+
+    path: str
+    dialect: Dialect = ""
+
+
+class OfLines(Query, frozen=True):
+    """Lines of a file, or of the loaded program."""
+
+    path: str = ""
+    first: Annotated[int, Meta(ge=1)] = 1
+    lines: Annotated[int, Meta(ge=1, le=MOST_LINES)] = 200
+
+
+class OfPath(Query, frozen=True):
+    """A file, else the loaded program."""
+
+    path: str = ""
+    dialect: Dialect = ""
+
+
+class Rename(Body, frozen=True):
+    """The old and the new name of a file."""
+
+    path: str
+    to: str
+
+
+class Checked(Body, frozen=True):
+    """A text that is being edited."""
+
+    text: Annotated[str, Meta(max_length=MOST_CHECKED)]
+    path: str = ""
+    dialect: Dialect = ""
+
+
+def folder_of(call: Call) -> Folder:
+    """The folder of programs."""
+    return Folder(call.panel.bench.programs)
+
+
+def _file(call: Call, path: str) -> Path:
+    try:
+        return folder_of(call).file(path)
+    except UserError as error:
+        raise PanelError("missing", str(error)) from None
+
+
+def locked(call: Call) -> str:
+    """The path of the program that is under way; empty if none is."""
+    desk = call.panel.desk
+    loaded, shop = desk.part.loaded, desk.shop
+    if loaded is None or shop is None or not shop.runner.is_busy or shop.runner.options.is_mdi:
+        return ""
+    return loaded.path
+
+
+def _require_unlocked(call: Call, path: str) -> None:
+    if path.strip("/") and path.strip("/") == locked(call):
+        raise PanelError("conflict", f"{path} is running: it can be changed when it has ended")
+
+
+# --- lists and texts ------------------------------------------------------------------
+
+
+@endpoint("GET", "/programs", query=OfFolder)
+async def programs(call: Call) -> object:
+    """List the part programs of a folder."""
+    folder, running = folder_of(call), locked(call)
+
+    def read() -> object:
+        entries = folder.entries(call.query.folder)
+        for entry in entries:
+            entry["locked"] = entry["path"] == running
+        return {"folder": call.query.folder.strip("/"), "entries": entries}
+
+    return await run_in_threadpool(read)
+
+
+@endpoint("GET", "/programs/text", query=OfLines)
+async def text(call: Call) -> object:
+    """Read lines of a file."""
+    query: OfLines = call.query
+    file = _file(call, query.path)
+
+    def read() -> object:
+        listing = Listing(file)
+        return {
+            "path": query.path,
+            "first": query.first,
+            "lines": listing.lines(query.first, query.lines),
+            "total": listing.total,
+            "version": version_of(file),
+            "locked": query.path == locked(call),
+        }
+
+    return await run_in_threadpool(read)
+
+
+@endpoint("GET", "/programs/file", query=OfFile, gives="text/plain")
+async def read_file(call: Call) -> Response:
+    """Read a whole file; the ETag is its version."""
+    file = _file(call, call.query.path)
+    if file.stat().st_size > MOST_SHOWN:
+        raise PanelError("too_big", f"{file.name} is too big to be edited here: read it by lines")
+
+    def read() -> Response:
+        data = file.read_bytes()
+        return Response(
+            data,
+            media_type="text/plain; charset=utf-8",
+            headers={"ETag": f'"{version_of(file)}"', "Cache-Control": "no-cache"},
+        )
+
+    return await run_in_threadpool(read)
+
+
+# --- changing files -------------------------------------------------------------------
+
+
+@endpoint("PUT", "/programs/file", Role.OPERATE, query=OfFile, takes="text/plain")
+async def write_file(call: Call) -> object:
+    """Save a file: `If-Match` with its version, `*` to replace whatever is there, none: new."""
+    return await _store(call, call.request.headers.get("if-match", "").strip('"'))
+
+
+@endpoint("POST", "/programs/upload", Role.OPERATE, query=OfFile, takes="application/octet-stream")
+async def upload(call: Call) -> object:
+    """Upload a new file of at most 256 MiB; with `If-Match: *` it may replace one."""
+    return await _store(call, call.request.headers.get("if-match", "").strip('"'))
+
+
+async def _store(call: Call, expected: str) -> object:
+    path = call.query.path
+    _require_unlocked(call, path)
+    place = folder_of(call).at(path)
+    if place == call.panel.bench.programs or place.is_dir():
+        raise PanelError("bad", f"{path}: it is a folder")
+    partial = await _received(call.request, place)
+    try:
+        result = await run_in_threadpool(_replace, place, partial, path, expected)
+    finally:
+        partial.unlink(missing_ok=True)
+    _note(call, path)
+    return result
+
+
+async def _received(request: Request, place: Path) -> Path:
+    """The body in a file beside the place it is for."""
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=".upload-", dir=place.parent)
+    except OSError as error:
+        raise _unwritable(place, error) from None
+    partial, size = Path(name), 0
+    try:
+        with os.fdopen(handle, "wb") as file:
+            async for part in request.stream():
+                size += len(part)
+                if size > MOST_UPLOAD:
+                    raise PanelError("too_big", f"more than {MOST_UPLOAD} bytes are not taken")
+                file.write(part)
+            file.flush()
+            await run_in_threadpool(os.fsync, file.fileno())
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise _unwritable(place, error) from None
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+    return partial
+
+
+def _note(call: Call, path: str) -> None:
+    """Tell the screens that a file is another one."""
+    call.panel.control.call(lambda desk: desk.part.note_stored(path.strip("/")))
+    call.panel.hub.broadcast({"event": "changed", "what": "programs", "path": path, "cells": []})
+
+
+def _unwritable(place: Path, error: OSError) -> UserError:
+    return UserError(f"{place.name} cannot be stored: {(error.strerror or str(error)).lower()}")
+
+
+def _replace(place: Path, partial: Path, path: str, expected: str) -> object:
+    if place.exists():
+        if not expected:
+            raise PanelError("conflict", f"{path} is there already")
+        if expected not in ("*", version_of(place)):
+            raise PanelError("conflict", f"{path} was changed meanwhile: read it again")
+    elif expected not in ("", "*"):
+        raise PanelError("conflict", f"{path} is not there any more")
+    try:
+        partial.chmod(0o644)
+        partial.replace(place)
+    except OSError as error:
+        raise _unwritable(place, error) from None
+    return {"path": path, "version": version_of(place), "bytes": place.stat().st_size}
+
+
+@endpoint("DELETE", "/programs/file", Role.SETUP, query=OfFile)
+async def delete_file(call: Call) -> object:
+    """Delete a file."""
+    file = _file(call, call.query.path)
+    _require_unlocked(call, call.query.path)
+    try:
+        await run_in_threadpool(file.unlink)
+    except OSError as error:
+        raise _unwritable(file, error) from None
+    _note(call, call.query.path)
+    return {}
+
+
+@endpoint("POST", "/programs/rename", Role.OPERATE, body=Rename)
+async def rename_file(call: Call) -> object:
+    """Rename a file; the new name must be free."""
+    file, to = _file(call, call.body.path), folder_of(call).at(call.body.to)
+    _require_unlocked(call, call.body.path)
+    if to.exists():
+        raise PanelError("conflict", f"{call.body.to} is there already")
+    try:
+        to.parent.mkdir(parents=True, exist_ok=True)
+        file.rename(to)
+    except OSError as error:
+        raise _unwritable(to, error) from None
+    _note(call, call.body.path)
+    return {"path": call.body.to, "kind": kind_of(to)}
+
+
+# --- findings and paths ---------------------------------------------------------------
+
+
+@endpoint("POST", "/check", body=Checked)
+async def check(call: Call) -> object:
+    """Check a text while it is edited: findings with line and column, predicted time."""
+    body: Checked = call.body
+    folder = folder_of(call).at(body.path).parent if body.path else call.panel.bench.programs
+    store = call.panel.bench.store.path
+    if store is None:
+        raise UserError("the store is in memory")
+    name = Path(body.path).name or "PROGRAM"
+    dialect = "" if body.dialect == "auto" else body.dialect
+    found = await call.panel.checks.run(check_text, body.text, name, folder, store, dialect)
+    return {"findings": found.findings, **found.facts()}
+
+
+@endpoint("GET", "/program")
+async def program(call: Call) -> object:
+    """The loaded program with its findings; null without one."""
+    loaded = call.panel.desk.part.loaded
+    if loaded is None:
+        return None
+    return {**loaded.data(), "findings": loaded.findings()}
+
+
+@endpoint("GET", "/program/listing", query=OfLines)
+async def listing(call: Call) -> object:
+    """Lines of the loaded program, as it was when it was loaded."""
+    loaded = call.panel.desk.part.loaded
+    if loaded is None:
+        raise PanelError("missing", "no program is loaded")
+    query: OfLines = call.query
+    lines = await run_in_threadpool(loaded.listing.lines, query.first, query.lines)
+    return {"first": query.first, "lines": lines, "total": loaded.listing.total}
+
+
+@endpoint("GET", "/path", query=OfPath, gives="application/octet-stream")
+async def path(call: Call) -> Response:
+    """The tool path as one block of bytes; 202 while it is being computed."""
+    loaded = call.panel.desk.part.loaded
+    if call.query.path:
+        file, dialect = _file(call, call.query.path), call.query.dialect
+    elif loaded is not None:
+        file, dialect = loaded.file, loaded.dialect
+    else:
+        raise PanelError("missing", "no program is loaded")
+    tag, found = await call.panel.paths.of(file, "" if dialect == "auto" else dialect)
+    if found is None:
+        return JSONResponse({"job": tag}, status_code=202)
+    headers = {"ETag": f'"{tag}"', "Cache-Control": "no-cache", "Content-Encoding": "gzip"}
+    if call.request.headers.get("if-none-match") == headers["ETag"]:
+        return Response(status_code=304, headers={"ETag": headers["ETag"]})
+    return Response(found.packed, media_type="application/octet-stream", headers=headers)

@@ -1,0 +1,107 @@
+"""The paths of programs that browsers show: computed in another process, kept while they hold."""
+
+import asyncio
+import hashlib
+import struct
+from collections import OrderedDict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from openacr.errors import UserError
+from openacr.panel.control.loaded import version_of
+from openacr.panel.work.paths import Found, read_file
+from openacr.panel.work.pool import Pool
+from openacr.sysvar import Store
+from openacr.sysvar.tabs import CELLS, CONTROL, DISPLAY, GENERAL, SPEEDS
+
+if TYPE_CHECKING:
+    from openacr.panel.server.panel import Panel
+
+KEPT = 6
+# Cells a path depends on: zeros, offsets, radii, and how arcs and colours are drawn.
+CELLS_READ = (
+    *range(CELLS.floating_zero_active, CELLS.work_system_in_use),
+    *CELLS.d_radius,
+    *CELLS.d_wear,
+    GENERAL.cmp_rad,
+    GENERAL.start_work_system,
+    GENERAL.start_set_chosen,
+    SPEEDS.chord_tolerance,
+    SPEEDS.max_machine_speed,
+    CONTROL.default_units,
+    CONTROL.path_color,
+    DISPLAY.color_via_d_codes,
+)
+
+
+@dataclass(slots=True)
+class _Path:
+    task: "asyncio.Task[Found]"
+
+
+class Paths:
+    """The paths of one panel."""
+
+    def __init__(self, panel: "Panel") -> None:
+        self._panel = panel
+        self._pool = Pool()
+        self._kept: OrderedDict[str, _Path] = OrderedDict()
+
+    async def of(self, file: Path, dialect: str = "") -> tuple[str, Found | None]:
+        """The tag of a file's path, and the path; None while it is being computed."""
+        version = await asyncio.to_thread(version_of, file)
+        tag = f"{version}-{stamp(self._panel.bench.store)}-{dialect}"
+        kept = self._kept.get(tag)
+        if kept is None:
+            kept = self._kept[tag] = _Path(asyncio.create_task(self._computed(file, dialect)))
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+        else:
+            self._kept.move_to_end(tag)
+        if not kept.task.done():
+            await asyncio.wait((kept.task,), timeout=0.05)
+        if not kept.task.done():
+            return tag, None
+        try:
+            return tag, kept.task.result()
+        except Exception:
+            self._kept.pop(tag, None)
+            raise
+
+    async def _computed(self, file: Path, dialect: str) -> Found:
+        store = self._panel.bench.store.path
+        if store is None:
+            raise UserError("the store is in memory: no path can be computed")
+        return await self._pool.run(read_file, file, store, dialect)
+
+    async def show(self) -> None:
+        """Compute the path of the loaded program; its time and extents go to the screens."""
+        loaded = self._panel.desk.part.loaded
+        if loaded is None:
+            return
+        try:
+            while True:
+                _tag, found = await self.of(loaded.file, loaded.dialect)
+                if found is not None:
+                    break
+                await asyncio.sleep(0.1)
+        except (OSError, UserError):
+            return
+        facts, version = found.facts(), loaded.version
+        findings = found.findings
+        self._panel.control.call(lambda desk: desk.part.note_facts(version, facts, findings))
+
+    def close(self) -> None:
+        """End the process."""
+        for kept in self._kept.values():
+            kept.task.cancel()
+        self._pool.close()
+
+
+def stamp(store: Store) -> str:
+    """A mark that changes with everything in the store that a path depends on."""
+    read = store.read
+    values = [read(cell) for cell in CELLS_READ]
+    packed = struct.pack(f"<{len(values)}d", *values)
+    return hashlib.blake2b(packed, digest_size=8).hexdigest()

@@ -1,0 +1,305 @@
+"""HTTP calls of a panel: forms, programs, paths, the description of the interface."""
+
+import gzip
+import struct
+import time
+from typing import Any
+
+import httpx
+import pytest
+from tests.panel.bench import LIMIT_S, Served
+
+
+@pytest.fixture
+def web(panel: Served) -> Any:
+    with httpx.Client(base_url=panel.url, timeout=LIMIT_S) as client:
+        yield client
+
+
+def ready(ask: Any) -> httpx.Response:
+    """An answer that is computed beside: asked until it is there."""
+    end_s = time.monotonic() + LIMIT_S
+    while (answer := ask()).status_code == 202:
+        assert time.monotonic() < end_s
+        time.sleep(0.1)
+    assert isinstance(answer, httpx.Response)
+    return answer
+
+
+# --- forms ----------------------------------------------------------------------------
+
+
+def test_a_form_has_units_limits_help_and_values(web: httpx.Client) -> None:
+    form = web.get("/api/forms/SERVO", params={"axis": 1}).json()
+    assert [axis["name"] for axis in form["axes"]] == ["X", "Y", "Z"]
+    assert form["axis"] == 1
+    row = form["groups"][0]["rows"][0]
+    assert row == {
+        "number": 151000, "name": "P Gain", "kind": "real", "axis": 1, "axis_name": "Y",
+        "unit": "V/pulse", "value": "0.002441", "number_value": 0.002441, "default": "0.00244",
+        "is_default": False, "low": 0, "high": None, "low_open": False, "words": None, "noun": "",
+        "typical": "0.001", "help": "Volts per pulse of error.", "motion": True, "fixed": False,
+        "wire": None,
+    }  # fmt: skip
+
+
+def test_limits_of_lengths_are_in_the_unit_of_the_machine(web: httpx.Client) -> None:
+    rows = web.get("/api/forms/CONTROL").json()["groups"][0]["rows"]
+    epsilon = next(row for row in rows if row["name"] == "Epsilon for Compensation")
+    assert (epsilon["unit"], epsilon["value"], epsilon["low"]) == ("mm", "0.0508", 0.0)
+    assert epsilon["low_open"]
+
+
+def test_every_form_can_be_read(web: httpx.Client) -> None:
+    names = [form["name"] for form in web.get("/api/forms").json()["forms"]]
+    assert {"SERVO", "AXES", "WORK", "MODALS", "MESSAGES", "H-WEAR", "IONAMES"} <= set(names)
+    for name in names:
+        form = web.get(f"/api/forms/{name}").json()
+        assert form["groups"] and all(group["rows"] for group in form["groups"]), name
+
+
+def test_values_are_stored_and_shown_as_the_store_has_them(
+    web: httpx.Client, panel: Served
+) -> None:
+    answer = web.put("/api/forms/JOG", json={"values": {"350000": "500", "350001": "100 in"}})
+    assert answer.json() == {"stored": {"350000": "500", "350001": "2540"}, "refused": {}}
+    assert panel.panel.bench.store.read(350_001) == 2540.0
+
+
+def test_a_refused_value_says_why_and_nothing_of_the_page_is_stored(
+    web: httpx.Client, panel: Served
+) -> None:
+    values = {"350000": "500", "350001": "-1", "350002": "fast", "150000": "1", "x": "1"}
+    answer = web.put("/api/forms/JOG", json={"values": values})
+    assert answer.status_code == 422
+    refused = answer.json()["refused"]
+    assert set(refused) == {"350001", "350002", "150000", "x"}
+    assert refused["350001"].startswith("P350001 Jog Rapid (axis 0) cannot be -1: a number above 0")
+    assert refused["150000"] == "P150000 is not on the page JOG"
+    assert panel.panel.bench.store.read(350_000) == 600.0
+
+
+def test_a_rule_between_settings_names_its_cell(web: httpx.Client) -> None:
+    answer = web.put("/api/forms/AXES", json={"values": {"200000": "-10"}})
+    assert answer.status_code == 422
+    text = answer.json()["refused"]["200000"]
+    assert "it has to be above the -Soft Limit, -5" in text
+
+
+def test_long_tables_come_in_pages(web: httpx.Client) -> None:
+    form = web.get("/api/forms/H-GEOMETRY", params={"first": 990, "count": 20}).json()
+    assert form["page"] == {"first": 990, "count": 10, "total": 999}
+    numbers = [row["number"] for row in form["groups"][0]["rows"]]
+    assert numbers == list(range(2990, 3000))
+
+
+def test_settings_are_found_by_words(web: httpx.Client) -> None:
+    cells = web.get("/api/settings/search", params={"text": "plus soft limit"}).json()["cells"]
+    assert cells == [] or all("form" in cell for cell in cells)
+    cells = web.get("/api/settings/search", params={"text": "jog rapid"}).json()["cells"]
+    assert {cell["number"] for cell in cells} >= {350_001, 351_001}
+    assert {cell["form"] for cell in cells} == {"JOG"}
+
+
+def test_stored_settings_count_for_the_next_jog(web: httpx.Client, panel: Served) -> None:
+    web.put("/api/forms/JOG", json={"values": {"350000": "1200"}})
+    end_s = time.monotonic() + LIMIT_S
+    while panel.call(lambda desk: desk.must_renew or desk.shop is None):
+        assert time.monotonic() < end_s
+    assert panel.call(lambda desk: desk.machine.runner.settings.axis(0).jog_ups) == 20.0
+
+
+# --- programs -------------------------------------------------------------------------
+
+
+def test_programs_are_listed_read_and_stored(web: httpx.Client, panel: Served) -> None:
+    entries = web.get("/api/programs").json()["entries"]
+    assert "plate.nc" in [entry["name"] for entry in entries]
+    part = web.get("/api/programs/text", params={"path": "plate.nc", "first": 3, "lines": 2})
+    assert part.json()["lines"][0] == "G21 G90 G17 G40 G49 G200 F2"
+    assert part.json()["total"] == 64
+    stored = web.put("/api/programs/file", params={"path": "jobs/new.nc"}, content="G0 X1\nM2\n")
+    assert stored.status_code == 200
+    assert (panel.programs / "jobs" / "new.nc").read_text() == "G0 X1\nM2\n"
+    whole = web.get("/api/programs/file", params={"path": "jobs/new.nc"})
+    assert whole.text == "G0 X1\nM2\n"
+    assert whole.headers["etag"] == f'"{stored.json()["version"]}"'
+
+
+def test_a_file_that_was_changed_meanwhile_is_not_overwritten(
+    web: httpx.Client, panel: Served
+) -> None:
+    place = {"path": "a.nc"}
+    version = web.put("/api/programs/file", params=place, content="G0 X1\n").json()["version"]
+    assert web.put("/api/programs/file", params=place, content="x").status_code == 409
+    (panel.programs / "a.nc").write_text("G0 X2\n")
+    answer = web.put("/api/programs/file", params=place, content="x", headers={"if-match": version})
+    assert answer.status_code == 409
+    assert answer.json()["error"]["text"] == "a.nc was changed meanwhile: read it again"
+    assert (panel.programs / "a.nc").read_text() == "G0 X2\n"
+    answer = web.put("/api/programs/file", params=place, content="M2", headers={"if-match": "*"})
+    assert answer.status_code == 200
+
+
+@pytest.mark.parametrize(
+    "path", ["../secret.nc", "a/../../b.nc", "/etc/passwd", ".hidden", "a\\b.nc", "a\nb", "x" * 300]
+)
+def test_names_stay_inside_the_folder(web: httpx.Client, panel: Served, path: str) -> None:
+    answer = web.put("/api/programs/file", params={"path": path}, content="M2")
+    if path == "/etc/passwd":  # a path of the folder, not of the computer
+        assert (panel.programs / "etc" / "passwd").read_text() == "M2"
+        return
+    assert answer.status_code in (400, 422)
+    assert "not allowed" in answer.json()["error"]["text"]
+
+
+def test_a_link_out_of_the_folder_is_not_followed(web: httpx.Client, panel: Served) -> None:
+    (panel.programs.parent / "outside.nc").write_text("secret")
+    (panel.programs / "link.nc").symlink_to(panel.programs.parent / "outside.nc")
+    answer = web.get("/api/programs/file", params={"path": "link.nc"})
+    assert answer.status_code == 404
+    assert "secret" not in answer.text
+
+
+def test_an_upload_beyond_its_limit_leaves_nothing(
+    web: httpx.Client, panel: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("openacr.panel.server.calls.programs.MOST_UPLOAD", 1000)
+    answer = web.post("/api/programs/upload", params={"path": "big.nc"}, content=b"G0\n" * 1000)
+    assert answer.status_code == 413
+    assert [p.name for p in panel.programs.iterdir() if "big" in p.name or "upload" in p.name] == []
+
+
+def test_a_text_is_checked_while_it_is_typed(web: httpx.Client) -> None:
+    body = {"text": "G21 G90\nG1 X10 F100\nG1 Q5\nM2\n", "path": "x.nc"}
+    answer = web.post("/api/check", json=body).json()
+    errors = [f for f in answer["findings"] if f["severity"] == "error"]
+    assert [(f["line"], f["column"], f["code"]) for f in errors] == [(3, 4, "E206")]
+    good = web.post("/api/check", json={"text": "G21 G90\nG0 X0\nG1 X10 F100\nM2\n"}).json()
+    assert good["seconds"] == pytest.approx(6.0 + 2.2, abs=0.5)
+    assert good["extents"]["X"] == [200.0, 210.0]
+
+
+def test_the_path_of_the_loaded_program_is_one_block_of_bytes(
+    web: httpx.Client, panel: Served
+) -> None:
+    (panel.programs / "square.nc").write_text("G21 G90\nG0 X10\nG1 X20 F300\nY10\nG0 Z5\nM2\n")
+    answer = ready(lambda: web.get("/api/path", params={"path": "square.nc"}))
+    blob = answer.content
+    mark, points, lines, flags = struct.unpack_from("<4sIII", blob)
+    assert (mark, points, lines, flags & 1) == (b"OAP1", 5, 3, 1)
+    assert struct.unpack_from("<3f", blob, 48) == (200.0, 150.0, -60.0)
+    places = [struct.unpack_from("<3f", blob, 64 + 12 * n) for n in range(points)]
+    assert places == [
+        (0, 0, 0),
+        (210, 0, 0),
+        (220, 0, 0),
+        (220, 160, 0),
+        (220, 160, -55),
+    ]  # machine coordinates; axes that no block has named yet stay
+    assert struct.unpack_from("<6f", blob, 16) == (0.0, 0.0, -55.0, 220.0, 160.0, 0.0)
+    at = 64 + 12 * points
+    assert struct.unpack_from(f"<{points}I", blob, at) == (0, 2, 3, 4, 5)
+    at += 4 * points
+    assert struct.unpack_from(f"<{lines}I", blob, at) == (0, 1, 3)
+    assert blob[at + 4 * lines : at + 5 * lines] == bytes((0, 1, 0))
+    assert len(blob) == at + 6 * lines
+    again = web.get(
+        "/api/path", params={"path": "square.nc"}, headers={"if-none-match": answer.headers["etag"]}
+    )
+    assert again.status_code == 304
+
+
+def test_the_path_follows_the_work_offset(web: httpx.Client, panel: Served) -> None:
+    (panel.programs / "line.nc").write_text("G21 G90\nG1 X20 F300\nM2\n")
+    first = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    web.put("/api/forms/WORK", json={"values": {"910": "100", "911": "0", "912": "0"}})
+    second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    assert first.headers["etag"] != second.headers["etag"]
+    assert struct.unpack_from("<f", second.content, 64 + 12) == (120.0,)
+    assert struct.unpack_from("<3f", second.content, 48) == (100.0, 0.0, 0.0)
+
+
+def test_time_and_extents_of_the_sample_become_known(web: httpx.Client, panel: Served) -> None:
+    end_s = time.monotonic() + LIMIT_S
+    while (found := web.get("/api/program").json()) is None or found["seconds"] is None:
+        assert time.monotonic() < end_s
+        time.sleep(0.1)
+    assert found["name"] == "plate.nc"
+    assert found["tools"] == [1, 2]
+    assert found["errors"] == 0
+    assert found["extents"]["X"][1] - found["extents"]["X"][0] > 80.0
+    listing = web.get("/api/program/listing", params={"first": 64, "lines": 10}).json()
+    assert listing["total"] == 64
+    assert len(listing["lines"]) == 1
+
+
+# --- parts, card, help, interface -----------------------------------------------------
+
+
+def test_parts_of_the_library_have_sizes_and_pictures(web: httpx.Client) -> None:
+    parts = web.get("/api/parts").json()["parts"]
+    assert len(parts) == 27
+    part = parts[0]
+    answer = web.post(f"/api/parts/{part['name']}/path", json={})
+    assert answer.content[:4] == b"OAP1"
+    size = part["parameters"][0]
+    wrong = {"values": {size["name"]: size["high"] * 2 + 1}}
+    refused = web.post(f"/api/parts/{part['name']}/path", json=wrong)
+    assert refused.status_code == 422
+    assert size["text"] in refused.json()["error"]["text"]
+
+
+def test_parameters_of_the_card_are_found(web: httpx.Client) -> None:
+    answer = web.get("/api/card/parameters", params={"text": "actual position", "object": "axis"})
+    numbers = [each["number"] for each in answer.json()["parameters"]]
+    assert 12_290 in numbers
+    flags = web.get("/api/card/flags", params={"text": "in motion", "index": 0}).json()["flags"]
+    assert 516 in [each["number"] for each in flags]
+
+
+def test_operator_variables_of_card_and_store_are_read_and_written(web: httpx.Client) -> None:
+    answer = web.put("/api/pparm", json={"values": {"5": 1.5, "150": 2.5}})
+    assert answer.json() == {"values": {"5": 1.5, "150": 2.5}}
+    values = web.get("/api/pparm").json()["values"]
+    assert len(values) == 200
+    assert (values[5], values[150]) == (1.5, 2.5)
+    refused = web.put("/api/pparm", json={"values": {"200": 1.0}})
+    assert "P200 is not an operator variable" in refused.json()["error"]["text"]
+
+
+def test_help_is_there_for_menus_commands_and_cells(web: httpx.Client) -> None:
+    assert web.get("/api/help/jog").json()["title"] == "JOG"
+    assert web.get("/api/help/run.block").json()["text"].startswith("BLOCK")
+    assert "Jog Rapid" in web.get("/api/help/350001").json()["title"]
+    assert web.get("/api/help/nothing").status_code == 404
+
+
+def test_the_interface_describes_itself(web: httpx.Client) -> None:
+    found = web.get("/api/openapi.json").json()
+    assert found["openapi"] == "3.1.0"
+    assert {"get", "put"} == set(found["paths"]["/api/forms/{name}"])
+    names = [each["name"] for each in found["paths"]["/api/forms/{name}"]["get"]["parameters"]]
+    assert names == ["name", "axis", "first", "count"]
+    assert found["x-commands"]["jog.press"]["role"] == "operate"
+    for path, calls in found["paths"].items():
+        for method, call in calls.items():
+            assert call["summary"], (path, method)
+
+
+def test_wrong_calls_are_answered_with_the_reason(web: httpx.Client) -> None:
+    assert web.get("/api/forms/NONE").status_code == 404
+    assert web.get("/api/forms/SERVO", params={"axis": "x"}).status_code == 400
+    assert web.get("/api/forms/SERVO", params={"bad": 1}).status_code == 400
+    answer = web.put("/api/forms/SERVO", content="{")
+    assert answer.status_code == 400
+    assert web.put("/api/forms/SERVO", json={"values": {"150000": 1}}).status_code == 400
+    assert "/api/forms/SERVO" in answer.json()["error"]["text"]
+
+
+def test_packed_answers_are_gzip(web: httpx.Client, panel: Served) -> None:
+    (panel.programs / "line.nc").write_text("G21 G90\nG1 X20 F300\nM2\n")
+    answer = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    assert answer.headers["content-encoding"] == "gzip"
+    with httpx.stream("GET", f"{panel.url}/api/path", params={"path": "line.nc"}) as raw:
+        assert gzip.decompress(b"".join(raw.iter_raw()))[:4] == b"OAP1"

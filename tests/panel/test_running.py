@@ -1,0 +1,274 @@
+"""Programs, homing, zeros and MDI of a panel, on a desk whose time passes by hand."""
+
+import pytest
+from tests.panel.bench import HandDesk
+
+from openacr.panel.control.people import Person
+from openacr.panel.roles import Role
+
+SQUARE = "G21 G90 G54\nG0 X10 Y10 Z60\nG1 X20 F1200\nY20\nM0\nX10\nY10\nM2\n"
+
+
+def loaded(hand: HandDesk, text: str = SQUARE) -> None:
+    (hand.bench.programs / "t.nc").write_text(text)
+    hand.do("program.load", path="t.nc")
+    hand.run(0.1)
+
+
+def test_a_program_is_loaded_started_stopped_and_ends(hand: HandDesk) -> None:
+    loaded(hand)
+    assert hand.events("program")[-1]["loaded"]["name"] == "t.nc"
+    hand.do("run.begin")
+    hand.until(lambda: hand.state == "HOLD")
+    hand.run(0.05)
+    assert hand.desk.snapshot.line in (4, 5)
+    assert hand.events("state")[-1]["reason"] == "M0"
+    hand.do("run.start")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.places() == (210.0, 160.0, 0.0)
+    assert hand.desk.snapshot.work == (10.0, 10.0, 60.0)
+
+
+def test_stop_holds_the_feed_and_resume_goes_on(hand: HandDesk) -> None:
+    loaded(hand)
+    hand.do("run.begin")
+    hand.until(lambda: hand.desk.snapshot.line == 3)
+    hand.do("stop.hold")
+    hand.run(1.0)
+    assert hand.state == "PAUSED"
+    at = hand.places()
+    hand.run(0.5)
+    assert hand.places() == at
+    assert hand.refused("run.start", old_s=1.0)["code"] == "stale"
+    hand.do("run.resume")
+    hand.until(lambda: hand.state == "HOLD")
+    hand.do("run.abort")
+    hand.until(lambda: not hand.is_busy)
+    assert hand.events("state")[-1]["aborted"]
+
+
+def test_a_viewer_stops_a_program_and_starts_nothing(hand: HandDesk) -> None:
+    viewer = Person(5, Role.VIEW, "10.0.0.5")
+    hand.desk.join(viewer)
+    loaded(hand)
+    assert hand.send("run.begin", who=viewer)["error"]["code"] == "role"
+    hand.do("run.begin")
+    hand.run(0.3)
+    assert hand.send("stop.all", who=viewer)["ok"]
+    hand.until(lambda: not hand.is_busy)
+    assert hand.send("run.begin", who=viewer)["error"] == {
+        "code": "role", "text": "this needs the role operate", "needs": "operate",
+    }  # fmt: skip
+
+
+def test_a_start_line_is_rehearsed_and_confirmed(hand: HandDesk) -> None:
+    loaded(hand)
+    assert "safe" in hand.refused("run.begin", line=4)["text"]
+    result = hand.do("run.begin", line=4, safe_z=0.0)
+    rehearsal = result["rehearsal"]
+    names = [each["name"] for each in rehearsal["differences"]]
+    assert any("osition" in name or "X" in name for name in names)
+    assert not hand.is_busy
+    assert "confirmed first" in hand.refused("run.begin", line=4, confirm="x")["text"]
+    assert "was confirmed" in hand.refused("run.begin", line=5, confirm=rehearsal["token"])["text"]
+    rehearsal = hand.do("run.begin", line=4, safe_z=0.0)["rehearsal"]
+    hand.do("run.begin", line=4, confirm=rehearsal["token"])
+    hand.until(lambda: hand.state == "HOLD")
+    hand.run(0.05)
+    assert hand.places()[:2] == (220.0, 170.0)
+
+
+def test_a_program_with_errors_is_not_started(hand: HandDesk) -> None:
+    loaded(hand, "G21 G90\nG1 X F100\nM2\n")
+    assert hand.events("program")[-1]["loaded"]["errors"] == 1
+    error = hand.refused("run.begin")
+    assert "cannot be started: t.nc:2:" in error["text"]
+
+
+def test_a_missing_program_is_said(hand: HandDesk) -> None:
+    assert hand.refused("program.load", path="no.nc")["text"] == "no.nc: no such file"
+    assert (
+        hand.refused("program.load", path="../x.nc")["text"] == "../x.nc: this name is not allowed"
+    )
+    assert hand.refused("run.begin")["text"] == "no program is loaded"
+
+
+def test_another_program_is_refused_while_one_runs(hand: HandDesk) -> None:
+    loaded(hand)
+    hand.do("run.begin")
+    hand.run(0.3)
+    assert "a program runs" in hand.refused("program.load", path="plate.nc")["text"]
+    hand.do("stop.all")
+    hand.until(lambda: not hand.is_busy)
+    hand.do("program.load", path="plate.nc")
+
+
+def test_block_stops_after_every_block(hand: HandDesk) -> None:
+    loaded(hand)
+    hand.do("run.block", on=True)
+    assert hand.events("state")[-1]["options"]["single"]
+    hand.do("run.begin")
+    hand.until(lambda: hand.state == "HOLD")
+    first = hand.desk.snapshot.line
+    hand.do("run.start")
+    hand.run(0.1)
+    hand.until(lambda: hand.state == "HOLD")
+    assert hand.desk.snapshot.line > first
+
+
+def test_a_batch_runs_its_programs_one_after_the_other(hand: HandDesk) -> None:
+    for name, x in (("a.nc", 1), ("b.nc", 2)):
+        (hand.bench.programs / name).write_text(f"G21 G90\nG0 X{x}\nM2\n")
+    (hand.bench.programs / "list.txt").write_text("a.nc L2\nb.nc\n")
+    hand.do("program.batch", path="list.txt")
+    hand.run(0.1)
+    assert hand.events("program")[-1]["batch"]["names"] == ["a.nc", "a.nc", "b.nc"]
+    hand.do("run.begin")
+    hand.until(lambda: hand.events("program")[-1]["batch"]["index"] == 2)
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[0] == 2.0
+
+
+def test_a_batch_does_not_leave_the_folder(hand: HandDesk) -> None:
+    (hand.bench.programs.parent / "x.nc").write_text("M2\n")
+    (hand.bench.programs / "list.txt").write_text("../x.nc\n")
+    error = hand.refused("program.batch", path="list.txt")
+    assert "outside the folder" in error["text"]
+
+
+# --- home, zero, MDI ------------------------------------------------------------------
+
+
+def test_home_finds_the_reference_points(hand: HandDesk) -> None:
+    assert hand.do("home.start", axes="") == {"axes": ["X", "Y", "Z"]}
+    hand.until(lambda: hand.state == "IDLE" and not hand.is_busy, 120.0)
+    hand.run(0.1)
+    assert hand.events("state")[-1]["homed"] == ["X", "Y", "Z"]
+    x, y, z = hand.places()
+    assert (round(x, 2), round(y, 2), round(z, 2)) == (3.0, 3.0, -2.0)
+    assert [axis["homed"] for axis in hand.events("home")[-1]["axes"]] == [True, True, True]
+
+
+def test_stop_ends_homing_with_its_alarm(hand: HandDesk) -> None:
+    hand.do("home.start", axes="X")
+    hand.run(0.5)
+    hand.do("stop.hold")
+    hand.until(lambda: not hand.is_busy)
+    assert [a["code"] for a in hand.events("alarms")[-1]["active"]] == [34]
+    assert hand.do("alarm.acknowledge") == {"left": []}
+
+
+def test_zeros_are_set_cleared_and_gone_to(hand: HandDesk) -> None:
+    hand.do("jog.increment", axis="X", direction=1, distance=7.5, tick=hand.tick)
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.05)
+    result = hand.do("zero.set", axes="XY")
+    assert (result["position"]["X"], result["position"]["Y"]) == (0.0, 0.0)
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[:2] == (0.0, 0.0)
+    hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
+    hand.until(lambda: not hand.is_busy)
+    hand.do("zero.goto", axes="X")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.places()[0] == 7.5
+    hand.do("zero.clear")
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[0] == pytest.approx(7.5 - 200.0)
+
+
+def test_goto_zero_does_not_become_part_of_the_mdi_text(hand: HandDesk) -> None:
+    hand.do("zero.set", axes="")
+    hand.do("zero.goto", axes="")
+    hand.until(lambda: not hand.is_busy)
+    assert hand.do("mdi.buffer") == {"lines": []}
+
+
+def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandDesk) -> None:
+    hand.do("mdi.execute", lines=["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1"])
+    hand.until(lambda: not hand.is_busy and not hand.desk.typed.data()["queue"])
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[0] == 9.0
+    hand.do("mdi.execute", line="G0 X1")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[0] == 10.0  # still incremental
+    assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1", "G0 X1"]
+
+
+def test_an_error_in_mdi_drops_the_blocks_after_it(hand: HandDesk) -> None:
+    hand.do("mdi.execute", lines=["G21 G90 G0 X5", "G1 Q8", "G0 X50"])
+    hand.run(3.0)
+    assert hand.desk.snapshot.work[0] == 5.0
+    text = "Program error: MDI:1:4: E206 word has no meaning in this block: Q"
+    assert [alarm["text"] for alarm in hand.events("alarms")[-1]["active"]] == [text]
+
+
+def test_stop_drops_the_blocks_that_wait(hand: HandDesk) -> None:
+    hand.do("mdi.execute", lines=["G21 G90 G1 X-190 F600", "G0 X0"])
+    hand.run(0.5)
+    hand.do("stop.hold")
+    hand.run(1.0)
+    hand.do("run.abort")
+    hand.until(lambda: not hand.is_busy)
+    at = hand.places()
+    hand.run(1.0)
+    assert hand.places() == at
+
+
+def test_teach_makes_the_position_the_zero_of_a_system(hand: HandDesk) -> None:
+    hand.do("jog.increment", axis="Y", direction=1, distance=3.0, tick=hand.tick)
+    hand.until(lambda: not hand.is_busy)
+    hand.do("teach.work", system="G54", axes="Y")
+    hand.run(0.1)
+    assert hand.desk.snapshot.work[1] == 0.0
+    assert hand.bench.store.read(911) == 3.0
+
+
+def test_overrides_are_chosen_by_their_clicks(hand: HandDesk) -> None:
+    hand.do("override.choose", which="feed", click=5)
+    hand.run(0.1)
+    assert hand.desk.snapshot.feed_percent == 50.0
+    assert hand.events("overrides")[-1]["feed"]["click"] == 5
+    assert hand.refused("override.choose", which="feed", click=16)["code"] == "bad"
+
+
+def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandDesk) -> None:
+    loaded(hand)
+    hand.do("name", name="Anna")
+    hand.do("run.begin")
+    hand.run(0.5)
+    hand.do("stop.estop")
+    hand.run(0.5)
+    assert hand.state == "ALARM"
+    assert hand.events("alarms")[-1]["active"][0]["text"] == "Stopped at a screen: Anna"
+    assert hand.speeds() == (0.0, 0.0, 0.0)
+    assert "alarm 9" in hand.refused("run.begin")["text"]
+    hand.do("alarm.acknowledge")
+    hand.run(0.5)
+    assert hand.state == "IDLE"
+
+
+def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandDesk) -> None:
+    before = hand.tick
+    hand.bench.store.write(350_000, 1200.0)
+    hand.desk.note_stored(frozenset({350_000}))
+    hand.run(0.1)
+    assert hand.tick > before
+    assert hand.press(1)["ok"]
+    hand.keep(1, 0.5)
+    assert hand.speeds(0.04)[0] == pytest.approx(20.0, abs=0.5)
+
+
+def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandDesk) -> None:
+    loaded(hand)
+    hand.do("run.begin")
+    hand.run(0.3)
+    shop = hand.desk.shop
+    hand.desk.note_stored(frozenset({650_002}))
+    hand.run(0.3)
+    assert hand.desk.shop is shop
+    hand.do("stop.all")
+    hand.until(lambda: hand.desk.shop is not shop)
