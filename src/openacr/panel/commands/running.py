@@ -3,18 +3,24 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from openacr.errors import UserError
+from openacr.mill.config.communications import Line
+from openacr.mill.config.dialects import dialect_of
+from openacr.mill.config.folders import folders_of
 from openacr.mill.config.overrides import Override
+from openacr.mill.run.dripping import Drip
 from openacr.mill.session import Start
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.desk import LATER, Desk, Later
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
 from openacr.panel.files import Folder
+from openacr.panel.library import ready
 from openacr.panel.roles import Role
 
+PARTS = ".parts"  # folder of library parts that were made, inside that of programs
 Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
 
 
@@ -88,6 +94,52 @@ def batch(desk: Desk, order: Order, args: OfFile) -> Later:
 
     desk.part.load_batch(folder.file(args.path), order, place)
     return LATER
+
+
+class OfPart(Args, frozen=True):
+    """A part of the library with sizes by cell; the others have their defaults."""
+
+    part: str
+    values: dict[str, Finite] = field(default_factory=dict)
+    tool: Annotated[int, Meta(ge=0, le=400)] = 0
+
+
+class OfPort(Args, frozen=True):
+    """A serial port; else that of the COMMUNICATIONS page."""
+
+    port: str = ""
+    dialect: Literal["", "auto", "acromill", "rs274ngc"] = ""
+    dry: bool = False
+
+
+@command("program.part")
+def library_part(desk: Desk, order: Order, args: OfPart) -> Later:
+    """LIBRARY PART: make a part with these sizes the program that START starts."""
+    desk.part.require_free()
+    made = ready(args.part, args.values, desk.bench.store, args.tool)
+    folder = desk.bench.programs / PARTS
+    file = folder / f"{made.part.name}.nc"
+    try:
+        folder.mkdir(exist_ok=True)
+        file.write_text(made.program, encoding="utf-8", newline="\n")
+    except OSError as error:
+        raise UserError(f"{file.name} cannot be stored: {error.strerror}") from None
+    desk.part.load(file, made.part.name, order, kind="part", dialect="acromill")
+    return LATER
+
+
+@command("program.drip", is_motion=True)
+def drip(desk: Desk, order: Order, args: OfPort) -> None:
+    """RS232 DRIP FEED: run a program while it arrives over a serial line."""
+    desk.part.require_free()
+    shop = desk.machine
+    shop.runner.alarms.require_none()
+    name = dialect_of(None, shop.cells, args.dialect or None)
+    folder = desk.bench.store.path.parent if desk.bench.store.path else None
+    line = Line.of(shop.cells, args.port)
+    made = Drip(line, shop.cells, name, is_dry=args.dry, folders=folders_of(shop.cells, folder))
+    shop.keep_drip(made)
+    shop.start_drip(made, Start(dialect=name, is_dry=args.dry))
 
 
 @command("program.close")

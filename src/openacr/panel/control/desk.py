@@ -17,16 +17,20 @@ from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.panel.control.bench import Bench
+from openacr.panel.control.buttons import Buttons
 from openacr.panel.control.facts import Facts
 from openacr.panel.control.hands import Hands
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.loaded import Part
 from openacr.panel.control.orders import Order, failure
+from openacr.panel.control.pace import Sampler
 from openacr.panel.control.people import People, Person
 from openacr.panel.control.presses import End
 from openacr.panel.control.reading import Reading
+from openacr.panel.control.scope import Samples, Scope
 from openacr.panel.control.settled import is_of_session
 from openacr.panel.control.snapshot import Snapshot, Ticks
+from openacr.panel.control.terminal import Terminal
 from openacr.panel.control.typed import Typed
 from openacr.panel.control.watches import Watches
 from openacr.panel.roles import Role
@@ -51,12 +55,16 @@ class Desk:
     def __init__(self, bench: Bench, carry_out: Carry, tell: Tell = lambda _event: None) -> None:
         self.bench = bench
         self.tell = tell
+        self.sampled: Callable[[Samples], None] = lambda _samples: None
         self.looked: Callable[[], None] = lambda: None  # a new snapshot is there
         self.people = People()
         self.hands = Hands(self)
         self.jobs = Jobs()
         self.typed = Typed(self)
         self.part = Part(self)
+        self.terminal = Terminal(bench)
+        self.scope = Scope()
+        self.buttons = Buttons()
         self.ticks = Ticks()
         self.watches = Watches()
         self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
@@ -92,6 +100,7 @@ class Desk:
 
     def open(self, now_s: float) -> None:
         """Open the session of the machine; without it the screens say why."""
+        self.must_renew = False  # before the settings are read: what is stored then counts
         try:
             self.shop = self.bench.open(self.say)
         except (OpenacrError, *LINK_ERRORS) as error:
@@ -101,7 +110,6 @@ class Desk:
             return
         self.lost = ""
         self._reading = Reading(self.shop)
-        self.must_renew = False
         self._poll_at = self._snapshot_at = 0.0
         self._tick_base_ms = self._tick_ms
         self._alarms = 0
@@ -111,6 +119,8 @@ class Desk:
         """Close the session: axes that move are brought to rest by the caller before."""
         shop, self.shop, self._reading = self.shop, None, None
         self.typed.forget()
+        self.terminal.end()
+        self.scope.stop()
         if shop is not None:
             with suppress(*LINK_ERRORS):
                 shop.close()
@@ -137,7 +147,7 @@ class Desk:
             self._lose("the card does not answer", now_s)
             return
         try:
-            clock = self.bench.pace.advance(self.shop.card, now_s)
+            clock = self.bench.pace.advance(self.shop.card, now_s, self._sampler())
             if clock >= self._poll_at:
                 self._poll_at = clock + self.shop.poll_in_s
                 self._poll(now_s)
@@ -155,6 +165,7 @@ class Desk:
             shop.poll()
             self._guarded(self.typed.poll)
             self._guarded(self.part.poll)
+            self._print()
         except AlarmError as error:  # another program has taken the machine
             self._lose(str(error), now_s)
             return
@@ -167,11 +178,31 @@ class Desk:
         history = self.machine.runner.alarms.history
         return history[-1].text if history else ""
 
+    def _sampler(self) -> Sampler | None:
+        """What the scope does at each of its samples; None while it is off."""
+        capture = self.scope.capture
+        if capture is None or capture.is_over or self.shop is None:
+            return None
+        controller, shop, parameters = self.bench.controller, self.shop, capture.parameters
+        if controller is None:
+            return capture.period_s, lambda: self.scope.add(shop.machine.read_rows(parameters))
+        view = controller.p
+        return capture.period_s, lambda: self.scope.add([float(view[p]) for p in parameters])
+
+    def _print(self) -> None:
+        """What the terminal of the card has printed."""
+        text = self.terminal.poll() if self.terminal.clients else ""
+        if text:
+            for client in self.terminal.clients:
+                self.tell({"event": "term", "text": text, "to": client})
+
     def _look(self, now_s: float) -> None:
         snapshot = self.reading.snapshot(self.snapshot.number + 1, self._tick_ms, now_s)
         self.ticks.note(snapshot.tick_ms, now_s)
         self.snapshot = snapshot
         self.looked()
+        if (samples := self.scope.take()) is not None:
+            self.sampled(samples)
         self._facts.tell()
         if self.shop is not None:
             self.watches.look(self.shop, now_s)
@@ -253,6 +284,8 @@ class Desk:
         self._guarded(lambda: self.hands.presses.end_all(End.LINK, client=client))
         self.hands.presses.forget(client)
         self.watches.forget(client)
+        self.terminal.close(client)
+        self._guarded(lambda: self.buttons.drop(self.shop, client))
         self.people.leave(client)
         self._facts.tell()
 

@@ -189,6 +189,14 @@ def _alarm(alarm: Alarm, when: str) -> Data:
     }
 
 
+def _scope(_facts: Facts, desk: "Desk") -> Data:
+    """The capture of the scope; its samples are frames."""
+    capture = desk.scope.capture
+    if capture is None:
+        return {"running": False}
+    return {k: v for k, v in capture.data().items() if k != "taken"}
+
+
 MAKERS: dict[str, Callable[[Facts, "Desk"], Data]] = {
     "state": Facts.state,
     "program": Facts.program,
@@ -199,4 +207,5 @@ MAKERS: dict[str, Callable[[Facts, "Desk"], Data]] = {
     "overrides": Facts.overrides,
     "mdi": Facts.mdi,
     "home": Facts.home,
+    "scope": _scope,
 }

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from openacr.panel.control.desk import Desk
+from openacr.panel.control.scope import Samples
 from openacr.panel.control.watches import Changed, Wish
 from openacr.panel.wire import frames
 from openacr.panel.wire.frames import Topic
@@ -43,6 +44,7 @@ class Hub:
         desk.tell = self._tell
         desk.looked = self._looked
         desk.watches.report = self._report
+        desk.sampled = self._sampled
 
     def attach(self) -> None:
         """Take over the running loop: from now on events reach the browsers."""
@@ -68,6 +70,9 @@ class Hub:
 
     def _looked(self) -> None:
         self._soon(self.show)
+
+    def _sampled(self, taken: Samples) -> None:
+        self._soon(self._show_samples, taken)
 
     def _report(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         self._soon(self._show_values, wish, parameters, changed)
@@ -110,6 +115,18 @@ class Hub:
         frame = frames.status(self._desk.snapshot, seq, now_s, is_lost=is_lost)
         for browser in wanted:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)
+
+    def _show_samples(self, taken: Samples) -> None:
+        """Send the new samples of the scope to the browsers that want them."""
+        first, channels, period_s = taken
+        now_s = self._clock()
+        seq, snapshot = self.next(Topic.SCOPE), self._desk.snapshot
+        age_ms = 1000.0 * (now_s - snapshot.read_s)
+        frame = frames.scope(
+            seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, channels=channels
+        )
+        for browser in self._browsers.values():
+            browser.outbox.offer(Topic.SCOPE, seq, frame, now_s)
 
     def _show_values(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         """Send watched values to the browser that watches them; none is left out."""

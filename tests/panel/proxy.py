@@ -1,0 +1,108 @@
+"""A line between browser and panel that can be frozen in one direction, cut and reset."""
+
+import socket
+import struct
+import threading
+from contextlib import suppress
+from types import TracebackType
+from typing import Self
+
+
+class Proxy:
+    """A port that leads to another one; `freeze_*` holds bytes back without a word to any end."""
+
+    def __init__(self, port: int) -> None:
+        self._target = ("127.0.0.1", port)
+        self._server = socket.create_server(("127.0.0.1", 0))
+        self.port = int(self._server.getsockname()[1])
+        self._up, self._down = threading.Event(), threading.Event()
+        self._up.set()
+        self._down.set()
+        self._pairs: list[tuple[socket.socket, socket.socket]] = []
+        self._is_cut = self._is_over = False
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    @property
+    def url(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def ws_url(self) -> str:
+        return f"ws://127.0.0.1:{self.port}/ws"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._is_over = True
+        self.thaw()
+        self._server.close()
+        self._close()
+
+    def _accept(self) -> None:
+        while not self._is_over:
+            try:
+                near, _ = self._server.accept()
+            except OSError:
+                return
+            if self._is_cut:
+                near.close()
+                continue
+            far = socket.create_connection(self._target)
+            self._pairs.append((near, far))
+            for source, sink, flows in ((near, far, self._up), (far, near, self._down)):
+                source.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                threading.Thread(target=self._copy, args=(source, sink, flows), daemon=True).start()
+
+    def _copy(self, source: socket.socket, sink: socket.socket, flows: threading.Event) -> None:
+        with suppress(OSError):
+            while data := source.recv(65536):
+                flows.wait()
+                sink.sendall(data)
+        with suppress(OSError):
+            sink.shutdown(socket.SHUT_WR)
+
+    def freeze_up(self) -> None:
+        """Nothing more reaches the panel."""
+        self._up.clear()
+
+    def freeze_down(self) -> None:
+        """Nothing more reaches the browser."""
+        self._down.clear()
+
+    def freeze(self) -> None:
+        """Nothing goes through."""
+        self.freeze_up()
+        self.freeze_down()
+
+    def thaw(self) -> None:
+        """What was held back arrives, and all that follows."""
+        self._up.set()
+        self._down.set()
+
+    def cut(self) -> None:
+        """Both ends are closed, and no new connection is made."""
+        self._is_cut = True
+        self._close()
+
+    def reset(self) -> None:
+        """Both ends get a reset."""
+        for pair in self._pairs:
+            for end in pair:
+                with suppress(OSError):
+                    linger = struct.pack("ii", 1, 0)
+                    end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+        self._close()
+
+    def _close(self) -> None:
+        for pair in self._pairs:
+            for end in pair:
+                with suppress(OSError):
+                    end.shutdown(socket.SHUT_RDWR)
+                end.close()
+        self._pairs.clear()
