@@ -149,14 +149,21 @@ def test_home_finds_the_reference_points(hand: HandDesk) -> None:
     x, y, z = hand.places()
     assert (round(x, 2), round(y, 2), round(z, 2)) == (3.0, 3.0, -2.0)
     assert [axis["homed"] for axis in hand.events("home")[-1]["axes"]] == [True, True, True]
+    seen = [event["axes"][2]["state"] for event in hand.events("home")]
+    assert [state for n, state in enumerate(seen) if n and state != seen[n - 1]] == [
+        "switch", "rest", "release of the switch", "marker", "rest", "done"
+    ]  # fmt: skip
 
 
 def test_stop_ends_homing_with_its_alarm(hand: HandDesk) -> None:
     hand.do("home.start", axes="X")
     hand.run(0.5)
+    assert hand.events("home")[-1]["axes"][0]["state"] == "switch"
     hand.do("stop.hold")
     hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
     assert [a["code"] for a in hand.events("alarms")[-1]["active"]] == [34]
+    assert hand.events("home")[-1]["axes"][0]["state"] == "failed"
     assert hand.do("alarm.acknowledge") == {"left": []}
 
 

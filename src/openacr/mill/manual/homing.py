@@ -53,11 +53,25 @@ class _Side:
         return self.until is None
 
 
-def together(actions: Iterable[Steps], reason: str) -> Steps:
-    """Run several actions in parallel, until all of them have ended."""
+def together(
+    actions: Iterable[Steps],
+    reason: str,
+    note: Callable[[int, str | None], None] = lambda _place, _reason: None,
+) -> Steps:
+    """Run several actions in parallel, until all of them have ended.
+
+    `note` gets the place of each action and what it waits for, None once it has ended.
+    """
     sides = [_Side(path) for path in actions]
+
+    def are_over(sample: CardState) -> bool:
+        left = sum(not side.advance(sample) for side in sides)
+        for place, side in enumerate(sides):
+            note(place, side.until.reason if side.until is not None else None)
+        return not left
+
     try:
-        yield Until(reason, lambda sample: not sum(not side.advance(sample) for side in sides))
+        yield Until(reason, are_over)
     finally:
         with ExitStack() as each:  # all of them, even if one fails to stop its axis
             for side in sides:
@@ -201,13 +215,23 @@ class Axis:
 
 
 def home(
-    io: MachineIo, axes: Iterable[int], compensation: Compensation, say: Callable[[str], None]
+    io: MachineIo,
+    axes: Iterable[int],
+    compensation: Compensation,
+    say: Callable[[str], None],
+    progress: dict[int, str] | None = None,
 ) -> Steps:
     """Home the selected axes in order of priority, and record in the store which are homed.
 
     The longest travel of each is announced first, since its switch may not be wired.
+    `progress` gets for each axis what it waits for: waiting, switch, release of the switch,
+    marker, rest, done.
     """
-    for group in groups(io, axes):
+    chosen = list(groups(io, axes))
+    shown = {} if progress is None else progress
+    shown.clear()
+    shown.update((axis, "waiting") for group in chosen for axis in group)
+    for group in chosen:
         homing = [Axis(io, io.settings.axis(axis)) for axis in group]
         for each in homing:
             say(each.outlook)
@@ -216,7 +240,11 @@ def home(
             homed.note(io, axis, False)
         compensation.renew()
         names = " ".join(io.settings.axis(axis).name for axis in group)
-        yield from together(actions, f"homing {names}")
+
+        def note(place: int, reason: str | None, group: list[int] = group) -> None:
+            shown[group[place]] = "done" if reason is None else reason.partition(": ")[2]
+
+        yield from together(actions, f"homing {names}", note)
         for axis in group:
             homed.note(io, axis, True)
         compensation.renew()

@@ -13,6 +13,7 @@ from openacr.cnc import canonical as c
 from openacr.errors import StoreError, UserError
 from openacr.mill.card import alarms, soft_limits
 from openacr.mill.card.action_player import ActionPlayer
+from openacr.mill.card.actions import Steps
 from openacr.mill.card.alarms import Alarm, Alarms
 from openacr.mill.card.ballscrew import Compensation
 from openacr.mill.card.driver import LINK_ERRORS, CardState, MachineDriver, StepLostError
@@ -82,6 +83,7 @@ class Runner:
         )
         self._times = Times()
         self._homing_axes: Sequence[int] = ()
+        self.homing: dict[int, str] = {}  # by axis: what it waits for
         self.was_aborted = False
         lifecycle.bind(
             {
@@ -191,7 +193,11 @@ class Runner:
         self._times.restart()
 
     def _seek(self) -> None:
-        self._player.begin(home(self.io, self._homing_axes, self._compensation, self._say))
+        self._player.begin(self._homed_steps())
+
+    def _homed_steps(self) -> Steps:
+        say = self._say
+        return home(self.io, self._homing_axes, self._compensation, say, self.homing)
 
     def jog(self, move: Callable[[Jogging], object]) -> None:
         """Jog axes, in IDLE or while a program is held."""

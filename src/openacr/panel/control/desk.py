@@ -197,7 +197,8 @@ class Desk:
                 self.tell({"event": "term", "text": text, "to": client})
 
     def _look(self, now_s: float) -> None:
-        snapshot = self.reading.snapshot(self.snapshot.number + 1, self._tick_ms, now_s)
+        number, left_s = self.snapshot.number + 1, self.part.left_s()
+        snapshot = self.reading.snapshot(number, self._tick_ms, now_s, left_s)
         self.ticks.note(snapshot.tick_ms, now_s)
         self.snapshot = snapshot
         self.looked()

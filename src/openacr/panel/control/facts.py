@@ -8,6 +8,7 @@ from openacr.mill.card.alarms import Alarm
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
+from openacr.panel.control.about import machine_data
 from openacr.panel.control.modals import modals
 from openacr.sysvar.tabs import CELLS
 
@@ -163,20 +164,30 @@ class Facts:
         """How far homing is."""
         if desk.shop is None:
             return {"axes": []}
-        settings, runner = desk.shop.runner.settings, desk.shop.runner
-        is_homing = runner.state is State.HOMING
+        settings = desk.shop.runner.settings
         return {
             "axes": [
                 {
                     "name": axis.name,
                     "homed": settings.is_homed(axis.index),
-                    "state": "homing" if is_homing and axis.name in runner.reason.split() else "",
+                    "state": self._homing(desk, axis.index),
                     "priority": settings.home(axis.index).priority,
                     "switch": settings.home(axis.index).switch_input,
                 }
                 for axis in settings.axes
             ]
         }
+
+    def _homing(self, desk: "Desk", axis: int) -> str:
+        """What an axis waits for while it is homed; done or failed after it."""
+        runner = desk.machine.runner
+        state = runner.homing.get(axis, "")
+        is_over = runner.state is not State.HOMING
+        return "failed" if is_over and state not in ("", "done") else state
+
+    def machine(self, desk: "Desk") -> Data:
+        """What the machine is: card, unit, axes."""
+        return machine_data(desk.bench)
 
 
 def _alarm(alarm: Alarm, when: str) -> Data:
@@ -198,6 +209,7 @@ def _scope(_facts: Facts, desk: "Desk") -> Data:
 
 
 MAKERS: dict[str, Callable[[Facts, "Desk"], Data]] = {
+    "machine": Facts.machine,
     "state": Facts.state,
     "program": Facts.program,
     "modals": Facts.modals,

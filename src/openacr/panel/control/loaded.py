@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
+from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -274,6 +275,14 @@ class Part:
             return ""
         found = self.loaded.listing.lines(line, 1)
         return found[0] if found else ""
+
+    def left_s(self) -> float:
+        """The predicted time to the end of the program, without overrides; NaN if unknown."""
+        shop, loaded = self._desk.shop, self.loaded
+        seconds = loaded.facts.get("seconds") if loaded is not None else None
+        if shop is None or seconds is None or shop.runner.options.is_mdi:
+            return nan
+        return max(0.0, float(seconds) - shop.runner.run_s)
 
     def data(self) -> dict[str, Any]:
         """The program, and where it is."""

@@ -23,8 +23,11 @@ class Reading:
         self._shop = shop
         self.work = WorkSystem(shop)
 
-    def snapshot(self, number: int, tick_ms: float, now_s: float) -> Snapshot:
-        """Read the machine; a link error where its card does not answer."""
+    def snapshot(self, number: int, tick_ms: float, now_s: float, left_s: float) -> Snapshot:
+        """Read the machine; a link error where its card does not answer.
+
+        `left_s` is the predicted time to the end of the program.
+        """
         shop, runner = self._shop, self._shop.runner
         place = read_place(shop)
         runner_source = runner.source
@@ -48,6 +51,7 @@ class Reading:
             rapid_percent=PERCENT * runner.overrides.factor(Override.RAPID),
             spindle_percent=PERCENT * runner.overrides.factor(Override.SPINDLE),
             run_s=runner.run_s if runner.is_busy else cells.read(CELLS.run_time),
+            left_s=left_s if runner.is_busy else nan,
             parts=cells.read(CELLS.parts_finished),
             work=self._of_axes(self.work.program(self._point(place.commanded))),
             commanded=place.commanded,

@@ -1,0 +1,44 @@
+"""What a machine is: its card, unit and axes."""
+
+from typing import Any
+
+from openacr.panel.control.bench import Bench
+from openacr.sysvar import Store
+from openacr.sysvar.tabs import AXIS, CONTROL, DISPLAY, GENERAL
+from openacr.sysvar.values import ROTARY
+
+
+def machine_data(bench: Bench) -> dict[str, Any]:
+    """The machine as the screens show it."""
+    return {
+        "kind": bench.kind,
+        "name": bench.name,
+        "card": bench.store.read_text(GENERAL.card_model),
+        "unit": "mm" if bench.store.is_metric else "inch",
+        "is_virtual": bench.is_virtual,
+        "axes": axes(bench.store),
+    }
+
+
+def axes(store: Store) -> list[dict[str, Any]]:
+    """The configured axes as the read-out shows them."""
+    unit = "mm" if store.read(CONTROL.default_units) else "inch"
+    formats = DISPLAY.metric_format if unit == "mm" else DISPLAY.inch_format
+    found = []
+    for index in range(8):
+        if not store.read(AXIS.configured[index]):
+            continue
+        name = store.read_text(AXIS.name[index])
+        is_limited = not store.read(AXIS.disable_limit[index])
+        found.append(
+            {
+                "name": name,
+                "index": index,
+                "unit": "deg" if name in ROTARY else unit,
+                "decimals": round(10.0 * store.read(formats[index])) % 10,
+                "low": store.read(AXIS.minus_soft_limit[index]) if is_limited else None,
+                "high": store.read(AXIS.plus_soft_limit[index]) if is_limited else None,
+                "home_required": bool(store.read(AXIS.home_required[index])),
+            }
+        )
+    return found
