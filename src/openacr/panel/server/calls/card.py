@@ -8,11 +8,12 @@ from starlette.concurrency import run_in_threadpool
 
 from openacr.map import flags, parameters
 from openacr.map.block import Access
-from openacr.mill.config.pparm import LAST, ON_CARD, OperatorParameters
+from openacr.mill.config.pparm import LAST, OperatorParameters
 from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint
+from openacr.sysvar.schema import CARD_VARIABLES
 
 MOST = 500
 
@@ -116,8 +117,8 @@ async def pparm(call: Call) -> object:
 
     def read(desk: Desk) -> list[float]:
         shop = desk.machine
-        on_card = shop.machine.read_rows(list(ON_CARD))
-        return [*on_card, *(shop.cells.read(n) for n in range(len(ON_CARD), LAST + 1))]
+        on_card = shop.machine.read_rows(list(CARD_VARIABLES))
+        return [*on_card, *(shop.cells.read(n) for n in range(len(CARD_VARIABLES), LAST + 1))]
 
     values = await asyncio.wrap_future(call.panel.control.call(read))
     return {"values": values}
