@@ -19,7 +19,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test lint bench soak lowest mutate docs web-lint web-bundle site clean
+.PHONY: help setup demo test browser lint bench soak lowest mutate docs web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -78,7 +78,11 @@ lint: $(BUILT)
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
 
-test: lint
+# The tests of the screens need a Chrome, Chromium or Edge; one is installed only if none is found.
+browser: $(BUILT)
+	@$(PY) -m tests.panel.browser.chromium
+
+test: lint browser
 	$(PY) -m pytest -n $(WORKERS) -m "not soak"
 	@if $(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
 		&& test -n "$(PURE_TESTS)"; then \

@@ -1,10 +1,14 @@
-// The virtual push-button panel: up to 32 keys of the machine's builder.
+// The virtual push-button panel: up to 32 keys of the machine's builder, with lamps by flags.
 import { get } from "../core/api.js";
 import { give, model } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
+import { needWords, stateOf, wordsOf } from "../core/flags.js";
 import { t } from "../core/texts.js";
 
-/** @typedef {{ number: number, caption: string, toggle: boolean, lit: boolean }} PushButton */
+const FIRST = 980000;
+const STRIDE = 20;
+
+/** @typedef {{ number: number, caption: string, lamp: number, isToggle: boolean }} PushButton */
 
 /**
  * @param {HTMLElement} panel
@@ -13,21 +17,41 @@ import { t } from "../core/texts.js";
 export function buttonsBlock(panel, endings) {
   const keys = h("div.push-buttons", {});
   panel.append(h("section.block", { ariaLabel: t("block.buttons") }, h("h3", {}, t("block.buttons")), keys));
-  const draw = async () => {
-    /** @type {PushButton[]} */
-    const buttons = await get("buttons").then((answer) => answer.buttons, () => []);
-    fill(keys, ...(buttons.length ? buttons.map(keyOf) : [h("p.hint", {}, t("buttons.none"))]));
+  /** @type {{ button: PushButton, key: HTMLElement }[]} */
+  let shown = [];
+  let endWords = () => {};
+  const read = async () => {
+    const buttons = await readButtons();
+    shown = buttons.map((button) => ({ button, key: keyOf(button) }));
+    fill(keys, ...(shown.length ? shown.map(({ key }) => key) : [h("p.hint", {}, t("buttons.none"))]));
+    endWords();
+    endWords = needWords(wordsOf(buttons.map(({ lamp }) => lamp).filter((lamp) => lamp >= 0)));
+    light();
   };
-  endings.add(model.changed.watch((changed) => (changed.what === "" || changed.what === "forms") && void draw()));
+  const light = () => shown.forEach(({ button, key }) => {
+    const isLit = button.lamp >= 0 && stateOf(model.flags.value, button.lamp) === true;
+    key.querySelector(".lamp")?.classList.toggle("is-on", isLit);
+    if (button.isToggle) key.ariaPressed = String(isLit);
+  });
+  endings.add(() => endWords(), model.flags.watch(light), model.changed.watch(({ what, cells }) => (what === "" || (what === "forms" && cells.some((cell) => cell >= FIRST && cell < FIRST + 32 * STRIDE))) && void read()));
+}
+
+/** The buttons that have a caption; cells of each: caption, set bit, show bit, momentary or toggle. */
+async function readButtons() {
+  const form = await get("forms/BUTTONS").catch(() => ({ groups: [] }));
+  /** @type {Map<number, any>} */
+  const cells = new Map(form.groups.flatMap((/** @type {any} */ group) => group.rows).map((/** @type {any} */ row) => [Number(row.number) - FIRST, row]));
+  return Array.from({ length: 32 }, (_each, n) => ({
+    number: n, caption: String(cells.get(n * STRIDE)?.value ?? ""), lamp: Number(cells.get(n * STRIDE + 2)?.number_value ?? -1), isToggle: Number(cells.get(n * STRIDE + 3)?.number_value ?? 0) === 1,
+  })).filter(({ caption }) => caption);
 }
 
 /** @param {PushButton} button */
 function keyOf(button) {
-  const key = h("button.key", { type: "button", ariaPressed: button.toggle ? String(button.lit) : null },
-    h("span.lamp", { className: button.lit ? "lamp is-on" : "lamp" }), button.caption);
+  const key = h("button.key", { type: "button" }, h("span.lamp", { ariaHidden: "true" }), button.caption);
   const press = (/** @type {boolean} */ pressed) => give("button", { number: button.number, pressed });
-  if (button.toggle) {
-    key.addEventListener("click", () => press(!button.lit));
+  if (button.isToggle) {
+    key.addEventListener("click", () => press(true));
     return key;
   }
   let isHeld = false;

@@ -9,7 +9,7 @@ import { t } from "../core/texts.js";
  */
 export function estopBlock(panel, endings) {
   const [sign, text] = [h("strong", { ariaHidden: "true" }), h("span", {})];
-  const box = h("section.block.estop", { ariaLabel: t("block.estop") }, h("h3", {}, t("block.estop")), h("div.row", {}, sign, text), h("p.hint", {}, t("estop.software")));
+  const box = h("section.block.estop", { ariaLabel: t("block.estop"), title: t("estop.software") }, h("div.row", {}, sign, text));
   panel.append(box);
   endings.add(model.state.watch(({ estop }) => {
     setText(sign, estop?.on ? "\u26a0" : estop?.wired ? "\u2713" : "?");

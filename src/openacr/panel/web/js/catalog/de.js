@@ -4,9 +4,9 @@ const MENU = {
   "menu.manual": "HAND", "menu.diag": "SETUP/ DIAGN.", "menu.help": "HILFE", "menu.exit": "ENDE", "menu.main": "HAUPT\u00adMENÜ", "menu.cmprad": "RADIUS", "menu.load": "LADEN", "menu.feedrate": "VOR\u00adSCHUB",
   "menu.pparm": "P PARAM", "menu.modals": "G-CODES", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "AB ZEILE", "menu.dryrun": "PROBE\u00adLAUF", "menu.fov": "OVER\u00adRIDES", "menu.block": "EINZEL\u00adSATZ",
   "menu.abort": "ABBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
-  "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE", "menu.programs": "PROG/ SPS",
+  "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE",
   "menu.display": "ANZEIGE", "menu.iostatus": "E/A STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "REGLER", "menu.board": "KARTEN\u00adPARAM", "menu.servo": "REGEL\u00adKREIS", "menu.cpu": "CPU-LAST",
-  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.back2": "ZURÜCK", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
+  "menu.fast": "FAST STATUS", "menu.back2": "ZURÜCK", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
 };
 
 const FRAME = {
@@ -33,13 +33,12 @@ const BLOCKS = {
   "position.busy": "Eine Position lässt sich setzen, solange nichts läuft", "position.homed": "referenziert", "position.nothomed": "nicht referenziert",
   "feeds.actual": "F ist", "feeds.set": "F soll", "feeds.spindle": "Spindel", "feeds.rpm": "1/min", "feeds.off": "aus", "feeds.tool": "Werkzeug", "feeds.coolant": "Kühlung", "feeds.flood": "Strahl", "feeds.mist": "Nebel",
   "feeds.line": "Zeile", "feeds.time": "Laufzeit", "feeds.left": "Restzeit", "feeds.parts": "Teile",
-  "estop.on": "Not-Halt ist betätigt", "estop.off": "Not-Halt ist frei", "estop.none": "Nicht verdrahtet: Die Steuerung sieht den Not-Halt nicht", "estop.software": "STOP auf diesem Bildschirm ist kein Not-Halt.",
+  "estop.on": "Not-Halt ist betätigt", "estop.off": "Not-Halt ist frei", "estop.none": "Not-Halt: nicht verdrahtet", "estop.software": "STOP auf diesem Bildschirm ist kein Not-Halt.",
   "buttons.none": "Keine Tasten definiert: SETUP/DIAGN., ANZEIGE, TASTENFELD", "override.label": "Overrides", "override.feed": "Vorschub", "override.rapid": "Eilgang", "override.spindle": "Spindel", "override.open": "Alle Overrides",
   "override.more": "Vorschub-Override höher", "override.less": "Vorschub-Override tiefer", "override.wired": "am Schalter des Bedienpults",
   "pad.back": "löschen", "pad.clear": "leeren", "pad.sign": "Vorzeichen", "pad.none": "Keine Zahl: Ziffern, . + - * / und Klammern", "pad.open": "Ziffernblock",
   "graphics.views": "Ansichten", "graphics.label": "Werkzeugbahn des Programms", "graphics.top": "OBEN", "graphics.front": "VORN", "graphics.side": "SEITE", "graphics.iso": "3D", "graphics.fit": "GANZ", "graphics.in": "Vergrößern", "graphics.out": "Verkleinern",
   "graphics.loading": "{name} wird geladen …", "program.follow": "FOLGEN", "program.from": "AB ZEILE {line}", "io.title": "E/A-Status", "io.inputs": "Eingänge", "io.outputs": "Ausgänge", "io.on": "ein", "io.off": "aus",
-  "plc.title": "SPS-Programme der Karte", "plc.none": "Die Karte hat kein SPS-Programm", "plc.runs": "läuft", "plc.stopped": "steht", "plc.listing": "Programmtext",
 };
 
 const RUN = {
@@ -77,7 +76,7 @@ const SERVICE = {
   "scope.slope": "Flanke", "scope.rising": "steigend", "scope.falling": "fallend", "scope.start": "START", "scope.stop": "SCOPE HALT", "scope.armed": "Scharf", "scope.read": "{count} Messwerte", "scope.stopped": "Angehalten nach {count} Messwerten",
   "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}",
   "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "board.written": "P{number} ist {value}",
-  "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung", "card.title": "Programme und SPS-Programme der Karte", "card.listing": "Programmtext", "card.empty": "leer", "card.run": "STARTEN", "card.halt": "ANHALTEN", "card.sure": "Damit wird ein Programm auf der Karte selbst gestartet oder beendet.",
+  "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status",
   "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
 };
 

@@ -4,9 +4,9 @@ const MENU = {
   "menu.manual": "MANUAL", "menu.diag": "SET/ DIAG", "menu.help": "HELP", "menu.exit": "EXIT", "menu.main": "MAIN MENU", "menu.cmprad": "CMP RAD", "menu.load": "LOAD PROG", "menu.feedrate": "FEED RATE",
   "menu.pparm": "P PARM", "menu.modals": "SET MODALS", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "RUN", "menu.dryrun": "DRY RUN", "menu.fov": "OVER\u00adRIDES", "menu.block": "BLOCK",
   "menu.abort": "ABORT", "menu.back": "BACK", "menu.halt": "HALT", "menu.forward": "FOR\u00adWARD", "menu.resume": "RESUME", "menu.jog": "JOG", "menu.mdi": "MDI", "menu.handwheel": "HAND WHEEL",
-  "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS", "menu.programs": "PROG/ PLC",
+  "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS",
   "menu.display": "DIS\u00adPLAY", "menu.iostatus": "I/O STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "GAIN", "menu.board": "BOARD PARAM", "menu.servo": "SERVO LOOP", "menu.cpu": "CPU LOAD",
-  "menu.fast": "FAST STATUS", "menu.memory": "MEMORY CONFIG", "menu.back2": "BACK", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
+  "menu.fast": "FAST STATUS", "menu.back2": "BACK", "menu.ionames": "I/O NAMES", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
 };
 
 const FRAME = {
@@ -33,13 +33,12 @@ const BLOCKS = {
   "position.busy": "A position can be set while nothing runs", "position.homed": "homed", "position.nothomed": "not homed",
   "feeds.actual": "Feed", "feeds.set": "F set", "feeds.spindle": "Spindle", "feeds.rpm": "rpm", "feeds.off": "off", "feeds.tool": "Tool", "feeds.coolant": "Coolant", "feeds.flood": "flood", "feeds.mist": "mist",
   "feeds.line": "Line", "feeds.time": "Run time", "feeds.left": "Time left", "feeds.parts": "Parts",
-  "estop.on": "Emergency stop is on", "estop.off": "Emergency stop is off", "estop.none": "Not wired: the control does not see the emergency stop", "estop.software": "STOP on this screen is not an emergency stop.",
+  "estop.on": "Emergency stop is on", "estop.off": "Emergency stop is off", "estop.none": "Emergency stop: not wired", "estop.software": "STOP on this screen is not an emergency stop.",
   "buttons.none": "No push buttons are defined: SET/DIAG, DISPLAY, BUTTON PANEL", "override.label": "Overrides", "override.feed": "Feed", "override.rapid": "Rapid", "override.spindle": "Spindle", "override.open": "All overrides",
   "override.more": "Feed override up", "override.less": "Feed override down", "override.wired": "set by its switch on the panel",
   "pad.back": "delete", "pad.clear": "clear", "pad.sign": "change sign", "pad.none": "Not a number: digits, . + - * / and parentheses", "pad.open": "Number pad",
   "graphics.views": "Views", "graphics.label": "Tool path of the program", "graphics.top": "TOP", "graphics.front": "FRONT", "graphics.side": "SIDE", "graphics.iso": "3D", "graphics.fit": "FIT", "graphics.in": "Zoom in", "graphics.out": "Zoom out",
   "graphics.loading": "Loading {name} \u2026", "program.follow": "FOLLOW", "program.from": "RUN FROM {line}", "io.title": "I/O status", "io.inputs": "Inputs", "io.outputs": "Outputs", "io.on": "on", "io.off": "off",
-  "plc.title": "PLC programs of the card", "plc.none": "The card has no PLC program", "plc.runs": "runs", "plc.stopped": "stopped", "plc.listing": "Listing",
 };
 
 const RUN = {
@@ -77,7 +76,7 @@ const SERVICE = {
   "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} samples", "scope.stopped": "Stopped at {count} samples",
   "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "board.written": "P{number} is {value}",
-  "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration", "card.title": "Programs and PLC programs of the card", "card.listing": "Listing", "card.empty": "empty", "card.run": "RUN", "card.halt": "HALT", "card.sure": "This starts or ends a program on the card itself.",
+  "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status",
   "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
 };
 

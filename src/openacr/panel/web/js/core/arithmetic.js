@@ -34,7 +34,7 @@ export function evaluate(text) {
     return token === undefined || token === ")" || token === "*" || token === "/" ? Number.NaN : Number(token);
   };
   const value = sum();
-  return at === tokens.length && Number.isFinite(value) ? value : null;
+  return at === tokens.length && Number.isFinite(value) ? Number(tidy(value)) : null;
 }
 
 /** @param {string} text */

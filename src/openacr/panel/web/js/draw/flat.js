@@ -67,7 +67,7 @@ export function flatPainter(canvas) {
         pen.lineWidth = ratio * (isRapid ? 0.8 : 1.25);
         pen.setLineDash(isMoving ? [] : isRapid ? [4 * ratio, 4 * ratio] : Number(kind) === KIND.compensated ? [8 * ratio, 3 * ratio] : []);
         pen.beginPath();
-        for (const n of parts) trace(Math.max(0, drawn.starts[n] - 1), endOf(drawn, n), step);
+        for (const n of parts) trace(drawn.starts[n], endOf(drawn, n), step);
         pen.stroke();
       }
       pen.setLineDash([]);

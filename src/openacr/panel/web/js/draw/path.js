@@ -4,11 +4,11 @@ import { Signal } from "../core/signal.js";
 
 const AGAIN_MS = 300;
 const MARK = "OAP1";
-const HEAD = 48;
+const HEAD = 64;
 export const KIND = Object.freeze({ rapid: 0, feed: 1, compensated: 2, inserted: 3, probe: 4 });
 
 /**
- * @typedef {object} ToolPath points in program coordinates, x y z
+ * @typedef {object} ToolPath points in machine coordinates, x y z
  * @property {Float32Array} points
  * @property {Uint32Array} lines line of the program that draws to each point
  * @property {Uint32Array} starts first point of each polyline
@@ -16,6 +16,7 @@ export const KIND = Object.freeze({ rapid: 0, feed: 1, compensated: 2, inserted:
  * @property {Uint8Array} colors of the polylines
  * @property {number[]} box min x y z, max x y z
  * @property {number} seconds predicted
+ * @property {number[]} zero origin of the work coordinates at the start
  */
 
 /** Path of the loaded program; null for none. */
@@ -36,7 +37,7 @@ export function readPath(data) {
   return {
     points: new Float32Array(data, HEAD, 3 * n), lines: new Uint32Array(data, HEAD + 12 * n, n), starts: new Uint32Array(data, after, m),
     kinds: new Uint8Array(data, after + 4 * m, m), colors: new Uint8Array(data, after + 5 * m, m),
-    box: [...new Float32Array(data, 16, 6)], seconds: view.getFloat64(40, true),
+    box: [...new Float32Array(data, 16, 6)], seconds: view.getFloat64(40, true), zero: [...new Float32Array(data, 48, 3)],
   };
 }
 
@@ -44,23 +45,40 @@ export function readPath(data) {
  * Fetch a path; waits while the server computes it. Null where there is none.
  * @param {string} place
  * @param {Record<string, string | number | undefined>} [query]
- * @param {AbortSignal} [signal]
+ * @param {RequestInit} [options]
  */
-export async function fetchPath(place, query, signal) {
+export async function fetchPath(place, query, options) {
   for (;;) {
-    const response = await fetch(address(place, query), { signal });
+    const response = await fetch(address(place, query), options);
     if (response.status === 202) await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
     else return response.ok ? readPath(await response.arrayBuffer()) : null;
   }
 }
 
 /**
- * The last point of each polyline.
+ * The box of what is cut, without rapids: min x y z, max x y z; the whole path where nothing is.
+ * @param {ToolPath} drawn
+ */
+export function cutBox(drawn) {
+  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+  drawn.starts.forEach((first, part) => {
+    if (drawn.kinds[part] === KIND.rapid) return;
+    for (let at = 3 * first; at < 3 * endOf(drawn, part); at++) {
+      const value = drawn.points[at];
+      box[at % 3] = Math.min(box[at % 3], value);
+      box[3 + (at % 3)] = Math.max(box[3 + (at % 3)], value);
+    }
+  });
+  return box[0] <= box[3] ? box : [...drawn.box];
+}
+
+/**
+ * One after the last point of a polyline; it ends with the first point of the next one.
  * @param {ToolPath} drawn
  * @param {number} n
  */
 export function endOf(drawn, n) {
-  return n + 1 < drawn.starts.length ? drawn.starts[n + 1] : drawn.lines.length;
+  return n + 1 < drawn.starts.length ? drawn.starts[n + 1] + 1 : drawn.lines.length;
 }
 
 /**

@@ -4,10 +4,12 @@ import { t } from "../core/texts.js";
 import { Camera } from "./camera.js";
 import { COLORS } from "./colors.js";
 import { listenToGestures } from "./gestures.js";
+import { cutBox } from "./path.js";
 import { painterFor } from "./renderer.js";
 import { lineAt, paintChosen, paintGround } from "./underlay.js";
 
 const NAMES = ["feed", "rapid", "cut", "grid", "limit", "text"];
+const NOWHERE = [0, 0, 0];
 const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 
 /**
@@ -55,7 +57,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   function paint(isMoving = false) {
     asked = false;
     const [under, top] = pens();
-    paintGround(under, camera, colors, limits);
+    paintGround(under, camera, colors, limits, path?.zero ?? NOWHERE);
     painter.paint(camera, colors, byPart(), isMoving);
     painted = 0;
     if (!isMoving) paintCut();
@@ -82,7 +84,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   };
 
   function fit() {
-    const box = path && path.lines.length ? [...path.box] : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
+    const box = path && path.lines.length ? cutBox(path) : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
     camera.fit(box);
     repaint();
   }

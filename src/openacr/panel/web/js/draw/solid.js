@@ -40,7 +40,7 @@ export function solidPainter(canvas) {
     const index = [];
     for (let n = 0; n < path.starts.length; n++) {
       if (!isMeant(n)) continue;
-      for (let at = Math.max(1, path.starts[n]); at < endOf(path, n); at++) index.push(at - 1, at);
+      for (let at = path.starts[n] + 1; at < endOf(path, n); at++) index.push(at - 1, at);
     }
     return new BufferAttribute(new Uint32Array(index), 1);
   }

@@ -7,12 +7,13 @@ const WISHED_PX = 56; // between lines of the grid
  * @param {CanvasRenderingContext2D} pen in CSS pixels
  * @param {import("./camera.js").Camera} camera
  * @param {Record<string, string>} colors
- * @param {number[] | null} limits of the machine in program coordinates, min x y z, max x y z
+ * @param {number[] | null} limits of the machine, min x y z, max x y z
+ * @param {number[]} zero of the work coordinates
  */
-export function paintGround(pen, camera, colors, limits) {
+export function paintGround(pen, camera, colors, limits, zero) {
   pen.clearRect(0, 0, camera.width, camera.height);
-  if (camera.isFlat) paintGrid(pen, camera, colors);
-  paintOrigin(pen, camera, colors);
+  if (camera.isFlat) paintGrid(pen, camera, colors, zero);
+  paintOrigin(pen, camera, colors, zero);
   if (limits) paintBox(pen, camera, colors.limit, limits);
 }
 
@@ -20,10 +21,11 @@ export function paintGround(pen, camera, colors, limits) {
  * @param {CanvasRenderingContext2D} pen
  * @param {import("./camera.js").Camera} camera
  * @param {Record<string, string>} colors
+ * @param {number[]} zero
  */
-function paintGrid(pen, camera, colors) {
+function paintGrid(pen, camera, colors, zero) {
   const step = niceStep(WISHED_PX / camera.scale);
-  const [x0, y0] = camera.project(0, 0, 0);
+  const [x0, y0] = camera.project(zero[0], zero[1], zero[2]);
   const gap = step * camera.scale;
   pen.strokeStyle = colors.grid;
   pen.lineWidth = 1;
@@ -40,16 +42,17 @@ function paintGrid(pen, camera, colors) {
  * @param {CanvasRenderingContext2D} pen
  * @param {import("./camera.js").Camera} camera
  * @param {Record<string, string>} colors
+ * @param {number[]} zero
  */
-function paintOrigin(pen, camera, colors) {
+function paintOrigin(pen, camera, colors, zero) {
   const arm = 34 / camera.scale;
-  const from = camera.project(0, 0, 0);
+  const from = camera.project(zero[0], zero[1], zero[2]);
   const arms = /** @type {[string, [number, number, number]][]} */ ([["X", [arm, 0, 0]], ["Y", [0, arm, 0]], ["Z", [0, 0, arm]]]);
   pen.strokeStyle = pen.fillStyle = colors.text;
   pen.lineWidth = 1.5;
   pen.font = "600 12px system-ui, sans-serif";
   for (const [name, [x, y, z]] of arms) {
-    const to = camera.project(x, y, z);
+    const to = camera.project(zero[0] + x, zero[1] + y, zero[2] + z);
     if (Math.hypot(to[0] - from[0], to[1] - from[1]) < 6) continue;
     pen.beginPath();
     line(pen, ...from, ...to);
@@ -112,7 +115,7 @@ export function lineAt(camera, path, x, y) {
   const { points, lines } = path;
   let [best, found] = [14, 0];
   for (let part = 0; part < path.starts.length; part++) {
-    for (let at = Math.max(1, path.starts[part]); at < endOf(path, part); at++) {
+    for (let at = path.starts[part] + 1; at < endOf(path, part); at++) {
       const [j, k] = [3 * at - 3, 3 * at];
       const [x0, y0] = [a * points[j] + b * points[j + 1] + c * points[j + 2] + d, e * points[j] + f * points[j + 1] + g * points[j + 2] + i];
       const [dx, dy] = [a * points[k] + b * points[k + 1] + c * points[k + 2] + d - x0, e * points[k] + f * points[k + 1] + g * points[k + 2] + i - y0];

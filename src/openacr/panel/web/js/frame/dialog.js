@@ -60,6 +60,7 @@ export function ask({ title, body, choices, first, className = "" }) {
     open.push(dialog);
     part();
     (first ?? keys[keys.length - 1])?.focus();
+    if (first instanceof HTMLInputElement) first.select(); // the first digit replaces the value
   });
 }
 

@@ -7,6 +7,7 @@ import { askNumber } from "./number_pad.js";
  * @typedef {object} FormRow
  * @property {number | string} number
  * @property {string} name
+ * @property {string} [axis_name]
  * @property {"real" | "integer" | "boolean" | "choice" | "text"} kind
  * @property {string} unit
  * @property {string} value
@@ -32,9 +33,10 @@ import { askNumber } from "./number_pad.js";
 /**
  * @param {FormRow} row
  * @param {() => void} changed
+ * @param {boolean} [isPerAxis] whether the form shows one axis, so that rows need not name it
  * @returns {Field}
  */
-export function fieldFor(row, changed) {
+export function fieldFor(row, changed, isPerAxis = false) {
   const id = `cell-${row.number}`;
   const input = inputFor(row, id);
   const read = () => (input instanceof HTMLInputElement && input.type === "checkbox" ? (input.checked ? "1" : "0") : input.value);
@@ -64,7 +66,7 @@ export function fieldFor(row, changed) {
     edited();
   } }, "\u2328") : "";
   return {
-    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, refusal),
+    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, refusal),
     isChanged, text: read, refuse, focus: () => input.focus(),
   };
 }
@@ -75,7 +77,7 @@ export function fieldFor(row, changed) {
  * @returns {HTMLInputElement | HTMLSelectElement}
  */
 function inputFor(row, id) {
-  if (row.kind === "boolean" && !row.words) return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
+  if (row.kind === "boolean") return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
   if (row.words) {
     const chosen = String(row.number_value);
     const options = Object.entries(row.words).map(([value, text]) => h("option", { value, selected: value === chosen }, text));

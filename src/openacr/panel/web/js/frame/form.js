@@ -69,7 +69,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     fill(rows, ...(isBarred ? [h("div.notice", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) }))] : []),
       ...shown.groups.map((group) => h("fieldset.form-group", { disabled: isBarred }, group.title ? h("legend", {}, group.title) : "",
         ...group.rows.map((row) => {
-          const field = fieldFor(row, changedNow);
+          const field = fieldFor(row, changedNow, shown.per_axis);
           fields.set(String(row.number), field);
           return field.element;
         }))));

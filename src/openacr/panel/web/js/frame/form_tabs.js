@@ -6,7 +6,7 @@ import { showForm } from "./form.js";
 
 /**
  * @param {import("./screen_host.js").Place} place
- * @param {(form: { name: string, title: string, group: string, role: string }) => boolean} isMeant
+ * @param {(form: { name: string, title: string, section: string, role: string }) => boolean} isMeant
  * @param {string} [first]
  */
 export async function showFormTabs({ body, endings, beforeClose }, isMeant, first) {

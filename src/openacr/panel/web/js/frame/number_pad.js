@@ -33,6 +33,7 @@ export function askNumber({ title, value = null, unit = "", hint = "", check = (
   };
   const pad = h("div.pad", {}, ...ROWS.flat().map((name) =>
     h("button.key", { type: "button", ariaLabel: name === "back" || name === "clear" || name === "sign" ? t(`pad.${name}`) : name,
+      onmousedown: (/** @type {Event} */ event) => event.preventDefault(), // the field keeps the focus: Enter is OK
       onclick: () => press(name) }, FACES[name] ?? name)));
   const accept = () => {
     const sum = evaluate(field.value);
@@ -43,7 +44,6 @@ export function askNumber({ title, value = null, unit = "", hint = "", check = (
     return undefined;
   };
   const body = [h("div.row", {}, field, unit ? h("span.quiet", {}, unit) : ""), note, pad];
-  setTimeout(() => field.select());
   return ask({ title, body, first: field, choices: [
     { text: t("key.cancel"), value: null },
     { text: t("key.ok"), kind: "main", isSubmit: true, value: accept },

@@ -83,15 +83,18 @@ export function isReadOutVisible() {
   return getComputedStyle(box).visibility === "visible";
 }
 
-let told = "auto";
-/** @param {string} mode */
-function tellMode(mode) {
-  if (mode === told || !model.may("operate")) return;
-  told = mode;
-  void link.command("mode", { mode }).catch(() => {});
+let mode = "auto";
+/** @param {string} next */
+function tellMode(next) {
+  if (next === mode) return;
+  mode = next;
+  if (model.may("operate")) void link.command("mode", { mode }).catch(() => {});
 }
 
 export function startScreens() {
+  model.hello.watch(({ client }) => {
+    if (client && mode !== "auto" && model.may("operate")) void link.command("mode", { mode }).catch(() => {}); // of the new connection
+  });
   window.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && shown.value && !document.querySelector("dialog[open]") && !event.defaultPrevented) void closeScreen();
   });

@@ -14,6 +14,7 @@ const DEFAULTS = {
   view2: ["distance", "next", "modal"],
   view3: ["estop", "buttons", "feeds"],
 };
+const FIRST_VIEW = 850040; // cell of VIEW1
 /** Blocks of the three views as the store of the machine has them. */
 let views = DEFAULTS;
 
@@ -36,7 +37,7 @@ export async function startStatus() {
     if (now !== names) redraw(choose);
     names = now;
   });
-  model.changed.watch((changed) => changed.what === "views" && loadViews().then(() => redraw(choose)));
+  model.changed.watch(({ what, cells }) => what === "forms" && cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) && loadViews().then(() => redraw(choose)));
   await loadViews();
   redraw(choose);
 }
@@ -44,13 +45,15 @@ export async function startStatus() {
 /** @param {(id: string) => void} choose */
 function redraw(choose) {
   const id = setting("view", "view1");
-  choose(id === "view1" ? "view2" : "view1");
+  choose("");
   choose(id);
 }
 
 async function loadViews() {
   try {
-    views = { ...DEFAULTS, ...(await get("views")) };
+    const form = await get("forms/VIEWS");
+    const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
+    views = Object.fromEntries(Object.keys(DEFAULTS).map((id, n) => [id, String(rows[n].value).split(/\s+/)]));
   } catch {
     views = DEFAULTS;
   }

@@ -8,7 +8,6 @@ import { chosenLine, fetchPath, path, reached } from "../draw/path.js";
 import { createPicture } from "../draw/picture.js";
 
 const FLIPS = Object.freeze({ x: "850021", y: "850022", exchange: "850023" });
-const SHIFT = 1e-3; // of the offset, from which on the limits are drawn anew
 let pathOf = ""; // id of the program whose path is kept
 let cut = 0;
 let lastLine = 0;
@@ -33,17 +32,15 @@ export async function graphicsTab(panel, endings) {
       setText(note, program.loading ? t("graphics.loading", { name: program.loading.name }) : noteOf(program.loaded));
     }),
     model.status.watch((status) => status && draw(status)),
+    model.hello.watch(() => picture.setLimits(limitsOf())),
+    model.changed.watch(({ what }) => what === "forms" && void read(pathOf)), // offsets shift the path
   );
   void readFlips().then((flip) => flip && picture.setFlip(flip));
 
-  /** @type {number[] | null} */
-  let limits = null;
   /** @param {import("../core/frames.js").Status} status */
   function draw(status) {
-    const places = [0, 1, 2].map((n) => status.work[n] ?? 0);
+    const places = [0, 1, 2].map((n) => status.machine[n] ?? 0);
     picture.setTool(places[0], places[1], places[2]);
-    const box = limitsOf(status);
-    if (box && box.some((value, n) => Math.abs(value - (limits?.[n] ?? Infinity)) > SHIFT)) picture.setLimits(limits = box);
     if (!path.value || status.line === lastLine) return;
     if (status.line === 0 || (status.runTime < 1 && status.line < lastLine)) cut = 0;
     else cut = reached(path.value, cut, status.line);
@@ -66,19 +63,20 @@ async function follow(id) {
   if (id === pathOf) return;
   pathOf = id;
   cut = 0;
+  await read(id);
+}
+
+/** @param {string} id */
+async function read(id) {
   const drawn = id ? await fetchPath("path") : null;
   if (pathOf === id) path.set(drawn);
 }
 
-/**
- * The software limits of X, Y and Z in program coordinates; null where they are not all known.
- * @param {import("../core/frames.js").Status} status
- */
-function limitsOf(status) {
-  const axes = ["X", "Y", "Z"].map((name) => model.axes.findIndex((axis) => axis.name === name));
-  if (axes.some((n) => n < 0 || model.axes[n].low === null || model.axes[n].high === null)) return null;
-  const at = (/** @type {number} */ n, /** @type {number | null} */ limit) => Number(limit) + status.work[n] - status.machine[n];
-  return [...axes.map((n) => at(n, model.axes[n].low)), ...axes.map((n) => at(n, model.axes[n].high))];
+/** The software limits of X, Y and Z, machine coordinates; null where they are not all known. */
+function limitsOf() {
+  const axes = ["X", "Y", "Z"].map((name) => model.axes.find((axis) => axis.name === name));
+  const box = [...axes.map((axis) => axis?.low), ...axes.map((axis) => axis?.high)];
+  return box.every((limit) => typeof limit === "number") ? /** @type {number[]} */ (box) : null;
 }
 
 /** Flip X, flip Y and exchange of the DISPLAY tab. */

@@ -1,12 +1,16 @@
 // The I/O STATUS tab: every input and output with its name and state.
 import { get } from "../core/api.js";
-import { link, model } from "../core/app.js";
+import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { needWords, stateOf, wordsOf } from "../core/flags.js";
 import { t } from "../core/texts.js";
 
-const FIRST_WORD = 4096;
+const INPUT_NAMES = 960000;
+const OUTPUT_NAMES = 970000;
+const FIRST_OUTPUT = 32;
+const EACH = 32;
 
-/** @typedef {{ number: number, bit: number, name: string }} Point */
+/** @typedef {{ number: number, name: string }} Point */
 
 /**
  * @param {HTMLElement} panel
@@ -14,16 +18,20 @@ const FIRST_WORD = 4096;
  */
 export async function ioTab(panel, endings) {
   panel.classList.add("scroll");
-  endings.add(link.subscribe({ topic: "flags", hz: 10, inputs: true }));
-  const io = await get("io").catch(() => plainPoints());
-  const draws = [["io.inputs", io.inputs], ["io.outputs", io.outputs]].map(([title, points]) => columnOf(panel, t(title), points));
-  endings.add(model.flags.watch((words) => draws.forEach((draw) => draw(words))));
+  const names = await readNames();
+  const points = (/** @type {number} */ first, /** @type {number} */ cells) =>
+    Array.from({ length: EACH }, (_each, n) => ({ number: first + n, name: names.get(cells + n) ?? "" }));
+  const inputs = points(0, INPUT_NAMES);
+  const outputs = points(FIRST_OUTPUT, OUTPUT_NAMES);
+  const draws = [columnOf(panel, t("io.inputs"), inputs), columnOf(panel, t("io.outputs"), outputs)];
+  endings.add(needWords(wordsOf([...inputs, ...outputs].map(({ number }) => number))), model.flags.watch((words) => draws.forEach((draw) => draw(words))));
 }
 
-/** Without names from the machine: inputs 0 to 31 and outputs 32 to 63 of the card. */
-function plainPoints() {
-  const points = (/** @type {number} */ from) => Array.from({ length: 32 }, (_each, n) => ({ number: from + n, bit: from + n, name: "" }));
-  return { inputs: points(0), outputs: points(32) };
+/** The names that the builder of the machine gave, by cell. */
+async function readNames() {
+  const form = await get("forms/IONAMES").catch(() => ({ groups: [] }));
+  const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
+  return new Map(rows.map((/** @type {any} */ row) => [Number(row.number), String(row.value)]));
 }
 
 /**
@@ -39,10 +47,9 @@ function columnOf(panel, title, points) {
   panel.append(h("section.block", { ariaLabel: title }, h("h3", {}, title), h("div.io-list", {}, ...rows.map((row) => row.element))));
   return (/** @type {Map<number, number>} */ words) => {
     for (const { point, lamp, state } of rows) {
-      const word = words.get(FIRST_WORD + Math.floor(point.bit / 32));
-      const isOn = word !== undefined && ((word >>> (point.bit % 32)) & 1) === 1;
-      lamp.classList.toggle("is-on", isOn);
-      setText(state, word === undefined ? "\u2013" : isOn ? t("io.on") : t("io.off"));
+      const isOn = stateOf(words, point.number);
+      lamp.classList.toggle("is-on", isOn === true);
+      setText(state, isOn === undefined ? "\u2013" : isOn ? t("io.on") : t("io.off"));
     }
   };
 }

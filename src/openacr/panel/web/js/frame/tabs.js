@@ -32,6 +32,8 @@ export function tabControl(pane, label, tabs, chosen = () => {}) {
 
   /** @param {string} id */
   function choose(id) {
+    if (!id) current = ""; // the next choice is drawn anew
+    if (!id) return;
     const place = Math.max(0, tabs.findIndex((tab) => tab.id === id));
     if (tabs[place].id === current) return;
     current = tabs[place].id;

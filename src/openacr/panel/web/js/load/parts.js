@@ -32,14 +32,15 @@ export async function partSource(host, endings, load) {
     const fields = part.parameters.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-${each.name}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
     const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [each.name, Number(input.value.replace(",", "."))]));
     fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
-      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text || each.name), h("div.row.form-input", {}, input), h("span.hint", {}, rangeOf(each)))));
-    fill(conditions, (part.conditions ?? []).map((/** @type {any} */ each) => each.text ?? each).join(" \u00b7 "));
+      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text || each.name), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, rangeOf(each)))));
+    fill(conditions, [part.start, ...(part.conditions ?? []).map((/** @type {any} */ each) => each.text ?? each)].filter(Boolean).join(" \u00b7 "));
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
       turn.abort();
       turn = new AbortController();
       try {
-        picture.setPath(await fetchPath(`parts/${part.name}/path`, values(), turn.signal));
+        const body = JSON.stringify({ values: values(), tool: 0 });
+        picture.setPath(await fetchPath(`parts/${part.name}/path`, {}, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal: turn.signal }));
       } catch (error) {
         if (!turn.signal.aborted) refuse(error);
       }

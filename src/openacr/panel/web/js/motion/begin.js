@@ -31,7 +31,6 @@ export async function beginRun({ dry, line = 1 }) {
     dry ? h("div.notice", {}, t("run.dry")) : "",
     h("label.row", {}, h("span.grow", {}, t("run.line")), field), note, h("div.row.wrap", {}, skip, optional),
   ];
-  setTimeout(() => field.select());
   const chosen = await ask({ title: dry ? t("menu.dryrun") : t("menu.runline"), body: rows, first: field, choices: [
     { text: t("key.cancel"), value: null }, { text: t("run.begin"), kind: "main", isSubmit: true, value: first },
   ] });

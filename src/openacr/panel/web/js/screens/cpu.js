@@ -1,4 +1,14 @@
 // CPU LOAD: how busy the card is.
-import { factsScreen } from "../frame/facts_screen.js";
+import { h } from "../core/dom.js";
+import { watchTable } from "../frame/watch_table.js";
 
-export const screen = factsScreen("card/load", "cpu.title");
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "cpu.title",
+  area: "full",
+  async show({ body, endings }) {
+    const host = h("div.fact-groups", {});
+    body.append(host);
+    await watchTable(host, endings)({ text: "load" });
+  },
+};

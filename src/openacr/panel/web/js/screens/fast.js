@@ -1,4 +1,15 @@
 // FAST STATUS: the copies that the card keeps for fast readers.
-import { factsScreen } from "../frame/facts_screen.js";
+import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { watchTable } from "../frame/watch_table.js";
 
-export const screen = factsScreen("card/fast", "fast.title");
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "fast.title",
+  area: "full",
+  async show({ body, endings }) {
+    const host = h("div.fact-groups", {});
+    body.append(h("div.notice", {}, t("diag.warning")), host);
+    await watchTable(host, endings)({ object: "FSTAT" });
+  },
+};

@@ -4,9 +4,6 @@ import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { showFormTabs } from "../frame/form_tabs.js";
 
-const NAMES = new Set(["SERVO", "AXES", "CONTROL", "HOME", "JOG", "IO", "FOV", "ROV", "SOV", "PROBE", "SPEEDS", "COMPATIBILITY", "COMMUNICATIONS", "SPINDLE",
-  "DISPLAY", "TOOL", "GENERAL", "POLARITY", "TOOLCOLORS", "IONAMES"]);
-
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "parameters.title",
@@ -26,6 +23,6 @@ export const screen = {
       found.hidden = true;
       /** @type {HTMLElement | null} */ (place.body.querySelector(`[data-form="${cell.form}"]`))?.click();
     } }, h("span.name", {}, cell.name), h("span.quiet", {}, `${cell.form}  P${cell.number}`));
-    await showFormTabs(place, (form) => NAMES.has(form.name));
+    await showFormTabs(place, (form) => form.section === "SYS PARAM");
   },
 };

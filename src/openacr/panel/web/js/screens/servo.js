@@ -1,37 +1,25 @@
-// SERVO LOOP: the loop of one axis as a chain of blocks with its numbers.
-import { get } from "../core/api.js";
+// SERVO LOOP: every parameter of the loop of one axis, live.
 import { model, refuse } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
-import { groupOf } from "../frame/facts_screen.js";
-
-const EVERY_MS = 300;
+import { watchTable } from "../frame/watch_table.js";
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "servo.title",
   area: "full",
   async show({ body, endings }) {
-    let chosen = model.axes[0]?.name ?? "X";
+    let chosen = model.axes[0]?.index ?? 0;
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
-    const chain = h("div.loop", {});
-    body.append(axes, chain);
-    const keys = () => fill(axes, ...model.axes.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.name === chosen), onclick: () => {
-      chosen = axis.name;
-      keys();
-      void draw();
-    } }, axis.name)));
-    const draw = async () => {
-      try {
-        const { groups } = await get("card/loop", { axis: chosen });
-        fill(chain, ...groups.flatMap((/** @type {any} */ group, /** @type {number} */ n) => [n ? h("span.loop-arrow", { ariaHidden: "true" }, "\u2192") : "", h("div.loop-block", {}, groupOf(group))]));
-      } catch (error) {
-        refuse(error);
-      }
+    const host = h("div.fact-groups", {});
+    body.append(axes, host);
+    const show = watchTable(host, endings, (parameter) => !parameter.section.startsWith("Flag"));
+    const choose = (/** @type {number} */ index) => {
+      chosen = index;
+      fill(axes, ...model.axes.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === chosen), onclick: () => choose(axis.index) }, axis.name)));
+      /** @type {HTMLElement | null} */ (axes.querySelector("[aria-checked=true]"))?.focus();
+      return show({ object: "AXIS", index: chosen }).catch(refuse);
     };
-    keys();
-    await draw();
-    const timer = setInterval(draw, EVERY_MS);
-    endings.add(() => clearInterval(timer));
+    await choose(chosen);
   },
 };

@@ -58,13 +58,12 @@ export const screen = {
 };
 
 /**
- * The terminal writes its styles into style elements, which the server's policy keeps without
- * effect; the same rules act as a constructed sheet.
+ * The rules that the terminal keeps in templates (web-bundle/bundle.mjs) as a sheet that acts.
  * @param {HTMLElement} host
  */
 function adoptStyles(host) {
   const sheet = new CSSStyleSheet();
-  const copy = () => sheet.replaceSync([...host.querySelectorAll("style")].map((each) => each.textContent).join("\n"));
+  const copy = () => sheet.replaceSync([...host.querySelectorAll("template")].map((each) => each.textContent).join("\n"));
   const observer = new MutationObserver(copy);
   observer.observe(host, { childList: true, subtree: true, characterData: true });
   document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];

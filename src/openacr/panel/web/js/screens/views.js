@@ -5,25 +5,27 @@ import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { BLOCK_NAMES } from "../blocks/blocks.js";
 
-const VIEWS = ["view1", "view2", "view3"];
+const VIEWS = [0, 1, 2];
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "views.title",
   async show({ body }) {
-    const views = await get("views").catch(() => ({}));
-    const boxes = BLOCK_NAMES.map((name) => ({ name, cells: VIEWS.map((view) => h("input", { type: "checkbox", checked: (views[view] ?? []).includes(name), ariaLabel: `${t(/** @type {any} */ (`block.${name}`))} ${view}` })) }));
+    const form = await get("forms/VIEWS");
+    const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
+    const shown = VIEWS.map((n) => String(rows[n].value).split(/\s+/));
+    const boxes = BLOCK_NAMES.map((name) => ({ name, cells: VIEWS.map((n) => h("input", { type: "checkbox", checked: shown[n].includes(name), ariaLabel: `${t(/** @type {any} */ (`block.${name}`))}, ${t("status.view", { n: n + 1 })}` })) }));
     const save = async () => {
-      const chosen = Object.fromEntries(VIEWS.map((view, n) => [view, boxes.filter(({ cells }) => cells[n].checked).map(({ name }) => name)]));
+      const chosen = VIEWS.map((n) => [String(rows[n].number), boxes.filter(({ cells }) => cells[n].checked).map(({ name }) => name).join(" ")]);
       try {
-        await send("PUT", "views", chosen);
+        await send("PUT", "forms/VIEWS", { values: Object.fromEntries(chosen) });
         report(t("views.saved"));
-        model.changed.set({ what: "views", cells: [] });
+        model.changed.set({ what: "forms", cells: VIEWS.map((n) => rows[n].number) });
       } catch (error) {
         refuse(error);
       }
     };
-    body.append(h("table.grid", {}, h("thead", {}, h("tr", {}, h("th", {}, t("views.block")), ...VIEWS.map((_view, n) => h("th", {}, t("status.view", { n: n + 1 }))))),
+    body.append(h("table.grid", {}, h("thead", {}, h("tr", {}, h("th", {}, t("views.block")), ...VIEWS.map((n) => h("th", {}, t("status.view", { n: n + 1 }))))),
       h("tbody", {}, ...boxes.map(({ name, cells }) => h("tr", {}, h("td", {}, t(/** @type {any} */ (`block.${name}`))), ...cells.map((cell) => h("td", {}, h("label.check", {}, cell))))))),
     h("div.row", {}, h("span.grow", {}), h("button.key.main", { type: "button", onclick: save }, t("views.save"))));
   },

@@ -1,0 +1,85 @@
+"""A Chromium for the session, a panel for each file, a page for each test."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from tests.panel.bench import Served
+from tests.panel.browser.chromium import MISSING, OPTIONS, found
+
+READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """The browser of the machine."""
+    path = found()
+    if path is None:
+        pytest.fail(MISSING)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=OPTIONS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A panel in real time for all tests of a file."""
+    panel = Served(tmp_path_factory.mktemp("panel"))
+    yield panel
+    panel.close()
+
+
+@pytest.fixture(scope="module")
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    """A fresh profile with a touch screen of 1024 x 768."""
+    context = browser.new_context(viewport={"width": 1024, "height": 768}, has_touch=True)
+    yield context
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def workspace(context: BrowserContext, served: Served) -> Page:
+    """The operator's workspace, opened once for a file."""
+    return open_page(context, served.url)
+
+
+@pytest.fixture
+def page(workspace: Page) -> Page:
+    """The workspace with live values, no screen open, at the main menu."""
+    to_main_menu(workspace)
+    return workspace
+
+
+def to_main_menu(page: Page) -> None:
+    """Close dialogs and screens, and go back to the main menu."""
+    page.bring_to_front()
+    while page.locator("dialog[open], #screen:not([hidden])").count():
+        page.keyboard.press("Escape")
+        page.wait_for_timeout(20)
+    while page.locator("#menu").get_attribute("data-shown") != "main":
+        page.keyboard.press("F10")
+
+
+def open_page(context: BrowserContext, url: str) -> Page:
+    """Open the workspace; whatever the browser complains about is kept in `page.complaints`."""
+    page = context.new_page()
+    page.set_default_timeout(10_000)
+    page.complaints = complaints = []  # type: ignore[attr-defined]
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on(
+        "console",
+        lambda message: complaints.append(message.text) if message.type == "error" else None,
+    )
+    page.goto(url)
+    page.wait_for_function(READY)
+    return page
+
+
+@pytest.fixture(scope="session")
+def pictures() -> Path:
+    """Where screenshots go for people to look at."""
+    folder = Path(__file__).parents[3] / "build" / "panel-screens"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

@@ -1,0 +1,258 @@
+"""Keys that move the machine: every path of release, by finger, mouse and keyboard."""
+
+import time
+from collections.abc import Callable
+from functools import partial
+
+import pytest
+from playwright.sync_api import BrowserContext, CDPSession, Page
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page
+
+from openacr.sysvar.tabs import JOG
+
+LIMIT_S = 10.0
+
+
+def until(holds: Callable[[], bool], page: Page) -> None:
+    end_s = time.monotonic() + LIMIT_S
+    while not holds():
+        assert time.monotonic() < end_s
+        page.wait_for_timeout(20)
+
+
+def x_of(served: Served) -> float:
+    return served.desk.snapshot.commanded[0]
+
+
+def is_jogging(served: Served) -> bool:
+    return served.call(lambda desk: bool(desk.machine.runner.jogging.is_active))
+
+
+def rest_of(served: Served, page: Page) -> float:
+    """Where X has come to rest."""
+    until(lambda: not is_jogging(served), page)
+    return served.call(lambda desk: float(desk.machine.runner.stream.host.position()[0]))
+
+
+@pytest.fixture
+def jog(page: Page, served: Served) -> Page:
+    page.keyboard.press("F7")
+    page.keyboard.press("F2")
+    page.get_by_role("button", name="X plus").wait_for()
+    until(lambda: not is_jogging(served), page)
+    return page
+
+
+def centre(page: Page, name: str) -> dict[str, float]:
+    box = page.get_by_role("button", name=name).bounding_box()
+    assert box is not None
+    return {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+
+
+@pytest.fixture
+def finger(jog: Page) -> CDPSession:
+    """One finger on the glass."""
+    return jog.context.new_cdp_session(jog)
+
+
+def touch(finger: CDPSession, kind: str, *points: dict[str, float]) -> None:
+    finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
+
+
+def hold(
+    page: Page, served: Served, press: Callable[[], object], lift: Callable[[], object]
+) -> None:
+    """Hold the plus key of X until the axis moves.
+
+    A machine too busy to keep the key alive within the limit ends a press by itself; then the
+    key is pressed again.
+    """
+    held = page.locator(".jog-key.is-held")
+    end_s = time.monotonic() + LIMIT_S
+    while time.monotonic() < end_s:
+        beyond = x_of(served) + 0.02
+        press()
+        until(partial(lambda x: x_of(served) > x or not held.count(), beyond), page)
+        if held.count():
+            assert held.get_attribute("aria-label") == "X plus"
+            return
+        lift()
+    raise AssertionError("the axis never moved")
+
+
+def moves_and_stops(
+    page: Page,
+    served: Served,
+    press: Callable[[], object],
+    lift: Callable[[], object],
+    end: Callable[[], object] | None = None,
+) -> None:
+    """The axis moves while the key is held, and rests after what ends it."""
+    hold(page, served, press, lift)
+    (end or lift)()
+    rest = rest_of(served, page)
+    page.wait_for_timeout(150)
+    assert x_of(served) == rest
+    assert page.locator(".is-held").count() == 0
+
+
+def test_a_mouse_moves_an_axis_as_long_as_it_holds_the_key(jog: Page, served: Served) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    moves_and_stops(jog, served, jog.mouse.down, jog.mouse.up)
+
+
+def test_a_finger_moves_an_axis_as_long_as_it_holds_the_key(
+    jog: Page, served: Served, finger: CDPSession
+) -> None:
+    point = centre(jog, "X plus")
+    moves_and_stops(
+        jog,
+        served,
+        lambda: touch(finger, "touchStart", point),
+        lambda: touch(finger, "touchEnd"),
+    )
+
+
+def test_a_touch_that_the_system_takes_away_stops_the_axis(
+    jog: Page, served: Served, finger: CDPSession
+) -> None:
+    point = centre(jog, "X plus")
+    moves_and_stops(
+        jog,
+        served,
+        lambda: touch(finger, "touchStart", point),
+        lambda: touch(finger, "touchCancel"),
+    )
+
+
+def test_a_finger_that_slides_off_its_key_still_holds_it_until_it_is_lifted(
+    jog: Page, served: Served, finger: CDPSession
+) -> None:
+    point = centre(jog, "X plus")
+
+    def press() -> None:
+        touch(finger, "touchStart", point)
+        touch(finger, "touchMove", {"x": point["x"], "y": point["y"] - 150})
+
+    moves_and_stops(jog, served, press, lambda: touch(finger, "touchEnd"))
+
+
+@pytest.mark.parametrize("key", [" ", "Enter"])
+def test_the_keyboard_holds_the_key_that_has_the_focus(jog: Page, served: Served, key: str) -> None:
+    jog.get_by_role("button", name="X plus").focus()
+    moves_and_stops(jog, served, lambda: jog.keyboard.down(key), lambda: jog.keyboard.up(key))
+
+
+def test_the_arrow_key_moves_x(jog: Page, served: Served) -> None:
+    jog.locator(".hint").last.click()
+    moves_and_stops(
+        jog,
+        served,
+        lambda: jog.keyboard.down("ArrowRight"),
+        lambda: jog.keyboard.up("ArrowRight"),
+    )
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "window.dispatchEvent(new Event('blur'))",
+        "window.dispatchEvent(new Event('pagehide'))",
+        "document.dispatchEvent(new Event('visibilitychange'))",
+        "document.activeElement.blur()",
+    ],
+)
+def test_what_takes_the_key_from_the_operator_stops_the_axis(
+    jog: Page, served: Served, what: str
+) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    moves_and_stops(jog, served, jog.mouse.down, jog.mouse.up, lambda: jog.evaluate(what))
+    jog.mouse.up()
+
+
+def test_a_key_that_loses_the_pointer_stops_the_axis(jog: Page, served: Served) -> None:
+    point = centre(jog, "X plus")
+    jog.mouse.move(point["x"], point["y"])
+
+    def lose() -> None:
+        jog.evaluate(
+            """const key = document.querySelector('.jog-key.is-held');
+            for (let n = 0; n < 99; n++)
+                if (key.hasPointerCapture(n)) key.releasePointerCapture(n)"""
+        )
+        jog.mouse.move(point["x"] + 2, point["y"])
+
+    moves_and_stops(jog, served, jog.mouse.down, jog.mouse.up, lose)
+    jog.mouse.up()
+
+
+def test_a_press_that_has_ended_does_not_come_back_while_the_key_is_still_down(
+    jog: Page, served: Served
+) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    moves_and_stops(
+        jog,
+        served,
+        jog.mouse.down,
+        jog.mouse.up,
+        lambda: jog.evaluate("window.dispatchEvent(new Event('blur'))"),
+    )
+    rest = x_of(served)
+    jog.wait_for_timeout(400)
+    assert x_of(served) == rest
+    jog.mouse.up()
+
+
+def test_stop_ends_a_held_key(jog: Page, served: Served) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    pause = partial(jog.keyboard.press, "Pause")
+    moves_and_stops(jog, served, jog.mouse.down, jog.mouse.up, pause)
+    jog.mouse.up()
+
+
+def test_another_speed_while_a_key_is_held_ends_it(jog: Page, served: Served) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    moves_and_stops(
+        jog,
+        served,
+        jog.mouse.down,
+        jog.mouse.up,
+        lambda: jog.evaluate("[...document.querySelectorAll('[role=radio]')][1].click()"),
+    )
+    jog.mouse.up()
+
+
+def test_leaving_the_screen_while_a_key_is_held_ends_it(jog: Page, served: Served) -> None:
+    jog.get_by_role("button", name="X plus").hover()
+    hold(jog, served, jog.mouse.down, jog.mouse.up)
+    jog.keyboard.press("Escape")
+    until(lambda: not is_jogging(served), jog)
+    jog.mouse.up()
+
+
+def test_a_closed_tab_stops_the_axis(page: Page, context: BrowserContext, served: Served) -> None:
+    page.evaluate("import('/js/core/app.js').then((app) => app.give('control.release'))")
+    other = open_page(context, served.url)
+    other.keyboard.press("F7")
+    other.keyboard.press("F2")
+    other.get_by_role("button", name="X plus").hover()
+    hold(other, served, other.mouse.down, other.mouse.up)
+    other.close()
+    end_s = time.monotonic() + LIMIT_S
+    while is_jogging(served):
+        assert time.monotonic() < end_s
+        time.sleep(0.02)
+
+
+def test_a_step_moves_by_its_increment_and_no_further(jog: Page, served: Served) -> None:
+    continuous, first = [
+        jog.get_by_role("radiogroup").last.get_by_role("radio").nth(n) for n in (0, 1)
+    ]
+    first.click()
+    before = rest_of(served, jog)
+    jog.get_by_role("button", name="X plus").click()
+    until(lambda: rest_of(served, jog) != before, jog)
+    step = served.call(lambda desk: desk.machine.runner.settings.real(JOG.increments[0][0]))
+    assert rest_of(served, jog) - before == pytest.approx(step)
+    continuous.click()
