@@ -1,4 +1,8 @@
-"""A Chromium for the session, a panel for each file, a page for each test."""
+"""A Chromium, a panel and a page for each file of tests.
+
+Playwright keeps an event loop running in the thread of the tests for as long as its browser is
+open; other tests of the process start loops of their own, so no browser outlives its file.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +15,7 @@ from tests.panel.browser.chromium import MISSING, OPTIONS, found
 READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """The browser of the machine."""
     path = found()
