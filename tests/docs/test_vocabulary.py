@@ -44,7 +44,7 @@ PHRASES = {
 # Contexts in which a word means something else: what stands in the physical world, set phrases.
 ALLOWED = re.compile(
     r"\b(?:under[ _]way|both ways|(?:in )?the same way|the other way|on (?:the|its|their) way"
-    r"|by way of|gives? way|behind the curtain|there\s+(?:is|are)\s+none)\b",
+    r"|by way of|ways? to|gives? way|behind the curtain|there\s+(?:is|are)\s+none)\b",
     re.IGNORECASE,
 )
 FILES = sorted(

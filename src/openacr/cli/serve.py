@@ -68,7 +68,7 @@ def serve(
         bool, typer.Option("--no-journal", help="Keep no journal of the last minutes.")
     ] = False,
 ) -> None:
-    """Run a card in real time and let hosts talk to it over TCP and serial lines.
+    """Run a card in real time and serve hosts over TCP and serial lines.
 
     With --data saved parameters, user flash and battery-backed memory survive the process.
     The journal of the last minutes can be replayed with `openacr replay`.

@@ -10,7 +10,7 @@ from openacr.errors import CardError, UserError
 def explain_address(
     address: Annotated[str, typer.Argument(help="The address of a card, e.g. 192.168.10.40.")],
     mask: Annotated[str, typer.Option(help="The mask of its network.")] = "255.255.255.0",
-    host: Annotated[str, typer.Option(help="The address of the computer that asks.")] = "",
+    host: Annotated[str, typer.Option(help="The address of the host that connects.")] = "",
 ) -> None:
     """Explain an address of the network: class, network, host, reach."""
     from openacr.basic.memory.ip_address import IpAddress

@@ -39,7 +39,7 @@ What = Annotated[
         metavar="NUMBER|NAME", help="Number or name, e.g. 12291, 'axis 2 following error'."
     ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print a JSON array of everything found.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print all findings as a JSON array.")]
 
 
 def show_parameter(text: What, json: AsJson = False) -> None:

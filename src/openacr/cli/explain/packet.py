@@ -22,14 +22,14 @@ def explain_packet(
         list[str], typer.Argument(metavar="HEX...", help="Bytes as hex digits: 00 88 02 30")
     ],
     mode: Annotated[
-        int, typer.Option(min=0, max=3, help="MODE of the stream the bytes were seen on.")
+        int, typer.Option(min=0, max=3, help="MODE of the stream with these bytes.")
     ] = 0,
     reply: Annotated[
         bool, typer.Option("--reply", help="The bytes came from the card: words follow.")
     ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print a JSON array of packets.")] = False,
 ) -> None:
-    """Take binary packets apart: every field with its meaning."""
+    """Decode binary packets: every field with its meaning."""
     found = list(_packets(_bytes("".join(text)), BinaryMode(mode), is_reply=reply))
     if json:
         typer.echo(json_format.dumps([_fields(*each) for each in found], indent=1))

@@ -34,7 +34,7 @@ def restore(
     baud: Baud = 38400,
     silence: Silence = 10.0,
 ) -> None:
-    """Stop a card, clear it and put a backup back.
+    """Stop a card, clear it and restore a backup.
 
     All programs and PLCs of the card are halted and replaced, memory is cleared. Before that the
     card is asked whether it knows every setting. If it refuses a line after all, it gets its

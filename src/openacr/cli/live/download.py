@@ -28,7 +28,8 @@ def download(
     program: Program = None,
     plc: Plc = None,
     no_verify: Annotated[
-        bool, typer.Option("--no-verify", help="Do not compare with what the card then lists.")
+        bool,
+        typer.Option("--no-verify", help="Do not compare with the listing of the card afterwards."),
     ] = False,
     baud: Baud = 38400,
     silence: Silence = 10.0,

@@ -34,7 +34,7 @@ def term(
         float, typer.Option(min=0.0, help="Longest wait [s] for the prompt of a piped line.")
     ] = 60.0,
 ) -> None:
-    """Talk to a card: interactively, or line by line when standard input is piped.
+    """Open a terminal to a card: interactive, or line by line from piped standard input.
 
     Arrow up and down recall earlier lines, Ctrl-X, Ctrl-Y, Ctrl-Z and ESC go to the card,
     Ctrl-C leaves.

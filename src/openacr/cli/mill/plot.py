@@ -42,7 +42,7 @@ def plot_program(
         bool, typer.Option("--by-tool", help="One colour per tool, as Color via D Codes.")
     ] = False,
 ) -> None:
-    """Draw the tool path of a part program: PNG, SVG, or HTML to turn and zoom."""
+    """Draw the tool path of a part program: PNG, SVG or interactive HTML."""
     from openacr.cli.plots.formats import require
     from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole

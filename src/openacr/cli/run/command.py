@@ -33,7 +33,7 @@ def run(
         Path, typer.Argument(metavar="PROJECT", help="Project folder or controller file (.8k).")
     ],
     for_s: Annotated[
-        float | None, typer.Option("--for", metavar="SECONDS", help="Simulated time at most.")
+        float | None, typer.Option("--for", metavar="SECONDS", help="Limit of the simulated time.")
     ] = None,
     until: Annotated[
         str | None,
@@ -42,7 +42,7 @@ def run(
             help="End when a flag is set (516), is clear again (-516), or nothing runs or moves.",
         ),
     ] = None,
-    realtime: Annotated[bool, typer.Option("--realtime", help="No faster than real.")] = False,
+    realtime: Annotated[bool, typer.Option("--realtime", help="No faster than real time.")] = False,
     scenario: Annotated[
         Path | None, typer.Option(help="Inputs, actions, expectations; default: the project's.")
     ] = None,
@@ -64,18 +64,18 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="P12290|BIT516|IN3|OUT0|NAME",
-            help="Trace and plot this parameter, flag, input or output, too; repeat for more.",
+            help="Also trace and plot this parameter, flag, input or output; may be repeated.",
         ),
     ] = None,
     summary: Annotated[Path | None, typer.Option(help="Write the outcome as JSON.")] = None,
     journal: Annotated[
-        Path | None, typer.Option(help="Write all that enters the card, for `openacr replay`.")
+        Path | None, typer.Option(help="Write all inputs of the card, for `openacr replay`.")
     ] = None,
     keep_going: Annotated[
-        bool, typer.Option("--keep-going", help="Run although the card refuses lines of a file.")
+        bool, typer.Option("--keep-going", help="Run even if the card refuses lines of a file.")
     ] = False,
     quiet: Annotated[
-        bool, typer.Option("--quiet", help="Show only what the programs print.")
+        bool, typer.Option("--quiet", help="Show only the output of the programs.")
     ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the outcome as JSON, program output on stderr.")

@@ -23,10 +23,12 @@ def replay(
     ] = None,
     until: Annotated[
         float | None,
-        typer.Option(metavar="SECONDS", help="Stop so long after the beginning of the journal."),
+        typer.Option(
+            metavar="SECONDS", help="Stop at this time after the beginning of the journal."
+        ),
     ] = None,
     check: Annotated[
-        bool, typer.Option("--check", help="Only compare the states; exit code 1: they differ.")
+        bool, typer.Option("--check", help="Only compare the states; exit code 1 if they differ.")
     ] = False,
 ) -> None:
     """Replay a journal: the same inputs at the same ticks, the same states.
