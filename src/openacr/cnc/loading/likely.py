@@ -44,6 +44,7 @@ _PATTERNS: tuple[tuple[str, int, str, re.Pattern[str]], ...] = (
     (ACROMILL, SURE, "parameter P", re.compile(r"(?:^|[\s(])P\d+\s*=|[A-Z]\s*\([^)]*[P#]\d")),
     (RS274NGC, CLEAR, "dwell G4 P", re.compile(r"G0*4(?!\d|\.).*P\s*[\d.]")),
     (ACROMILL, CLEAR, "dwell G4 F", re.compile(r"G0*4(?!\d|\.)\s*F")),
+    (RS274NGC, CLEAR, "polar word", re.compile(r"@\s*[-+]?[\d.\[#]")),
     (RS274NGC, CLEAR, "tolerance G64 P", re.compile(r"G64\s*P")),
     (RS274NGC, FAINT, "framed by %", re.compile(r"^\s*%")),
     (RS274NGC, FAINT, "length G43 H", re.compile(r"G43(?!\.).*H\s*\d")),
@@ -86,9 +87,19 @@ class Likely:
     @property
     def reasons(self) -> list[str]:
         """The strongest signs of the likely dialect, in the order of their lines."""
-        own = [sign for sign in self.signs if sign.dialect == self.dialect]
-        own.sort(key=lambda sign: (-sign.weight, sign.line))
-        return [str(sign) for sign in sorted(own[:MOST_REASONS], key=lambda sign: sign.line)]
+        return _strongest([sign for sign in self.signs if sign.dialect == self.dialect])
+
+    @property
+    def doubts(self) -> list[str]:
+        """The strongest signs against the likely dialect; habits do not speak against rs274ngc."""
+        least = CLEAR if self.dialect == RS274NGC else FAINT
+        against = [sign for sign in self.signs if sign.dialect != self.dialect]
+        return _strongest([sign for sign in against if sign.weight >= least])
+
+
+def _strongest(signs: list[Sign]) -> list[str]:
+    signs.sort(key=lambda sign: (-sign.weight, sign.line))
+    return [str(sign) for sign in sorted(signs[:MOST_REASONS], key=lambda sign: sign.line)]
 
 
 def likely(lines: Iterable[str], centres: int = 2) -> Likely:

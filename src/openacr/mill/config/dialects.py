@@ -31,6 +31,7 @@ class Choice:
     by: str  # "option", "file", "store" or "signs"
     reasons: tuple[str, ...] = ()
     likely: str = ACROMILL
+    doubts: tuple[str, ...] = ()  # features of another dialect than the likely one
 
     @property
     def is_doubtful(self) -> bool:
@@ -41,7 +42,7 @@ class Choice:
     def is_worth_reporting(self) -> bool:
         """Whether to report the choice: unusual, or from the store and contradicted by the file."""
         if self.by == "signs":
-            return self.name != ACROMILL
+            return self.name != ACROMILL or bool(self.doubts)
         return self.by == "store" and self.is_doubtful
 
     @property
@@ -49,13 +50,28 @@ class Choice:
         """The choice, its reason, and how to choose otherwise, as one line."""
         why = ", ".join(self.reasons)
         if self.by == "signs":
-            if not why:
-                return f"dialect {self.name}: nothing in the file points to another one"
-            return f"dialect {self.name} by its features: {why} (--dialect chooses another)"
+            return self._by_features(why)
         chosen = f"dialect {self.name}, set by {BY_WORDS[self.by]}"
         if not self.is_doubtful:
             return chosen
         return f"{chosen}, but it looks like {self.likely}: {why} (--dialect {self.likely})"
+
+    def _by_features(self, why: str) -> str:
+        other = next(name for name in DIALECTS if name != self.name)
+        doubts = ", ".join(self.doubts)
+        if why and doubts:
+            return (
+                f"dialect {self.name} by its features: {why}; features of {other}: {doubts}"
+                f" (--dialect {other})"
+            )
+        if why:
+            return f"dialect {self.name} by its features: {why} (--dialect chooses another)"
+        if doubts:
+            return (
+                f"dialect {self.name}, as no feature decides; features of {other}: {doubts}"
+                f" (--dialect {other})"
+            )
+        return f"dialect {self.name}: nothing in the file points to another one"
 
 
 def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice:
@@ -75,7 +91,7 @@ def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice
     stored = BY_NUMBER[int(cells.read(COMPATIBILITY.dialect))]
     if stored != AUTO and not wanted:
         return Choice(stored, "store", signs, found.dialect)
-    return Choice(found.dialect, "signs", signs, found.dialect)
+    return Choice(found.dialect, "signs", signs, found.dialect, tuple(found.doubts))
 
 
 def dialect_of(file: Path | None, cells: Cells, wanted: str | None = None) -> str:

@@ -1,0 +1,13 @@
+(Project: sign)
+(Created by Estlcam version 12)
+(Machining time about 00:02:00 hours)
+G21
+G90
+M03 S24000
+G00 Z5.0000
+G00 X10.0000 Y5.0000
+G01 Z-1.0000 F300
+G03 X9.0000 Y6.0000 I-1.0000 J0.0000 F900
+G00 Z5.0000
+M05
+M30

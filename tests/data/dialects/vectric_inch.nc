@@ -1,0 +1,21 @@
+( pocket )
+( File created: Friday January 02 2026 - 10:11 AM)
+( for Mach2/3 from Vectric )
+( Material Size)
+( X= 4.000, Y= 3.000, Z= 0.500)
+G00G20G17G90G40G49G80
+G70G91.1
+T1M06
+(End Mill {0.25 inch})
+G00G43Z0.8000H1
+S12000M03
+(Toolpath:- Pocket)
+G94
+X0.0000Y0.0000F30.0
+G00X1.0000Y1.0000Z0.2000
+G1Z-0.1000F10.0
+G1X2.0000F30.0
+G00Z0.2000
+M09
+M30
+%
