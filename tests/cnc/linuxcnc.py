@@ -7,6 +7,7 @@ the work system about Z, shifted by the offset of that system and by the tool of
 """
 
 import math
+import os
 import re
 import shutil
 import subprocess
@@ -93,8 +94,8 @@ class Canon:
     def _add(self, move: Move) -> None:
         """A move; one that stays where it is moves nothing."""
         last = next((each for each in reversed(self.moves) if each.kind != "D"), None)
-        here = last.end if last else self.machine([0.0] * 6)
-        if move.kind != "R" or math.dist(here, move.end) > NEAR or not last:
+        here = last.end if last else (0.0,) * 6  # where the machine begins
+        if move.kind != "R" or math.dist(here, move.end) > NEAR:
             self.moves.append(move)
 
     def _arc(self, numbers: list[float]) -> None:
@@ -125,8 +126,9 @@ def judged(text: str, folder: Path) -> Canon:
     (folder / "tool.tbl").write_text(_TABLE, encoding="utf-8")
     (folder / "first.var").write_text("", encoding="utf-8")
     command = [PROGRAM, "-g", "-t", "tool.tbl", "-v", "first.var", "program.ngc"]
+    home = os.environ | {"HOME": str(folder)}  # where it shares its table of tools
     done = subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, timeout=_LIMIT_S, check=False
+        command, cwd=folder, env=home, capture_output=True, text=True, timeout=_LIMIT_S, check=False
     )
     canon = Canon()
     for line in done.stdout.splitlines():

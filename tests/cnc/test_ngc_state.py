@@ -226,3 +226,41 @@ def test_g38_stays_active_as_in_linuxcnc() -> None:
     for options in (Options(), Options(has_batches=True)):
         assert ngc(many, options=options).moves == ["P X1", "P X2", "P X2 Y1", "R Y1"]
     assert fault("F10 G38.3 X1|Y2 R1") == "PROGRAM:2:4: E206 word has no meaning in this block: R"
+
+
+@pytest.mark.parametrize(
+    ("text", "story"),
+    [
+        ("S100 M3 G0 Z2|G86 Z-1 R1 P.5|G80",
+         ["M3 S100", "R Z2", "R Z1", "L Z-1", "dwell 0.5", "M5 S100", "R Z2", "orient 0",
+          "M3 S100"]),
+        ("S100 M4 G0 Z2|G86 Z-1 R1|G80",
+         ["M4 S100", "R Z2", "R Z1", "L Z-1", "M5 S100", "R Z2", "orient 0", "M4 S100"]),
+        ("G0 Z2|G89 Z-1 R1 P.5|G80", ["R Z2", "R Z1", "L Z-1", "dwell 0.5", "L Z2"]),
+        ("G0 Z2|G99 G89 Z-1 R1|G80", ["R Z2", "R Z1", "L Z-1", "L Z1"]),
+    ],
+)  # fmt: skip
+def test_cycles_of_linuxcnc_that_differ(text: str, story: list[str]) -> None:
+    assert ngc(f"F10|{text}").story == [*story, "end"]
+
+
+def test_the_cycles_of_the_guide_stay_as_they_are() -> None:
+    text = "F10 G0 Z2\nS100 M3 G86 Z-1 R1 P.5\nG89 Z-1 R1 P.5\nG80\nM2\n$I CYCLES.TXT"
+    assert run(text).story == [
+        "R Z2", "M3 S100", "R Z1", "L Z-1", "R Z2", "R Z1", "L Z-1", "dwell 0.5", "R Z2", "end",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "moves"),
+    [
+        ("F10 G 1 X 2 . 5 Y 1 0", ["L X2.5 Y10"]), ("F10 G1 X1 2.5", ["L X12.5"]),
+        ("F10 G1 X. 5 Y - 1 .", ["L X0.5 Y-1"]), ("F10 G1 X[1 2+ 3]", ["L X15"]),
+    ],
+)  # fmt: skip
+def test_blanks_mean_nothing(text: str, moves: list[str]) -> None:
+    assert ngc(text).moves == moves
+
+
+def test_blanks_end_a_number_in_the_dialect_of_the_guide() -> None:
+    assert fault("F10 G1 X1 2", "acromill") == "PROGRAM:1:11: E104 unexpected character"

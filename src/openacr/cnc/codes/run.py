@@ -57,6 +57,10 @@ class Language(Protocol):
         """Whether a series of cycles has one initial level and goes up to R first."""
 
     @property
+    def cycle_labels(self) -> dict[int, int]:
+        """What is added to the labels of cycles that are its own."""
+
+    @property
     def clearance_inch(self) -> float | None:
         """Clearance of G73 and G83 in inches; None: as in the store."""
 

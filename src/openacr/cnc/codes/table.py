@@ -266,6 +266,7 @@ class Dialect:
     parameters: type[Parameters] | None = None  # where numbers mean something else
     has_own_cycles: bool = False  # without $I
     rises_first: bool = False  # a series of cycles has one initial level and goes up to R first
+    cycle_labels: dict[int, int] = field(default_factory=dict)  # added for cycles of its own
     clearance_inch: float | None = None  # of G73 and G83; None: as in the store
     has_spirals: bool = True  # arcs whose radii differ
     has_entry_arcs: bool = False  # compensation may begin with an arc

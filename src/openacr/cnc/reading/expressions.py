@@ -16,7 +16,6 @@ from openacr.cnc.reading.functions import NEGATE, NOT
 from openacr.cnc.reading.grammar import Grammar
 
 DEEPEST = 40
-_NUMBER = re.compile(r"\d+(?:\.\d*)?|\.\d+")
 _INTEGER = re.compile(r"\d+")
 _WORD = re.compile(r"[A-Z]+")
 _NAME = re.compile(r"<([^<>]*)>")
@@ -143,14 +142,14 @@ class ExpressionReader:
 
     def number(self) -> Number:
         """A number without exponent."""
-        found = _NUMBER.match(self.text, self.pos)
+        found = self.grammar.number.match(self.text, self.pos)
         if not found:
             raise self.fault("E106")
         after = found.end()
         if after < len(self.text) and self.text[after] in ".0123456789":
             raise CodeError("E106", after + 1)
         self.pos = after
-        return Number(float(found[0]))
+        return Number(float("".join(found[0].split())))
 
     def integer(self) -> int:
         """Digits."""

@@ -1,5 +1,6 @@
 """Grammars of the dialects: their differences as tables for one parser."""
 
+import re
 from dataclasses import dataclass
 
 from openacr.cnc.reading import functions as f
@@ -32,6 +33,7 @@ class Grammar:
     refusals: Refusals  # forms of other controls
     pairs: frozenset[str] = frozenset()  # functions written F[y]/[x]
     polar: str = ""  # words for distance and angle
+    number: re.Pattern[str] = re.compile(r"\d+(?:\.\d*)?|\.\d+")
 
 
 _COMMON = {
@@ -96,4 +98,5 @@ RS274NGC = Grammar(
     refusals=refusals.RS274NGC,
     pairs=frozenset({"ATAN"}),
     polar="@^",
+    number=re.compile(r"\d(?:[ \t]*\d)*(?:[ \t]*\.(?:[ \t]*\d)*)?|\.(?:[ \t]*\d)+"),  # blanks
 )

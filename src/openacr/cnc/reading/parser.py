@@ -28,6 +28,7 @@ _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
 _O_NAME = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)")
 _KEYWORD = re.compile(r"\s*([A-Z]+)")
 CALL = "CALL"
+_GOES_ON = frozenset(".=0123456789")  # after a word that is more than its number
 _PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
 _PLAIN_LINE = re.compile(rf"[ \t]*(?:N[ \t]*(\d+)(\.\d*)?[ \t]*)?((?:{_PLAIN_WORD})*)", re.I | re.A)
 _PLAIN_WORDS = re.compile(_PLAIN_WORD, re.I | re.A)
@@ -153,7 +154,7 @@ class _Parser(StatementReader):
     def _plain_word(self, block: Block) -> bool:
         """Read a word with a number, if one comes next."""
         found = _PLAIN_WORDS.match(self.text, self.pos)
-        if found is None or self.text[found.end() : found.end() + 1] in (".", "="):
+        if found is None or self.text[found.end() : found.end() + 1] in _GOES_ON:
             return False
         if not self.raw[found.start() : found.end()].isascii():
             return False  # a printed minus

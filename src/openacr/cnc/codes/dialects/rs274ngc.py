@@ -56,6 +56,7 @@ DIALECTS["rs274ngc"] = Dialect(
     parameters=NgcParameters,
     has_own_cycles=True,
     rises_first=True,
+    cycle_labels={74: 500, 86: 500, 89: 500},
     clearance_inch=0.010,
     has_spirals=False,
     has_entry_arcs=True,

@@ -135,7 +135,8 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
         for n, value in enumerate(_cells(run, drilling, left), CELLS.cycle_code):
             run.cells.write(n, value)
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
-    start = run.flow.find(kept[0] * LABELS, run.program.cycles, b.plan.column(""))
+    label = kept[0] * LABELS + run.dialect.cycle_labels.get(kept[0], 0)
+    start = run.flow.find(label, run.program.cycles, b.plan.column(""))
     modal.cycle, modal.distance, run.motions = NONE, 90, IN_CYCLE
     yield from run.execution.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
     run.motions = kept[4]
