@@ -3,7 +3,8 @@
 import pytest
 from tests.cnc.programs import Bench, Run, made, run
 
-from openacr.cnc.canonical import SetCell, WaitBit
+from openacr.cnc.canonical import Line, PathMode, Say, SetCell, WaitBit
+from openacr.cnc.codes.ngc.contexts import FIELDS
 from openacr.cnc.codes.ngc.named import PREDEFINED
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.reading.findings import BlockError
@@ -264,3 +265,31 @@ def test_blanks_mean_nothing(text: str, moves: list[str]) -> None:
 
 def test_blanks_end_a_number_in_the_dialect_of_the_guide() -> None:
     assert fault("F10 G1 X1 2", "acromill") == "PROGRAM:1:11: E104 unexpected character"
+
+
+@pytest.mark.parametrize("field", FIELDS)
+def test_every_field_of_the_modal_state_comes_back(field: str) -> None:
+    changes = "F20 G21|G18|G91|G43 H1|G99|G61|G64 P.5|G90.1|G93|M4 S200|M7 M8|M49"
+    text = f"M70|(MSG,before)|{changes}|(MSG,between)|M72|(MSG,after)"
+    done = made(text.replace("|", "\n"), {2001: 1.0}, dialect="rs274ngc")
+    seen = [
+        getattr(done.interpreter.modal, field)
+        for entry in done.interpreter.entries()
+        if isinstance(entry, Say)
+    ]
+    before, between, after = seen
+    assert before == after
+    assert before != between or field == "path"
+
+
+def test_the_path_mode_comes_back() -> None:
+    done = ngc("F10 G61|M70|G64 P.5|M72|G1 X1")
+    (line,) = done.of(Line)
+    assert isinstance(line, Line)
+    assert (line.pace.mode, line.pace.tolerance_u) == (PathMode.EXACT, 0.0)
+
+
+def test_m70_alone_restores_nothing_at_the_end_of_a_subroutine() -> None:
+    text = "F10 G91|o1 call|G1 X1|X1|M2|o1 sub|{}|G90|o1 endsub"
+    assert ngc(text.format("M70")).ends == [(1, 0, 0)]
+    assert ngc(text.format("M73")).ends == [(1, 0, 0), (2, 0, 0)]

@@ -176,3 +176,12 @@ def test_compensated_turns_lie_beside_the_circle() -> None:
     done = ngc("F10 G41.1 D.5 G1 X1|G3 X1 Y0 I0 J1 P2 Z-1|G40 G1 X2", {})
     radii = [arc.start_radius for arc in done.of(Arc) if isinstance(arc, Arc)]
     assert radii == pytest.approx([0.75, 0.75])
+
+
+def test_full_turns_are_counted_exactly() -> None:
+    for turns in range(1, 100):
+        arcs = ngc(f"F10 G3 X0 Y0 I1 P{turns} Z1").of(Arc)
+        assert len(arcs) == turns
+        assert sum(arc.sweep_rad for arc in arcs if isinstance(arc, Arc)) == pytest.approx(
+            turns * 2 * math.pi
+        )

@@ -1,6 +1,7 @@
 """What `mill check` says about the machine: limits, pulses and feeds, without a machine."""
 
 import pytest
+from tests.cnc.programs import run
 from tests.mill.shop import Shop, at, line, rapid, src
 
 from openacr.cnc import canonical as c
@@ -106,4 +107,13 @@ def test_a_feed_above_the_machine_is_never_reached() -> None:
     # 3000 per minute are 50 units/s, the machine makes 100 units/s, axis X 40 of them
     assert said(Shop(P200_015=2400.0), line(1, at(50), feed=3000.0)) == [
         "TEST.TXT:1:1: W402 feed never reached: 1 move (line 1 reaches 80 % of F)"
+    ]
+
+
+def test_limits_are_those_of_the_machine_in_a_rotated_work_system() -> None:
+    wide = {f"P201_00{k}": value for k, value in enumerate((2.0, -2.0, 0))}
+    program = "G10 L2 P1 R90\nG0 X1.5 Y1.5\nX1.75\nX3\nM2"  # X3 is Y3 of the machine
+    entries = run(program, dialect="rs274ngc").entries
+    assert said(Shop(**{**LIMITS, **wide, "P271": 3}), *entries) == [
+        "PROGRAM:4:1: E401 target beyond soft limit: axis Y would go to 3, 1 beyond its limit 2"
     ]
