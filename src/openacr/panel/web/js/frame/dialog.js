@@ -12,6 +12,15 @@ const APART = ["header.top", "#work", "#prompt", "#menu", "#banner"];
 const open = [];
 let lastId = 0;
 
+// Wherever the focus is (on STOP, too), Escape cancels the last opened dialog.
+window.addEventListener("keydown", (event) => {
+  const last = open.at(-1);
+  if (event.key !== "Escape" || !last) return;
+  event.preventDefault();
+  event.stopPropagation();
+  last.dispatchEvent(new Event("cancel"));
+}, { capture: true });
+
 /** Only the last opened dialog takes input. */
 function part() {
   for (const place of APART) document.querySelector(place)?.toggleAttribute("inert", open.length > 0);
@@ -49,12 +58,7 @@ export function ask({ title, body, choices, first, className = "" }) {
       event.preventDefault();
       if (submit) void choose(submit);
     } }, h("div.dialog-body", {}, ...body), h("div.dialog-foot", {}, ...keys));
-    const dialog = h("dialog", { className: `dialog ${className}`, attr: { "aria-labelledby": id }, onkeydown: (/** @type {KeyboardEvent} */ event) => {
-      if (event.key !== "Escape") return;
-      event.preventDefault();
-      event.stopPropagation();
-      close(null);
-    } }, h("div.dialog-head", {}, h("h2", { id }, title)), form);
+    const dialog = h("dialog", { className: `dialog ${className}`, attr: { "aria-labelledby": id }, oncancel: () => close(null) }, h("div.dialog-head", {}, h("h2", { id }, title)), form);
     document.body.append(dialog);
     dialog.show();
     open.push(dialog);

@@ -44,7 +44,7 @@ export async function openScreen(name, args = {}) {
   const { screen } = module;
   const [title, keys] = [h("h2", { id: "screen-title" }, t(screen.title)), h("div.row", {})];
   const close = h("button.key", { type: "button", onclick: () => closeScreen(), data: { close: "" } }, t("key.close"));
-  const body = h("div.screen-body", {});
+  const body = h("div.screen-body", { tabIndex: 0 }); // where it scrolls, the keyboard scrolls it
   const pane = byId("screen");
   pane.dataset.area = screen.area ?? "side";
   pane.dataset.screen = name;

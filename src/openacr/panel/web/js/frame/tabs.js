@@ -15,7 +15,7 @@ import { Endings } from "../core/signal.js";
  */
 export function tabControl(pane, label, tabs, chosen = () => {}) {
   const endings = new Endings();
-  const panel = h("div.tab-panel", { id: `${pane.id}-panel`, role: "tabpanel", tabIndex: -1 });
+  const panel = h("div.tab-panel", { id: `${pane.id}-panel`, role: "tabpanel", tabIndex: 0 });
   const keys = tabs.map((tab) => h("button", {
     type: "button", role: "tab", id: `${pane.id}-tab-${tab.id}`, onclick: () => choose(tab.id),
     attr: { "aria-controls": panel.id },

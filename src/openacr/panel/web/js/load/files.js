@@ -46,7 +46,7 @@ export function dripSource(host, _endings, load) {
  */
 function source(host, kinds, load) {
   let path = "";
-  const text = h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, ariaLabel: t("load.text") });
+  const text = h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, role: "region", ariaLabel: t("load.text") });
   const name = h("span.grow.quiet", {}, t("load.choose"));
   const key = h("button.key.main.big", { type: "button", disabled: true, onclick: () => load(path) }, t("load.go"));
   const list = fileList({ kinds, chosen: async (entry) => {

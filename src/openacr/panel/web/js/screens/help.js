@@ -19,7 +19,7 @@ export const screen = {
         const key = topicOf(entry);
         if (!key || seen.has(key)) continue;
         seen.add(key);
-        list.append(h("button.key.item", { type: "button", onclick: () => show(key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", {}, `${menu} F${entry.key}`)));
+        list.append(h("button.key.item", { type: "button", onclick: () => show(key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`)));
       }
     }
     const show = async (/** @type {string} */ key, /** @type {string} */ label) => {
