@@ -26,6 +26,7 @@ ORDER = (
     "interpret",
     "big_file",
     "mill_run",
+    "panel",
 )
 
 

@@ -83,6 +83,7 @@ def _require_packages() -> None:
 def _bench(machine: str | None, store: Path | None, programs: Path | None) -> "Bench":
     import platformdirs
 
+    from openacr.client.links import wire_to
     from openacr.controller import Controller
     from openacr.panel.control.bench import Bench
     from openacr.panel.machine import embedded
@@ -95,6 +96,7 @@ def _bench(machine: str | None, store: Path | None, programs: Path | None) -> "B
     if programs is not None and not programs.is_dir():
         raise UserError(f"--programs {programs}: there is no such folder")
     if not Path(machine).is_dir():
+        wire_to(machine)  # what is no address is refused before anything is opened
         folder.mkdir(parents=True, exist_ok=True)
         return Bench.at(machine, open_to_write(store), folder)
     project = Path(machine)

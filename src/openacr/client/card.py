@@ -68,8 +68,13 @@ class Card(Closing):
         cls, target: str | Host, options: Options | None = None, *, baud: int = DEFAULT_BAUD
     ) -> Self:
         """Connect to `HOST[:PORT]`, a serial port, or a card in this process."""
-        card = cls(link_to(target, baud), options)
-        card.connect()
+        link = link_to(target, baud)
+        card = cls(link, options)
+        try:
+            card.connect()
+        except BaseException:
+            link.close()  # a card that answers nothing keeps no socket open
+            raise
         return card
 
     def _do(self, op: Op[T]) -> T:

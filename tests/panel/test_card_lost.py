@@ -1,0 +1,127 @@
+"""A panel on a served card whose link breaks and comes back, and stores that cannot be written."""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.mill.live import SERVE, Process, Proxy, until
+
+from openacr.client import Card
+from openacr.panel.commands.all import carry_out
+from openacr.panel.control.bench import Bench
+from openacr.panel.control.desk import Desk
+from openacr.panel.control.orders import Order
+from openacr.panel.control.people import Person
+from openacr.panel.control.thread import ControlThread
+from openacr.panel.machine import FOLDER, opened
+from openacr.panel.roles import Role
+
+ME = Person(1, Role.SERVICE, "127.0.0.1")
+
+
+class Remote:
+    """The desk of a card at the end of a link, in its control thread."""
+
+    def __init__(self, address: str, folder: Path) -> None:
+        (folder / "programs").mkdir(exist_ok=True)
+        self.bench = Bench.at(address, opened(folder / "sysvar.db"), folder / "programs")
+        self.desk = Desk(self.bench, carry_out)
+        self.events: list[dict[str, Any]] = []
+        self.desk.tell = self.events.append
+        self.control = ControlThread(self.desk)
+        self.control.start()
+        self.call(lambda desk: desk.join(ME))
+
+    def call(self, work: Callable[[Desk], Any]) -> Any:
+        return self.control.call(work).result(60.0)
+
+    def send(self, name: str, **args: Any) -> dict[str, Any]:
+        answers: list[dict[str, Any]] = []
+        self.control.put(Order(ME, name, args, self.control.now_s(), answers.append))
+        until(lambda: bool(answers), about=name)
+        return answers[0]
+
+    def link(self) -> str:
+        found = [event["link"] for event in self.events if event["event"] == "state"]
+        return str(found[-1]) if found else ""
+
+    def close(self) -> None:
+        self.control.stop()
+        self.bench.close()
+
+
+@pytest.fixture
+def served(tmp_path: Path) -> Iterator[str]:
+    process = Process(SERVE[0], str(FOLDER), *SERVE[1:], store=tmp_path / "card.db")
+    until(lambda: "ascii=" in process.text, about="the card is served")
+    found = re.search(r"ascii=(\S+)", process.text)
+    assert found is not None
+    yield found[1]
+    process.close()
+
+
+def test_a_card_that_is_not_there_is_said_and_found_when_it_comes(
+    served: str, tmp_path: Path
+) -> None:
+    with Proxy(served) as proxy:
+        proxy.cut()
+        remote = Remote(proxy.address, tmp_path)
+        try:
+            until(lambda: remote.desk.lost.startswith("NO CARD FOUND"))
+            answer = remote.send("home.start", axes="X")
+            assert answer["error"]["code"] == "refused"
+            assert answer["error"]["text"].startswith("NO CARD FOUND")
+            assert remote.link() == "lost"
+            proxy.mend()
+            until(lambda: remote.desk.lost == "")
+            until(lambda: remote.link() == "ok")
+        finally:
+            remote.close()
+
+
+def test_a_held_axis_rests_when_the_card_is_lost_and_the_card_is_found_again(
+    served: str, tmp_path: Path
+) -> None:
+    with Proxy(served) as proxy, Card.open(served) as watcher:
+        remote = Remote(proxy.address, tmp_path)
+        try:
+            until(lambda: remote.desk.snapshot.number > 0)
+
+            def press() -> bool:
+                number = 1 + max((e["press"] for e in remote.events if "press" in e), default=0)
+                args = {"axis": "X", "direction": 1, "first": True}
+                tick = remote.desk.snapshot.tick_ms
+                return bool(remote.send("jog.press", press=number, tick=tick, **args)["ok"])
+
+            until(press, about="the jog begins")
+            proxy.cut()
+            until(lambda: any(event["event"] == "jog" for event in remote.events))
+            places = [float(watcher.read(12288 + 9))]
+
+            def rests() -> bool:
+                places.append(float(watcher.read(12288 + 9)))
+                return len(places) > 5 and len(set(places[-5:])) == 1
+
+            until(rests, about="the axis rests")
+            proxy.mend()
+            until(lambda: remote.desk.lost == "" and remote.link() == "ok", limit_s=90.0)
+        finally:
+            remote.close()
+
+
+def test_another_panel_on_one_machine_is_refused_with_the_reason(
+    served: str, tmp_path: Path
+) -> None:
+    first = Remote(served, tmp_path)
+    (tmp_path / "second").mkdir()
+    second = Remote(served, tmp_path / "second")
+    try:
+        until(lambda: first.desk.lost == "" or second.desk.lost == "")
+        loser = second if first.desk.lost == "" else first
+        until(lambda: "another program drives this machine" in loser.desk.lost)
+        assert not loser.send("run.begin")["ok"]
+    finally:
+        first.close()
+        second.close()

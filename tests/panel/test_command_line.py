@@ -1,0 +1,48 @@
+"""`openacr panel` as a process: it starts, serves, and ends with the machine at rest."""
+
+import re
+import signal
+from pathlib import Path
+
+import httpx
+import pytest
+from tests.mill.live import LIMIT_S, Process, until
+
+
+def test_the_panel_starts_without_configuration_and_ends_cleanly(tmp_path: Path) -> None:
+    words = ("panel", "--no-browser", "--port", "0", "--store", str(tmp_path / "sysvar.db"))
+    process = Process(*words, store=tmp_path / "other.db")
+    try:
+        until(lambda: "panel http" in process.text, about="the panel listens")
+        found = re.search(r"panel (http://127\.0\.0\.1:\d+/)", process.text)
+        assert found is not None
+        assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).json()["role"] == "service"
+        names = httpx.get(f"{found[1]}api/programs", timeout=LIMIT_S).json()["entries"]
+        assert "plate.nc" in [entry["name"] for entry in names]
+        process.signal(signal.SIGTERM)
+        assert process.ended() == 0
+    finally:
+        process.close()
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (("--address", "0.0.0.0"), "no password is set"),
+        (("--port", "70000"), "port 70000 is not in 0..65535"),
+        (("a:b:c",), "'a:b:c' is neither HOST, HOST:PORT nor a serial port"),
+        (("card:70000",), "card:70000: port 70000 is not in 0..65535"),
+        (("--set-password", "boss"), "'boss' is not one of view, operate, setup, service"),
+    ],
+)
+def test_a_wrong_start_is_said_in_one_line(
+    tmp_path: Path, words: tuple[str, ...], text: str
+) -> None:
+    store = ("--no-browser", "--port", "0", "--store", str(tmp_path / "sysvar.db"))
+    process = Process("panel", *store, *words, store=tmp_path / "other.db")
+    try:
+        assert process.ended() == 2
+        assert text in process.text
+        assert "Traceback" not in process.text
+    finally:
+        process.close()
