@@ -63,3 +63,23 @@ def test_a_time_without_the_path_jerk_of_the_machine_says_so(store: Path) -> Non
         assert mill(command, "a.nc").stderr == note
         data = json.loads(mill(command, "a.nc", "--json").stdout)
         assert data["time_without"] == ["Path jerk (P650015)"]
+
+
+def test_a_planned_path_is_timed_with_its_jerk_and_names_the_line_that_costs_most(
+    store: Path,
+) -> None:
+    program = b"G21 G90 G94\nF3000 G64 P0.02\nG1 X10\nX10 Y10\nX0 Y10\nX0 Y0\nM2\n"
+    (store / "b.ngc").write_bytes(program)
+    with Store(store / "sysvar.db") as cells:
+        cells.write(650_015, 400.0)
+        cells.write(650_000, 600.0)
+    for command in ("check", "time"):
+        assert "note:" not in mill(command, "b.ngc").stderr
+    data = json.loads(mill("check", "b.ngc", "--json").stdout)
+    assert data["time_without"] == []
+    assert data["planned"]["moves"] == 4
+    assert data["planned"]["line"] in (3, 4, 5, 6)
+    assert data["planned"]["lost_s"] == pytest.approx(data["time_s"] - 0.8, abs=0.02)
+    assert "planned with tolerance and jerk: 4 moves" in mill("check", "b.ngc").stdout
+    run = json.loads(mill("run", "b.ngc", "--json").stdout)
+    assert run["time_s"] == pytest.approx(data["time_s"], abs=0.002)

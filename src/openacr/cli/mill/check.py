@@ -121,18 +121,19 @@ def check_program(
 ) -> None:
     """Find all errors of a part program, and summarize what it does."""
     with opened_store(store) as cells:
-        left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
         survey, prediction = _checked(program, cells, name)
     survey.findings = in_folder(survey.findings, file)
+    left_out = _left_out(prediction)
     if as_json:
-        data = {"dialect": name} | _as_data(survey, prediction) | left_out
+        data = {"dialect": name} | _as_data(survey, prediction) | left_out | _planned(prediction)
         typer.echo(json_format.dumps(data, indent=1))
     else:
         show_findings(survey.findings)
         _show_survey(survey, prediction)
         if not survey.errors:
             _note_left_out(left_out)
+            _show_planned(prediction)
     if survey.errors:
         raise typer.Exit(FAILED)
 
@@ -152,7 +153,6 @@ def time_program(
     """Predict the run time of a part program from the plan of its moves."""
     require_trace(trace, every_s)
     with opened_store(store) as cells:
-        left_out = _left_out(cells)
         program, name = loaded(file, cells, dialect)
         with _sampled(cells, trace, every_s) as reader:
             survey, prediction = _surveyed(
@@ -165,7 +165,7 @@ def time_program(
             errors = {"errors": survey.data()["errors"]}
             typer.echo(json_format.dumps({"dialect": name} | errors, indent=1))
         raise typer.Exit(FAILED)
-    record = _times(prediction)
+    record, left_out = _times(prediction), _left_out(prediction)
     if as_json:
         typer.echo(json_format.dumps({"dialect": name} | record | left_out, indent=1))
         return
@@ -216,17 +216,20 @@ def _surveyed(
     from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import survey
     from openacr.cnc.state.hosts import VirtualMachine
+    from openacr.mill.config.curves import can_plan
     from openacr.mill.config.settings import NONE, Settings
     from openacr.mill.plan.forecast import Forecast
     from openacr.mill.plan.predicting import Predictor
+    from openacr.mill.plan.preflight import Preflight
 
     settings = Settings(cells)
     begin = (0.0,) * 8
     predictor: Predictor | Forecast = Forecast(
         settings, begin, is_dry=is_dry, rounds=rounds, desk=desk
     )
-    if reader is not None:  # it looks at every move
-        predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds, reader=reader)
+    if reader is not None or can_plan(settings):  # every move is read, or curves are planned
+        either = reader or (desk if isinstance(desk, Preflight) else None)
+        predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds, reader=either)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
     found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
     predictor.close()
@@ -242,12 +245,33 @@ def _times(prediction: "Prediction") -> dict[str, float]:
     }
 
 
-def _left_out(cells: "Store") -> dict[str, list[str]]:
+def _left_out(prediction: "Prediction") -> dict[str, list[str]]:
     """Machine settings that the predicted time does not include."""
     from openacr.sysvar.tabs import SPEEDS
 
     jerk = f"Path jerk (P{SPEEDS.path_jerk})"
-    return {"time_without": [jerk] if cells.read(SPEEDS.path_jerk) > 0.0 else []}
+    return {"time_without": [jerk] if prediction.without_jerk else []}
+
+
+def _planned(prediction: "Prediction") -> dict[str, dict[str, float]]:
+    """What jerk and tolerance cost the planned moves, and the line where they cost most."""
+    return {
+        "planned": {
+            "moves": prediction.planned,
+            "lost_s": round(prediction.lost_s, 4),
+            "line": prediction.slowest_line,
+            "line_s": round(prediction.slowest_s, 4),
+        }
+    }
+
+
+def _show_planned(prediction: "Prediction") -> None:
+    if prediction.planned:
+        typer.echo(
+            f"planned with tolerance and jerk: {prediction.planned} moves,"
+            f" {prediction.lost_s:.2f} s more than at their feeds; most at line"
+            f" {prediction.slowest_line} ({prediction.slowest_s:.3f} s)"
+        )
 
 
 def _note_left_out(record: dict[str, list[str]]) -> None:

@@ -9,8 +9,10 @@ from collections.abc import Iterator, Mapping
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
+from openacr.map import numbers as n
 from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
+from openacr.mill.config.curves import PERIOD_S, RANK, can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
 from openacr.models import Feature
@@ -101,7 +103,17 @@ def lines(settings: Settings) -> Iterator[str]:
     yield f"JRK {_number(settings.speeds.jerk_ups3)}"
     if Feature.LOOK_AHEAD not in settings.model.lacks:
         yield "LOOK OFF"  # the front end plans the corners
+    if can_plan(settings):
+        yield from _curves(settings)
     yield from _modes(settings)
+
+
+def _curves(settings: Settings) -> Iterator[str]:
+    """Prepare the master for NURBs in time: their order, the time of a knot, no ramp."""
+    base = n.MA_BASE + PARAMETERS_PER_MASTER * settings.master
+    yield f"NURB RANK {RANK}"
+    yield f"P{base + n.MA_NURB_TIME_FACTOR}={_number(PERIOD_S)}"
+    yield f"P{base + n.MA_NURB_START_TIME}=0"
 
 
 def _axis(axis: AxisSettings) -> Iterator[str]:

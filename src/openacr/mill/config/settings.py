@@ -172,6 +172,7 @@ class Settings:
             in_position_s=self._real(SPEEDS.in_position_time_out),
             jerk_ups3=self._real(SPEEDS.path_jerk),
             chord_u=self._real(SPEEDS.chord_tolerance),
+            path_tolerance_u=self._real(SPEEDS.path_tolerance),
         )
 
     def _spindle(self) -> SpindleSettings:

@@ -75,6 +75,7 @@ class Speeds:
     in_position_s: float
     jerk_ups3: float
     chord_u: float
+    path_tolerance_u: float  # of paths planned with the jerk, where the program gives none
 
 
 @dataclass(frozen=True, slots=True)

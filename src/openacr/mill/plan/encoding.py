@@ -21,6 +21,7 @@ from openacr.cnc.canonical import (
     Probe,
     Rapid,
 )
+from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.geometry import Geometry, MoveShape
 from openacr.mill.plan.planning import PlannedMove
@@ -51,7 +52,10 @@ class Job(PlannedMove):
     finish: Point
     begin_cnt: Pulses
     finish_cnt: Pulses
-    count: int = 0  # the number of its packet, 0 until it is sent
+    path_tolerance_u: float = 0.0  # of a path planned with a jerk limit, 0: a move of its own
+    feed_scale: float = 1.0  # the override its path is planned with
+    count: int = 0  # the number of its first packet, 0 until it is sent
+    last: int = 0  # the number of its last packet
     block: int = 0  # blocks that end before it
 
 
@@ -69,6 +73,7 @@ class Encoder:
             self._scale[axis.index] = axis.pulses_per_unit
         self._is_dry = is_dry
         self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
+        self._plans = can_plan(settings)
 
     # --- planning ---------------------------------------------------------------------
 
@@ -90,18 +95,20 @@ class Encoder:
         tolerance = self.tolerance(entry.pace)
         found = columns(entry, begin, self._settings, self.line_speed(entry.pace), tolerance)
         mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
+        planned_u = self._planned_tolerance(entry.pace)
         begin_cnt: Pulses = self.pulses(begin)
         rows = zip(
             lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
             found.ramp_ups2.tolist(), found.direction.tolist(), found.tolerance_u.tolist(),
-            found.pulses[1:].tolist(), strict=True,
+            found.pulses[1:].tolist(), found.is_linear.tolist(), strict=True,
         )  # fmt: skip
-        for line, length, feed, ramp, direction, tolerance_u, finish_cnt in rows:
+        for line, length, feed, ramp, direction, tolerance_u, finish_cnt, is_linear in rows:
             heading = direction if any(direction) else None
             yield Job(
                 length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
                 mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin, finish=line.end,
                 begin_cnt=begin_cnt, finish_cnt=finish_cnt,
+                path_tolerance_u=planned_u if is_linear else 0.0,
             )  # fmt: skip
             begin, begin_cnt = line.end, finish_cnt
 
@@ -110,7 +117,9 @@ class Encoder:
         shape = self._shape(entry, begin)
         is_rapid = isinstance(entry, Rapid)
         ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
-        tolerance = 0.0
+        tolerance = planned_u = 0.0
+        if isinstance(entry, Line | Arc) and self._geometry.is_linear(shape):
+            planned_u = self._planned_tolerance(entry.pace)
         if isinstance(entry, Line) and self._geometry.is_linear(shape):
             tolerance = self.tolerance(entry.pace)
         begin_cnt, finish_cnt = self.pulses(begin), self.pulses(entry.end)
@@ -131,6 +140,7 @@ class Encoder:
             finish=entry.end,
             begin_cnt=begin_cnt,
             finish_cnt=finish_cnt,
+            path_tolerance_u=planned_u,
         )
 
     def _place(self, counts: Pulses) -> Point:
@@ -164,6 +174,13 @@ class Encoder:
         if not self._rounds or pace.is_confirmed or pace.mode is not PathMode.FREE:
             return 0.0
         return pace.tolerance_u
+
+    def _planned_tolerance(self, pace: Pace) -> float:
+        """The tolerance with which the path of a move is planned, 0: it is a move of its own."""
+        is_free = pace.mode in (PathMode.FREE, PathMode.CORNER)
+        if not self._plans or pace.is_confirmed or pace.is_locked or not is_free:
+            return 0.0
+        return pace.tolerance_u or self._speeds.path_tolerance_u
 
     def line_speed(self, pace: Pace) -> float:
         """The programmed speed of a feed move."""

@@ -29,6 +29,7 @@ class Columns:
     direction: NDArray[np.float64]  # n x linear axes; unit vectors, 0 without linear motion
     tolerance_u: Column  # of the corners at their ends
     pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, start first
+    is_linear: NDArray[np.bool_]  # no rotary axis moves
 
 
 def columns(
@@ -52,7 +53,8 @@ def columns(
     share = np.abs(delta) / per
     feed = np.where(is_linear, min(wanted_ups, speeds.max_ups), wanted_ups)
     ramp = np.full(len(length), speeds.feed_acc_ups2)
-    tolerance = np.where(is_linear & (turned == 0.0), tolerance_u, 0.0)
+    only_linear = is_linear & (turned == 0.0)
+    tolerance = np.where(only_linear, tolerance_u, 0.0)
     rounds = tolerance > 0.0
     for axis in axes:
         goes = share[:, axis.index]
@@ -67,7 +69,7 @@ def columns(
     if tolerance_u > 0.0:
         sent, goes_far = _as_sent(np.diff(pulses, axis=0) / scale, axes)
         direction[rounds & goes_far] = sent[rounds & goes_far]
-    return Columns(length, feed, ramp, direction, tolerance, pulses)
+    return Columns(length, feed, ramp, direction, tolerance, pulses, only_linear)
 
 
 def _as_sent(

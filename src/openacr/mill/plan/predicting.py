@@ -9,7 +9,8 @@ down to the speed it was sent with, at constant acceleration a. Over a length L
 
 so the sum over all moves is the run time, without the ticks of a card. Corners that the card
 rounds are passed in two halves at a constant acceleration each, the line between two of them
-as above. Waits for the operator and for signals count as zero.
+as above. Paths with a tolerance and a jerk limit take the time of their control points, as in a
+run. Waits for the operator and for signals count as zero.
 """
 
 import math
@@ -18,9 +19,12 @@ from typing import Protocol
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
+from openacr.mill.plan.curve_times import CurveTimes
 from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planning import CornerRules, Planner, backward_pass
+from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.plan.planning import backward_pass
 from openacr.mill.plan.rounding import Corner
+from openacr.mill.plan.route import Route
 
 TOGETHER = 512  # moves planned at once
 # Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
@@ -37,6 +41,11 @@ class Prediction:
     feed_s: float = 0.0
     dwell_s: float = 0.0
     moves: int = 0
+    without_jerk: int = 0  # moves whose prediction leaves the jerk of the card out
+    planned: int = 0  # moves of planned curves
+    lost_s: float = 0.0  # by these, compared with their programmed feeds
+    slowest_line: int = 0  # the line of the move that loses most
+    slowest_s: float = 0.0
 
     @property
     def time_s(self) -> float:
@@ -71,8 +80,9 @@ class Predictor:
     ) -> None:
         """`rounds`: as on the virtual machine, which supports path tolerances."""
         self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
-        rules = CornerRules.of(settings.speeds)
-        self._planner: Planner[Job] = Planner(rules, settings.forward_threshold)
+        self._route = Route(settings)
+        self._curve: CurveTimes | None = None
+        self._has_jerk = settings.speeds.jerk_ups3 > 0.0
         self._position = begin
         self._speed_ups = 0.0
         self._entry_corner: Corner | None = None
@@ -96,8 +106,8 @@ class Predictor:
             self._reader.read(job)
         self._position = job.finish
         if job.length_u > 0.0:
-            self._planner.add(job)
-        if self._planner.ready() >= TOGETHER:
+            self._route.add(job)
+        if self._route.ready() >= TOGETHER:
             self._release(is_complete=False)
 
     def rest(self, dwell_s: float = 0.0) -> None:
@@ -113,17 +123,56 @@ class Predictor:
         self.rest()
 
     def _release(self, *, is_complete: bool) -> None:
-        for job in self._planner.release(1 << 30, is_complete=is_complete):
+        """Pass everything that is planned, section after section."""
+        while True:
+            has_more = self._route.has_more
+            if self._route.curve is not None:
+                self._pass_curve(self._route.curve, is_complete=is_complete or has_more)
+            else:
+                self._pass_moves(is_complete=is_complete)
+            if not has_more:
+                return
+            self._speed_ups, self._entry_corner = 0.0, None
+            self._route.go_on()
+
+    def _pass_moves(self, *, is_complete: bool) -> None:
+        for job in self._route.release(1 << 30, is_complete=is_complete):
             phases = travel(job, self._speed_ups, self._entry_corner)
             self._speed_ups, self._entry_corner = phases[-1][2], job.corner
-            if self._reader is not None:
-                self._reader.passed(job, phases)
-            seconds = sum(seconds_of(*phase) for phase in phases)
-            self.found.moves += 1
-            if job.is_rapid:
-                self.found.rapid_s += seconds
-            else:
-                self.found.feed_s += seconds
+            self.found.without_jerk += self._has_jerk
+            self._pass(job, phases)
+
+    def _pass_curve(self, path: PlannedPath, *, is_complete: bool) -> None:
+        if self._curve is None or self._curve.path is not path:
+            self._curve = CurveTimes(path)
+        curve = self._curve
+        for job, phases in curve.advance(is_complete=is_complete):
+            self._pass(job, phases)
+            self._note_loss(job, phases)
+        self.found.feed_s += curve.rest_s
+        if curve.rest_s and self._reader is not None:
+            self._reader.rested(curve.rest_s)
+        curve.rest_s = 0.0
+
+    def _note_loss(self, job: Job, phases: Phases) -> None:
+        """Note how much longer than at its programmed feed a planned move takes."""
+        found, seconds = self.found, sum(seconds_of(*phase) for phase in phases)
+        lost_s = seconds - job.length_u / job.feed_ups
+        found.planned += 1
+        found.lost_s += lost_s
+        if lost_s > found.slowest_s:
+            found.slowest_s, found.slowest_line = lost_s, job.entry.source.line
+
+    def _pass(self, job: Job, phases: Phases) -> None:
+        """Count a move that is planned."""
+        if self._reader is not None:
+            self._reader.passed(job, phases)
+        seconds = sum(seconds_of(*phase) for phase in phases)
+        self.found.moves += 1
+        if job.is_rapid:
+            self.found.rapid_s += seconds
+        else:
+            self.found.feed_s += seconds
 
 
 def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Phases:

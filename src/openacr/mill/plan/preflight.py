@@ -16,6 +16,7 @@ from openacr.mill.plan.predicting import Phases
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
 
 REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
+REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
 
 
 @dataclass(slots=True)
@@ -53,6 +54,7 @@ class Slow:
     feed_ups: float
     top_ups: float = 0.0
     cnt: int = 0
+    is_planned: bool = False
 
     @property
     def share(self) -> float:
@@ -128,7 +130,8 @@ class Preflight:
                 del self._unhomed[axis]
 
     def rested(self, seconds: float) -> None:
-        """Ignore a stop: there is nothing to check."""
+        """A planned curve ends at rest."""
+        self._close()
 
     def passed(self, job: Job, phases: Phases) -> None:
         """Check the speed of a planned move."""
@@ -142,13 +145,14 @@ class Preflight:
         chain.cnt += 1
         for _, begin_ups, end_ups in phases:
             chain.top_ups = max(chain.top_ups, begin_ups, end_ups)
-        if job.exit_ups == 0.0:
+        chain.is_planned = job.path_tolerance_u > 0.0
+        if job.exit_ups == 0.0 and not chain.is_planned:
             self._close()
 
     def _close(self) -> None:
         """End a chain of moves; note it if it did not reach the feed."""
         chain, self._chain = self._chain, None
-        if chain is None or chain.top_ups >= REACHED * chain.feed_ups:
+        if chain is None or chain.share >= (REACHED_PLANNED if chain.is_planned else REACHED):
             return
         self._slow_cnt += chain.cnt
         self._first_slow = self._first_slow or chain.source

@@ -8,6 +8,7 @@ from openacr.mill.card.driver import CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.overrides import Override, Overrides
 from openacr.mill.config.settings import Store
+from openacr.mill.run.program_stream import ProgramStream
 from openacr.mill.run.published import (
     EXECUTING_LINE,
     FEED_PERCENT,
@@ -26,8 +27,11 @@ OVERRIDES_S, PUBLISH_S = 0.05, 0.5
 class Console:
     """Reads the override switches and publishes the status of the run."""
 
-    def __init__(self, io: MachineIo, spindle: Spindle, store: Store) -> None:
+    def __init__(
+        self, io: MachineIo, stream: ProgramStream, spindle: Spindle, store: Store
+    ) -> None:
         self.overrides = Overrides(io.settings)
+        self._stream = stream
         self._io = io
         self._spindle = spindle
         self._published = Published(store, io.machine)
@@ -56,6 +60,7 @@ class Console:
         factors = (self.overrides.factor(Override.FEED), self.overrides.factor(Override.RAPID))
         if factors != self._factors:
             self._io.machine.override(*factors)
+            self._stream.override(*factors)
             self._factors = factors
         self._spindle.set_override(self.overrides.factor(Override.SPINDLE))
 

@@ -53,7 +53,7 @@ class Ending:
             then.callback(self._leave)
             if not self._lifecycle.options.is_dry:
                 then.callback(self._entry_actions.off)
-            then.callback(self._machine.hold)
+            then.callback(self._stream.hold)
 
     def kill(self) -> None:
         """Kill all motion, switch drives and spindle off, end the program."""

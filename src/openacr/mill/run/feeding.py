@@ -28,7 +28,8 @@ from openacr.mill.card import alarms
 from openacr.mill.card.alarms import Kind
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planning import CornerRules, Planner
+from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.plan.route import Route
 from openacr.mill.plan.travel_limits import first_excess, unhomed
 from openacr.mill.run.tracking import Tracker
 
@@ -76,9 +77,7 @@ class Feed:
         self._entries = entries
         self._settings = settings
         self._encoder = encoder
-        self._planner: Planner[Job] = Planner(
-            CornerRules.of(settings.speeds), settings.forward_threshold
-        )
+        self._planner = Route(settings)
         self._waits = any(axis.in_position_u > 0.0 for axis in settings.axes)
         self._has_begun = False
         self._last: Job | None = None
@@ -223,6 +222,17 @@ class Feed:
         if self._has_begun or is_complete:
             self._has_begun = True
             yield from self._planner.release(room, is_complete=is_complete or is_urgent)
+
+    def curve(self, *, is_at_rest: bool) -> PlannedPath | None:
+        """The planned curve whose turn it is; None while moves are sent one by one."""
+        if is_at_rest:
+            self._planner.go_on()
+        return self._planner.curve
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the present moves or curve end at rest: something else follows, or nothing."""
+        return self.halt is not None or self._planner.has_more
 
     def jobs(self) -> Iterator[Job]:
         """The moves that were read and are not sent yet."""

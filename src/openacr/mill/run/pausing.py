@@ -39,7 +39,7 @@ class Pausing:
 
     def begin(self) -> None:
         """Hold the feed: moves ramp to rest on their path."""
-        self._machine.hold()
+        self._stream.hold()
 
     def note_place(self, sample: CardState) -> None:
         """Record where a feed hold came to rest on the path."""
@@ -82,7 +82,8 @@ class Pausing:
     @property
     def _must_reread(self) -> bool:
         """Whether moves are read again instead of continuing those on the card."""
-        return self._lifecycle.options.is_single or self._stream.may_lack_moves
+        stream = self._stream
+        return self._lifecycle.options.is_single or stream.may_lack_moves or stream.is_planned
 
     def close(self) -> None:
         """Forget the held position: the program has ended."""

@@ -15,6 +15,7 @@ from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.manual.probing import Probing
 from openacr.mill.plan.encoding import Encoder, Job, Motion
 from openacr.mill.plan.travel_limits import first_excess
+from openacr.mill.run.curve_run import CurveRun
 from openacr.mill.run.entry_actions import EntryActions
 from openacr.mill.run.feeding import Fault, Feed, Halt, Starved
 from openacr.mill.run.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
@@ -42,6 +43,7 @@ class ProgramStream:
         self._depth = depth
         self._probing = Probing(io, self._send, self.host.position, entry_actions.say)
         self._encoder = Encoder(io.settings)
+        self._curve = CurveRun(io.machine, io.settings, self.tracker)
         self._feed: Feed | None = None
         self._excused: Job | None = None  # a last move whose end the machine left on purpose
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
@@ -51,6 +53,7 @@ class ProgramStream:
         """Start a pass of a program at its first block."""
         self._machine.reset_counter()
         self.tracker.reset()
+        self._curve.drop()
         self.tracker.trail.restart([])
         rounds = self._machine.rounds_corners
         self._encoder = Encoder(self.settings, is_dry=is_dry, rounds=rounds)
@@ -92,8 +95,11 @@ class ProgramStream:
             return None
         room = self._depth - self.tracker.waiting
         feed.read(room)
+        is_at_rest = self.tracker.is_at_end(sample)
+        curve = feed.curve(is_at_rest=is_at_rest)
+        if curve is not None:
+            self._curve.plan(curve, is_complete=feed.is_complete, is_starved=feed.is_starved)
         jobs = feed.release(room, is_urgent=feed.is_starved and self._is_short())
-        is_at_rest = False
         with self._machine.repeating():
             self._send(self.tracker.bounded(jobs, self.settings.buffered_s))
             is_at_rest = self.tracker.is_at_end(sample)
@@ -106,6 +112,26 @@ class ProgramStream:
         if isinstance(halt, c.Tool):
             self.tracker.trail.bar(self.tracker.current)
         return halt
+
+    def poll(self, sample: CardState) -> None:
+        """Send more of the present curve, in every state of the run: it ends at rest."""
+        with self._machine.repeating():
+            self._curve.poll(sample)
+
+    def override(self, feed: float, rapid: float) -> None:
+        """Set the overrides of planned curves, which the card does not act on."""
+        self._curve.override(feed, rapid)
+
+    def hold(self) -> None:
+        """Hold the feed: moves ramp to rest on their path."""
+        if not self._curve.hold():
+            self._machine.hold()
+
+    @property
+    def is_planned(self) -> bool:
+        """Whether the held or executing move is part of a planned curve, which is planned again."""
+        job = self.tracker.current
+        return job is not None and job.last > job.count
 
     def excuse(self) -> None:
         """Accept that the machine leaves the end of its last move, by jogging or probing."""
@@ -216,7 +242,7 @@ class ProgramStream:
         self.is_retaking = True
         try:
             with self._machine.repeating():
-                self._machine.hold()
+                self.hold()
                 yield self.stops()
                 yield from self.withdraw(self.host.position())
         finally:
@@ -292,6 +318,7 @@ class ProgramStream:
         A kill that cannot be cleared was set by another host or by the card; it then raises
         alarm 14.
         """
+        self._curve.drop()
         self._machine.stop()
         limit_s = self.settings.rest_s
         yield Until("moves end", lambda sample: not sample.is_moving, limit_s, alarms.NO_REST)

@@ -69,7 +69,7 @@ class Runner:
         self._manual = manual = ManualMotion(io, self._make_free)
         self._pausing = pausing = Pausing(io, stream, retrace, player, lifecycle)
         ending = Ending(io, stream, entry_actions, pausing, player, lifecycle)
-        self._console = console = Console(io, entry_actions.spindle, store)
+        self._console = console = Console(io, stream, entry_actions.spindle, store)
         self._passes = passes = Passes(io, stream, console, lifecycle)
         self._program_stops = ProgramStops(io, stream, entry_actions, passes, lifecycle)
         self._supervision = Supervision(
@@ -376,6 +376,7 @@ class Runner:
             self._supervision.play(sample, self._times.step_s)
         if self._is_reading:
             self._advance(sample)
+        self.stream.poll(sample)
         is_cutting = not self.options.is_dry and not self.retrace.is_active
         with self.machine.repeating():
             self._burner.update(sample, is_cutting=is_cutting and self.stream.has_program)

@@ -82,9 +82,15 @@ class Tracker:
     def add(self, job: Job, *, has_packet: bool) -> None:
         """Add a sent move; one without a packet counts with the one before it."""
         self.sent += has_packet
-        job.count = self.sent
+        job.count = job.last = self.sent
         self._jobs.append(job)
         self._sent_s += time_s(job)
+
+    def add_packet(self) -> None:
+        """Add a packet of the last move that was added: one of a curve has many."""
+        self.sent += 1
+        if self._jobs:
+            self._jobs[-1].last = self.sent
 
     def bounded(self, jobs: Iterable[Job], most_s: float) -> Iterator[Job]:
         """Yield moves until those buffered on the card take `most_s`."""
@@ -114,11 +120,11 @@ class Tracker:
             return True
         if not job.count:
             return False  # not sent yet
-        return self.started > job.count or (is_at_rest and self.started == job.count)
+        return self.started > job.last or (is_at_rest and self.started == job.last)
 
     def withdraw(self) -> list[Job]:
         """Remove and return the executing move and all after it, to be planned again."""
-        left = [job for job in self._jobs if job.count >= self.started]
+        left = [job for job in self._jobs if job.last >= self.started]
         self._clear()
         return left
 

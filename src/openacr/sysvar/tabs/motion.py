@@ -372,3 +372,11 @@ class SPEEDS:
     plasma_output = tab.integer(
         17, "Plasma output", -1, doc="Output of the plasma torch.", **OUTPUT
     )
+    path_tolerance = tab.real(
+        18,
+        "Path tolerance",
+        "u",
+        low=0,
+        high=ANY,
+        doc="With Path jerk: how far paths without G64 P may leave corners to keep moving, 0: not.",
+    )

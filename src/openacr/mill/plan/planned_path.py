@@ -1,0 +1,150 @@
+"""Moves with a path tolerance on a machine with a jerk limit: one planned curve from rest to rest.
+
+`openacr.trajectory` plans path and time; here are the limits of the machine, and which move the
+curve is in. A move without a tolerance does not belong to such a curve (`is_planned`): it is sent
+as a move of its own, as on any machine.
+"""
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from openacr.cnc.canonical import Arc
+from openacr.mill.config.curves import PERIOD_S
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.curve_limits import limits_of
+from openacr.mill.plan.encoding import Job
+from openacr.trajectory import Arc as PlanArc
+from openacr.trajectory import Segment, Setpoints, TrajectoryPlanner
+
+Rows = NDArray[np.float64]
+AHEAD_U = 1e-9
+PASSED_S = 1.5  # of motion at the programmed feeds that the planner knows, at least
+
+
+class PlannedPath:
+    """The moves of one curve: those that are not begun, and their setpoints."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._axes = [axis.index for axis in settings.axes]
+        self._scales = [axis.pulses_per_unit for axis in settings.axes]
+        self._jobs: deque[tuple[float, Job]] = deque()  # with the path before each of them
+        self._waiting: deque[Job] = deque()  # not passed to the planner
+        self._planner: TrajectoryPlanner | None = None
+        self._path_u = 0.0
+        self.feed = 1.0  # factor of the feeds of moves that follow: an override above 100 %
+        self.start: Rows = np.zeros(len(self._axes))  # whole pulses
+        self._known_s = self._passed_s = 0.0
+        self._is_stopped = False  # the path known so far ends at rest
+        self.is_at_end = False  # and all of it is planned
+        self.is_open = False  # its control points are being sent
+
+    # --- moves --------------------------------------------------------------------------
+
+    def add(self, job: Job) -> None:
+        """Append a move."""
+        if self._planner is None:
+            places = self._whole(job.begin_cnt)
+            self.start = np.array(places)
+            self._planner = TrajectoryPlanner(places, limits_of(self._settings), PERIOD_S)
+        self._is_stopped = self.is_at_end = False
+        self._jobs.append((self._path_u, job))
+        self._path_u += job.length_u
+        self._known_s += job.length_u / job.feed_ups
+        self._waiting.append(job)
+
+    def _pass_on(self, planner: TrajectoryPlanner) -> bool:
+        """Pass a move on to the planner; the last one only where the path rests, on a pulse."""
+        if len(self._waiting) <= (not self._is_stopped):
+            return False
+        job = self._waiting.popleft()
+        ends = not self._waiting
+        end = self._whole(job.finish_cnt) if ends else self._place(job.finish)
+        entry = job.entry
+        arc = None
+        if isinstance(entry, Arc):
+            first, second = (self._axes.index(a) for a in (entry.plane.first, entry.plane.second))
+            arc = PlanArc(first, second, entry.centre, entry.sweep_rad)
+        job.feed_scale = 1.0 if job.is_rapid else self.feed
+        self._passed_s += job.length_u / job.feed_ups
+        planner.add(
+            Segment(
+                line=entry.source.line, end=end, feed_ups=self._feed_of(job),
+                tolerance_u=job.path_tolerance_u, arc=arc,
+            )
+        )  # fmt: skip
+        if ends:
+            planner.stop()
+        return True
+
+    def _feed_of(self, job: Job) -> float:
+        most_ups = max(self._settings.speeds.max_ups, job.feed_ups)
+        return min(job.feed_ups * job.feed_scale, most_ups)
+
+    def _whole(self, counts: Sequence[int]) -> tuple[float, ...]:
+        return tuple(count / scale for count, scale in zip(counts, self._scales, strict=True))
+
+    def _place(self, point: Sequence[float]) -> tuple[float, ...]:
+        return tuple(point[axis] for axis in self._axes)
+
+    def __len__(self) -> int:
+        """The moves that have not begun, and 1 for a curve that is not at its end."""
+        return len(self._jobs) + self.is_open
+
+    @property
+    def known_s(self) -> float:
+        """How long the moves that have not begun take at their feeds."""
+        return self._known_s
+
+    def __iter__(self) -> Iterator[Job]:
+        return (job for _, job in self._jobs)
+
+    def begun(self, path_u: float) -> Iterator[Job]:
+        """Remove and yield the moves that have begun where the curve is `path_u` along the path."""
+        while self._jobs and self._jobs[0][0] < path_u - AHEAD_U:
+            job = self._jobs.popleft()[1]
+            self._known_s -= job.length_u / job.feed_ups
+            self._passed_s -= job.length_u / job.feed_ups
+            yield job
+
+    def clear(self) -> list[Job]:
+        """Remove and return the moves that have not begun; the plan is dropped."""
+        jobs = [job for _, job in self._jobs]
+        self._jobs.clear()
+        self._waiting.clear()
+        self._planner = None
+        self._path_u = self._known_s = self._passed_s = 0.0
+        self.is_open = self._is_stopped = self.is_at_end = False
+        return jobs
+
+    # --- setpoints ----------------------------------------------------------------------
+
+    def stop(self) -> None:
+        """Let the path known so far end at rest."""
+        if self._planner is not None and not self._is_stopped:
+            self._is_stopped = True
+            if not self._waiting:
+                self._planner.stop()
+
+    def take(self) -> Setpoints | None:
+        """The next setpoints; None where nothing more can be planned yet."""
+        planner, found = self._planner, None
+        while planner is not None and found is None:
+            while self._passed_s < PASSED_S and self._pass_on(planner):
+                pass
+            found = planner.take()
+            if found is None and not self._pass_on(planner):
+                break
+        self.is_at_end = found is None and self._is_stopped
+        return found
+
+    def end_at(self, point: Rows) -> None:
+        """Note that the curve has ended at rest: another one begins there."""
+        self.is_open = False
+        self.start = point
+        if not self._jobs:
+            self._planner = None
+            self._path_u = 0.0

@@ -1,0 +1,178 @@
+"""A planned curve on the card: its control points are sent as time passes, a few ahead.
+
+Overrides and feed holds act here, on the time of the plan, because the card only runs through its
+curve. So little is sent ahead (`depth`): it is what a hold has to wait for. A hold ends
+the curve where it has come to rest; the path continues from there as after any other hold.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from openacr.mill.card.driver import CardState, MachineDriver
+from openacr.mill.config.curves import PERIOD_S
+from openacr.mill.config.settings import Settings
+from openacr.mill.plan.curve_packets import COUNTED, LEAD, CurvePackets
+from openacr.mill.plan.curve_window import CurveWindow
+from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.run.tracking import Tracker
+from openacr.protocol.move import Move
+from openacr.trajectory.timescale import Progress
+
+AHEAD_S = 1.0  # of the plan known ahead of the points that are sent
+SHORT_S = 0.5  # of it left at which a program that does not arrive is brought to rest
+END = math.inf
+BUFFERED_S, BUFFERED_LINK_S = 0.04, 0.1  # of the curve on the card: virtual machine, others
+Rows = NDArray[np.float64]
+
+
+class CurveRun:
+    """Sends one curve after the other to a card."""
+
+    def __init__(self, machine: MachineDriver, settings: Settings, tracker: Tracker) -> None:
+        self._machine = machine
+        self._settings = settings
+        self._tracker = tracker
+        self._packets = CurvePackets(settings)
+        buffered_s = BUFFERED_S if machine.rounds_corners else BUFFERED_LINK_S
+        self.depth = math.ceil(buffered_s / PERIOD_S)  # pieces of the curve that wait on the card
+        self.jobs = 0  # moves begun
+        self._path: PlannedPath | None = None
+        self._window: CurveWindow | None = None
+        self._is_begun = False  # the first packets of the curve are sent
+        self._before_u = 0.0  # the path at the control point before the last one
+        self._job: Job | None = None  # the last move begun
+        self._factors = (1.0, 1.0)
+        self._holds = False
+
+    # --- commands -----------------------------------------------------------------------
+
+    @property
+    def is_begun(self) -> bool:
+        """Whether a curve is on the card and not ended."""
+        return self._is_begun
+
+    def override(self, feed: float, rapid: float) -> None:
+        """Set feed and rapid override, 1 = as programmed."""
+        self._factors = (feed, rapid)
+
+    def hold(self) -> bool:
+        """Bring the curve to rest and hold the card there; False if none is on the card."""
+        if not self._is_begun:
+            self.drop()
+            return False
+        self._holds = True
+        return True
+
+    def drop(self) -> None:
+        """Forget the curve: the card holds none of it, or has dropped it."""
+        self._path = self._window = self._job = None
+        self._is_begun = self._holds = False
+        self._packets = CurvePackets(self._settings)
+
+    # --- planning -----------------------------------------------------------------------
+
+    def plan(self, path: PlannedPath, *, is_complete: bool, is_starved: bool) -> None:
+        """Plan ahead; the curve begins with the next poll."""
+        if self._holds:
+            return
+        path.feed = max(self._factors[0], 1.0)
+        if is_complete or (is_starved and self._ahead_s < SHORT_S):
+            path.stop()
+        while self._ahead_s < AHEAD_S and (found := path.take()) is not None:
+            if self._window is None:
+                self._path, self._window = path, CurveWindow(path.start, self._settings)
+                self._before_u = 0.0
+                path.is_open = True
+            self._window.append(found)
+        window = self._window
+        if window is not None and path.is_at_end and not window.scale.is_complete:
+            window.complete()
+
+    @property
+    def _ahead_s(self) -> float:
+        return self._window.ahead_s if self._window is not None else 0.0
+
+    # --- sending ------------------------------------------------------------------------
+
+    def poll(self, sample: CardState) -> None:
+        """Send what the card has room for; hold it where a hold has come to rest."""
+        if self._is_begun and (sample.is_killed or sample.may_have_lost):
+            self.drop()  # a curve with missing points is not continued
+            self._machine.hold()
+        if self._window is not None and (self._is_begun or self._tracker.is_at_end(sample)):
+            packets = self._next_packets(self._window)
+            if packets:
+                self._machine.send(packets)
+        elif self._holds and self._tracker.is_at_end(sample):
+            self._holds = False
+            self._machine.hold()
+
+    def _next_packets(self, window: CurveWindow) -> list[Move]:
+        packets: list[Move] = []
+        progress = Progress.MOVES
+        while progress is Progress.MOVES and self._tracker.waiting < self.depth:
+            window.scale.want = self._want()
+            progress, point = window.next()
+            if progress is Progress.WAITS or (progress is Progress.HELD and not self._is_begun):
+                break
+            if not self._is_begun:
+                self._begin(packets)
+            if progress is not Progress.HELD:
+                self._append(packets, point)
+            self._note(window.path_u)
+        if progress in (Progress.ENDED, Progress.HELD) and self._is_begun:
+            self._finish(packets, point, has_ended=progress is Progress.ENDED)
+        return packets
+
+    def _want(self) -> float:
+        """The wanted scale of time for the present move."""
+        if self._holds:
+            return 0.0
+        job, (feed, rapid) = self._job, self._factors
+        if job is None:
+            return 1.0
+        factor = rapid if job.is_rapid else feed / job.feed_scale
+        return min(max(factor, 0.0), 1.0)
+
+    def _begin(self, packets: list[Move]) -> None:
+        """Begin the curve where the machine rests."""
+        self._is_begun = True
+        if self._path is not None:
+            for _ in range(LEAD):
+                self._append(packets, self._path.start)
+
+    def _append(self, packets: list[Move], point: Rows) -> None:
+        packets.append(self._packets.point(point.tolist(), self._settings.speeds.feed_acc_ups2))
+        if self._packets.is_counted:
+            self._tracker.add_packet()
+
+    def _note(self, path_u: float) -> None:
+        """Note the moves that begin in the piece of the last packet, which ends a point earlier."""
+        if self._packets.is_counted:
+            self._begin_jobs(self._before_u)
+        self._before_u = path_u
+
+    def _begin_jobs(self, path_u: float) -> None:
+        if self._path is None:
+            return
+        for job in self._path.begun(path_u):
+            self._tracker.add(job, has_packet=False)
+            self._job = job
+            self.jobs += 1
+
+    def _finish(self, packets: list[Move], point: Rows, *, has_ended: bool) -> None:
+        """End the curve at rest, at a point that was sent three times."""
+        while self._packets.count < COUNTED:
+            self._append(packets, point)
+        path = self._path
+        if has_ended:
+            self._begin_jobs(END)
+        packets.append(self._packets.end())
+        self._tracker.add_packet()
+        self._window = self._path = self._job = None
+        self._is_begun = False
+        if path is not None:
+            path.end_at(point)

@@ -1,0 +1,206 @@
+"""Feed hold, override, abort and losses while a planned curve is on the card."""
+
+import random
+
+import numpy as np
+import pytest
+from tests.mill.planned import (
+    ACCEL,
+    FEED,
+    JERK,
+    SPEED,
+    SQUARE,
+    TOLERANCE,
+    Action,
+    follow,
+    highest,
+    motion_s,
+    off_path,
+    path,
+    planned_shop,
+    square,
+    wave,
+)
+from tests.mill.shop import Shop, end, src
+
+from openacr.cnc import canonical as c
+from openacr.mill.config.overrides import Override
+from openacr.mill.run.lifecycle import State
+from openacr.protocol.bits import SetBit
+from openacr.sysvar.tabs import FOV
+
+ROUNDING = 0.03  # of the jerk: positions of 24 bits over the cube of 4 ms
+
+
+def stop(shop: Shop) -> None:
+    shop.runner.stop()
+
+
+def go_on(shop: Shop) -> None:
+    shop.runner.resume()
+
+
+def feed(percent: float) -> Action:
+    """Turn the override switch to a click of this percentage."""
+
+    def turn(shop: Shop) -> None:
+        clicks = [shop.store.read(cell) for cell in FOV.percents]
+        shop.runner.overrides.choose(Override.FEED, clicks.index(percent))
+
+    return turn
+
+
+def limits(places: np.ndarray, shop: Shop) -> None:
+    """Assert that no limit is exceeded in any tick."""
+    speed, accel, jerk = highest(places, shop.controller.period_s)
+    assert speed <= SPEED * (1 + 1e-4)
+    assert accel <= ACCEL * (1 + 1e-3)
+    assert jerk <= JERK * (1 + ROUNDING)
+
+
+@pytest.mark.parametrize("at_s", [0.05, 0.2, 0.31, 0.44, 0.61, 0.83])
+def test_a_hold_rests_within_the_limits_and_the_path_goes_on(at_s: float) -> None:
+    shop = planned_shop()
+    places = follow(shop, *square(), actions=[(at_s, stop), (at_s + 0.7, go_on)])
+    limits(places, shop)
+    assert shop.pulses() == (0, 0, 0)
+    assert off_path(places, SQUARE) <= 2 * TOLERANCE
+    rests = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) == 0.0)
+    first = rests[rests > at_s / shop.controller.period_s][0] * shop.controller.period_s
+    assert first - at_s <= 0.35  # the hold itself, what is on the card, and two polls
+
+
+def test_two_holds_in_one_program() -> None:
+    shop = planned_shop()
+    actions = [(0.2, stop), (0.7, go_on), (1.1, stop), (1.6, go_on)]
+    places = follow(shop, *path(wave(150)), end(), actions=actions)
+    limits(places, shop)
+    assert shop.pulses() == follow_end(wave(150))
+
+
+def follow_end(points: list[tuple[float, ...]]) -> tuple[int, ...]:
+    return tuple(round(10_000 * value) for value in points[-1])
+
+
+def test_a_hold_is_over_only_when_the_card_rests() -> None:
+    shop, states = planned_shop(), []
+
+    def refuse(shop: Shop) -> None:
+        states.append(shop.runner._pausing.has_rested)
+
+    actions = [(0.25, stop), (0.3, refuse), (0.8, refuse), (0.9, go_on)]
+    follow(shop, *square(), actions=actions)
+    assert states == [False, True]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_overrides_of_any_course_keep_the_limits(seed: int) -> None:
+    chance, now_s, actions = random.Random(seed), 0.1, []
+    clicks = [10.0, 30.0, 50.0, 70.0, 100.0]
+    shop = planned_shop()
+    offered = {shop.store.read(cell) for cell in FOV.percents}
+    for _ in range(12):
+        actions.append((now_s, feed(chance.choice([p for p in clicks if p in offered]))))
+        now_s += chance.uniform(0.03, 0.4)
+    places = follow(shop, *square(), actions=[*actions, (now_s, feed(100.0))])
+    limits(places, shop)
+    assert shop.pulses() == (0, 0, 0)
+    assert off_path(places, SQUARE) <= TOLERANCE + 0.002
+
+
+def test_an_override_scales_the_time_of_the_curve() -> None:
+    period_s = planned_shop().controller.period_s
+    whole = motion_s(follow(planned_shop(), *square()), period_s)
+    shop = planned_shop()
+    shop.runner.overrides.choose(
+        Override.FEED, [shop.store.read(cell) for cell in FOV.percents].index(50.0)
+    )
+    half = motion_s(follow(shop, *square()), period_s)
+    assert half == pytest.approx(2 * whole, abs=0.15)  # from the first poll on
+
+
+def test_an_override_above_100_percent_replans_what_follows() -> None:
+    shop, faster = planned_shop(), planned_shop()
+    percent = max(shop.store.read(cell) for cell in FOV.percents)
+    assert percent > 100.0
+    program: list[c.Entry] = [*path([*SQUARE, *SQUARE], feed=0.5 * FEED), end()]
+    slow = follow(shop, *program)
+    places = follow(faster, *program, actions=[(0.1, feed(percent))])
+    period_s = faster.controller.period_s
+    speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / period_s
+    assert speed[: round(1.0 / period_s)].max() == pytest.approx(0.5 * SPEED, rel=1e-3)
+    assert speed.max() == pytest.approx(0.5 * SPEED * percent / 100.0, rel=1e-3)
+    assert len(places) < len(slow) - 0.8 / period_s
+    limits(places, faster)
+
+
+def test_an_abort_comes_to_rest_on_the_path() -> None:
+    shop = planned_shop()
+    places = follow(shop, *square(), actions=[(0.2, lambda shop: shop.runner.abort())])
+    limits(places, shop)
+    assert shop.runner.state is State.IDLE
+    assert off_path(places, SQUARE) <= TOLERANCE
+    assert 15.0 < places[-1][0] < 29.0
+    assert tuple(places[-1] * 10_000) == pytest.approx(shop.pulses(), abs=0.5)
+    follow(shop, *path([(0.0, 0.0)]), end())  # and another program runs
+    assert shop.pulses() == (0, 0, 0)
+
+
+def test_a_kill_drops_the_curve() -> None:
+    shop = planned_shop()
+    places = follow(
+        shop, *square(), actions=[(0.2, lambda shop: shop.card.tell(SetBit(KILL_MOVES)))]
+    )
+    assert shop.runner.state is State.ALARM
+    assert 5.0 < places[-1][0] < 29.0
+    assert (places[-20:] == places[-1]).all()
+    shop.runner.acknowledge()
+    follow(shop, *path([(0.0, 0.0)]), end())
+    assert shop.pulses() == (0, 0, 0)
+
+
+KILL_MOVES = 522
+
+
+def test_a_hold_of_the_card_itself_is_no_jump() -> None:
+    shop = planned_shop()
+    places = follow(
+        shop, *square(), actions=[(0.2, lambda shop: shop.card.tell(SetBit(520))), (0.6, stop),
+                                  (1.4, go_on)],
+    )  # fmt: skip
+    assert shop.pulses() == (0, 0, 0)
+    assert highest(places, shop.controller.period_s)[1] < 3 * ACCEL
+
+
+def test_the_path_is_traced_back_in_a_hold() -> None:
+    shop = planned_shop()
+    seen: list[tuple[float, ...]] = []
+
+    def back(shop: Shop) -> None:
+        shop.runner.trace(-1)
+
+    def halt(shop: Shop) -> None:
+        shop.runner.trace(0)
+
+    def note(shop: Shop) -> None:
+        seen.append(shop.place())
+
+    places = follow(
+        shop, *square(), actions=[(0.6, stop), (1.0, note), (1.1, back), (2.2, halt), (2.6, note),
+                                  (2.7, go_on)],
+    )  # fmt: skip
+    assert shop.pulses() == (0, 0, 0)
+    assert off_path(places, SQUARE) <= 2 * TOLERANCE
+    assert seen[0] != seen[1]
+
+
+def test_a_dwell_a_stop_and_a_probe_come_between_curves() -> None:
+    shop = planned_shop()
+    entries: list[c.Entry] = [*path(SQUARE[:1]), c.Dwell(src(1), 0.05), *path(SQUARE[1:2]),
+               c.Stop(src(2), c.Pause.STOP), *path(SQUARE[2:]), end()]  # fmt: skip
+    shop.start(*entries)
+    assert shop.until(State.HOLD) is State.HOLD
+    assert shop.place() == (30.0, 30.0, 0.0)
+    shop.runner.start()
+    assert shop.until(State.IDLE) is State.IDLE
+    assert shop.pulses() == (0, 0, 0)
