@@ -287,6 +287,23 @@ def test_goto_and_gosub_find_labels_without_the_underscore() -> None:
     assert Rig().run("GOSUB Label1", "GOTO End1", "_Label1", "PRINT 1", "RETURN", "_End1") == "1|"
 
 
+@pytest.mark.req("ACR-LABEL-02")
+def test_labels_that_differ_in_case_are_two() -> None:
+    lines = (
+        "GOSUB Sub2",
+        "GOSUB SUB2",
+        "END",
+        "_SUB2",
+        "PRINT 1",
+        "RETURN",
+        "_Sub2",
+        "PRINT 2",
+        "RETURN",
+    )
+    assert Rig().run(*lines) == "2|1|"
+    assert "Label not found: sub2" in Rig().run("GOTO sub2", "_SUB2")
+
+
 @pytest.mark.req("ACR-LABEL-03")
 def test_labels_of_other_programs_do_not_exist() -> None:
     rig = Rig()

@@ -171,12 +171,15 @@ def test_clear_with_anything_it_does_not_know_changes_nothing(bench: Bench, line
     assert bench.type("SYS", "DIM", "MEM", "DEF", "PROG 3", "DIM") == kept
 
 
-@pytest.mark.req("ACR-MEM-37")
-def test_stream_buffers_can_be_enlarged(bench: Bench) -> None:
-    bench.type("DIM DPCB(2000)")
-    assert bench.system.storage.stream_size("DPCB") == 2000
-    bench.type("CLEAR DPCB")
-    assert bench.system.storage.stream_size("DPCB") == 256
+@pytest.mark.req("ACR-MEM-37", "ACR-CMD-CLEAR")
+@pytest.mark.parametrize("name", ["COM1", "COM2", "FIFO", "DPCB"])
+def test_stream_buffers_can_be_enlarged_and_cleared(bench: Bench, name: str) -> None:
+    sizes = bench.system.storage.stream_size
+    bench.type("DIM COM1(500)", "DIM COM2(501)", "DIM FIFO(502)", "DIM DPCB(503)")
+    before = {each: sizes(each) for each in ("COM1", "COM2", "FIFO", "DPCB")}
+    assert before == {"COM1": 500, "COM2": 501, "FIFO": 502, "DPCB": 503}
+    bench.type(f"CLEAR {name}")
+    assert {each: sizes(each) for each in before} == {**before, name: 256}
 
 
 def test_a_channel_the_model_lacks_is_an_invalid_device() -> None:

@@ -277,6 +277,22 @@ def test_jog_velocity_0_means_no_motion() -> None:
 # what jogs share with other motion
 
 
+@pytest.mark.req("ACR-JOG-03")
+def test_a_jog_runs_beside_gear_and_cam_motion() -> None:
+    made = bench("ACC 0 STP 0 VEL 10", "JOG ACC X0 : JOG DEC X0 : JOG VEL X5")
+    made.all("DIM LA(1)", "DIM LA0(2)", "LA0(0)=0 : LA0(1)=1000")
+    made.all("GEAR SRC X ENC9 : GEAR PPU X1000 : GEAR ON X")
+    made.all("CAM DIM X1", "CAM SEG X(0,1000,LA0)", "CAM SRC X ENC9", "CAM ON X")
+    made.all("X10", "JOG INC X-2")
+    row = at.ENC_BASE + 9 * at.ENC_STRIDE
+    for _ in range(500):
+        made.memory.I[row] += 1
+        made.ticks(1)
+    parts = (made.p(CURRENT), made.p(JOG), made.p(GEAR), made.p(CAM))
+    assert parts == pytest.approx((2500, -1250, 500, 500), abs=6)
+    assert made.p(PSP) == pytest.approx(sum(parts), abs=2)
+
+
 @pytest.mark.req("ACR-JOG-11", "ACR-JOG-03", "ACR-SUM-02", "ACR-MOT-01")
 def test_a_jog_adds_to_a_coordinated_move_and_leaves_its_register() -> None:
     made = bench("ACC 0 STP 0 VEL 10", "JOG ACC X0 : JOG DEC X0 : JOG VEL X5")

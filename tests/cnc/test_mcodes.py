@@ -82,6 +82,16 @@ def test_an_unknown_code_is_reported_with_its_line(code: str) -> None:
     assert code in error.text
 
 
+@pytest.mark.req("MILL-VAR-CUSTOM")
+@pytest.mark.parametrize("line", ["P200=1/P201", "G1 X(1/P201)", "GOTO (P201+77)"])
+def test_a_code_of_the_user_that_fails_stops_the_program(tmp_path: Path, line: str) -> None:
+    (tmp_path / "M300.TXT").write_text(f"P201=0\n{line}\nRET\n")
+    done = run("F10 G1 X1\nM300\nX2", folders=Folders(customs=tmp_path))
+    assert done.moves == ["L X1"]
+    assert done.error is not None
+    assert done.error.line == 2
+
+
 @pytest.mark.req("MILL-M-CUSTOM", "MILL-RUN-DRY-CUSTOM", "MILL-VAR-CUSTOM")
 @pytest.mark.parametrize("options", [None, DRY])
 def test_codes_of_the_user_are_programs(tmp_path: Path, options: Options | None) -> None:

@@ -62,6 +62,13 @@ def test_case_and_blanks_are_free() -> None:
 
 
 @pytest.mark.req("ACR-SYN-01")
+def test_a_line_feed_separates_commands_too() -> None:
+    axes = at_axes()
+    assert axes.send("ACC 3\nDEC 4\r") == "ACC 3|P00>DEC 4|P00>"
+    assert axes.asks("?ACC", "?DEC") == ["3", "4"]
+
+
+@pytest.mark.req("ACR-SYN-01")
 def test_several_commands_share_a_line() -> None:
     axes = at_axes()
     assert axes.type("ACC 5 DEC 6 VEL 15 STP 100") == "P00>"

@@ -31,7 +31,7 @@ class Recorder:
     """Actions that note their name and the state in which they were done."""
 
     def __init__(self, state: State, fails: Action | None = None) -> None:
-        self.lifecycle = Lifecycle()
+        self.lifecycle = Lifecycle(has_operator=True)
         self.lifecycle.state = state
         self.lifecycle.reason = "before"
         self.done: list[tuple[Action, State]] = []
@@ -85,7 +85,7 @@ def test_an_action_that_fails_keeps_the_state_unless_it_is_an_ending(
 
 def test_every_action_needs_a_function() -> None:
     with pytest.raises(ValueError, match=r"actions without a function: \['ABANDON'") as missing:
-        Lifecycle().bind({Action.BEGIN: lambda: None})
+        Lifecycle(has_operator=True).bind({Action.BEGIN: lambda: None})
     assert "BEGIN" not in str(missing.value)
     assert "NOTHING" not in str(missing.value)
 

@@ -36,6 +36,7 @@ def ticks_to_rest(rig: Rig, axis: int = 0) -> int:
 
 @pytest.mark.req("ACR-KAMR-02", "ACR-KAMR-03", "ACR-KAMR-07", "ACR-KAMR-17", "ACR-KAMR-18")
 @pytest.mark.req("ACR-KAMR-20", "ACR-KAMR-21", "ACR-KAMR-24")
+@pytest.mark.req("ACR-CMD-HLDEC")
 def test_a_kill_ramps_all_axes_of_the_master_down_with_hldec() -> None:
     rig = travelling()
     rig.move(80.0, 60.0)  # 8 and 6 units/s

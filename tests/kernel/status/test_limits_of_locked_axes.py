@@ -60,6 +60,7 @@ def test_the_leader_ramps_down_with_its_own_deceleration(
     assert (made.bit(kill(leader)), made.bit(kill(follower))) == (True, False)
 
 
+@pytest.mark.req("ACR-CMD-SLDEC")
 def test_without_a_lock_an_axis_stops_those_of_its_own_master() -> None:
     made = pair(0, 1, "AXIS1 JOG VEL 10 : AXIS1 JOG ACC 0", "AXIS0 JOG FWD : AXIS1 JOG FWD",
                 follows=False)  # fmt: skip

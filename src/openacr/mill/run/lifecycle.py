@@ -146,7 +146,7 @@ class Options:
 class Lifecycle:
     """State of a machine, and the options of its program."""
 
-    has_operator: bool = True  # an operator is present to answer and continue
+    has_operator: bool  # an operator is present to answer and continue
     options: Options = field(default_factory=Options)
     state: State = field(default=State.IDLE, init=False)
     reason: str = field(default="", init=False)  # what a WAIT or HOLD is for
