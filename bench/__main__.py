@@ -10,6 +10,7 @@ ORDER = (
     "sixteen_axes",
     "everything",
     "lookahead",
+    "trajectories",
     "busy",
     "kernel_tick",
     "statements",

@@ -7,13 +7,16 @@ step of time apart until they are one length apart.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from openacr.trajectory.setpoints import Reals
 
 FIRST = 4.0
+ACROSS = 0.04  # of the jerk
+GROWTH = 0.2  # of gaps with the distance from slow sections
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +26,15 @@ class Grid:
     length_u: float
     time_s: float
     jerk: float  # of a start from rest
+
+    def on(self, bend: float) -> "Grid":
+        """The grid for an end with a curvature, where the exact start has to be shorter.
+
+        On a curve the start s = J t^3/6 has a jerk across the path of 1.5 J^2 t^3 times the
+        curvature.
+        """
+        most_s = (ACROSS / 1.5 / (self.jerk * max(bend, 1e-12))) ** (1 / 3) / FIRST
+        return replace(self, time_s=min(self.time_s, most_s))
 
     def graded(self, most_u: float) -> list[float]:
         """Distances from rest of the knots near it, `most_u` at most; the last gap is a length."""
@@ -44,8 +56,26 @@ class Grid:
         return distances
 
 
+@dataclass(frozen=True, slots=True)
+class Slow:
+    """A section of the path with a low feed, and the length between knots there."""
+
+    start_u: float
+    end_u: float
+    length_u: float
+
+    def gap(self, s: float) -> float:
+        """The largest gap at s; it grows with the distance from the section."""
+        return self.length_u + GROWTH * max(self.start_u - s, s - self.end_u, 0.0)
+
+
 def extended(
-    knots: list[float], grid: Grid, end_u: float, last: list[float], length_u: float
+    knots: list[float],
+    grid: Grid,
+    slow: Sequence[Slow],
+    end_u: float,
+    last: list[float],
+    length_u: float,
 ) -> list[float]:
     """Knots with two more on each side, continued to `end_u`, or by the last ones before rest."""
     found, step = list(knots), grid.length_u
@@ -53,8 +83,11 @@ def extended(
         graded = grid.graded(0.5 * min(end_u, length_u))
         gap = graded[1] - graded[0] if len(graded) > 1 else 0.5 * graded[0]
         found = [graded[0] - 0.66 * gap, graded[0] - 0.33 * gap, *graded]
-    while found[-1] + (1.5 if last else 1.0) * step <= end_u:
-        found.append(found[-1] + step)
+    while True:
+        gap = min((each.gap(found[-1]) for each in slow), default=step)
+        if found[-1] + (1.5 if last else 1.0) * min(gap, step) > end_u:
+            break
+        found.append(found[-1] + min(gap, step))
     if not last:
         return found
     if end_u - found[-1] < 0.3 * step:

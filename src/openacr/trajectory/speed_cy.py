@@ -270,6 +270,11 @@ def speed_solve(
             if i < head or i >= tail:
                 Y[i] = 0.0
         speed_newton(head, tail, M, Y)
+        total: float = 0.0
+        for i in range(head, tail):
+            total += Y[i]
+        if total - total != 0.0:  # not a number: the present law stays
+            return step
         speed_values(Y, W, first, stop, H, 3)
         speed_reach(D, cap, weight, first, stop, axes, kappa, H, Z, N, E)
         for i in range(head, tail):

@@ -10,6 +10,7 @@ NODE1 = 0.06943184420297371  # of a Gauss formula with four nodes
 NODE2 = 0.33000947820757187
 SHARE1 = 0.17392742256872693
 SHARE2 = 0.32607257743127307
+PARTS = 3  # rows of a law for every cell
 
 __all__ = ["law_from_speed", "speed_rows"]
 
@@ -83,23 +84,40 @@ def speed_hermite(h: float, h1: float, g: float, g1: float, d: float, x: float) 
     return y * y * (h * (1.0 + 2.0 * x) + h1 * d * x) + x * x * (g * (3.0 - 2.0 * x) - g1 * d * y)
 
 
+def cell_time(h: float, h1: float, g: float, g1: float, d: float, x0: float, x1: float) -> float:
+    """The time from the share x0 to the share x1 of a cell, by a formula with four nodes."""
+    w: float = x1 - x0
+    mean: float = SHARE1 / sqrt(speed_hermite(h, h1, g, g1, d, x0 + w * NODE1))
+    mean += SHARE2 / sqrt(speed_hermite(h, h1, g, g1, d, x0 + w * NODE2))
+    mean += SHARE2 / sqrt(speed_hermite(h, h1, g, g1, d, x1 - w * NODE2))
+    mean += SHARE1 / sqrt(speed_hermite(h, h1, g, g1, d, x1 - w * NODE1))
+    return mean * d * w
+
+
 def law_from_speed(at: F64, X: F64, W: F64, first: int, stop: int, Z: F64, row: int) -> None:
-    """Continue a law by rows for knots first+1 ... stop-1; `row` is that of the first one."""
+    """Continue a law by PARTS rows for every cell from knot `first` to stop-1.
+
+    Row `row` is that of the knot `first`: its time and distance are given.
+    """
+    h: float = 0.0
+    h1: float = 0.0
+    h2: float = 0.0
     for i in range(first, stop):
         w: int = WEIGHTS * i
         g: float = W[w] * X[i] + W[w + 1] * X[i + 1] + W[w + 2] * X[i + 2]
         g1: float = W[w + 3] * X[i] + W[w + 4] * X[i + 1] + W[w + 5] * X[i + 2]
-        o: int = ROW * (row + i - first)
+        g2: float = W[w + 6] * X[i] + W[w + 7] * X[i + 1] + W[w + 8] * X[i + 2]
         if i > first:
             d: float = at[i + 2] - at[i + 1]
-            v: float = Z[o - ROW + V_ROW]
-            h: float = v * v
-            h1: float = 2.0 * Z[o - ROW + A_ROW]
-            mean: float = SHARE1 / sqrt(speed_hermite(h, h1, g, g1, d, NODE1))
-            mean += SHARE2 / sqrt(speed_hermite(h, h1, g, g1, d, NODE2))
-            mean += SHARE2 / sqrt(speed_hermite(h, h1, g, g1, d, 1.0 - NODE2))
-            mean += SHARE1 / sqrt(speed_hermite(h, h1, g, g1, d, 1.0 - NODE1))
-            Z[o + T_ROW] = Z[o - ROW + T_ROW] + mean * d
-        Z[o + S_ROW] = at[i + 2]
-        Z[o + V_ROW] = sqrt(g)
-        Z[o + A_ROW] = 0.5 * g1
+            for part in range(PARTS):
+                x0: float = float(part) / float(PARTS)
+                x1: float = float(part + 1) / float(PARTS)
+                o: int = ROW * (row + PARTS * (i - first - 1) + part + 1)
+                Z[o + T_ROW] = Z[o - ROW + T_ROW] + cell_time(h, h1, g, g1, d, x0, x1)
+                Z[o + S_ROW] = at[i + 1] + d * x1
+                Z[o + V_ROW] = sqrt(speed_hermite(h, h1, g, g1, d, x1))
+                Z[o + A_ROW] = 0.5 * (h1 + d * x1 * (h2 + 0.5 * x1 * (g2 - h2)))
+            Z[o + S_ROW] = at[i + 2]
+        h = g
+        h1 = g1
+        h2 = g2

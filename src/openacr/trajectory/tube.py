@@ -11,7 +11,7 @@ from typing import cast
 import numpy as np
 
 from openacr.compiled import pick
-from openacr.trajectory import piece_cy, tube_cy
+from openacr.trajectory import piece_cy, spline_cy, tube_cy
 from openacr.trajectory.arrays import flat, numbers
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
@@ -19,26 +19,30 @@ from openacr.views import F64
 
 _sample = pick(piece_cy.pieces_sample)
 _smooth = pick(tube_cy.tube_smooth)
+_point = pick(spline_cy.spline_point)
 
 STEP = 4.0  # tolerances between two samples
 STAGES = (10.0, 6.0, 4.0, 2.4, 2.4, 2.4)  # lengths of smoothing, in samples
 ROUNDS = 8
 AHEAD = 150  # samples that still change with what follows
-GIVEN = 5  # samples at the beginning that are given
+GIVEN = 7  # samples at the beginning that are given: the spline ends where they end
+PINNED = 3.01  # samples before the end of the chain that are given
 BEFORE = 3  # samples before the start of the chain, and after its end
+FULL, FADED = 4, 16  # control points: shifted onto an end, and on which the shift fades
 TAPER = 0.02  # of the distance to an end: no more of the tolerance is used there
 
 
 class Tube:
     """Samples of the programmed path, and the smoothed ones, from the index `first` on."""
 
-    __slots__ = ("_axes", "_first", "_origin", "_pieces", "_q", "_rows", "_share", "final",
-                 "known_u", "length_u", "step")  # fmt: skip
+    __slots__ = ("_axes", "_end", "_first", "_origin", "_pieces", "_q", "_rows", "_share",
+                 "_start", "_start_off", "final", "known_u", "length_u", "step")  # fmt: skip
 
     def __init__(self, axes: int, step: float, share: float) -> None:
         self._axes, self.step, self._share = axes, step, share
         self._rows = array("d")
         self._pieces = 0
+        self._start = self._end = self._start_off = np.zeros(axes)
         self._origin = 0.0  # distance at which the first piece of the rows begins
         self._q = np.empty((0, axes))
         self._first = -BEFORE
@@ -48,6 +52,9 @@ class Tube:
 
     def add(self, piece: Piece) -> None:
         """Append a piece."""
+        if not self._pieces:
+            self._start = np.array(piece.start)
+        self._end = np.array(piece.segment.end)
         self._rows.extend(piece.row())
         self._pieces += 1
         self.known_u += piece.length_u
@@ -82,7 +89,7 @@ class Tube:
         q[:count] = programmed
         if self.final > -BEFORE:
             q[:GIVEN] = self._q[begin - self._first : begin - self._first + GIVEN]
-        tail = int(np.count_nonzero(s > self.length_u - self.step)) if is_whole else 0
+        tail = int(np.count_nonzero(s > self.length_u - PINNED * self.step)) if is_whole else 0
         room = [np.empty_like(q) for _ in range(3)] + [np.empty((count, 4)) for _ in range(2)]
         if count > GIVEN + tail:
             _smooth(count, self._axes, GIVEN, tail, flat(programmed), flat(radius), flat(arcs),
@@ -98,8 +105,23 @@ class Tube:
         sixth order.
         """
         q = self._q
-        points = 54.0 * q[2:-2] - 10.0 * (q[1:-3] + q[3:-1]) + q[:-4] + q[4:]
-        return points / 36.0, (self._first + BEFORE) * self.step
+        points = (54.0 * q[2:-2] - 10.0 * (q[1:-3] + q[3:-1]) + q[:-4] + q[4:]) / 36.0
+        first = self._first + BEFORE  # the knot at which the first four points begin
+        if self._first == -BEFORE:
+            self._start_off = self._start - (points[0] + 4.0 * points[1] + points[2]) / 6.0
+        rows = np.arange(first, first + len(points), dtype=np.float64)
+        points += _fading(rows - FULL)[:, None] * self._start_off
+        if math.isfinite(self.length_u):
+            at = np.empty(self._axes)
+            _point(flat(points), len(points), self._axes, self.step,
+                   self.length_u - first * self.step, flat(at), 0)  # fmt: skip
+            last = math.floor(self.length_u / self.step)
+            points += _fading(last - 1 - rows)[:, None] * (self._end - at)
+        return points, first * self.step
+
+    def close(self) -> None:
+        """The path ends where the last piece ends."""
+        self.length_u = self.known_u
 
     def drop(self, before_u: float) -> None:
         """Forget what lies before a distance."""
@@ -115,3 +137,10 @@ class Tube:
         if gone:
             del self._rows[: gone * size]
             self._pieces -= gone
+
+
+def _fading(distance: Reals) -> Reals:
+    """1 up to a distance of 0 control points, then falling smoothly to 0."""
+    share = np.clip(distance / FADED, 0.0, 1.0)
+    found: Reals = 1.0 - share * share * (3.0 - 2.0 * share)
+    return found

@@ -44,7 +44,8 @@ class Rules:
 
     `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the
     share of the
-    jerk that a cell may use. `limits` are velocities, accelerations and jerks of the axes.
+    jerk that a cell may use. A cell that takes longer than
+    `long_s` is no mean. `limits` are velocities, accelerations and jerks of the axes.
     """
 
     feed: Reals
@@ -53,6 +54,7 @@ class Rules:
     zone: Reals
     normal: Reals
     limits: Reals
+    long_s: float
 
 
 class Window:
@@ -132,9 +134,9 @@ class Window:
         _values(flat(x), flat(self.plain), 0, count, flat(self._values), 0)
         push, jerk = np.zeros(count), np.zeros(count)
         _excess(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-                flat(self.knots), 0, count - 1, flat(np.ones(count)),
+                flat(self.knots), 0, count - 1, rules.long_s,
                 flat(rules.zone), flat(rules.limits), flat(self._values),
-                flat(np.empty(3 * curve.axes)), flat(np.empty(3 * curve.axes)),
+                flat(np.empty(4 * curve.axes)), flat(np.empty(4 * curve.axes)),
                 flat(push), flat(jerk))  # fmt: skip
         return push, jerk
 

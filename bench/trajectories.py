@@ -1,0 +1,41 @@
+"""Trajectories within a tolerance: times with and without jerk, largest values, CPU time.
+
+Programs of five kinds at 100 mm/s, 1000 mm/s2 and 20,000 mm/s3 by axis. Values are those of the
+spline that is sent, which no sample exceeds.
+"""
+
+import time
+
+import numpy as np
+from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
+from tests.trajectory.programs import KINDS
+
+from bench.figures import at_most, value_only
+
+TOLERANCES_U = (0.01, 0.05)
+RATIOS = {"square": 1.06, "corners": 1.15, "pocket": 1.12, "circles": 1.12, "surface": 1.26}
+US_PER_SEGMENT = 100.0
+
+
+def main() -> None:
+    for kind in KINDS:
+        for tolerance in TOLERANCES_U:
+            _figures(f"trajectory {kind} {tolerance}", kind, tolerance)
+
+
+def _figures(name: str, kind: str, tolerance: float) -> None:
+    segments = KINDS[kind](tolerance)
+    start = segments[0].end if kind == "surface" else (0.0, 0.0, 0.0)
+    began = time.process_time()
+    control = points(planned(segments, start, limits()))
+    spent_us = (time.process_time() - began) / len(segments) * 1e6
+    free = points(planned(segments, start, limits(None)))
+    duration, without = len(control) * PERIOD_S, len(free) * PERIOD_S
+    value_only(f"{name}: time", duration, "s")
+    at_most(f"{name}: time with jerk / without", duration / without, RATIOS[kind], "")
+    push, jerk = (np.abs(np.diff(control, n, axis=0)).max() / PERIOD_S**n for n in (2, 3))
+    at_most(f"{name}: largest acceleration", float(push), 1000.0 * (1 + 1e-6), "mm/s2")
+    at_most(f"{name}: largest jerk", float(jerk), 20_000.0 * (1 + 1e-6), "mm/s3")
+    deviation, vertex = deviations(control, segments, start)
+    at_most(f"{name}: deviation", max(deviation, vertex), tolerance, "mm")
+    at_most(f"{name}: CPU time per segment", spent_us, US_PER_SEGMENT, "us")

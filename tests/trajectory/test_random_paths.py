@@ -1,0 +1,60 @@
+"""Random paths of lines, arcs and helices with turns, feeds and lengths of every size."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
+from tests.trajectory.programs import Segments
+
+from openacr.trajectory import Arc, Segment
+
+ALLOWED = 1.0 + 1e-6
+LENGTHS = {"short": 0.4, "middle": 2.0, "long": 8.0}
+
+
+@st.composite
+def paths(draw: st.DrawFn) -> Segments:
+    """Segments of about one length, with turns up to one angle."""
+    chance = np.random.default_rng(draw(st.integers(0, 150)))
+    length = LENGTHS[draw(st.sampled_from(sorted(LENGTHS)))]
+    turn = draw(st.sampled_from([2.0, 15.0, 24.0, 60.0, 170.0]))
+    angle, at, found = 0.0, np.zeros(3), []
+    for n in range(draw(st.integers(1, 9))):
+        angle += math.radians(chance.uniform(-turn, turn))
+        reach, end, arc = length * chance.uniform(0.2, 2.0), at.copy(), None
+        if chance.random() < 0.25:
+            radius, sweep = reach * chance.uniform(0.5, 2.0), float(chance.uniform(-4.0, 4.0))
+            side = math.copysign(radius, sweep)
+            centre = at[:2] + side * np.array([-math.sin(angle), math.cos(angle)])
+            a, b = at[:2] - centre
+            cos, sin = math.cos(sweep), math.sin(sweep)
+            end[:2] = centre + np.array([a * cos - b * sin, a * sin + b * cos])
+            angle += sweep
+            arc = Arc(0, 1, (float(centre[0]), float(centre[1])), sweep)
+        else:
+            end[:2] += reach * np.array([math.cos(angle), math.sin(angle)])
+        end[2] += reach * chance.uniform(-0.2, 0.2)
+        feed = 100.0 if chance.random() < 0.8 else 30.0
+        found.append(Segment(n, tuple(map(float, end)), feed, 0.01, arc=arc))
+        at = end
+    return found
+
+
+@pytest.mark.parametrize("jerk", [20_000.0, None])
+@settings(max_examples=12, deadline=None, derandomize=True)
+@given(paths())
+def test_any_path_keeps_limits_tolerance_and_end(jerk: float | None, segments: Segments) -> None:
+    start = (0.0, 0.0, 0.0)
+    control = points(planned(segments, start, limits(jerk)))
+    v, a, j = (np.diff(control, n, axis=0) / PERIOD_S**n for n in (1, 2, 3))
+    assert np.linalg.norm(v, axis=1).max() <= 100.0 * ALLOWED
+    assert np.abs(a).max() <= 1000.0 * ALLOWED
+    if jerk is not None:
+        assert np.abs(j).max() <= jerk * ALLOWED
+    deviation, vertex = deviations(control, segments, start)
+    assert deviation <= 0.01
+    assert vertex <= 0.01
+    assert control[-1].tolist() == list(segments[-1].end)
