@@ -1,10 +1,11 @@
 // Start of the operator's workspace.
 import { link, model } from "./core/app.js";
-import { applyTheme, setting } from "./core/settings.js";
+import { applyTheme, followSystemTheme, setting } from "./core/settings.js";
 import { useLanguage } from "./core/texts.js";
 
 async function start() {
   applyTheme();
+  followSystemTheme();
   await useLanguage(setting("language", "en"));
   const [clock, display, menuBar, prompt, screens, status, stop, top, held] = await Promise.all([
     import("./frame/clock.js"), import("./frame/display.js"), import("./frame/menu_bar.js"), import("./frame/prompt.js"),

@@ -6,7 +6,7 @@ const MENU = {
   "menu.abort": "ABBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
   "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE",
   "menu.display": "ANZEIGE", "menu.iostatus": "E/A STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "REGLER", "menu.board": "KARTEN\u00adPARAM", "menu.servo": "REGEL\u00adKREIS", "menu.cpu": "CPU-LAST",
-  "menu.fast": "FAST STATUS", "menu.back2": "ZURÜCK", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
+  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.back2": "ZURÜCK", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
 };
 
 const FRAME = {
@@ -76,7 +76,7 @@ const SERVICE = {
   "scope.slope": "Flanke", "scope.rising": "steigend", "scope.falling": "fallend", "scope.start": "START", "scope.stop": "SCOPE HALT", "scope.armed": "Scharf", "scope.read": "{count} Messwerte", "scope.stopped": "Angehalten nach {count} Messwerten",
   "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}",
   "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "board.written": "P{number} ist {value}",
-  "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status",
+  "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung",
   "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
 };
 

@@ -6,7 +6,7 @@ const MENU = {
   "menu.abort": "ABORT", "menu.back": "BACK", "menu.halt": "HALT", "menu.forward": "FOR\u00adWARD", "menu.resume": "RESUME", "menu.jog": "JOG", "menu.mdi": "MDI", "menu.handwheel": "HAND WHEEL",
   "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS",
   "menu.display": "DIS\u00adPLAY", "menu.iostatus": "I/O STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "GAIN", "menu.board": "BOARD PARAM", "menu.servo": "SERVO LOOP", "menu.cpu": "CPU LOAD",
-  "menu.fast": "FAST STATUS", "menu.back2": "BACK", "menu.ionames": "I/O NAMES", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
+  "menu.fast": "FAST STATUS", "menu.memory": "MEMORY CONFIG", "menu.back2": "BACK", "menu.ionames": "I/O NAMES", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
 };
 
 const FRAME = {
@@ -76,7 +76,7 @@ const SERVICE = {
   "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} samples", "scope.stopped": "Stopped at {count} samples",
   "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "board.written": "P{number} is {value}",
-  "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status",
+  "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration",
   "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
 };
 

@@ -69,6 +69,7 @@ export class Model {
     else if (event === "jog") this.jogEnded.set(rest);
     else if (event === "term") this.term.set(rest.text);
     else if (event === "hello") this.hello.set({ ...this.hello.value, ...rest });
+    else if (event === "machine") this.hello.set({ ...this.hello.value, machine: rest });
     else if (event in EVENTS) /** @type {Signal<any>} */ (Reflect.get(this, event)).set(rest);
   }
 

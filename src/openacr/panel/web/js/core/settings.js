@@ -35,6 +35,11 @@ export function forgetSettings() {
   }
 }
 
+/** Pictures read their colours anew when the system changes between light and dark. */
+export function followSystemTheme() {
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", applyTheme);
+}
+
 /** Apply the chosen theme; "auto" follows the system. */
 export function applyTheme() {
   const theme = setting("theme", "auto");

@@ -84,8 +84,9 @@ export const MENUS = {
     { key: 4, label: "menu.gain", screen: "gain", role: "service" },
     { key: 5, label: "menu.board", screen: "board" },
     { key: 6, label: "menu.servo", screen: "servo" },
-    { key: 7, label: "menu.cpu", screen: "cpu" },
+    { key: 7, label: "menu.cpu", screen: "cpu", role: "setup" },
     { key: 8, label: "menu.fast", screen: "fast" },
+    { key: 9, label: "menu.memory", screen: "memory", role: "setup" },
     { key: 10, label: "menu.back2", menu: "diag" },
   ],
   display: [

@@ -46,11 +46,11 @@ export const screen = {
 
     async function arm() {
       run.end();
-      const channels = sources.map((each) => each.value.trim()).filter(Boolean).map((text) => (/^P?\d+$/i.test(text) ? { parameter: Number(text.replace(/^P/i, "")) } : { name: text }));
+      const channels = sources.map((each) => each.value.trim()).filter(Boolean).map((text) => (/^P?\d+$/i.test(text) ? Number(text.replace(/^P/i, "")) : text));
       const trigger = mode.field.value === "free" ? null : { channel: 0, level: Number(level.field.value), slope: slope.field.value === "rising" ? 1 : -1, mode: mode.field.value, before: 0.1 };
       data = [[], ...channels.map(() => [])];
       while (plot.series.length > 1) plot.delSeries(1);
-      channels.forEach((each, n) => plot.addSeries({ label: each.name ?? `P${each.parameter}`, stroke: COLORS[n], width: 1.6, value: (_plot, value) => (value === null ? "\u2013" : plain(value, 4)) }));
+      channels.forEach((each, n) => plot.addSeries({ label: typeof each === "number" ? `P${each}` : each, stroke: COLORS[n], width: 1.6, value: (_plot, value) => (value === null ? "\u2013" : plain(value, 4)) }));
       run.add(link.subscribe({ topic: "scope", hz: 10 }));
       const done = await give("scope.arm", { channels, period_ms: Number(period.field.value), samples: Number(samples.field.value), trigger });
       setText(state, done ? t("scope.armed") : "");
