@@ -8,8 +8,8 @@ import time
 from pathlib import Path
 
 from bench.figures import at_least, at_most, value_only
-from openacr.cnc.canonical import Polyline
-from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.canonical import Moves
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
@@ -54,8 +54,9 @@ def measure() -> None:
         began = time.process_time()
         program = load(path, cells)
         most_mb, moves = 0.0, 0
-        for entry in Interpreter(program, cells, VirtualMachine()).entries():
-            moves += len(entry.ends) if isinstance(entry, Polyline) else 1
+        options = Options(has_batches=True)
+        for entry in Interpreter(program, cells, VirtualMachine(), options=options).entries():
+            moves += len(entry) if isinstance(entry, Moves) else 1
             if STATUS.exists():
                 most_mb = max(most_mb, own_memory_mb())
         seconds = time.process_time() - began

@@ -1,21 +1,27 @@
-"""Part programs per second: plain lines to canonical moves, macro loops, whole files."""
+"""Part programs per second: lines to canonical moves, macro loops, whole files, whole checks.
 
+`rs274` of LinuxCNC, where it is installed, reads the same files for comparison.
+"""
+
+import math
 import random
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
-from bench.figures import at_least, best_s, value_only
+from bench.figures import at_least, at_most, best_s, value_only
 from openacr.cnc.canonical import Entry
-from openacr.cnc.interpreter.interpreter import Interpreter
+from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
 from openacr.sysvar import Store
 
 LINES = 200_000
+MIXED = 50_000
 PASSES = 50_000
 STORE = Store()
 LOOP = f"""F100
@@ -44,34 +50,83 @@ def finishing(lines: int) -> str:
     return "\n".join([*rows, "M2"]) + "\n"
 
 
-def interpreted(source: str | Path) -> list[Entry]:
+def mixed(lines: int) -> str:
+    """A shop file: lines, arcs, rapids, N numbers, remarks, modal words, switches."""
+    chance = random.Random(2)
+    x = y = 0.0
+    rows = ["G21 G90 G94 G17 G40", "G91.1", "T1 M6", "S8000 M3", "G0 X0 Y0 Z5", "F800"]
+    while len(rows) < lines - 1:
+        kind, number = chance.random(), len(rows) * 10
+        if kind < 0.6:
+            x, y = x + chance.uniform(-1, 1), y + chance.uniform(-1, 1)
+            rows.append(f"N{number} G1 X{x:.4f} Y{y:.4f} Z{-chance.random():.3f}")
+        elif kind < 0.85:
+            a, i, j = chance.uniform(0.2, 6.0), chance.uniform(0.5, 2.0), chance.uniform(-2, 2)
+            x, y, i, j = round(x, 4), round(y, 4), round(i, 4), round(j, 4)
+            to_x = x + i - i * math.cos(a) + j * math.sin(a)
+            to_y = y + j - i * math.sin(a) - j * math.cos(a)
+            rows.append(f"G3 X{to_x:.4f} Y{to_y:.4f} I{i:.4f} J{j:.4f}")
+            x, y = to_x, to_y
+        elif kind < 0.9:
+            rows.append(f"(contour {number})")
+        elif kind < 0.93:
+            rows.append(f"G1 X{x:.4f} F{chance.randrange(100, 900)} (finish)")
+        elif kind < 0.97:
+            rows.append(chance.choice(["G17", "G90", "G40", "G17 G90 G21", "M8", "G54"]))
+        else:
+            rows += ["G0 Z2", f"G0 X{x:.4f} Y{y:.4f}", "G1 Z-1 F200"]
+    return "\n".join([*rows, "M30"]) + "\n"
+
+
+def interpreted(source: str | Path, dialect: str = "acromill") -> list[Entry]:
     """Load a program and read it to its end."""
     cells = Shadow(STORE)
-    program = load(source, cells)
-    return list(Interpreter(program, cells, VirtualMachine()).entries())
+    program = load(source, cells, dialect)
+    options = Options(has_batches=True)
+    return list(Interpreter(program, cells, VirtualMachine(), dialect, options).entries())
 
 
-def _other_interpreter(path: Path, lines: int, ours: float) -> None:
-    """The same program by the interpreter of LinuxCNC, where that is installed."""
+def _run_s(command: list[str]) -> float:
+    """The least wall-clock time of a command."""
+    found = []
+    for _ in range(3):
+        began = time.perf_counter()
+        subprocess.run(command, check=False, capture_output=True)
+        found.append(time.perf_counter() - began)
+    return min(found)
+
+
+def _theirs_s(path: Path) -> float:
+    """The same program by the interpreter of LinuxCNC; 0 where that is not installed."""
     rs274 = shutil.which("rs274")
     if rs274 is None:
         print("  rs274 of LinuxCNC (linuxcnc-uspace): not installed")
-        return
-    began = time.perf_counter()
-    subprocess.run([rs274, "-g", str(path), "/dev/null"], check=False, capture_output=True)
-    theirs = lines / (time.perf_counter() - began)
-    value_only("  rs274 of LinuxCNC, the same lines per second", theirs, "1/s")
-    at_least("  ratio to it", ours / theirs, 2.0, "x")
+        return 0.0
+    return _run_s([rs274, "-g", str(path), "/dev/null"])
+
+
+def _file(name: str, text: str, most: float) -> None:
+    """A program loaded and interpreted, and the whole command `mill check`."""
+    lines = text.count("\n")
+    per_s = lines / best_s(lambda: interpreted(text, "rs274ngc"), 3)
+    at_least(f"lines of {name} loaded and interpreted per second", per_s, 300_000, "1/s")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "FILE.NGC")
+        path.write_text(text)
+        command = "from openacr.cli.main import main; main()"
+        arguments = ["mill", "check", "--dialect", "rs274ngc", str(path)]
+        check_s = _run_s([sys.executable, "-c", command, *arguments])
+        value_only(f"  openacr mill check of {lines} lines", check_s, "s")
+        theirs_s = _theirs_s(path)
+        if theirs_s:
+            value_only("  rs274 of LinuxCNC on the same file", theirs_s, "s")
+            value_only("  its lines per second", lines / theirs_s, "1/s")
+            at_most("  mill check in all, of its time", check_s / theirs_s, most, "x")
 
 
 def main() -> None:
-    text = finishing(LINES)
-    ours = LINES / best_s(lambda: interpreted(text), 3)
-    at_least("lines of G1 loaded and interpreted per second", ours, 700_000, "1/s")
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "FINISH.NC")
-        path.write_text(text)
-        _other_interpreter(path, LINES, ours)
+    _file("a finishing program", finishing(LINES), 2.0)
+    _file("a shop file", mixed(MIXED), 5.0)
     passes = PASSES / best_s(lambda: interpreted(LOOP), 3)
     at_least("passes of a macro loop of 6 lines per second", passes, 100_000, "1/s")
     words = "\n".join(f"G1 X{k}.5 Y(P200*{k % 7}) M8 F{k % 50 + 1}" for k in range(10_000))

@@ -4,11 +4,11 @@ A sub-command is imported when it is used, so that `openacr --help` and tab comp
 answer at once.
 """
 
+import gc
 import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any, TextIO
 
@@ -22,6 +22,7 @@ from openacr.lang.characters import shown
 
 BAD_INPUT = 2
 INTERRUPTED = 130
+MANY_OBJECTS = 50_000
 
 
 HELP = {"help_option_names": ["-h", "--help"]}
@@ -140,6 +141,8 @@ app = typer.Typer(
 
 def _show_version(is_wanted: bool) -> None:
     if is_wanted:
+        from importlib.metadata import version
+
         typer.echo(f"openacr {version('openacr')}")
         raise typer.Exit
 
@@ -158,6 +161,7 @@ def openacr(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; Ctrl-C ends it without a trace."""
+    gc.set_threshold(MANY_OBJECTS, 20, 20)  # what is imported stays: nothing to collect yet
     _open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         # Program output may hold characters that the terminal cannot show.

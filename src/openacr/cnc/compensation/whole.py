@@ -1,15 +1,19 @@
-"""Whole chains: every move of the tool compared with every element of its contour."""
+"""Whole chains: every move of the tool compared with every element of its contour.
+
+numpy is imported when the first chain ends: most programs have none.
+"""
+
+from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from openacr.cnc.canonical import Point
-from openacr.cnc.compensation.boxes import Tree
-from openacr.cnc.compensation.nearness import Curves
-from openacr.cnc.compensation.rules import Report
-from openacr.cnc.geometry.elements import Element
+if TYPE_CHECKING:
+    from openacr.cnc.canonical import Point
+    from openacr.cnc.compensation.nearness import Curves
+    from openacr.cnc.compensation.rules import Report
+    from openacr.cnc.geometry.elements import Element
 
 LEADS = 2
 LEAST_SINE = 1e-9  # of the angle of two lines that cross
@@ -48,6 +52,10 @@ class ChainCheck:
         self._contour, self._tool_moves, self._radii = [], [], []
 
     def _found(self) -> list[tuple[Element, Element, float, float]]:
+        import numpy as np
+
+        from openacr.cnc.compensation.boxes import Tree
+
         radii = np.array(self._radii)
         reach = np.maximum(radii - self._epsilon, 0.0)
         contour = _without_leads(self._contour, self._epsilon)
@@ -109,6 +117,10 @@ def _crossing(first: Element, last: Element, epsilon: float) -> Point | None:
 
 
 def _curves(elements: list[Element]) -> Curves:
+    import numpy as np
+
+    from openacr.cnc.compensation.nearness import Curves
+
     plane = elements[0].plane
     first, second = plane.first, plane.second
     return Curves.of(

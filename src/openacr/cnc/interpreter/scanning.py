@@ -14,8 +14,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
-import numpy as np
-
 from openacr.cnc.canonical import AXES, Moves, Pace, Polyline, Source
 from openacr.cnc.canonical.batches import CURVE, POINT, ROW
 from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_MOTION
@@ -205,6 +203,8 @@ class Scanner:
         return Moves(start.part.text.name, kept, ends, arcs, paces, partial(_text, data))
 
     def _polyline(self, rows: int, start: Place, data: memoryview) -> Polyline:
+        import numpy as np
+
         R = self._rows
         ends = np.array(self._ends[: rows * POINT]).reshape(rows, POINT)
         lines = np.array(R[core.R_LINE : rows * ROW : ROW], np.int64)

@@ -147,8 +147,8 @@ class Loader:
         count, after = self._skimmer.skim(part.text, offset)
         if not count:
             return 0, offset
-        labels = self._skimmer.labels
-        if self._dialect.labels and len(labels):
+        labels = self._skimmer.labels if self._dialect.labels else None
+        if labels is not None:
             labels += (0, line + 1, offset)
             self._targets.make_room(part, len(labels), line + 1)
             part.labels.add_rows(part, labels)

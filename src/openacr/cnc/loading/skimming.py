@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from openacr.cnc.codes.table import Step
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, integers
@@ -35,7 +33,7 @@ class Skimmer:
         self._asked: list[int] = []  # the shape of the line that comes next, if it is new
         self.motion = -1  # the last of G0 to G3 in these lines, -1 none
         self.has_words = False  # whether one of these lines was not empty
-        self.labels: Rows = np.zeros((0, 3), np.int64)  # label, line from 0, offset from here
+        self._place = 0  # of the lines in the window
 
     def skim(self, text: Text, offset: int) -> tuple[int, int]:
         """Skip lines at an offset; returns their count and the offset after them."""
@@ -53,9 +51,18 @@ class Skimmer:
             self._asked = shapes.tokens()
         self.motion = K[scan.K_MOTION] // TENTHS if K[scan.K_MOTION] >= 0 else -1
         self.has_words = bool(K[scan.K_HAS_WORDS])
-        found = np.array(self._labels[: 3 * K[scan.K_LABELS]], np.int64).reshape(-1, 3)
-        self.labels = found - (0, 0, place)
+        self._place = place
         return count, offset + K[scan.K_NEXT] - place
+
+    @property
+    def labels(self) -> Rows | None:
+        """The labels of these lines: label, line from 0, offset from the first line."""
+        count = self._shapes.K[scan.K_LABELS]
+        if not count:
+            return None
+        import numpy as np
+
+        return np.array(self._labels[: 3 * count], np.int64).reshape(-1, 3) - (0, 0, self._place)
 
     def take(self) -> list[int]:
         """The shape of the line that comes next, if it is new; for `learn`."""

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from openacr.cnc.program.program import Part
 
-Rows = NDArray[np.int64]  # label, line, offset
+Rows: TypeAlias = "NDArray[np.int64]"  # label, line, offset
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +54,8 @@ class Labels:
         place = self._places.get(label)
         if place is not None or not self._row_cnt:
             return place
+        import numpy as np
+
         for part, rows in self._in_order():
             k = int(np.searchsorted(rows[:, 0], label))
             if k < len(rows) and rows[k, 0] == label:
@@ -78,6 +80,10 @@ class Labels:
 
     def doubles(self) -> Iterator[tuple[int, Place, Place]]:
         """Labels defined again by rows: with the first definition and each later line."""
+        if not self._row_cnt:
+            return
+        import numpy as np
+
         firsts, texts = dict(self._places), self._in_order()
         for part, rows in texts:
             labels = rows[:, 0]
@@ -94,6 +100,8 @@ class Labels:
 
 def _sorted(many: list[Rows]) -> Rows:
     """Rows by label, equal ones by line."""
+    import numpy as np
+
     rows = np.concatenate(many)
     return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
 

@@ -25,7 +25,6 @@ from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.geometry import Geometry, MoveShape
 from openacr.mill.plan.planning import PlannedMove
-from openacr.mill.plan.polylines import columns, lines
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
 
@@ -92,6 +91,8 @@ class Encoder:
             begin = piece.end
 
     def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
+        from openacr.mill.plan.polylines import columns, lines
+
         tolerance = self.tolerance(entry.pace)
         found = columns(entry, begin, self._settings, self.line_speed(entry.pace), tolerance)
         mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
