@@ -13,18 +13,22 @@ as above. Paths with a tolerance and a jerk limit take the time of their control
 run. Waits for the operator and for signals count as zero.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_times import CurveTimes
 from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planned_path import PlannedPath
 from openacr.mill.plan.planning import backward_pass
 from openacr.mill.plan.rounding import Corner
 from openacr.mill.plan.route import Route
+
+if TYPE_CHECKING:
+    from openacr.mill.plan.curve_times import CurveTimes
+    from openacr.mill.plan.planned_path import PlannedPath
 
 TOGETHER = 512  # moves planned at once
 # Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
@@ -143,6 +147,8 @@ class Predictor:
             self._pass(job, phases)
 
     def _pass_curve(self, path: PlannedPath, *, is_complete: bool) -> None:
+        from openacr.mill.plan.curve_times import CurveTimes  # loads numpy: most runs have none
+
         if self._curve is None or self._curve.path is not path:
             self._curve = CurveTimes(path)
         curve = self._curve

@@ -4,14 +4,19 @@ Moves that the card plans (`Planner`) and moves that are planned as one curve (`
 follow each other at rest. A rapid belongs to the section it comes in.
 """
 
+from __future__ import annotations
+
 from collections import deque
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.planned_path import PlannedPath
 from openacr.mill.plan.planning import CornerRules, Planner
+
+if TYPE_CHECKING:
+    from openacr.mill.plan.planned_path import PlannedPath
 
 ENOUGH = 1 << 30  # moves: no more have to be read
 AHEAD_S = 3.0  # of motion at the programmed feeds, known to the plan of a curve
@@ -30,16 +35,21 @@ class Route:
     def _moves(self) -> Planner[Job]:
         return Planner(CornerRules.of(self._settings.speeds), self._settings.forward_threshold)
 
+    def _planned(self) -> PlannedPath:
+        from openacr.mill.plan.planned_path import PlannedPath  # loads numpy: most runs have none
+
+        return PlannedPath(self._settings)
+
     def add(self, job: Job) -> None:
         """Append a move to the last section, or begin another one with it."""
         if self._can_plan and not job.is_rapid:
             self._is_planned = job.path_tolerance_u > 0.0
         is_planned = self._can_plan and self._is_planned and self._may_plan(job)
         last = self._sections[-1]
-        if isinstance(last, PlannedPath) is not is_planned:
+        if isinstance(last, Planner) is is_planned:
             if not len(last) and len(self._sections) == 1 and not self._is_open(last):
                 self._sections.pop()
-            last = PlannedPath(self._settings) if is_planned else self._moves()
+            last = self._planned() if is_planned else self._moves()
             self._sections.append(last)
         last.add(job)
 
@@ -52,13 +62,13 @@ class Route:
 
     @staticmethod
     def _is_open(section: Planner[Job] | PlannedPath) -> bool:
-        return isinstance(section, PlannedPath) and section.is_open
+        return not isinstance(section, Planner) and section.is_open
 
     @property
     def curve(self) -> PlannedPath | None:
         """The curve that is sent now, None while moves are sent."""
         head = self._sections[0]
-        return head if isinstance(head, PlannedPath) else None
+        return None if isinstance(head, Planner) else head
 
     @property
     def has_more(self) -> bool:
@@ -75,7 +85,7 @@ class Route:
         head = self._sections[0]
         if self.has_more:
             return ENOUGH
-        if isinstance(head, PlannedPath):
+        if not isinstance(head, Planner):
             return ENOUGH if head.known_s >= AHEAD_S else 0
         return head.ready()
 
