@@ -1,4 +1,4 @@
-"""Every screen opens by keyboard and by mouse, in every size, light and dark, for everyone."""
+"""Every screen opens by keyboard and by mouse, in every size, light and dark, accessible."""
 
 from collections.abc import Callable
 from pathlib import Path
