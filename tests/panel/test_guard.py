@@ -1,15 +1,20 @@
 """Who gets in: hosts, origins, passwords, roles, headers."""
 
 import asyncio
+import re
+import time
+from pathlib import Path
 
 import httpx
 import pytest
 import websockets
 from tests.panel.bench import LIMIT_S, Client, Served
+from typer.testing import CliRunner
 
+from openacr.cli.main import app
 from openacr.errors import UserError
 from openacr.panel.roles import Role
-from openacr.panel.server.accounts import Accounts
+from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.panel import require_password
 from openacr.sysvar import Store, password
 
@@ -175,3 +180,52 @@ def test_passwords_are_kept_as_hashes_and_survive_a_restart(panel: Served) -> No
     file.write_text("{broken")
     with pytest.raises(UserError, match="cannot be read"):
         Accounts(file, Store())
+
+
+def test_the_log_in_page_and_its_files_are_there_before_the_log_in(panel: Served) -> None:
+    with guarded(panel) as web:
+        page = web.get("/", follow_redirects=True)
+        assert (page.status_code, page.url.path) == (200, "/login")
+        assert page.headers["content-type"] == "text/html; charset=utf-8"
+        files = re.findall(r'(?:href|src)="(/[^"]+)"', page.text)
+        assert "/js/login.js" in files
+        assert [web.get(name).status_code for name in files] == [200] * len(files)
+        assert re.search(r"<script(?![^>]*src=)|<style|style=|\son\w+=", page.text) is None
+        roles = re.findall(r'<option value="(\w+)"', page.text)
+        assert roles == [role.word for role in Role]
+
+
+def test_the_form_of_the_log_in_page_works_without_scripts(panel: Served) -> None:
+    with guarded(panel) as web:
+        page = web.get("/login").text
+        action = re.findall(r'<form [^>]*method="post" action="([^"]+)"', page)
+        assert action == ["/api/login/form"]
+        wrong = web.post(action[0], data={"role": "setup", "password": "secret operate"})
+        assert (wrong.status_code, wrong.headers["location"]) == (303, "/login?wrong=1")
+        right = web.post(action[0], data={"role": "setup", "password": "secret setup"})
+        assert (right.status_code, right.headers["location"]) == (303, "/")
+        assert web.get("/api/me").json()["role"] == "setup"
+        assert web.get("/").status_code == 200
+
+
+def test_the_wait_after_wrong_passwords_is_at_least_a_second_in_words(panel: Served) -> None:
+    with guarded(panel) as web:
+        panel.panel.accounts._failed["127.0.0.1"] = (3, time.monotonic() + 29.5)
+        answer = web.post("/api/login", json={"role": "view", "password": "secret view"})
+        assert answer.status_code == 429
+        waits = re.fullmatch(
+            r"too many wrong passwords: wait (\d+) s", answer.json()["error"]["text"]
+        )
+        assert waits is not None
+        assert 1 <= int(waits[1]) <= 30
+
+
+def test_a_password_is_set_and_removed_from_the_command_line(tmp_path: Path) -> None:
+    store = tmp_path / "s.db"
+    words = ["panel", "--store", str(store), "--set-password", "operate"]
+    answer = CliRunner().invoke(app, words, input="long enough\nlong enough\n")
+    assert "the password of the role operate was set" in answer.output
+    assert Accounts(file_of(store), Store()).is_right(Role.OPERATE, "long enough")
+    answer = CliRunner().invoke(app, words, input="\n\n")
+    assert "the password of the role operate was removed" in answer.output
+    assert not Accounts(file_of(store), Store()).are_asked

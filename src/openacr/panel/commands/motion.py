@@ -1,5 +1,6 @@
 """Commands that move axes by hand: jog, increments, hand wheel, home, zero; and stops."""
 
+from collections.abc import Callable
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -100,7 +101,7 @@ def increment(desk: Desk, order: Order, args: Increment) -> None:
     )
 
 
-@command("jog.stop", Role.VIEW, needs_control=False)
+@command("jog.stop", Role.VIEW, needs_control=False, is_stop=True)
 def stop_jogs(desk: Desk, order: Order, args: NoArgs) -> None:
     """Ramp everything that is moved by hand to rest."""
     desk.hands.stop()
@@ -168,11 +169,13 @@ def zero_goto(desk: Desk, order: Order, args: OfAxes) -> None:
 # --- stops ----------------------------------------------------------------------------
 
 
-@command("stop.hold", Role.VIEW, needs_control=False)
+@command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
 def hold(desk: Desk, order: Order, args: NoArgs) -> None:
     """STOP: hold the feed, ramp jogs to rest, end homing; from every screen at any time."""
-    desk.hands.presses.end_all(End.STOP)
-    desk.typed.drop()
+    _each(lambda: desk.hands.presses.end_all(End.STOP), lambda: _hold(desk), desk.typed.drop)
+
+
+def _hold(desk: Desk) -> None:
     runner = desk.machine.runner
     if runner.is_busy and runner.state not in (State.PAUSED, State.HOLD, State.ALARM):
         try:
@@ -182,18 +185,33 @@ def hold(desk: Desk, order: Order, args: NoArgs) -> None:
                 raise
 
 
-@command("stop.all", Role.VIEW, needs_control=False)
+@command("stop.all", Role.VIEW, needs_control=False, is_stop=True)
 def stop_all(desk: Desk, order: Order, args: NoArgs) -> None:
     """End everything: the program, jogs, homing; spindle and coolant off."""
-    desk.hands.presses.end_all(End.STOP)
-    desk.typed.drop()
-    desk.machine.runner.bring_to_rest()
+    _each(
+        lambda: desk.machine.runner.bring_to_rest(),
+        lambda: desk.hands.presses.end_all(End.STOP),
+        desk.typed.drop,
+    )
 
 
-@command("stop.estop", Role.VIEW, needs_control=False)
+@command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(desk: Desk, order: Order, args: NoArgs) -> None:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
-    desk.typed.drop()
-    runner = desk.machine.runner
-    runner.kill(desk.people.name_of(order.person))
-    desk.hands.presses.end_all(End.STOP)
+    _each(
+        lambda: desk.machine.runner.kill(desk.people.name_of(order.person)),
+        lambda: desk.hands.presses.end_all(End.STOP),
+        desk.typed.drop,
+    )
+
+
+def _each(*steps: Callable[[], object]) -> None:
+    """Do every step of a stop, whichever fails; the first error is raised at the end."""
+    failures: list[Exception] = []
+    for step in steps:
+        try:
+            step()
+        except Exception as error:
+            failures.append(error)
+    if failures:
+        raise failures[0]

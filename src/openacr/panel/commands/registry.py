@@ -36,6 +36,7 @@ class Command:
     do: Do
     needs_control: bool
     is_motion: bool
+    is_stop: bool
 
     @property
     def summary(self) -> str:
@@ -52,14 +53,18 @@ def command(
     *,
     needs_control: bool = True,
     is_motion: bool = False,
+    is_stop: bool = False,
 ) -> Callable[[Callable[["Desk", Order, A], object]], Callable[["Desk", Order, A], object]]:
-    """Declare a command; `is_motion`: it may begin motion, so an old one is refused."""
+    """Declare a command; `is_motion`: it may begin motion, so an old one is refused.
+
+    `is_stop`: what was received before it and may begin motion is refused: a stop overtakes it.
+    """
 
     def declare(
         do: Callable[["Desk", Order, A], object],
     ) -> Callable[["Desk", Order, A], object]:
         args = do.__annotations__["args"]
-        COMMANDS[name] = Command(name, role, args, do, needs_control, is_motion)
+        COMMANDS[name] = Command(name, role, args, do, needs_control, is_motion, is_stop)
         return do
 
     return declare
@@ -79,6 +84,10 @@ def carry_out(desk: "Desk", order: Order, now_s: float) -> object:
     if row.is_motion and now_s - order.received_s > LONGEST_WAIT_S:
         waited_s = now_s - order.received_s
         raise PanelError("stale", f"the command waited {waited_s:.1f} s: give it again")
+    if row.is_motion and order.received_s < desk.stopped_s:
+        raise PanelError("refused", "a stop was received after this command: give it again")
+    if row.is_stop:
+        desk.stopped_s = max(desk.stopped_s, order.received_s)
     if row.needs_control:
         desk.people.require_control(order.person.client)
     return row.do(desk, order, args)

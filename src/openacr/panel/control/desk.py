@@ -73,6 +73,7 @@ class Desk:
         self.lost = "the machine is being opened"  # why there is no session
         self.mode = "auto"
         self.now_s = 0.0  # of the present step or order
+        self.stopped_s = 0.0  # when the last stop was received
         self.must_renew = False  # settings were stored that count from the next session
         self._facts = Facts(self)
         self._carry_out = carry_out
@@ -227,6 +228,14 @@ class Desk:
             do()
         except (OpenacrError, *LINK_ERRORS) as error:
             self.say(str(error))
+
+    def fail(self, text: str, *, is_new: bool) -> None:
+        """A step has failed: held keys end; a failure that is not the last one again is said."""
+        try:
+            self.hands.presses.end_all(End.ALARM, text)
+        finally:
+            if is_new:
+                self.say(text)
 
     # --- settings ---------------------------------------------------------------------
 

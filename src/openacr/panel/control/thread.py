@@ -6,12 +6,12 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from queue import Empty, Queue
 from typing import TYPE_CHECKING, TypeVar
 
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.orders import Order, PanelError, failure
+from openacr.panel.control.waiting import Waiting
 
 if TYPE_CHECKING:
     from openacr.panel.control.desk import Desk
@@ -21,6 +21,8 @@ T = TypeVar("T")
 SWITCH_S = 0.0005  # how long another thread may compute before this one gets its turn
 MOST_WAITING = 1000
 REST_S = 90.0  # longer than any wait of an ending
+AGAIN_S = 10.0  # from one report of a failure to the next one of the same text
+ORDERS_S = 0.005  # longest time of orders before the machine gets its step
 URGENT = ("stop.", "jog.release", "jog.stop")
 
 Work = Callable[[], None]
@@ -32,7 +34,8 @@ class ControlThread:
     def __init__(self, desk: "Desk", clock: Callable[[], float] = time.monotonic) -> None:
         self.desk = desk
         self._clock = clock
-        self._orders: Queue[Order | Work] = Queue()
+        self._orders: Waiting[Order | Work] = Waiting()
+        self._failure, self._failure_s = "", 0.0  # of a step, and when it was said
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="control", daemon=True)
 
@@ -49,11 +52,12 @@ class ControlThread:
 
     def put(self, order: Order) -> None:
         """Hand an order over; one that finds too many before it is refused, unless it stops."""
-        if self._orders.qsize() >= MOST_WAITING and not order.name.startswith(URGENT):
+        is_urgent = order.name.startswith(URGENT)
+        if len(self._orders) >= MOST_WAITING and not is_urgent:
             busy = PanelError("busy", "too many commands wait: try again")
             order.answer({"ok": False, "error": failure(busy)})
             return
-        self._orders.put(order)
+        self._orders.put(order, is_urgent=is_urgent)
 
     def call(self, work: Callable[["Desk"], T]) -> "Future[T]":
         """Run a function in the control thread; its result or error is in the future."""
@@ -87,24 +91,33 @@ class ControlThread:
 
     def turn(self, idle_s: float) -> None:
         """Carry out what was ordered, then do what is due."""
-        self._drain(idle_s)
+        self._carry_out(idle_s)
         try:
             self.desk.step(self._clock())
-        except Exception:  # the machine must go on being watched
-            log.exception("a step of the control thread has failed")
+        except Exception as error:  # the machine must go on being watched
+            self._report(error)
 
-    def _drain(self, idle_s: float) -> None:
-        """Carry out the orders that wait; without any, wait for one as long as nothing is due."""
+    def _report(self, error: Exception) -> None:
+        """A step has failed: no key moves an axis, and the operator reads why."""
+        text = f"the control of the machine has failed: {type(error).__name__}: {error}"
+        now_s = self._clock()
+        is_new = text != self._failure or now_s - self._failure_s >= AGAIN_S
+        if is_new:
+            self._failure, self._failure_s = text, now_s
+            log.error("a step of the control thread has failed", exc_info=error)
         try:
-            order = self._orders.get(timeout=idle_s) if idle_s else self._orders.get_nowait()
-        except Empty:
-            return
-        while True:
+            self.desk.fail(text, is_new=is_new)
+        except Exception:
+            if is_new:
+                log.exception("held keys could not be ended")
+
+    def _carry_out(self, idle_s: float) -> None:
+        """Carry out orders that wait, for `ORDERS_S`; without any, wait for one up to `idle_s`."""
+        order = self._orders.take(idle_s)
+        end_s = self._clock() + ORDERS_S
+        while order is not None:
             self._do(order)
-            try:
-                order = self._orders.get_nowait()
-            except Empty:
-                return
+            order = self._orders.take() if self._clock() < end_s else None
 
     def _do(self, order: Order | Work) -> None:
         try:

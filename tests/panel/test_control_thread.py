@@ -1,0 +1,211 @@
+"""The turns of the control thread: orders that flood it, stops that overtake, failing steps."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from tests.panel.bench import HandDesk
+
+from openacr.panel.control.orders import Order
+from openacr.panel.control.thread import ORDERS_S, ControlThread
+from openacr.panel.control.waiting import Waiting
+
+
+class Hand(ControlThread):
+    """A control thread whose turns and time are a test's."""
+
+    def __init__(self, hand: HandDesk) -> None:
+        self.hand = hand
+        super().__init__(hand.desk, lambda: hand.now_s)
+
+    def send(self, name: str, answers: list[Any], **args: Any) -> None:
+        self.put(Order(self.hand.me, name, args, self.hand.now_s, answers.append))
+
+
+@pytest.fixture
+def thread(hand: HandDesk) -> Hand:
+    return Hand(hand)
+
+
+def flood(thread: Hand) -> list[float]:
+    """Orders of 1 ms of which each one puts the next: the queue is never empty."""
+    done: list[float] = []
+
+    def one(_desk: object) -> None:
+        thread.hand.now_s += 0.001
+        done.append(thread.hand.now_s)
+        thread.call(one)
+
+    thread.call(one)
+    return done
+
+
+def test_a_flood_of_orders_leaves_every_turn_its_step(thread: Hand) -> None:
+    done = flood(thread)
+    before = thread.hand.desk.now_s
+    thread.turn(0.0)
+    assert ORDERS_S == 0.005
+    assert len(done) == 5
+    assert thread.hand.desk.now_s == pytest.approx(before + 0.005)
+    thread.turn(0.0)
+    assert len(done) == 10
+
+
+def test_the_dead_man_ends_a_key_while_orders_flood(thread: Hand) -> None:
+    hand = thread.hand
+    hand.press(1)
+    flood(thread)
+    for _ in range(39):
+        thread.turn(0.0)
+    assert hand.events("jog") == []
+    for _ in range(3):
+        thread.turn(0.0)
+    assert [(e["press"], e["ended"]) for e in hand.events("jog")] == [(1, "silence")]
+
+
+@pytest.mark.parametrize(
+    ("name", "args"),
+    [
+        ("stop.hold", {}),
+        ("stop.all", {}),
+        ("stop.estop", {}),
+        ("jog.stop", {}),
+        ("jog.release", {"press": 1}),
+    ],
+)
+def test_what_stops_is_carried_out_before_all_that_waits(
+    thread: Hand, name: str, args: dict[str, Any]
+) -> None:
+    done = flood(thread)
+    answers: list[Any] = []
+    for _ in range(20):
+        thread.call(lambda _desk: done.append(0.0))
+    thread.put(
+        Order(
+            thread.hand.me,
+            name,
+            args,
+            thread.hand.now_s,
+            lambda answer: answers.append((len(done), answer)),
+        )
+    )
+    thread.turn(0.0)
+    assert answers == [(0, {"ok": True, "result": None})]
+
+
+@pytest.mark.parametrize("stop", ["stop.hold", "stop.all", "stop.estop", "jog.stop"])
+def test_motion_that_was_commanded_before_a_stop_does_not_begin_after_it(
+    thread: Hand, stop: str
+) -> None:
+    hand = thread.hand
+    moved: list[Any] = []
+    stopped: list[Any] = []
+    thread.send("mdi.execute", moved, line="G0 X5")
+    hand.now_s += 0.001
+    thread.send(stop, stopped)
+    thread.turn(0.0)
+    assert stopped[0]["ok"]
+    text = "a stop was received after this command: give it again"
+    assert moved == [{"ok": False, "error": {"code": "refused", "text": text}}]
+    assert not hand.is_busy
+
+
+def test_motion_that_is_commanded_at_or_after_a_stop_begins(thread: Hand) -> None:
+    answers: list[Any] = []
+    thread.send("stop.hold", answers)
+    thread.send("mdi.execute", answers, line="G0 X5")
+    thread.turn(0.0)
+    assert [each["ok"] for each in answers] == [True, True]
+
+
+def failing(_self: object = None) -> None:
+    raise ZeroDivisionError("nothing there")
+
+
+@pytest.mark.parametrize(
+    ("stop", "done"), [("stop.estop", "kill"), ("stop.all", "bring_to_rest"), ("stop.hold", "stop")]
+)
+@pytest.mark.parametrize("broken", ["drop", "end_all"])
+def test_a_stop_stops_whatever_else_of_it_fails(
+    hand: HandDesk, monkeypatch: pytest.MonkeyPatch, stop: str, done: str, broken: str
+) -> None:
+    hand.do("mdi.execute", line="G1 X50 F600")
+    hand.run(0.3)
+    runner = hand.desk.machine.runner
+    calls: list[str] = []
+    real: Callable[..., None] = getattr(runner, done)
+
+    def counted(*args: Any) -> None:
+        calls.append(done)
+        real(*args)
+
+    monkeypatch.setattr(runner, done, counted)
+    place = hand.desk.typed if broken == "drop" else hand.desk.hands.presses
+    monkeypatch.setattr(place, broken, lambda *_args, **_more: failing())
+    assert hand.refused(stop)["code"] == "internal"
+    assert calls == [done]
+    monkeypatch.undo()
+    hand.run(1.0)
+    assert hand.speeds() == (0.0, 0.0, 0.0)
+
+
+def test_keys_end_and_nothing_waits_after_a_stop_that_fails(
+    hand: HandDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hand.press(1)
+    for name in ("kill", "bring_to_rest"):
+        monkeypatch.setattr(hand.desk.machine.runner, name, failing)
+    hand.refused("stop.all")
+    assert [(e["press"], e["ended"]) for e in hand.events("jog")] == [(1, "stop")]
+    hand.run(0.3)
+    hand.press(2)
+    hand.refused("stop.estop")
+    assert [(e["press"], e["ended"]) for e in hand.events("jog")][1:] == [(2, "stop")]
+
+
+FAILURE = "the control of the machine has failed: ZeroDivisionError: nothing there"
+
+
+def test_a_step_that_fails_again_and_again_ends_keys_and_is_said_every_ten_seconds(
+    thread: Hand, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    hand = thread.hand
+    hand.press(1)
+    monkeypatch.setattr(hand.desk.jobs, "poll", failing)
+    hand.now_s += 0.04
+    thread.turn(0.0)
+    first_s = hand.now_s
+    assert [(e["press"], e["ended"], e["text"]) for e in hand.events("jog")] == [
+        (1, "alarm", FAILURE)
+    ]
+    for now_s, count in ((first_s + 9.99, 1), (first_s + 10.1, 2), (first_s + 20.0, 2)):
+        hand.now_s = now_s
+        thread.turn(0.0)
+        assert hand.said.count(FAILURE) == count
+        assert [r.getMessage() for r in caplog.records if r.exc_info] == [
+            "a step of the control thread has failed"
+        ] * count
+
+
+def test_another_failure_is_said_at_once(thread: Hand, monkeypatch: pytest.MonkeyPatch) -> None:
+    hand = thread.hand
+    monkeypatch.setattr(hand.desk.jobs, "poll", failing)
+    thread.turn(0.0)
+
+    def other() -> None:
+        raise KeyError("X")
+
+    monkeypatch.setattr(hand.desk.jobs, "poll", other)
+    thread.turn(0.0)
+    assert hand.said[-2:] == [FAILURE, "the control of the machine has failed: KeyError: 'X'"]
+
+
+def test_urgent_items_are_taken_first_and_each_kind_in_its_order() -> None:
+    waiting: Waiting[str] = Waiting()
+    for item in ("a", "b"):
+        waiting.put(item)
+    for item in ("U", "V"):
+        waiting.put(item, is_urgent=True)
+    assert len(waiting) == 4
+    assert [waiting.take() for _ in range(5)] == ["U", "V", "a", "b", None]
+    assert waiting.take(0.001) is None
