@@ -37,7 +37,7 @@ def test_a_file_has_one_line_per_position() -> None:
         ("X0E.1\nY1E.2\n", "table:2: axis Y, but the table is that of X"),
         ("X0E.1\nX1E.2\nX0E.3\n", "table:3: position 0 occurs twice"),
         ("", "table: 0 entries; a table needs 2"),
-        ("X0E.1\n", "table: 1 entries; a table needs 2"),
+        ("X0E.1\n", "table: 1 entry; a table needs 2"),
     ],
 )
 def test_a_line_that_is_wrong_is_named_and_nothing_is_loaded(text: str, said: str) -> None:
@@ -132,7 +132,7 @@ def test_a_position_may_have_its_measurements_in_several_lines(tmp_path: Path) -
     [
         ("0 0\n1 x\n", 0, "m.csv:2: a position and at least one measurement"),
         ("0 0\n1\n", 0, "m.csv:2: a position and at least one measurement"),
-        ("0 0\n0 1\n", 0, "1 positions; a table needs 2"),
+        ("0 0\n0 1\n", 0, "1 position; a table needs 2"),
         ("Mean\n0 0 0 0\n1 1.002 1.002 0\n", 0, "m.csv:3: the last two columns are not the mean"),
         ("Mean\n0 0 0 0\n1 1.002 1.003 -.003\n", 0, "m.csv:3: the last two columns are not"),
         ("Difference\n0 0 0\n1 1 0\n", 0, "m.csv:2: the last two columns are not the mean"),

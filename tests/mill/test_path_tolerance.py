@@ -208,8 +208,13 @@ def test_a_card_at_the_other_end_of_a_link_never_hears_of_a_tolerance(
     assert len(heard[0]) > 1000
 
 
-def test_with_a_jerk_limit_corners_stay_exact() -> None:
+def test_with_a_jerk_limit_the_path_is_planned_within_the_tolerance() -> None:
     places = followed(Shop(**{f"P{SPEEDS.path_jerk}": 1000.0}), *lines(POCKET, tolerance_u=0.05))
+    assert 0.02 < off_path(places, POCKET) <= 0.05
+
+
+def test_with_a_jerk_limit_and_no_tolerance_corners_stay_exact() -> None:
+    places = followed(Shop(**{f"P{SPEEDS.path_jerk}": 1000.0}), *lines(POCKET, tolerance_u=0.0))
     assert off_path(places, POCKET) < 1e-6
 
 

@@ -178,7 +178,7 @@ def test_unknown_names_and_numbers_are_refused(text: str, words: str) -> None:
         ("jog fedrate", "no parameter of the store is named 'jog fedrate': "
          "did you mean 'Jog Feedrate'?"),
         ("flux capacitor", "no parameter of the store is named 'flux capacitor'"),
-        ("P650900", "P650900 is not in the store (the nearest: P650017 and P700000)"),
+        ("P650900", "P650900 is not in the store (the nearest: P650018 and P700000)"),
         ("P24000", "P24000 is not in the store (the nearest: P4095 and P100000)"),
         ("P999999999", "P999999999 is not in the store (the nearest: P1003424)"),
     ],

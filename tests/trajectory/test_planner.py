@@ -8,6 +8,8 @@ from tests.trajectory.programs import KINDS, Segments, corners, line, square, su
 
 from openacr.trajectory import Limits, Segment, TrajectoryError, TrajectoryPlanner
 
+pytestmark = pytest.mark.evidence("oracle", "differences of sampled setpoints; times of ruckig")
+
 SMALL = {
     "square": lambda e: square(e, rounds=1),
     "corners": lambda e: corners(e, count=14),
