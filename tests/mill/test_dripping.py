@@ -1,6 +1,9 @@
 """Programs that come in over a serial line: pseudo-terminals stand for the line."""
 
+import fcntl
 import os
+import sys
+import termios
 import time
 from collections.abc import Iterator
 from itertools import pairwise
@@ -15,6 +18,7 @@ from openacr.mill.run.dripping import FULL, XOFF, XON, Drip
 from openacr.mill.run.lifecycle import State
 
 END = b"\x1a"
+FULL_LINE = 4095  # bytes that a pseudo-terminal keeps
 
 
 class Sender:
@@ -28,12 +32,24 @@ class Sender:
         self.heard = b""
 
     def send(self, text: str | bytes) -> None:
+        """Send and wait for the kernel, which hands bytes on in its own time."""
         data = text.encode() if isinstance(text, str) else text
         while data:
+            arrived = self._waiting()
             try:
-                data = data[os.write(self._master, data) :]
+                sent = os.write(self._master, data)
             except BlockingIOError:
                 time.sleep(0.001)
+                continue
+            data = data[sent:]
+            for _ in range(1000):
+                if self._waiting() >= min(arrived + sent, FULL_LINE):
+                    break
+                time.sleep(0.001)
+
+    def _waiting(self) -> int:
+        """Bytes that the near end can read."""
+        return int.from_bytes(fcntl.ioctl(self._slave, termios.FIONREAD, bytes(4)), sys.byteorder)
 
     def listen(self) -> bytes:
         """What came back since the beginning."""
