@@ -96,6 +96,27 @@ HELPS: dict[str, tuple[str, str]] = {
         "Inputs and outputs, terminal, scope, gains, parameters of the card, servo loop, load,"
         " memory. For experienced personnel: the terminal and the gains act at once.",
     ),
+    "teach": (
+        "TEACH",
+        "The present machine position becomes the zero of a work system, on the chosen axes; or"
+        " that of Z the length of a tool. Nothing moves.",
+    ),
+    "overrides": (
+        "OVERRIDES",
+        "Feed, rapid and spindle speed in 16 clicks of their table (SYS PARAM). Where a switch of"
+        " the panel is wired, the switch counts and the screen only shows it.",
+    ),
+    "display": (
+        "DISPLAY",
+        "BUTTON PANEL: push buttons of the screen. I/O NAMES: names of inputs and outputs. USER"
+        " MESSAGES: texts shown while a bit is set. SETUP SCREEN: what VIEW 1 to 3 show. RESIZE"
+        " SCREEN: this browser looks again as it did at first.",
+    ),
+    "exit": (
+        "EXIT",
+        "Leaves the screens and gives up control. The controller program goes on, and so does a"
+        " program that runs.",
+    ),
     "alarms": (
         "ALARMS",
         "An alarm stays until its cause is gone and it was acknowledged; nothing starts before.",

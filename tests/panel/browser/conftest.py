@@ -60,7 +60,10 @@ def to_main_menu(page: Page) -> None:
     """Close dialogs and screens, and go back to the main menu."""
     page.bring_to_front()
     while page.locator("dialog[open], #screen:not([hidden])").count():
-        page.keyboard.press("Escape")
+        if page.get_by_role("button", name="DROP").count():
+            page.get_by_role("button", name="DROP").click()
+        else:
+            page.keyboard.press("Escape")
         page.wait_for_timeout(20)
     while page.locator("#menu").get_attribute("data-shown") != "main":
         page.keyboard.press("F10")

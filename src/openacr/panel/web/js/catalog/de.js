@@ -14,6 +14,7 @@ const FRAME = {
   "stale.old": "Keine neuen Werte: Die gezeigten Positionen sind alt. Von hier aus ist keine Bewegung möglich.",
   "stale.lost": "Keine Verbindung zum Steuerungsprogramm. Die Maschine kann sich noch bewegen. Verbindung wird neu aufgebaut …",
   "stale.card": "Die Karte antwortet nicht. Die Maschine kann sich noch bewegen, der Zustand der Spindel ist unbekannt.",
+  "api.lost": "Das Steuerungsprogramm antwortet nicht: nichts wurde gelesen oder gespeichert", "api.unknown": "Das Steuerungsprogramm hat nichts unter diesem Namen", "api.failed": "Das Steuerungsprogramm konnte das nicht tun: nichts wurde gespeichert",
   "stale.refused": "Keine Bewegung: Die gezeigten Positionen sind alt",
   "state.IDLE": "BEREIT", "state.RUN": "LÄUFT", "state.WAIT": "WARTET", "state.HOMING": "REFERENZ", "state.HOLD": "ANGEHALTEN", "state.ALARM": "ALARM", "state.JOG": "TIPPEN",
   "stop.hold": "Vorschub-Halt", "stop.title": "Vorschub-Halt: Die Maschine bremst auf ihrer Bahn bis zum Stillstand. Das ist kein Not-Halt.",

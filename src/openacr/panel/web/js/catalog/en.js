@@ -14,6 +14,7 @@ const FRAME = {
   "stale.old": "No new values: the positions shown are old. Nothing can be moved from here.",
   "stale.lost": "No connection to the controller program. The machine may still be moving. Connecting again \u2026",
   "stale.card": "The card does not answer. The machine may still be moving, the state of the spindle is unknown.",
+  "api.lost": "The controller program does not answer: nothing was read or stored", "api.unknown": "The controller program has nothing by this name", "api.failed": "The controller program could not do this: nothing was stored",
   "stale.refused": "Nothing is moved: the positions shown are old",
   "state.IDLE": "IDLE", "state.RUN": "RUN", "state.WAIT": "WAIT", "state.HOMING": "HOMING", "state.HOLD": "HOLD", "state.ALARM": "ALARM", "state.JOG": "JOG",
   "stop.hold": "feed hold", "stop.title": "Feed hold: the machine ramps to rest on its path. This is not an emergency stop.",

@@ -1,13 +1,14 @@
 // HTTP calls; a refusal of the server is thrown with its own text.
+import { t } from "./texts.js";
 
-/** An answer with an error; `body` is the whole answer. */
+/** An answer with an error; `body` is the whole answer. Status 0: no answer. */
 export class ApiError extends Error {
   /**
    * @param {number} status
    * @param {any} body
    */
   constructor(status, body) {
-    super(body?.error?.text ?? `HTTP ${status}`);
+    super(body?.error?.text ?? t(status === 0 ? "api.lost" : status === 404 ? "api.unknown" : "api.failed"));
     this.status = status;
     this.body = body;
   }
@@ -28,7 +29,8 @@ export function address(path, query = {}) {
  * @param {RequestInit} [options]
  */
 export async function call(url, options = {}) {
-  const response = await fetch(url, { credentials: "same-origin", ...options });
+  const response = await fetch(url, { credentials: "same-origin", ...options }).catch(() => null);
+  if (!response) throw new ApiError(0, null);
   if (!response.ok) throw new ApiError(response.status, await response.json().catch(() => null));
   return response;
 }

@@ -56,6 +56,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
 
   function paint(isMoving = false) {
     asked = false;
+    if (!isMoving) colors = readColors(area); // of the theme at this painting
     const [under, top] = pens();
     paintGround(under, camera, colors, limits, path?.zero ?? NOWHERE);
     painter.paint(camera, colors, byPart(), isMoving);
@@ -118,10 +119,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     else paint();
   });
   sizes.observe(area);
-  const themed = () => {
-    colors = readColors(area);
-    repaint();
-  };
+  const themed = () => repaint();
   document.documentElement.addEventListener("theme", themed);
   endings.add(() => sizes.disconnect(), () => painter.close(), () => document.documentElement.removeEventListener("theme", themed));
 

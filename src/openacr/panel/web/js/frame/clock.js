@@ -26,6 +26,7 @@ export function startClock() {
 
 /** Compare the age of the last values with the limit; older ones are not shown as live. */
 function judge() {
+  if (link.isEnded) return; // the screens have been left
   const age = performance.now() - model.readAt;
   const isStale = !link.isOpen.value || age > model.hello.value.limits.stale_ms;
   const banner = byId("banner");

@@ -7,9 +7,11 @@ import { askNumber } from "./number_pad.js";
 export function startPrompt() {
   const line = byId("prompt");
   line.ariaLabel = t("prompt.label");
+  let [before, over] = ["", /** @type {object | undefined} */ (undefined)];
   const draw = () => {
     const { asking, tool_wanted: toolWanted, reason } = model.state.value;
-    const said = model.says.value.at(-1)?.text ?? "";
+    const last = model.says.value.at(-1);
+    const said = last === over ? "" : last?.text ?? "";
     if (asking) {
       show("ask", asking.text || t("ask.value"), h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer")));
     } else if (toolWanted) {
@@ -29,7 +31,11 @@ export function startPrompt() {
     line.dataset.kind = kind;
     fill(line, h("span.text", { title: text }, kind === "error" ? `\u26a0 ${text}` : text), key);
   }
-  model.state.watch(draw);
+  model.state.watch(({ state }) => {
+    if (before === "HOMING" && state !== before) over = model.says.value.at(-1); // steps of a homing that is over
+    before = state;
+    draw();
+  });
   model.says.watch((lines) => {
     if (lines.length && prompt.value.kind !== "error") prompt.value = { kind: "say", text: "" };
     draw();

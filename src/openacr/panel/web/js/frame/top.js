@@ -8,7 +8,7 @@ import { ask } from "./dialog.js";
 import { showTab } from "./display.js";
 
 /** @type {Record<string, string>} */
-const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u29d6", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
+const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
 
 export function startTop() {
   model.state.watch(drawState);

@@ -80,6 +80,7 @@ export const screen = {
       [path, version, saved] = ["", null, ""];
       editor.setText("");
       draw();
+      editor.focus();
     }
 
     async function saveAs() {

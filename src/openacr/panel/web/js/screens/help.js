@@ -4,6 +4,14 @@ import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
 
+/** Keys that are explained on a page with others. @type {Record<string, string>} */
+const PAGES = {
+  main: "", diag: "setdiag", parameters: "setdiag", clearZero: "clrzero", zero: "setzero", gotoZero: "gotozero",
+  start: "run", runLine: "run", dryRun: "run", block: "run", abort: "stop", resume: "stop", traceBack: "stop", traceStop: "stop", traceForward: "stop",
+  io: "diagnostics", terminal: "diagnostics", scope: "diagnostics", gain: "diagnostics", board: "diagnostics", servo: "diagnostics", cpu: "diagnostics", fast: "diagnostics", memory: "diagnostics", programs: "diagnostics",
+  buttons: "display", ionames: "display", resize: "display", messages: "display", views: "display",
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "help.title",
@@ -16,9 +24,9 @@ export const screen = {
     const seen = new Set();
     for (const [menu, keys] of Object.entries(MENUS)) {
       for (const entry of keys) {
-        const key = topicOf(entry);
-        if (!key || seen.has(key)) continue;
-        seen.add(key);
+        const [topic, key] = [entry.label, pageOf(entry)];
+        if (!key || seen.has(topic)) continue;
+        seen.add(topic);
         list.append(h("button.key.item", { type: "button", onclick: () => show(key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`)));
       }
     }
@@ -30,7 +38,7 @@ export const screen = {
 };
 
 /** @param {import("../frame/menus.js").MenuKey} entry */
-function topicOf(entry) {
-  if (entry.menu) return "";
-  return entry.args?.form ? entry.args.form.toLowerCase() : entry.screen ?? entry.action ?? "";
+function pageOf(entry) {
+  const name = entry.menu ?? entry.args?.form?.toLowerCase() ?? entry.screen ?? entry.action ?? "";
+  return PAGES[name] ?? name;
 }

@@ -67,7 +67,7 @@ export const screen = {
 function options(chart) {
   const style = getComputedStyle(chart);
   const axis = { stroke: style.color, grid: { stroke: style.borderColor, width: 1 }, ticks: { stroke: style.borderColor } };
-  return { width: Math.max(200, chart.clientWidth), height: 240, scales: { x: { time: false } }, axes: [{ ...axis, label: "s" }, axis], series: [{ label: "s" }] };
+  return { width: Math.max(200, chart.clientWidth), height: 240, scales: { x: { time: false } }, axes: [{ ...axis, label: "s" }, { ...axis, size: 84 }], series: [{ label: "s" }] };
 }
 
 /**

@@ -1,0 +1,63 @@
+"""A link that is frozen or cut: old positions are greyed, nothing is moved, it comes back."""
+
+import time
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page
+from tests.panel.proxy import Proxy
+
+LIMIT_S = 10.0
+
+
+def until(holds: Callable[[], bool], page: Page) -> None:
+    end_s = time.monotonic() + LIMIT_S
+    while not holds():
+        assert time.monotonic() < end_s
+        page.wait_for_timeout(20)
+
+
+def is_jogging(served: Served) -> bool:
+    return served.call(lambda desk: bool(desk.machine.runner.jogging.is_active))
+
+
+def hold_x(page: Page, served: Served) -> None:
+    """Hold the plus key of X until the machine jogs; a busy machine may end a press."""
+    page.keyboard.press("F7")
+    page.keyboard.press("F2")
+    page.get_by_role("button", name="X plus").hover()
+    end_s = time.monotonic() + LIMIT_S
+    while not is_jogging(served):
+        assert time.monotonic() < end_s
+        page.mouse.up()
+        page.mouse.down()
+        page.wait_for_timeout(100)
+
+
+@pytest.mark.parametrize("how", ["frozen", "reset"])
+def test_a_link_that_fails_stops_the_jog_and_comes_back_by_itself(
+    context: BrowserContext, served: Served, how: str
+) -> None:
+    with Proxy(served.port) as proxy:
+        page = open_page(context, proxy.url)
+        hold_x(page, served)
+        (proxy.freeze_down if how == "frozen" else proxy.reset)()
+        until(lambda: not is_jogging(served), page)
+        if how == "frozen":
+            expect(page.locator("body.is-stale #banner")).to_be_visible()
+            page.mouse.up()
+            page.mouse.down()
+            expect(page.locator("#prompt")).to_have_text(
+                "⚠ Nothing is moved: the positions shown are old"
+            )
+        proxy.thaw()
+        page.locator("body:not(.is-stale)").wait_for()
+        rest = served.desk.snapshot.commanded[0]
+        page.wait_for_timeout(300)
+        assert not is_jogging(served)  # the key is still down: its press is over
+        assert served.desk.snapshot.commanded[0] == rest
+        page.mouse.up()
+        page.evaluate("import('/js/core/app.js').then((app) => app.give('control.release'))")
+        page.close()

@@ -1,0 +1,106 @@
+"""Files come to the part folder by hand; a line of the plot is a line of the listing."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.panel.bench import Served
+
+DROP = """([name, text]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([text], name));
+  const list = document.querySelector('.file-list');
+  for (const kind of ['dragover', 'drop'])
+    list.dispatchEvent(new DragEvent(kind, { dataTransfer: data, cancelable: true }));
+}"""
+# A place on the mark of the chosen line, in pixels of the window.
+MARKED = """() => {
+  const canvas = document.querySelector('#display .picture canvas:nth-of-type(3)');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const found = [];
+  for (let n = 0; n < data.length / 4; n++) if (data[4 * n + 3] > 250) found.push(n);
+  if (!found.length) return null;
+  const middle = found[found.length >> 1];
+  const [box, ratio] = [canvas.getBoundingClientRect(), canvas.width / canvas.clientWidth];
+  const [x, y] = [middle % canvas.width, Math.floor(middle / canvas.width)];
+  return [box.x + x / ratio, box.y + y / ratio];
+}"""
+CHOSEN = "() => import('/js/draw/path.js').then((path) => path.chosenLine.value)"
+CHOOSE = "(line) => import('/js/draw/path.js').then((path) => path.chosenLine.set(line))"
+LINES = (
+    "() => import('/js/draw/path.js').then((path) => path.path.value && [...path.path.value.lines])"
+)
+
+
+def load_screen(page: Page) -> None:
+    page.keyboard.press("F5")
+    page.keyboard.press("F3")
+    page.get_by_role("option", name="plate.nc").wait_for()
+
+
+def test_a_chosen_file_is_uploaded_to_the_part_folder(
+    page: Page, served: Served, tmp_path: Path
+) -> None:
+    load_screen(page)
+    (tmp_path / "sent.nc").write_bytes(b"G0 X1\r\nM2\r\n")
+    page.locator(".file-list input[type=file]").set_input_files(tmp_path / "sent.nc")
+    page.get_by_role("option", name="sent.nc").wait_for()
+    expect(page.locator("#prompt")).to_have_text("sent.nc is uploaded")
+    assert (served.programs / "sent.nc").read_bytes() == b"G0 X1\r\nM2\r\n"
+
+
+def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(
+    page: Page, served: Served
+) -> None:
+    load_screen(page)
+    page.evaluate(DROP, ["dropped.nc", "G0 X2\nM2\n"])
+    page.get_by_role("option", name="dropped.nc").click()
+    expect(page.get_by_role("region", name="Text of the file")).to_have_text("G0 X2\nM2")
+    page.get_by_role("button", name="LOAD FILE").click()
+    expect(page.locator("#alarms")).to_have_text("dropped.nc")
+    expect(page.locator("#screen")).to_be_hidden()
+    assert (served.programs / "dropped.nc").read_text() == "G0 X2\nM2\n"
+    page.keyboard.press("F3")
+    page.get_by_role("option", name="plate.nc").click()
+    page.get_by_role("button", name="LOAD FILE").click()
+    expect(page.locator("#alarms")).to_have_text("plate.nc")
+    expect(page.locator("#screen")).to_be_hidden()
+
+
+def test_a_click_in_the_plot_chooses_the_line_of_the_listing(page: Page) -> None:
+    page.click("#display-tab-graphics")
+    page.wait_for_function(LINES)
+    line = sorted(set(page.evaluate(LINES)))[-1]
+    page.evaluate(CHOOSE, line)
+    x, y = page.wait_for_function(MARKED).json_value()
+    page.evaluate(CHOOSE, 0)
+    page.mouse.click(x, y)
+    assert page.evaluate(CHOSEN) == line
+    page.click("#display-tab-program")
+    chosen = page.locator(".listing-row.is-chosen")
+    expect(chosen).to_have_attribute("data-line", str(line))
+    page.locator(".listing-row").first.click()
+    assert page.evaluate(CHOSEN) == int(
+        page.locator(".listing-row").first.get_attribute("data-line") or 0
+    )
+    page.click("#display-tab-graphics")
+
+
+@pytest.mark.parametrize("theme", ["dark", "light"])
+def test_the_grid_has_the_colour_of_the_theme(page: Page, theme: str) -> None:
+    page.emulate_media(color_scheme="light" if theme == "dark" else "dark")
+    page.click("#display-tab-graphics")
+    page.wait_for_function(LINES)
+    page.emulate_media(color_scheme=theme)  # type: ignore[arg-type]
+    wanted = {"dark": [30, 40, 50], "light": [225, 231, 236]}[theme]
+    page.wait_for_function(
+        """(wanted) => {
+          const canvas = document.querySelector('#display .picture canvas:nth-of-type(1)');
+          const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+          let count = 0;
+          for (let n = 0; n < data.length; n += 4)
+            if (data[n + 3] === 255 && wanted.every((each, k) => data[n + k] === each)) count++;
+          return count > 500;
+        }""",
+        arg=wanted,
+    )

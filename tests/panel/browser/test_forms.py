@@ -1,0 +1,92 @@
+"""Forms and the editor keep what the operator has typed until it is saved or dropped."""
+
+from playwright.sync_api import Page, expect
+from tests.panel.bench import Served
+
+from openacr.sysvar.tabs import JOG
+
+
+def parameters(page: Page, tab: str) -> None:
+    """Open a tab of the system parameters."""
+    page.keyboard.press("F8")
+    page.keyboard.press("F1")
+    page.get_by_role("tab", name=tab, exact=True).click()
+
+
+def test_a_refused_value_stays_in_its_field_with_the_reason(page: Page) -> None:
+    parameters(page, "Servo")
+    field = page.locator("#cell-150003")
+    field.fill("11")
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    expect(page.locator("#cell-150003-refusal")).to_have_text(
+        "P150003 I Limit (axis 0) cannot be 11: a number from 0 to 10 [V] (Limit of the integral"
+        " term.)"
+    )
+    expect(page.locator("#prompt")).to_have_text("⚠ Not saved; refused: 1")
+    assert field.input_value() == "11"
+    assert field.get_attribute("aria-invalid") == "true"
+    page.get_by_role("button", name="UNDO").click()
+    expect(page.locator("#cell-150003")).to_have_value("0")
+
+
+def test_a_saved_value_is_in_the_store_and_on_the_screen(page: Page, served: Served) -> None:
+    parameters(page, "Jog")
+    number = JOG.increments[2][0]
+    field = page.locator(f"#cell-{number}")
+    field.fill("1.5")
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    expect(page.locator("#prompt")).to_have_text("Saved: 1")
+    assert served.call(lambda desk: desk.machine.runner.settings.real(number)) == 1.5
+    expect(page.get_by_role("button", name="SAVE", exact=True)).to_be_disabled()
+    expect(page.locator(f"#cell-{number}")).to_have_value("1.5")
+
+
+def test_a_form_with_changes_asks_before_it_is_left(page: Page) -> None:
+    parameters(page, "Servo")
+    field = page.locator("#cell-150003")
+    field.fill("2")
+    page.keyboard.press("Escape")
+    question = page.get_by_role("dialog", name="Not saved")
+    expect(question.locator("p")).to_have_text("Changes that are lost without SAVE: 1")
+    question.get_by_role("button", name="CANCEL").click()
+    assert field.input_value() == "2"
+    page.keyboard.press("Escape")
+    question.get_by_role("button", name="DROP").click()
+    expect(page.locator("#screen")).to_be_hidden()
+    parameters(page, "Servo")
+    expect(field).to_have_value("0")
+
+
+def test_the_editor_marks_an_error_and_asks_before_changes_are_lost(page: Page) -> None:
+    page.keyboard.press("F4")
+    text = page.locator(".cm-content")
+    expect(text).to_contain_text("Plate 80 x 50 mm")
+    text.click()
+    page.keyboard.press("Control+Home")
+    page.keyboard.type("G999 X1\n")
+    expect(page.locator(".findings .error")).to_have_text(
+        "⚠1:1E203 unknown G code: G999", timeout=20_000
+    )
+    expect(page.locator(".cm-lint-marker-error")).to_have_count(1)
+    expect(page.locator("#screen-title")).to_have_text("Edit: plate.nc *")
+    page.keyboard.press("Escape")
+    question = page.get_by_role("dialog", name="Not saved")
+    expect(question.locator("p")).to_have_text("plate.nc has changes that are not saved.")
+    question.get_by_role("button", name="CANCEL").click()
+    expect(text).to_contain_text("G999 X1")
+    page.keyboard.press("Escape")
+    question.get_by_role("button", name="DROP").click()
+    expect(page.locator("#screen")).to_be_hidden()
+
+
+def test_a_new_text_is_saved_under_the_name_that_is_asked_for(page: Page, served: Served) -> None:
+    page.keyboard.press("F4")
+    expect(page.locator(".cm-content")).to_contain_text("Plate 80 x 50 mm")
+    page.get_by_role("button", name="NEW", exact=True).click()
+    expect(page.locator("#screen-title")).to_have_text("Edit: new file")
+    page.keyboard.type("G0 X1")
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    page.get_by_label("File name (.TXT)").fill("FIRST.TXT")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("FIRST.TXT is saved")
+    assert (served.programs / "FIRST.TXT").read_text() == "G0 X1"
