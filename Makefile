@@ -71,6 +71,7 @@ demo: $(BUILT)
 	@mkdir -p out
 	$(VENV)/bin/openacr run examples/gantry --for 60 --plot out/gantry.png
 	@echo "the picture is in out/gantry.png"
+	@echo "screens in the browser: $(VENV)/bin/openacr panel"
 
 lint: $(BUILT)
 	$(VENV)/bin/ruff check
