@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
+from tests.panel.browser.conftest import to_main_menu
 
 DROP = """([name, text]) => {
   const data = new DataTransfer();
@@ -60,7 +61,8 @@ def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(
     expect(page.locator("#alarms")).to_have_text("dropped.nc")
     expect(page.locator("#screen")).to_be_hidden()
     assert (served.programs / "dropped.nc").read_text() == "G0 X2\nM2\n"
-    page.keyboard.press("F3")
+    to_main_menu(page)
+    load_screen(page)
     page.get_by_role("option", name="plate.nc").click()
     page.get_by_role("button", name="LOAD FILE").click()
     expect(page.locator("#alarms")).to_have_text("plate.nc")
