@@ -81,10 +81,10 @@ def test_a_click_in_the_plot_chooses_the_line_of_the_listing(page: Page) -> None
     page.click("#display-tab-program")
     chosen = page.locator(".listing-row.is-chosen")
     expect(chosen).to_have_attribute("data-line", str(line))
-    page.locator(".listing-row").first.click()
-    assert page.evaluate(CHOSEN) == int(
-        page.locator(".listing-row").first.get_attribute("data-line") or 0
-    )
+    other = page.locator(f".listing-row[data-line='{line - 1}']")
+    other.click()
+    assert page.evaluate(CHOSEN) == line - 1
+    expect(other).to_have_class("listing-row is-chosen")
     page.click("#display-tab-graphics")
 
 
