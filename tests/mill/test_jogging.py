@@ -32,6 +32,20 @@ def test_a_held_jog_moves_until_it_is_released_and_then_ramps_to_rest() -> None:
     assert not shop.runner.is_busy
 
 
+def test_a_stop_while_no_axis_is_jogged_sets_no_limit_for_a_later_jog() -> None:
+    shop = shop_for_jogs()
+    shop.runner.jogging.stop_all()
+    shop.pass_time(60.0)
+    shop.runner.jog(lambda jog: jog.hold(0, 1))
+    shop.pass_time(1.0)
+    assert shop.runner.state is State.IDLE
+    assert shop.runner.alarms.active == []
+    assert 0.9 < x_of(shop) < 1.0
+    shop.runner.jogging.release(0)
+    shop.pass_time(0.5)
+    assert shop.controller.axis(0).velocity_ups == 0.0
+
+
 @pytest.mark.req("MILL-JOG-INC")
 @pytest.mark.parametrize("preset", range(1, 6))
 def test_an_increment_is_exact(preset: int) -> None:

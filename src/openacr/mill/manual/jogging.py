@@ -105,7 +105,7 @@ class Jogging:
 
     def stop_all(self) -> None:
         """Ramp every axis to rest on its stop ramp, for STOP or an alarm."""
-        if self._rest_by_s is None:
+        if self._moving and self._rest_by_s is None:
             self._rest_by_s = self._machine.now_s + self._rest_s()
         with ExitStack() as each:  # all of them, even if the card refuses to stop one
             for axis in self._moving:
