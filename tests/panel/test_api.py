@@ -303,3 +303,35 @@ def test_packed_answers_are_gzip(web: httpx.Client, panel: Served) -> None:
     assert answer.headers["content-encoding"] == "gzip"
     with httpx.stream("GET", f"{panel.url}/api/path", params={"path": "line.nc"}) as raw:
         assert gzip.decompress(b"".join(raw.iter_raw()))[:4] == b"OAP1"
+
+
+@pytest.mark.parametrize(
+    ("pragma", "undo", "why"),
+    [
+        ("query_only = 1", "query_only = 0", "is read-only: nothing can be stored"),
+        (
+            "max_page_count = 1",
+            "max_page_count = 100000",
+            "cannot be written: the disk is full; nothing of this was stored",
+        ),
+    ],
+)
+def test_values_that_the_store_cannot_keep_are_refused_and_the_old_ones_stay(
+    quiet_panel: Served, pragma: str, undo: str, why: str
+) -> None:
+    store = quiet_panel.panel.bench.store
+    values = {str(number): "0.25" for number in range(2001, 2999)}
+
+    def save() -> httpx.Response:
+        return httpx.put(
+            f"{quiet_panel.url}/api/forms/H-GEOMETRY", json={"values": values}, timeout=LIMIT_S
+        )
+
+    store._database._connection.execute(f"PRAGMA {pragma}")
+    answer = save()
+    store._database._connection.execute(f"PRAGMA {undo}")
+    assert answer.status_code == 422
+    assert answer.json()["error"] == {"code": "refused", "text": f"{quiet_panel.store} {why}"}
+    assert {store.read(number) for number in range(2001, 2999)} == {0.0}
+    assert save().status_code == 200
+    assert {store.read(number) for number in range(2001, 2999)} == {0.25}

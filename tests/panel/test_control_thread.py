@@ -118,7 +118,7 @@ def test_motion_that_is_commanded_at_or_after_a_stop_begins(thread: Hand) -> Non
     assert [each["ok"] for each in answers] == [True, True]
 
 
-def failing(_self: object = None) -> None:
+def failing(*_args: object) -> None:
     raise ZeroDivisionError("nothing there")
 
 
@@ -198,6 +198,22 @@ def test_another_failure_is_said_at_once(thread: Hand, monkeypatch: pytest.Monke
     monkeypatch.setattr(hand.desk.jobs, "poll", other)
     thread.turn(0.0)
     assert hand.said[-2:] == [FAILURE, "the control of the machine has failed: KeyError: 'X'"]
+
+
+def test_the_thread_lives_on_when_the_machine_cannot_be_opened(
+    thread: Hand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turns: list[float] = []
+
+    def turn(idle_s: float) -> None:
+        turns.append(idle_s)
+        thread._is_over.set()
+
+    monkeypatch.setattr(thread.hand.desk, "open", failing)
+    monkeypatch.setattr(thread, "turn", turn)
+    thread._run()
+    assert len(turns) == 1
+    assert thread.hand.said[-1] == FAILURE
 
 
 def test_urgent_items_are_taken_first_and_each_kind_in_its_order() -> None:

@@ -3,6 +3,7 @@
 import pytest
 from tests.panel.bench import HandDesk
 
+from openacr.map.numbers import ENC_BASE, ENC_STRIDE
 from openacr.panel.control.people import Person
 from openacr.panel.roles import Role
 
@@ -214,3 +215,50 @@ def test_an_alarm_ends_the_press(hand: HandDesk) -> None:
     hand.run(1.0)
     hand.keep(1, 0.3)
     assert hand.speeds() == (0.0, 0.0, 0.0)
+
+
+def with_wheel(hand: HandDesk) -> None:
+    """A wheel on encoder 10 for X and Y; the session is opened again with it."""
+    rows = ((200_009, 10.0), (200_010, 0.005), (201_009, 10.0), (201_010, 0.02))
+    for number, value in rows:
+        hand.bench.store.write(number, value)
+    hand.desk.renew(hand.now_s)
+    hand.run(0.1)
+
+
+def turned(hand: HandDesk, clicks: int) -> tuple[float, ...]:
+    """Where the axes are after clicks of the wheel, of 4 counts each, 10 ms apart."""
+    assert hand.bench.controller is not None
+    for _ in range(clicks):
+        hand.bench.controller.p[ENC_BASE + 10 * ENC_STRIDE] += 4
+        hand.run(0.01)
+    hand.run(0.5)
+    return hand.places()
+
+
+def test_the_hand_wheel_moves_the_axes_of_the_command_until_it_is_disconnected(
+    hand: HandDesk,
+) -> None:
+    with_wheel(hand)
+    assert turned(hand, 5) == (0.0, 0.0, 0.0)
+    assert hand.do("handwheel", axes="xy") == {"axes": "XY"}
+    assert turned(hand, 5) == pytest.approx((5 * 0.005, 5 * 0.02, 0.0))
+    assert hand.do("handwheel", axes="Y") == {"axes": "Y"}
+    assert turned(hand, 5) == pytest.approx((5 * 0.005, 10 * 0.02, 0.0))
+    assert hand.do("handwheel") == {"axes": ""}
+    assert turned(hand, 5) == pytest.approx((5 * 0.005, 10 * 0.02, 0.0))
+
+
+def test_the_hand_wheel_is_refused_for_an_axis_without_one_and_ends_held_keys(
+    hand: HandDesk,
+) -> None:
+    with_wheel(hand)
+    hand.press(1)
+    text = "cannot use the hand wheel: an axis is being jogged"
+    assert hand.refused("handwheel", axes="X")["text"] == text
+    assert ended(hand) == [(1, "mode")]
+    hand.run(0.5)
+    text = "no hand wheel is installed for axis Z"
+    assert hand.refused("handwheel", axes="XZ") == {"code": "refused", "text": text}
+    at = hand.places()
+    assert turned(hand, 5) == at

@@ -279,3 +279,45 @@ def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandDesk) -> N
     assert hand.desk.shop is shop
     hand.do("stop.all")
     hand.until(lambda: hand.desk.shop is not shop)
+
+
+@pytest.mark.parametrize(
+    ("lines", "text"),
+    [
+        (["G1 X1O"], "MDI:1:6: E104 unexpected character"),
+        (["G21 G90 G0 X5", "GO X6"], "MDI:2:2: E105 value expected after letter"),
+        (["G0 X5", "G0 X6", "G0 X7 X8"], "MDI:3:7: E202 word given twice: X"),
+    ],
+)
+def test_a_typing_error_in_mdi_is_refused_before_anything_runs(
+    hand: HandDesk, lines: list[str], text: str
+) -> None:
+    error = hand.refused("mdi.execute", lines=lines)
+    assert (error["code"], error["text"]) == ("refused", text)
+    hand.run(0.5)
+    assert hand.places() == (0.0, 0.0, 0.0)
+    assert hand.do("mdi.buffer")["lines"] == []
+    assert hand.desk.typed.data()["queue"] == []
+    assert hand.events("alarms")[-1]["history"] == []
+    hand.do("mdi.execute", line="G21 G90 G54 G0 X5")
+    hand.until(lambda: not hand.is_busy)
+
+
+def test_the_run_time_is_0_before_the_first_run_and_stays_after_its_end(hand: HandDesk) -> None:
+    hand.run(2.0)
+    assert hand.desk.snapshot.run_s == 0.0
+    loaded(hand, "G4 P1.5\nM2\n")
+    for _ in range(2):
+        begin_s = hand.now_s
+        hand.do("run.begin")
+        hand.until(lambda: not hand.is_busy)
+        taken_s = hand.now_s - begin_s
+        hand.run(0.1)
+        assert hand.desk.snapshot.run_s == pytest.approx(taken_s, abs=0.03)
+        assert hand.desk.snapshot.run_s > 1.5
+        kept_s = hand.desk.snapshot.run_s
+        hand.run(2.0)
+        assert hand.desk.snapshot.run_s == kept_s
+    hand.press(1)
+    hand.keep(1, 0.5)
+    assert hand.desk.snapshot.run_s == kept_s  # an axis moved by hand is no run

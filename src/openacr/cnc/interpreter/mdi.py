@@ -37,7 +37,7 @@ class Mdi:
 
     def execute(self, line: str) -> Iterator[Entry]:
         """The entries of one block; an invalid one raises BlockError and changes nothing."""
-        self._check(line)
+        self.check(line)
         return self._executed(line)
 
     def _executed(self, line: str) -> Iterator[Entry]:
@@ -49,11 +49,12 @@ class Mdi:
         part = self._run.program.main
         return Part(type(part.text).of("", FILE), part.labels)
 
-    def _check(self, line: str) -> None:
+    def check(self, line: str, number: int = 1) -> None:
+        """Refuse a line that cannot be read (BlockError); `number` is its place in the text."""
         try:
             block = parse(line, self._run.dialect.grammar)
             if isinstance(block.statement, _REFUSED):
                 raise CodeError("E108", block.statement.column, hint="not in MDI")
             self._run.planner.plan(block)
         except CodeError as error:
-            raise BlockError(error.at(FILE, 1, line)) from None
+            raise BlockError(error.at(FILE, number, line)) from None

@@ -161,7 +161,7 @@ class Runner:
 
     @property
     def run_s(self) -> float:
-        """Card time since the start of the program."""
+        """Card time of the present run, or of the last one, s; 0 before the first."""
         return self._times.run_s
 
     @property
@@ -363,7 +363,7 @@ class Runner:
             self._supervision.raise_alarm(alarms.STORE_FAILED, error)
 
     def _do(self, sample: CardState) -> None:
-        self._times.advance_to(self.machine.now_s)
+        self._times.advance_to(self.machine.now_s, is_running=not self._lifecycle.is_over)
         self.stream.tracker.update(sample.counter)
         with self.machine.repeating():
             soft_limits.update(self.io, sample)

@@ -50,7 +50,7 @@ class Reading:
             feed_percent=PERCENT * runner.overrides.factor(Override.FEED),
             rapid_percent=PERCENT * runner.overrides.factor(Override.RAPID),
             spindle_percent=PERCENT * runner.overrides.factor(Override.SPINDLE),
-            run_s=runner.run_s if runner.is_busy else cells.read(CELLS.run_time),
+            run_s=runner.run_s,
             left_s=left_s if runner.is_busy else nan,
             parts=cells.read(CELLS.parts_finished),
             work=self._of_axes(self.work.program(self._point(place.commanded))),

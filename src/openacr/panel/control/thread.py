@@ -84,7 +84,10 @@ class ControlThread:
     # --- in the thread ----------------------------------------------------------------
 
     def _run(self) -> None:
-        self.desk.open(self._clock())
+        try:
+            self.desk.open(self._clock())
+        except Exception as error:  # the steps try it again
+            self._report(error)
         while not self._is_over.is_set():
             self.turn(self.desk.bench.pace.idle_s)
         self.rest()

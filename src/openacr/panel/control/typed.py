@@ -28,8 +28,9 @@ class Typed:
         self._queue.clear()
 
     def put(self, blocks: Iterable[str], *, dialect: str = "", is_shown: bool = True) -> None:
-        """Run blocks one after the other; the first one is checked and started at once.
+        """Run blocks one after the other; all are checked, then the first one is started at once.
 
+        A block that cannot be read is refused with its line and column (BlockError).
         `is_shown`: they are part of the text of MDI.
         """
         shop = self._desk.machine
@@ -37,8 +38,10 @@ class Typed:
             self._mdi = shop.mdi(dialect or dialect_of(None, shop.cells))
         if self._queue:
             raise UserError("blocks of MDI wait: stop them first")
-        self._is_shown = is_shown
         first, *rest = blocks
+        for number, block in enumerate((first, *rest), 1):
+            self._mdi.check(block, number)
+        self._is_shown = is_shown
         self._start(first)
         self._queue.extend(rest)
 
