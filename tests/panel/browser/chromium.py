@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 NAMES = (
@@ -23,6 +24,8 @@ OPTIONS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
+QUIET = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+LONGEST_S = 300.0  # of one step of an installation
 MISSING = (
     "no Chrome, Chromium or Edge was found: install one (Debian and Ubuntu: apt install chromium; "
     "anywhere: python -m playwright install chromium), or name it in OPENACR_BROWSER"
@@ -48,16 +51,26 @@ def _downloaded() -> str:
         return playwright.chromium.executable_path
 
 
+def _installers() -> list[list[str]]:
+    """What to try: the browser of the system where it may be installed, then Playwright's own."""
+    own = [sys.executable, "-m", "playwright", "install", "chromium"]
+    if not shutil.which("apt-get") or os.geteuid() != 0:
+        return [own]
+    system = ["apt-get", "install", "--yes", "--no-install-recommends", "chromium"]
+    return [["apt-get", "update"], system, own]  # a new machine has no lists of packages
+
+
 def install() -> int:
-    """Install a browser: Playwright's own, else as root the one of the system."""
+    """Install a browser if none is found."""
     if path := found():
         print(f"browser for the tests of the screens: {path}")
         return 0
-    own = [sys.executable, "-m", "playwright", "install", "chromium"]
-    system = ["apt-get", "install", "--yes", "--no-install-recommends", "chromium"]
-    for command in (own, system):
-        if shutil.which(command[0]):
-            subprocess.run(command, check=False)
+    print("installing a browser for the tests of the screens")
+    for command in _installers():
+        with suppress(subprocess.TimeoutExpired):
+            subprocess.run(
+                command, check=False, stdout=subprocess.DEVNULL, timeout=LONGEST_S, env=QUIET
+            )
         if found():
             return 0
     print(MISSING)
